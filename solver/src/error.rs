@@ -1,0 +1,106 @@
+//! What can go wrong once a scenario is legal.
+
+use thiserror::Error;
+
+/// A legal scenario that this solver nevertheless can't set up.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SetupError {
+    /// More material points than one run may hold.
+    #[error(
+        "the flow needs {points} material points, more than the {limit} one run may hold: raise numerics.cell_size_m (now {cell_size_m} m)"
+    )]
+    TooManyPoints {
+        /// Points the release needs.
+        points: u64,
+        /// Largest number of points of one run.
+        limit: u64,
+        /// Cell size in use [m].
+        cell_size_m: f64,
+    },
+    /// The worker threads could not be started.
+    #[error("cannot start {threads} solver threads: {reason}")]
+    Threads {
+        /// Threads asked for.
+        threads: usize,
+        /// The thread pool's own words.
+        reason: String,
+    },
+}
+
+/// A run that can't go on. It names the simulated time and the culprit, and is
+/// never worth retrying: the same scenario fails again in the same place.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum StepError {
+    /// A point's state stopped being a number.
+    #[error("t = {time_s:.6} s: point {point} has a non-finite {quantity}")]
+    NonFinitePoint {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Identity of the point.
+        point: u32,
+        /// Name of the quantity.
+        quantity: &'static str,
+    },
+    /// A body's state stopped being a number.
+    #[error("t = {time_s:.6} s: body {body} has a non-finite {quantity}")]
+    NonFiniteBody {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Index of the body in the scenario.
+        body: usize,
+        /// Name of the quantity.
+        quantity: &'static str,
+    },
+    /// The stable sub-step became absurdly small.
+    #[error(
+        "t = {time_s:.6} s: the stable sub-step fell to {substep_s:e} s (fastest point {speed_m_s:.3} m/s, limit {limit_s:e} s)"
+    )]
+    TimeStepCollapse {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Sub-step the stability bounds ask for [s].
+        substep_s: f64,
+        /// Fastest point [m/s].
+        speed_m_s: f64,
+        /// Smallest sub-step accepted [s].
+        limit_s: f64,
+    },
+    /// A point left the channel through a wall.
+    #[error("t = {time_s:.6} s: point {point} is {depth_m:.4} m behind the {wall}")]
+    PointBehindWall {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Identity of the point.
+        point: u32,
+        /// Name of the wall.
+        wall: &'static str,
+        /// Distance behind the wall [m].
+        depth_m: f64,
+    },
+}
+
+impl StepError {
+    /// Simulated time at which the run stopped [s].
+    pub fn time_s(&self) -> f64 {
+        match *self {
+            Self::NonFinitePoint { time_s, .. }
+            | Self::NonFiniteBody { time_s, .. }
+            | Self::TimeStepCollapse { time_s, .. }
+            | Self::PointBehindWall { time_s, .. } => time_s,
+        }
+    }
+}
+
+/// A saved state that can't be taken up again.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RestoreError {
+    /// The bytes are not a saved state of this solver version.
+    #[error("not a saved state of this solver: {0}")]
+    Unreadable(String),
+    /// The state belongs to another scenario.
+    #[error("the saved state belongs to another scenario ({what} differs)")]
+    OtherScenario {
+        /// What differs.
+        what: &'static str,
+    },
+}

@@ -1,0 +1,20 @@
+//! Scree's computation: a granular flow solved by the Material Point Method
+//! (MPM) coupled to rigid sphero-polyhedra (SDM), in three dimensions.
+//!
+//! The way through the crate: a [`scenario::Scenario`] (validated JSON) makes a
+//! [`Simulation`], which is [`run`](Simulation::run) while a
+//! [`record::Recorder`] turns what it sees into samples, flow snapshots and an
+//! [`record::Outcome`]. The crate has no clock, files, environment or service
+//! of its own. SI units throughout; axes: x downstream (0 at the foot of the
+//! incline), y across (0 on the centre line), z up (0 on the floor).
+
+pub mod error;
+pub mod record;
+pub mod scenario;
+pub mod simulation;
+
+pub use error::{SetupError, StepError};
+pub use simulation::{Ending, Simulation, SubstepReport};
+
+/// Version of this crate, part of every answer.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

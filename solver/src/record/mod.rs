@@ -1,0 +1,178 @@
+//! What a run leaves behind: samples of every body, snapshots of the flow, and
+//! the outcome. Serialised, these are the JSON of the service.
+
+mod recorder;
+
+pub use recorder::Recorder;
+use serde::{Deserialize, Serialize};
+
+/// How a body moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Mode {
+    /// Slower than 1 mm/s, rotation included.
+    Resting,
+    /// On a wall, mostly translating.
+    Sliding,
+    /// On a wall, turning about as fast as it travels.
+    Rolling,
+    /// Off the walls most of the time since the last sample.
+    Saltating,
+}
+
+/// State of one body at one sample time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BodySample {
+    /// Centre [m].
+    pub position_m: [f64; 3],
+    /// Unit quaternion [w, x, y, z], body frame to world.
+    pub orientation: [f64; 4],
+    /// Velocity of the centre [m/s].
+    pub velocity_m_s: [f64; 3],
+    /// Angular velocity in world axes [rad/s].
+    pub angular_velocity_rad_s: [f64; 3],
+    /// Force of the flow, mean since the last sample [N].
+    pub flow_force_n: [f64; 3],
+    /// Torque of the flow about the centre, mean since the last sample [N m].
+    pub flow_torque_nm: [f64; 3],
+    /// Force of the walls, mean since the last sample [N].
+    pub wall_force_n: [f64; 3],
+    /// Torque of the walls about the centre, mean since the last sample [N m].
+    pub wall_torque_nm: [f64; 3],
+    /// Material points in contact at the sample time.
+    pub touching_points: u32,
+    /// Share of the body's height below the surface of the flow round it, 0..1.
+    pub submerged_fraction: f64,
+    /// How the body moves.
+    pub mode: Mode,
+}
+
+/// Every body at one sample time, in the scenario's order.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Simulated time [s].
+    pub time_s: f64,
+    /// One entry per body.
+    pub bodies: Vec<BodySample>,
+}
+
+/// The flow at one instant, thinned to at most [`SNAPSHOT_POINTS`] points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FlowSnapshot {
+    /// Simulated time [s].
+    pub time_s: f64,
+    /// Points in the flow at that time; `position_m` holds every `thinning`-th.
+    pub points: u64,
+    /// One in how many points is kept.
+    pub thinning: u32,
+    /// Position of each kept point [m].
+    pub position_m: Vec<[f32; 3]>,
+    /// Speed of each kept point [m/s].
+    pub speed_m_s: Vec<f32>,
+}
+
+/// Largest number of points a [`FlowSnapshot`] keeps.
+pub const SNAPSHOT_POINTS: usize = 5_000;
+
+/// What the recorder hands on while a run goes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Record {
+    /// At every sample time, in order.
+    Sample(Sample),
+    /// At the snapshot times.
+    Snapshot(FlowSnapshot),
+}
+
+/// Outcome of one body. What did not happen is `None` (null).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BodyOutcome {
+    /// First time the centre is 1 mm from where it started [s].
+    pub onset_time_s: Option<f64>,
+    /// Largest speed of the centre [m/s].
+    pub peak_speed_m_s: f64,
+    /// When that was [s]; null for a body that never moved.
+    pub peak_speed_time_s: Option<f64>,
+    /// From then to the end slower than 1 mm/s [s]; null if it still moves at
+    /// the end or never moved.
+    pub stop_time_s: Option<f64>,
+    /// Net horizontal displacement of the centre [m].
+    pub displacement_m: f64,
+    /// Length of the centre's path [m].
+    pub path_length_m: f64,
+    /// Centre at the end [m].
+    pub final_position_m: [f64; 3],
+    /// Orientation at the end [w, x, y, z].
+    pub final_orientation: [f64; 4],
+}
+
+/// Outcome of the flow.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FlowOutcome {
+    /// The x beyond which 0.1 % of the released mass lies, mass that left by
+    /// the open end included [m]; null without a flow.
+    pub front_m: Option<f64>,
+    /// Front minus the initial toe [m].
+    pub runout_m: Option<f64>,
+    /// Mass that left by the open end [kg].
+    pub mass_left_kg: f64,
+    /// Volume of the release not placed because a body stands there [m³].
+    pub volume_left_out_m3: f64,
+}
+
+/// Whether the run can be trusted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Audit {
+    /// |mass now + mass left − mass released| / mass released.
+    pub mass_error: f64,
+    /// Largest linear momentum imbalance of flow + bodies against gravity and
+    /// wall impulses over all steps, relative to Σ m|v| plus the accumulated
+    /// impulse.
+    pub momentum_residual: f64,
+    /// The same for angular momentum about the origin.
+    pub angular_momentum_residual: f64,
+    /// Largest rise of mechanical energy above its running minimum, relative
+    /// to the largest kinetic energy.
+    pub energy_residual: f64,
+    /// Largest overlap of a point with a body, δ/(R_p + r).
+    pub max_overlap_ratio: f64,
+    /// Points that ended a step inside a body's core and were put back.
+    pub points_put_back: u64,
+    /// Points that left by the open end.
+    pub points_left: u64,
+    /// Points lost any other way: a finished run has none.
+    pub points_lost: u64,
+}
+
+/// What the answer cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    /// Material points at the start.
+    pub points: u64,
+    /// Transfers between points and grid.
+    pub steps: u64,
+    /// Acoustic sub-steps.
+    pub substeps: u64,
+    /// Wall time, measured by the caller [s].
+    pub wall_s: f64,
+    /// Sub-steps of one point, per second of wall time.
+    pub point_steps_per_s: f64,
+    /// Threads the solver used.
+    pub threads: usize,
+    /// Cell size [m].
+    pub cell_size_m: f64,
+    /// √(K/ρ) in use [m/s]; null without a flow.
+    pub sound_speed_m_s: Option<f64>,
+}
+
+/// The answer in short.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// One entry per body, in the scenario's order.
+    pub bodies: Vec<BodyOutcome>,
+    /// The flow.
+    pub flow: FlowOutcome,
+    /// Whether to trust it.
+    pub audit: Audit,
+    /// What it cost.
+    pub cost: Cost,
+}

@@ -1,0 +1,2 @@
+//! Scree: service and command line.
+fn main() {}
