@@ -11,6 +11,7 @@
 pub mod error;
 pub mod record;
 pub mod scenario;
+pub mod shape;
 pub mod simulation;
 
 pub use error::{SetupError, StepError};

@@ -1,0 +1,79 @@
+//! Why a description is no sphero-polyhedron.
+
+use thiserror::Error;
+
+/// A shape that can't be built.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum ShapeError {
+    /// A length that must be a positive finite number is not.
+    #[error("{quantity} is {value} m, not a positive finite length")]
+    NotPositive {
+        /// Name of the length.
+        quantity: &'static str,
+        /// Value received [m].
+        value: f64,
+    },
+    /// The rounding sphere does not fit into the shape it is to round.
+    #[error("the sphero radius {radius_m} m is not below the inradius {inradius_m} m")]
+    RadiusNotBelowInradius {
+        /// Radius of the rounding sphere [m].
+        radius_m: f64,
+        /// Radius of the largest sphere inside the shape [m].
+        inradius_m: f64,
+    },
+    /// A vertex has a coordinate that is no number.
+    #[error("vertex {vertex} is not finite")]
+    NotFinite {
+        /// Index of the vertex.
+        vertex: usize,
+    },
+    /// Fewer vertices or faces than a tetrahedron has.
+    #[error("{vertices} vertices and {faces} faces enclose nothing")]
+    TooFew {
+        /// Number of vertices.
+        vertices: usize,
+        /// Number of faces.
+        faces: usize,
+    },
+    /// A face's loop is too short, repeats a vertex, or names one that is not there.
+    #[error("face {face} is no loop of three or more different vertices")]
+    BadLoop {
+        /// Index of the face.
+        face: usize,
+    },
+    /// An edge lacks its second face, or has a third: the surface is not closed,
+    /// or the loops do not all run the same way round.
+    #[error("the edge from vertex {from} to vertex {to} is not shared by exactly two faces")]
+    EdgeNotShared {
+        /// First vertex, in the loop's sense.
+        from: usize,
+        /// Second vertex.
+        to: usize,
+    },
+    /// Closed, but not like a ball (a vertex outside every face, a hole).
+    #[error("{vertices} vertices - {edges} edges + {faces} faces is not 2 (Euler)")]
+    NotABall {
+        /// Number of vertices.
+        vertices: usize,
+        /// Number of edges.
+        edges: usize,
+        /// Number of faces.
+        faces: usize,
+    },
+    /// A face has no area, a bent surface, or a corner that is not convex.
+    #[error("face {face} is not a flat, strictly convex polygon")]
+    BadFace {
+        /// Index of the face.
+        face: usize,
+    },
+    /// A vertex lies in front of a face, or in its plane without belonging to it.
+    #[error(
+        "vertex {vertex} is not behind face {face}: the solid is not strictly convex, or the loops do not run counter-clockwise seen from outside"
+    )]
+    NotConvex {
+        /// Index of the face.
+        face: usize,
+        /// Index of the vertex.
+        vertex: usize,
+    },
+}

@@ -1,0 +1,108 @@
+//! Distance between two cores.
+
+use super::SpheroPolyhedron;
+use super::polyhedron::{ConvexPolyhedron, Edge};
+use nalgebra::{Isometry3, Point3, Vector3};
+
+/// Cross products of edges shorter than this (sine of their angle) are no
+/// direction: the edges are parallel, and face normals separate instead.
+const PARALLEL: f64 = 1e-12;
+
+/// Distance between the cores of two bodies [m], each given in its own frame
+/// and placed by its pose; zero or negative (minus the depth) when they meet.
+/// Exact for convex polyhedra: the nearest pair is a vertex and a face, or two
+/// edges; and two of them meet exactly if no face normal and no cross product
+/// of two edges separates them. For the rounded surfaces subtract both sphero
+/// radii.
+pub fn separation(
+    a: &SpheroPolyhedron,
+    pose_a: &Isometry3<f64>,
+    b: &SpheroPolyhedron,
+    pose_b: &Isometry3<f64>,
+) -> f64 {
+    let b_in_a = pose_a.inv_mul(pose_b);
+    let gap = widest_gap(&a.core, &b.core, &b_in_a);
+    if gap <= 0.0 {
+        return gap;
+    }
+    vertex_distance(a, b, &b_in_a)
+        .min(vertex_distance(b, a, &b_in_a.inverse()))
+        .min(edge_distance(&a.core, &b.core, &b_in_a))
+}
+
+/// Largest gap between the shadows of `a` and `b` on any separating direction.
+fn widest_gap(a: &ConvexPolyhedron, b: &ConvexPolyhedron, b_in_a: &Isometry3<f64>) -> f64 {
+    let b_vertices = moved(b, b_in_a);
+    let normals_of_a = a.faces().iter().map(|face| face.normal);
+    let normals_of_b = b.faces().iter().map(|face| -(b_in_a * face.normal));
+    let crosses = a.edges().iter().flat_map(|edge_a| {
+        let cross = move |edge_b: &Edge| edge_a.direction.cross(&(b_in_a * edge_b.direction));
+        b.edges().iter().map(cross)
+    });
+    let crosses = crosses
+        .filter_map(|cross| cross.try_normalize(PARALLEL))
+        .flat_map(|direction| [direction, -direction]);
+    normals_of_a
+        .chain(normals_of_b)
+        .chain(crosses)
+        .map(|direction| gap_along(a.vertices(), &b_vertices, &direction))
+        .fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// How far `b` begins beyond the end of `a` in a direction.
+fn gap_along(a: &[Vector3<f64>], b: &[Vector3<f64>], direction: &Vector3<f64>) -> f64 {
+    let end = |v: &Vector3<f64>| v.dot(direction);
+    let end_of_a = a.iter().map(end).fold(f64::NEG_INFINITY, f64::max);
+    let start_of_b = b.iter().map(end).fold(f64::INFINITY, f64::min);
+    start_of_b - end_of_a
+}
+
+/// Vertices of a polyhedron in another frame.
+fn moved(core: &ConvexPolyhedron, pose: &Isometry3<f64>) -> Vec<Vector3<f64>> {
+    core.vertices()
+        .iter()
+        .map(|v| (pose * Point3::from(*v)).coords)
+        .collect()
+}
+
+/// Nearest vertex of `b` to the core of `a`.
+fn vertex_distance(a: &SpheroPolyhedron, b: &SpheroPolyhedron, b_in_a: &Isometry3<f64>) -> f64 {
+    moved(&b.core, b_in_a)
+        .iter()
+        .map(|vertex| a.closest_feature(vertex).distance)
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Nearest pair of edges.
+fn edge_distance(a: &ConvexPolyhedron, b: &ConvexPolyhedron, b_in_a: &Isometry3<f64>) -> f64 {
+    let b_vertices = moved(b, b_in_a);
+    let mut nearest = f64::INFINITY;
+    for edge_a in a.edges() {
+        let segment_a = edge_a.vertices.map(|v| a.vertices()[v]);
+        for edge_b in b.edges() {
+            let segment_b = edge_b.vertices.map(|v| b_vertices[v]);
+            nearest = nearest.min(segment_distance(segment_a, segment_b));
+        }
+    }
+    nearest
+}
+
+/// Distance between two segments where both nearest points are interior;
+/// infinite otherwise (then a vertex is nearest, and is looked at elsewhere).
+fn segment_distance(a: [Vector3<f64>; 2], b: [Vector3<f64>; 2]) -> f64 {
+    let (along_a, along_b, apart) = (a[1] - a[0], b[1] - b[0], b[0] - a[0]);
+    let normal = along_a.cross(&along_b);
+    let squared = normal.norm_squared();
+    let scale = along_a.norm_squared() * along_b.norm_squared();
+    if squared <= PARALLEL * PARALLEL * scale {
+        return f64::INFINITY;
+    }
+    let place_on_a = apart.cross(&along_b).dot(&normal) / squared;
+    let place_on_b = apart.cross(&along_a).dot(&normal) / squared;
+    let interior = 0.0..=1.0;
+    if interior.contains(&place_on_a) && interior.contains(&place_on_b) {
+        apart.dot(&normal).abs() / squared.sqrt()
+    } else {
+        f64::INFINITY
+    }
+}
