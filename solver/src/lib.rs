@@ -8,11 +8,22 @@
 //! of its own. SI units throughout; axes: x downstream (0 at the foot of the
 //! incline), y across (0 on the centre line), z up (0 on the floor).
 
+pub mod contact;
+pub mod diagnostics;
 pub mod error;
+pub mod grid;
+pub mod kernel;
+pub mod material;
+pub mod math;
+pub mod points;
 pub mod record;
+pub mod rigid;
 pub mod scenario;
 pub mod shape;
 pub mod simulation;
+pub mod stability;
+pub mod transfer;
+pub mod walls;
 
 pub use error::{SetupError, StepError};
 pub use simulation::{Ending, Simulation, SubstepReport};

@@ -1,7 +1,9 @@
 //! What a run leaves behind: samples of every body, snapshots of the flow, and
 //! the outcome. Serialised, these are the JSON of the service.
 
+mod outcome;
 mod recorder;
+mod submergence;
 
 pub use recorder::Recorder;
 use serde::{Deserialize, Serialize};

@@ -1,32 +1,236 @@
 //! Turns what a run shows into records and an outcome.
 
-use super::{Outcome, Record};
+use super::outcome::{BodyHistory, flow_outcome};
+use super::submergence::submerged_fraction;
+use super::{
+    Audit, BodySample, Cost, FlowSnapshot, Mode, Outcome, Record, SNAPSHOT_POINTS, Sample,
+};
+use crate::contact::body_wall::BodyReport;
+use crate::math::Vec3;
+use crate::rigid::{Body, Freedom, Load};
 use crate::scenario::Scenario;
 use crate::simulation::{Simulation, SubstepReport};
+use serde::{Deserialize, Serialize};
+
+/// Slower than this is at rest [m/s].
+pub(super) const REST_SPEED: f64 = 1e-3;
+/// A body on a wall for less of the time than this saltates.
+const ON_WALL_SHARE: f64 = 0.5;
+/// A surface speed from turning above this share of the centre's speed is rolling.
+const ROLLING_SHARE: f64 = 0.5;
 
 /// Watches a run: call [`Recorder::start`] once, [`Recorder::observe`] from the
 /// run's observer, and [`Recorder::outcome`] at the end.
-#[derive(Debug)]
-pub struct Recorder {}
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Recorder {
+    histories: Vec<BodyHistory>,
+    /// Per body, since the last sample.
+    means: Vec<Means>,
+    /// Snapshot times still to come, last first [s].
+    snapshot_times: Vec<f64>,
+    initial_toe: Option<f64>,
+    open_end: f64,
+}
+
+/// Impulses and counts of one body since the last sample.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+struct Means {
+    duration: f64,
+    flow: Load,
+    wall: Load,
+    substeps: u64,
+    substeps_on_wall: u64,
+}
+
+impl Means {
+    fn take_in(&mut self, flow: &Load, report: &BodyReport, dt: f64) {
+        self.duration += dt;
+        self.flow.force += flow.force * dt;
+        self.flow.torque += flow.torque * dt;
+        self.wall.force += report.wall_load.force * dt;
+        self.wall.torque += report.wall_load.torque * dt;
+        self.substeps += u64::from(report.substeps);
+        self.substeps_on_wall += u64::from(report.substeps_on_wall);
+    }
+
+    fn mean(&self, impulse: &Vec3) -> [f64; 3] {
+        if self.duration > 0.0 {
+            (impulse / self.duration).into()
+        } else {
+            [0.0; 3]
+        }
+    }
+
+    fn on_wall(&self, body: &Body) -> bool {
+        if self.substeps == 0 {
+            return body.state.wall_energy > 0.0;
+        }
+        self.substeps_on_wall as f64 >= ON_WALL_SHARE * self.substeps as f64
+    }
+}
 
 impl Recorder {
     /// A recorder for this scenario.
-    pub fn new(_scenario: &Scenario) -> Self {
-        todo!()
+    pub fn new(scenario: &Scenario) -> Self {
+        Self {
+            histories: Vec::new(),
+            means: vec![Means::default(); scenario.bodies.len()],
+            snapshot_times: snapshot_times(scenario),
+            initial_toe: scenario.release().map(|release| release.front_m),
+            open_end: scenario.channel.runout_length_m,
+        }
     }
 
     /// The records of time 0.
-    pub fn start(&mut self, _simulation: &Simulation) -> Vec<Record> {
-        todo!()
+    pub fn start(&mut self, simulation: &Simulation) -> Vec<Record> {
+        self.histories = simulation.bodies().iter().map(BodyHistory::start).collect();
+        self.records_now(simulation)
     }
 
     /// Takes one sub-step in; returns what is to be recorded then (mostly nothing).
-    pub fn observe(&mut self, _simulation: &Simulation, _report: &SubstepReport) -> Vec<Record> {
-        todo!()
+    pub fn observe(&mut self, simulation: &Simulation, report: &SubstepReport) -> Vec<Record> {
+        for (place, body) in simulation.bodies().iter().enumerate() {
+            let flow = simulation.flow_load(place).load;
+            let walls = simulation.body_report(place);
+            self.means[place].take_in(&flow, &walls, report.substep_s);
+            self.histories[place].take_in(body, report.time_s);
+        }
+        if report.sample.is_some() {
+            self.records_now(simulation)
+        } else {
+            Vec::new()
+        }
     }
 
     /// The outcome so far, with the wall time the caller measured [s].
-    pub fn outcome(&self, _simulation: &Simulation, _wall_s: f64) -> Outcome {
-        todo!()
+    pub fn outcome(&self, simulation: &Simulation, wall_s: f64) -> Outcome {
+        let audit = simulation.audit();
+        let (steps, substeps, point_steps) = simulation.counts();
+        Outcome {
+            bodies: self.histories.iter().map(BodyHistory::outcome).collect(),
+            flow: flow_outcome(simulation, self.initial_toe, self.open_end),
+            audit: Audit {
+                mass_error: audit.mass_error,
+                momentum_residual: audit.momentum_residual,
+                angular_momentum_residual: audit.angular_momentum_residual,
+                energy_residual: audit.energy_residual(),
+                max_overlap_ratio: audit.deepest_overlap_ratio,
+                points_put_back: audit.points_put_back,
+                points_left: audit.points_left,
+                points_lost: simulation.released_points()
+                    - audit.points_left
+                    - simulation.points().len() as u64,
+            },
+            cost: Cost {
+                points: simulation.released_points(),
+                steps,
+                substeps,
+                wall_s,
+                point_steps_per_s: if wall_s > 0.0 {
+                    point_steps as f64 / wall_s
+                } else {
+                    0.0
+                },
+                threads: simulation.threads(),
+                cell_size_m: simulation.cell_size_m(),
+                sound_speed_m_s: simulation.sound_speed_m_s(),
+            },
+        }
+    }
+
+    fn records_now(&mut self, simulation: &Simulation) -> Vec<Record> {
+        let time_s = simulation.time_s();
+        let mut records = vec![Record::Sample(self.sample(simulation))];
+        let mut snapshot_due = false;
+        while self.snapshot_times.last().is_some_and(|due| *due <= time_s) {
+            self.snapshot_times.pop();
+            snapshot_due = true;
+        }
+        if snapshot_due {
+            records.push(Record::Snapshot(snapshot(simulation)));
+        }
+        records
+    }
+
+    fn sample(&mut self, simulation: &Simulation) -> Sample {
+        let bodies = simulation.bodies().iter().zip(&mut self.means);
+        let sampled = bodies.enumerate().map(|(place, (body, means))| {
+            let sample = body_sample(simulation, place, body, means);
+            *means = Means::default();
+            sample
+        });
+        Sample {
+            time_s: simulation.time_s(),
+            bodies: sampled.collect(),
+        }
+    }
+}
+
+fn body_sample(simulation: &Simulation, place: usize, body: &Body, means: &Means) -> BodySample {
+    let state = &body.state;
+    let q = state.orientation;
+    BodySample {
+        position_m: state.position.into(),
+        orientation: [q.w, q.i, q.j, q.k],
+        velocity_m_s: body.velocity().into(),
+        angular_velocity_rad_s: body.angular_velocity().into(),
+        flow_force_n: means.mean(&means.flow.force),
+        flow_torque_nm: means.mean(&means.flow.torque),
+        wall_force_n: means.mean(&means.wall.force),
+        wall_torque_nm: means.mean(&means.wall.torque),
+        touching_points: simulation.flow_load(place).touching_points,
+        submerged_fraction: submerged_fraction(simulation, body),
+        mode: mode(body, means),
+    }
+}
+
+fn mode(body: &Body, means: &Means) -> Mode {
+    let speed = body.velocity().norm();
+    let turning = body.angular_velocity().norm() * body.shape.bounding_radius();
+    if body.freedom == Freedom::Fixed || speed.max(turning) < REST_SPEED {
+        Mode::Resting
+    } else if !means.on_wall(body) {
+        Mode::Saltating
+    } else if turning > ROLLING_SHARE * speed {
+        Mode::Rolling
+    } else {
+        Mode::Sliding
+    }
+}
+
+/// Snapshot times, spread evenly over the run, last first; each snapshot is
+/// taken at the first sample time at or after its own.
+fn snapshot_times(scenario: &Scenario) -> Vec<f64> {
+    let count = scenario.flow_snapshots;
+    let last = f64::from(count.saturating_sub(1).max(1));
+    (0..count)
+        .rev()
+        // A hair early, so that rounding does not shift one by an interval.
+        .map(|n| scenario.duration_s * (f64::from(n) / last) * (1.0 - 1e-12))
+        .collect()
+}
+
+/// The flow now, thinned evenly by identity.
+fn snapshot(simulation: &Simulation) -> FlowSnapshot {
+    let points = simulation.points();
+    let thinning = points.len().div_ceil(SNAPSHOT_POINTS).max(1) as u32;
+    let mut kept: Vec<_> = points
+        .iter()
+        .filter(|point| point.id % thinning == 0)
+        .collect();
+    kept.sort_unstable_by_key(|point| point.id);
+    kept.truncate(SNAPSHOT_POINTS);
+    FlowSnapshot {
+        time_s: simulation.time_s(),
+        points: points.len() as u64,
+        thinning,
+        position_m: kept
+            .iter()
+            .map(|point| point.position.map(|x| x as f32).into())
+            .collect(),
+        speed_m_s: kept
+            .iter()
+            .map(|point| point.velocity.norm() as f32)
+            .collect(),
     }
 }

@@ -1,5 +1,7 @@
 //! The scenario: strict JSON in, validated description out.
 
+mod placement;
+pub use placement::{Pose, ReleaseBox};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 

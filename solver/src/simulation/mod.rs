@@ -1,12 +1,55 @@
-//! The simulation: step and run.
+//! The simulation: the step of docs/method.md, and the run.
 
+mod clock;
+mod saved;
+mod setup;
+mod step;
+
+use crate::contact::body_wall::BodyReport;
+use crate::contact::point_body::{FlowLoad, Loads};
+use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::{RestoreError, SetupError, StepError};
+use crate::grid::Grid;
+use crate::math::Vec3;
+use crate::points::{Deformation, Point};
+use crate::rigid::Body;
 use crate::scenario::Scenario;
+use crate::walls::Boundary;
+use clock::Clock;
+use rayon::ThreadPool;
+use setup::Setup;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
-/// A run in progress.
+/// A run in progress: what is given, what changes, and scratch.
 #[derive(Debug)]
-pub struct Simulation {}
+pub struct Simulation {
+    given: Setup,
+    state: State,
+    scratch: Scratch,
+    pool: Arc<ThreadPool>,
+}
+
+/// What a checkpoint holds.
+#[derive(Debug)]
+struct State {
+    clock: Clock,
+    points: Vec<Point>,
+    bodies: Vec<Body>,
+    audit: Audit,
+}
+
+/// What a step works on; nothing of it outlives the step.
+#[derive(Debug)]
+struct Scratch {
+    grid: Grid,
+    boundary: Boundary,
+    deformations: Vec<Deformation>,
+    loads: Loads,
+    body_reports: Vec<BodyReport>,
+    /// Sums of the flow, followed through a step for gravity's torque.
+    flow: FlowMoments,
+}
 
 /// What one acoustic sub-step did.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +64,7 @@ pub struct SubstepReport {
     pub steps: u64,
     /// Points that took part.
     pub points: u64,
-    /// This sub-step ended a step: the points' own state is up to date.
+    /// Whether this sub-step ended a step: the points' own state is up to date.
     pub step_ended: bool,
     /// Index k of the sample time reached (time = k · interval, or the end).
     pub sample: Option<u64>,
@@ -38,37 +81,173 @@ pub enum Ending {
 
 impl Simulation {
     /// Sets a scenario up on `threads` solver threads.
-    pub fn new(_scenario: &Scenario, _threads: usize) -> Result<Self, SetupError> {
-        todo!()
+    ///
+    /// # Errors
+    /// Too many points for one run, or threads that can't be started.
+    pub fn new(scenario: &Scenario, threads: usize) -> Result<Self, SetupError> {
+        let pool = start_threads(threads)?;
+        let given = Setup::of(scenario)?;
+        let bodies = setup::bodies(scenario, &given);
+        let (points, volume_left_out) = setup::release(scenario, &given, &bodies)?;
+        let mut simulation = Self::assemble(given, points, bodies, pool);
+        simulation.state.clock.volume_left_out = volume_left_out;
+        simulation.start_audit();
+        Ok(simulation)
     }
 
-    /// Simulated time [s].
-    pub fn time_s(&self) -> f64 {
-        todo!()
+    fn assemble(
+        given: Setup,
+        points: Vec<Point>,
+        bodies: Vec<Body>,
+        pool: Arc<ThreadPool>,
+    ) -> Self {
+        let scratch = Scratch {
+            grid: Grid::new(given.lattice),
+            boundary: Boundary::default(),
+            deformations: Vec::new(),
+            loads: Loads::default(),
+            body_reports: vec![BodyReport::default(); bodies.len()],
+            flow: FlowMoments::default(),
+        };
+        let state = State {
+            clock: Clock::start(points.len() as u64),
+            points,
+            bodies,
+            audit: Audit::default(),
+        };
+        Self {
+            given,
+            state,
+            scratch,
+            pool,
+        }
     }
 
     /// Runs to the first step end at or after `until_s` (never beyond the
     /// scenario's duration), calling `observe` after every sub-step. On
     /// `Break` the step in hand is finished first, so the state is whole.
+    ///
+    /// Where `until_s` lies does not change how the run is divided into steps:
+    /// runs to a and on to b give the same bits as one to b.
+    ///
+    /// # Errors
+    /// A state that can't be advanced: see [`StepError`].
     pub fn run(
         &mut self,
-        _until_s: f64,
-        _observe: impl FnMut(&Simulation, &SubstepReport) -> ControlFlow<()>,
+        until_s: f64,
+        mut observe: impl FnMut(&Simulation, &SubstepReport) -> ControlFlow<()>,
     ) -> Result<Ending, StepError> {
-        todo!()
+        let until = until_s.min(self.given.timing.duration);
+        while self.state.clock.time < until {
+            if self.step(&mut observe)?.is_break() {
+                return Ok(Ending::Interrupted);
+            }
+        }
+        Ok(Ending::Reached)
     }
 
-    /// The whole state as bytes.
+    /// Simulated time [s].
+    pub fn time_s(&self) -> f64 {
+        self.state.clock.time
+    }
+
+    /// The material points, in no particular order.
+    pub fn points(&self) -> &[Point] {
+        &self.state.points
+    }
+
+    /// The bodies, in the scenario's order.
+    pub fn bodies(&self) -> &[Body] {
+        &self.state.bodies
+    }
+
+    /// What the flow does to a body in the present sub-step.
+    pub fn flow_load(&self, body: usize) -> FlowLoad {
+        let loads = &self.scratch.loads.on_bodies;
+        loads.get(body).copied().unwrap_or_default()
+    }
+
+    /// What the present sub-step did to a body.
+    pub fn body_report(&self, body: usize) -> BodyReport {
+        self.scratch.body_reports[body]
+    }
+
+    /// The audit so far.
+    pub fn audit(&self) -> &Audit {
+        &self.state.audit
+    }
+
+    /// Node distances [m].
+    pub fn spacing(&self) -> Vec3 {
+        self.given.lattice.spacing
+    }
+
+    /// Cell size h [m].
+    pub fn cell_size_m(&self) -> f64 {
+        self.given.lattice.spacing.x
+    }
+
+    /// √(K/ρ) in use [m/s]; `None` without a flow.
+    pub fn sound_speed_m_s(&self) -> Option<f64> {
+        self.given.flow.as_ref().map(|flow| flow.limits.sound_speed)
+    }
+
+    /// Radius of a point's sphere, R_p [m]; 0 without a flow.
+    pub fn point_radius_m(&self) -> f64 {
+        self.given
+            .flow
+            .as_ref()
+            .map_or(0.0, |flow| flow.point_radius)
+    }
+
+    /// Threads in use.
+    pub fn threads(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
+    /// Material points at the start.
+    pub fn released_points(&self) -> u64 {
+        self.state.clock.released_points
+    }
+
+    /// Volume of the release not placed because a body stands there [m³].
+    pub fn volume_left_out_m3(&self) -> f64 {
+        self.state.clock.volume_left_out
+    }
+
+    /// Steps, sub-steps, and sub-steps summed over points, so far.
+    pub fn counts(&self) -> (u64, u64, u64) {
+        let clock = &self.state.clock;
+        (clock.steps, clock.substeps, clock.point_steps)
+    }
+
+    /// The whole state between two steps as bytes. Called from within an
+    /// observer amid a step it holds that step's bodies but not its points:
+    /// save when [`run`](Self::run) has returned, or at a step's end.
     pub fn save(&self) -> Vec<u8> {
-        todo!()
+        saved::save(self)
     }
 
     /// Takes up a saved state: the run goes on with the same bits.
+    ///
+    /// # Errors
+    /// Bytes that are no state of this solver version, or of another scenario.
     pub fn restore(
-        _scenario: &Scenario,
-        _threads: usize,
-        _saved: &[u8],
+        scenario: &Scenario,
+        threads: usize,
+        saved: &[u8],
     ) -> Result<Self, RestoreError> {
-        todo!()
+        saved::restore(scenario, threads, saved)
     }
+}
+
+fn start_threads(threads: usize) -> Result<Arc<ThreadPool>, SetupError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map(Arc::new)
+        .map_err(|error| SetupError::Threads {
+            threads,
+            reason: error.to_string(),
+        })
 }

@@ -1,0 +1,239 @@
+//! Balances of mass, momentum and energy, kept while a run goes.
+
+use crate::material::Material;
+use crate::math::Vec3;
+use crate::points::Point;
+use crate::rigid::{Body, Freedom};
+use crate::walls::Impulse;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Points summed by one task; fixed, so that sums do not depend on threads.
+const CHUNK: usize = 1024;
+
+/// Sums over points or bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Totals {
+    /// Mass [kg].
+    pub mass: f64,
+    /// Σ m x [kg m].
+    pub first_moment: Vec3,
+    /// Momentum, linear and angular about the origin.
+    pub momentum: Impulse,
+    /// Σ m|v| [kg m/s].
+    pub momentum_scale: f64,
+    /// Kinetic energy [J].
+    pub kinetic_energy: f64,
+    /// Kinetic, potential and elastic energy [J].
+    pub energy: f64,
+    /// Largest speed [m/s].
+    pub largest_speed: f64,
+}
+
+impl Totals {
+    fn plus(mut self, other: &Self) -> Self {
+        self.mass += other.mass;
+        self.first_moment += other.first_moment;
+        self.momentum.linear += other.momentum.linear;
+        self.momentum.angular += other.momentum.angular;
+        self.momentum_scale += other.momentum_scale;
+        self.kinetic_energy += other.kinetic_energy;
+        self.energy += other.energy;
+        self.largest_speed = self.largest_speed.max(other.largest_speed);
+        self
+    }
+
+    /// Sums over the points of a flow.
+    pub fn of_points(
+        points: &[Point],
+        material: &Material,
+        kernel_moment: &Vec3,
+        gravity: &Vec3,
+    ) -> Self {
+        let of_chunk = |chunk: &[Point]| {
+            chunk
+                .iter()
+                .map(|point| Self::of_point(point, material, kernel_moment, gravity))
+                .fold(Self::default(), |sum, one| sum.plus(&one))
+        };
+        let chunks: Vec<Self> = points.par_chunks(CHUNK).map(of_chunk).collect();
+        chunks.iter().fold(Self::default(), Self::plus)
+    }
+
+    fn of_point(point: &Point, material: &Material, moment: &Vec3, gravity: &Vec3) -> Self {
+        let kinetic_energy = point.kinetic_energy(moment);
+        let potential = -point.mass * gravity.dot(&point.position);
+        let speed = point.velocity.norm();
+        Self {
+            mass: point.mass,
+            first_moment: point.position * point.mass,
+            momentum: Impulse {
+                linear: point.velocity * point.mass,
+                angular: point.angular_momentum(moment),
+            },
+            momentum_scale: point.mass * speed,
+            kinetic_energy,
+            energy: kinetic_energy + potential + point.elastic_energy(material),
+            largest_speed: speed,
+        }
+    }
+
+    /// Sums over the free bodies.
+    pub fn of_bodies(bodies: &[Body], gravity: &Vec3) -> Self {
+        bodies
+            .iter()
+            .filter(|body| body.freedom == Freedom::Free)
+            .map(|body| Self::of_body(body, gravity))
+            .fold(Self::default(), |sum, one| sum.plus(&one))
+    }
+
+    fn of_body(body: &Body, gravity: &Vec3) -> Self {
+        let state = &body.state;
+        let kinetic_energy = body.kinetic_energy();
+        let potential = -body.mass * gravity.dot(&state.position);
+        Self {
+            mass: body.mass,
+            first_moment: state.position * body.mass,
+            momentum: Impulse {
+                linear: state.momentum,
+                angular: state.position.cross(&state.momentum) + state.angular_momentum,
+            },
+            momentum_scale: state.momentum.norm(),
+            kinetic_energy,
+            energy: kinetic_energy + potential + state.wall_energy,
+            largest_speed: body.largest_speed(),
+        }
+    }
+}
+
+/// Sums of the flow that move with it through the sub-steps of a step, while
+/// the points' own state stands still.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FlowMoments {
+    mass: f64,
+    /// Σ m x [kg m].
+    pub first_moment: Vec3,
+    /// Momentum [kg m/s].
+    pub momentum: Vec3,
+}
+
+impl FlowMoments {
+    /// At the start of a step.
+    pub fn of(flow: &Totals) -> Self {
+        Self {
+            mass: flow.mass,
+            first_moment: flow.first_moment,
+            momentum: flow.momentum.linear,
+        }
+    }
+
+    /// Impulse of gravity in `dt`.
+    pub fn weight(&self, gravity: &Vec3, dt: f64) -> Impulse {
+        Impulse {
+            linear: gravity * (self.mass * dt),
+            angular: self.first_moment.cross(gravity) * dt,
+        }
+    }
+}
+
+/// The audit of a run: what should be there against what is.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Audit {
+    /// Mass at the start [kg].
+    pub released_mass: f64,
+    /// Momentum there should be: the start's, plus every impulse from outside,
+    /// less what left.
+    expected: Impulse,
+    /// Accumulated sizes of those impulses, linear and angular.
+    exchanged: (f64, f64),
+    /// What left by the open end.
+    left: Totals,
+    /// Points that left by the open end.
+    pub points_left: u64,
+    /// Points put back out of a body's core.
+    pub points_put_back: u64,
+    /// Largest residuals so far.
+    pub mass_error: f64,
+    /// Linear momentum, relative.
+    pub momentum_residual: f64,
+    /// Angular momentum, relative.
+    pub angular_momentum_residual: f64,
+    /// Largest overlap δ/(R_p + r).
+    pub deepest_overlap_ratio: f64,
+    lowest_energy: f64,
+    largest_rise: f64,
+    largest_kinetic_energy: f64,
+}
+
+impl Audit {
+    /// The audit of a run that starts with these sums.
+    pub fn start(flow: &Totals, bodies: &Totals) -> Self {
+        let total = flow.plus(bodies);
+        Self {
+            released_mass: flow.mass,
+            expected: total.momentum,
+            lowest_energy: total.energy,
+            ..Self::default()
+        }
+    }
+
+    /// Takes in an impulse from outside.
+    pub fn exchange(&mut self, impulse: &Impulse) {
+        self.expected.linear += impulse.linear;
+        self.expected.angular += impulse.angular;
+        self.exchanged.0 += impulse.linear.norm();
+        self.exchanged.1 += impulse.angular.norm();
+    }
+
+    /// Takes in points that left by the open end.
+    pub fn leave(&mut self, count: u64, gone: &Totals) {
+        self.points_left += count;
+        self.left = self.left.plus(gone);
+        self.expected.linear -= gone.momentum.linear;
+        self.expected.angular -= gone.momentum.angular;
+    }
+
+    /// Mass that left by the open end [kg].
+    pub fn mass_left(&self) -> f64 {
+        self.left.mass
+    }
+
+    /// Compares what is with what should be, after a step; `contact_energy` is
+    /// held between points and bodies [J].
+    pub fn check(&mut self, flow: &Totals, bodies: &Totals, contact_energy: f64) {
+        let total = flow.plus(bodies);
+        let off = |actual: &Vec3, expected: &Vec3, scale: f64| {
+            (actual - expected).norm() / scale.max(f64::MIN_POSITIVE)
+        };
+        let linear = off(
+            &total.momentum.linear,
+            &self.expected.linear,
+            total.momentum_scale + self.exchanged.0,
+        );
+        let angular = off(
+            &total.momentum.angular,
+            &self.expected.angular,
+            total.momentum.angular.norm() + self.exchanged.1,
+        );
+        self.momentum_residual = self.momentum_residual.max(linear);
+        self.angular_momentum_residual = self.angular_momentum_residual.max(angular);
+        if self.released_mass > 0.0 {
+            let missing = (flow.mass + self.left.mass - self.released_mass).abs();
+            self.mass_error = self.mass_error.max(missing / self.released_mass);
+        }
+        let energy = total.energy + self.left.energy + contact_energy;
+        self.lowest_energy = self.lowest_energy.min(energy);
+        self.largest_rise = self.largest_rise.max(energy - self.lowest_energy);
+        self.largest_kinetic_energy = self.largest_kinetic_energy.max(total.kinetic_energy);
+    }
+
+    /// Largest rise of the mechanical energy above its running minimum,
+    /// relative to the largest kinetic energy so far; 0 if nothing ever moved.
+    pub fn energy_residual(&self) -> f64 {
+        if self.largest_kinetic_energy > 0.0 {
+            self.largest_rise / self.largest_kinetic_energy
+        } else {
+            0.0
+        }
+    }
+}

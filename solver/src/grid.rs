@@ -1,0 +1,317 @@
+//! The background grid: nodes in blocks of 4³, only where points are.
+//!
+//! The points of a block scatter into a tile of 6³ nodes of their own; the
+//! tiles are then added to the nodes in a fixed order. So the work runs in
+//! parallel without locks and gives the same bits for any number of threads.
+
+use crate::kernel::{Lattice, WIDTH};
+use crate::math::Vec3;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Cells along a block's edge.
+pub const BLOCK: usize = 4;
+/// Nodes of a block.
+pub const BLOCK_NODES: usize = BLOCK * BLOCK * BLOCK;
+/// Nodes along a tile's edge: a block's cells and the kernel's reach.
+pub const TILE: usize = BLOCK + WIDTH - 1;
+/// Nodes of a tile.
+pub const TILE_NODES: usize = TILE * TILE * TILE;
+
+/// What the points of one block give to each node they touch.
+pub type Tile = [[f64; 4]; TILE_NODES];
+
+/// No such block.
+const NONE: u32 = u32::MAX;
+/// The eight blocks a tile reaches, in the order in which tiles are added.
+const OCTANTS: [[usize; 3]; 8] = [
+    [0, 0, 0],
+    [0, 0, 1],
+    [0, 1, 0],
+    [0, 1, 1],
+    [1, 0, 0],
+    [1, 0, 1],
+    [1, 1, 0],
+    [1, 1, 1],
+];
+
+/// Index of a block along x, y, z.
+pub type BlockKey = [i32; 3];
+
+/// One node of the grid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// Mass [kg].
+    pub mass: f64,
+    /// Velocity [m/s].
+    pub velocity: Vec3,
+    /// Displacement since the transfer [m].
+    pub displacement: Vec3,
+    /// Force of stress and contact [N].
+    pub force: Vec3,
+}
+
+impl Node {
+    const EMPTY: Self = Self {
+        mass: 0.0,
+        velocity: Vec3::new(0.0, 0.0, 0.0),
+        displacement: Vec3::new(0.0, 0.0, 0.0),
+        force: Vec3::new(0.0, 0.0, 0.0),
+    };
+}
+
+/// A block that holds points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointBlock {
+    /// Which block.
+    pub key: BlockKey,
+    /// Its points, by their place in the sorted list.
+    pub points: Range<usize>,
+    /// The node blocks its tile reaches, in the order of the octants.
+    reach: [u32; 8],
+}
+
+/// The grid of one step.
+#[derive(Debug)]
+pub struct Grid {
+    lattice: Lattice,
+    point_blocks: Vec<PointBlock>,
+    node_blocks: Vec<BlockKey>,
+    /// Per node block: the point blocks whose tiles reach it.
+    sources: Vec<[u32; 8]>,
+    nodes: Vec<Node>,
+    tiles: Vec<Tile>,
+}
+
+/// The block of a lowest node index, see [`Lattice::base`].
+pub fn block_of(base: [i32; 3]) -> BlockKey {
+    base.map(|index| index.div_euclid(BLOCK as i32))
+}
+
+/// Place of node (a, b, c) of a tile.
+pub const fn in_tile(a: usize, b: usize, c: usize) -> usize {
+    (a * TILE + b) * TILE + c
+}
+
+const fn in_block(a: usize, b: usize, c: usize) -> usize {
+    (a * BLOCK + b) * BLOCK + c
+}
+
+impl PointBlock {
+    /// Place in the tile of a stencil's lowest node.
+    pub fn tile_base(&self, base: [i32; 3]) -> usize {
+        let local = [0, 1, 2].map(|axis| (base[axis] - self.key[axis] * BLOCK as i32) as usize);
+        in_tile(local[0], local[1], local[2])
+    }
+}
+
+impl Grid {
+    /// An empty grid.
+    pub fn new(lattice: Lattice) -> Self {
+        Self {
+            lattice,
+            point_blocks: Vec::new(),
+            node_blocks: Vec::new(),
+            sources: Vec::new(),
+            nodes: Vec::new(),
+            tiles: Vec::new(),
+        }
+    }
+
+    /// Where the nodes lie.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// The blocks that hold points.
+    pub fn point_blocks(&self) -> &[PointBlock] {
+        &self.point_blocks
+    }
+
+    /// All nodes, block after block.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// A node by its place.
+    pub fn node_mut(&mut self, place: usize) -> &mut Node {
+        &mut self.nodes[place]
+    }
+
+    /// Empties the grid and lays blocks round the occupied ones, which come
+    /// sorted with the range of their points.
+    pub fn reset_around(&mut self, occupied: &[(BlockKey, Range<usize>)]) {
+        self.node_blocks.clear();
+        for (key, _) in occupied {
+            for octant in OCTANTS {
+                self.node_blocks.push(shifted(*key, octant, 1));
+            }
+        }
+        self.node_blocks.sort_unstable();
+        self.node_blocks.dedup();
+        self.nodes.clear();
+        self.nodes
+            .resize(self.node_blocks.len() * BLOCK_NODES, Node::EMPTY);
+        self.tiles.resize(occupied.len(), [[0.0; 4]; TILE_NODES]);
+        self.connect(occupied);
+    }
+
+    fn connect(&mut self, occupied: &[(BlockKey, Range<usize>)]) {
+        let node_blocks = &self.node_blocks;
+        self.point_blocks.clear();
+        self.point_blocks
+            .extend(occupied.iter().map(|(key, points)| PointBlock {
+                key: *key,
+                points: points.clone(),
+                reach: OCTANTS.map(|octant| place(node_blocks, shifted(*key, octant, 1), |k| *k)),
+            }));
+        let point_blocks = &self.point_blocks;
+        self.sources.clear();
+        self.sources.extend(node_blocks.iter().map(|key| {
+            OCTANTS.map(|octant| place(point_blocks, shifted(*key, octant, -1), |b| b.key))
+        }));
+    }
+
+    /// Node index (i, j, k) of a node's place.
+    pub fn index_of(&self, place: usize) -> [i32; 3] {
+        let key = self.node_blocks[place / BLOCK_NODES];
+        let local = place % BLOCK_NODES;
+        let (a, b, c) = (
+            local / (BLOCK * BLOCK),
+            local / BLOCK % BLOCK,
+            local % BLOCK,
+        );
+        [
+            key[0] * BLOCK as i32 + a as i32,
+            key[1] * BLOCK as i32 + b as i32,
+            key[2] * BLOCK as i32 + c as i32,
+        ]
+    }
+
+    /// Place of node (i, j, k), if its block is there.
+    pub fn place_of(&self, index: [i32; 3]) -> Option<usize> {
+        let key = block_of(index);
+        let block = place(&self.node_blocks, key, |k| *k);
+        (block != NONE).then(|| {
+            let local = [0, 1, 2].map(|axis| (index[axis] - key[axis] * BLOCK as i32) as usize);
+            block as usize * BLOCK_NODES + in_block(local[0], local[1], local[2])
+        })
+    }
+
+    /// Lets every block of points fill its tile, then adds the tiles up and
+    /// hands each node its sum.
+    pub fn scatter(
+        &mut self,
+        fill: impl Fn(&PointBlock, &mut Tile) + Sync,
+        take: impl Fn(&mut Node, [f64; 4]) + Sync,
+    ) {
+        self.tiles
+            .par_iter_mut()
+            .zip(&self.point_blocks)
+            .for_each(|(tile, block)| {
+                *tile = [[0.0; 4]; TILE_NODES];
+                fill(block, tile);
+            });
+        let tiles = &self.tiles;
+        self.nodes
+            .par_chunks_mut(BLOCK_NODES)
+            .zip(&self.sources)
+            .for_each(|(nodes, sources)| {
+                let sums = added_up(sources, tiles);
+                for (node, sum) in nodes.iter_mut().zip(sums) {
+                    take(node, sum);
+                }
+            });
+    }
+
+    /// A quantity of the nodes a block of points touches, as a tile.
+    pub fn tile_of(&self, block: &PointBlock, quantity: impl Fn(&Node) -> [f64; 4]) -> Tile {
+        let mut tile = [[0.0; 4]; TILE_NODES];
+        for (octant, reached) in OCTANTS.iter().zip(block.reach) {
+            let nodes = &self.nodes[reached as usize * BLOCK_NODES..][..BLOCK_NODES];
+            for_overlap(*octant, |in_tile, in_block| {
+                tile[in_tile] = quantity(&nodes[in_block]);
+            });
+        }
+        tile
+    }
+
+    /// The nodes of a stencil in one block of points, in the order (a, b, c).
+    pub fn stencil_nodes(
+        &self,
+        block: &PointBlock,
+        base: [i32; 3],
+    ) -> impl Iterator<Item = (usize, usize, usize, &Node)> {
+        let local = [0, 1, 2].map(|axis| (base[axis] - block.key[axis] * BLOCK as i32) as usize);
+        let triples =
+            (0..WIDTH * WIDTH * WIDTH).map(|n| (n / (WIDTH * WIDTH), n / WIDTH % WIDTH, n % WIDTH));
+        triples.map(move |(a, b, c)| {
+            let t = [local[0] + a, local[1] + b, local[2] + c];
+            let octant = (t[0] / BLOCK) * 4 + (t[1] / BLOCK) * 2 + t[2] / BLOCK;
+            let within = in_block(t[0] % BLOCK, t[1] % BLOCK, t[2] % BLOCK);
+            let place = block.reach[octant] as usize * BLOCK_NODES + within;
+            (a, b, c, &self.nodes[place])
+        })
+    }
+
+    /// v ← v + Δt (f/m + g) at every node with mass.
+    pub fn advance_momentum(&mut self, gravity: Vec3, dt: f64) {
+        self.nodes.par_chunks_mut(BLOCK_NODES).for_each(|nodes| {
+            for node in nodes.iter_mut().filter(|node| node.mass > 0.0) {
+                node.velocity += (node.force / node.mass + gravity) * dt;
+            }
+        });
+    }
+
+    /// u ← u + Δt v at every node.
+    pub fn displace(&mut self, dt: f64) {
+        self.nodes.par_chunks_mut(BLOCK_NODES).for_each(|nodes| {
+            for node in nodes {
+                node.displacement += node.velocity * dt;
+            }
+        });
+    }
+}
+
+fn shifted(key: BlockKey, octant: [usize; 3], sign: i32) -> BlockKey {
+    [0, 1, 2].map(|axis| key[axis] + sign * octant[axis] as i32)
+}
+
+fn place<T>(sorted: &[T], key: BlockKey, key_of: impl Fn(&T) -> BlockKey) -> u32 {
+    sorted
+        .binary_search_by_key(&key, key_of)
+        .map_or(NONE, |place| place as u32)
+}
+
+/// Runs over the nodes that a tile shares with the block in one octant of it,
+/// as (place in the tile, place in the block).
+fn for_overlap(octant: [usize; 3], mut visit: impl FnMut(usize, usize)) {
+    let extent = octant.map(|high| if high == 0 { BLOCK } else { TILE - BLOCK });
+    let start = octant.map(|high| high * BLOCK);
+    for a in 0..extent[0] {
+        for b in 0..extent[1] {
+            for c in 0..extent[2] {
+                visit(
+                    in_tile(start[0] + a, start[1] + b, start[2] + c),
+                    in_block(a, b, c),
+                );
+            }
+        }
+    }
+}
+
+fn added_up(sources: &[u32; 8], tiles: &[Tile]) -> [[f64; 4]; BLOCK_NODES] {
+    let mut sums = [[0.0; 4]; BLOCK_NODES];
+    for (octant, source) in OCTANTS.iter().zip(sources) {
+        if *source == NONE {
+            continue;
+        }
+        let tile = &tiles[*source as usize];
+        for_overlap(*octant, |in_tile, in_block| {
+            for (sum, part) in sums[in_block].iter_mut().zip(tile[in_tile]) {
+                *sum += part;
+            }
+        });
+    }
+    sums
+}

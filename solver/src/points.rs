@@ -1,0 +1,162 @@
+//! The material points: the state of the flow.
+
+use crate::grid::{BlockKey, block_of};
+use crate::kernel::Lattice;
+use crate::material::Material;
+use crate::math::{Mat3, Sym3, Vec3};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// One material point, as it stands between two steps.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// Identity, kept for life.
+    pub id: u32,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Volume [m³].
+    pub volume: f64,
+    /// Position [m].
+    pub position: Vec3,
+    /// Velocity [m/s].
+    pub velocity: Vec3,
+    /// Affine velocity about the position, C [1/s].
+    pub affine: Mat3,
+    /// Cauchy stress, tension positive [Pa].
+    pub stress: Sym3,
+}
+
+impl Point {
+    /// Angular momentum about the origin, the affine motion included [kg m²/s];
+    /// `kernel_moment` is h²/4 per axis [m²].
+    pub fn angular_momentum(&self, kernel_moment: &Vec3) -> Vec3 {
+        self.mass * (self.position.cross(&self.velocity) + self.spin(kernel_moment))
+    }
+
+    /// Angular momentum of the affine motion per mass, Σ_a (h_a²/4) e_a × C e_a.
+    fn spin(&self, kernel_moment: &Vec3) -> Vec3 {
+        let b = self.affine * Mat3::from_diagonal(kernel_moment);
+        Vec3::new(b.m32 - b.m23, b.m13 - b.m31, b.m21 - b.m12)
+    }
+
+    /// Kinetic energy, the affine motion included [J].
+    pub fn kinetic_energy(&self, kernel_moment: &Vec3) -> f64 {
+        let affine: f64 = (0..3)
+            .map(|axis| kernel_moment[axis] * self.affine.column(axis).norm_squared())
+            .sum();
+        0.5 * self.mass * (self.velocity.norm_squared() + affine)
+    }
+
+    /// Elastic energy p²V/2K + s:s V/4G [J].
+    pub fn elastic_energy(&self, material: &Material) -> f64 {
+        let pressure = -self.stress.trace() / 3.0;
+        let shear = self.stress.deviator().equivalent_shear();
+        0.5 * self.volume
+            * (pressure * pressure / material.bulk_modulus + shear * shear / material.shear_modulus)
+    }
+
+    /// Name of the first quantity that is no number, if any.
+    pub fn non_finite(&self) -> Option<&'static str> {
+        let finite = [
+            ("position", self.position.sum().is_finite()),
+            ("velocity", self.velocity.sum().is_finite()),
+            ("affine velocity", self.affine.sum().is_finite()),
+            ("volume", self.volume.is_finite()),
+            ("stress", self.stress.is_finite()),
+        ];
+        finite
+            .into_iter()
+            .find_map(|(name, finite)| (!finite).then_some(name))
+    }
+}
+
+/// A point's state within one step, while the grid is frozen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deformation {
+    /// Deformation since the transfer, F̂.
+    pub gradient: Mat3,
+    /// Its inverse; not a number once the point has turned inside out, which
+    /// ends the run.
+    pub inverse: Mat3,
+    /// Velocity gradient with respect to the present positions, L [1/s].
+    pub velocity_gradient: Mat3,
+    /// Volume at the transfer [m³].
+    pub transfer_volume: f64,
+}
+
+impl Deformation {
+    /// At a transfer.
+    pub fn start(point: &Point) -> Self {
+        Self {
+            gradient: Mat3::identity(),
+            inverse: Mat3::identity(),
+            velocity_gradient: Mat3::zeros(),
+            transfer_volume: point.volume,
+        }
+    }
+
+    /// F̂ ← F̂ + Δt Σ v_i ⊗ ∇w_i, with the velocity gradient L = (Σ v_i ⊗ ∇w_i) F̂⁻¹.
+    pub fn advance(&mut self, gradient_at_transfer: &Mat3, dt: f64) {
+        self.velocity_gradient = gradient_at_transfer * self.inverse;
+        self.gradient += gradient_at_transfer * dt;
+        self.inverse = if self.gradient.determinant() > 0.0 {
+            self.gradient.try_inverse().unwrap_or(INVALID)
+        } else {
+            INVALID
+        };
+    }
+}
+
+const INVALID: Mat3 = {
+    const N: f64 = f64::NAN;
+    Mat3::new(N, N, N, N, N, N, N, N, N)
+};
+
+/// Volume V = V_transfer det F̂ and stress of every point after a sub-step.
+pub fn update_stress(
+    points: &mut [Point],
+    deformations: &[Deformation],
+    material: &Material,
+    dt: f64,
+) {
+    points
+        .par_iter_mut()
+        .zip(deformations)
+        .for_each(|(point, deformation)| {
+            point.volume = deformation.transfer_volume * deformation.gradient.determinant();
+            point.stress = material.stress(
+                &point.stress,
+                &deformation.velocity_gradient,
+                point.mass / point.volume,
+                dt,
+            );
+        });
+}
+
+/// Brings the points into the order of their blocks (their own order within a
+/// block is kept) and returns the occupied blocks.
+pub fn sort_by_block(points: &mut Vec<Point>, lattice: &Lattice) -> Vec<(BlockKey, Range<usize>)> {
+    let mut order: Vec<(BlockKey, u32)> = points
+        .iter()
+        .zip(0u32..)
+        .map(|(point, place)| (block_of(lattice.base(&point.position)), place))
+        .collect();
+    // Stable, so that the order does not depend on anything but the state;
+    // nearly sorted, so that it costs little.
+    order.sort_by_key(|(key, _)| *key);
+    if order.iter().zip(0u32..).any(|((_, from), to)| *from != to) {
+        *points = order
+            .iter()
+            .map(|(_, from)| points[*from as usize])
+            .collect();
+    }
+    let mut occupied: Vec<(BlockKey, Range<usize>)> = Vec::new();
+    for (place, (key, _)) in order.iter().enumerate() {
+        match occupied.last_mut() {
+            Some((last, range)) if last == key => range.end = place + 1,
+            _ => occupied.push((*key, place..place + 1)),
+        }
+    }
+    occupied
+}

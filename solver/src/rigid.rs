@@ -1,0 +1,157 @@
+//! Rigid bodies: sphero-polyhedra that move (docs/method.md, equations 14–16).
+
+use crate::contact::law::ContactLaw;
+use crate::math::{Mat3, Vec3};
+use crate::shape::SpheroPolyhedron;
+use nalgebra::UnitQuaternion;
+use serde::{Deserialize, Serialize};
+
+/// Whether a body moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Freedom {
+    /// It does.
+    Free,
+    /// It is a barrier.
+    Fixed,
+}
+
+/// A body: what it is, and how it stands.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its shape.
+    pub shape: SpheroPolyhedron,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Inertia tensor in the body frame [kg m²].
+    pub inertia: Mat3,
+    /// Its inverse.
+    pub inverse_inertia: Mat3,
+    /// Law of its contacts with walls.
+    pub wall_law: ContactLaw,
+    /// Law of its contacts with material points.
+    pub flow_law: ContactLaw,
+    /// Whether it moves.
+    pub freedom: Freedom,
+    /// How it stands.
+    pub state: BodyState,
+}
+
+/// How a body stands.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BodyState {
+    /// Centre of mass [m].
+    pub position: Vec3,
+    /// Body frame to world.
+    pub orientation: UnitQuaternion<f64>,
+    /// Momentum [kg m/s].
+    pub momentum: Vec3,
+    /// Angular momentum about the centre of mass, world axes [kg m²/s].
+    pub angular_momentum: Vec3,
+    /// Stretch of the tangential spring of every pair of core vertex and wall
+    /// [m], vertex by vertex; zero where they are apart.
+    pub springs: Vec<Vec3>,
+    /// What the walls do to it now.
+    pub wall_load: Load,
+    /// Energy its wall contacts hold now [J].
+    pub wall_energy: f64,
+}
+
+/// Force and torque on a body.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Load {
+    /// Force [N].
+    pub force: Vec3,
+    /// Torque about the centre of mass [N m].
+    pub torque: Vec3,
+}
+
+impl Load {
+    /// Adds a force that acts at `arm` from the centre of mass.
+    pub fn add_at(&mut self, arm: &Vec3, force: &Vec3) {
+        self.force += force;
+        self.torque += arm.cross(force);
+    }
+}
+
+impl Body {
+    /// Velocity of the centre of mass [m/s].
+    pub fn velocity(&self) -> Vec3 {
+        self.state.momentum / self.mass
+    }
+
+    /// Angular velocity in world axes [rad/s].
+    pub fn angular_velocity(&self) -> Vec3 {
+        self.inverse_inertia_times(&self.state.orientation, &self.state.angular_momentum)
+    }
+
+    /// Velocity of the place at `arm` from the centre of mass [m/s].
+    pub fn velocity_at(&self, arm: &Vec3) -> Vec3 {
+        self.velocity() + self.angular_velocity().cross(arm)
+    }
+
+    /// A vector of the body frame in world axes.
+    pub fn to_world(&self, v: &Vec3) -> Vec3 {
+        self.state.orientation * v
+    }
+
+    /// A vector of world axes in the body frame.
+    pub fn to_body(&self, v: &Vec3) -> Vec3 {
+        self.state.orientation.inverse_transform_vector(v)
+    }
+
+    /// Mass that resists a force along `direction` (unit) at `arm` [kg].
+    pub fn effective_mass(&self, arm: &Vec3, direction: &Vec3) -> f64 {
+        let lever = arm.cross(direction);
+        let turned = self.inverse_inertia_times(&self.state.orientation, &lever);
+        1.0 / (1.0 / self.mass + lever.dot(&turned))
+    }
+
+    /// Kinetic energy [J].
+    pub fn kinetic_energy(&self) -> f64 {
+        let spinning = self.state.angular_momentum.dot(&self.angular_velocity());
+        0.5 * (self.state.momentum.norm_squared() / self.mass + spinning)
+    }
+
+    /// Largest speed of any of its places [m/s].
+    pub fn largest_speed(&self) -> f64 {
+        self.velocity().norm() + self.angular_velocity().norm() * self.shape.bounding_radius()
+    }
+
+    /// Changes momentum and angular momentum by `load` over `dt`.
+    pub fn kick(&mut self, load: &Load, dt: f64) {
+        self.state.momentum += load.force * dt;
+        self.state.angular_momentum += load.torque * dt;
+    }
+
+    /// Moves and turns freely for `dt`: the midpoint rule for the orientation,
+    /// at constant angular momentum.
+    pub fn drift(&mut self, dt: f64) {
+        self.state.position += self.velocity() * dt;
+        let start = self.state.orientation;
+        let angular_momentum = self.state.angular_momentum;
+        let at_start = self.inverse_inertia_times(&start, &angular_momentum);
+        let middle = UnitQuaternion::from_scaled_axis(at_start * (0.5 * dt)) * start;
+        let at_middle = self.inverse_inertia_times(&middle, &angular_momentum);
+        let mut end = UnitQuaternion::from_scaled_axis(at_middle * dt) * start;
+        end.renormalize();
+        self.state.orientation = end;
+    }
+
+    /// Name of the first quantity that is no number, if any.
+    pub fn non_finite(&self) -> Option<&'static str> {
+        let state = &self.state;
+        let finite = [
+            ("position", state.position.sum().is_finite()),
+            ("velocity", state.momentum.sum().is_finite()),
+            ("angular velocity", state.angular_momentum.sum().is_finite()),
+            ("orientation", state.orientation.coords.sum().is_finite()),
+        ];
+        finite
+            .into_iter()
+            .find_map(|(name, finite)| (!finite).then_some(name))
+    }
+
+    fn inverse_inertia_times(&self, orientation: &UnitQuaternion<f64>, v: &Vec3) -> Vec3 {
+        orientation * (self.inverse_inertia * orientation.inverse_transform_vector(v))
+    }
+}

@@ -1,0 +1,70 @@
+//! Saved states.
+
+use super::clock::Clock;
+use super::setup::{self, Setup};
+use super::{Simulation, start_threads};
+use crate::diagnostics::Audit;
+use crate::error::RestoreError;
+use crate::points::Point;
+use crate::rigid::BodyState;
+use crate::scenario::Scenario;
+use serde::{Deserialize, Serialize};
+
+/// What a saved state holds, in this order.
+#[derive(Serialize, Deserialize)]
+struct Saved {
+    version: String,
+    scenario: String,
+    clock: Clock,
+    points: Vec<Point>,
+    bodies: Vec<BodyState>,
+    audit: Audit,
+}
+
+pub(super) fn save(simulation: &Simulation) -> Vec<u8> {
+    let state = &simulation.state;
+    let bodies = state.bodies.iter().map(|body| body.state.clone());
+    let saved = Saved {
+        version: crate::VERSION.to_owned(),
+        scenario: simulation.given.scenario.clone(),
+        clock: state.clock.clone(),
+        points: state.points.clone(),
+        bodies: bodies.collect(),
+        audit: state.audit.clone(),
+    };
+    postcard::to_allocvec(&saved).expect("plain numbers always serialise")
+}
+
+pub(super) fn restore(
+    scenario: &Scenario,
+    threads: usize,
+    bytes: &[u8],
+) -> Result<Simulation, RestoreError> {
+    let unreadable = |reason: String| RestoreError::Unreadable(reason);
+    let saved: Saved =
+        postcard::from_bytes(bytes).map_err(|error| unreadable(error.to_string()))?;
+    if saved.version != crate::VERSION {
+        return Err(unreadable(format!("it is of version {}", saved.version)));
+    }
+    if saved.scenario != scenario.to_json() {
+        return Err(RestoreError::OtherScenario {
+            what: "the scenario",
+        });
+    }
+    let pool = start_threads(threads).map_err(|error| unreadable(error.to_string()))?;
+    let given = Setup::of(scenario).map_err(|error| unreadable(error.to_string()))?;
+    let mut bodies = setup::bodies(scenario, &given);
+    if bodies.len() != saved.bodies.len() {
+        return Err(RestoreError::OtherScenario {
+            what: "the number of bodies",
+        });
+    }
+    for (body, state) in bodies.iter_mut().zip(saved.bodies) {
+        body.state = state;
+    }
+    let mut simulation = Simulation::assemble(given, saved.points, bodies, pool);
+    simulation.state.clock = saved.clock;
+    simulation.state.audit = saved.audit;
+    simulation.resume_audit();
+    Ok(simulation)
+}

@@ -1,0 +1,311 @@
+//! From a scenario to what a run is given, and its bodies.
+
+use super::clock::Timing;
+use crate::contact::law::ContactLaw;
+use crate::error::SetupError;
+use crate::kernel::Lattice;
+use crate::material::{Material, Yielding};
+use crate::math::Vec3;
+use crate::points::Point;
+use crate::rigid::{Body, BodyState, Freedom, Load};
+use crate::scenario::{self, Scenario};
+use crate::stability::{Limits, Pace};
+use crate::walls::{Plane, Upright, Walls};
+
+mod release;
+mod resolution;
+
+pub(super) use release::release;
+
+/// Default Courant number of the sub-step.
+const COURANT: f64 = 0.4;
+/// Default travel of the fastest point per step, in cells.
+const FLOW_COURANT: f64 = 0.2;
+/// Sound speed over expected flow speed: density varies by its inverse square
+/// under steady load.
+const STIFFNESS_FACTOR: f64 = 10.0;
+/// Overlap of a point and a body, over the point spacing, at which the
+/// contact is as stiff as the material between two points.
+const REFERENCE_OVERLAP: f64 = 0.1;
+/// Share of a body's own contact time scale allowed per sub-step.
+const BODY_CONTACT_SHARE: f64 = 0.5;
+
+/// What a run is given; it does not change.
+#[derive(Debug)]
+pub(super) struct Setup {
+    /// Identity of the scenario: its JSON.
+    pub scenario: String,
+    pub timing: Timing,
+    pub gravity: Vec3,
+    pub lattice: Lattice,
+    pub walls: Walls,
+    /// The same walls as bodies meet them.
+    pub planes: Vec<Plane>,
+    /// x of the open end [m].
+    pub open_end: f64,
+    pub flow: Option<Flow>,
+}
+
+/// What a run with a flow is given besides.
+#[derive(Debug)]
+pub(super) struct Flow {
+    pub material: Material,
+    pub limits: Limits,
+    /// Radius of a point's sphere, R_p [m] (equation P3).
+    pub point_radius: f64,
+    /// Distance of neighbouring points [m].
+    pub point_spacing: f64,
+}
+
+impl Setup {
+    pub(super) fn of(scenario: &Scenario) -> Result<Self, SetupError> {
+        let channel = &scenario.channel;
+        let lattice = resolution::lattice(scenario);
+        let walls = walls(channel, &lattice);
+        let planes = walls.planes().copied().collect();
+        let flow = match &scenario.flow {
+            Some(flow) if flow.volume_m3 > 0.0 => Some(Flow::of(scenario, flow, &lattice)),
+            _ => None,
+        };
+        Ok(Self {
+            scenario: scenario.to_json(),
+            timing: Timing {
+                duration: scenario.duration_s,
+                sample_interval: scenario.sample_interval_s,
+            },
+            gravity: Vec3::new(0.0, 0.0, -scenario.gravity_m_s2),
+            lattice,
+            walls,
+            planes,
+            open_end: channel.runout_length_m,
+            flow,
+        })
+    }
+
+    /// How far from a body a point can be at a transfer and still touch it
+    /// before the next one [m].
+    pub(super) fn contact_reach(&self, bodies: &[Body], pace: &Pace) -> f64 {
+        let Some(flow) = &self.flow else { return 0.0 };
+        let duration = pace.substep * f64::from(pace.count);
+        let body_travel = bodies
+            .iter()
+            .map(|body| body.largest_speed() * duration)
+            .fold(0.0, f64::max);
+        let flow_travel = flow.limits.flow_courant * flow.limits.cell_size;
+        // Twice both, for what speeds up within the step.
+        flow.point_radius + 2.0 * (flow_travel + body_travel)
+    }
+}
+
+impl Flow {
+    fn of(scenario: &Scenario, flow: &scenario::Flow, lattice: &Lattice) -> Self {
+        let material = material(scenario, &flow.material);
+        let numerics = &scenario.numerics;
+        let volume = lattice.cell_volume() / f64::from(numerics.points_per_cell);
+        Self {
+            limits: Limits::new(
+                &material,
+                &lattice.spacing,
+                numerics.courant.unwrap_or(COURANT),
+                numerics.flow_courant.unwrap_or(FLOW_COURANT),
+            ),
+            material,
+            point_radius: (3.0 * volume / (4.0 * std::f64::consts::PI)).cbrt(),
+            point_spacing: volume.cbrt(),
+        }
+    }
+
+    /// Law of a body's contacts with points: as stiff at the reference overlap
+    /// as a column of material one point wide, M l.
+    fn contact_law(&self, body: &scenario::Body) -> ContactLaw {
+        let spacing = self.point_spacing;
+        let tangent = self.material.p_wave_modulus() * spacing;
+        ContactLaw {
+            stiffness: tangent / (1.5 * (REFERENCE_OVERLAP * spacing).sqrt()),
+            ..ContactLaw::hertz(0.0, 1.0, body.flow_restitution, body.flow_friction)
+        }
+    }
+
+    /// Longest sub-step at which a free body covered with points does not ring
+    /// against them unstably [s].
+    pub(super) fn contact_substep(&self, bodies: &[Body]) -> f64 {
+        let modulus = self.material.p_wave_modulus();
+        let of_body = |body: &Body| {
+            let radius = body.shape.bounding_radius();
+            let area = (std::f64::consts::PI * radius * radius).max(self.point_spacing.powi(2));
+            let stiffness = modulus * area / self.point_spacing;
+            BODY_CONTACT_SHARE * (body.mass / stiffness).sqrt()
+        };
+        bodies
+            .iter()
+            .filter(|body| body.freedom == Freedom::Free)
+            .map(of_body)
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Granular material with the stiffness asked for, or a sound speed of
+/// [`STIFFNESS_FACTOR`] times the fastest flow expected.
+fn material(scenario: &Scenario, given: &scenario::Material) -> Material {
+    let nu = given.poissons_ratio;
+    let density = given.bulk_density_kg_m3;
+    let bulk_modulus = match (given.youngs_modulus_pa, scenario.numerics.sound_speed_m_s) {
+        (Some(youngs_modulus), _) => youngs_modulus / (3.0 * (1.0 - 2.0 * nu)),
+        (None, Some(sound_speed)) => density * sound_speed.powi(2),
+        (None, None) => density * (STIFFNESS_FACTOR * resolution::expected_speed(scenario)).powi(2),
+    };
+    Material {
+        bulk_density: density,
+        bulk_modulus,
+        shear_modulus: bulk_modulus * 1.5 * (1.0 - 2.0 * nu) / (1.0 + nu),
+        yielding: Yielding::Granular {
+            static_friction: given.static_friction,
+            limiting_friction: given.limiting_friction,
+            reference_inertial_number: given.reference_inertial_number,
+            grain_diameter: given.grain_diameter_m,
+            grain_density: given.grain_density_kg_m3,
+        },
+    }
+}
+
+fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
+    let (sin, cos) = channel.inclination_deg.to_radians().sin_cos();
+    let base = |name, normal| Plane {
+        name,
+        normal,
+        offset: 0.0,
+        flow_friction: channel.base_friction,
+    };
+    let upright = |name, normal: Vec3, distance: f64| Plane {
+        name,
+        normal,
+        offset: -distance,
+        flow_friction: channel.side_friction,
+    };
+    let half_width = 0.5 * channel.width_m;
+    let mut planes = vec![base("floor", Vec3::z())];
+    if channel.inclination_deg > 0.0 {
+        planes.push(base("incline", Vec3::new(sin, 0.0, cos)));
+    }
+    Walls {
+        base: planes,
+        upright: Upright {
+            planes: [
+                upright("back wall", Vec3::x(), channel.incline_length_m),
+                upright("right side wall", Vec3::y(), half_width),
+                upright("left side wall", -Vec3::y(), half_width),
+            ],
+            cells_across: (channel.width_m / lattice.spacing.y).round() as i32,
+        },
+    }
+}
+
+/// The bodies of a scenario, where they start.
+pub(super) fn bodies(scenario: &Scenario, given: &Setup) -> Vec<Body> {
+    (0..scenario.bodies.len())
+        .map(|place| body(scenario, given, place))
+        .collect()
+}
+
+fn body(scenario: &Scenario, given: &Setup, place: usize) -> Body {
+    let spec = &scenario.bodies[place];
+    let shape = scenario.shape_of(place);
+    let pose = scenario.initial_pose(place);
+    let mass = spec.density_kg_m3 * shape.volume();
+    let inertia = shape.unit_inertia() * spec.density_kg_m3;
+    let modulus = spec
+        .contact_modulus_pa
+        .unwrap_or_else(|| resolution::contact_modulus(scenario, place, mass, &pose.position));
+    let wall_law = ContactLaw::hertz(
+        modulus,
+        shape.sphero_radius(),
+        spec.restitution,
+        spec.friction,
+    );
+    let flow_law = match &given.flow {
+        Some(flow) => flow.contact_law(spec),
+        None => wall_law,
+    };
+    let mut body = Body {
+        inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
+        state: BodyState {
+            position: pose.position,
+            orientation: pose.orientation,
+            momentum: Vec3::from(spec.velocity_m_s) * mass,
+            angular_momentum: Vec3::zeros(),
+            springs: Vec::new(),
+            wall_load: Load::default(),
+            wall_energy: 0.0,
+        },
+        shape,
+        mass,
+        inertia,
+        wall_law,
+        flow_law,
+        freedom: if spec.fixed {
+            Freedom::Fixed
+        } else {
+            Freedom::Free
+        },
+    };
+    let spin = body.to_body(&Vec3::from(spec.angular_velocity_rad_s));
+    body.state.angular_momentum = body.to_world(&(body.inertia * spin));
+    if spec.position.elevation_m.is_none() && body.freedom == Freedom::Free {
+        settle(&mut body, &given.planes, &given.gravity);
+    }
+    crate::contact::body_wall::touch_walls(&mut body, &given.planes, 0.0);
+    body
+}
+
+/// Sinks a resting body to where its support carries its weight, so that it
+/// does not start with a small fall.
+fn settle(body: &mut Body, planes: &[Plane], gravity: &Vec3) {
+    let heights = |plane: &Plane| -> Vec<f64> {
+        body.shape
+            .core_vertices()
+            .iter()
+            .map(|v| plane.height(&(body.state.position + body.to_world(v))))
+            .collect()
+    };
+    let radius = body.shape.sphero_radius();
+    let touches = |height: &f64| *height < radius * (1.0 + 1e-6);
+    let Some(support) = planes
+        .iter()
+        .find(|plane| heights(plane).iter().any(|height| touches(height)))
+    else {
+        return;
+    };
+    let carriers = heights(support).iter().filter(|h| touches(h)).count() as f64;
+    let pressed = -gravity.dot(&support.normal) * body.mass / carriers;
+    let overlap = (pressed.max(0.0) / body.wall_law.stiffness).powf(2.0 / 3.0);
+    body.state.position -= support.normal * overlap;
+}
+
+impl Setup {
+    /// Points overlapping none of the bodies are released.
+    fn is_free(&self, x: &Vec3, bodies: &[Body]) -> bool {
+        let radius = self.flow.as_ref().map_or(0.0, |flow| flow.point_radius);
+        bodies.iter().all(|body| {
+            let arm = x - body.state.position;
+            let reach = radius + body.shape.bounding_radius();
+            let overlaps = || {
+                let closest = body.shape.closest_feature(&body.to_body(&arm));
+                closest.distance < radius + body.shape.sphero_radius()
+            };
+            arm.norm() > reach || !overlaps()
+        })
+    }
+}
+
+/// A point at rest.
+fn resting_point(id: u32, position: Vec3, mass: f64, volume: f64) -> Point {
+    Point {
+        id,
+        mass,
+        volume,
+        position,
+        velocity: Vec3::zeros(),
+        affine: crate::math::Mat3::zeros(),
+        stress: crate::math::Sym3::default(),
+    }
+}

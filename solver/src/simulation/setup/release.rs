@@ -1,0 +1,133 @@
+//! The release: points on a lattice that follows the slope, near equilibrium.
+
+use super::{Setup, resting_point};
+use crate::error::SetupError;
+use crate::material::Material;
+use crate::math::{Mat3, Sym3, Vec3};
+use crate::points::Point;
+use crate::rigid::Body;
+use crate::scenario::{ReleaseBox, Scenario};
+
+/// Largest number of points of one run.
+const MOST_POINTS: u64 = 20_000_000;
+
+/// Counts and distances of the release's points.
+struct Columns {
+    count: [u32; 3],
+    spacing: Vec3,
+    /// Volume of one point [m³].
+    volume: f64,
+}
+
+/// Points of the release that overlap no body, and the volume left out.
+pub(in crate::simulation) fn release(
+    scenario: &Scenario,
+    given: &Setup,
+    bodies: &[Body],
+) -> Result<(Vec<Point>, f64), SetupError> {
+    let (Some(release), Some(flow)) = (scenario.release(), &given.flow) else {
+        return Ok((Vec::new(), 0.0));
+    };
+    let columns = Columns::of(scenario, given, &release)?;
+    let slope = scenario.channel.inclination_deg.to_radians();
+    let start = Start {
+        material: &flow.material,
+        gravity: scenario.gravity_m_s2,
+        slope,
+    };
+    let mass = flow.material.bulk_density * columns.volume;
+    let mut points = Vec::new();
+    let mut left_out = 0.0;
+    let [along, across, up] = columns.count;
+    for i in 0..along {
+        for j in 0..across {
+            for k in 0..up {
+                let place = |n: u32, axis: usize| (f64::from(n) + 0.5) * columns.spacing[axis];
+                let x = release.back_m + place(i, 0);
+                let height = place(k, 2);
+                let base = (-x * slope.tan()).max(0.0);
+                let y = place(j, 1) - 0.5 * release.width_m;
+                let position = Vec3::new(x, y, base + height);
+                if !given.is_free(&position, bodies) {
+                    left_out += columns.volume;
+                    continue;
+                }
+                let id = points.len() as u32;
+                let mut point = resting_point(id, position, mass, columns.volume);
+                start.press(&mut point, release.vertical_thickness_m - height);
+                points.push(point);
+            }
+        }
+    }
+    Ok((points, left_out))
+}
+
+impl Columns {
+    /// As close to the points per cell asked for as whole numbers allow, the
+    /// volume being exact: across the channel every cell has the same number.
+    fn of(scenario: &Scenario, given: &Setup, release: &ReleaseBox) -> Result<Self, SetupError> {
+        let cell = given.lattice.spacing;
+        let per_cell = f64::from(scenario.numerics.points_per_cell);
+        let per_cell_across = per_cell.cbrt().round().max(1.0);
+        let in_plane = (cell.x * cell.z * per_cell_across / per_cell).sqrt();
+        let across = (release.width_m / cell.y).round() * per_cell_across;
+        let along = (release.length_m() / in_plane).round().max(1.0);
+        let up = (release.vertical_thickness_m / in_plane).round().max(1.0);
+        let points = along * across * up;
+        if points > MOST_POINTS as f64 {
+            return Err(SetupError::TooManyPoints {
+                points: points as u64,
+                limit: MOST_POINTS,
+                cell_size_m: cell.x,
+            });
+        }
+        let spacing = Vec3::new(
+            release.length_m() / along,
+            release.width_m / across,
+            release.vertical_thickness_m / up,
+        );
+        Ok(Self {
+            count: [along, across, up].map(|count| count as u32),
+            spacing,
+            volume: spacing.product(),
+        })
+    }
+}
+
+/// Stress of a slope at rest.
+struct Start<'a> {
+    material: &'a Material,
+    gravity: f64,
+    slope: f64,
+}
+
+impl Start<'_> {
+    /// Gives a point the stress it has at a vertical depth [m] in an infinite
+    /// slope, sheared no more than it can bear.
+    fn press(&self, point: &mut Point, depth: f64) {
+        let (sin, cos) = self.slope.sin_cos();
+        let density = self.material.bulk_density;
+        let normal_stress = density * self.gravity * depth * cos * cos;
+        let shear_stress = density * self.gravity * depth * cos * sin;
+        let lateral = self.lateral_ratio();
+        let normal = Vec3::new(sin, 0.0, cos);
+        let down = Vec3::new(cos, 0.0, -sin);
+        let across = normal * normal.transpose();
+        let stress = across * -normal_stress
+            - (Mat3::identity() - across) * (lateral * normal_stress)
+            + (down * normal.transpose() + normal * down.transpose()) * shear_stress;
+        let pressure = (1.0 + 2.0 * lateral) * normal_stress / 3.0;
+        // Yielding over a long time leaves what friction at rest can bear.
+        const AT_REST: f64 = 1e3;
+        point.stress = self
+            .material
+            .yielded(&Sym3::of(&stress).deviator(), pressure, AT_REST);
+        point.volume = point.mass / self.material.density(pressure);
+    }
+
+    /// Lateral over vertical stress of an elastic bed, ν/(1 − ν).
+    fn lateral_ratio(&self) -> f64 {
+        let (k, g) = (self.material.bulk_modulus, self.material.shear_modulus);
+        (3.0 * k - 2.0 * g) / (3.0 * k + 4.0 * g)
+    }
+}

@@ -1,0 +1,94 @@
+//! Automatic choices: cell size, expected speed, contact modulus
+//! (docs/method.md, section on automatic choices).
+
+use crate::kernel::Lattice;
+use crate::math::Vec3;
+use crate::scenario::Scenario;
+
+/// Cells across the thinnest body.
+const CELLS_PER_BODY: f64 = 4.0;
+/// Cells across the release.
+const CELLS_PER_RELEASE: f64 = 8.0;
+/// Points an automatic cell size may lead to.
+const AUTOMATIC_POINTS: f64 = 400_000.0;
+/// Cell size of a scene without flow or bodies [m].
+const CELL_SIZE_OF_NOTHING: f64 = 0.01;
+/// Overlap of a body at rest on one vertex, over its sphero radius.
+const OVERLAP_AT_REST: f64 = 0.01;
+/// Overlap of an impact on one vertex at the expected speed, over the sphero
+/// radius.
+const OVERLAP_AT_IMPACT: f64 = 0.2;
+
+/// The lattice of a scenario: its cells divide the width evenly, so that both
+/// side walls lie on nodes.
+pub(super) fn lattice(scenario: &Scenario) -> Lattice {
+    let channel = &scenario.channel;
+    let cell = scenario
+        .numerics
+        .cell_size_m
+        .unwrap_or_else(|| automatic_cell_size(scenario));
+    let across = (channel.width_m / cell).round().max(1.0);
+    Lattice {
+        origin: Vec3::new(-channel.incline_length_m, -0.5 * channel.width_m, 0.0),
+        spacing: Vec3::new(cell, channel.width_m / across, cell),
+    }
+}
+
+/// Four cells across the thinnest body, eight across the release, the finer of
+/// both; coarser where that took more than 400,000 points.
+fn automatic_cell_size(scenario: &Scenario) -> f64 {
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let thinnest = (0..scenario.bodies.len())
+        .flat_map(|body| {
+            let shape = scenario.shape_of(body);
+            axes.map(|axis| shape.extent_along(&axis) + shape.extent_along(&-axis))
+        })
+        .fold(f64::INFINITY, f64::min);
+    let flow = scenario.flow.as_ref().filter(|flow| flow.volume_m3 > 0.0);
+    let release = flow.map_or(f64::INFINITY, |flow| flow.release.height_m);
+    let fine = (thinnest / CELLS_PER_BODY).min(release / CELLS_PER_RELEASE);
+    if fine.is_infinite() {
+        return CELL_SIZE_OF_NOTHING;
+    }
+    let per_cell = f64::from(scenario.numerics.points_per_cell);
+    let volume = flow.map_or(0.0, |flow| flow.volume_m3);
+    let affordable = (volume * per_cell / AUTOMATIC_POINTS).cbrt();
+    fine.max(affordable).min(scenario.channel.width_m)
+}
+
+/// Speed the flow is expected to reach [m/s]: the back of the release sliding
+/// to the foot against base friction, and the release collapsing, as energies.
+pub(super) fn expected_speed(scenario: &Scenario) -> f64 {
+    let channel = &scenario.channel;
+    let gravity = scenario.gravity_m_s2;
+    let (sin, cos) = channel.inclination_deg.to_radians().sin_cos();
+    let sliding = scenario.release().map_or(0.0, |release| {
+        let along_slope = -release.back_m / cos;
+        2.0 * gravity * along_slope * (sin - channel.base_friction * cos).max(0.0)
+    });
+    let collapsing = scenario
+        .flow
+        .as_ref()
+        .map_or(0.0, |flow| gravity * flow.release.height_m);
+    let thrown = scenario
+        .bodies
+        .iter()
+        .map(|body| Vec3::from(body.velocity_m_s).norm_squared())
+        .fold(0.0, f64::max);
+    (sliding + collapsing).max(thrown).sqrt()
+}
+
+/// Contact modulus E* of a body with the walls [Pa]: stiff enough that resting
+/// on one vertex overlaps 1 % of the sphero radius, and an impact on one vertex
+/// at the largest speed expected 20 %.
+pub(super) fn contact_modulus(scenario: &Scenario, place: usize, mass: f64, at: &Vec3) -> f64 {
+    let body = &scenario.bodies[place];
+    let radius = body.sphero_radius_m;
+    let gravity = scenario.gravity_m_s2;
+    let falling = 2.0 * gravity * at.z.max(0.0);
+    let thrown = Vec3::from(body.velocity_m_s).norm_squared();
+    let speed_squared = (falling + thrown).max(expected_speed(scenario).powi(2));
+    let at_rest = mass * gravity / (OVERLAP_AT_REST * radius).powf(1.5);
+    let at_impact = 1.25 * mass * speed_squared / (OVERLAP_AT_IMPACT * radius).powf(2.5);
+    0.75 * at_rest.max(at_impact) / radius.sqrt()
+}

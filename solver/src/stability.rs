@@ -1,0 +1,137 @@
+//! How far one sub-step and one step may go (docs/method.md, equations 25–27).
+
+use crate::material::Material;
+use crate::math::Vec3;
+
+/// More sub-steps per transfer than this never pay: a flow at rest would
+/// otherwise never be transferred.
+const MOST_SUBSTEPS_PER_STEP: f64 = 20.0;
+/// Sub-step without a flow, where bodies choose their own [s].
+const SUBSTEP_WITHOUT_FLOW: f64 = 1e-3;
+/// A flow this many times faster than its own sound has blown up.
+const LARGEST_MACH_NUMBER: f64 = 20.0;
+
+/// What bounds the steps of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limits {
+    /// P-wave speed √(M/ρ) [m/s].
+    pub p_wave_speed: f64,
+    /// √(K/ρ) [m/s].
+    pub sound_speed: f64,
+    /// Smallest node distance [m].
+    pub cell_size: f64,
+    /// Courant number of the sub-step.
+    pub courant: f64,
+    /// Cells the fastest point may travel per step.
+    pub flow_courant: f64,
+}
+
+/// The next step: so many sub-steps of so long.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pace {
+    /// Length of a sub-step [s].
+    pub substep: f64,
+    /// Sub-steps in the step.
+    pub count: u32,
+    /// Whether the step ends at the time it was asked to respect.
+    pub reaches: bool,
+}
+
+impl Limits {
+    /// Limits of a material on a grid.
+    pub fn new(material: &Material, spacing: &Vec3, courant: f64, flow_courant: f64) -> Self {
+        Self {
+            p_wave_speed: material.p_wave_speed(),
+            sound_speed: (material.bulk_modulus / material.bulk_density).sqrt(),
+            cell_size: spacing.min(),
+            courant,
+            flow_courant,
+        }
+    }
+
+    /// Longest stable sub-step at this largest speed [s]: a P-wave may cross a
+    /// share of a cell, and a lone point, which rings at √(3K/ρ)/h, must not
+    /// blow up.
+    pub fn substep(&self, speed: f64) -> f64 {
+        let crossing = self.cell_size / (self.p_wave_speed + speed);
+        let lone_point = self.cell_size / (3f64.sqrt() * self.sound_speed);
+        self.courant * crossing.min(lone_point)
+    }
+
+    /// Shortest sub-step accepted [s]; below it the run has blown up.
+    pub fn shortest_substep(&self) -> f64 {
+        self.substep(LARGEST_MACH_NUMBER * self.p_wave_speed)
+    }
+
+    /// The next step: equal sub-steps, none longer than `longest` [s], the
+    /// fastest at `speed` [m/s], and none beyond `remaining` [s].
+    pub fn pace(&self, longest: f64, speed: f64, remaining: f64) -> Pace {
+        let travel = speed * longest;
+        let allowed = if travel > 0.0 {
+            (self.flow_courant * self.cell_size / travel).floor()
+        } else {
+            f64::INFINITY
+        };
+        divide(
+            remaining,
+            longest,
+            allowed.clamp(1.0, MOST_SUBSTEPS_PER_STEP),
+        )
+    }
+}
+
+/// The next step of a scene without a flow.
+pub fn pace_without_flow(remaining: f64) -> Pace {
+    divide(remaining, SUBSTEP_WITHOUT_FLOW, 1.0)
+}
+
+/// Divides what remains into equal sub-steps and takes the first `allowed`.
+fn divide(remaining: f64, longest: f64, allowed: f64) -> Pace {
+    // A whole number but for rounding is that number.
+    let needed = (remaining / longest - 1e-9).ceil().max(1.0);
+    Pace {
+        substep: remaining / needed,
+        count: allowed.min(needed) as u32,
+        reaches: needed <= allowed,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn limits() -> Limits {
+        Limits {
+            p_wave_speed: 25.0,
+            sound_speed: 20.0,
+            cell_size: 0.01,
+            courant: 0.4,
+            flow_courant: 0.2,
+        }
+    }
+
+    #[test]
+    fn a_step_moves_the_fastest_point_by_the_flow_courant_number() {
+        let limits = limits();
+        let longest = limits.substep(2.0);
+        let pace = limits.pace(longest, 2.0, 1.0);
+        let travel = 2.0 * pace.substep * f64::from(pace.count);
+        assert!(travel <= 0.2 * 0.01 && travel > 0.15 * 0.01, "{travel}");
+        assert!(!pace.reaches);
+    }
+
+    #[test]
+    fn steps_end_where_they_are_asked_to() {
+        let limits = limits();
+        let longest = limits.substep(0.0);
+        let pace = limits.pace(longest, 0.0, 3.5 * longest);
+        assert_eq!((pace.count, pace.reaches), (4, true));
+        assert!((pace.substep - 0.875 * longest).abs() < 1e-18);
+    }
+
+    #[test]
+    fn faster_than_sound_is_a_collapse() {
+        let limits = limits();
+        assert!(limits.substep(21.0 * 25.0) < limits.shortest_substep());
+    }
+}

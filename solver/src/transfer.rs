@@ -1,0 +1,268 @@
+//! Transfers between points and grid (docs/method.md, equations 7–13).
+//!
+//! Within one step the weights stay those of the transfer; the displaced nodes
+//! carry the deformation F̂ of every point (two clocks).
+
+use crate::grid::{Grid, Node, PointBlock, TILE, Tile, in_tile};
+use crate::kernel::{Stencil, WIDTH};
+use crate::math::{Mat3, Vec3};
+use crate::points::{Deformation, Point};
+use rayon::prelude::*;
+
+/// Rows of nodes along z in a stencil, by their place in the tile.
+const ROWS: [usize; WIDTH * WIDTH] = {
+    let mut rows = [0; WIDTH * WIDTH];
+    let mut row = 0;
+    while row < rows.len() {
+        rows[row] = in_tile(row / WIDTH, row % WIDTH, 0);
+        row += 1;
+    }
+    rows
+};
+
+/// Node mass and velocity from the points: m_i = Σ w m,
+/// m_i v_i = Σ w m (v + C (x_i − x_p)).
+pub fn scatter_momentum(points: &[Point], grid: &mut Grid) {
+    let lattice = *grid.lattice();
+    grid.scatter(
+        |block, tile| {
+            for point in &points[block.points.clone()] {
+                let stencil = lattice.stencil(&point.position);
+                let mass = Carried {
+                    constant: [
+                        point.mass,
+                        point.mass * point.velocity.x,
+                        point.mass * point.velocity.y,
+                        point.mass * point.velocity.z,
+                    ],
+                    slope: slopes(&(point.affine * point.mass)),
+                };
+                scatter_affine(block, &stencil, &mass, tile);
+            }
+        },
+        |node, [mass, px, py, pz]| {
+            *node = Node {
+                mass,
+                velocity: if mass > 0.0 {
+                    Vec3::new(px, py, pz) / mass
+                } else {
+                    Vec3::zeros()
+                },
+                displacement: Vec3::zeros(),
+                force: Vec3::zeros(),
+            };
+        },
+    );
+}
+
+/// Node forces of stress and contact: f_i = −V σ F̂⁻ᵀ ∇w_i + w_i f_p.
+pub fn scatter_forces(
+    points: &[Point],
+    deformations: &[Deformation],
+    contact_forces: &[Vec3],
+    grid: &mut Grid,
+) {
+    let lattice = *grid.lattice();
+    let inverse_moment = Mat3::from_diagonal(&lattice.kernel_moment().map(f64::recip));
+    grid.scatter(
+        |block, tile| {
+            for place in block.points.clone() {
+                let (point, contact) = (&points[place], &contact_forces[place]);
+                let stencil = lattice.stencil(&point.position);
+                let stress = point.stress.matrix() * deformations[place].inverse.transpose();
+                let force = Carried {
+                    constant: [0.0, contact.x, contact.y, contact.z],
+                    slope: slopes(&(stress * inverse_moment * -point.volume)),
+                };
+                scatter_affine(block, &stencil, &force, tile);
+            }
+        },
+        |node, [_, fx, fy, fz]| node.force = Vec3::new(fx, fy, fz),
+    );
+}
+
+/// Velocity gradient at every point, L = (Σ v_i ⊗ ∇w_i) F̂⁻¹, and the
+/// deformation after the sub-step, F̂ + Δt Σ v_i ⊗ ∇w_i.
+pub fn gather_gradient(grid: &Grid, points: &[Point], dt: f64, deformations: &mut [Deformation]) {
+    let lattice = *grid.lattice();
+    let inverse_moment = Mat3::from_diagonal(&lattice.kernel_moment().map(f64::recip));
+    for_each_block(grid, deformations, |block, deformations| {
+        let velocities = grid.tile_of(block, |node| {
+            [node.velocity.x, node.velocity.y, node.velocity.z, 0.0]
+        });
+        for (point, deformation) in points[block.points.clone()].iter().zip(deformations) {
+            let stencil = lattice.stencil(&point.position);
+            let moments = gather_moments(block, &stencil, &velocities);
+            let at_transfer = moments.first * inverse_moment;
+            deformation.advance(&at_transfer, dt);
+        }
+    });
+}
+
+/// Ends a step: velocity, affine velocity and position of every point from
+/// the displaced nodes.
+///
+/// The affine velocity is the gradient on the displaced nodes, C F̂⁻¹, with
+/// its skew part set so that points and displaced nodes have the same angular
+/// momentum.
+pub fn gather_motion(grid: &Grid, deformations: &[Deformation], points: &mut [Point]) {
+    let lattice = *grid.lattice();
+    let moment = lattice.kernel_moment();
+    let inverse_moment = Mat3::from_diagonal(&moment.map(f64::recip));
+    for_each_block(grid, points, |block, points| {
+        let velocities = grid.tile_of(block, |node| {
+            [node.velocity.x, node.velocity.y, node.velocity.z, 0.0]
+        });
+        let displacements = grid.tile_of(block, |node| {
+            [
+                node.displacement.x,
+                node.displacement.y,
+                node.displacement.z,
+                0.0,
+            ]
+        });
+        let deformations = &deformations[block.points.clone()];
+        for (point, deformation) in points.iter_mut().zip(deformations) {
+            let stencil = lattice.stencil(&point.position);
+            let velocity = gather_moments(block, &stencil, &velocities);
+            let displacement = gather_moments(block, &stencil, &displacements).zeroth;
+            let outer = gather_outer(block, &stencil, &velocities, &displacements);
+            // Σ w v_i (x_i' − x_p')ᵀ on the displaced nodes.
+            let on_displaced = velocity.first + outer - velocity.zeroth * displacement.transpose();
+            let gradient = velocity.first * inverse_moment * deformation.inverse;
+            point.velocity = velocity.zeroth;
+            point.position += displacement;
+            point.affine = with_angular_momentum(&gradient, &on_displaced, &moment);
+        }
+    });
+}
+
+/// `gradient` with the skew part that makes (affine · h²/4) have the skew part
+/// of `target`.
+fn with_angular_momentum(gradient: &Mat3, target: &Mat3, moment: &Vec3) -> Mat3 {
+    let mut affine = *gradient;
+    for (a, b) in [(0, 1), (0, 2), (1, 2)] {
+        let symmetric = 0.5 * (gradient[(a, b)] + gradient[(b, a)]);
+        let wanted = target[(a, b)] - target[(b, a)];
+        let skew = (wanted - symmetric * (moment[b] - moment[a])) / (moment[a] + moment[b]);
+        affine[(a, b)] = symmetric + skew;
+        affine[(b, a)] = symmetric - skew;
+    }
+    affine
+}
+
+/// Velocity and displacement of the grid at a point's transfer position.
+pub fn motion_at(grid: &Grid, block: &PointBlock, stencil: &Stencil) -> (Vec3, Vec3) {
+    let mut velocity = Vec3::zeros();
+    let mut displacement = Vec3::zeros();
+    for (a, b, c, node) in grid.stencil_nodes(block, stencil.base) {
+        let weight = stencil.weight[0][a] * stencil.weight[1][b] * stencil.weight[2][c];
+        velocity += node.velocity * weight;
+        displacement += node.displacement * weight;
+    }
+    (velocity, displacement)
+}
+
+/// A quantity that varies linearly about the point: constant + slope · d.
+struct Carried {
+    constant: [f64; 4],
+    slope: [[f64; 4]; 3],
+}
+
+/// Columns of a matrix as slopes of components 1..4.
+fn slopes(matrix: &Mat3) -> [[f64; 4]; 3] {
+    [0, 1, 2].map(|axis| {
+        let column = matrix.column(axis);
+        [0.0, column[0], column[1], column[2]]
+    })
+}
+
+fn scatter_affine(block: &PointBlock, stencil: &Stencil, carried: &Carried, tile: &mut Tile) {
+    let base = block.tile_base(stencil.base);
+    let [wx, wy, wz] = &stencil.weight;
+    let [dx, dy, dz] = &stencil.offset;
+    let [slope_x, slope_y, slope_z] = &carried.slope;
+    for (n, row) in ROWS.iter().enumerate() {
+        let (a, b) = (n / WIDTH, n % WIDTH);
+        let weight = wx[a] * wy[b];
+        let start: [f64; 4] = std::array::from_fn(|k| {
+            weight * (carried.constant[k] + slope_x[k] * dx[a] + slope_y[k] * dy[b])
+        });
+        let nodes = &mut tile[base + row..][..WIDTH];
+        for c in 0..WIDTH {
+            let along = weight * dz[c];
+            for k in 0..4 {
+                nodes[c][k] += wz[c] * (start[k] + slope_z[k] * along);
+            }
+        }
+    }
+}
+
+/// Σ w q and Σ w q dᵀ of a nodal vector q.
+struct Moments {
+    zeroth: Vec3,
+    first: Mat3,
+}
+
+fn gather_moments(block: &PointBlock, stencil: &Stencil, tile: &Tile) -> Moments {
+    let base = block.tile_base(stencil.base);
+    let [wx, wy, wz] = &stencil.weight;
+    let [dx, dy, dz] = &stencil.offset;
+    let wdz = [wz[0] * dz[0], wz[1] * dz[1], wz[2] * dz[2]];
+    let mut sums = [[0.0; 4]; 4];
+    for (n, row) in ROWS.iter().enumerate() {
+        let (a, b) = (n / WIDTH, n % WIDTH);
+        let weight = wx[a] * wy[b];
+        let nodes = &tile[base + row..][..WIDTH];
+        for k in 0..4 {
+            let plain = wz[0] * nodes[0][k] + wz[1] * nodes[1][k] + wz[2] * nodes[2][k];
+            let along = wdz[0] * nodes[0][k] + wdz[1] * nodes[1][k] + wdz[2] * nodes[2][k];
+            sums[0][k] += weight * plain;
+            sums[1][k] += weight * dx[a] * plain;
+            sums[2][k] += weight * dy[b] * plain;
+            sums[3][k] += weight * along;
+        }
+    }
+    let column = |sum: [f64; 4]| Vec3::new(sum[0], sum[1], sum[2]);
+    Moments {
+        zeroth: column(sums[0]),
+        first: Mat3::from_columns(&[column(sums[1]), column(sums[2]), column(sums[3])]),
+    }
+}
+
+/// Σ w q rᵀ of two nodal vectors.
+fn gather_outer(block: &PointBlock, stencil: &Stencil, q: &Tile, r: &Tile) -> Mat3 {
+    let base = block.tile_base(stencil.base);
+    let mut outer = Mat3::zeros();
+    for a in 0..WIDTH {
+        for b in 0..WIDTH {
+            for c in 0..WIDTH {
+                let weight = stencil.weight[0][a] * stencil.weight[1][b] * stencil.weight[2][c];
+                let place = base + (a * TILE + b) * TILE + c;
+                let (q, r) = (&q[place], &r[place]);
+                outer +=
+                    Vec3::new(q[0], q[1], q[2]) * weight * Vec3::new(r[0], r[1], r[2]).transpose();
+            }
+        }
+    }
+    outer
+}
+
+/// Runs over the blocks of points in parallel, each with its own share of a
+/// list that has one entry per point.
+fn for_each_block<T: Send>(
+    grid: &Grid,
+    list: &mut [T],
+    visit: impl Fn(&PointBlock, &mut [T]) + Sync,
+) {
+    let mut rest = list;
+    let mut shares = Vec::with_capacity(grid.point_blocks().len());
+    for block in grid.point_blocks() {
+        let (share, tail) = rest.split_at_mut(block.points.len());
+        rest = tail;
+        shares.push((block, share));
+    }
+    shares
+        .into_par_iter()
+        .for_each(|(block, share)| visit(block, share));
+}

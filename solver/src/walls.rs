@@ -1,0 +1,342 @@
+//! The channel's walls: planes for bodies, and constraints on grid nodes.
+//!
+//! The channel is convex: it lies above the floor and above the incline, and
+//! between the upright walls. The upright walls lie on grid planes and act as
+//! mirrors: a node and its images move as one, so a smooth wall reflects
+//! exactly. Incline and floor stop inflow at the nodes on and below them.
+
+use crate::grid::Grid;
+use crate::math::Vec3;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// A wall's surface; the channel lies on the side its normal points to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// What people call it.
+    pub name: &'static str,
+    /// Unit normal into the channel.
+    pub normal: Vec3,
+    /// normal · x of its points [m].
+    pub offset: f64,
+    /// Coulomb friction of the flow.
+    pub flow_friction: f64,
+}
+
+impl Plane {
+    /// Height of a place above the plane [m]; negative behind it.
+    pub fn height(&self, x: &Vec3) -> f64 {
+        self.normal.dot(x) - self.offset
+    }
+}
+
+/// All walls of the channel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Walls {
+    /// Incline and floor: every place of the channel is above each of them.
+    pub base: Vec<Plane>,
+    /// The mirrors.
+    pub upright: Upright,
+}
+
+/// The upright walls, on planes of nodes: back at index 0 along x, sides at
+/// index 0 and `cells_across` along y.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Upright {
+    /// Back wall, then the two sides.
+    pub planes: [Plane; 3],
+    /// Cells between the side walls.
+    pub cells_across: i32,
+}
+
+/// Impulse that walls gave, linear [N s] and angular about the origin [N m s].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Impulse {
+    /// Linear [N s].
+    pub linear: Vec3,
+    /// Angular about the origin [N m s].
+    pub angular: Vec3,
+}
+
+impl Impulse {
+    /// Adds an impulse `linear` that acts at `x`.
+    pub fn add_at(&mut self, x: &Vec3, linear: &Vec3) {
+        self.linear += linear;
+        self.angular += x.cross(linear);
+    }
+}
+
+/// A node with its images: they move as one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Member {
+    place: u32,
+    /// +1, or −1 where the image is mirrored, for x and y.
+    sign: [f64; 2],
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Group {
+    members: Range<usize>,
+    back: Meets,
+    side: Meets,
+    /// Which base planes it is on or below, as bits.
+    below: u8,
+}
+
+/// How a group of nodes meets an upright wall; `inward` is the sign of the
+/// wall's normal along its axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Meets {
+    Not,
+    /// One node away, so that its image is behind the wall.
+    Near {
+        inward: f64,
+    },
+    /// On the wall's plane: it has no normal velocity.
+    On {
+        inward: f64,
+    },
+}
+
+/// The nodes of one step that walls act on.
+#[derive(Debug, Default)]
+pub struct Boundary {
+    members: Vec<Member>,
+    groups: Vec<Group>,
+}
+
+impl Walls {
+    /// Every plane a body can touch.
+    pub fn planes(&self) -> impl Iterator<Item = &Plane> {
+        self.base.iter().chain(&self.upright.planes)
+    }
+
+    /// Finds the nodes that walls act on.
+    pub fn find_boundary(&self, grid: &Grid, boundary: &mut Boundary) {
+        boundary.members.clear();
+        boundary.groups.clear();
+        for (place, node) in grid.nodes().iter().enumerate() {
+            let index = grid.index_of(place);
+            if self.upright.mirrored(index) == index {
+                self.add_group(grid, place, node.mass, index, boundary);
+            }
+        }
+    }
+
+    fn add_group(
+        &self,
+        grid: &Grid,
+        place: usize,
+        mass: f64,
+        index: [i32; 3],
+        boundary: &mut Boundary,
+    ) {
+        let below = self.below(&grid.lattice().position(index));
+        let start = boundary.members.len();
+        boundary.members.push(Member {
+            place: place as u32,
+            sign: [1.0, 1.0],
+        });
+        self.upright
+            .for_each_image(index, |image, sign| match grid.place_of(image) {
+                Some(place) if grid.nodes()[place].mass > 0.0 => boundary.members.push(Member {
+                    place: place as u32,
+                    sign,
+                }),
+                _ => {}
+            });
+        let back = self.upright.meets_back(index);
+        let side = self.upright.meets_side(index);
+        let plain = below == 0 && back == Meets::Not && side == Meets::Not;
+        let empty = mass <= 0.0 && boundary.members.len() == start + 1;
+        if plain || empty {
+            boundary.members.truncate(start);
+            return;
+        }
+        boundary.groups.push(Group {
+            members: start..boundary.members.len(),
+            back,
+            side,
+            below,
+        });
+    }
+
+    fn below(&self, x: &Vec3) -> u8 {
+        // A node that lies on the plane but for rounding belongs to it.
+        let rounding = 1e-9 * (1.0 + x.norm());
+        self.base
+            .iter()
+            .enumerate()
+            .filter(|(_, plane)| plane.height(x) <= rounding)
+            .fold(0, |bits, (which, _)| bits | 1 << which)
+    }
+
+    /// Makes node velocities obey the walls: no inflow, free separation,
+    /// Coulomb friction. Returns the impulse given to the flow.
+    pub fn constrain(&self, boundary: &Boundary, grid: &mut Grid) -> Impulse {
+        let mut given = Impulse::default();
+        for group in &boundary.groups {
+            let members = &boundary.members[group.members.clone()];
+            let velocity = self.velocity_of(group, members, grid);
+            for member in members {
+                let place = member.place as usize;
+                let resting = grid.lattice().position(grid.index_of(place));
+                let node = grid.node_mut(place);
+                let new = mirrored(&velocity, member.sign);
+                let impulse = (new - node.velocity) * node.mass;
+                given.add_at(&(resting + node.displacement), &impulse);
+                node.velocity = new;
+            }
+        }
+        given
+    }
+
+    /// Common velocity of a group in the frame of its first member.
+    fn velocity_of(&self, group: &Group, members: &[Member], grid: &Grid) -> Vec3 {
+        let folded = Folded::of(members, grid);
+        let mut velocity = folded.momentum / folded.mass;
+        for (axis, meets) in [(0, group.back), (1, group.side)] {
+            let inward = match meets {
+                Meets::Not => continue,
+                Meets::Near { inward } => inward,
+                Meets::On { inward } => {
+                    velocity[axis] = 0.0;
+                    inward
+                }
+            };
+            let friction = self.upright.planes[axis].flow_friction;
+            let after = velocity[axis] * folded.signed_mass[axis];
+            let pressed = (after - folded.unfolded[axis]) * inward;
+            if friction > 0.0 && pressed > 0.0 {
+                rub(axis, friction * pressed / folded.mass, &mut velocity);
+            }
+        }
+        let against_back_wall = matches!(group.back, Meets::On { .. });
+        for (which, plane) in self.base.iter().enumerate() {
+            if group.below & 1 << which != 0 {
+                constrain_to(plane, against_back_wall, &mut velocity);
+            }
+        }
+        velocity
+    }
+}
+
+/// What a node and its images carry together.
+struct Folded {
+    mass: f64,
+    /// Momentum, the images' mirrored back.
+    momentum: Vec3,
+    /// Momentum as it lies on the grid.
+    unfolded: Vec3,
+    /// Mass less mass of images, for x and y.
+    signed_mass: [f64; 2],
+}
+
+impl Folded {
+    fn of(members: &[Member], grid: &Grid) -> Self {
+        let mut folded = Self {
+            mass: 0.0,
+            momentum: Vec3::zeros(),
+            unfolded: Vec3::zeros(),
+            signed_mass: [0.0; 2],
+        };
+        for member in members {
+            let node = &grid.nodes()[member.place as usize];
+            folded.mass += node.mass;
+            folded.momentum += mirrored(&node.velocity, member.sign) * node.mass;
+            folded.unfolded += node.velocity * node.mass;
+            for axis in 0..2 {
+                folded.signed_mass[axis] += member.sign[axis] * node.mass;
+            }
+        }
+        folded
+    }
+}
+
+/// Coulomb friction of an upright wall: takes at most `largest_loss` of the
+/// speed along it.
+fn rub(axis: usize, largest_loss: f64, velocity: &mut Vec3) {
+    let normal = velocity[axis];
+    velocity[axis] = 0.0;
+    *velocity *= kept_by_friction(largest_loss, velocity.norm());
+    velocity[axis] = normal;
+}
+
+/// No inflow through a base plane, and friction on what was stopped.
+fn constrain_to(plane: &Plane, against_back_wall: bool, velocity: &mut Vec3) {
+    // On the back wall only the vertical is left to move in, so the incline
+    // acts along it there.
+    let normal = if against_back_wall {
+        Vec3::z()
+    } else {
+        plane.normal
+    };
+    let inflow = -velocity.dot(&normal);
+    if inflow <= 0.0 {
+        return;
+    }
+    let tangential = *velocity + normal * inflow;
+    *velocity = tangential * kept_by_friction(plane.flow_friction * inflow, tangential.norm());
+}
+
+/// Share of a tangential speed that Coulomb friction leaves.
+fn kept_by_friction(largest_loss: f64, speed: f64) -> f64 {
+    if speed > largest_loss {
+        1.0 - largest_loss / speed
+    } else {
+        0.0
+    }
+}
+
+fn mirrored(v: &Vec3, sign: [f64; 2]) -> Vec3 {
+    Vec3::new(sign[0] * v.x, sign[1] * v.y, v.z)
+}
+
+impl Upright {
+    /// The node in the channel that a node is the image of (itself, mostly).
+    fn mirrored(&self, [i, j, k]: [i32; 3]) -> [i32; 3] {
+        let across = self.cells_across;
+        let j = j.abs();
+        [i.abs(), if j > across { 2 * across - j } else { j }, k]
+    }
+
+    /// Visits the images that the kernel can reach, one node behind a wall.
+    fn for_each_image(&self, [i, j, k]: [i32; 3], mut visit: impl FnMut([i32; 3], [f64; 2])) {
+        let across = self.cells_across;
+        let along_x = [Some((i, 1.0)), (i == 1).then_some((-i, -1.0))];
+        let along_y = [
+            Some((j, 1.0)),
+            (j == 1).then_some((-j, -1.0)),
+            (j == across - 1).then_some((2 * across - j, -1.0)),
+        ];
+        for (x, &(i, sign_x)) in along_x.iter().flatten().enumerate() {
+            for (y, &(j, sign_y)) in along_y.iter().flatten().enumerate() {
+                if x + y > 0 {
+                    visit([i, j, k], [sign_x, sign_y]);
+                }
+            }
+        }
+    }
+
+    fn meets_back(&self, [i, ..]: [i32; 3]) -> Meets {
+        meets(i, 1.0)
+    }
+
+    fn meets_side(&self, [_, j, _]: [i32; 3]) -> Meets {
+        let from_far_side = self.cells_across - j;
+        if from_far_side < j {
+            meets(from_far_side, -1.0)
+        } else {
+            meets(j, 1.0)
+        }
+    }
+}
+
+/// How a node `distance` nodes from a wall meets it.
+fn meets(distance: i32, inward: f64) -> Meets {
+    match distance {
+        0 => Meets::On { inward },
+        1 => Meets::Near { inward },
+        _ => Meets::Not,
+    }
+}
