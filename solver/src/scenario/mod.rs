@@ -1,4 +1,22 @@
 //! The scenario: strict JSON in, validated description out.
+//!
+//! Every field with its meaning, unit, default and range is in
+//! `docs/scenario.md`.
+
+mod agreement;
+mod body;
+mod fit;
+mod node;
+mod parse;
+mod placement;
+mod range;
+mod reader;
+mod rules;
+mod sections;
+#[cfg(test)]
+mod tests;
+
+pub use placement::{Pose, ReleaseBox, Support};
 
 mod placement;
 pub use placement::{Pose, ReleaseBox};
@@ -165,7 +183,8 @@ pub struct Numerics {
 pub struct Violation {
     /// JSON pointer (RFC 6901) of the field, "" for the whole document.
     pub pointer: String,
-    /// The value received (null if missing).
+    /// The value received (null if missing; long texts cut, of large objects and
+    /// lists only the size).
     pub value: serde_json::Value,
     /// What is allowed, in words or as a range such as "0 < x <= 89".
     pub allowed: String,

@@ -90,9 +90,9 @@ fn row(body: &SpheroPolyhedron, x: f64, y: f64, reach: f64) -> Option<(f64, f64)
     for _ in 0..60 {
         let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
         if depth(a) < depth(b) {
-            high = b
+            high = b;
         } else {
-            low = a
+            low = a;
         }
     }
     let lowest = (low + high) / 2.0;
@@ -101,9 +101,9 @@ fn row(body: &SpheroPolyhedron, x: f64, y: f64, reach: f64) -> Option<(f64, f64)
         for _ in 0..40 {
             let middle = (inner + outer) / 2.0;
             if depth(middle) < 0.0 {
-                inner = middle
+                inner = middle;
             } else {
-                outer = middle
+                outer = middle;
             }
         }
         inner

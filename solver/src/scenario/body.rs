@@ -1,0 +1,202 @@
+//! Readers of the bodies.
+
+use super::node::Node;
+use super::range::short;
+use super::reader::{Object, Report};
+use super::rules::*;
+use super::{Body, Position, Shape};
+use crate::shape::ShapeError;
+
+/// The list of bodies; a refused body is `None`.
+pub(super) fn read_bodies(parent: &Object<'_>) -> Option<Vec<Option<Body>>> {
+    let allowed = format!("a list of at most {BODIES} bodies");
+    let pointer = parent.pointer_to("bodies");
+    match parent.required("bodies", &allowed)? {
+        Node::List(items) if items.len() <= BODIES => Some(
+            items
+                .iter()
+                .enumerate()
+                .map(|(index, node)| read_body(node, format!("{pointer}/{index}"), parent.report))
+                .collect(),
+        ),
+        _ => {
+            let why = format!("must be {allowed}");
+            parent.report.refuse(&pointer, &allowed, None, &why);
+            None
+        }
+    }
+}
+
+fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
+    let object = Object::open(node, pointer, report)?;
+    let shape = read_shape(&object);
+    let size = shape.as_ref().map(Shape::size_m);
+    let sphero_radius_m = object.number_or(
+        &SPHERO_RADIUS,
+        size.map(|size| size / SIZE_PER_SPHERO_RADIUS),
+    );
+    let density_kg_m3 = object.number(&BODY_DENSITY);
+    let position = object
+        .defaulted("position")
+        .and_then(|o| read_position(&o, size));
+    let turn = read_turn(&object);
+    let velocities = read_velocities(&object);
+    let friction = object.number(&FRICTION);
+    let restitution = object.number(&RESTITUTION);
+    let flow_friction = object.number(&FLOW_FRICTION);
+    let flow_restitution = object.number(&FLOW_RESTITUTION);
+    let contact_modulus_pa = object.automatic(&CONTACT_MODULUS);
+    let fixed = object.flag("fixed", false);
+    object.refuse_unknown();
+    rounding_fits(&object, shape.as_ref(), sphero_radius_m);
+    let ((yaw_deg, orientation), (velocity_m_s, angular_velocity_rad_s)) = (turn?, velocities?);
+    let body = Body {
+        shape: shape?,
+        sphero_radius_m: sphero_radius_m?,
+        density_kg_m3: density_kg_m3?,
+        position: position?,
+        yaw_deg,
+        orientation,
+        velocity_m_s,
+        angular_velocity_rad_s,
+        friction: friction?,
+        restitution: restitution?,
+        flow_friction: flow_friction?,
+        flow_restitution: flow_restitution?,
+        contact_modulus_pa: contact_modulus_pa?,
+        fixed: fixed?,
+    };
+    fixed_bodies_stand(&object, &body);
+    // A body whose shape can't be built has been refused above.
+    body.shape
+        .build(body.sphero_radius_m)
+        .is_ok()
+        .then_some(body)
+}
+
+fn read_shape(parent: &Object<'_>) -> Option<Shape> {
+    const SHAPES: &str = "exactly one of: cube";
+    let node = parent.required("shape", SHAPES)?;
+    let object = parent.object(node, "shape")?;
+    if object.members().len() != 1 {
+        let why = "must name exactly one shape";
+        object.report.refuse(&object.pointer, SHAPES, None, why);
+        return None;
+    }
+    let cube = object.member("cube");
+    object.refuse_unknown();
+    let cube = object.object(cube?, "cube")?;
+    let side_m = cube.number(&CUBE_SIDE);
+    cube.refuse_unknown();
+    Some(Shape::Cube { side_m: side_m? })
+}
+
+fn read_position(object: &Object<'_>, size: Option<f64>) -> Option<Position> {
+    let downstream_m = object.number_or(&DOWNSTREAM, size);
+    let lateral_m = object.number(&LATERAL);
+    let elevation_m = object.automatic(&ELEVATION);
+    object.refuse_unknown();
+    Some(Position {
+        downstream_m: downstream_m?,
+        lateral_m: lateral_m?,
+        elevation_m: elevation_m?,
+    })
+}
+
+/// Yaw and orientation, of which one at most is given.
+fn read_turn(object: &Object<'_>) -> Option<(f64, Option<[f64; 4]>)> {
+    let yaw_deg = object.number(&YAW);
+    let orientation = match object.automatic_vector(&ORIENTATION)? {
+        None => None,
+        Some(quaternion) => Some(normalised(object, quaternion)?),
+    };
+    let yaw_deg = yaw_deg?;
+    if yaw_deg != 0.0 && orientation.is_some() {
+        let allowed = "0 while orientation is given";
+        let why = "turns a body whose orientation is given: give one of the two";
+        object
+            .report
+            .refuse(&object.pointer_to(YAW.key), allowed, YAW.unit, why);
+        return None;
+    }
+    Some((yaw_deg, orientation))
+}
+
+/// A quaternion of unit length, if it is nearly so as given. One that is unit
+/// to rounding is left alone: reading a scenario twice changes nothing.
+fn normalised(object: &Object<'_>, quaternion: [f64; 4]) -> Option<[f64; 4]> {
+    let norm = quaternion
+        .iter()
+        .map(|part| part * part)
+        .sum::<f64>()
+        .sqrt();
+    let error = (norm - 1.0).abs();
+    if error > QUATERNION_SLACK {
+        let allowed = format!("[w, x, y, z] of length 1 within {QUATERNION_SLACK}");
+        let why = format!(
+            "must be a unit quaternion, but its length is {}",
+            short(norm)
+        );
+        object
+            .report
+            .refuse(&object.pointer_to(ORIENTATION.key), &allowed, None, &why);
+        return None;
+    }
+    let scale = if error < 1e-12 { 1.0 } else { norm };
+    Some(quaternion.map(|part| part / scale))
+}
+
+fn read_velocities(object: &Object<'_>) -> Option<([f64; 3], [f64; 3])> {
+    let velocity = object.vector(&VELOCITY);
+    let angular_velocity = object.vector(&ANGULAR_VELOCITY);
+    Some((velocity?, angular_velocity?))
+}
+
+fn fixed_bodies_stand(object: &Object<'_>, body: &Body) {
+    let given = [
+        (&VELOCITY, body.velocity_m_s),
+        (&ANGULAR_VELOCITY, body.angular_velocity_rad_s),
+    ];
+    for (rule, velocity) in given {
+        if body.fixed && velocity != [0.0; 3] {
+            let why = "must be zero, since the body is fixed";
+            object
+                .report
+                .refuse(&object.pointer_to(rule.key), "[0, 0, 0]", rule.unit, why);
+        }
+    }
+}
+
+fn rounding_fits(object: &Object<'_>, shape: Option<&Shape>, radius: Option<f64>) {
+    let (Some(shape), Some(radius)) = (shape, radius) else {
+        return;
+    };
+    let Err(error) = shape.build(radius) else {
+        return;
+    };
+    let pointer = object.pointer_to(SPHERO_RADIUS.key);
+    match error {
+        ShapeError::RadiusNotBelowInradius { inradius_m, .. } => {
+            let inradius = short(inradius_m);
+            let why = format!(
+                "is {}, not below the inradius {inradius} of the shape",
+                short(radius)
+            );
+            object.report.refuse(
+                &pointer,
+                &format!("0 < x < {inradius}"),
+                SPHERO_RADIUS.unit,
+                &why,
+            );
+        }
+        other => {
+            let allowed = "a radius that leaves a core";
+            object.report.refuse(
+                &pointer,
+                allowed,
+                SPHERO_RADIUS.unit,
+                &format!("makes no solid: {other}"),
+            );
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! Rules of geometry: what is released fits the incline, bodies are inside the
+//! channel and apart.
+
+use super::placement::Pose;
+use super::range::{rounded_down, rounded_up, short};
+use super::reader::{Report, field_name};
+use super::rules::{CELL_SIZE, DOWNSTREAM, ELEVATION, LATERAL, TOE_DISTANCE, TOUCHING, VOLUME};
+use super::{Body, Channel, Flow, Numerics};
+use crate::shape::{SpheroPolyhedron, separation};
+use nalgebra::Vector3;
+
+/// Rounding of a length computed from the scenario's own numbers.
+const ROUNDING: f64 = 1e-9;
+
+/// The release lies on the incline.
+pub(super) fn release_fits(report: &Report, channel: &Channel, flow: &Flow) {
+    let incline = channel.incline_length_m;
+    let toe = flow.release.toe_distance_m;
+    if toe >= incline {
+        let why = format!(
+            "is {}, not less than channel.incline_length_m ({})",
+            short(toe),
+            short(incline)
+        );
+        let pointer = format!("/flow/release/{}", TOE_DISTANCE.key);
+        let allowed = format!("0 <= x < {}", short(incline));
+        report.refuse(&pointer, &allowed, TOE_DISTANCE.unit, &why);
+        return;
+    }
+    let release = channel.release_box(flow);
+    let largest = channel.width_m * release.vertical_thickness_m * (incline - toe);
+    if flow.volume_m3 > largest * (1.0 + ROUNDING) {
+        let largest = short(rounded_down(largest));
+        let why = format!(
+            "is {}, but at this release height and toe distance the incline holds {largest} m³ at most",
+            short(flow.volume_m3)
+        );
+        let pointer = format!("/flow/{}", VOLUME.key);
+        report.refuse(&pointer, &format!("0 <= x <= {largest}"), VOLUME.unit, &why);
+    }
+}
+
+/// A cell is no wider than the channel.
+pub(super) fn cells_fit(report: &Report, channel: &Channel, numerics: &Numerics) {
+    let width = channel.width_m;
+    if let Some(size) = numerics.cell_size_m.filter(|&size| size > width) {
+        let why = format!(
+            "is {}, more than channel.width_m ({})",
+            short(size),
+            short(width)
+        );
+        let pointer = format!("/numerics/{}", CELL_SIZE.key);
+        report.refuse(
+            &pointer,
+            &format!("0 < x <= {}", short(width)),
+            CELL_SIZE.unit,
+            &why,
+        );
+    }
+}
+
+/// A place for people [m]: without the noise of rounding, and within the
+/// slack even of the smallest bodies.
+fn to_nanometre(place: f64) -> f64 {
+    (place * 1e9).round() / 1e9
+}
+
+/// A body with its solid and pose.
+struct Placed<'a> {
+    pointer: String,
+    body: &'a Body,
+    shape: SpheroPolyhedron,
+    pose: Pose,
+    /// Overlap that still counts as touching [m].
+    slack: f64,
+}
+
+impl Placed<'_> {
+    /// How far the body reaches from its centre in a channel direction [m].
+    fn reach(&self, direction: &Vector3<f64>) -> f64 {
+        let direction = self.pose.orientation.inverse_transform_vector(direction);
+        self.shape.extent_along(&direction)
+    }
+
+    fn pointer_to(&self, key: &str) -> String {
+        format!("{}/position/{key}", self.pointer)
+    }
+}
+
+fn placed<'a>(channel: &Channel, bodies: &'a [Option<Body>]) -> Vec<Placed<'a>> {
+    let place = |(index, body): (usize, &'a Option<Body>)| {
+        let body = body.as_ref()?;
+        let shape = body.shape.build(body.sphero_radius_m).ok()?;
+        Some(Placed {
+            pointer: format!("/bodies/{index}"),
+            pose: body.pose(&shape, channel),
+            slack: TOUCHING * body.sphero_radius_m,
+            body,
+            shape,
+        })
+    };
+    bodies.iter().enumerate().filter_map(place).collect()
+}
+
+/// No body reaches into a wall, the bed, or out of the open end.
+pub(super) fn bodies_are_inside(report: &Report, channel: &Channel, bodies: &[Option<Body>]) {
+    for placed in placed(channel, bodies) {
+        is_between_the_sides(report, channel, &placed);
+        is_between_the_ends(report, channel, &placed);
+        is_above_the_bed(report, channel, &placed);
+    }
+}
+
+fn is_between_the_sides(report: &Report, channel: &Channel, placed: &Placed<'_>) {
+    let half = channel.width_m / 2.0;
+    let low = placed.reach(&-Vector3::y()) - half;
+    let high = half - placed.reach(&Vector3::y());
+    is_between(
+        report,
+        placed,
+        (LATERAL.key, placed.pose.position.y),
+        (low, high),
+        "a side wall",
+    );
+}
+
+fn is_between_the_ends(report: &Report, channel: &Channel, placed: &Placed<'_>) {
+    let low = placed.reach(&-Vector3::x()) - channel.incline_length_m;
+    let high = channel.runout_length_m - placed.reach(&Vector3::x());
+    let what = "the back wall or out of the open end";
+    is_between(
+        report,
+        placed,
+        (DOWNSTREAM.key, placed.pose.position.x),
+        (low, high),
+        what,
+    );
+}
+
+fn is_between(
+    report: &Report,
+    placed: &Placed<'_>,
+    (key, value): (&str, f64),
+    (low, high): (f64, f64),
+    what: &str,
+) {
+    if value >= low - placed.slack && value <= high + placed.slack {
+        return;
+    }
+    let (low, high) = (to_nanometre(low), to_nanometre(high));
+    let allowed = if low <= high {
+        format!("{} <= x <= {}", short(low), short(high))
+    } else {
+        "nothing: the channel is too small for the body".to_owned()
+    };
+    let why = format!("is {}, which puts the body into {what}", short(value));
+    report.refuse(&placed.pointer_to(key), &allowed, Some("m"), &why);
+}
+
+/// Above the floor and above the plane of the incline: the channel is convex,
+/// so that both hold everywhere in it.
+fn is_above_the_bed(report: &Report, channel: &Channel, placed: &Placed<'_>) {
+    let normal = channel.slope_normal();
+    let position = placed.pose.position;
+    let above_floor = placed.reach(&-Vector3::z());
+    let above_slope = (placed.reach(&-normal) - position.x * normal.x) / normal.z;
+    let lowest = above_floor.max(above_slope);
+    if position.z >= lowest - placed.slack {
+        return;
+    }
+    let bound = short(to_nanometre(lowest));
+    let allowed = format!("x >= {bound}");
+    let why = match placed.body.position.elevation_m {
+        Some(elevation) => format!(
+            "is {}, which puts the body into the bed: its centre must be at {bound} m or higher",
+            short(elevation)
+        ),
+        None => format!(
+            "must be given (at least {bound} m), because the body straddles the foot of the incline"
+        ),
+    };
+    report.refuse(
+        &placed.pointer_to(ELEVATION.key),
+        &allowed,
+        ELEVATION.unit,
+        &why,
+    );
+}
+
+/// No two rounded bodies overlap.
+pub(super) fn bodies_are_apart(report: &Report, channel: &Channel, bodies: &[Option<Body>]) {
+    let placed = placed(channel, bodies);
+    for (index, second) in placed.iter().enumerate() {
+        for first in &placed[..index] {
+            let overlap = overlap(first, second);
+            if overlap > first.slack.min(second.slack) {
+                let other = field_name(&first.pointer);
+                let why = format!(
+                    "puts the body {} m into {other}",
+                    short(rounded_up(overlap))
+                );
+                let allowed = format!("a place clear of {other}");
+                report.refuse(
+                    &format!("{}/position", second.pointer),
+                    &allowed,
+                    Some("m"),
+                    &why,
+                );
+            }
+        }
+    }
+}
+
+/// Overlap of two rounded bodies [m]; negative if they are apart.
+fn overlap(a: &Placed<'_>, b: &Placed<'_>) -> f64 {
+    let balls = a.shape.bounding_radius() + b.shape.bounding_radius();
+    let far = balls - (a.pose.position - b.pose.position).norm();
+    if far < 0.0 {
+        return far;
+    }
+    let rounding = a.shape.sphero_radius() + b.shape.sphero_radius();
+    rounding - separation(&a.shape, &a.pose.isometry(), &b.shape, &b.pose.isometry())
+}

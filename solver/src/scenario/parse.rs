@@ -1,0 +1,116 @@
+//! From JSON to a validated scenario, all violations at once.
+
+use super::agreement::{samples_are_bounded, stiffness_is_given_once};
+use super::body::read_bodies;
+use super::fit;
+use super::node::Node;
+use super::reader::{Object, Report};
+use super::rules::{DURATION, FLOW_SNAPSHOTS, GRAVITY, SAMPLE_INTERVAL, VALUES};
+use super::sections::{read_channel, read_flow, read_numerics, read_title};
+use super::{Body, Channel, Flow, Numerics, Scenario, ScenarioError};
+use serde_json::Value;
+
+impl Scenario {
+    /// Reads a scenario from its JSON text.
+    ///
+    /// # Errors
+    /// The text is no JSON, or violates rules of `docs/scenario.md`: then all
+    /// violations are listed, in document order.
+    pub fn from_json(text: &str) -> Result<Self, ScenarioError> {
+        from_node(&Node::parse(text)?)
+    }
+
+    /// Reads a scenario from a JSON value. A [`Value`] keeps neither repeated
+    /// keys nor, usually, the order of the document: [`Self::from_json`] does.
+    ///
+    /// # Errors
+    /// As for [`Self::from_json`].
+    pub fn from_value(value: &Value) -> Result<Self, ScenarioError> {
+        from_node(&Node::from(value))
+    }
+}
+
+fn from_node(document: &Node) -> Result<Scenario, ScenarioError> {
+    let report = Report::default();
+    let draft = if document.count() <= VALUES {
+        Object::open(document, String::new(), &report).map(|object| Draft::read(&object))
+    } else {
+        let allowed = format!("at most {VALUES} JSON values");
+        report.refuse("", &allowed, None, "is too large to be one");
+        None
+    };
+    if let Some(draft) = &draft {
+        draft.check(&report);
+    }
+    let violations = report.into_violations(document);
+    match draft.and_then(Draft::finish) {
+        Some(scenario) if violations.is_empty() => Ok(scenario),
+        _ => Err(ScenarioError::Invalid(violations)),
+    }
+}
+
+/// A scenario of which parts may have been refused (`None`).
+struct Draft {
+    title: Option<String>,
+    channel: Option<Channel>,
+    flow: Option<Option<Flow>>,
+    bodies: Option<Vec<Option<Body>>>,
+    gravity_m_s2: Option<f64>,
+    duration_s: Option<f64>,
+    sample_interval_s: Option<f64>,
+    flow_snapshots: Option<u32>,
+    numerics: Option<Numerics>,
+}
+
+impl Draft {
+    fn read(object: &Object<'_>) -> Self {
+        let draft = Self {
+            title: read_title(object),
+            channel: read_channel(object),
+            flow: read_flow(object),
+            bodies: read_bodies(object),
+            gravity_m_s2: object.number(&GRAVITY),
+            duration_s: object.number(&DURATION),
+            sample_interval_s: object.number(&SAMPLE_INTERVAL),
+            flow_snapshots: object.count(&FLOW_SNAPSHOTS),
+            numerics: read_numerics(object),
+        };
+        object.refuse_unknown();
+        draft
+    }
+
+    /// The rules between fields, as far as the fields are sound.
+    fn check(&self, report: &Report) {
+        let flow = self.flow.as_ref().and_then(Option::as_ref);
+        let bodies = self.bodies.as_deref().unwrap_or(&[]);
+        if let (Some(duration), Some(interval)) = (self.duration_s, self.sample_interval_s) {
+            samples_are_bounded(report, duration, interval, bodies.len());
+        }
+        if let (Some(flow), Some(numerics)) = (flow, &self.numerics) {
+            stiffness_is_given_once(report, flow, numerics);
+        }
+        let Some(channel) = &self.channel else { return };
+        if let Some(flow) = flow {
+            fit::release_fits(report, channel, flow);
+        }
+        if let Some(numerics) = &self.numerics {
+            fit::cells_fit(report, channel, numerics);
+        }
+        fit::bodies_are_inside(report, channel, bodies);
+        fit::bodies_are_apart(report, channel, bodies);
+    }
+
+    fn finish(self) -> Option<Scenario> {
+        Some(Scenario {
+            title: self.title?,
+            channel: self.channel?,
+            flow: self.flow?,
+            bodies: self.bodies?.into_iter().collect::<Option<_>>()?,
+            gravity_m_s2: self.gravity_m_s2?,
+            duration_s: self.duration_s?,
+            sample_interval_s: self.sample_interval_s?,
+            flow_snapshots: self.flow_snapshots?,
+            numerics: self.numerics?,
+        })
+    }
+}

@@ -1,0 +1,184 @@
+//! Where bodies and release start, from what the scenario says about them.
+
+use super::{Body, Channel, Flow, Scenario, Shape};
+use crate::shape::{ShapeError, SpheroPolyhedron};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
+
+/// Position and orientation of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Centre of mass [m].
+    pub position: Vector3<f64>,
+    /// Turns body axes into channel axes.
+    pub orientation: UnitQuaternion<f64>,
+}
+
+impl Pose {
+    /// The same as a rigid motion from body to channel coordinates.
+    pub fn isometry(&self) -> Isometry3<f64> {
+        Isometry3::from_parts(Translation3::from(self.position), self.orientation)
+    }
+}
+
+/// What a body starts on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Support {
+    /// It rests on the horizontal floor.
+    Floor,
+    /// It rests on the incline.
+    Incline,
+    /// Its elevation is given: it may touch something or nothing.
+    Free,
+}
+
+/// The released volume: between two vertical planes across the whole channel,
+/// from the bed up to a surface parallel to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReleaseBox {
+    /// Downstream coordinate of the back face [m].
+    pub x_back_m: f64,
+    /// Downstream coordinate of the front face [m].
+    pub x_front_m: f64,
+    /// Thickness along z [m]: the release height over cos θ.
+    pub vertical_thickness_m: f64,
+    /// Width, the channel's [m].
+    pub width_m: f64,
+}
+
+impl ReleaseBox {
+    /// Volume enclosed [m³].
+    pub fn volume_m3(&self) -> f64 {
+        (self.x_front_m - self.x_back_m) * self.vertical_thickness_m * self.width_m
+    }
+}
+
+impl Channel {
+    /// Inclination of the inclined part \[rad\].
+    pub fn inclination_rad(&self) -> f64 {
+        self.inclination_deg.to_radians()
+    }
+
+    /// Unit normal of the inclined part, out of the bed.
+    pub fn slope_normal(&self) -> Vector3<f64> {
+        let (sine, cosine) = self.inclination_rad().sin_cos();
+        Vector3::new(sine, 0.0, cosine)
+    }
+
+    /// Elevation of incline or floor at `x_m` downstream [m].
+    pub fn bed_elevation_m(&self, x_m: f64) -> f64 {
+        (-x_m).max(0.0) * self.inclination_rad().tan()
+    }
+
+    /// Normal of the bed under a centre at `x_m`: the incline's above the foot,
+    /// the floor's below it.
+    fn normal_under(&self, x_m: f64) -> Vector3<f64> {
+        if x_m < 0.0 {
+            self.slope_normal()
+        } else {
+            Vector3::z()
+        }
+    }
+
+    /// Where a flow is released.
+    pub(super) fn release_box(&self, flow: &Flow) -> ReleaseBox {
+        let vertical_thickness_m = flow.release.height_m / self.inclination_rad().cos();
+        let x_front_m = -flow.release.toe_distance_m;
+        let length = flow.volume_m3 / (vertical_thickness_m * self.width_m);
+        ReleaseBox {
+            x_back_m: x_front_m - length,
+            x_front_m,
+            vertical_thickness_m,
+            width_m: self.width_m,
+        }
+    }
+}
+
+impl Shape {
+    /// Distance between opposite flats [m].
+    pub fn size_m(&self) -> f64 {
+        match *self {
+            Self::Cube { side_m } => side_m,
+        }
+    }
+
+    /// The solid this describes, rounded with a radius [m].
+    pub(super) fn build(&self, sphero_radius_m: f64) -> Result<SpheroPolyhedron, ShapeError> {
+        match *self {
+            Self::Cube { side_m } => SpheroPolyhedron::cube(side_m, sphero_radius_m),
+        }
+    }
+}
+
+impl Body {
+    /// Orientation at the start: as given, or flat on the bed under the centre
+    /// and turned by the yaw about its normal.
+    fn initial_orientation(&self, channel: &Channel) -> UnitQuaternion<f64> {
+        if let Some([w, x, y, z]) = self.orientation {
+            // Unit already (the parser saw to it), so its bits are kept.
+            return UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z));
+        }
+        let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_deg.to_radians());
+        if self.position.downstream_m < 0.0 {
+            let tilt = channel.inclination_rad();
+            UnitQuaternion::from_axis_angle(&Vector3::y_axis(), tilt) * yaw
+        } else {
+            yaw
+        }
+    }
+
+    /// Pose at the start; without an elevation the body is lowered until it
+    /// touches the bed under its centre.
+    pub(super) fn pose(&self, shape: &SpheroPolyhedron, channel: &Channel) -> Pose {
+        let orientation = self.initial_orientation(channel);
+        let x = self.position.downstream_m;
+        let normal = channel.normal_under(x);
+        let elevation = self.position.elevation_m.unwrap_or_else(|| {
+            let reach = shape.extent_along(&orientation.inverse_transform_vector(&-normal));
+            (reach - x * normal.x) / normal.z
+        });
+        Pose {
+            position: Vector3::new(x, self.position.lateral_m, elevation),
+            orientation,
+        }
+    }
+}
+
+impl Scenario {
+    /// Position and orientation in which a body starts.
+    ///
+    /// # Panics
+    /// If there is no such body, or the scenario did not come from the parser.
+    pub fn initial_pose(&self, body: usize) -> Pose {
+        self.bodies[body].pose(&self.shape_of(body), &self.channel)
+    }
+
+    /// What a body starts on.
+    ///
+    /// # Panics
+    /// If there is no such body.
+    pub fn support_of(&self, body: usize) -> Support {
+        let position = &self.bodies[body].position;
+        match position.elevation_m {
+            Some(_) => Support::Free,
+            None if position.downstream_m < 0.0 => Support::Incline,
+            None => Support::Floor,
+        }
+    }
+
+    /// Solid of a body.
+    ///
+    /// # Panics
+    /// If there is no such body, or the scenario did not come from the parser,
+    /// which refuses dimensions that make no solid.
+    pub fn shape_of(&self, body: usize) -> SpheroPolyhedron {
+        let body = &self.bodies[body];
+        let built = body.shape.build(body.sphero_radius_m);
+        built.expect("the parser refuses dimensions that make no solid")
+    }
+
+    /// Where the flow is released; `None` if there is none, or none of it.
+    pub fn release(&self) -> Option<ReleaseBox> {
+        let flow = self.flow.as_ref().filter(|flow| flow.volume_m3 > 0.0)?;
+        Some(self.channel.release_box(flow))
+    }
+}

@@ -1,0 +1,289 @@
+//! Readers of single fields. What they can't accept goes into the report, and
+//! they go on.
+
+use super::Violation;
+use super::node::{Node, escaped, unescaped};
+use super::range::{Range, Rule, short};
+use super::rules::VIOLATIONS;
+use serde_json::Value;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// Collects violations.
+#[derive(Debug, Default)]
+pub(super) struct Report {
+    violations: RefCell<Vec<Violation>>,
+}
+
+impl Report {
+    /// Adds a violation; `why` goes on from the field's name.
+    pub(super) fn refuse(&self, pointer: &str, allowed: &str, unit: Option<&str>, why: &str) {
+        self.violations.borrow_mut().push(Violation {
+            pointer: pointer.to_owned(),
+            value: Value::Null,
+            allowed: allowed.to_owned(),
+            unit: unit.map(str::to_owned),
+            detail: format!("{} {why}.", field_name(pointer)),
+        });
+    }
+
+    /// All violations in the order of the document, each with the value that
+    /// stands there. A list too long to help anybody is cut, and says so.
+    pub(super) fn into_violations(self, document: &Node) -> Vec<Violation> {
+        let mut violations = self.violations.into_inner();
+        violations.sort_by_cached_key(|violation| document.find(&violation.pointer).0);
+        let further = violations.len().saturating_sub(VIOLATIONS);
+        violations.truncate(VIOLATIONS);
+        for violation in &mut violations {
+            let found = document.find(&violation.pointer).1;
+            violation.value = found.map_or(Value::Null, Node::excerpt);
+        }
+        if further > 0 {
+            violations.push(Violation {
+                pointer: String::new(),
+                value: Value::Null,
+                allowed: "a scenario as in docs/scenario.md".to_owned(),
+                unit: None,
+                detail: format!("the scenario has {further} further violations, not listed."),
+            });
+        }
+        violations
+    }
+}
+
+/// "/bodies/0/yaw_deg" as people write it: "bodies[0].yaw_deg".
+pub(super) fn field_name(pointer: &str) -> String {
+    let mut name = String::new();
+    for token in pointer.split('/').skip(1) {
+        let token = unescaped(token);
+        if token.parse::<usize>().is_ok() {
+            name.push_str(&format!("[{token}]"));
+        } else {
+            let dot = if name.is_empty() { "" } else { "." };
+            name.push_str(&format!("{dot}{token}"));
+        }
+    }
+    if name.is_empty() {
+        "the scenario".to_owned()
+    } else {
+        name
+    }
+}
+
+/// One JSON object in the reading.
+pub(super) struct Object<'a> {
+    pub(super) pointer: String,
+    members: &'a [(String, Node)],
+    known: RefCell<Vec<&'static str>>,
+    pub(super) report: &'a Report,
+}
+
+impl<'a> Object<'a> {
+    /// Takes a node for an object; refuses anything else, and repeated keys.
+    pub(super) fn open(node: &'a Node, pointer: String, report: &'a Report) -> Option<Self> {
+        let Node::Object(members) = node else {
+            report.refuse(&pointer, "an object", None, "must be an object");
+            return None;
+        };
+        let mut seen = BTreeSet::new();
+        for (key, _) in members {
+            if !seen.insert(key) {
+                let pointer = format!("{pointer}/{}", escaped(key));
+                let why = "is given more than once";
+                report.refuse(&pointer, "each key once", None, why);
+            }
+        }
+        Some(Self {
+            pointer,
+            members,
+            known: RefCell::default(),
+            report,
+        })
+    }
+
+    /// Takes a field for an object of its own.
+    pub(super) fn object(&self, node: &'a Node, key: &str) -> Option<Object<'a>> {
+        Object::open(node, self.pointer_to(key), self.report)
+    }
+
+    /// The members as they stand.
+    pub(super) fn members(&self) -> &'a [(String, Node)] {
+        self.members
+    }
+
+    /// Pointer of one of its fields.
+    pub(super) fn pointer_to(&self, key: &str) -> String {
+        format!("{}/{}", self.pointer, escaped(key))
+    }
+
+    /// Refuses the keys no reader asked for; call it after all of them.
+    pub(super) fn refuse_unknown(&self) {
+        let known = self.known.borrow();
+        for (key, _) in self.members {
+            if !known.contains(&key.as_str()) {
+                let allowed = format!("one of: {}", known.join(", "));
+                let pointer = self.pointer_to(key);
+                let why = "is not a known field";
+                self.report.refuse(&pointer, &allowed, None, why);
+            }
+        }
+    }
+
+    /// A field as it stands, if it is there.
+    pub(super) fn member(&self, key: &'static str) -> Option<&'a Node> {
+        self.known.borrow_mut().push(key);
+        let found = self.members.iter().find(|(name, _)| name == key);
+        found.map(|(_, node)| node)
+    }
+
+    /// A field that must be there.
+    pub(super) fn required(&self, key: &'static str, allowed: &str) -> Option<&'a Node> {
+        let found = self.member(key);
+        if found.is_none() {
+            self.missing(key, allowed, None);
+        }
+        found
+    }
+
+    fn missing(&self, key: &str, allowed: &str, unit: Option<&str>) {
+        let why = "is missing, and has no default";
+        self.report
+            .refuse(&self.pointer_to(key), allowed, unit, why);
+    }
+
+    /// An object whose fields all have defaults, so that it may be left out.
+    pub(super) fn defaulted(&self, key: &'static str) -> Option<Object<'a>> {
+        const NOTHING: &Node = &Node::Object(Vec::new());
+        let node = self.member(key).unwrap_or(NOTHING);
+        self.object(node, key)
+    }
+
+    /// A number, by its rule's default or required.
+    pub(super) fn number(&self, rule: &Rule) -> Option<f64> {
+        match (self.member(rule.key), rule.default) {
+            (Some(node), _) => self.check(node, &self.pointer_to(rule.key), rule),
+            (None, Some(default)) => Some(default),
+            (None, None) => {
+                self.missing(rule.key, &rule.range.words(), rule.unit);
+                None
+            }
+        }
+    }
+
+    /// A number whose default comes from other fields (`None`: from fields that
+    /// were refused themselves).
+    pub(super) fn number_or(&self, rule: &Rule, default: Option<f64>) -> Option<f64> {
+        match self.member(rule.key) {
+            Some(node) => self.check(node, &self.pointer_to(rule.key), rule),
+            None => default,
+        }
+    }
+
+    /// A number, or null (also if left out) for "automatic".
+    pub(super) fn automatic(&self, rule: &Rule) -> Option<Option<f64>> {
+        match self.member(rule.key) {
+            None | Some(Node::Null) => Some(None),
+            Some(node) => self.check(node, &self.pointer_to(rule.key), rule).map(Some),
+        }
+    }
+
+    /// A whole number.
+    pub(super) fn count(&self, rule: &Rule) -> Option<u32> {
+        let number = self.number(rule)?;
+        self.whole(number, rule)
+    }
+
+    /// A whole number, or null for "automatic".
+    pub(super) fn automatic_count(&self, rule: &Rule) -> Option<Option<u32>> {
+        match self.automatic(rule)? {
+            None => Some(None),
+            Some(number) => self.whole(number, rule).map(Some),
+        }
+    }
+
+    fn whole(&self, number: f64, rule: &Rule) -> Option<u32> {
+        if number.fract() == 0.0 {
+            // The rules of whole numbers end far below 2^32.
+            return Some(number as u32);
+        }
+        let allowed = format!("{}, whole", rule.range.words());
+        let pointer = self.pointer_to(rule.key);
+        let why = format!("is {}, not a whole number", short(number));
+        self.report.refuse(&pointer, &allowed, rule.unit, &why);
+        None
+    }
+
+    /// A truth value.
+    pub(super) fn flag(&self, key: &'static str, default: bool) -> Option<bool> {
+        match self.member(key) {
+            None => Some(default),
+            Some(Node::Bool(flag)) => Some(*flag),
+            Some(_) => {
+                let why = "must be true or false";
+                let pointer = self.pointer_to(key);
+                self.report.refuse(&pointer, "true or false", None, why);
+                None
+            }
+        }
+    }
+
+    /// A list of N numbers, each under the rule.
+    pub(super) fn vector<const N: usize>(&self, rule: &Rule) -> Option<[f64; N]> {
+        match (self.member(rule.key), rule.default) {
+            (Some(node), _) => self.elements(node, rule),
+            (None, Some(default)) => Some([default; N]),
+            (None, None) => {
+                self.missing(rule.key, &list_words::<N>(&rule.range), rule.unit);
+                None
+            }
+        }
+    }
+
+    /// A list of N numbers, or null (also if left out).
+    pub(super) fn automatic_vector<const N: usize>(&self, rule: &Rule) -> Option<Option<[f64; N]>> {
+        match self.member(rule.key) {
+            None | Some(Node::Null) => Some(None),
+            Some(node) => self.elements(node, rule).map(Some),
+        }
+    }
+
+    fn elements<const N: usize>(&self, node: &Node, rule: &Rule) -> Option<[f64; N]> {
+        let pointer = self.pointer_to(rule.key);
+        let items = match node {
+            Node::List(items) if items.len() == N => items,
+            _ => {
+                let allowed = list_words::<N>(&rule.range);
+                let why = format!("must be a list of {N} numbers");
+                self.report.refuse(&pointer, &allowed, rule.unit, &why);
+                return None;
+            }
+        };
+        let numbers: Vec<Option<f64>> = items
+            .iter()
+            .enumerate()
+            .map(|(index, item)| self.check(item, &format!("{pointer}/{index}"), rule))
+            .collect();
+        let numbers: Vec<f64> = numbers.into_iter().collect::<Option<_>>()?;
+        numbers.try_into().ok()
+    }
+
+    fn check(&self, node: &Node, pointer: &str, rule: &Rule) -> Option<f64> {
+        let words = rule.range.words();
+        let number = match node {
+            Node::Number(number) => number.as_f64(),
+            _ => None,
+        };
+        let why = match number {
+            // Adding zero turns −0 into 0.
+            Some(number) if rule.range.contains(number) => return Some(number + 0.0),
+            Some(number) => format!("is {}, outside {words}", short(number)),
+            None => format!("must be a number with {words}"),
+        };
+        self.report.refuse(pointer, &words, rule.unit, &why);
+        None
+    }
+}
+
+fn list_words<const N: usize>(range: &Range) -> String {
+    format!("a list of {N} numbers, each {}", range.words())
+}

@@ -1,0 +1,119 @@
+//! Every number of a scenario: key, range, unit, default. The same table is in
+//! `docs/scenario.md`; a test holds the two together.
+//!
+//! Upper and lower limits are generous. They keep out slips of the pen (metres
+//! for millimetres) and numbers that single precision can't carry, not unusual
+//! scenes.
+
+use super::range::{Rule, closed, positive_up_to};
+
+/// Longest title [characters].
+pub(super) const TITLE_LENGTH: usize = 200;
+/// Most bodies of one scenario.
+pub(super) const BODIES: usize = 256;
+/// Most samples of all bodies together: about 100 MB of trajectory.
+pub(super) const BODY_SAMPLES: f64 = 500_000.0;
+/// Most JSON values in one document, about twice what the most bodies need.
+pub(super) const VALUES: usize = 20_000;
+/// Most violations listed in one answer.
+pub(super) const VIOLATIONS: usize = 500;
+/// A quaternion this close to unit length is taken for one and normalised.
+pub(super) const QUATERNION_SLACK: f64 = 1e-3;
+/// Overlap with walls and bodies that counts as touching, as a fraction of the
+/// sphero radius: coordinates typed with a few digits, and less than the
+/// overlap of a body at rest.
+pub(super) const TOUCHING: f64 = 1e-3;
+/// A body's size over its default sphero radius.
+pub(super) const SIZE_PER_SPHERO_RADIUS: f64 = 20.0;
+
+const METRE: &str = "m";
+const DEGREE: &str = "°";
+const DENSITY: &str = "kg/m³";
+const PASCAL: &str = "Pa";
+const SECOND: &str = "s";
+const SPEED: &str = "m/s";
+
+const fn metres(key: &'static str, low: f64, high: f64) -> Rule {
+    Rule::new(key, closed(low, high)).unit(METRE)
+}
+
+const fn friction(key: &'static str, default: f64) -> Rule {
+    Rule::new(key, closed(0.0, 10.0)).default(default)
+}
+
+const fn restitution(key: &'static str, default: f64) -> Rule {
+    Rule::new(key, closed(0.0, 1.0)).default(default)
+}
+
+const fn modulus(key: &'static str) -> Rule {
+    Rule::new(key, closed(1e2, 1e12)).unit(PASCAL)
+}
+
+pub(super) const GRAVITY: Rule = Rule::new("gravity_m_s2", closed(0.01, 1e3))
+    .unit("m/s²")
+    .default(9.81);
+pub(super) const DURATION: Rule = Rule::new("duration_s", closed(0.0, 3600.0))
+    .unit(SECOND)
+    .default(3.0);
+pub(super) const SAMPLE_INTERVAL: Rule = Rule::new("sample_interval_s", closed(1e-5, 3600.0))
+    .unit(SECOND)
+    .default(0.01);
+pub(super) const FLOW_SNAPSHOTS: Rule =
+    Rule::new("flow_snapshots", closed(0.0, 200.0)).default(6.0);
+
+pub(super) const INCLINATION: Rule = Rule::new("inclination_deg", closed(0.0, 89.0)).unit(DEGREE);
+pub(super) const INCLINE_LENGTH: Rule = metres("incline_length_m", 1e-3, 1e3);
+pub(super) const RUNOUT_LENGTH: Rule = metres("runout_length_m", 1e-3, 1e3);
+pub(super) const WIDTH: Rule = metres("width_m", 1e-3, 1e3).default(0.2);
+pub(super) const BASE_FRICTION: Rule = friction("base_friction", 0.4);
+pub(super) const SIDE_FRICTION: Rule = friction("side_friction", 0.0);
+
+pub(super) const VOLUME: Rule = Rule::new("volume_m3", closed(0.0, 1e6)).unit("m³");
+pub(super) const RELEASE_HEIGHT: Rule = metres("height_m", 1e-6, 1e2).default(0.15);
+pub(super) const TOE_DISTANCE: Rule = metres("toe_distance_m", 0.0, 1e3).default(0.05);
+
+pub(super) const BULK_DENSITY: Rule = Rule::new("bulk_density_kg_m3", closed(1.0, 1e5))
+    .unit(DENSITY)
+    .default(1500.0);
+pub(super) const GRAIN_DENSITY: Rule = Rule::new("grain_density_kg_m3", closed(1.0, 1e5))
+    .unit(DENSITY)
+    .default(2600.0);
+pub(super) const GRAIN_DIAMETER: Rule = metres("grain_diameter_m", 1e-9, 1.0).default(0.001);
+pub(super) const STATIC_FRICTION: Rule = friction("static_friction", 0.6);
+pub(super) const LIMITING_FRICTION: Rule = friction("limiting_friction", 0.86);
+pub(super) const INERTIAL_NUMBER: Rule =
+    Rule::new("reference_inertial_number", closed(1e-9, 1e3)).default(0.279);
+pub(super) const POISSONS_RATIO: Rule = Rule::new("poissons_ratio", closed(0.0, 0.49)).default(0.3);
+pub(super) const YOUNGS_MODULUS: Rule = modulus("youngs_modulus_pa");
+
+pub(super) const CUBE_SIDE: Rule = metres("side_m", 1e-4, 1e2);
+pub(super) const SPHERO_RADIUS: Rule = metres("sphero_radius_m", 1e-6, 50.0);
+pub(super) const BODY_DENSITY: Rule = Rule::new("density_kg_m3", closed(0.1, 1e6))
+    .unit(DENSITY)
+    .default(2000.0);
+pub(super) const DOWNSTREAM: Rule = metres("downstream_m", -1e3, 1e3);
+pub(super) const LATERAL: Rule = metres("lateral_m", -1e3, 1e3).default(0.0);
+pub(super) const ELEVATION: Rule = metres("elevation_m", 0.0, 1e5);
+pub(super) const YAW: Rule = Rule::new("yaw_deg", closed(-360.0, 360.0))
+    .unit(DEGREE)
+    .default(0.0);
+pub(super) const ORIENTATION: Rule = Rule::new("orientation", closed(-1.01, 1.01));
+pub(super) const VELOCITY: Rule = Rule::new("velocity_m_s", closed(-1e3, 1e3))
+    .unit(SPEED)
+    .default(0.0);
+pub(super) const ANGULAR_VELOCITY: Rule = Rule::new("angular_velocity_rad_s", closed(-1e5, 1e5))
+    .unit("rad/s")
+    .default(0.0);
+pub(super) const FRICTION: Rule = friction("friction", 0.4);
+pub(super) const RESTITUTION: Rule = restitution("restitution", 0.3);
+pub(super) const FLOW_FRICTION: Rule = friction("flow_friction", 0.4);
+pub(super) const FLOW_RESTITUTION: Rule = restitution("flow_restitution", 0.0);
+pub(super) const CONTACT_MODULUS: Rule = modulus("contact_modulus_pa");
+
+pub(super) const CELL_SIZE: Rule = metres("cell_size_m", 1e-5, 10.0);
+pub(super) const POINTS_PER_CELL: Rule =
+    Rule::new("points_per_cell", closed(1.0, 64.0)).default(8.0);
+pub(super) const SOUND_SPEED: Rule = Rule::new("sound_speed_m_s", closed(0.1, 1e4)).unit(SPEED);
+pub(super) const COURANT: Rule = Rule::new("courant", positive_up_to(0.9));
+pub(super) const FLOW_COURANT: Rule = Rule::new("flow_courant", positive_up_to(1.0));
+pub(super) const THREADS: Rule = Rule::new("threads", closed(1.0, 1024.0));

@@ -1,0 +1,122 @@
+//! Defaults, and what is legal at the edges.
+
+use super::{accepted, minimal, set, with};
+use crate::scenario::Scenario;
+use serde_json::{Value, json};
+
+#[test]
+fn the_minimal_scenario_has_the_documented_defaults() {
+    // Typed from the contract, not from the code.
+    let expected = json!({
+        "title": "",
+        "channel": {"inclination_deg": 40.0, "incline_length_m": 1.0, "runout_length_m": 2.0,
+                    "width_m": 0.2, "base_friction": 0.4, "side_friction": 0.0},
+        "flow": {"volume_m3": 0.01,
+                 "release": {"height_m": 0.15, "toe_distance_m": 0.05},
+                 "material": {"bulk_density_kg_m3": 1500.0, "grain_density_kg_m3": 2600.0, "grain_diameter_m": 0.001,
+                              "static_friction": 0.6, "limiting_friction": 0.86, "reference_inertial_number": 0.279,
+                              "poissons_ratio": 0.3, "youngs_modulus_pa": null}},
+        "bodies": [{"shape": {"cube": {"side_m": 0.04}}, "sphero_radius_m": 0.002, "density_kg_m3": 2000.0,
+                    "position": {"downstream_m": 0.04, "lateral_m": 0.0, "elevation_m": null},
+                    "yaw_deg": 0.0, "orientation": null, "velocity_m_s": [0.0, 0.0, 0.0],
+                    "angular_velocity_rad_s": [0.0, 0.0, 0.0],
+                    "friction": 0.4, "restitution": 0.3, "flow_friction": 0.4, "flow_restitution": 0.0,
+                    "contact_modulus_pa": null, "fixed": false}],
+        "gravity_m_s2": 9.81, "duration_s": 3.0, "sample_interval_s": 0.01, "flow_snapshots": 6,
+        "numerics": {"cell_size_m": null, "points_per_cell": 8, "sound_speed_m_s": null,
+                     "courant": null, "flow_courant": null, "threads": null}
+    });
+    let filled = serde_json::to_value(accepted(&minimal())).unwrap();
+    assert_eq!(filled, expected);
+}
+
+#[test]
+fn the_filled_scenario_reads_back_equal() {
+    let scenario = accepted(&minimal());
+    let text = serde_json::to_string(&scenario).unwrap();
+    assert_eq!(Scenario::from_json(&text), Ok(scenario));
+}
+
+#[test]
+fn defaults_follow_the_size_of_the_body() {
+    let scenario = accepted(&with("/bodies/0/shape/cube/side_m", json!(0.1)));
+    assert_eq!(scenario.bodies[0].sphero_radius_m, 0.005);
+    assert_eq!(scenario.bodies[0].position.downstream_m, 0.1);
+}
+
+#[test]
+fn hard_cases_are_legal() {
+    let edges: &[(&str, Value)] = &[
+        ("/flow", Value::Null),
+        ("/bodies", json!([])),
+        ("/flow/volume_m3", json!(0)),
+        ("/duration_s", json!(0)),
+        ("/channel/inclination_deg", json!(0)),
+        ("/channel/inclination_deg", json!(89)),
+        ("/channel/base_friction", json!(5)),
+        ("/channel/side_friction", json!(5)),
+        ("/bodies/0/friction", json!(0)),
+        ("/bodies/0/friction", json!(5)),
+        ("/bodies/0/restitution", json!(1)),
+        ("/bodies/0/flow_restitution", json!(1)),
+        ("/bodies/0/density_kg_m3", json!(75)),
+        ("/bodies/0/density_kg_m3", json!(75_000)),
+        ("/bodies/0/velocity_m_s", json!([-20, 0, 0])),
+        ("/bodies/0/fixed", json!(true)),
+        ("/flow/material/youngs_modulus_pa", json!(1e4)),
+        ("/flow/material/youngs_modulus_pa", json!(1e9)),
+        ("/flow/material/grain_diameter_m", json!(1e-9)),
+        ("/flow/material/reference_inertial_number", json!(1e-9)),
+        ("/flow/material/limiting_friction", json!(0.6)),
+        ("/flow/material/poissons_ratio", json!(0)),
+        ("/numerics/cell_size_m", json!(0.16)),
+        ("/numerics/cell_size_m", json!(0.00125)),
+        ("/numerics/points_per_cell", json!(1)),
+        ("/numerics/threads", json!(3)),
+        ("/numerics/flow_courant", json!(1)),
+        ("/title", json!("Größe ✓")),
+    ];
+    for (pointer, value) in edges {
+        accepted(&with(pointer, value.clone()));
+    }
+}
+
+#[test]
+fn a_whole_number_may_be_written_with_a_point() {
+    let scenario = accepted(&with("/flow_snapshots", json!(3.0)));
+    assert_eq!(scenario.flow_snapshots, 3);
+}
+
+#[test]
+fn a_quaternion_nearly_of_unit_length_is_normalised_once() {
+    let mut scenario = with("/bodies/0/orientation", json!([0.9239, 0.0, 0.3827, 0.0]));
+    set(
+        &mut scenario,
+        "/bodies/0/position",
+        json!({"elevation_m": 0.1}),
+    );
+    let first = accepted(&scenario);
+    let quaternion = first.bodies[0].orientation.unwrap();
+    let norm: f64 = quaternion.iter().map(|part| part * part).sum();
+    assert!((norm - 1.0).abs() < 1e-15);
+    let again = accepted(&serde_json::to_value(&first).unwrap());
+    assert_eq!(again, first);
+}
+
+#[test]
+fn the_largest_release_may_be_taken_at_its_word() {
+    let answer = super::refused(&with("/flow/volume_m3", json!(1)));
+    let words = answer[0].allowed.rsplit(' ').next().unwrap();
+    let largest: f64 = words.parse().unwrap();
+    // 0.2 m wide, 0.15 m / cos 40° thick, 1 m − 0.05 m long.
+    let exact = 0.2 * 0.15 / 40_f64.to_radians().cos() * 0.95;
+    assert!(largest <= exact && largest > exact * (1.0 - 1e-5));
+    accepted(&with("/flow/volume_m3", json!(largest)));
+    accepted(&with("/flow/volume_m3", json!(exact)));
+}
+
+#[test]
+fn two_cubes_may_stand_on_each_other() {
+    let second = json!({"shape": {"cube": {"side_m": 0.04}}, "position": {"elevation_m": 0.06}});
+    accepted(&with("/bodies/1", second));
+}

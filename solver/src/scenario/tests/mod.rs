@@ -1,0 +1,65 @@
+//! Tests of the scenario, and what they share.
+
+mod defaults;
+mod document;
+mod placement;
+mod random;
+mod refusals;
+
+use super::{Scenario, ScenarioError, Violation};
+use serde_json::{Value, json};
+
+/// The shortest legal scenario with a flow and a body.
+fn minimal() -> Value {
+    json!({
+        "channel": {"inclination_deg": 40, "incline_length_m": 1, "runout_length_m": 2},
+        "flow": {"volume_m3": 0.01},
+        "bodies": [{"shape": {"cube": {"side_m": 0.04}}}]
+    })
+}
+
+/// The minimal scenario with one more value set at a JSON pointer; objects on
+/// the way are made as needed.
+fn with(pointer: &str, value: Value) -> Value {
+    let mut scenario = minimal();
+    set(&mut scenario, pointer, value);
+    scenario
+}
+
+fn set(scenario: &mut Value, pointer: &str, value: Value) {
+    let mut here = scenario;
+    for token in pointer.split('/').skip(1) {
+        here = match here {
+            Value::Array(items) => {
+                let index: usize = token.parse().expect("an index");
+                if index >= items.len() {
+                    items.resize(index + 1, Value::Null);
+                }
+                &mut items[index]
+            }
+            object => &mut object[token],
+        };
+    }
+    *here = value;
+}
+
+fn accepted(scenario: &Value) -> Scenario {
+    match Scenario::from_value(scenario) {
+        Ok(scenario) => scenario,
+        Err(error) => panic!("{error:?}\n{scenario}"),
+    }
+}
+
+fn refused(scenario: &Value) -> Vec<Violation> {
+    violations(Scenario::from_value(scenario))
+}
+
+fn violations(result: Result<Scenario, ScenarioError>) -> Vec<Violation> {
+    match result {
+        Err(ScenarioError::Invalid(violations)) => {
+            assert!(!violations.is_empty());
+            violations
+        }
+        other => panic!("expected violations, not {other:?}"),
+    }
+}

@@ -1,0 +1,129 @@
+//! Whatever is thrown at the parser, it answers.
+
+use super::minimal;
+use crate::scenario::{Scenario, ScenarioError};
+use proptest::prelude::*;
+use serde_json::{Value, json};
+
+fn any_json() -> impl Strategy<Value = Value> {
+    let number = prop_oneof![
+        any::<f64>().prop_map(|x| json!(x)),
+        (-10.0..10.0_f64).prop_map(|x| json!(x)),
+        any::<i64>().prop_map(|x| json!(x)),
+        any::<u64>().prop_map(|x| json!(x)),
+        Just(json!(0)),
+    ];
+    let leaf = prop_oneof![
+        Just(Value::Null),
+        any::<bool>().prop_map(Value::Bool),
+        number,
+        ".{0,12}".prop_map(Value::String),
+    ];
+    leaf.prop_recursive(3, 24, 6, |inner| {
+        prop_oneof![
+            prop::collection::vec(inner.clone(), 0..5).prop_map(Value::Array),
+            prop::collection::btree_map("[a-z~/]{0,6}", inner, 0..5)
+                .prop_map(|members| Value::Object(members.into_iter().collect())),
+        ]
+    })
+}
+
+/// Pointers to everything in a value.
+fn pointers(value: &Value, here: &str, found: &mut Vec<String>) {
+    found.push(here.to_owned());
+    match value {
+        Value::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                pointers(item, &format!("{here}/{index}"), found);
+            }
+        }
+        Value::Object(members) => {
+            for (key, member) in members {
+                pointers(member, &format!("{here}/{key}"), found);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The scenario with all fields, some of them replaced by anything.
+fn damaged() -> impl Strategy<Value = Value> {
+    let damage = prop::collection::vec((any::<prop::sample::Index>(), any_json()), 1..4);
+    damage.prop_map(|damage| {
+        let scenario = Scenario::from_value(&minimal()).expect("the minimal scenario");
+        let mut value = serde_json::to_value(scenario).expect("a scenario is JSON");
+        for (place, replacement) in damage {
+            let mut all = Vec::new();
+            pointers(&value, "", &mut all);
+            let target: &String = place.get(&all);
+            if let Some(target) = value.pointer_mut(target) {
+                *target = replacement;
+            }
+        }
+        value
+    })
+}
+
+/// Either a sound scenario, or violations that say something about it.
+fn answers(result: Result<Scenario, ScenarioError>, document: &Value) -> Result<(), TestCaseError> {
+    match result {
+        Ok(scenario) => {
+            for body in 0..scenario.bodies.len() {
+                let pose = scenario.initial_pose(body);
+                prop_assert!(pose.position.iter().all(|x| x.is_finite()));
+            }
+            let text = serde_json::to_string(&scenario).unwrap();
+            prop_assert_eq!(Scenario::from_json(&text), Ok(scenario));
+        }
+        Err(ScenarioError::Invalid(violations)) => {
+            prop_assert!(!violations.is_empty());
+            for violation in violations {
+                let there = document.pointer(&violation.pointer);
+                if there.is_none() {
+                    prop_assert_eq!(&violation.value, &Value::Null);
+                }
+                prop_assert!(!violation.allowed.is_empty() && violation.detail.ends_with('.'));
+            }
+        }
+        Err(malformed) => prop_assert!(false, "JSON is well formed: {malformed}"),
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn any_json_is_answered(value in any_json()) {
+        answers(Scenario::from_value(&value), &value)?;
+        answers(Scenario::from_json(&value.to_string()), &value)?;
+    }
+
+    #[test]
+    fn a_damaged_scenario_is_answered(value in damaged()) {
+        answers(Scenario::from_value(&value), &value)?;
+    }
+
+    #[test]
+    fn any_text_is_answered(text in ".{0,60}") {
+        let _ = Scenario::from_json(&text);
+    }
+
+    #[test]
+    fn numbers_come_back_with_the_same_bits(
+        inclination in 0.0..89.0_f64,
+        friction in 0.0..10.0_f64,
+        volume in 0.0..0.03_f64,
+        side in 0.001..0.1_f64,
+        yaw in -180.0..180.0_f64,
+    ) {
+        let mut value = minimal();
+        value["channel"]["inclination_deg"] = json!(inclination);
+        value["channel"]["base_friction"] = json!(friction);
+        value["flow"]["volume_m3"] = json!(volume.min(0.028));
+        value["bodies"][0]["shape"]["cube"]["side_m"] = json!(side);
+        value["bodies"][0]["yaw_deg"] = json!(yaw);
+        let scenario = Scenario::from_json(&value.to_string()).unwrap();
+        prop_assert_eq!(scenario.channel.inclination_deg.to_bits(), inclination.to_bits());
+        let text = serde_json::to_string_pretty(&scenario).unwrap();
+        prop_assert_eq!(Scenario::from_json(&text).unwrap(), scenario);
+    }
+}
