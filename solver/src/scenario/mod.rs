@@ -18,8 +18,6 @@ mod tests;
 
 pub use placement::{Pose, ReleaseBox, Support};
 
-mod placement;
-pub use placement::{Pose, ReleaseBox};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 

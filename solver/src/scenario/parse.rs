@@ -28,6 +28,13 @@ impl Scenario {
     pub fn from_value(value: &Value) -> Result<Self, ScenarioError> {
         from_node(&Node::from(value))
     }
+
+    /// The scenario as JSON with every default filled in; reading it gives the
+    /// same scenario, bit for bit.
+    pub fn to_json(&self) -> String {
+        // Numbers, texts and lists have a JSON form; nothing here can fail.
+        serde_json::to_string(self).expect("a scenario is JSON")
+    }
 }
 
 fn from_node(document: &Node) -> Result<Scenario, ScenarioError> {

@@ -36,9 +36,9 @@ pub enum Support {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReleaseBox {
     /// Downstream coordinate of the back face [m].
-    pub x_back_m: f64,
+    pub back_m: f64,
     /// Downstream coordinate of the front face [m].
-    pub x_front_m: f64,
+    pub front_m: f64,
     /// Thickness along z [m]: the release height over cos θ.
     pub vertical_thickness_m: f64,
     /// Width, the channel's [m].
@@ -46,9 +46,9 @@ pub struct ReleaseBox {
 }
 
 impl ReleaseBox {
-    /// Volume enclosed [m³].
-    pub fn volume_m3(&self) -> f64 {
-        (self.x_front_m - self.x_back_m) * self.vertical_thickness_m * self.width_m
+    /// Horizontal distance of the front from the back [m].
+    pub fn length_m(&self) -> f64 {
+        self.front_m - self.back_m
     }
 }
 
@@ -82,11 +82,11 @@ impl Channel {
     /// Where a flow is released.
     pub(super) fn release_box(&self, flow: &Flow) -> ReleaseBox {
         let vertical_thickness_m = flow.release.height_m / self.inclination_rad().cos();
-        let x_front_m = -flow.release.toe_distance_m;
+        let front_m = -flow.release.toe_distance_m;
         let length = flow.volume_m3 / (vertical_thickness_m * self.width_m);
         ReleaseBox {
-            x_back_m: x_front_m - length,
-            x_front_m,
+            back_m: front_m - length,
+            front_m,
             vertical_thickness_m,
             width_m: self.width_m,
         }

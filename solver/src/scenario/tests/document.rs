@@ -1,1 +1,152 @@
+//! `docs/scenario.md` says what the code does.
 
+use super::{accepted, minimal};
+use crate::scenario::range::Rule;
+use crate::scenario::rules::*;
+use serde_json::Value;
+
+const DOCUMENT: &str = include_str!("../../../../docs/scenario.md");
+
+/// Every rule and the object it is read from.
+const RULES: [(&str, &[Rule]); 8] = [
+    ("", &[GRAVITY, DURATION, SAMPLE_INTERVAL, FLOW_SNAPSHOTS]),
+    (
+        "channel.",
+        &[
+            INCLINATION,
+            INCLINE_LENGTH,
+            RUNOUT_LENGTH,
+            WIDTH,
+            BASE_FRICTION,
+            SIDE_FRICTION,
+        ],
+    ),
+    ("flow.", &[VOLUME]),
+    ("flow.release.", &[RELEASE_HEIGHT, TOE_DISTANCE]),
+    (
+        "flow.material.",
+        &[
+            BULK_DENSITY,
+            GRAIN_DENSITY,
+            GRAIN_DIAMETER,
+            STATIC_FRICTION,
+            LIMITING_FRICTION,
+            INERTIAL_NUMBER,
+            POISSONS_RATIO,
+            YOUNGS_MODULUS,
+        ],
+    ),
+    (
+        "bodies[].",
+        &[
+            SPHERO_RADIUS,
+            BODY_DENSITY,
+            YAW,
+            ORIENTATION,
+            VELOCITY,
+            ANGULAR_VELOCITY,
+            FRICTION,
+            RESTITUTION,
+            FLOW_FRICTION,
+            FLOW_RESTITUTION,
+            CONTACT_MODULUS,
+        ],
+    ),
+    ("bodies[].position.", &[DOWNSTREAM, LATERAL, ELEVATION]),
+    (
+        "numerics.",
+        &[
+            CELL_SIZE,
+            POINTS_PER_CELL,
+            SOUND_SPEED,
+            COURANT,
+            FLOW_COURANT,
+            THREADS,
+        ],
+    ),
+];
+
+/// Cells of the document's row about a field.
+fn row(field: &str) -> [&'static str; 5] {
+    let start = format!("| `{field}` |");
+    let mut lines = DOCUMENT.lines().filter(|line| line.starts_with(&start));
+    let line = lines
+        .next()
+        .unwrap_or_else(|| panic!("no row about {field}"));
+    assert_eq!(lines.next(), None, "two rows about {field}");
+    let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+    cells
+        .try_into()
+        .unwrap_or_else(|_| panic!("five cells about {field}"))
+}
+
+#[test]
+fn ranges_and_units_are_those_of_the_code() {
+    let cube_side = [("bodies[].shape.cube.", &[CUBE_SIDE][..])];
+    for (object, rules) in RULES.iter().chain(&cube_side) {
+        for rule in *rules {
+            let [_, _, unit, _, allowed] = row(&format!("{object}{}", rule.key));
+            assert_eq!(unit, rule.unit.unwrap_or("–"), "{object}{}", rule.key);
+            let words = rule.range.words();
+            let rest = allowed.strip_prefix(&words);
+            let ends = rest
+                .is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '.'));
+            assert!(ends, "{object}{}: {allowed} is not {words}", rule.key);
+        }
+    }
+}
+
+/// Every leaf of the filled scenario, by the name the document gives it.
+fn leaves(value: &Value, name: &str, found: &mut Vec<(String, Value)>) {
+    match value {
+        Value::Object(members) => {
+            for (key, member) in members {
+                let dot = if name.is_empty() { "" } else { "." };
+                leaves(member, &format!("{name}{dot}{key}"), found);
+            }
+        }
+        Value::Array(items) if items.iter().any(Value::is_object) => {
+            leaves(&items[0], &format!("{name}[]"), found);
+        }
+        leaf => found.push((name.to_owned(), leaf.clone())),
+    }
+}
+
+#[test]
+fn every_field_is_described_with_its_default() {
+    let filled = serde_json::to_value(accepted(&minimal())).unwrap();
+    let mut fields = Vec::new();
+    leaves(&filled, "", &mut fields);
+    let mut constants = 0;
+    for (field, value) in &fields {
+        let [_, meaning, _, default, _] = row(field);
+        assert!(!meaning.is_empty());
+        if let Some(json) = default.strip_prefix('`') {
+            let documented: Value = serde_json::from_str(json.trim_end_matches('`')).unwrap();
+            assert_eq!(&documented, value, "{field}");
+            constants += 1;
+        }
+    }
+    // All but the five required numbers and the two that follow the side.
+    assert_eq!(constants, fields.len() - 7);
+}
+
+#[test]
+fn counts_are_those_of_the_code() {
+    assert!(row("title")[4].contains(&TITLE_LENGTH.to_string()));
+    assert!(row("bodies")[4].contains(&BODIES.to_string()));
+    assert!(row("sample_interval_s")[4].contains("500,000") && BODY_SAMPLES == 500_000.0);
+    assert!(DOCUMENT.contains("more than 20,000 JSON values") && VALUES == 20_000);
+    assert!(DOCUMENT.contains("Of more than 500,") && VIOLATIONS == 500);
+    assert!(row("bodies[].orientation")[4].contains(&format!("within {QUATERNION_SLACK}")));
+    assert!(DOCUMENT.contains("a thousandth of the sphero radius") && TOUCHING == 1e-3);
+    assert!(row("bodies[].sphero_radius_m")[3].contains("1/20") && SIZE_PER_SPHERO_RADIUS == 20.0);
+}
+
+#[test]
+fn the_example_is_legal() {
+    let start = DOCUMENT.find("```json").expect("an example") + "```json".len();
+    let length = DOCUMENT[start..].find("```").expect("its end");
+    let example = crate::scenario::Scenario::from_json(&DOCUMENT[start..start + length]);
+    assert_eq!(example, Ok(accepted(&minimal())));
+}

@@ -132,11 +132,13 @@ fn the_release_is_where_the_contract_puts_it() {
     let scenario = accepted(&minimal());
     let release = scenario.release().unwrap();
     let thickness = 0.15 / 40_f64.to_radians().cos();
-    assert_eq!(release.x_front_m, -0.05);
+    assert_eq!(release.front_m, -0.05);
     assert!((release.vertical_thickness_m - thickness).abs() < 1e-15);
-    assert!((release.x_back_m - (-0.05 - 0.01 / (0.2 * thickness))).abs() < 1e-15);
+    assert!((release.back_m - (-0.05 - 0.01 / (0.2 * thickness))).abs() < 1e-15);
     assert_eq!(release.width_m, 0.2);
-    assert!((release.volume_m3() - 0.01).abs() < 1e-16);
+    assert!(
+        (release.length_m() * release.vertical_thickness_m * release.width_m - 0.01).abs() < 1e-16
+    );
     assert!(
         (scenario.channel.bed_elevation_m(-0.5) - 0.5 * 40_f64.to_radians().tan()).abs() < 1e-15
     );
