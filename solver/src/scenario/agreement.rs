@@ -1,7 +1,8 @@
 //! Rules between numbers that have nothing to do with the geometry.
 
 use super::range::{Rule, rounded_up, short};
-use super::reader::{Object, Report};
+use super::reader::Object;
+use super::report::Report;
 use super::rules::{BODY_SAMPLES, SAMPLE_INTERVAL, SOUND_SPEED, YOUNGS_MODULUS};
 use super::{Flow, Numerics};
 

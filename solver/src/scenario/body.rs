@@ -2,7 +2,8 @@
 
 use super::node::Node;
 use super::range::short;
-use super::reader::{Object, Report};
+use super::reader::Object;
+use super::report::Report;
 use super::rules::*;
 use super::{Body, Position, Shape};
 use crate::shape::ShapeError;

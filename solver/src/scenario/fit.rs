@@ -3,7 +3,7 @@
 
 use super::placement::Pose;
 use super::range::{rounded_down, rounded_up, short};
-use super::reader::{Report, field_name};
+use super::report::{Report, field_name};
 use super::rules::{CELL_SIZE, DOWNSTREAM, ELEVATION, LATERAL, TOE_DISTANCE, TOUCHING, VOLUME};
 use super::{Body, Channel, Flow, Numerics};
 use crate::shape::{SpheroPolyhedron, separation};

@@ -11,6 +11,7 @@ mod parse;
 mod placement;
 mod range;
 mod reader;
+mod report;
 mod rules;
 mod sections;
 #[cfg(test)]

@@ -1,10 +1,12 @@
 //! Tests of the scenario, and what they share.
 
+mod agreement;
+mod answers;
 mod defaults;
 mod document;
+mod fields;
 mod placement;
 mod random;
-mod refusals;
 
 use super::{Scenario, ScenarioError, Violation};
 use serde_json::{Value, json};
@@ -61,5 +63,33 @@ fn violations(result: Result<Scenario, ScenarioError>) -> Vec<Violation> {
             violations
         }
         other => panic!("expected violations, not {other:?}"),
+    }
+}
+
+/// (what, JSON pointer to set, value, pointer blamed, part of what is allowed)
+type Case = (
+    &'static str,
+    &'static str,
+    Value,
+    &'static str,
+    &'static str,
+);
+
+fn check(cases: &[Case]) {
+    for (what, pointer, value, blamed, allowed) in cases {
+        let found = refused(&with(pointer, value.clone()));
+        let pointers: Vec<&str> = found.iter().map(|v| v.pointer.as_str()).collect();
+        assert_eq!(pointers, [*blamed], "{what}: {found:#?}");
+        let violation = &found[0];
+        assert!(violation.allowed.contains(allowed), "{what}: {violation:?}");
+        let key = blamed
+            .rsplit('/')
+            .find(|token| token.parse::<usize>().is_err())
+            .unwrap();
+        assert!(violation.detail.contains(key), "{what}: {violation:?}");
+        assert!(violation.detail.ends_with('.'), "{what}: {violation:?}");
+        if pointer == blamed {
+            assert_eq!(&violation.value, value, "{what}");
+        }
     }
 }

@@ -1,0 +1,158 @@
+//! Fields that don't go together.
+
+use super::{accepted, check, refused, set, with};
+use serde_json::json;
+
+#[test]
+fn rules_between_fields() {
+    let cube_at = |x: f64, y: f64| json!({"downstream_m": x, "lateral_m": y});
+    check(&[
+        (
+            "too much flow",
+            "/flow/volume_m3",
+            json!(1),
+            "/flow/volume_m3",
+            "0 <= x <= 0.0372",
+        ),
+        (
+            "toe behind the back wall",
+            "/flow/release/toe_distance_m",
+            json!(1),
+            "/flow/release/toe_distance_m",
+            "x < 1",
+        ),
+        (
+            "friction falling",
+            "/flow/material/limiting_friction",
+            json!(0.5),
+            "/flow/material/limiting_friction",
+            "x >= 0.6",
+        ),
+        (
+            "friction above the default",
+            "/flow/material/static_friction",
+            json!(0.9),
+            "/flow/material/limiting_friction",
+            "x >= 0.9",
+        ),
+        (
+            "bulk denser than grains",
+            "/flow/material/bulk_density_kg_m3",
+            json!(2700),
+            "/flow/material/grain_density_kg_m3",
+            "x >= 2700",
+        ),
+        (
+            "radius of a ball",
+            "/bodies/0/sphero_radius_m",
+            json!(0.02),
+            "/bodies/0/sphero_radius_m",
+            "0 < x < 0.02",
+        ),
+        (
+            "cells wider than the channel",
+            "/numerics/cell_size_m",
+            json!(0.3),
+            "/numerics/cell_size_m",
+            "x <= 0.2",
+        ),
+        (
+            "through the side",
+            "/bodies/0/position/lateral_m",
+            json!(0.085),
+            "/bodies/0/position/lateral_m",
+            "-0.08 <= x <= 0.08",
+        ),
+        (
+            "through the back",
+            "/bodies/0/position/downstream_m",
+            json!(-0.99),
+            "/bodies/0/position/downstream_m",
+            "<= x <=",
+        ),
+        (
+            "out of the end",
+            "/bodies/0/position",
+            cube_at(1.99, 0.0),
+            "/bodies/0/position/downstream_m",
+            "-0.98 <= x <= 1.98",
+        ),
+        (
+            "into the floor",
+            "/bodies/0/position/elevation_m",
+            json!(0.019),
+            "/bodies/0/position/elevation_m",
+            "x >= 0.02",
+        ),
+        (
+            "astride the foot, on the floor",
+            "/bodies/0/position",
+            cube_at(0.0, 0.0),
+            "/bodies/0/position/elevation_m",
+            "x >= ",
+        ),
+        (
+            "astride the foot, on the slope",
+            "/bodies/0/position",
+            cube_at(-0.001, 0.0),
+            "/bodies/0/position/elevation_m",
+            "x >= ",
+        ),
+        (
+            "wider than the channel",
+            "/bodies/0/shape/cube/side_m",
+            json!(0.21),
+            "/bodies/0/position/lateral_m",
+            "nothing",
+        ),
+        (
+            "body in body",
+            "/bodies/1",
+            json!({"shape": {"cube": {"side_m": 0.04}}, "yaw_deg": 10}),
+            "/bodies/1/position",
+            "clear of bodies[0]",
+        ),
+        (
+            "a moving fixed body",
+            "/bodies/0",
+            json!({"shape": {"cube": {"side_m": 0.04}}, "fixed": true, "velocity_m_s": [1, 0, 0]}),
+            "/bodies/0/velocity_m_s",
+            "[0, 0, 0]",
+        ),
+        (
+            "turned twice",
+            "/bodies/0",
+            json!({"shape": {"cube": {"side_m": 0.04}}, "yaw_deg": 10, "orientation": [1, 0, 0, 0]}),
+            "/bodies/0/yaw_deg",
+            "orientation",
+        ),
+    ]);
+}
+
+#[test]
+fn one_stiffness_is_enough() {
+    let mut scenario = with("/numerics/sound_speed_m_s", json!(20));
+    set(
+        &mut scenario,
+        "/flow/material/youngs_modulus_pa",
+        json!(1e6),
+    );
+    let found = refused(&scenario);
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].pointer, "/numerics/sound_speed_m_s");
+    assert_eq!(found[0].value, json!(20));
+    assert!(found[0].detail.contains("youngs_modulus_pa"));
+}
+
+#[test]
+fn trajectories_are_bounded() {
+    let mut scenario = with("/duration_s", json!(60));
+    set(&mut scenario, "/sample_interval_s", json!(0.0001));
+    let found = refused(&scenario);
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].pointer, "/sample_interval_s");
+    // 60 s in 500,000 samples.
+    assert_eq!(found[0].allowed, "x >= 0.00012");
+    set(&mut scenario, "/sample_interval_s", json!(0.00012));
+    accepted(&scenario);
+}

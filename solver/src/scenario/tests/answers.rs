@@ -1,0 +1,126 @@
+//! How a refusal is put.
+
+use super::{minimal, refused, set, violations, with};
+use crate::scenario::{Scenario, ScenarioError};
+use serde_json::{Value, json};
+
+#[test]
+fn all_at_once_in_document_order() {
+    let text = r#"{
+        "bodies": [{"friction": -1, "shape": {"cube": {"side_m": 0.04}}, "position": {"lateral_m": 0.5}},
+                   {"shape": {"ball": 1}, "fixed": "no"}, {}],
+        "gravity_m_s2": 0, "speed": 3,
+        "channel": {"width_m": "wide", "inclination_deg": 95, "incline_length_m": 1, "width_m": 2},
+        "flow": {"material": {"static_friction": 2}, "volume_m3": 1}
+    }"#;
+    let found = violations(Scenario::from_json(text));
+    let pointers: Vec<&str> = found.iter().map(|v| v.pointer.as_str()).collect();
+    assert_eq!(
+        pointers,
+        [
+            "/bodies/0/friction",
+            "/bodies/1/shape/ball",
+            "/bodies/1/fixed",
+            "/bodies/2/shape",
+            "/gravity_m_s2",
+            "/speed",
+            "/channel/width_m",
+            "/channel/width_m",
+            "/channel/inclination_deg",
+            "/channel/runout_length_m",
+            "/flow/material/limiting_friction",
+        ]
+    );
+    let inclination = &found[8];
+    assert_eq!(inclination.value, json!(95));
+    assert_eq!(inclination.allowed, "0 <= x <= 89");
+    assert_eq!(inclination.unit.as_deref(), Some("°"));
+    assert_eq!(
+        inclination.detail,
+        "channel.inclination_deg is 95, outside 0 <= x <= 89."
+    );
+}
+
+#[test]
+fn geometry_is_judged_even_when_something_else_is_wrong() {
+    let mut scenario = with("/gravity_m_s2", json!("heavy"));
+    set(&mut scenario, "/bodies/0/position/lateral_m", json!(1));
+    set(&mut scenario, "/flow/volume_m3", json!(1));
+    assert_eq!(refused(&scenario).len(), 3);
+}
+
+#[test]
+fn keys_are_escaped_in_pointers() {
+    let found = refused(&with("/bodies/0/a~b", json!(1)));
+    assert_eq!(found[0].pointer, "/bodies/0/a~0b");
+    assert_eq!(found[0].value, json!(1));
+    assert_eq!(found[0].detail, "bodies[0].a~b is not a known field.");
+}
+
+#[test]
+fn repeated_keys() {
+    let text = minimal()
+        .to_string()
+        .replacen("{", r#"{"duration_s": 1, "duration_s": 2, "#, 1);
+    let found = violations(Scenario::from_json(&text));
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].pointer, "/duration_s");
+    assert!(found[0].detail.contains("more than once"));
+}
+
+#[test]
+fn texts_that_are_no_json() {
+    for text in [
+        "",
+        "{",
+        "{\"title\": }",
+        "not json",
+        "{} {}",
+        "{\"gravity_m_s2\": NaN}",
+        "{\"gravity_m_s2\": 1e999}",
+    ] {
+        assert!(
+            matches!(
+                Scenario::from_json(text),
+                Err(ScenarioError::Malformed { .. })
+            ),
+            "{text}"
+        );
+    }
+    let deep = "[".repeat(100_000);
+    assert!(matches!(
+        Scenario::from_json(&deep),
+        Err(ScenarioError::Malformed { .. })
+    ));
+    let Err(ScenarioError::Malformed {
+        message,
+        line,
+        column,
+    }) = Scenario::from_json("{\n  x")
+    else {
+        panic!("that is no JSON");
+    };
+    assert_eq!(
+        (message.as_str(), line, column),
+        ("key must be a string", 2, 3)
+    );
+}
+
+#[test]
+fn answers_stay_small() {
+    let many = Value::Array(vec![minimal()["bodies"][0].clone(); 257]);
+    let found = refused(&with("/bodies", many));
+    assert_eq!((found.len(), found[0].pointer.as_str()), (1, "/bodies"));
+    assert!(found[0].value.to_string().len() < 100);
+
+    let mut scenario = minimal();
+    for key in 0..1000 {
+        scenario[format!("key{key}")] = json!(1);
+    }
+    let found = refused(&scenario);
+    assert_eq!(found.len(), 501);
+    assert!(found[500].detail.contains("500 further"));
+
+    let found = refused(&with("/title", json!(vec![1; 20_001])));
+    assert_eq!((found.len(), found[0].pointer.as_str()), (1, ""));
+}

@@ -1,0 +1,274 @@
+//! Single fields that are refused, and where.
+
+use super::{check, minimal, refused};
+use serde_json::{Value, json};
+
+#[test]
+fn single_fields() {
+    check(&[
+        (
+            "unknown key",
+            "/colour",
+            json!("red"),
+            "/colour",
+            "one of: title, channel",
+        ),
+        (
+            "unknown nested key",
+            "/channel/lenght_m",
+            json!(1),
+            "/channel/lenght_m",
+            "width_m",
+        ),
+        (
+            "unknown in an optional part",
+            "/numerics/gpu",
+            json!(true),
+            "/numerics/gpu",
+            "threads",
+        ),
+        (
+            "text for a number",
+            "/gravity_m_s2",
+            json!("9.81"),
+            "/gravity_m_s2",
+            "0.01 <= x",
+        ),
+        (
+            "null for a number",
+            "/duration_s",
+            Value::Null,
+            "/duration_s",
+            "0 <= x <= 3600",
+        ),
+        (
+            "number for a text",
+            "/title",
+            json!(7),
+            "/title",
+            "200 characters",
+        ),
+        (
+            "title too long",
+            "/title",
+            json!("x".repeat(201)),
+            "/title",
+            "200 characters",
+        ),
+        (
+            "number for an object",
+            "/channel",
+            json!(3),
+            "/channel",
+            "an object",
+        ),
+        (
+            "null for an object",
+            "/numerics",
+            Value::Null,
+            "/numerics",
+            "an object",
+        ),
+        (
+            "object for a list",
+            "/bodies",
+            json!({}),
+            "/bodies",
+            "a list",
+        ),
+        (
+            "list item no object",
+            "/bodies/0",
+            json!(4),
+            "/bodies/0",
+            "an object",
+        ),
+        (
+            "number for a truth value",
+            "/bodies/0/fixed",
+            json!(1),
+            "/bodies/0/fixed",
+            "true or false",
+        ),
+        (
+            "below",
+            "/channel/inclination_deg",
+            json!(-1),
+            "/channel/inclination_deg",
+            "0 <= x <= 89",
+        ),
+        (
+            "above",
+            "/channel/inclination_deg",
+            json!(90),
+            "/channel/inclination_deg",
+            "0 <= x <= 89",
+        ),
+        (
+            "no width",
+            "/channel/width_m",
+            json!(0),
+            "/channel/width_m",
+            "0.001 <= x",
+        ),
+        (
+            "negative volume",
+            "/flow/volume_m3",
+            json!(-0.01),
+            "/flow/volume_m3",
+            "0 <= x",
+        ),
+        (
+            "negative friction",
+            "/bodies/0/friction",
+            json!(-0.1),
+            "/bodies/0/friction",
+            "0 <= x <= 10",
+        ),
+        (
+            "restitution",
+            "/bodies/0/restitution",
+            json!(1.1),
+            "/bodies/0/restitution",
+            "0 <= x <= 1",
+        ),
+        (
+            "incompressible",
+            "/flow/material/poissons_ratio",
+            json!(0.5),
+            "/flow/material/poissons_ratio",
+            "0.49",
+        ),
+        (
+            "no courant",
+            "/numerics/courant",
+            json!(0),
+            "/numerics/courant",
+            "0 < x <= 0.9",
+        ),
+        (
+            "half a point",
+            "/numerics/points_per_cell",
+            json!(7.5),
+            "/numerics/points_per_cell",
+            "whole",
+        ),
+        (
+            "no thread",
+            "/numerics/threads",
+            json!(0),
+            "/numerics/threads",
+            "1 <= x",
+        ),
+        (
+            "negative count",
+            "/flow_snapshots",
+            json!(-2),
+            "/flow_snapshots",
+            "0 <= x",
+        ),
+        (
+            "short vector",
+            "/bodies/0/velocity_m_s",
+            json!([1, 2]),
+            "/bodies/0/velocity_m_s",
+            "a list of 3 numbers",
+        ),
+        (
+            "vector of texts",
+            "/bodies/0/velocity_m_s",
+            json!([0, "a", 0]),
+            "/bodies/0/velocity_m_s/1",
+            "-1000 <= x",
+        ),
+        (
+            "light is slower",
+            "/bodies/0/velocity_m_s",
+            json!([0, 0, 1e9]),
+            "/bodies/0/velocity_m_s/2",
+            "x <= 1000",
+        ),
+        (
+            "zero quaternion",
+            "/bodies/0/orientation",
+            json!([0, 0, 0, 0]),
+            "/bodies/0/orientation",
+            "length 1",
+        ),
+        (
+            "long quaternion",
+            "/bodies/0/orientation",
+            json!([1, 0, 0.1, 0]),
+            "/bodies/0/orientation",
+            "length 1",
+        ),
+        (
+            "no shape",
+            "/bodies/0/shape",
+            json!({}),
+            "/bodies/0/shape",
+            "exactly one of: cube",
+        ),
+        (
+            "two shapes",
+            "/bodies/0/shape/sphere",
+            json!({}),
+            "/bodies/0/shape",
+            "exactly one of: cube",
+        ),
+        (
+            "unknown shape",
+            "/bodies/0/shape",
+            json!({"sphere": {}}),
+            "/bodies/0/shape/sphere",
+            "one of: cube",
+        ),
+        (
+            "shape by name",
+            "/bodies/0/shape",
+            json!("cube"),
+            "/bodies/0/shape",
+            "an object",
+        ),
+        (
+            "cube without side",
+            "/bodies/0/shape/cube",
+            json!({}),
+            "/bodies/0/shape/cube/side_m",
+            "0.0001 <= x",
+        ),
+    ]);
+}
+
+#[test]
+fn required_fields() {
+    let required = [
+        "/channel",
+        "/channel/inclination_deg",
+        "/channel/incline_length_m",
+        "/channel/runout_length_m",
+        "/flow",
+        "/flow/volume_m3",
+        "/bodies",
+        "/bodies/0/shape",
+    ];
+    for pointer in required {
+        let mut scenario = minimal();
+        let (parent, key) = pointer.rsplit_once('/').unwrap();
+        scenario
+            .pointer_mut(parent)
+            .unwrap()
+            .as_object_mut()
+            .unwrap()
+            .remove(key);
+        let found = refused(&scenario);
+        assert_eq!(found.len(), 1, "{found:#?}");
+        assert_eq!(
+            (found[0].pointer.as_str(), &found[0].value),
+            (pointer, &Value::Null)
+        );
+        assert!(found[0].detail.contains("missing"));
+    }
+    assert_eq!(refused(&json!({})).len(), 3);
+    assert_eq!(refused(&json!([]))[0].pointer, "");
+}
