@@ -1,11 +1,5 @@
 //! How far one sub-step and one step may go (docs/method.md, equations 25–27).
 
-use crate::material::Material;
-use crate::math::Vec3;
-
-/// More sub-steps per transfer than this never pay: a flow at rest would
-/// otherwise never be transferred.
-const MOST_SUBSTEPS_PER_STEP: f64 = 20.0;
 /// Sub-step without a flow, where bodies choose their own [s].
 const SUBSTEP_WITHOUT_FLOW: f64 = 1e-3;
 /// A flow this many times faster than its own sound has blown up.
@@ -24,6 +18,9 @@ pub struct Limits {
     pub courant: f64,
     /// Cells the fastest point may travel per step.
     pub flow_courant: f64,
+    /// A flow slower than this steps as if it had this speed [m/s]: one at rest
+    /// would otherwise never be transferred.
+    pub slow: f64,
 }
 
 /// The next step: so many sub-steps of so long.
@@ -38,17 +35,6 @@ pub struct Pace {
 }
 
 impl Limits {
-    /// Limits of a material on a grid.
-    pub fn new(material: &Material, spacing: &Vec3, courant: f64, flow_courant: f64) -> Self {
-        Self {
-            p_wave_speed: material.p_wave_speed(),
-            sound_speed: (material.bulk_modulus / material.bulk_density).sqrt(),
-            cell_size: spacing.min(),
-            courant,
-            flow_courant,
-        }
-    }
-
     /// Longest stable sub-step at this largest speed [s]: a P-wave may cross a
     /// share of a cell, and a lone point, which rings at √(3K/ρ)/h, must not
     /// blow up.
@@ -66,17 +52,9 @@ impl Limits {
     /// The next step: equal sub-steps, none longer than `longest` [s], the
     /// fastest at `speed` [m/s], and none beyond `remaining` [s].
     pub fn pace(&self, longest: f64, speed: f64, remaining: f64) -> Pace {
-        let travel = speed * longest;
-        let allowed = if travel > 0.0 {
-            (self.flow_courant * self.cell_size / travel).floor()
-        } else {
-            f64::INFINITY
-        };
-        divide(
-            remaining,
-            longest,
-            allowed.clamp(1.0, MOST_SUBSTEPS_PER_STEP),
-        )
+        let travel = speed.max(self.slow) * longest;
+        let allowed = (self.flow_courant * self.cell_size / travel).floor();
+        divide(remaining, longest, allowed.max(1.0))
     }
 }
 
@@ -107,6 +85,7 @@ mod tests {
             cell_size: 0.01,
             courant: 0.4,
             flow_courant: 0.2,
+            slow: 0.5,
         }
     }
 

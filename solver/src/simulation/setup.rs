@@ -21,6 +21,9 @@ pub(super) use release::release;
 const COURANT: f64 = 0.4;
 /// Default travel of the fastest point per step, in cells.
 const FLOW_COURANT: f64 = 0.2;
+/// A flow slower than this share of its expected speed is transferred as
+/// often as if it had that speed.
+const SLOW: f64 = 0.4;
 /// Sound speed over expected flow speed: density varies by its inverse square
 /// under steady load.
 const STIFFNESS_FACTOR: f64 = 10.0;
@@ -103,12 +106,14 @@ impl Flow {
         let numerics = &scenario.numerics;
         let volume = lattice.cell_volume() / f64::from(numerics.points_per_cell);
         Self {
-            limits: Limits::new(
-                &material,
-                &lattice.spacing,
-                numerics.courant.unwrap_or(COURANT),
-                numerics.flow_courant.unwrap_or(FLOW_COURANT),
-            ),
+            limits: Limits {
+                p_wave_speed: material.p_wave_speed(),
+                sound_speed: (material.bulk_modulus / material.bulk_density).sqrt(),
+                cell_size: lattice.finest_spacing(),
+                courant: numerics.courant.unwrap_or(COURANT),
+                flow_courant: numerics.flow_courant.unwrap_or(FLOW_COURANT),
+                slow: SLOW * resolution::expected_speed(scenario),
+            },
             material,
             point_radius: (3.0 * volume / (4.0 * std::f64::consts::PI)).cbrt(),
             point_spacing: volume.cbrt(),
@@ -169,7 +174,6 @@ fn material(scenario: &Scenario, given: &scenario::Material) -> Material {
 }
 
 fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
-    let (sin, cos) = channel.inclination_deg.to_radians().sin_cos();
     let base = |name, normal| Plane {
         name,
         normal,
@@ -185,7 +189,7 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
     let half_width = 0.5 * channel.width_m;
     let mut planes = vec![base("floor", Vec3::z())];
     if channel.inclination_deg > 0.0 {
-        planes.push(base("incline", Vec3::new(sin, 0.0, cos)));
+        planes.push(base("incline", channel.slope_normal()));
     }
     Walls {
         base: planes,

@@ -45,7 +45,7 @@ pub(in crate::simulation) fn release(
                 let place = |n: u32, axis: usize| (f64::from(n) + 0.5) * columns.spacing[axis];
                 let x = release.back_m + place(i, 0);
                 let height = place(k, 2);
-                let base = (-x * slope.tan()).max(0.0);
+                let base = scenario.channel.bed_elevation_m(x);
                 let y = place(j, 1) - 0.5 * release.width_m;
                 let position = Vec3::new(x, y, base + height);
                 if !given.is_free(&position, bodies) {
@@ -71,7 +71,8 @@ impl Columns {
         let per_cell_across = per_cell.cbrt().round().max(1.0);
         let in_plane = (cell.x * cell.z * per_cell_across / per_cell).sqrt();
         let across = (release.width_m / cell.y).round() * per_cell_across;
-        let along = (release.length_m() / in_plane).round().max(1.0);
+        let length = release.front_m - release.back_m;
+        let along = (length / in_plane).round().max(1.0);
         let up = (release.vertical_thickness_m / in_plane).round().max(1.0);
         let points = along * across * up;
         if points > MOST_POINTS as f64 {
@@ -82,7 +83,7 @@ impl Columns {
             });
         }
         let spacing = Vec3::new(
-            release.length_m() / along,
+            length / along,
             release.width_m / across,
             release.vertical_thickness_m / up,
         );
