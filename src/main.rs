@@ -1,2 +1,3 @@
-//! Scree: service and command line.
+//! The command line of Scree.
+
 fn main() {}

@@ -1,0 +1,242 @@
+//! What the operator decides: strict, unit-suffixed, checked before anything
+//! is started. Later sources win: built-in values, the TOML file, the
+//! environment (`SCREE_LISTEN`, `SCREE_WORKERS__COUNT`, …).
+
+use figment::Figment;
+use figment::providers::{Env, Format, Serialized, Toml};
+use serde::{Deserialize, Serialize};
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use thiserror::Error;
+
+/// Configuration of the service.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ServiceConfig {
+    /// Address and port; port 0 takes a free one. Loopback only.
+    pub listen: SocketAddr,
+    /// The SQLite file; made if it is not there.
+    pub database: PathBuf,
+    /// Who computes.
+    pub workers: Workers,
+    /// What a client may ask of the service.
+    pub limits: Limits,
+    /// How results reach the database while a job runs.
+    pub recording: Recording,
+}
+
+/// The worker pool.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Workers {
+    /// Jobs that run at the same time.
+    pub count: usize,
+    /// Solver threads of one job; `None`: the cores shared evenly.
+    pub threads_per_worker: Option<usize>,
+}
+
+/// Limits on clients.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limits {
+    /// Largest request body [bytes].
+    pub request_body_bytes: usize,
+    /// Longest wait for the head of a request [s].
+    pub header_read_timeout_s: f64,
+    /// Longest time from the head of a request to the head of its answer [s].
+    pub request_timeout_s: f64,
+    /// Connections served at the same time; more wait in the listen queue.
+    pub connections: usize,
+    /// How long requests in hand may go on once the service stops [s].
+    pub drain_timeout_s: f64,
+}
+
+/// Recording of results.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Recording {
+    /// Longest wall time for which new samples and progress stay unwritten [s].
+    pub flush_interval_s: f64,
+}
+
+/// Why a configuration is refused.
+#[derive(Debug, Error)]
+pub enum ConfigError {
+    /// The file or the environment can't be read as a configuration.
+    #[error("configuration: {0}")]
+    Unreadable(#[from] Box<figment::Error>),
+    /// The file is not there.
+    #[error("configuration file {0} not found")]
+    Missing(PathBuf),
+    /// Read, but not allowed.
+    #[error("configuration: {key} = {value} is not allowed: {reason}")]
+    NotAllowed {
+        /// Key, with its section.
+        key: &'static str,
+        /// Value received.
+        value: String,
+        /// Why, and what would be allowed.
+        reason: String,
+    },
+}
+
+/// Worker sizes that were checked against the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PoolSize {
+    /// Jobs that run at the same time.
+    pub workers: usize,
+    /// Solver threads of each.
+    pub threads_per_worker: usize,
+}
+
+impl Default for ServiceConfig {
+    fn default() -> Self {
+        Self {
+            listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 8080)),
+            database: PathBuf::from("scree.db"),
+            workers: Workers {
+                count: 1,
+                threads_per_worker: None,
+            },
+            limits: Limits {
+                request_body_bytes: 1024 * 1024,
+                header_read_timeout_s: 10.0,
+                request_timeout_s: 30.0,
+                connections: 256,
+                drain_timeout_s: 5.0,
+            },
+            recording: Recording {
+                flush_interval_s: 0.5,
+            },
+        }
+    }
+}
+
+impl ServiceConfig {
+    /// Built-in values, then `file` if one is named, then the environment.
+    ///
+    /// # Errors
+    /// A named file that is missing, an unknown key, a value of the wrong type.
+    pub fn load(file: Option<&Path>) -> Result<Self, ConfigError> {
+        let mut sources = Figment::from(Serialized::defaults(Self::default()));
+        if let Some(path) = file {
+            if !path.is_file() {
+                return Err(ConfigError::Missing(path.to_path_buf()));
+            }
+            sources = sources.merge(Toml::file_exact(path));
+        }
+        sources
+            .merge(Env::prefixed("SCREE_").split("__"))
+            .extract()
+            .map_err(|error| ConfigError::Unreadable(Box::new(error)))
+    }
+
+    /// Checks what types can't: loopback, finite durations, workers × threads
+    /// within `cores`.
+    ///
+    /// # Errors
+    /// The first key that is not allowed.
+    pub fn check(&self, cores: usize) -> Result<PoolSize, ConfigError> {
+        self.check_listen()?;
+        self.check_limits()?;
+        self.workers.check(cores)
+    }
+
+    fn check_listen(&self) -> Result<(), ConfigError> {
+        if self.listen.ip().is_loopback() {
+            return Ok(());
+        }
+        Err(not_allowed(
+            "listen",
+            self.listen,
+            "the service has no access tokens yet, so it only listens on the loopback interface \
+             (127.0.0.1 or [::1])",
+        ))
+    }
+
+    fn check_limits(&self) -> Result<(), ConfigError> {
+        let limits = &self.limits;
+        for (key, value) in [
+            ("limits.header_read_timeout_s", limits.header_read_timeout_s),
+            ("limits.request_timeout_s", limits.request_timeout_s),
+            ("limits.drain_timeout_s", limits.drain_timeout_s),
+            (
+                "recording.flush_interval_s",
+                self.recording.flush_interval_s,
+            ),
+        ] {
+            // A comparison is false for NaN, so NaN is refused too.
+            if !(value > 0.0 && value <= 3600.0) {
+                return Err(not_allowed(key, value, "allowed is 0 < x <= 3600 s"));
+            }
+        }
+        for (key, value) in [
+            ("limits.request_body_bytes", limits.request_body_bytes),
+            ("limits.connections", limits.connections),
+        ] {
+            if value == 0 {
+                return Err(not_allowed(key, value, "allowed is x >= 1"));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Workers {
+    fn check(&self, cores: usize) -> Result<PoolSize, ConfigError> {
+        if self.count == 0 || self.count > cores {
+            let reason = format!("allowed is 1 <= x <= {cores}, the cores of this machine");
+            return Err(not_allowed("workers.count", self.count, reason));
+        }
+        let most = cores / self.count;
+        let threads = self.threads_per_worker.unwrap_or(most);
+        if threads == 0 || threads > most {
+            let reason = format!(
+                "with {} worker(s) on {cores} core(s), allowed is 1 <= x <= {most}",
+                self.count
+            );
+            return Err(not_allowed("workers.threads_per_worker", threads, reason));
+        }
+        Ok(PoolSize {
+            workers: self.count,
+            threads_per_worker: threads,
+        })
+    }
+}
+
+impl Limits {
+    /// Longest wait for the head of a request.
+    pub fn header_read_timeout(&self) -> Duration {
+        Duration::from_secs_f64(self.header_read_timeout_s)
+    }
+
+    /// Longest time to the head of an answer.
+    pub fn request_timeout(&self) -> Duration {
+        Duration::from_secs_f64(self.request_timeout_s)
+    }
+
+    /// How long requests in hand may go on once the service stops.
+    pub fn drain_timeout(&self) -> Duration {
+        Duration::from_secs_f64(self.drain_timeout_s)
+    }
+}
+
+impl Recording {
+    /// Longest wall time for which results stay unwritten.
+    pub fn flush_interval(&self) -> Duration {
+        Duration::from_secs_f64(self.flush_interval_s)
+    }
+}
+
+fn not_allowed(
+    key: &'static str,
+    value: impl std::fmt::Display,
+    reason: impl Into<String>,
+) -> ConfigError {
+    ConfigError::NotAllowed {
+        key,
+        value: format!("{value}"),
+        reason: reason.into(),
+    }
+}

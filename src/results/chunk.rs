@@ -1,0 +1,195 @@
+//! A stretch of one body's trajectory as one compressed, checksummed block.
+
+use super::columns::TrajectoryColumns;
+use super::planes::{self, PlaneReader};
+use scree_solver::record::Mode;
+use thiserror::Error;
+
+/// Samples in a full chunk. Larger ones compress no better and make a short
+/// read dearer.
+pub const CHUNK_SAMPLES: usize = 512;
+
+/// Name of the encoding, kept with each block so that a later one can differ.
+pub const ENCODING: &str = "planes-zstd-1";
+
+/// Bytes of one sample before compression: 27 f64, one u32, one byte.
+const BYTES_PER_SAMPLE: usize = 27 * 8 + 4 + 1;
+
+/// Speed over size: level 3 is zstd's own default.
+const ZSTD_LEVEL: i32 = 3;
+
+/// Compressed bytes and their checksum.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Block {
+    /// Compressed bytes.
+    pub data: Vec<u8>,
+    /// BLAKE3 of `data`.
+    pub checksum: [u8; 32],
+}
+
+/// Why a stored block can't be read.
+#[derive(Debug, Error)]
+pub enum BlockError {
+    /// The bytes are not those that were written.
+    #[error("the checksum does not match")]
+    Checksum,
+    /// The block does not hold what its row says.
+    #[error("the block does not hold {rows} rows")]
+    Contents {
+        /// Rows it should hold.
+        rows: usize,
+    },
+    /// The compressed stream is broken.
+    #[error("decompression: {0}")]
+    Compression(#[from] std::io::Error),
+}
+
+impl Block {
+    /// Compresses and checksums.
+    ///
+    /// # Errors
+    /// Only if the compressor is out of memory.
+    pub(super) fn seal(raw: &[u8]) -> Result<Self, BlockError> {
+        let data = zstd::bulk::compress(raw, ZSTD_LEVEL)?;
+        let checksum = *blake3::hash(&data).as_bytes();
+        Ok(Self { data, checksum })
+    }
+
+    /// Checks and decompresses into at most `limit` bytes.
+    pub(super) fn open(&self, limit: usize) -> Result<Vec<u8>, BlockError> {
+        if blake3::hash(&self.data).as_bytes() != &self.checksum {
+            return Err(BlockError::Checksum);
+        }
+        Ok(zstd::bulk::decompress(&self.data, limit)?)
+    }
+}
+
+/// Encodes a stretch of a trajectory.
+///
+/// # Errors
+/// Only if the compressor is out of memory.
+pub fn encode(columns: &TrajectoryColumns) -> Result<Block, BlockError> {
+    let mut raw = Vec::with_capacity(columns.len() * BYTES_PER_SAMPLE);
+    planes::put_f64(&mut raw, &columns.time_s.iter().copied());
+    put_rows(&mut raw, &columns.position_m);
+    put_rows(&mut raw, &columns.orientation);
+    put_rows(&mut raw, &columns.velocity_m_s);
+    put_rows(&mut raw, &columns.angular_velocity_rad_s);
+    put_rows(&mut raw, &columns.flow_force_n);
+    put_rows(&mut raw, &columns.flow_torque_nm);
+    put_rows(&mut raw, &columns.wall_force_n);
+    put_rows(&mut raw, &columns.wall_torque_nm);
+    planes::put_f64(&mut raw, &columns.submerged_fraction.iter().copied());
+    planes::put_u32(&mut raw, &columns.touching_points.iter().copied());
+    raw.extend(columns.mode.iter().copied().map(mode_to_byte));
+    Block::seal(&raw)
+}
+
+/// Decodes a block of `samples` samples.
+///
+/// # Errors
+/// [`BlockError`], if the block is not what [`encode`] made.
+pub fn decode(block: &Block, samples: usize) -> Result<TrajectoryColumns, BlockError> {
+    let raw = block.open(samples * BYTES_PER_SAMPLE)?;
+    read_columns(&raw, samples).ok_or(BlockError::Contents { rows: samples })
+}
+
+fn read_columns(raw: &[u8], samples: usize) -> Option<TrajectoryColumns> {
+    let mut reader = PlaneReader::new(raw, samples);
+    let columns = TrajectoryColumns {
+        time_s: reader.f64s()?,
+        position_m: reader.f64_rows()?,
+        orientation: reader.f64_rows()?,
+        velocity_m_s: reader.f64_rows()?,
+        angular_velocity_rad_s: reader.f64_rows()?,
+        flow_force_n: reader.f64_rows()?,
+        flow_torque_nm: reader.f64_rows()?,
+        wall_force_n: reader.f64_rows()?,
+        wall_torque_nm: reader.f64_rows()?,
+        submerged_fraction: reader.f64s()?,
+        touching_points: reader.u32s()?,
+        mode: reader
+            .bytes(1)?
+            .iter()
+            .map(|&byte| mode_from_byte(byte))
+            .collect::<Option<_>>()?,
+    };
+    reader.is_done().then_some(columns)
+}
+
+fn put_rows<const N: usize>(raw: &mut Vec<u8>, rows: &[[f64; N]]) {
+    for component in 0..N {
+        planes::put_f64(raw, &rows.iter().map(|row| row[component]));
+    }
+}
+
+fn mode_to_byte(mode: Mode) -> u8 {
+    match mode {
+        Mode::Resting => 0,
+        Mode::Sliding => 1,
+        Mode::Rolling => 2,
+        Mode::Saltating => 3,
+    }
+}
+
+fn mode_from_byte(byte: u8) -> Option<Mode> {
+    [Mode::Resting, Mode::Sliding, Mode::Rolling, Mode::Saltating]
+        .get(usize::from(byte))
+        .copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::columns::tests::numbered_columns;
+    use super::*;
+
+    #[test]
+    fn a_chunk_comes_back_bit_for_bit() {
+        for count in [0, 1, 3, 512] {
+            let mut columns = numbered_columns(count);
+            if let Some(first) = columns.position_m.first_mut() {
+                *first = [-0.0, f64::MIN_POSITIVE / 2.0, f64::MAX];
+            }
+            let block = encode(&columns).unwrap();
+            let back = decode(&block, count as usize).unwrap();
+            assert_eq!(back, columns);
+            let bits = |columns: &TrajectoryColumns| {
+                columns
+                    .position_m
+                    .iter()
+                    .flatten()
+                    .map(|x| x.to_bits())
+                    .collect::<Vec<_>>()
+            };
+            assert_eq!(bits(&back), bits(&columns));
+        }
+    }
+
+    #[test]
+    fn a_flipped_bit_is_noticed() {
+        let mut block = encode(&numbered_columns(100)).unwrap();
+        let middle = block.data.len() / 2;
+        block.data[middle] ^= 1;
+        assert!(matches!(decode(&block, 100), Err(BlockError::Checksum)));
+    }
+
+    #[test]
+    fn a_wrong_number_of_samples_is_noticed() {
+        let block = encode(&numbered_columns(100)).unwrap();
+        assert!(decode(&block, 99).is_err());
+        assert!(matches!(
+            decode(&block, 101),
+            Err(BlockError::Contents { rows: 101 })
+        ));
+    }
+
+    #[test]
+    fn a_smooth_trajectory_takes_less_than_half_its_size() {
+        let block = encode(&numbered_columns(512)).unwrap();
+        assert!(
+            block.data.len() * 2 < 512 * BYTES_PER_SAMPLE,
+            "{} bytes",
+            block.data.len()
+        );
+    }
+}
