@@ -2,11 +2,12 @@
 //! up. This library holds the service; the binary adds the command line.
 //!
 //! The way through it: [`service::start`] binds the address, opens the database
-//! and starts the workers; `http` takes jobs in and gives results out;
+//! and starts the workers; [`http`] takes jobs in and gives results out;
 //! [`jobs`] keeps them in the database and runs them; [`results`] turns what a
 //! run recorded into what is stored and served.
 
 pub mod config;
+pub mod http;
 pub mod jobs;
 pub mod results;
 pub mod service;

@@ -1,8 +1,15 @@
 //! The service as a whole: started with a configuration, stopped with grace.
 
-use crate::config::{ConfigError, ServiceConfig};
+use crate::config::{ConfigError, PoolSize, ServiceConfig};
+use crate::http;
+use crate::jobs::Jobs;
+use crate::jobs::pool::Pool;
+use crate::jobs::store::{Store, StoreError};
 use std::net::SocketAddr;
 use thiserror::Error;
+use tokio::net::TcpListener;
+use tokio::sync::watch;
+use tokio::task::JoinHandle;
 
 /// Why the service can't start.
 #[derive(Debug, Error)]
@@ -18,12 +25,22 @@ pub enum StartError {
         /// The system's words.
         source: std::io::Error,
     },
+    /// The database can't be used.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// The workers can't be started.
+    #[error("cannot start the workers: {0}")]
+    Workers(std::io::Error),
 }
 
 /// A service that takes requests and runs jobs until it is stopped.
 #[derive(Debug)]
 pub struct RunningService {
     address: SocketAddr,
+    store: Store,
+    pool: Pool,
+    server: JoinHandle<()>,
+    stop: watch::Sender<bool>,
 }
 
 impl RunningService {
@@ -34,19 +51,74 @@ impl RunningService {
 
     /// Takes no more requests, lets those in hand finish, puts running jobs
     /// back into the queue, and returns when all is written.
-    pub async fn stop(self) {}
+    pub async fn stop(self) {
+        self.stop.send_replace(true);
+        let pool = self.pool;
+        let workers = tokio::task::spawn_blocking(move || pool.stop());
+        let (server, workers) = tokio::join!(self.server, workers);
+        for (what, ended) in [("server", server), ("workers", workers)] {
+            if let Err(error) = ended {
+                tracing::error!(%error, what, "did not stop as it should");
+            }
+        }
+        self.store.close().await;
+        tracing::info!("stopped");
+    }
 }
 
-/// Starts the service.
+/// Starts the service on the current tokio runtime. Jobs that were waiting
+/// when the last one stopped, or that it died under, are run.
 ///
 /// # Errors
 /// [`StartError`]; nothing is left running then.
-#[expect(
-    clippy::unused_async,
-    reason = "signature first; opening the database awaits"
-)]
 pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    config.check(cores)?;
-    todo!("opens the database, starts the workers, serves")
+    let size = config.check(cores)?;
+    let (listener, address) = listen(config.listen).await?;
+    let store = Store::open(&config.database).await?;
+    match serve(&config, size, &store, listener).await {
+        Ok((pool, server, stop)) => {
+            tracing::info!(%address, ?size, database = %config.database.display(), "serving");
+            Ok(RunningService {
+                address,
+                store,
+                pool,
+                server,
+                stop,
+            })
+        }
+        Err(error) => {
+            store.close().await;
+            Err(error)
+        }
+    }
+}
+
+async fn serve(
+    config: &ServiceConfig,
+    size: PoolSize,
+    store: &Store,
+    listener: TcpListener,
+) -> Result<(Pool, JoinHandle<()>, watch::Sender<bool>), StartError> {
+    let left_running = store.recover().await?;
+    if left_running > 0 {
+        tracing::warn!(
+            left_running,
+            "the last service died under jobs: they start over"
+        );
+    }
+    let pool =
+        Pool::start(store, size, config.recording.flush_interval()).map_err(StartError::Workers)?;
+    let jobs = Jobs::new(store.clone(), pool.bench(), size.threads_per_worker);
+    let router = http::router(jobs, &config.limits);
+    let (stop, stopped) = watch::channel(false);
+    let server = http::server::serve(listener, router, config.limits.clone(), stopped);
+    Ok((pool, tokio::spawn(server), stop))
+}
+
+async fn listen(address: SocketAddr) -> Result<(TcpListener, SocketAddr), StartError> {
+    let failed = |source| StartError::Listen { address, source };
+    let listener = TcpListener::bind(address).await.map_err(failed)?;
+    let address = listener.local_addr().map_err(failed)?;
+    Ok((listener, address))
 }

@@ -1,4 +1,16 @@
-//! Jobs: how far they are ([`progress`]) and what runs them ([`runner`]).
+//! Jobs: what they are ([`job`]), which are let in ([`submit`]), where they are
+//! kept ([`store`]), who runs them ([`pool`], [`runner`]) and how one that can't
+//! be finished says so ([`failure`]). [`Jobs`] is the door for HTTP.
 
+mod desk;
+pub mod failure;
+pub mod job;
+pub mod pool;
 pub mod progress;
+pub mod recording;
 pub mod runner;
+pub mod store;
+pub mod submit;
+mod worker;
+
+pub use desk::{Dismissed, Jobs, SubmitError};

@@ -11,3 +11,4 @@ mod planes;
 
 pub use columns::{Selection, TrajectoryColumns};
 pub use json::trajectory_json;
+pub use scree_solver::record::FlowSnapshot;

@@ -1,0 +1,149 @@
+//! Problem documents (RFC 9457).
+
+use crate::jobs::submit::Violation;
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+use serde_json::Value;
+use std::fmt::Display;
+use utoipa::ToSchema;
+use uuid::Uuid;
+
+/// Media type of a problem document.
+const MEDIA_TYPE: HeaderValue = HeaderValue::from_static("application/problem+json");
+
+/// Why a request did not get what it asked for (RFC 9457).
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub(super) struct Problem {
+    /// What kind of problem, as a stable name.
+    #[serde(rename = "type")]
+    pub kind: String,
+    /// The kind in words.
+    pub title: &'static str,
+    /// HTTP status.
+    pub status: u16,
+    /// What happened this time.
+    pub detail: String,
+    /// All that is wrong with the request, field by field.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schema(required = false)]
+    pub errors: Vec<FieldError>,
+    /// Under which the service's log has the details of an internal error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_id: Option<String>,
+}
+
+/// What is wrong with one field of the body or one parameter of the query.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub(super) struct FieldError {
+    /// JSON pointer (RFC 6901) into the body, "" for the whole document.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pointer: Option<String>,
+    /// Name of the query parameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parameter: Option<String>,
+    /// The value received; null if it is missing.
+    pub value: Value,
+    /// What is allowed, in words or as a range.
+    pub allowed: String,
+    /// Unit of value and range; null if there is none.
+    #[schema(required = true)]
+    pub unit: Option<String>,
+    /// One sentence for people.
+    pub detail: String,
+}
+
+impl Problem {
+    /// A problem of this kind.
+    pub(super) fn new(
+        status: StatusCode,
+        kind: &str,
+        title: &'static str,
+        detail: impl Into<String>,
+    ) -> Self {
+        Self {
+            kind: format!("urn:scree:problem:{kind}"),
+            title,
+            status: status.as_u16(),
+            detail: detail.into(),
+            errors: Vec::new(),
+            error_id: None,
+        }
+    }
+
+    /// There is no such thing.
+    pub(super) fn not_found(what: &str, detail: impl Into<String>) -> Self {
+        Self::new(StatusCode::NOT_FOUND, what, "Not found", detail)
+    }
+
+    /// A body that is JSON, but no legal scenario.
+    pub(super) fn invalid_scenario(violations: Vec<Violation>) -> Self {
+        let errors: Vec<_> = violations.into_iter().map(FieldError::from).collect();
+        let detail = match errors.as_slice() {
+            [only] => only.detail.clone(),
+            errors => format!("{} fields break the rules; see errors", errors.len()),
+        };
+        let status = StatusCode::UNPROCESSABLE_ENTITY;
+        Self {
+            errors,
+            ..Self::new(status, "invalid-scenario", "Invalid scenario", detail)
+        }
+    }
+
+    /// A query with parameters that are unknown or not allowed.
+    pub(super) fn invalid_query(errors: Vec<FieldError>) -> Self {
+        let detail = errors
+            .iter()
+            .map(|error| error.detail.as_str())
+            .collect::<Vec<_>>()
+            .join("; ");
+        let status = StatusCode::UNPROCESSABLE_ENTITY;
+        Self {
+            errors,
+            ..Self::new(status, "invalid-query", "Invalid query", detail)
+        }
+    }
+
+    /// An error of the service's own: the details go to the log, the client
+    /// gets the id they stand under.
+    pub(super) fn internal(error: &(impl Display + ?Sized)) -> Self {
+        let error_id = Uuid::now_v7().to_string();
+        tracing::error!(error_id, %error, "internal error");
+        let detail = "the service's log has the details under this error_id";
+        let status = StatusCode::INTERNAL_SERVER_ERROR;
+        Self {
+            error_id: Some(error_id),
+            ..Self::new(status, "internal", "Internal error", detail)
+        }
+    }
+}
+
+impl From<crate::jobs::store::StoreError> for Problem {
+    fn from(error: crate::jobs::store::StoreError) -> Self {
+        Self::internal(&error)
+    }
+}
+
+impl From<Violation> for FieldError {
+    fn from(violation: Violation) -> Self {
+        Self {
+            pointer: Some(violation.pointer),
+            parameter: None,
+            value: violation.value,
+            allowed: violation.allowed,
+            unit: violation.unit,
+            detail: violation.detail,
+        }
+    }
+}
+
+impl IntoResponse for Problem {
+    fn into_response(self) -> Response {
+        let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let mut response = (status, axum::Json(self)).into_response();
+        response
+            .headers_mut()
+            .insert(header::CONTENT_TYPE, MEDIA_TYPE);
+        response
+    }
+}

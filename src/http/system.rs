@@ -1,0 +1,47 @@
+//! The service itself: its health, its contract, and requests that lead nowhere.
+
+use super::documents::HealthDocument;
+use super::problem::Problem;
+use crate::jobs::Jobs;
+use axum::Json;
+use axum::extract::State;
+use axum::http::{Method, StatusCode, Uri};
+
+/// Ask whether the service is well
+#[utoipa::path(
+    get,
+    path = "/healthz",
+    tag = "service",
+    responses(
+        (status = 200, description = "It is", body = HealthDocument),
+        (status = 503, description = "The database does not answer", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn health(State(jobs): State<Jobs>) -> Result<Json<HealthDocument>, Problem> {
+    match jobs.ping().await {
+        Ok(()) => Ok(Json(HealthDocument {
+            status: "ok",
+            version: env!("CARGO_PKG_VERSION"),
+        })),
+        Err(error) => Err(Problem {
+            status: StatusCode::SERVICE_UNAVAILABLE.as_u16(),
+            ..Problem::internal(&error)
+        }),
+    }
+}
+
+pub(super) async fn no_such_route(uri: Uri) -> Problem {
+    Problem::not_found(
+        "unknown-route",
+        format!("there is nothing at {}", uri.path()),
+    )
+}
+
+pub(super) async fn wrong_method(method: Method, uri: Uri) -> Problem {
+    Problem::new(
+        StatusCode::METHOD_NOT_ALLOWED,
+        "method-not-allowed",
+        "Method not allowed",
+        format!("{} can't be asked to {method}", uri.path()),
+    )
+}

@@ -1,0 +1,151 @@
+//! The door to the jobs: what a client may ask for, in the service's own words.
+
+use super::job::{Job, JobId, JobStatus, JobSummary};
+use super::pool::Bench;
+use super::store::{Dismissal, Page, Store, StoreError};
+use super::submit;
+use super::submit::ScenarioError;
+use crate::results::FlowSnapshot;
+use crate::results::columns::{Selection, Selector, TrajectoryColumns};
+use std::sync::Arc;
+use std::time::Duration;
+use thiserror::Error;
+use tokio::time::timeout;
+
+/// How long a dismissal waits for the run to end, so that its answer shows the
+/// job as it stays. A run stops after the step in hand, well within this.
+const STOP_WAIT: Duration = Duration::from_millis(450);
+
+/// Jobs, as a client deals with them.
+#[derive(Debug, Clone)]
+pub struct Jobs {
+    store: Store,
+    bench: Arc<Bench>,
+    threads_per_worker: usize,
+}
+
+/// Why a job is not let in.
+#[derive(Debug, Error)]
+pub enum SubmitError {
+    /// The scenario is none.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// It can't be kept.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+/// What became of a wish to dismiss a job.
+#[derive(Debug, Clone)]
+pub enum Dismissed {
+    /// There is no such job.
+    Unknown,
+    /// It is dismissed, now or since before.
+    Done(Box<Job>),
+    /// It had ended otherwise.
+    TooLate(JobStatus),
+}
+
+impl Jobs {
+    /// Jobs in this store, run by the workers of this bench.
+    pub fn new(store: Store, bench: Arc<Bench>, threads_per_worker: usize) -> Self {
+        Self {
+            store,
+            bench,
+            threads_per_worker,
+        }
+    }
+
+    /// Checks a scenario and puts it into the queue; it is on disk when this
+    /// returns.
+    ///
+    /// # Errors
+    /// It is no scenario, or it can't be kept.
+    pub async fn submit(&self, scenario: &str) -> Result<Job, SubmitError> {
+        let new = submit::admit(scenario, self.threads_per_worker)?;
+        self.store.submit(&new).await?;
+        self.bench.announce();
+        let job = self.store.job(new.id).await?;
+        job.ok_or_else(|| {
+            StoreError::Row {
+                job: new.id.to_string(),
+                what: "new row",
+            }
+            .into()
+        })
+    }
+
+    /// The job, if there is one.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn job(&self, id: JobId) -> Result<Option<Job>, StoreError> {
+        self.store.job(id).await
+    }
+
+    /// A page of jobs, newest first.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn page(&self, page: Page) -> Result<Vec<JobSummary>, StoreError> {
+        self.store.page(page).await
+    }
+
+    /// Calls a job off. A running one is stopped and keeps what it recorded.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn dismiss(&self, id: JobId) -> Result<Dismissed, StoreError> {
+        match self.store.dismiss(id).await? {
+            Dismissal::Unknown => return Ok(Dismissed::Unknown),
+            Dismissal::Ended(status) => return Ok(Dismissed::TooLate(status)),
+            Dismissal::Dismissed => {}
+        }
+        if let Some(mut ended) = self.bench.stop_job(id) {
+            // Nothing is ever sent: the wait ends when the run leaves its place.
+            // One that takes longer is dismissed all the same.
+            drop(timeout(STOP_WAIT, ended.changed()).await);
+        }
+        let job = self.store.job(id).await?;
+        Ok(job.map_or(Dismissed::Unknown, |job| Dismissed::Done(Box::new(job))))
+    }
+
+    /// The selected samples of a body's trajectory so far.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn trajectory(
+        &self,
+        job: JobId,
+        body: usize,
+        selection: Selection,
+    ) -> Result<TrajectoryColumns, StoreError> {
+        let mut selector = Selector::new(selection);
+        let mut from_sample = 0;
+        while let Some(chunk) = self.store.chunk(job, body, from_sample, &selection).await? {
+            selector.take(&chunk.columns);
+            from_sample = chunk.next_sample;
+        }
+        Ok(selector.finish())
+    }
+
+    /// The snapshot of the flow nearest to a time; without a time the latest.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn snapshot(
+        &self,
+        job: JobId,
+        time_s: Option<f64>,
+    ) -> Result<Option<FlowSnapshot>, StoreError> {
+        self.store.snapshot(job, time_s).await
+    }
+
+    /// Whether the database answers.
+    ///
+    /// # Errors
+    /// It does not.
+    pub async fn ping(&self) -> Result<(), StoreError> {
+        self.store.ping().await
+    }
+}

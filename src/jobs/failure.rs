@@ -1,0 +1,146 @@
+//! Why a job failed, as the problem document that stays with it.
+
+use scree_solver::{SetupError, StepError};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+use utoipa::ToSchema;
+
+/// Why a job failed: an RFC 9457 problem document without the HTTP status,
+/// since no request failed. The numbers of the failure stand beside the text.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Failure {
+    /// What kind of failure, as a stable name.
+    #[serde(rename = "type")]
+    pub kind: String,
+    /// The kind in words.
+    pub title: String,
+    /// What happened this time.
+    pub detail: String,
+    /// The numbers of the failure, with units in their names: `time_s`, the
+    /// culprit `point` or `body`, `substep_s`, …
+    #[serde(flatten)]
+    pub numbers: Map<String, Value>,
+}
+
+impl Failure {
+    fn new(kind: &str, title: &str, detail: String, numbers: Value) -> Self {
+        let numbers = match numbers {
+            Value::Object(numbers) => numbers,
+            _ => Map::new(),
+        };
+        Self {
+            kind: format!("urn:scree:failure:{kind}"),
+            title: title.to_owned(),
+            detail,
+            numbers,
+        }
+    }
+
+    /// The computation could not go on. Final: it would fail again.
+    pub fn numerical(error: &StepError) -> Self {
+        Self::new(
+            "numerical",
+            "The computation could not go on",
+            error.to_string(),
+            step_numbers(error),
+        )
+    }
+
+    /// The solver could not set the scenario up.
+    pub fn setup(error: &SetupError) -> Self {
+        let numbers = match error {
+            SetupError::TooManyPoints {
+                points,
+                limit,
+                cell_size_m,
+            } => {
+                json!({"points": points, "limit": limit, "cell_size_m": cell_size_m})
+            }
+            SetupError::Threads { threads, .. } => json!({"threads": threads}),
+        };
+        Self::new(
+            "setup",
+            "The scenario could not be set up",
+            error.to_string(),
+            numbers,
+        )
+    }
+
+    /// The solver broke off in a way it should not; the log has the details
+    /// under `error_id`.
+    pub fn internal(error_id: &str) -> Self {
+        Self::new(
+            "internal",
+            "The run broke off",
+            "an internal error ended the run; the service's log has the details".to_owned(),
+            json!({"error_id": error_id}),
+        )
+    }
+
+    /// The process died under the job as often as is tolerated.
+    pub fn cut_off(times: u32) -> Self {
+        Self::new(
+            "cut-off",
+            "The service was cut off while running the job",
+            format!("the service died {times} times while running this job"),
+            json!({"cut_offs": times}),
+        )
+    }
+}
+
+fn step_numbers(error: &StepError) -> Value {
+    match error {
+        StepError::NonFinitePoint {
+            time_s,
+            point,
+            quantity,
+        } => {
+            json!({"time_s": time_s, "point": point, "quantity": quantity})
+        }
+        StepError::NonFiniteBody {
+            time_s,
+            body,
+            quantity,
+        } => {
+            json!({"time_s": time_s, "body": body, "quantity": quantity})
+        }
+        StepError::TimeStepCollapse {
+            time_s,
+            substep_s,
+            speed_m_s,
+            limit_s,
+        } => json!({
+            "time_s": time_s, "substep_s": substep_s, "speed_m_s": speed_m_s, "limit_s": limit_s
+        }),
+        StepError::PointBehindWall {
+            time_s,
+            point,
+            wall,
+            depth_m,
+        } => {
+            json!({"time_s": time_s, "point": point, "wall": wall, "depth_m": depth_m})
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_numerical_failure_carries_its_numbers() {
+        let error = StepError::TimeStepCollapse {
+            time_s: 0.25,
+            substep_s: 1e-12,
+            speed_m_s: 900.0,
+            limit_s: 1e-10,
+        };
+        let document = serde_json::to_value(Failure::numerical(&error)).unwrap();
+        assert_eq!(document["type"], "urn:scree:failure:numerical");
+        assert_eq!(document["detail"], error.to_string());
+        assert_eq!(document["time_s"], 0.25);
+        assert_eq!(document["substep_s"], 1e-12);
+        assert_eq!(document["speed_m_s"], 900.0);
+        assert_eq!(document["limit_s"], 1e-10);
+    }
+}

@@ -1,0 +1,229 @@
+//! Writing and reading what runs recorded.
+
+use super::rows::integer;
+use super::{Hold, Store, StoreError};
+use crate::jobs::job::JobId;
+use crate::jobs::progress::Progress;
+use crate::results::FlowSnapshot;
+use crate::results::chunk::{self, Block, BlockError};
+use crate::results::columns::{Selection, TrajectoryColumns};
+use crate::results::flow::StoredSnapshot;
+use sqlx::FromRow;
+use sqlx::sqlite::SqliteConnection;
+
+/// A chunk to be written; it replaces one that begins with the same sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NewChunk {
+    /// Index of the body.
+    pub body: usize,
+    /// Index of its first sample.
+    pub first_sample: usize,
+    /// Samples in it.
+    pub samples: usize,
+    /// Time of its first sample [s].
+    pub first_time_s: f64,
+    /// Time of its last sample [s].
+    pub last_time_s: f64,
+    /// The samples.
+    pub block: Block,
+}
+
+/// What a run adds to the database at one go.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct NewResults {
+    /// Chunks of trajectories.
+    pub chunks: Vec<NewChunk>,
+    /// Snapshots of the flow.
+    pub snapshots: Vec<StoredSnapshot>,
+    /// How far the run is.
+    pub progress: Progress,
+}
+
+/// A chunk read back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredChunk {
+    /// Index of the first sample after it.
+    pub next_sample: i64,
+    /// Its samples.
+    pub columns: TrajectoryColumns,
+}
+
+#[derive(Debug, FromRow)]
+struct ChunkRow {
+    first_sample: i64,
+    samples: i64,
+    checksum: Vec<u8>,
+    data: Vec<u8>,
+}
+
+#[derive(Debug, FromRow)]
+struct SnapshotRow {
+    time_s: f64,
+    points: i64,
+    thinning: u32,
+    kept: i64,
+    checksum: Vec<u8>,
+    data: Vec<u8>,
+}
+
+impl Store {
+    /// Writes results and progress of a job. `false`, with nothing written, if
+    /// the job is no longer this hold's; a job dismissed under the worker
+    /// still takes what the worker had.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn keep(&self, hold: Hold, results: &NewResults) -> Result<bool, StoreError> {
+        let mut transaction = self.begin().await?;
+        if !Self::keep_progress(&mut transaction, hold, &results.progress).await? {
+            return Ok(false);
+        }
+        for chunk in &results.chunks {
+            write_chunk(&mut transaction, hold.job, chunk).await?;
+        }
+        for snapshot in &results.snapshots {
+            write_snapshot(&mut transaction, hold.job, snapshot).await?;
+        }
+        transaction.commit().await?;
+        Ok(true)
+    }
+
+    /// The first chunk of a body's trajectory from sample `from_sample` on that
+    /// reaches into the selected range. One short query a chunk: no read
+    /// transaction outlives it, however slowly the client takes the answer.
+    ///
+    /// # Errors
+    /// The database's own, or a block that is not what was written.
+    pub async fn chunk(
+        &self,
+        job: JobId,
+        body: usize,
+        from_sample: i64,
+        selection: &Selection,
+    ) -> Result<Option<StoredChunk>, StoreError> {
+        let row: Option<ChunkRow> = sqlx::query_as(
+            "SELECT first_sample, samples, checksum, data FROM trajectory_chunks
+             WHERE job_id = ?1 AND body = ?2 AND first_sample >= ?3
+               AND last_time_s >= ?4 AND first_time_s <= ?5
+             ORDER BY first_sample LIMIT 1",
+        )
+        .bind(job.to_string())
+        .bind(integer(body as u64))
+        .bind(from_sample)
+        .bind(selection.earliest_s())
+        .bind(selection.latest_s())
+        .fetch_optional(&self.readers)
+        .await?;
+        row.map(ChunkRow::read)
+            .transpose()
+            .map_err(|source| StoreError::Block { job, source })
+    }
+
+    /// The snapshot nearest to a time, the earlier of two equally near; without
+    /// a time the latest. `None` if there is none yet.
+    ///
+    /// # Errors
+    /// The database's own, or a block that is not what was written.
+    pub async fn snapshot(
+        &self,
+        job: JobId,
+        time_s: Option<f64>,
+    ) -> Result<Option<FlowSnapshot>, StoreError> {
+        let row: Option<SnapshotRow> = sqlx::query_as(
+            "SELECT time_s, points, thinning, kept, checksum, data FROM flow_snapshots
+             WHERE job_id = ?1
+             ORDER BY iif(?2 IS NULL, -time_s, abs(time_s - ?2)), time_s LIMIT 1",
+        )
+        .bind(job.to_string())
+        .bind(time_s)
+        .fetch_optional(&self.readers)
+        .await?;
+        row.map(SnapshotRow::read)
+            .transpose()
+            .map_err(|source| StoreError::Block { job, source })
+    }
+}
+
+async fn write_chunk(
+    connection: &mut SqliteConnection,
+    job: JobId,
+    chunk: &NewChunk,
+) -> Result<(), StoreError> {
+    sqlx::query(
+        "INSERT INTO trajectory_chunks
+             (job_id, body, first_sample, samples, first_time_s, last_time_s, encoding, checksum, data)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)
+         ON CONFLICT (job_id, body, first_sample) DO UPDATE
+         SET samples = excluded.samples, last_time_s = excluded.last_time_s,
+             checksum = excluded.checksum, data = excluded.data",
+    )
+    .bind(job.to_string())
+    .bind(integer(chunk.body as u64))
+    .bind(integer(chunk.first_sample as u64))
+    .bind(integer(chunk.samples as u64))
+    .bind(chunk.first_time_s)
+    .bind(chunk.last_time_s)
+    .bind(chunk::ENCODING)
+    .bind(&chunk.block.checksum[..])
+    .bind(&chunk.block.data)
+    .execute(connection)
+    .await?;
+    Ok(())
+}
+
+async fn write_snapshot(
+    connection: &mut SqliteConnection,
+    job: JobId,
+    snapshot: &StoredSnapshot,
+) -> Result<(), StoreError> {
+    sqlx::query(
+        "INSERT INTO flow_snapshots
+             (job_id, time_s, points, thinning, kept, encoding, checksum, data)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+    )
+    .bind(job.to_string())
+    .bind(snapshot.time_s)
+    .bind(integer(snapshot.points))
+    .bind(snapshot.thinning)
+    .bind(integer(snapshot.kept as u64))
+    .bind(chunk::ENCODING)
+    .bind(&snapshot.block.checksum[..])
+    .bind(&snapshot.block.data)
+    .execute(connection)
+    .await?;
+    Ok(())
+}
+
+impl ChunkRow {
+    fn read(self) -> Result<StoredChunk, BlockError> {
+        let samples = length(self.samples);
+        let columns = chunk::decode(&block(self.checksum, self.data)?, samples)?;
+        Ok(StoredChunk {
+            next_sample: self.first_sample + self.samples,
+            columns,
+        })
+    }
+}
+
+impl SnapshotRow {
+    fn read(self) -> Result<FlowSnapshot, BlockError> {
+        let stored = StoredSnapshot {
+            time_s: self.time_s,
+            points: self.points.unsigned_abs(),
+            thinning: self.thinning,
+            kept: length(self.kept),
+            block: block(self.checksum, self.data)?,
+        };
+        stored.unpack()
+    }
+}
+
+fn block(checksum: Vec<u8>, data: Vec<u8>) -> Result<Block, BlockError> {
+    let checksum = checksum.try_into().map_err(|_| BlockError::Checksum)?;
+    Ok(Block { data, checksum })
+}
+
+/// A length that the table's CHECK keeps from being negative.
+fn length(stored: i64) -> usize {
+    usize::try_from(stored).unwrap_or(0)
+}

@@ -1,0 +1,96 @@
+//! Rows of the `jobs` table, and what they say.
+
+use super::StoreError;
+use crate::jobs::job::{Job, JobStatus, JobSummary};
+use crate::jobs::progress::Progress;
+use jiff::Timestamp;
+use serde_json::value::RawValue;
+use sqlx::FromRow;
+
+/// The columns that a list shows.
+#[derive(Debug, FromRow)]
+pub(super) struct SummaryRow {
+    sequence: i64,
+    id: String,
+    status: String,
+    title: String,
+    created_ms: i64,
+    started_ms: Option<i64>,
+    finished_ms: Option<i64>,
+    fraction: f64,
+    simulated_time_s: f64,
+    steps: i64,
+    substeps: i64,
+    point_steps_per_s: f64,
+    eta_s: Option<f64>,
+}
+
+/// All columns of a job.
+#[derive(Debug, FromRow)]
+pub(super) struct JobRow {
+    #[sqlx(flatten)]
+    summary: SummaryRow,
+    bodies: i64,
+    attempt: i64,
+    solver_version: String,
+    scenario: String,
+    outcome: Option<String>,
+    problem: Option<String>,
+}
+
+impl SummaryRow {
+    pub(super) fn read(self) -> Result<JobSummary, StoreError> {
+        let progress = self.progress();
+        let broken = |what| StoreError::Row {
+            job: self.id.clone(),
+            what,
+        };
+        let time = |ms| Timestamp::from_millisecond(ms).map_err(|_| broken("a time"));
+        Ok(JobSummary {
+            id: self.id.parse().map_err(|_| broken("id"))?,
+            sequence: self.sequence,
+            status: JobStatus::from_word(&self.status).ok_or_else(|| broken("status"))?,
+            created: time(self.created_ms)?,
+            started: self.started_ms.map(time).transpose()?,
+            finished: self.finished_ms.map(time).transpose()?,
+            title: self.title,
+            progress,
+        })
+    }
+
+    fn progress(&self) -> Progress {
+        Progress {
+            fraction: self.fraction,
+            simulated_time_s: self.simulated_time_s,
+            steps: self.steps.unsigned_abs(),
+            substeps: self.substeps.unsigned_abs(),
+            point_steps_per_s: self.point_steps_per_s,
+            eta_s: self.eta_s,
+        }
+    }
+}
+
+impl JobRow {
+    pub(super) fn read(self) -> Result<Job, StoreError> {
+        let id = self.summary.id.clone();
+        let broken = |what| StoreError::Row {
+            job: id.clone(),
+            what,
+        };
+        let json = |text: String, what| RawValue::from_string(text).map_err(|_| broken(what));
+        Ok(Job {
+            summary: self.summary.read()?,
+            bodies: usize::try_from(self.bodies).map_err(|_| broken("bodies"))?,
+            attempt: u32::try_from(self.attempt).map_err(|_| broken("attempt"))?,
+            solver_version: self.solver_version,
+            scenario: json(self.scenario, "scenario")?,
+            outcome: self.outcome.map(|text| json(text, "outcome")).transpose()?,
+            problem: self.problem.map(|text| json(text, "problem")).transpose()?,
+        })
+    }
+}
+
+/// A count as SQLite keeps it; counts of a run stay far below the limit.
+pub(super) fn integer(count: u64) -> i64 {
+    i64::try_from(count).unwrap_or(i64::MAX)
+}

@@ -1,0 +1,98 @@
+//! Which scenarios are let in.
+
+use super::job::JobId;
+use scree_solver::scenario::Scenario;
+pub use scree_solver::scenario::{ScenarioError, Violation};
+use serde_json::{Value, json};
+
+/// A job that may enter the queue.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NewJob {
+    /// Its identity.
+    pub id: JobId,
+    /// The scenario's title.
+    pub title: String,
+    /// Bodies in the scenario.
+    pub bodies: usize,
+    /// The scenario's JSON with every default filled in.
+    pub scenario: String,
+    /// Solver that checked it.
+    pub solver_version: &'static str,
+}
+
+/// Checks a scenario for a service whose workers have `threads_per_worker`
+/// solver threads.
+///
+/// # Errors
+/// All the rules that it breaks.
+pub fn admit(text: &str, threads_per_worker: usize) -> Result<NewJob, ScenarioError> {
+    let scenario = parse(text, threads_per_worker)?;
+    let json = serde_json::to_string(&scenario).map_err(|error| ScenarioError::Malformed {
+        message: error.to_string(),
+        line: 0,
+        column: 0,
+    })?;
+    Ok(NewJob {
+        id: JobId::new(),
+        title: scenario.title,
+        bodies: scenario.bodies.len(),
+        scenario: json,
+        solver_version: scree_solver::VERSION,
+    })
+}
+
+fn parse(text: &str, threads_per_worker: usize) -> Result<Scenario, ScenarioError> {
+    match Scenario::from_json(text) {
+        Ok(scenario) => match too_many_threads(scenario.numerics.threads, threads_per_worker) {
+            Some(violation) => Err(ScenarioError::Invalid(vec![violation])),
+            None => Ok(scenario),
+        },
+        Err(ScenarioError::Invalid(mut violations)) => {
+            violations.extend(too_many_threads(
+                threads_asked_for(text),
+                threads_per_worker,
+            ));
+            Err(ScenarioError::Invalid(violations))
+        }
+        Err(malformed) => Err(malformed),
+    }
+}
+
+/// The threads an otherwise illegal scenario asks for, so that all that is
+/// wrong with it is said at once.
+fn threads_asked_for(text: &str) -> Option<usize> {
+    let document: Value = serde_json::from_str(text).ok()?;
+    let threads = document.pointer(THREADS)?.as_u64()?;
+    usize::try_from(threads).ok()
+}
+
+const THREADS: &str = "/numerics/threads";
+
+fn too_many_threads(asked: Option<usize>, threads_per_worker: usize) -> Option<Violation> {
+    let asked = asked.filter(|&asked| asked > threads_per_worker)?;
+    Some(Violation {
+        pointer: THREADS.to_owned(),
+        value: json!(asked),
+        allowed: format!("1 <= x <= {threads_per_worker}"),
+        unit: None,
+        detail: format!(
+            "the scenario asks for {asked} threads, but a worker of this service has \
+             {threads_per_worker}"
+        ),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_beyond_a_worker_are_refused_by_their_pointer() {
+        let violation = too_many_threads(Some(3), 2).unwrap();
+        assert_eq!(violation.pointer, "/numerics/threads");
+        assert_eq!(violation.value, json!(3));
+        assert_eq!(violation.allowed, "1 <= x <= 2");
+        assert_eq!(too_many_threads(Some(2), 2), None);
+        assert_eq!(too_many_threads(None, 2), None);
+    }
+}
