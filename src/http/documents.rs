@@ -4,6 +4,7 @@ use super::contract::{OutcomeDocument, ScenarioDocument};
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobStatus, JobSummary};
 use crate::jobs::progress::Progress;
+use jiff::Timestamp;
 use serde::Serialize;
 use serde_json::value::RawValue;
 use utoipa::ToSchema;
@@ -109,10 +110,15 @@ impl From<JobSummary> for JobSummaryDocument {
             id: job.id.to_string(),
             status: job.status,
             title: job.title,
-            created: job.created.to_string(),
-            started: job.started.map(|time| time.to_string()),
-            finished: job.finished.map(|time| time.to_string()),
+            created: rfc3339(job.created),
+            started: job.started.map(rfc3339),
+            finished: job.finished.map(rfc3339),
             progress: job.progress,
         }
     }
+}
+
+/// RFC 3339 in UTC, always to the millisecond, so that times sort as text.
+fn rfc3339(time: Timestamp) -> String {
+    format!("{time:.3}")
 }

@@ -1,0 +1,115 @@
+//! The contract in `api/openapi.json`: it is what the code says, the service
+//! serves it, and real answers keep to it.
+
+use crate::app::{TestApp, tiny_scene};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// To renew the file after a wanted change:
+/// `UPDATE_OPENAPI=1 cargo test --test service contract`
+#[test]
+fn the_committed_contract_is_that_of_the_code() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("api/openapi.json");
+    let mut current = scree::http::openapi().to_pretty_json().unwrap();
+    current.push('\n');
+    if std::env::var_os("UPDATE_OPENAPI").is_some() {
+        std::fs::write(&path, &current).unwrap();
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        committed == current,
+        "api/openapi.json is not what the code says; if the change is wanted, run \
+         UPDATE_OPENAPI=1 cargo test --test service contract"
+    );
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_service_serves_its_contract_and_keeps_to_it() {
+    let app = TestApp::start().await;
+    let served = app.get("/openapi.json").await;
+    assert_eq!(served.content_type, "application/json");
+    let contract = Contract(served.body);
+    let written: Value = serde_json::from_str(&scree::http::openapi().to_json().unwrap()).unwrap();
+    assert_eq!(contract.0, written);
+
+    let path = app.submit(&tiny_scene()).await;
+    let mut job = app.wait_for_success(&path).await;
+    // Only a failed job has one.
+    job["problem"] = serde_json::json!({"type": "", "title": "", "detail": ""});
+    contract.assert_matches("JobDocument", &job);
+    contract.assert_matches("JobPageDocument", &app.get("/v1/jobs").await.body);
+    contract.assert_matches(
+        "Trajectory",
+        &app.get(&format!("{path}/trajectory")).await.body,
+    );
+    contract.assert_matches("FlowSnapshot", &app.get(&format!("{path}/flow")).await.body);
+    contract.assert_matches("HealthDocument", &app.get("/healthz").await.body);
+    app.stop().await;
+}
+
+struct Contract(Value);
+
+impl Contract {
+    /// Checks that a document has exactly the fields that a schema names, all
+    /// the way down. Types are the tests' own business.
+    fn assert_matches(&self, schema: &str, document: &Value) {
+        let schema = &self.0["components"]["schemas"][schema];
+        assert!(schema.is_object(), "no such schema");
+        self.compare(schema, document, "");
+    }
+
+    fn compare(&self, schema: &Value, document: &Value, place: &str) {
+        let schema = self.resolve(schema);
+        match document {
+            Value::Object(fields) => {
+                let Some(properties) = self.properties(schema, fields.keys().next()) else {
+                    panic!("{place}: the contract has no object here: {schema}");
+                };
+                let named: BTreeSet<&String> = properties.keys().collect();
+                let present: BTreeSet<&String> = fields.keys().collect();
+                assert_eq!(present, named, "{place}");
+                for (name, value) in fields {
+                    self.compare(&properties[name], value, &format!("{place}/{name}"));
+                }
+            }
+            Value::Array(items) => {
+                assert!(
+                    schema["items"].is_object(),
+                    "{place}: the contract has no list: {schema}"
+                );
+                for item in items {
+                    self.compare(&schema["items"], item, &format!("{place}/-"));
+                }
+            }
+            _ => assert!(
+                schema["properties"].is_null(),
+                "{place}: the contract has an object"
+            ),
+        }
+    }
+
+    /// The properties of an object; of alternatives, those of the one that has
+    /// the field.
+    fn properties<'a>(
+        &'a self,
+        schema: &'a Value,
+        field: Option<&String>,
+    ) -> Option<&'a serde_json::Map<String, Value>> {
+        if let Some(properties) = schema["properties"].as_object() {
+            return Some(properties);
+        }
+        let alternatives = schema["oneOf"].as_array()?;
+        alternatives
+            .iter()
+            .filter_map(|alternative| self.resolve(alternative)["properties"].as_object())
+            .find(|properties| field.is_some_and(|field| properties.contains_key(field)))
+    }
+
+    fn resolve<'a>(&'a self, schema: &'a Value) -> &'a Value {
+        match schema["$ref"].as_str() {
+            Some(reference) => self.0.pointer(reference.trim_start_matches('#')).unwrap(),
+            None => schema,
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! What every request meets: routes, methods, limits.
+
+use crate::app::{DEADLINE, TestApp};
+use reqwest::{Method, StatusCode};
+use serde_json::json;
+use std::time::Instant;
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::net::TcpStream;
+use tokio::time::timeout;
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_service_says_that_it_is_well() {
+    let app = TestApp::start().await;
+    let answer = app.get("/healthz").await;
+    assert_eq!(answer.status, StatusCode::OK);
+    assert_eq!(answer.body["status"], "ok");
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_is_not_there_is_a_problem_document() {
+    let app = TestApp::start().await;
+    let unknown = "/v1/jobs/01890a5d-ac96-774b-bcce-b302099a8057";
+    for path in ["", "/trajectory", "/flow"] {
+        for job in [unknown, "/v1/jobs/17", "/v1/jobs/no-such-job"] {
+            let answer = app.get(&format!("{job}{path}")).await;
+            answer.assert_problem(StatusCode::NOT_FOUND, "unknown-job");
+        }
+    }
+    app.delete(unknown)
+        .await
+        .assert_problem(StatusCode::NOT_FOUND, "unknown-job");
+    for path in ["/", "/v1", "/v2/jobs", "/v1/jobs/1/2/3"] {
+        app.get(path)
+            .await
+            .assert_problem(StatusCode::NOT_FOUND, "unknown-route");
+    }
+    for (method, path) in [
+        (Method::PUT, "/v1/jobs"),
+        (Method::POST, unknown),
+        (Method::DELETE, "/healthz"),
+        (Method::PATCH, "/openapi.json"),
+    ] {
+        let answer = app.ask(method, path).await;
+        answer.assert_problem(StatusCode::METHOD_NOT_ALLOWED, "method-not-allowed");
+    }
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_bad_list_query_names_its_parameters() {
+    let app = TestApp::start().await;
+    for (query, wrong) in [
+        ("status=done", &["status"][..]),
+        ("limit=0", &["limit"]),
+        ("limit=101", &["limit"]),
+        ("cursor=here", &["cursor"]),
+        ("page=2", &["page"]),
+        ("limit=x&status=y", &["status", "limit"]),
+    ] {
+        let answer = app.get(&format!("/v1/jobs?{query}")).await;
+        answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
+        assert_eq!(answer.wrong_fields(), wrong, "{query}");
+    }
+    let answer = app.get("/v1/jobs?status=done").await;
+    let allowed = answer.body["errors"][0]["allowed"].clone();
+    assert_eq!(
+        allowed,
+        json!("one of accepted, running, successful, failed, dismissed")
+    );
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn half_a_request_does_not_hold_the_service() {
+    let app = TestApp::start_with(|config| {
+        config.limits.header_read_timeout_s = 0.2;
+        config.limits.connections = 2;
+    })
+    .await;
+    let mut held = Vec::new();
+    for _ in 0..2 {
+        let mut stream = TcpStream::connect(app.address()).await.unwrap();
+        stream
+            .write_all(b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Half")
+            .await
+            .unwrap();
+        held.push(stream);
+    }
+    // Both places are taken: the answer comes once the service gave up on one.
+    assert_eq!(app.get("/healthz").await.status, StatusCode::OK);
+    for mut stream in held {
+        let mut answer = Vec::new();
+        let read = timeout(DEADLINE, stream.read_to_end(&mut answer)).await;
+        assert!(read.is_ok(), "the connection is still held");
+    }
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_stop_does_not_wait_for_idle_or_half_open_clients() {
+    let app = TestApp::start_with(|config| config.limits.drain_timeout_s = 0.2).await;
+    let mut half = TcpStream::connect(app.address()).await.unwrap();
+    half.write_all(b"GET /healthz HT").await.unwrap();
+    assert_eq!(app.get("/healthz").await.status, StatusCode::OK);
+    let began = Instant::now();
+    app.stop().await;
+    // Far below the ten seconds that a request's head may take.
+    assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
+}

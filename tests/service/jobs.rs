@@ -1,0 +1,126 @@
+//! Submitting, looking at and listing jobs.
+
+use crate::app::{TestApp, endless_scene, has_ended, is_running, tiny_scene};
+use reqwest::StatusCode;
+use serde_json::{Value, json};
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_job_goes_from_accepted_to_successful() {
+    let app = TestApp::start().await;
+    let answer = app
+        .post("application/json; charset=utf-8", tiny_scene().to_string())
+        .await;
+    assert_eq!(answer.status, StatusCode::ACCEPTED);
+    let id = answer.body["id"].as_str().unwrap();
+    assert_eq!(
+        answer.location.as_deref(),
+        Some(format!("/v1/jobs/{id}").as_str())
+    );
+    assert_eq!(answer.body["outcome"], Value::Null);
+
+    let job = app.wait_for_success(&answer.location.unwrap()).await;
+    assert_eq!(job["problem"], Value::Null);
+    assert_eq!(job["attempt"], 1);
+    assert_eq!(job["solver_version"], scree_solver::VERSION);
+    assert_eq!(job["progress"]["fraction"], 1.0);
+    assert_eq!(job["progress"]["simulated_time_s"], 0.05);
+    assert_eq!(job["progress"]["eta_s"], Value::Null);
+    assert!(job["progress"]["steps"].as_u64() > Some(0));
+    assert!(job["progress"]["substeps"].as_u64() >= job["progress"]["steps"].as_u64());
+    let times: Vec<&str> = ["created", "started", "finished"]
+        .map(|key| job[key].as_str().unwrap())
+        .into();
+    assert!(
+        times.is_sorted(),
+        "RFC 3339 in UTC sorts as text: {times:?}"
+    );
+    assert!(
+        times
+            .iter()
+            .all(|time| time.ends_with('Z') && &time[10..11] == "T"),
+        "{times:?}"
+    );
+    assert_eq!(job["outcome"]["bodies"].as_array().unwrap().len(), 1);
+    assert_eq!(job["outcome"]["cost"]["threads"], 1);
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_scenario_comes_back_with_its_defaults_filled_in() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    let scenario = app.get(&job).await.body["scenario"].take();
+    // Given in the request, and the documented defaults of what was not.
+    assert_eq!(scenario["channel"]["width_m"], 0.1);
+    assert_eq!(scenario["gravity_m_s2"], 9.81);
+    assert_eq!(scenario["bodies"][0]["sphero_radius_m"], 0.002);
+    assert_eq!(
+        scenario["bodies"][0]["position"]["elevation_m"],
+        Value::Null
+    );
+    assert_eq!(scenario["numerics"]["courant"], Value::Null);
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_scenario_that_can_not_be_set_up_fails_with_its_numbers() {
+    let app = TestApp::start().await;
+    let mut scene = tiny_scene();
+    // 0.0003 m³ in cells of 0.2 mm with 64 points each: 2.4 thousand million points.
+    scene["numerics"] = json!({"cell_size_m": 0.0002, "points_per_cell": 64});
+    let job = app.submit(&scene).await;
+    let job = app.wait(&job, has_ended).await;
+    assert_eq!(job["status"], "failed");
+    assert_eq!(job["outcome"], Value::Null);
+    assert_eq!(job["problem"]["type"], "urn:scree:failure:setup");
+    assert!(job["problem"]["points"].as_u64() > job["problem"]["limit"].as_u64());
+    // The worker lives on.
+    let next = app.submit(&tiny_scene()).await;
+    app.wait_for_success(&next).await;
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn lists_go_page_by_page_newest_first() {
+    let app = TestApp::start().await;
+    let running = app.submit(&endless_scene()).await;
+    app.wait(&running, is_running).await;
+    let mut expected = vec![running.clone()];
+    for _ in 0..4 {
+        expected.insert(0, app.submit(&tiny_scene()).await);
+    }
+
+    let mut seen = Vec::new();
+    let mut path = "/v1/jobs?limit=2".to_owned();
+    let mut pages = 0;
+    loop {
+        let page = app.get(&path).await;
+        assert_eq!(page.status, StatusCode::OK);
+        seen.extend(paths(&page.body));
+        pages += 1;
+        let Some(cursor) = page.body["next_cursor"].as_str() else {
+            break;
+        };
+        path = format!("/v1/jobs?limit=2&cursor={cursor}");
+    }
+    assert_eq!((seen, pages), (expected.clone(), 3));
+
+    let only_running = app.get("/v1/jobs?status=running").await.body;
+    assert_eq!(paths(&only_running), [running.clone()]);
+    assert_eq!(only_running["jobs"][0]["title"], "endless");
+    let waiting = app.get("/v1/jobs?status=accepted&limit=3").await.body;
+    assert_eq!(paths(&waiting), expected[..3]);
+    assert_eq!(
+        app.get("/v1/jobs?status=failed").await.body,
+        json!({"jobs": [], "next_cursor": null})
+    );
+    app.delete(&running).await;
+    app.stop().await;
+}
+
+fn paths(page: &Value) -> Vec<String> {
+    let jobs = page["jobs"].as_array().unwrap();
+    jobs.iter()
+        .map(|job| format!("/v1/jobs/{}", job["id"].as_str().unwrap()))
+        .collect()
+}

@@ -1,0 +1,13 @@
+//! The service through a real HTTP client, on a port and a database of its own
+//! for every test. Nothing sleeps to wait for something: it is asked for until
+//! it is there, or a deadline passes.
+
+mod app;
+mod bad_input;
+mod contract;
+mod dismissal;
+mod http_basics;
+mod jobs;
+mod restart;
+mod results;
+mod scenarios;

@@ -1,0 +1,202 @@
+//! Trajectories and snapshots of the flow.
+
+use crate::app::{TestApp, endless_scene, is_running, tiny_scene};
+use reqwest::StatusCode;
+use serde_json::{Value, json};
+
+const COLUMNS: [&str; 12] = [
+    "angular_velocity_rad_s",
+    "flow_force_n",
+    "flow_torque_nm",
+    "mode",
+    "orientation",
+    "position_m",
+    "submerged_fraction",
+    "time_s",
+    "touching_points",
+    "velocity_m_s",
+    "wall_force_n",
+    "wall_torque_nm",
+];
+
+fn times(trajectory: &Value) -> Vec<f64> {
+    let times = trajectory["columns"]["time_s"].as_array().unwrap();
+    times.iter().map(|time| time.as_f64().unwrap()).collect()
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_trajectory_has_all_columns_at_the_sample_times() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    let outcome = app.wait_for_success(&job).await["outcome"].take();
+    let answer = app.get(&format!("{job}/trajectory")).await;
+    assert_eq!(answer.status, StatusCode::OK);
+    let trajectory = answer.body;
+    assert_eq!(
+        format!("/v1/jobs/{}", trajectory["job_id"].as_str().unwrap()),
+        job
+    );
+    assert_eq!(trajectory["body"], 0);
+    // k · 0.01 s to the end at 0.05 s, both included.
+    let expected: Vec<f64> = (0..=5).map(|k| f64::from(k) * 0.01).collect();
+    assert_eq!(times(&trajectory), expected);
+    let columns = trajectory["columns"].as_object().unwrap();
+    let mut names: Vec<&str> = columns.keys().map(String::as_str).collect();
+    names.sort_unstable();
+    assert_eq!(names, COLUMNS);
+    assert!(
+        columns
+            .values()
+            .all(|column| column.as_array().unwrap().len() == 6)
+    );
+    // The cube begins where the scenario puts it: its side downstream of the
+    // foot, on the centre line, half its side above the floor, less the few
+    // micrometres that its weight presses it in.
+    let start = &columns["position_m"][0];
+    assert_eq!((&start[0], &start[1]), (&json!(0.04), &json!(0.0)));
+    assert!(
+        (0.0..1e-5).contains(&(0.02 - start[2].as_f64().unwrap())),
+        "{start}"
+    );
+    assert_eq!(columns["velocity_m_s"][0], json!([0.0, 0.0, 0.0]));
+    assert_eq!(columns["mode"][0], "resting");
+    assert_eq!(
+        columns["position_m"][5],
+        outcome["bodies"][0]["final_position_m"]
+    );
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn ranges_include_both_ends_and_strides_count_from_the_first() {
+    let app = TestApp::start().await;
+    let mut scene = tiny_scene();
+    scene["sample_interval_s"] = json!(0.001);
+    scene["flow"] = Value::Null;
+    // More samples than one stored chunk takes (512).
+    scene["duration_s"] = json!(1.2);
+    let job = app.submit(&scene).await;
+    app.wait_for_success(&job).await;
+    let ask = async |query: &str| {
+        let answer = app.get(&format!("{job}/trajectory?{query}")).await;
+        assert_eq!(answer.status, StatusCode::OK, "{:#}", answer.body);
+        times(&answer.body)
+    };
+    let at = |indices: &[u32]| -> Vec<f64> {
+        indices
+            .iter()
+            .map(|&index| f64::from(index) * 0.001)
+            .collect()
+    };
+    assert_eq!(ask("").await.len(), 1201);
+    assert_eq!(ask("from_s=0.007&to_s=0.009").await, at(&[7, 8, 9]));
+    assert_eq!(ask("to_s=0.002").await, at(&[0, 1, 2]));
+    assert_eq!(ask("from_s=1.199").await, at(&[1199, 1200]));
+    assert_eq!(
+        ask("from_s=0.003&to_s=0.012&stride=4").await,
+        at(&[3, 7, 11])
+    );
+    assert_eq!(
+        ask("from_s=0.5105&to_s=0.5145&stride=1").await,
+        at(&[511, 512, 513, 514])
+    );
+    assert_eq!(ask("stride=600").await, at(&[0, 600, 1200]));
+    assert_eq!(ask("from_s=5").await, at(&[]));
+    assert_eq!(ask("from_s=-1&to_s=0").await, at(&[0]));
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_job_can_be_read_before_and_while_it_runs() {
+    let app = TestApp::start().await;
+    let running = app.submit(&endless_scene()).await;
+    app.wait(&running, is_running).await;
+    let waiting = app.submit(&tiny_scene()).await;
+
+    let empty = app.get(&format!("{waiting}/trajectory")).await;
+    assert_eq!(empty.status, StatusCode::OK);
+    let columns = empty.body["columns"].as_object().unwrap();
+    assert_eq!(columns.len(), COLUMNS.len());
+    assert!(columns.values().all(|column| column == &json!([])));
+    app.get(&format!("{waiting}/flow"))
+        .await
+        .assert_problem(StatusCode::NOT_FOUND, "no-snapshot");
+
+    app.wait_for_samples(&running).await;
+    let job = app
+        .wait(&running, |job| job["progress"]["steps"].as_u64() > Some(0))
+        .await;
+    assert_eq!(job["status"], "running");
+    assert!(job["progress"]["fraction"].as_f64().unwrap() > 0.0);
+    assert!(job["progress"]["eta_s"].as_f64().unwrap() > 0.0);
+    assert!(job["progress"]["point_steps_per_s"].as_f64().unwrap() > 0.0);
+    app.delete(&running).await;
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_flow_is_shown_at_the_nearest_snapshot() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    app.wait_for_success(&job).await;
+    // Three snapshots over 0.05 s, both ends included.
+    for (query, expected_s) in [
+        ("?time_s=0.001", 0.0),
+        ("?time_s=0.03", 0.025),
+        ("?time_s=9", 0.05),
+        ("", 0.05),
+    ] {
+        let answer = app.get(&format!("{job}/flow{query}")).await;
+        assert_eq!(answer.status, StatusCode::OK);
+        let flow = answer.body;
+        let time_s = flow["time_s"].as_f64().unwrap();
+        // A snapshot lies at the first step end at or after its time; a step
+        // of this scene takes less than 5 ms.
+        assert!(
+            (0.0..0.005).contains(&(time_s - expected_s)),
+            "{query}: {time_s}"
+        );
+        let points = flow["position_m"].as_array().unwrap();
+        assert_eq!(points.len(), flow["speed_m_s"].as_array().unwrap().len());
+        assert!(!points.is_empty() && points.len() <= 5000);
+        assert_eq!(flow["thinning"], 1);
+        assert_eq!(flow["points"], points.len());
+        assert_eq!(
+            format!("/v1/jobs/{}", flow["job_id"].as_str().unwrap()),
+            job
+        );
+    }
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn bad_questions_are_answered_with_what_is_wrong_in_them() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    for (path, wrong) in [
+        ("trajectory?body=-1", &["body"][..]),
+        ("trajectory?body=one", &["body"]),
+        ("trajectory?from_s=soon", &["from_s"]),
+        ("trajectory?to_s=NaN", &["to_s"]),
+        ("trajectory?from_s=inf", &["from_s"]),
+        ("trajectory?from_s=2&to_s=1", &["to_s"]),
+        ("trajectory?stride=0", &["stride"]),
+        ("trajectory?stride=1.5", &["stride"]),
+        ("trajectory?stride=1&stride=2", &["stride"]),
+        ("trajectory?format=csv", &["format"]),
+        (
+            "trajectory?stride=0&from_s=x&spam=1",
+            &["from_s", "stride", "spam"],
+        ),
+        ("flow?time_s=noon", &["time_s"]),
+        ("flow?when=0", &["when"]),
+    ] {
+        let answer = app.get(&format!("{job}/{path}")).await;
+        answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
+        assert_eq!(answer.wrong_fields(), wrong, "{path}");
+    }
+    app.get(&format!("{job}/trajectory?body=1"))
+        .await
+        .assert_problem(StatusCode::NOT_FOUND, "unknown-body");
+    app.stop().await;
+}
