@@ -81,6 +81,63 @@ async fn a_scenario_that_can_not_be_set_up_fails_with_its_numbers() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_numerical_failure_is_final_says_where_and_keeps_what_there_is() {
+    let app = TestApp::start().await;
+    let mut scene = tiny_scene();
+    // A flow with next to no stiffness in a hundredfold gravity: it soon moves
+    // many times faster than its own sound, where no sub-step is stable.
+    scene["gravity_m_s2"] = json!(1000);
+    scene["numerics"]["sound_speed_m_s"] = json!(0.1);
+    scene["duration_s"] = json!(0.5);
+    scene["sample_interval_s"] = json!(0.0001);
+    let path = app.submit(&scene).await;
+    let job = app.wait(&path, has_ended).await;
+    assert_eq!(job["status"], "failed", "{job:#}");
+    assert_eq!(job["outcome"], Value::Null);
+    assert_eq!(job["problem"]["type"], "urn:scree:failure:numerical");
+    let time_s = job["problem"]["time_s"].as_f64().unwrap();
+    assert!(time_s > 0.0 && time_s < 0.5, "{time_s}");
+    assert!(job["progress"]["fraction"].as_f64().unwrap() < 1.0);
+    let trajectory = app.get(&format!("{path}/trajectory")).await.body;
+    let times = trajectory["columns"]["time_s"].as_array().unwrap();
+    let last = times.last().unwrap().as_f64().unwrap();
+    assert!(times.len() > 1 && last <= time_s, "{last} {time_s}");
+    app.delete(&path)
+        .await
+        .assert_problem(StatusCode::CONFLICT, "job-ended");
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn scenes_with_nothing_to_do_succeed_too() {
+    let app = TestApp::start().await;
+    for (key, value, samples) in [
+        ("duration_s", json!(0), Some(1)),
+        ("flow", Value::Null, Some(6)),
+        ("bodies", json!([]), None),
+    ] {
+        let mut scene = tiny_scene();
+        scene[key] = value;
+        let path = app.submit(&scene).await;
+        app.wait_for_success(&path).await;
+        let trajectory = app.get(&format!("{path}/trajectory")).await;
+        match samples {
+            Some(samples) => {
+                let times = trajectory.body["columns"]["time_s"].as_array().unwrap();
+                assert_eq!(times.len(), samples, "{key}");
+            }
+            None => trajectory.assert_problem(StatusCode::NOT_FOUND, "unknown-body"),
+        }
+        assert_eq!(
+            app.get(&format!("{path}/flow")).await.status,
+            StatusCode::OK,
+            "{key}"
+        );
+    }
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn lists_go_page_by_page_newest_first() {
     let app = TestApp::start().await;
     let running = app.submit(&endless_scene()).await;
@@ -106,7 +163,7 @@ async fn lists_go_page_by_page_newest_first() {
     assert_eq!((seen, pages), (expected.clone(), 3));
 
     let only_running = app.get("/v1/jobs?status=running").await.body;
-    assert_eq!(paths(&only_running), [running.clone()]);
+    assert_eq!(paths(&only_running), std::slice::from_ref(&running));
     assert_eq!(only_running["jobs"][0]["title"], "endless");
     let waiting = app.get("/v1/jobs?status=accepted&limit=3").await.body;
     assert_eq!(paths(&waiting), expected[..3]);
