@@ -11,6 +11,7 @@ use utoipa::ToSchema;
 
 /// A job.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Job)]
 pub(super) struct JobDocument {
     /// Identity.
     #[schema(format = "uuid")]
@@ -45,6 +46,7 @@ pub(super) struct JobDocument {
 
 /// A job, without its scenario and its answer.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = JobSummary)]
 pub(super) struct JobSummaryDocument {
     /// Identity.
     #[schema(format = "uuid")]
@@ -68,6 +70,7 @@ pub(super) struct JobSummaryDocument {
 
 /// A page of jobs, newest first.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = JobPage)]
 pub(super) struct JobPageDocument {
     /// The jobs of this page.
     pub jobs: Vec<JobSummaryDocument>,
@@ -78,6 +81,7 @@ pub(super) struct JobPageDocument {
 
 /// That the service is well.
 #[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Health)]
 pub(super) struct HealthDocument {
     /// Always "ok": a service that is not well answers with a problem.
     pub status: &'static str,

@@ -59,7 +59,7 @@ pub(super) async fn submit(
     tag = "jobs",
     params(
         ("status" = Option<JobStatus>, Query, description = "Only jobs of this state"),
-        ("limit" = Option<u32>, Query, description = "Most jobs of the page, 1 to 100; 20 unless given"),
+        ("limit" = Option<u32>, Query, minimum = 1, maximum = 100, description = "Most jobs of the page; 20 unless given"),
         ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
     ),
     responses(

@@ -28,7 +28,7 @@ use futures_util::stream;
         ("body" = Option<u32>, Query, description = "Index of the body in the scenario; 0 unless given"),
         ("from_s" = Option<f64>, Query, description = "First simulated time [s]"),
         ("to_s" = Option<f64>, Query, description = "Last simulated time [s]"),
-        ("stride" = Option<u32>, Query, description = "One sample in how many, counted from the first in the range; 1 unless given"),
+        ("stride" = Option<u32>, Query, minimum = 1, description = "One sample in how many, counted from the first in the range; 1 unless given"),
     ),
     responses(
         (status = 200, description = "The trajectory", body = TrajectorySchema),

@@ -18,5 +18,6 @@ pub struct Progress {
     pub point_steps_per_s: f64,
     /// Wall time still to go at the pace so far [s]; null before the first
     /// step and once the run has ended.
+    #[schema(required = true)]
     pub eta_s: Option<f64>,
 }

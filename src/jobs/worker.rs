@@ -51,18 +51,18 @@ fn carry_out(equipment: &Equipment, claim: &Claim) {
         }
     }
     info!("started");
-    let verdict = try_run(equipment, claim, &place.stop);
+    let verdict = shielded(|| run(equipment, claim, &place.stop));
     if let Err(error) = pronounce(equipment, hold, verdict) {
         // The row stays as it is, and the next start of the service finds it.
         error!(%error, "the job's end can't be written");
     }
 }
 
-/// Runs the job. Whatever the solver does, a panic included, there is a verdict.
-fn try_run(equipment: &Equipment, claim: &Claim, stop: &StopFlag) -> Verdict {
-    // Nothing that the closure touches is used after a panic but the database,
+/// Whatever the run does, a panic included, there is a verdict.
+fn shielded(run: impl FnOnce() -> Verdict) -> Verdict {
+    // Nothing that the run touches is used after a panic but the database,
     // whose transactions are whole or not at all.
-    match catch_unwind(AssertUnwindSafe(|| run(equipment, claim, stop))) {
+    match catch_unwind(AssertUnwindSafe(run)) {
         Ok(verdict) => verdict,
         Err(panic) => broken_off(panic_text(panic.as_ref())),
     }
@@ -141,4 +141,33 @@ fn panic_text(panic: &(dyn std::any::Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied();
     text.or_else(|| panic.downcast_ref::<String>().map(String::as_str))
         .unwrap_or("a panic")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_in_a_run_fails_the_job_under_an_id_and_spares_the_worker() {
+        let verdict = shielded(|| panic!("the grid is on fire"));
+        let Verdict::Failed(failure) = verdict else {
+            panic!("not a failure")
+        };
+        assert_eq!(failure.kind, "urn:scree:failure:internal");
+        assert!(failure.numbers["error_id"].is_string());
+        assert!(
+            !failure.detail.contains("fire"),
+            "the details are for the log"
+        );
+    }
+
+    #[test]
+    fn the_text_of_a_panic_is_found() {
+        for panic in [
+            catch_unwind(|| panic!("plain")).unwrap_err(),
+            catch_unwind(|| panic!("{}{}", "pl", "ain")).unwrap_err(),
+        ] {
+            assert_eq!(panic_text(panic.as_ref()), "plain");
+        }
+    }
 }

@@ -37,14 +37,14 @@ async fn the_service_serves_its_contract_and_keeps_to_it() {
     let mut job = app.wait_for_success(&path).await;
     // Only a failed job has one.
     job["problem"] = serde_json::json!({"type": "", "title": "", "detail": ""});
-    contract.assert_matches("JobDocument", &job);
-    contract.assert_matches("JobPageDocument", &app.get("/v1/jobs").await.body);
+    contract.assert_matches("Job", &job);
+    contract.assert_matches("JobPage", &app.get("/v1/jobs").await.body);
     contract.assert_matches(
         "Trajectory",
         &app.get(&format!("{path}/trajectory")).await.body,
     );
     contract.assert_matches("FlowSnapshot", &app.get(&format!("{path}/flow")).await.body);
-    contract.assert_matches("HealthDocument", &app.get("/healthz").await.body);
+    contract.assert_matches("Health", &app.get("/healthz").await.body);
     app.stop().await;
 }
 

@@ -10,4 +10,5 @@ mod http_basics;
 mod jobs;
 mod restart;
 mod results;
+mod runner;
 mod scenarios;

@@ -10,6 +10,8 @@ mod queue;
 mod read;
 mod results;
 mod rows;
+#[cfg(test)]
+mod tests;
 
 pub use queue::{Claim, Dismissal, TOLERATED_CUT_OFFS};
 pub use read::Page;

@@ -1,0 +1,104 @@
+//! The outcome.
+
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// The answer in short. What did not happen is null.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Outcome)]
+pub struct OutcomeDocument {
+    /// One entry per body, in the scenario's order.
+    pub bodies: Vec<BodyOutcomeDocument>,
+    /// The flow.
+    pub flow: FlowOutcomeDocument,
+    /// Whether to trust it.
+    pub audit: AuditDocument,
+    /// What it cost.
+    pub cost: CostDocument,
+}
+
+/// Outcome of one body.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = BodyOutcome)]
+pub struct BodyOutcomeDocument {
+    /// First time the centre is 1 mm from where it started [s].
+    #[schema(required = true)]
+    pub onset_time_s: Option<f64>,
+    /// Largest speed of the centre [m/s].
+    pub peak_speed_m_s: f64,
+    /// When that was [s].
+    #[schema(required = true)]
+    pub peak_speed_time_s: Option<f64>,
+    /// From then to the end slower than 1 mm/s [s].
+    #[schema(required = true)]
+    pub stop_time_s: Option<f64>,
+    /// Net horizontal displacement of the centre [m].
+    pub displacement_m: f64,
+    /// Length of the centre's path [m].
+    pub path_length_m: f64,
+    /// Centre at the end [m].
+    pub final_position_m: [f64; 3],
+    /// Orientation at the end [w, x, y, z].
+    pub final_orientation: [f64; 4],
+}
+
+/// Outcome of the flow.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = FlowOutcome)]
+pub struct FlowOutcomeDocument {
+    /// The x beyond which 0.1 % of the released mass lies [m].
+    #[schema(required = true)]
+    pub front_m: Option<f64>,
+    /// Front minus the initial toe [m].
+    #[schema(required = true)]
+    pub runout_m: Option<f64>,
+    /// Mass that left by the open end [kg].
+    pub mass_left_kg: f64,
+    /// Volume of the release not placed because a body stands there [m³].
+    pub volume_left_out_m3: f64,
+}
+
+/// Whether the run can be trusted.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Audit)]
+pub struct AuditDocument {
+    /// Relative error of the mass balance.
+    pub mass_error: f64,
+    /// Largest relative residual of the linear momentum balance.
+    pub momentum_residual: f64,
+    /// The same for angular momentum.
+    pub angular_momentum_residual: f64,
+    /// Largest relative rise of mechanical energy.
+    pub energy_residual: f64,
+    /// Largest overlap of a point with a body.
+    pub max_overlap_ratio: f64,
+    /// Points put back out of a body.
+    pub points_put_back: u64,
+    /// Points that left by the open end.
+    pub points_left: u64,
+    /// Points lost any other way.
+    pub points_lost: u64,
+}
+
+/// What the answer cost.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Cost)]
+pub struct CostDocument {
+    /// Material points at the start.
+    pub points: u64,
+    /// Transfers between points and grid.
+    pub steps: u64,
+    /// Acoustic sub-steps.
+    pub substeps: u64,
+    /// Wall time [s].
+    pub wall_s: f64,
+    /// Sub-steps of one point, per second of wall time [1/s].
+    pub point_steps_per_s: f64,
+    /// Solver threads.
+    pub threads: u32,
+    /// Cell size [m].
+    pub cell_size_m: f64,
+    /// Speed of sound in use [m/s].
+    #[schema(required = true)]
+    pub sound_speed_m_s: Option<f64>,
+}
