@@ -6,6 +6,7 @@
 //! the disk before it is answered (`synchronous=FULL`). A lock file beside the
 //! database keeps a second service off it.
 
+mod ending;
 mod queue;
 mod read;
 mod results;
@@ -13,7 +14,8 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
-pub use queue::{Claim, Dismissal, TOLERATED_CUT_OFFS};
+pub use ending::TOLERATED_CUT_OFFS;
+pub use queue::{Claim, Dismissal};
 pub use read::Page;
 pub use results::{NewChunk, NewResults, StoredChunk};
 

@@ -75,7 +75,7 @@ impl Store {
     /// The database's own.
     pub async fn keep(&self, hold: Hold, results: &NewResults) -> Result<bool, StoreError> {
         let mut transaction = self.begin().await?;
-        if !Self::keep_progress(&mut transaction, hold, &results.progress).await? {
+        if !keep_progress(&mut transaction, hold, &results.progress).await? {
             return Ok(false);
         }
         for chunk in &results.chunks {
@@ -142,6 +142,31 @@ impl Store {
             .transpose()
             .map_err(|source| StoreError::Block { job, source })
     }
+}
+
+/// Keeps the progress of a job that this hold still owns.
+async fn keep_progress(
+    connection: &mut SqliteConnection,
+    hold: Hold,
+    progress: &Progress,
+) -> Result<bool, StoreError> {
+    let done = sqlx::query(
+        "UPDATE jobs
+         SET fraction = ?3, simulated_time_s = ?4, steps = ?5, substeps = ?6,
+             point_steps_per_s = ?7, eta_s = iif(status = 'running', ?8, NULL)
+         WHERE id = ?1 AND attempt = ?2 AND status IN ('running', 'dismissed')",
+    )
+    .bind(hold.job.to_string())
+    .bind(hold.attempt)
+    .bind(progress.fraction)
+    .bind(progress.simulated_time_s)
+    .bind(integer(progress.steps))
+    .bind(integer(progress.substeps))
+    .bind(progress.point_steps_per_s)
+    .bind(progress.eta_s)
+    .execute(connection)
+    .await?;
+    Ok(done.rows_affected() == 1)
 }
 
 async fn write_chunk(
