@@ -3,15 +3,15 @@
 //! environment (`SCREE_LISTEN`, `SCREE_WORKERS__COUNT`, …).
 
 use figment::providers::{Env, Format, Serialized, Toml};
-#[cfg(test)]
-mod tests;
-
 use figment::{Figment, Provider};
 use serde::{Deserialize, Serialize};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use thiserror::Error;
+
+#[cfg(test)]
+mod tests;
 
 /// Configuration of the service.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -47,10 +47,12 @@ impl TestApp {
         let mut config = config(&directory);
         change(&mut config);
         let service = service::start(config).await.unwrap();
+        // A proxy of the environment has no business between the two.
+        let client = Client::builder().no_proxy().build().unwrap();
         Self {
             service,
             directory,
-            client: Client::new(),
+            client,
         }
     }
 
