@@ -44,6 +44,12 @@ async fn what_is_not_there_is_a_problem_document() {
         let answer = app.ask(method, path).await;
         answer.assert_problem(StatusCode::METHOD_NOT_ALLOWED, "method-not-allowed");
     }
+    let refused = app.client.put(app.url("/v1/jobs")).send().await.unwrap();
+    let allowed = refused.headers()["allow"].to_str().unwrap();
+    assert!(
+        allowed.contains("GET") && allowed.contains("POST"),
+        "{allowed}"
+    );
     app.stop().await;
 }
 

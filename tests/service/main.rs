@@ -8,6 +8,7 @@ mod contract;
 mod dismissal;
 mod http_basics;
 mod jobs;
+mod layers;
 mod restart;
 mod results;
 mod runner;
