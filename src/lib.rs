@@ -4,10 +4,11 @@
 //! The way through it: [`service::start`] binds the address, opens the database
 //! and starts the workers; [`http`] takes jobs in and gives results out;
 //! [`jobs`] keeps them in the database and runs them; [`results`] turns what a
-//! run recorded into what is stored and served.
+//! run recorded into what is stored and served; [`pictures`] shows it.
 
 pub mod config;
 pub mod http;
 pub mod jobs;
+pub mod pictures;
 pub mod results;
 pub mod service;

@@ -1,0 +1,119 @@
+//! Where the panels of the aerial view lie.
+
+use super::instants::Instant;
+use super::panel::Scene;
+use std::ops::Range;
+
+/// Width of the picture [px].
+pub(super) const WIDTH: f64 = 840.0;
+/// Left of the first column: axis title and numbers [px].
+pub(super) const LEFT: f64 = 62.0;
+/// Right of the last column [px].
+pub(super) const RIGHT: f64 = 20.0;
+/// Above the first row [px].
+const HEADER: f64 = 70.0;
+/// Line above each strip with its time [px].
+pub(super) const CAPTION: f64 = 17.0;
+/// Below each strip [px].
+const ROW_GAP: f64 = 9.0;
+/// Between columns [px].
+const COLUMN_GAP: f64 = 16.0;
+/// Numbers and title of the x axis below the last row [px].
+pub(super) const AXIS: f64 = 40.0;
+/// Most that all rows together may take [px].
+const ROWS_LIMIT: f64 = 800.0;
+
+/// Panels in rows and columns, all showing the same part of the channel.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Layout {
+    /// Part of the channel shown, along it [m].
+    pub x: Range<f64>,
+    /// The same across it [m].
+    pub y: Range<f64>,
+    /// Scale of both axes [px/m].
+    pub px_per_m: f64,
+    /// Panels side by side.
+    columns: usize,
+    panels: usize,
+}
+
+impl Layout {
+    /// The fewest columns with which the picture does not get too tall.
+    pub(super) fn of(scene: &Scene<'_>, instants: &[Instant<'_>]) -> Self {
+        let panels = instants.len();
+        let half = 0.52 * scene.scenario.channel.width_m;
+        let mut layout = Self {
+            x: scene.extent(instants),
+            y: -half..half,
+            px_per_m: 1.0,
+            columns: 1,
+            panels,
+        };
+        for columns in 1..=panels.clamp(1, 3) {
+            layout.columns = columns;
+            let gaps = COLUMN_GAP * (columns - 1) as f64;
+            let strip = (WIDTH - LEFT - RIGHT - gaps) / columns as f64;
+            layout.px_per_m = strip / length(&layout.x);
+            if layout.rows_height() <= ROWS_LIMIT {
+                return layout;
+            }
+        }
+        let rows = layout.rows() as f64;
+        let tallest = ROWS_LIMIT / rows - CAPTION - ROW_GAP;
+        layout.px_per_m = tallest / length(&layout.y);
+        layout
+    }
+
+    /// Size of one strip [px].
+    pub(super) fn strip(&self) -> (f64, f64) {
+        let scale = self.px_per_m;
+        (length(&self.x) * scale, length(&self.y) * scale)
+    }
+
+    /// Upper left corner of a strip [px].
+    pub(super) fn corner(&self, panel: usize) -> (f64, f64) {
+        let (width, height) = self.strip();
+        let (row, column) = (panel / self.columns, panel % self.columns);
+        let x = LEFT + (width + COLUMN_GAP) * column as f64;
+        let y = HEADER + CAPTION + (CAPTION + height + ROW_GAP) * row as f64;
+        (x, y)
+    }
+
+    /// The panel has the y axis' numbers at its left.
+    pub(super) fn is_first_of_row(&self, panel: usize) -> bool {
+        panel.is_multiple_of(self.columns)
+    }
+
+    /// The panel has the x axis' numbers below it: none stands there.
+    pub(super) fn is_last_of_column(&self, panel: usize) -> bool {
+        panel + self.columns >= self.panels
+    }
+
+    /// Height of the picture [px].
+    pub(super) fn height(&self) -> f64 {
+        HEADER + self.rows_height() + AXIS
+    }
+
+    /// Left and right edge of all strips [px].
+    pub(super) fn horizontal_extent(&self) -> (f64, f64) {
+        let last = self.corner(self.columns - 1).0 + self.strip().0;
+        (LEFT, last)
+    }
+
+    /// Top and bottom of all strips [px].
+    pub(super) fn vertical_extent(&self) -> (f64, f64) {
+        (HEADER + CAPTION, HEADER + self.rows_height() - ROW_GAP)
+    }
+
+    fn rows(&self) -> usize {
+        self.panels.div_ceil(self.columns).max(1)
+    }
+
+    fn rows_height(&self) -> f64 {
+        self.rows() as f64 * (CAPTION + self.strip().1 + ROW_GAP)
+    }
+}
+
+fn length(range: &Range<f64>) -> f64 {
+    range.end - range.start
+}

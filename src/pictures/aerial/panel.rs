@@ -1,0 +1,237 @@
+//! One panel of the aerial view.
+
+use super::instants::Instant;
+use super::layout::{AXIS, LEFT, Layout};
+use super::{HAIRLINE, stroke};
+use crate::pictures::canvas::{Area, FAINT_INK, INK, PictureError, Plane, bold, px, text};
+use crate::pictures::format::significant;
+use crate::pictures::palette::{SpeedScale, body_color};
+use crate::pictures::{outline, surface};
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use scree_solver::record::{FlowSnapshot, Sample};
+use scree_solver::scenario::Scenario;
+use std::ops::Range;
+
+/// Ground of the inclined part; the floor stays white.
+const INCLINE: RGBColor = RGBColor(240, 241, 243);
+/// Radius of a dot in sides of its square: neighbours overlap a little.
+const DOT_RADIUS_BINS: f64 = 0.85;
+
+/// What all panels share.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scene<'a> {
+    pub scenario: &'a Scenario,
+    pub samples: &'a [Sample],
+}
+
+impl Scene<'_> {
+    /// Part of the channel [m] in which anything is or ever was, with the foot
+    /// of the incline and a margin.
+    pub(super) fn extent(&self, instants: &[Instant<'_>]) -> Range<f64> {
+        let channel = &self.scenario.channel;
+        let whole = -channel.incline_length_m..channel.runout_length_m;
+        let flow = instants
+            .iter()
+            .filter_map(|i| i.snapshot)
+            .flat_map(|s| &s.position_m);
+        let flow = flow.map(|position| f64::from(position[0]));
+        let bodies = self
+            .samples
+            .iter()
+            .flat_map(|sample| self.body_extents(sample));
+        let seen = |x: &f64| x.is_finite() && *x >= whole.start && *x <= whole.end;
+        let seen = || flow.clone().chain(bodies.clone()).chain([0.0]).filter(seen);
+        let (low, high) = (seen().fold(0.0, f64::min), seen().fold(0.0, f64::max));
+        // Never closer than a few channel widths: a scene is seen in its place.
+        let least = (3.0 * channel.width_m).min(whole.end - whole.start);
+        let margin = (0.03 * (high - low)).max((least - (high - low)) / 2.0);
+        let beyond = 0.01 * (whole.end - whole.start);
+        (low - margin).max(whole.start - beyond)..(high + margin).min(whole.end + beyond)
+    }
+
+    fn body_extents(&self, sample: &Sample) -> impl Iterator<Item = f64> + Clone {
+        let outlines = self.scenario.bodies.iter().zip(&sample.bodies);
+        let outlines = outlines.map(|(body, state)| outline::from_above(body, state));
+        let xs: Vec<f64> = outlines.flatten().map(|point| point[0]).collect();
+        xs.into_iter()
+    }
+
+    /// Draws the panel of this index into the sheet.
+    pub(super) fn draw(
+        &self,
+        sheet: &Area<'_>,
+        layout: &Layout,
+        index: usize,
+        instant: &Instant<'_>,
+        (speeds, bin_m): (&SpeedScale, f64),
+    ) -> Result<(), PictureError> {
+        self.draw_caption(sheet, layout, index, instant)?;
+        let plane = axes(sheet, layout, index)?;
+        self.draw_ground(&plane, layout)?;
+        if let Some(snapshot) = instant.snapshot {
+            draw_flow(&plane, layout, snapshot, (speeds, bin_m))?;
+        }
+        self.draw_channel(&plane, layout)?;
+        if let Some(sample) = instant.sample {
+            self.draw_bodies(&plane, sample)?;
+        }
+        Ok(())
+    }
+
+    fn draw_caption(
+        &self,
+        sheet: &Area<'_>,
+        layout: &Layout,
+        index: usize,
+        instant: &Instant<'_>,
+    ) -> Result<(), PictureError> {
+        let (left, top) = layout.corner(index);
+        let base = top - 4.0;
+        let time = format!("t = {:.2} s", instant.time_s);
+        let style = bold(11.5, &INK).pos(Pos::new(HPos::Left, VPos::Bottom));
+        sheet.draw_text(&time, &style, (px(left), px(base)))?;
+        let degrees = self.scenario.channel.inclination_deg;
+        if index > 0 || degrees <= 0.0 {
+            return Ok(());
+        }
+        let foot = left - layout.x.start * layout.px_per_m;
+        let style = text(11.0, &FAINT_INK).pos(Pos::new(HPos::Center, VPos::Bottom));
+        // Clear of the time at its left.
+        let at = (px(foot.max(left + 150.0)), px(base));
+        let label = format!("foot of the {}° incline", significant(degrees, 2));
+        sheet.draw_text(&label, &style, at)?;
+        Ok(())
+    }
+
+    fn draw_ground(&self, plane: &Plane<'_>, layout: &Layout) -> Result<(), PictureError> {
+        let channel = &self.scenario.channel;
+        let half = channel.width_m / 2.0;
+        let from = (-channel.incline_length_m).max(layout.x.start);
+        if channel.inclination_deg > 0.0 && from < 0.0 {
+            let ground = [(from, -half), (0.0, half)];
+            plane.draw(&Rectangle::new(ground, INCLINE.filled()))?;
+        }
+        Ok(())
+    }
+
+    /// Side walls, the wall that closes the channel, its open end and the foot.
+    fn draw_channel(&self, plane: &Plane<'_>, layout: &Layout) -> Result<(), PictureError> {
+        let channel = &self.scenario.channel;
+        let half = channel.width_m / 2.0;
+        let back = -channel.incline_length_m;
+        let (from, to) = (
+            back.max(layout.x.start),
+            channel.runout_length_m.min(layout.x.end),
+        );
+        let wall = INK.stroke_width(stroke(1.2));
+        for y in [-half, half] {
+            plane.draw(&PathElement::new([(from, y), (to, y)], wall))?;
+        }
+        if back >= layout.x.start {
+            plane.draw(&PathElement::new([(back, -half), (back, half)], wall))?;
+        }
+        let dashed = |x: f64, color: RGBColor| {
+            let line = [(x, -half), (x, half)];
+            let style = color.stroke_width(stroke(1.0));
+            DashedPathElement::new(line, px(4.0), px(3.0), style)
+        };
+        if channel.runout_length_m <= layout.x.end {
+            plane.draw(&dashed(channel.runout_length_m, FAINT_INK))?;
+        }
+        if channel.inclination_deg > 0.0 {
+            plane.draw(&dashed(0.0, INK))?;
+        }
+        Ok(())
+    }
+
+    fn draw_bodies(&self, plane: &Plane<'_>, sample: usize) -> Result<(), PictureError> {
+        let states = &self.samples[sample].bodies;
+        for body in 0..self.scenario.bodies.len().min(states.len()) {
+            self.draw_trail(plane, body, sample)?;
+        }
+        for (index, (body, state)) in self.scenario.bodies.iter().zip(states).enumerate() {
+            let mut outline: Vec<_> = outline::from_above(body, state)
+                .into_iter()
+                .map(Into::into)
+                .collect();
+            plane.draw(&Polygon::new(outline.clone(), body_color(index).filled()))?;
+            outline.extend(outline.first().copied());
+            plane.draw(&PathElement::new(outline, INK.stroke_width(stroke(0.8))))?;
+        }
+        Ok(())
+    }
+
+    /// Way of a body's centre so far, white-edged to show on any colour.
+    fn draw_trail(&self, plane: &Plane<'_>, body: usize, last: usize) -> Result<(), PictureError> {
+        let states = self.samples[..=last]
+            .iter()
+            .filter_map(|sample| sample.bodies.get(body));
+        let way = states.map(|state| (state.position_m[0], state.position_m[1]));
+        let mut way: Vec<(f64, f64)> = way.filter(|p| (p.0 + p.1).is_finite()).collect();
+        way.dedup();
+        if way.len() < 2 {
+            return Ok(());
+        }
+        plane.draw(&PathElement::new(
+            way.clone(),
+            WHITE.stroke_width(stroke(3.0)),
+        ))?;
+        plane.draw(&PathElement::new(
+            way,
+            body_color(body).stroke_width(stroke(1.5)),
+        ))?;
+        Ok(())
+    }
+}
+
+/// The panel's axes; their numbers only at the outer panels.
+fn axes<'a>(sheet: &Area<'a>, layout: &Layout, index: usize) -> Result<Plane<'a>, PictureError> {
+    let ((x, y), (width, height)) = (layout.corner(index), layout.strip());
+    let left = if layout.is_first_of_row(index) {
+        LEFT - 20.0
+    } else {
+        0.0
+    };
+    let below = if layout.is_last_of_column(index) {
+        AXIS - 16.0
+    } else {
+        0.0
+    };
+    let corner = (px(x - left), px(y));
+    let area = sheet
+        .clone()
+        .shrink(corner, (px(width + left), px(height + below)));
+    let mut panel = ChartBuilder::on(&area)
+        .set_label_area_size(LabelAreaPosition::Left, px(left))
+        .set_label_area_size(LabelAreaPosition::Bottom, px(below))
+        .build_cartesian_2d(layout.x.clone(), layout.y.clone())?;
+    let numbers_across = ((height / 22.0) as usize).clamp(2, 7);
+    let numbers_along = ((width / 75.0) as usize).clamp(2, 12);
+    panel
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(HAIRLINE.stroke_width(stroke(0.6)))
+        .axis_style(TRANSPARENT)
+        .x_labels(numbers_along)
+        .y_labels(numbers_across)
+        .set_all_tick_mark_size(px(3.0))
+        .label_style(text(10.5, &INK))
+        .draw()?;
+    Ok(panel.plotting_area().clone())
+}
+
+fn draw_flow(
+    plane: &Plane<'_>,
+    layout: &Layout,
+    snapshot: &FlowSnapshot,
+    (speeds, bin_m): (&SpeedScale, f64),
+) -> Result<(), PictureError> {
+    let radius = stroke(DOT_RADIUS_BINS * bin_m * layout.px_per_m);
+    for dot in surface::seen_from_above(snapshot, &layout.x, bin_m) {
+        let color = speeds.color(dot.speed_m_s);
+        plane.draw(&Circle::new((dot.at[0], dot.at[1]), radius, color.filled()))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,87 @@
+//! The sheet the pictures are drawn on.
+
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::prelude::*;
+use thiserror::Error;
+
+/// Part of a sheet, measured in device units.
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// A part with axes: coordinates in the units of the picture.
+pub(super) type Plane<'a> =
+    DrawingArea<SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Device units per pixel of the finished picture. The plotting library rounds
+/// to whole units; a quarter of a pixel keeps curves smooth and dots in place.
+const DEVICE_PER_PX: f64 = 4.0;
+
+/// What the library multiplies a font size with before it writes the SVG.
+const FONT_SIZE_FACTOR: f64 = 1.24;
+
+/// Ink of axes and texts.
+pub(super) const INK: RGBColor = RGBColor(38, 42, 48);
+/// Ink of what should stay in the background.
+pub(super) const FAINT_INK: RGBColor = RGBColor(105, 112, 122);
+/// Grid lines and the like.
+pub(super) const HAIRLINE: RGBColor = RGBColor(222, 225, 229);
+
+/// A picture that could not be drawn.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the picture could not be drawn: {0}")]
+pub struct PictureError(String);
+
+impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for PictureError {
+    fn from(error: DrawingAreaErrorKind<E>) -> Self {
+        Self(error.to_string())
+    }
+}
+
+/// A length in device units, from pixels of the finished picture.
+pub(super) fn px(length: f64) -> i32 {
+    (length * DEVICE_PER_PX).round() as i32
+}
+
+/// A stroke width or radius in device units, from pixels.
+pub(super) fn width(length: f64) -> u32 {
+    (length * DEVICE_PER_PX).round().max(1.0) as u32
+}
+
+/// A sans-serif text of this size [px].
+pub(super) fn text(size_px: f64, color: &RGBColor) -> TextStyle<'_> {
+    let size = size_px * DEVICE_PER_PX * FONT_SIZE_FACTOR;
+    TextStyle::from(("sans-serif", size).into_font()).color(color)
+}
+
+/// The same in bold.
+pub(super) fn bold(size_px: f64, color: &RGBColor) -> TextStyle<'_> {
+    let size = size_px * DEVICE_PER_PX * FONT_SIZE_FACTOR;
+    TextStyle::from(("sans-serif", size, FontStyle::Bold).into_font()).color(color)
+}
+
+/// Draws a white sheet of this size [px] and returns it as an SVG document.
+pub(super) fn paint(
+    (width_px, height_px): (f64, f64),
+    draw: impl FnOnce(&Area<'_>) -> Result<(), PictureError>,
+) -> Result<String, PictureError> {
+    let size = (width(width_px), width(height_px));
+    let mut svg = String::new();
+    {
+        let sheet = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+        sheet.fill(&WHITE)?;
+        draw(&sheet)?;
+        sheet.present()?;
+    }
+    Ok(finish(&svg, size, (width_px, height_px)))
+}
+
+/// Shows the sheet at its size in pixels and leaves out attributes that only
+/// repeat what SVG takes as given: they are half of a picture of many dots.
+fn finish(svg: &str, device: (u32, u32), shown_px: (f64, f64)) -> String {
+    let device = format!("width=\"{}\" height=\"{}\"", device.0, device.1);
+    let shown = format!("width=\"{:.0}\" height=\"{:.0}\"", shown_px.0, shown_px.1);
+    svg.replacen(&device, &shown, 1)
+        .replace(" opacity=\"1\"", "")
+        .replace(" stroke=\"none\" stroke-width=\"1\"", "")
+}

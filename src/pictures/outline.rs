@@ -1,0 +1,126 @@
+//! A body's outline as seen from above.
+
+use scree_solver::record::BodySample;
+use scree_solver::scenario::{Body, Shape};
+use std::f64::consts::TAU;
+
+/// Points on a full circle of the rounding.
+const CIRCLE_POINTS: u32 = 32;
+
+/// Outline of a body seen from above [m], anticlockwise: the convex hull of its
+/// core's vertices, turned and moved as in the sample, widened by the rounding
+/// radius (the Minkowski sum of hull and disc).
+pub(super) fn from_above(body: &Body, sample: &BodySample) -> Vec<[f64; 2]> {
+    let radius = body.sphero_radius_m;
+    let mut points = Vec::new();
+    for vertex in core_vertices(&body.shape, radius) {
+        let turned = rotate(sample.orientation, vertex);
+        let centre = [0, 1].map(|axis| sample.position_m[axis] + turned[axis]);
+        points.extend((0..CIRCLE_POINTS).map(|step| {
+            let angle = TAU * f64::from(step) / f64::from(CIRCLE_POINTS);
+            [
+                centre[0] + radius * angle.cos(),
+                centre[1] + radius * angle.sin(),
+            ]
+        }));
+    }
+    points.retain(|p| p.iter().all(|c| c.is_finite()));
+    convex_hull(points)
+}
+
+/// Vertices of the core: the shape eroded by its rounding radius.
+fn core_vertices(shape: &Shape, radius: f64) -> Vec<[f64; 3]> {
+    match *shape {
+        Shape::Cube { side_m } => {
+            let half = (side_m / 2.0 - radius).max(0.0);
+            let sign = |bit: u8, corner: u8| if corner & bit == 0 { -half } else { half };
+            (0..8)
+                .map(|c| [sign(1, c), sign(2, c), sign(4, c)])
+                .collect()
+        }
+    }
+}
+
+/// Turns a vector by a unit quaternion [w, x, y, z]: v + 2 u × (u × v + w v).
+fn rotate([w, x, y, z]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
+    let axis = [x, y, z];
+    let inner = cross(axis, v);
+    let inner = [0, 1, 2].map(|i| inner[i] + w * v[i]);
+    let outer = cross(axis, inner);
+    [0, 1, 2].map(|i| v[i] + 2.0 * outer[i])
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// Convex hull, anticlockwise, by Andrew's monotone chain.
+fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    points.dedup();
+    if points.len() < 3 {
+        return points;
+    }
+    let mut hull = half_hull(points.iter().copied());
+    let upper = half_hull(points.iter().rev().copied());
+    hull.pop();
+    hull.extend(&upper[..upper.len() - 1]);
+    hull
+}
+
+/// The chain that turns left all the way from the first to the last point.
+fn half_hull(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    let mut chain: Vec<[f64; 2]> = Vec::new();
+    for point in points {
+        while let [.., a, b] = chain[..]
+            && turn(a, b, point) <= 0.0
+        {
+            chain.pop();
+        }
+        chain.push(point);
+    }
+    chain
+}
+
+/// Positive where a → b → c turns left.
+fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pictures::fixtures::{cube, resting_at};
+
+    fn extent(outline: &[[f64; 2]], axis: usize) -> f64 {
+        let coordinates = || outline.iter().map(|p| p[axis]);
+        coordinates().fold(f64::MIN, f64::max) - coordinates().fold(f64::MAX, f64::min)
+    }
+
+    /// A 4 cm cube is 4 cm across its flats, rounding included; turned by 45°
+    /// about z it is √2 (L − 2r) + 2r across. The circle has points on the
+    /// axes, so both hold to rounding.
+    #[test]
+    fn outline_of_a_cube_has_its_width() {
+        let body = cube(0.04, 0.002);
+        let mut sample = resting_at([0.3, -0.05, 0.02]);
+        let flat = from_above(&body, &sample);
+        assert!((extent(&flat, 0) - 0.04).abs() < 1e-12);
+        assert!((extent(&flat, 1) - 0.04).abs() < 1e-12);
+
+        let half_turn = (TAU / 16.0).sin_cos();
+        sample.orientation = [half_turn.1, 0.0, 0.0, half_turn.0];
+        let turned = from_above(&body, &sample);
+        let expected = 2_f64.sqrt() * 0.036 + 0.004;
+        assert!((extent(&turned, 0) - expected).abs() < 1e-12);
+        let centre = turned.iter().map(|p| p[0]).sum::<f64>() / turned.len() as f64;
+        assert!(
+            (centre - 0.3).abs() < 1e-12,
+            "centred on the body: {centre}"
+        );
+    }
+}
