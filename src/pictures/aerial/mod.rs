@@ -1,0 +1,132 @@
+//! Flow and bodies seen from above (the source paper's figure 6).
+
+mod instants;
+mod layout;
+mod panel;
+
+use super::canvas::width as stroke;
+use super::canvas::{Area, FAINT_INK, HAIRLINE, INK, PictureError, bold, paint, px, text};
+use super::format::{plain, title};
+use super::palette::SpeedScale;
+use super::surface;
+use layout::Layout;
+use panel::Scene;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use scree_solver::record::{FlowSnapshot, Sample};
+use scree_solver::scenario::Scenario;
+
+/// Dots in the whole picture: enough to see the flow, few enough for a page.
+const DOT_BUDGET: usize = 7_500;
+/// Side of the squares of which one dot each is shown, at best [px].
+const FINEST_BIN_PX: f64 = 2.6;
+/// Size of the colour bar [px].
+const BAR: (f64, f64) = (180.0, 9.0);
+
+/// Flow and bodies seen from above at about six instants: the flow's surface as
+/// dots coloured by speed [m/s], each body's outline and the trail of its
+/// centre, the channel and the foot of the incline, x downstream and y across
+/// [m] on equal scales. Returns an SVG document.
+///
+/// The instants are those of `snapshots`, or of `samples` if there is no flow;
+/// of more than six, those that share time and the bodies' travel out evenly.
+///
+/// # Errors
+/// When the drawing library refuses to draw.
+pub fn aerial_view(
+    scenario: &Scenario,
+    samples: &[Sample],
+    snapshots: &[FlowSnapshot],
+) -> Result<String, PictureError> {
+    let instants = instants::choose(samples, snapshots);
+    let shown: Vec<_> = instants.iter().filter_map(|i| i.snapshot).collect();
+    let speeds = SpeedScale::covering(&shown);
+    let scene = Scene { scenario, samples };
+    let layout = Layout::of(&scene, &instants);
+    let bin_m = bin_within_budget(&layout, &shown);
+    paint((layout::WIDTH, layout.height()), |sheet| {
+        draw_header(sheet, scenario)?;
+        if !shown.is_empty() {
+            draw_color_bar(sheet, &speeds)?;
+        }
+        for (index, instant) in instants.iter().enumerate() {
+            scene.draw(sheet, &layout, index, instant, (&speeds, bin_m))?;
+        }
+        draw_axis_titles(sheet, &layout)
+    })
+}
+
+/// The finest squares [m] with which the picture stays within its dots.
+fn bin_within_budget(layout: &Layout, shown: &[&FlowSnapshot]) -> f64 {
+    let mut bin_m = FINEST_BIN_PX / layout.px_per_m;
+    let dots = |bin_m: f64| -> usize {
+        let visible = |s: &&FlowSnapshot| surface::seen_from_above(s, &layout.x, bin_m).len();
+        shown.iter().map(visible).sum()
+    };
+    while dots(bin_m) > DOT_BUDGET {
+        bin_m *= 1.15;
+    }
+    bin_m
+}
+
+fn draw_header(sheet: &Area<'_>, scenario: &Scenario) -> Result<(), PictureError> {
+    let left = px(16.0);
+    let headline = title(&scenario.title, "Untitled scenario");
+    sheet.draw_text(&headline, &bold(15.0, &INK), (left, px(12.0)))?;
+    let subtitle = "Seen from above: surface of the flow, bodies and their trails";
+    sheet.draw_text(subtitle, &text(12.0, &FAINT_INK), (left, px(33.0)))?;
+    Ok(())
+}
+
+/// The scale of speed, at the right of the subtitle.
+fn draw_color_bar(sheet: &Area<'_>, speeds: &SpeedScale) -> Result<(), PictureError> {
+    let left = layout::WIDTH - layout::RIGHT - BAR.0;
+    let top = 38.0;
+    let steps = 90;
+    let step = BAR.0 / f64::from(steps);
+    for index in 0..steps {
+        let share = (f64::from(index) + 0.5) / f64::from(steps);
+        let color = speeds.color(share * speeds.top_m_s);
+        let from = (px(left + step * f64::from(index)), px(top));
+        let to = (px(left + step * f64::from(index + 1)), px(top + BAR.1));
+        sheet.draw(&Rectangle::new([from, to], color.filled()))?;
+    }
+    let beside = text(11.0, &INK).pos(Pos::new(HPos::Right, VPos::Center));
+    let middle = px(top + BAR.1 / 2.0);
+    sheet.draw_text(
+        "speed of the flow [m/s]",
+        &beside,
+        (px(left - 10.0), middle),
+    )?;
+    for share in [0.0, 0.5, 1.0] {
+        let capped = if share == 1.0 && speeds.exceeded {
+            "≥ "
+        } else {
+            ""
+        };
+        let label = format!("{capped}{}", plain(share * speeds.top_m_s));
+        let x = left + share * BAR.0;
+        let tick = [(px(x), px(top + BAR.1)), (px(x), px(top + BAR.1 + 3.0))];
+        sheet.draw(&PathElement::new(tick, FAINT_INK.stroke_width(stroke(0.8))))?;
+        let below = text(10.5, &INK).pos(Pos::new(HPos::Center, VPos::Top));
+        sheet.draw_text(&label, &below, (px(x), px(top + BAR.1 + 4.0)))?;
+    }
+    Ok(())
+}
+
+fn draw_axis_titles(sheet: &Area<'_>, layout: &Layout) -> Result<(), PictureError> {
+    let (left, right) = layout.horizontal_extent();
+    let below = text(12.0, &INK).pos(Pos::new(HPos::Center, VPos::Bottom));
+    let bottom = px(layout.height() - 6.0);
+    sheet.draw_text(
+        "x downstream [m]",
+        &below,
+        (px((left + right) / 2.0), bottom),
+    )?;
+    let (top, foot) = layout.vertical_extent();
+    let upright = text(12.0, &INK)
+        .transform(FontTransform::Rotate270)
+        .pos(Pos::new(HPos::Center, VPos::Top));
+    sheet.draw_text("y across [m]", &upright, (px(8.0), px((top + foot) / 2.0)))?;
+    Ok(())
+}
