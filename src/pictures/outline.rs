@@ -1,7 +1,7 @@
 //! A body's outline as seen from above.
 
 use scree_solver::record::BodySample;
-use scree_solver::scenario::{Body, Shape};
+use scree_solver::shape::SpheroPolyhedron;
 use std::f64::consts::TAU;
 
 /// Points on a full circle of the rounding.
@@ -10,11 +10,11 @@ const CIRCLE_POINTS: u32 = 32;
 /// Outline of a body seen from above [m], anticlockwise: the convex hull of its
 /// core's vertices, turned and moved as in the sample, widened by the rounding
 /// radius (the Minkowski sum of hull and disc).
-pub(super) fn from_above(body: &Body, sample: &BodySample) -> Vec<[f64; 2]> {
-    let radius = body.sphero_radius_m;
+pub(super) fn from_above(shape: &SpheroPolyhedron, sample: &BodySample) -> Vec<[f64; 2]> {
+    let radius = shape.sphero_radius();
     let mut points = Vec::new();
-    for vertex in core_vertices(&body.shape, radius) {
-        let turned = rotate(sample.orientation, vertex);
+    for vertex in shape.core_vertices() {
+        let turned = rotate(sample.orientation, (*vertex).into());
         let centre = [0, 1].map(|axis| sample.position_m[axis] + turned[axis]);
         points.extend((0..CIRCLE_POINTS).map(|step| {
             let angle = TAU * f64::from(step) / f64::from(CIRCLE_POINTS);
@@ -26,19 +26,6 @@ pub(super) fn from_above(body: &Body, sample: &BodySample) -> Vec<[f64; 2]> {
     }
     points.retain(|p| p.iter().all(|c| c.is_finite()));
     convex_hull(points)
-}
-
-/// Vertices of the core: the shape eroded by its rounding radius.
-fn core_vertices(shape: &Shape, radius: f64) -> Vec<[f64; 3]> {
-    match *shape {
-        Shape::Cube { side_m } => {
-            let half = (side_m / 2.0 - radius).max(0.0);
-            let sign = |bit: u8, corner: u8| if corner & bit == 0 { -half } else { half };
-            (0..8)
-                .map(|c| [sign(1, c), sign(2, c), sign(4, c)])
-                .collect()
-        }
-    }
 }
 
 /// Turns a vector by a unit quaternion [w, x, y, z]: v + 2 u × (u × v + w v).
@@ -94,7 +81,7 @@ fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pictures::fixtures::{cube, resting_at};
+    use crate::pictures::fixtures::resting_at;
 
     fn extent(outline: &[[f64; 2]], axis: usize) -> f64 {
         let coordinates = || outline.iter().map(|p| p[axis]);
@@ -106,15 +93,15 @@ mod tests {
     /// axes, so both hold to rounding.
     #[test]
     fn outline_of_a_cube_has_its_width() {
-        let body = cube(0.04, 0.002);
+        let cube = SpheroPolyhedron::cube(0.04, 0.002).unwrap();
         let mut sample = resting_at([0.3, -0.05, 0.02]);
-        let flat = from_above(&body, &sample);
+        let flat = from_above(&cube, &sample);
         assert!((extent(&flat, 0) - 0.04).abs() < 1e-12);
         assert!((extent(&flat, 1) - 0.04).abs() < 1e-12);
 
         let half_turn = (TAU / 16.0).sin_cos();
         sample.orientation = [half_turn.1, 0.0, 0.0, half_turn.0];
-        let turned = from_above(&body, &sample);
+        let turned = from_above(&cube, &sample);
         let expected = 2_f64.sqrt() * 0.036 + 0.004;
         assert!((extent(&turned, 0) - expected).abs() < 1e-12);
         let centre = turned.iter().map(|p| p[0]).sum::<f64>() / turned.len() as f64;

@@ -1,10 +1,11 @@
 //! The trajectory of one body as columns of equal length.
 
 use scree_solver::record::{BodySample, Mode, Sample};
+use serde::Deserialize;
 
 /// The trajectory of one body, one column a quantity, all of equal length.
 /// The fields are the columns of the trajectory document, in its order.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 pub struct TrajectoryColumns {
     /// Sample times [s].
     pub time_s: Vec<f64>,

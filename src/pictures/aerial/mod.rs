@@ -31,6 +31,9 @@ const BAR: (f64, f64) = (180.0, 9.0);
 /// The instants are those of `snapshots`, or of `samples` if there is no flow;
 /// of more than six, those that share time and the bodies' travel out evenly.
 ///
+/// # Panics
+/// If the scenario did not come from the parser.
+///
 /// # Errors
 /// When the drawing library refuses to draw.
 pub fn aerial_view(
@@ -41,7 +44,7 @@ pub fn aerial_view(
     let instants = instants::choose(samples, snapshots);
     let shown: Vec<_> = instants.iter().filter_map(|i| i.snapshot).collect();
     let speeds = SpeedScale::covering(&shown);
-    let scene = Scene { scenario, samples };
+    let scene = Scene::new(scenario, samples);
     let layout = Layout::of(&scene, &instants);
     let bin_m = bin_within_budget(&layout, &shown);
     paint((layout::WIDTH, layout.height()), |sheet| {

@@ -12,6 +12,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use scree_solver::record::{FlowSnapshot, Sample};
 use scree_solver::scenario::Scenario;
+use scree_solver::shape::SpheroPolyhedron;
 use std::ops::Range;
 
 /// Ground of the inclined part; the floor stays white.
@@ -20,13 +21,23 @@ const INCLINE: RGBColor = RGBColor(240, 241, 243);
 const DOT_RADIUS_BINS: f64 = 0.85;
 
 /// What all panels share.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub(super) struct Scene<'a> {
     pub scenario: &'a Scenario,
-    pub samples: &'a [Sample],
+    samples: &'a [Sample],
+    shapes: Vec<SpheroPolyhedron>,
 }
 
-impl Scene<'_> {
+impl<'a> Scene<'a> {
+    pub(super) fn new(scenario: &'a Scenario, samples: &'a [Sample]) -> Self {
+        let bodies = 0..scenario.bodies.len();
+        Self {
+            scenario,
+            samples,
+            shapes: bodies.map(|body| scenario.shape_of(body)).collect(),
+        }
+    }
+
     /// Part of the channel [m] in which anything is or ever was, with the foot
     /// of the incline and a margin.
     pub(super) fn extent(&self, instants: &[Instant<'_>]) -> Range<f64> {
@@ -51,11 +62,13 @@ impl Scene<'_> {
         (low - margin).max(whole.start - beyond)..(high + margin).min(whole.end + beyond)
     }
 
-    fn body_extents(&self, sample: &Sample) -> impl Iterator<Item = f64> + Clone {
-        let outlines = self.scenario.bodies.iter().zip(&sample.bodies);
-        let outlines = outlines.map(|(body, state)| outline::from_above(body, state));
-        let xs: Vec<f64> = outlines.flatten().map(|point| point[0]).collect();
-        xs.into_iter()
+    /// Where bodies reach at most, at both sides of their centres.
+    fn body_extents(&self, sample: &'a Sample) -> impl Iterator<Item = f64> + Clone {
+        let bodies = self.shapes.iter().zip(&sample.bodies);
+        bodies.flat_map(|(shape, state)| {
+            let reach = shape.bounding_radius();
+            [state.position_m[0] - reach, state.position_m[0] + reach]
+        })
     }
 
     /// Draws the panel of this index into the sheet.
@@ -148,11 +161,11 @@ impl Scene<'_> {
 
     fn draw_bodies(&self, plane: &Plane<'_>, sample: usize) -> Result<(), PictureError> {
         let states = &self.samples[sample].bodies;
-        for body in 0..self.scenario.bodies.len().min(states.len()) {
+        for body in 0..self.shapes.len().min(states.len()) {
             self.draw_trail(plane, body, sample)?;
         }
-        for (index, (body, state)) in self.scenario.bodies.iter().zip(states).enumerate() {
-            let mut outline: Vec<_> = outline::from_above(body, state)
+        for (index, (shape, state)) in self.shapes.iter().zip(states).enumerate() {
+            let mut outline: Vec<_> = outline::from_above(shape, state)
                 .into_iter()
                 .map(Into::into)
                 .collect();

@@ -1,0 +1,107 @@
+//! The service's documents, as its client reads them.
+
+use crate::cli::failure::Failure;
+use scree::jobs::progress::Progress;
+use scree::results::TrajectoryColumns;
+use scree_solver::record::{FlowSnapshot, Outcome, Sample};
+use scree_solver::scenario::Scenario;
+use serde::Deserialize;
+
+/// Kind of failure that is the computation's own.
+const NUMERICAL: &str = "urn:scree:failure:numerical";
+
+/// What the demo reads of a job.
+#[derive(Debug, Deserialize)]
+pub(super) struct Job {
+    pub(super) id: String,
+    pub(super) progress: Progress,
+    status: String,
+    outcome: Option<Outcome>,
+    problem: Option<Problem>,
+}
+
+/// Why a job failed.
+#[derive(Debug, Deserialize)]
+struct Problem {
+    #[serde(rename = "type")]
+    kind: String,
+    detail: String,
+}
+
+impl Job {
+    /// How the job ended; none while it has not.
+    pub(super) fn end(self) -> Option<Result<Outcome, Failure>> {
+        if matches!(self.status.as_str(), "accepted" | "running") {
+            return None;
+        }
+        Some(match (self.outcome, self.problem) {
+            (Some(outcome), _) if self.status == "successful" => Ok(outcome),
+            (_, Some(problem)) if problem.kind == NUMERICAL => {
+                Err(Failure::Numerical(problem.detail))
+            }
+            (_, Some(problem)) => Err(Failure::Other(problem.detail)),
+            _ => Err(Failure::Other(format!("the job ended as {}", self.status))),
+        })
+    }
+}
+
+/// Trajectory document of one body.
+#[derive(Debug, Deserialize)]
+struct Trajectory {
+    columns: TrajectoryColumns,
+}
+
+/// What a run recorded, put together from the service's documents.
+#[derive(Debug, Default)]
+pub(super) struct Recorded {
+    pub(super) samples: Vec<Sample>,
+    pub(super) snapshots: Vec<FlowSnapshot>,
+}
+
+impl Recorded {
+    /// Adds the next body's trajectory.
+    ///
+    /// # Errors
+    /// The document is none, or its samples are not those of the bodies before.
+    pub(super) fn add_trajectory(&mut self, document: &[u8]) -> Result<(), Failure> {
+        let trajectory: Trajectory = serde_json::from_slice(document)
+            .map_err(|error| Failure::other("the trajectory is not understood", error))?;
+        let columns = trajectory.columns;
+        if self.samples.is_empty() {
+            let empty = |time_s: &f64| Sample {
+                time_s: *time_s,
+                bodies: Vec::new(),
+            };
+            self.samples = columns.time_s.iter().map(empty).collect();
+        }
+        if columns.len() != self.samples.len() {
+            let reason = "the trajectories differ in length";
+            return Err(Failure::Other(reason.to_owned()));
+        }
+        for (index, sample) in self.samples.iter_mut().enumerate() {
+            sample.bodies.push(columns.sample(index).1);
+        }
+        Ok(())
+    }
+
+    /// Adds a snapshot, unless it is the last one again.
+    pub(super) fn add_snapshot(&mut self, snapshot: FlowSnapshot) {
+        let known = self
+            .snapshots
+            .last()
+            .is_some_and(|last| last.time_s >= snapshot.time_s);
+        if !known {
+            self.snapshots.push(snapshot);
+        }
+    }
+}
+
+/// Times [s] at which a scenario's snapshots lie; none without a flow.
+pub(super) fn snapshot_times(scenario: &Scenario) -> Vec<f64> {
+    if scenario.flow.is_none() {
+        return Vec::new();
+    }
+    let intervals = scenario.flow_snapshots.saturating_sub(1).max(1);
+    let time_s = |k: u32| scenario.duration_s * f64::from(k) / f64::from(intervals);
+    (0..scenario.flow_snapshots).map(time_s).collect()
+}

@@ -1,0 +1,131 @@
+//! `scree demo`: the source paper's scene, all the way through a service of its
+//! own: over HTTP into the queue, computed by a worker, kept in a database, and
+//! back over HTTP into files, pictures and a table.
+
+mod client;
+mod documents;
+
+use super::arguments::DemoOptions;
+use super::failure::Failure;
+use super::meter::Meter;
+use super::output::OutputDirectory;
+use super::{console, scenario_file, serve, table};
+use client::Client;
+use documents::{Job, Recorded};
+use scree::config::ServiceConfig;
+use scree::service;
+use scree_solver::record::Outcome;
+use scree_solver::scenario::Scenario;
+use std::net::{Ipv4Addr, SocketAddr};
+use std::time::Duration;
+use tracing::level_filters::LevelFilter;
+
+/// The source paper's scene. Inside the binary, so that the demo runs anywhere.
+const SOURCE_PAPER: &str = include_str!("../../../configs/scenarios/source_paper.json");
+
+/// Time between two looks at the job.
+const POLL_INTERVAL: Duration = Duration::from_millis(250);
+
+/// Runs the demo.
+///
+/// # Errors
+/// See [`Failure`].
+pub(super) fn demo(options: &DemoOptions) -> Result<(), Failure> {
+    let text = match &options.scenario {
+        Some(path) => scenario_file::read_text(path)?,
+        None => SOURCE_PAPER.to_owned(),
+    };
+    let scenario = scenario_file::parse(&text, "the demo's scenario")?;
+    let directory = OutputDirectory::create(&options.out)?;
+    serve::log_to_standard_error(LevelFilter::WARN);
+    let runtime = tokio::runtime::Runtime::new()?;
+    runtime.block_on(async {
+        tokio::select! {
+            result = with_own_service(text, &scenario, directory) => result,
+            _ = tokio::signal::ctrl_c() => Err(Failure::Other("interrupted".to_owned())),
+        }
+    })
+}
+
+/// Starts a service for this demo alone and stops it afterwards; its database
+/// goes with the directory.
+async fn with_own_service(
+    text: String,
+    scenario: &Scenario,
+    directory: OutputDirectory,
+) -> Result<(), Failure> {
+    let throw_away = tempfile::tempdir()?;
+    let config = ServiceConfig {
+        listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)),
+        database: throw_away.path().join("demo.db"),
+        ..ServiceConfig::default()
+    };
+    let running = service::start(config)
+        .await
+        .map_err(|error| serve::not_started(&error))?;
+    console::note(&format!("service on http://{}", running.address()));
+    let client = Client::new(running.address());
+    let result = send_and_fetch(client, text, scenario, directory).await;
+    running.stop().await;
+    console::answer(&result?)?;
+    Ok(())
+}
+
+/// Sends the scenario, waits for its end and fetches the results; returns what
+/// to print.
+async fn send_and_fetch(
+    client: Client,
+    text: String,
+    scenario: &Scenario,
+    mut directory: OutputDirectory,
+) -> Result<String, Failure> {
+    let job: Job = client.post("/v1/jobs", text).await?.json()?;
+    console::note(&format!(
+        "POST /v1/jobs: job {}, \"{}\"",
+        job.id, scenario.title
+    ));
+    let outcome = wait(client, &job.id).await?;
+    let recorded = fetch(client, &job.id, scenario, &mut directory).await?;
+    directory.outcome(&outcome)?;
+    directory.pictures(scenario, &recorded.samples, &recorded.snapshots, &outcome)?;
+    Ok(format!(
+        "{}\n\n{}",
+        table::outcome(&outcome),
+        directory.summary()
+    ))
+}
+
+/// Shows the job's progress until it ends.
+async fn wait(client: Client, id: &str) -> Result<Outcome, Failure> {
+    let mut meter = Meter::bar_or_lines();
+    loop {
+        let job: Job = client.get(&format!("/v1/jobs/{id}")).await?.json()?;
+        meter.show(&job.progress);
+        if let Some(end) = job.end() {
+            meter.finish();
+            return end;
+        }
+        tokio::time::sleep(POLL_INTERVAL).await;
+    }
+}
+
+/// Fetches trajectories, which are kept as they come, and the flow.
+async fn fetch(
+    client: Client,
+    id: &str,
+    scenario: &Scenario,
+    directory: &mut OutputDirectory,
+) -> Result<Recorded, Failure> {
+    let mut recorded = Recorded::default();
+    for body in 0..scenario.bodies.len() {
+        let path = format!("/v1/jobs/{id}/trajectory?body={body}");
+        let document = client.get(&path).await?.accepted()?;
+        directory.trajectory(body, &document)?;
+        recorded.add_trajectory(&document)?;
+    }
+    for time_s in documents::snapshot_times(scenario) {
+        let path = format!("/v1/jobs/{id}/flow?time_s={time_s}");
+        recorded.add_snapshot(client.get(&path).await?.json()?);
+    }
+    Ok(recorded)
+}

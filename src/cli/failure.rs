@@ -1,0 +1,68 @@
+//! Why a command could not do what it was asked.
+
+use super::console;
+use scree::pictures::PictureError;
+use std::fmt::Display;
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+use thiserror::Error;
+
+/// A command's failure, by who has to act.
+#[derive(Debug, Error)]
+pub(super) enum Failure {
+    /// Arguments, files or the scenario: whoever asked.
+    #[error("{0}")]
+    Input(String),
+    /// The computation could not go on: whoever knows the method.
+    #[error("{0}")]
+    Numerical(String),
+    /// Anything else: whoever runs the machine.
+    #[error("{0}")]
+    Other(String),
+}
+
+impl Failure {
+    /// Something outside that went wrong, and what it says.
+    pub(super) fn other(what: &str, why: impl Display) -> Self {
+        Self::Other(format!("{what}: {why}"))
+    }
+
+    /// A file or directory named on the command line that can't be used.
+    pub(super) fn path(doing: &str, path: &Path, why: &io::Error) -> Self {
+        Self::Input(format!("cannot {doing} {}: {why}", path.display()))
+    }
+
+    /// Tells it on standard error and says how the process ends.
+    pub(super) fn report(&self) -> ExitCode {
+        console::note(&format!("error: {self}"));
+        ExitCode::from(self.exit_code())
+    }
+
+    /// Exit code: 2 invalid input, 3 numerical failure, 1 other.
+    pub(super) fn exit_code(&self) -> u8 {
+        match self {
+            Self::Other(_) => 1,
+            Self::Input(_) => 2,
+            Self::Numerical(_) => 3,
+        }
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::other("input or output failed", error)
+    }
+}
+
+impl From<serde_json::Error> for Failure {
+    fn from(error: serde_json::Error) -> Self {
+        Self::other("the results can't be written as JSON", error)
+    }
+}
+
+impl From<PictureError> for Failure {
+    fn from(error: PictureError) -> Self {
+        Self::Other(error.to_string())
+    }
+}

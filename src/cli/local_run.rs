@@ -1,0 +1,127 @@
+//! `scree run`: one scenario, computed in this process.
+
+use super::arguments::RunOptions;
+use super::failure::Failure;
+use super::meter::Meter;
+use super::output::OutputDirectory;
+use super::{console, scenario_file, table};
+use scree::jobs::progress::Progress;
+use scree::jobs::runner::{self, RunEnd, RunError, Sink, StopFlag};
+use scree::results::{TrajectoryColumns, trajectory_json};
+use scree_solver::SetupError;
+use scree_solver::record::{FlowSnapshot, Outcome, Record, Sample};
+use scree_solver::scenario::Scenario;
+use std::convert::Infallible;
+
+/// Computes a scenario, prints its outcome and writes its files.
+///
+/// # Errors
+/// See [`Failure`]; after a numerical failure the trajectories up to it are
+/// written all the same.
+pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
+    let scenario = scenario_file::read(&options.scenario)?;
+    let mut directory = options
+        .out
+        .as_deref()
+        .map(OutputDirectory::create)
+        .transpose()?;
+    let threads = threads(options, &scenario);
+
+    let mut recording = Recording::new(Meter::bar_or_silence());
+    let ended = runner::run(&scenario, threads, &StopFlag::default(), &mut recording);
+    recording.meter.finish();
+
+    if let Some(directory) = &mut directory {
+        recording.write_trajectories(&scenario, directory)?;
+    }
+    let outcome = outcome_of(ended)?;
+    if let Some(directory) = &mut directory {
+        directory.outcome(&outcome)?;
+        directory.pictures(
+            &scenario,
+            &recording.samples,
+            &recording.snapshots,
+            &outcome,
+        )?;
+    }
+    if options.json {
+        return Ok(console::answer(&serde_json::to_string_pretty(&outcome)?)?);
+    }
+    let mut answer = table::outcome(&outcome);
+    if let Some(directory) = &directory {
+        answer = format!("{answer}\n\n{}", directory.summary());
+    }
+    Ok(console::answer(&answer)?)
+}
+
+/// The flag's threads, the scenario's, or one for every core.
+fn threads(options: &RunOptions, scenario: &Scenario) -> usize {
+    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let asked = options
+        .threads
+        .map(usize::from)
+        .or(scenario.numerics.threads);
+    asked.unwrap_or_else(cores)
+}
+
+fn outcome_of(ended: Result<RunEnd, RunError<Infallible>>) -> Result<Box<Outcome>, Failure> {
+    match ended {
+        Ok(RunEnd::Completed(outcome)) => Ok(outcome),
+        // Nobody raises the flag here; if that changes, say what happened.
+        Ok(RunEnd::Stopped) => Err(Failure::Other("the run was stopped".to_owned())),
+        Err(RunError::Setup(error @ SetupError::TooManyPoints { .. })) => {
+            Err(Failure::Input(error.to_string()))
+        }
+        Err(RunError::Setup(error)) => Err(Failure::Other(error.to_string())),
+        Err(RunError::Step(error)) => Err(Failure::Numerical(error.to_string())),
+        Err(RunError::Sink(never)) => match never {},
+    }
+}
+
+/// Keeps in memory what a run records.
+#[derive(Debug)]
+struct Recording {
+    samples: Vec<Sample>,
+    snapshots: Vec<FlowSnapshot>,
+    meter: Meter,
+}
+
+impl Recording {
+    fn new(meter: Meter) -> Self {
+        Self {
+            samples: Vec::new(),
+            snapshots: Vec::new(),
+            meter,
+        }
+    }
+
+    fn write_trajectories(
+        &self,
+        scenario: &Scenario,
+        directory: &mut OutputDirectory,
+    ) -> Result<(), Failure> {
+        for body in 0..scenario.bodies.len() {
+            let columns = TrajectoryColumns::of_body(&self.samples, body);
+            let document = trajectory_json(None, body, &columns)?;
+            directory.trajectory(body, document.as_bytes())?;
+        }
+        Ok(())
+    }
+}
+
+impl Sink for Recording {
+    type Error = Infallible;
+
+    fn record(&mut self, record: Record) -> Result<(), Infallible> {
+        match record {
+            Record::Sample(sample) => self.samples.push(sample),
+            Record::Snapshot(snapshot) => self.snapshots.push(snapshot),
+        }
+        Ok(())
+    }
+
+    fn progress(&mut self, progress: &Progress) -> Result<(), Infallible> {
+        self.meter.show(progress);
+        Ok(())
+    }
+}

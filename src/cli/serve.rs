@@ -1,0 +1,77 @@
+//! `scree serve`: the HTTP service until it is asked to stop.
+
+use super::arguments::ServeOptions;
+use super::console;
+use super::failure::Failure;
+use scree::config::ServiceConfig;
+use scree::service::{self, StartError};
+use std::path::Path;
+use tracing::level_filters::LevelFilter;
+
+/// Configuration read when none is named, if it is there.
+const USUAL_CONFIG: &str = "configs/service.toml";
+
+/// Serves until Ctrl-C or SIGTERM.
+///
+/// # Errors
+/// The configuration is refused, or the service can't start.
+pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
+    let config = configuration(options)?;
+    log_to_standard_error(LevelFilter::INFO);
+    let runtime = tokio::runtime::Runtime::new()?;
+    runtime.block_on(async {
+        let running = service::start(config)
+            .await
+            .map_err(|error| not_started(&error))?;
+        console::answer(&format!("listening on http://{}", running.address()))?;
+        stop_asked_for().await;
+        running.stop().await;
+        Ok(())
+    })
+}
+
+fn configuration(options: &ServeOptions) -> Result<ServiceConfig, Failure> {
+    let usual = Path::new(USUAL_CONFIG);
+    let usual = usual.is_file().then_some(usual);
+    let mut config = ServiceConfig::load(options.config.as_deref().or(usual))
+        .map_err(|error| Failure::Input(error.to_string()))?;
+    if let Some(listen) = options.listen {
+        config.listen = listen;
+    }
+    if let Some(database) = &options.database {
+        config.database.clone_from(database);
+    }
+    Ok(config)
+}
+
+/// What keeps a service from starting, by who has to act.
+pub(super) fn not_started(error: &StartError) -> Failure {
+    match error {
+        StartError::Config(error) => Failure::Input(error.to_string()),
+        error => Failure::Other(error.to_string()),
+    }
+}
+
+/// Sends the service's log to standard error.
+pub(super) fn log_to_standard_error(level: LevelFilter) {
+    tracing_subscriber::fmt()
+        .with_writer(std::io::stderr)
+        .with_max_level(level)
+        .init();
+}
+
+/// Returns on Ctrl-C or SIGTERM.
+async fn stop_asked_for() {
+    #[cfg(unix)]
+    {
+        use tokio::signal::unix::{SignalKind, signal};
+        if let Ok(mut terminate) = signal(SignalKind::terminate()) {
+            tokio::select! {
+                _ = tokio::signal::ctrl_c() => {}
+                _ = terminate.recv() => {}
+            }
+            return;
+        }
+    }
+    let _ = tokio::signal::ctrl_c().await;
+}
