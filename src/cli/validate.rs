@@ -53,8 +53,8 @@ fn flow(scenario: &Scenario) -> String {
         "{} m³, {:.3} kg, from x = {:.3} to {:.3} m, {} m thick; friction {} at rest, {} at most",
         flow.volume_m3,
         flow.volume_m3 * material.bulk_density_kg_m3,
-        release.x_back_m,
-        release.x_front_m,
+        release.back_m,
+        release.front_m,
         flow.release.height_m,
         material.static_friction,
         material.limiting_friction

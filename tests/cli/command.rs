@@ -1,0 +1,103 @@
+//! Starts the real binary.
+
+use serde_json::{Value, json};
+use std::ffi::OsStr;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// What a command came back with.
+#[derive(Debug)]
+pub(crate) struct Answer {
+    pub(crate) code: Option<i32>,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+impl From<Output> for Answer {
+    fn from(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        Self {
+            code: output.status.code(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+}
+
+/// The binary, in a directory where no configuration lies.
+pub(crate) fn scree() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_scree"));
+    command
+        .current_dir(env!("CARGO_TARGET_TMPDIR"))
+        .stdin(Stdio::null());
+    command
+}
+
+/// Runs the binary to its end.
+pub(crate) fn ask(arguments: &[&dyn AsRef<OsStr>]) -> Answer {
+    let output = scree().args(arguments.iter().map(|a| a.as_ref())).output();
+    output.expect("the binary starts").into()
+}
+
+/// Runs the binary with this standard input.
+pub(crate) fn ask_with_input(arguments: &[&str], input: &str) -> Answer {
+    let mut child = scree()
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary starts");
+    let mut stdin = child.stdin.take().expect("piped");
+    stdin.write_all(input.as_bytes()).expect("the binary reads");
+    drop(stdin);
+    child.wait_with_output().expect("the binary ends").into()
+}
+
+/// A directory of its own, and a scenario file in it.
+pub(crate) struct Scene {
+    directory: tempfile::TempDir,
+}
+
+impl Scene {
+    pub(crate) fn new(scenario: &Value) -> Self {
+        let directory = tempfile::tempdir().expect("a directory for the test");
+        let scene = Self { directory };
+        std::fs::write(scene.file(), scenario.to_string()).expect("writable");
+        scene
+    }
+
+    /// The scenario file.
+    pub(crate) fn file(&self) -> PathBuf {
+        self.path("scenario.json")
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+}
+
+/// A scene of a few hundred points and a tenth of a second in which the flow
+/// hits the cube: real, but computed in no time.
+pub(crate) fn tiny() -> Value {
+    json!({
+        "title": "tiny",
+        "channel": {"inclination_deg": 40, "incline_length_m": 0.2, "runout_length_m": 0.3, "width_m": 0.06},
+        "flow": {
+            "volume_m3": 1e-4,
+            "release": {"height_m": 0.03, "toe_distance_m": 0.0}
+        },
+        "bodies": [{"shape": {"cube": {"side_m": 0.02}}, "sphero_radius_m": 0.001,
+                    "position": {"downstream_m": 0.015}}],
+        "duration_s": 0.1,
+        "flow_snapshots": 3,
+        "numerics": {"cell_size_m": 0.01}
+    })
+}
+
+/// A JSON file.
+pub(crate) fn json_file(path: &Path) -> Value {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    serde_json::from_str(&text).expect("JSON")
+}

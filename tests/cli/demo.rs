@@ -1,0 +1,52 @@
+//! `scree demo`: the whole way through a service and back.
+
+use crate::command::{Scene, ask, json_file, tiny};
+
+/// Through HTTP, queue, worker and database comes what the solver computes
+/// here, to the last bit.
+#[test]
+fn the_service_gives_what_a_local_run_gives() {
+    let scene = Scene::new(&tiny());
+    let (served, local) = (scene.path("served"), scene.path("local"));
+    let answer = ask(&[&"demo", &"--scenario", &scene.file(), &"--out", &served]);
+    assert_eq!(answer.code, Some(0), "{}", answer.stderr);
+    assert!(
+        answer.stderr.contains("service on http://127.0.0.1:"),
+        "{}",
+        answer.stderr
+    );
+    for word in [
+        "onset",
+        "audit",
+        "trajectory-0.json",
+        "motion.svg",
+        "aerial.svg",
+    ] {
+        assert!(answer.stdout.contains(word), "{word}: {}", answer.stdout);
+    }
+    let answer = ask(&[&"run", &scene.file(), &"--out", &local, &"--threads", &"1"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.stderr);
+
+    let both = |name: &str| [&served, &local].map(|directory| directory.join(name));
+    let [outcome, expected] = both("outcome.json").map(|path| json_file(&path));
+    for part in ["bodies", "flow", "audit"] {
+        assert_eq!(outcome[part], expected[part], "{part}");
+    }
+    let [trajectory, expected] = both("trajectory-0.json").map(|path| json_file(&path));
+    assert!(trajectory["job_id"].is_string());
+    assert_eq!(trajectory["columns"], expected["columns"]);
+    for name in ["motion.svg", "aerial.svg"] {
+        let [picture, expected] = both(name).map(|path| std::fs::read_to_string(path).unwrap());
+        assert!(picture == expected, "{name} differs");
+    }
+}
+
+#[test]
+fn an_illegal_scenario_is_told_without_a_service() {
+    let scene = Scene::new(&serde_json::json!({"channel": {}}));
+    let out = scene.path("results");
+    let answer = ask(&[&"demo", &"--scenario", &scene.file(), &"--out", &out]);
+    assert_eq!((answer.code, answer.stdout.as_str()), (Some(2), ""));
+    assert!(answer.stderr.contains("/channel"), "{}", answer.stderr);
+    assert!(!answer.stderr.contains("service on"), "{}", answer.stderr);
+}

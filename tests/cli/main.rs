@@ -1,0 +1,9 @@
+//! The command line, as a user meets it: arguments in; exit code, texts and
+//! files out.
+
+mod command;
+mod demo;
+mod run;
+mod serve;
+mod usage;
+mod validate;

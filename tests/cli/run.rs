@@ -1,0 +1,111 @@
+//! `scree run`.
+
+use crate::command::{Scene, ask, ask_with_input, json_file, tiny};
+use serde_json::{Value, json};
+
+#[test]
+fn a_run_leaves_outcome_trajectories_and_pictures() {
+    let scene = Scene::new(&tiny());
+    let out = scene.path("results/first");
+    let answer = ask(&[&"run", &scene.file(), &"--out", &out]);
+    assert_eq!((answer.code, answer.stderr.as_str()), (Some(0), ""));
+    for word in [
+        "onset",
+        "peak",
+        "rest from",
+        "audit",
+        "cost",
+        "outcome.json",
+        "aerial.svg",
+    ] {
+        assert!(answer.stdout.contains(word), "{word}: {}", answer.stdout);
+    }
+    let outcome = json_file(&out.join("outcome.json"));
+    assert_eq!(outcome["bodies"].as_array().unwrap().len(), 1);
+    assert_eq!(outcome["audit"]["points_lost"], 0);
+
+    let trajectory = json_file(&out.join("trajectory-0.json"));
+    assert_eq!(
+        (&trajectory["job_id"], &trajectory["body"]),
+        (&Value::Null, &json!(0))
+    );
+    let times = trajectory["columns"]["time_s"].as_array().unwrap();
+    // 0.1 s every 0.01 s, both ends.
+    assert_eq!(times.len(), 11);
+    assert_eq!((&times[0], &times[10]), (&json!(0.0), &json!(0.1)));
+
+    for name in ["motion.svg", "aerial.svg"] {
+        let svg = std::fs::read_to_string(out.join(name)).unwrap();
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        assert!(
+            document
+                .root_element()
+                .has_tag_name(("http://www.w3.org/2000/svg", "svg"))
+        );
+    }
+}
+
+#[test]
+fn with_json_the_outcome_stands_alone_on_standard_output() {
+    let scene = Scene::new(&tiny());
+    let out = scene.path("results");
+    let answer = ask(&[
+        &"run",
+        &scene.file(),
+        &"--json",
+        &"--out",
+        &out,
+        &"--threads",
+        &"1",
+    ]);
+    assert_eq!((answer.code, answer.stderr.as_str()), (Some(0), ""));
+    let outcome: Value = serde_json::from_str(&answer.stdout).unwrap();
+    assert_eq!(outcome, json_file(&out.join("outcome.json")));
+    assert_eq!(outcome["cost"]["threads"], 1);
+    assert_eq!(outcome["cost"]["cell_size_m"], 0.01);
+}
+
+#[test]
+fn a_scene_without_flow_or_bodies_runs() {
+    let mut still = tiny();
+    still["flow"] = Value::Null;
+    let mut bare = tiny();
+    bare["bodies"] = json!([]);
+    for scenario in [still, bare] {
+        let scene = Scene::new(&scenario);
+        let out = scene.path("results");
+        let answer = ask(&[&"run", &scene.file(), &"--out", &out]);
+        assert_eq!((answer.code, answer.stderr.as_str()), (Some(0), ""));
+        assert!(out.join("motion.svg").is_file() && out.join("aerial.svg").is_file());
+    }
+}
+
+#[test]
+fn an_illegal_scenario_makes_no_files() {
+    let mut scenario = tiny();
+    scenario["flow"]["volume_m3"] = json!(100);
+    let scene = Scene::new(&scenario);
+    let out = scene.path("results");
+    let answer = ask(&[&"run", &scene.file(), &"--out", &out]);
+    assert_eq!((answer.code, answer.stdout.as_str()), (Some(2), ""));
+    assert!(answer.stderr.contains("/flow"), "{}", answer.stderr);
+    assert!(!out.exists());
+}
+
+#[test]
+fn a_directory_that_cannot_be_made_is_told_before_computing() {
+    let scene = Scene::new(&tiny());
+    // A file stands where the directory should be.
+    let answer = ask(&[&"run", &scene.file(), &"--out", &scene.file()]);
+    assert_eq!((answer.code, answer.stdout.as_str()), (Some(2), ""));
+    assert!(answer.stderr.contains("scenario.json"), "{}", answer.stderr);
+}
+
+#[test]
+fn a_scene_beyond_the_point_limit_is_invalid_input() {
+    let mut scenario = tiny();
+    scenario["numerics"]["cell_size_m"] = json!(1e-4);
+    let answer = ask_with_input(&["run", "-"], &scenario.to_string());
+    assert_eq!((answer.code, answer.stdout.as_str()), (Some(2), ""));
+    assert!(answer.stderr.contains("cell_size_m"), "{}", answer.stderr);
+}

@@ -1,0 +1,55 @@
+//! Arguments: help, version, and what is not understood.
+
+use crate::command::{ask, scree};
+use std::process::Stdio;
+
+#[test]
+fn help_and_version_are_answers() {
+    let help = ask(&[&"--help"]);
+    assert_eq!(help.code, Some(0));
+    for command in ["serve", "run", "validate", "demo", "Exit codes"] {
+        assert!(help.stdout.contains(command), "{command}: {}", help.stdout);
+    }
+    let version = ask(&[&"--version"]);
+    assert_eq!(
+        version.stdout.trim(),
+        concat!("scree ", env!("CARGO_PKG_VERSION"))
+    );
+}
+
+#[test]
+fn arguments_not_understood_are_invalid_input() {
+    let wrong: [&[&dyn AsRef<std::ffi::OsStr>]; 5] = [
+        &[],
+        &[&"simulate"],
+        &[&"run"],
+        &[&"run", &"a.json", &"--threads", &"0"],
+        &[&"serve", &"--listen", &"somewhere"],
+    ];
+    for arguments in wrong {
+        let answer = ask(arguments);
+        assert_eq!(answer.code, Some(2), "{}", answer.stderr);
+        assert_eq!(answer.stdout, "");
+        assert!(answer.stderr.contains("Usage") || answer.stderr.contains("--help"));
+    }
+}
+
+/// `scree … | head -0`: the reader is gone before the first byte. Rust's own
+/// `println!` panics then.
+#[test]
+fn a_reader_that_left_is_no_error() {
+    let mut child = scree()
+        .args(["validate", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let mut stdin = child.stdin.take().unwrap();
+    std::io::Write::write_all(&mut stdin, crate::command::tiny().to_string().as_bytes()).unwrap();
+    drop(stdin);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    assert_eq!(output.status.code(), Some(0));
+}
