@@ -2,6 +2,7 @@
 
 use super::console;
 use scree::pictures::PictureError;
+use scree_solver::SetupError;
 use std::fmt::Display;
 use std::io;
 use std::path::Path;
@@ -64,5 +65,13 @@ impl From<serde_json::Error> for Failure {
 impl From<PictureError> for Failure {
     fn from(error: PictureError) -> Self {
         Self::Other(error.to_string())
+    }
+}
+
+/// A legal scenario that can't be set up: too large a one is the input's fault.
+pub(super) fn not_set_up(error: &SetupError) -> Failure {
+    match error {
+        SetupError::TooManyPoints { .. } => Failure::Input(error.to_string()),
+        SetupError::Threads { .. } => Failure::Other(error.to_string()),
     }
 }

@@ -1,14 +1,13 @@
 //! `scree run`: one scenario, computed in this process.
 
 use super::arguments::RunOptions;
-use super::failure::Failure;
+use super::failure::{Failure, not_set_up};
 use super::meter::Meter;
 use super::output::OutputDirectory;
 use super::{console, scenario_file, table};
 use scree::jobs::progress::Progress;
 use scree::jobs::runner::{self, RunEnd, RunError, Sink, StopFlag};
 use scree::results::{TrajectoryColumns, trajectory_json};
-use scree_solver::SetupError;
 use scree_solver::record::{FlowSnapshot, Outcome, Record, Sample};
 use scree_solver::scenario::Scenario;
 use std::convert::Infallible;
@@ -69,10 +68,7 @@ fn outcome_of(ended: Result<RunEnd, RunError<Infallible>>) -> Result<Box<Outcome
         Ok(RunEnd::Completed(outcome)) => Ok(outcome),
         // Nobody raises the flag here; if that changes, say what happened.
         Ok(RunEnd::Stopped) => Err(Failure::Other("the run was stopped".to_owned())),
-        Err(RunError::Setup(error @ SetupError::TooManyPoints { .. })) => {
-            Err(Failure::Input(error.to_string()))
-        }
-        Err(RunError::Setup(error)) => Err(Failure::Other(error.to_string())),
+        Err(RunError::Setup(error)) => Err(not_set_up(&error)),
         Err(RunError::Step(error)) => Err(Failure::Numerical(error.to_string())),
         Err(RunError::Sink(never)) => match never {},
     }
@@ -123,5 +119,42 @@ impl Sink for Recording {
     fn progress(&mut self, progress: &Progress) -> Result<(), Infallible> {
         self.meter.show(progress);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scree_solver::{SetupError, StepError};
+
+    /// The codes that scripts rely on: 2 for a scene too large to set up, 3 for
+    /// a computation that could not go on, 1 for the machine's own troubles.
+    #[test]
+    fn every_bad_end_has_its_exit_code() {
+        let too_many = SetupError::TooManyPoints {
+            points: 2,
+            limit: 1,
+            cell_size_m: 0.1,
+        };
+        let no_threads = SetupError::Threads {
+            threads: 1,
+            reason: "none left".to_owned(),
+        };
+        let step = StepError::NonFiniteBody {
+            time_s: 0.5,
+            body: 0,
+            quantity: "velocity",
+        };
+        let ends = [
+            (RunError::Setup(too_many), 2),
+            (RunError::Step(step), 3),
+            (RunError::Setup(no_threads), 1),
+        ];
+        for (end, code) in ends {
+            let words = end.to_string();
+            let failure = outcome_of(Err(end)).unwrap_err();
+            assert_eq!(failure.exit_code(), code, "{words}");
+            assert_eq!(failure.to_string(), words);
+        }
     }
 }

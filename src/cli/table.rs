@@ -102,7 +102,7 @@ fn bodies(bodies: &[BodyOutcome]) -> String {
         ("body", ""),
         ("onset", "s"),
         ("peak", "m/s"),
-        ("at", "s"),
+        ("peak at", "s"),
         ("rest from", "s"),
         ("displaced", "m"),
         ("path", "m"),

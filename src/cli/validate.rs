@@ -1,9 +1,10 @@
 //! `scree validate`: is this a scenario, and what does it say?
 
 use super::arguments::ValidateOptions;
-use super::failure::Failure;
+use super::failure::{Failure, not_set_up};
 use super::{console, scenario_file};
-use scree_solver::scenario::{Channel, Numerics, Scenario, Shape, Support};
+use scree_solver::Simulation;
+use scree_solver::scenario::{Channel, Scenario, Shape, Support};
 
 /// Prints what a legal scenario comes to.
 ///
@@ -11,11 +12,13 @@ use scree_solver::scenario::{Channel, Numerics, Scenario, Shape, Support};
 /// All that is wrong with it.
 pub(super) fn validate(options: &ValidateOptions) -> Result<(), Failure> {
     let scenario = scenario_file::read(&options.scenario)?;
-    Ok(console::answer(&facts(&scenario))?)
+    // Set up as for a run, but on one thread: what can't be set up is not legal.
+    let simulation = Simulation::new(&scenario, 1).map_err(|error| not_set_up(&error))?;
+    Ok(console::answer(&facts(&scenario, &simulation))?)
 }
 
 /// What the scenario comes to with all defaults in place.
-fn facts(scenario: &Scenario) -> String {
+fn facts(scenario: &Scenario, simulation: &Simulation) -> String {
     let mut facts = vec![
         ("title".to_owned(), format!("{:?}", scenario.title)),
         ("channel".to_owned(), channel(&scenario.channel)),
@@ -24,7 +27,8 @@ fn facts(scenario: &Scenario) -> String {
     let bodies = 0..scenario.bodies.len();
     facts.extend(bodies.map(|index| (format!("body {index}"), body(scenario, index))));
     facts.push(("recorded".to_owned(), recorded(scenario)));
-    facts.push(("numerics".to_owned(), numerics(&scenario.numerics)));
+    facts.push(("numerics".to_owned(), numerics(scenario, simulation)));
+    facts.extend(volume_left_out(simulation).map(|text| ("left out".to_owned(), text)));
     let line = |(name, text): &(String, String)| format!("\n  {name:<10}{text}");
     format!(
         "legal scenario{}",
@@ -87,14 +91,23 @@ fn recorded(scenario: &Scenario) -> String {
     )
 }
 
-fn numerics(numerics: &Numerics) -> String {
-    let or_automatic = |value: Option<f64>, unit: &str| {
-        value.map_or("automatic".to_owned(), |value| format!("{value}{unit}"))
-    };
-    format!(
-        "cell {}, {} points per cell, sound speed {}",
-        or_automatic(numerics.cell_size_m, " m"),
-        numerics.points_per_cell,
-        or_automatic(numerics.sound_speed_m_s, " m/s")
-    )
+/// What the numerical choices come to, automatic ones included.
+fn numerics(scenario: &Scenario, simulation: &Simulation) -> String {
+    let automatic = |given: Option<f64>| if given.is_none() { " (automatic)" } else { "" };
+    let numerics = &scenario.numerics;
+    let mut text = format!("cells of {:.4} m", simulation.cell_size_m());
+    text.push_str(automatic(numerics.cell_size_m));
+    if let Some(sound_speed_m_s) = simulation.sound_speed_m_s() {
+        let points = simulation.released_points();
+        let per_cell = numerics.points_per_cell;
+        text.push_str(&format!(", {points} points ({per_cell} per cell)"));
+        text.push_str(&format!(", sound speed {sound_speed_m_s:.2} m/s"));
+        text.push_str(automatic(numerics.sound_speed_m_s));
+    }
+    text
+}
+
+fn volume_left_out(simulation: &Simulation) -> Option<String> {
+    let volume_m3 = simulation.volume_left_out_m3();
+    (volume_m3 > 0.0).then(|| format!("{volume_m3:.3e} m³ of the flow, because bodies stand there"))
 }

@@ -12,7 +12,7 @@ fn a_legal_scenario_is_resolved() {
     for fact in [
         "0.150 kg",
         "0.0150, 0.0000, 0.0100 m on the floor",
-        "cell 0.01 m",
+        "cells of 0.0100 m",
     ] {
         assert!(answer.stdout.contains(fact), "{fact}: {}", answer.stdout);
     }

@@ -20,6 +20,11 @@ use scree_solver::scenario::Scenario;
 const DOT_BUDGET: usize = 7_500;
 /// Side of the squares of which one dot each is shown, at best [px].
 const FINEST_BIN_PX: f64 = 2.6;
+/// The same for a coarse flow [px]: larger dots would hide what they show.
+const COARSEST_BIN_PX: f64 = 12.0;
+/// Points a square should hold on average: with fewer, many squares of a
+/// coarse flow stay empty and the ground shows through.
+const POINTS_PER_DOT: usize = 2;
 /// Size of the colour bar [px].
 const BAR: (f64, f64) = (180.0, 9.0);
 
@@ -59,17 +64,20 @@ pub fn aerial_view(
     })
 }
 
-/// The finest squares [m] with which the picture stays within its dots.
+/// The finest squares [m] with which the picture stays within its dots and the
+/// points lie dense enough to leave no gaps.
 fn bin_within_budget(layout: &Layout, shown: &[&FlowSnapshot]) -> f64 {
-    let mut bin_m = FINEST_BIN_PX / layout.px_per_m;
+    let points: usize = shown.iter().map(|snapshot| snapshot.position_m.len()).sum();
+    let most = DOT_BUDGET.min(points / POINTS_PER_DOT);
     let dots = |bin_m: f64| -> usize {
         let visible = |s: &&FlowSnapshot| surface::seen_from_above(s, &layout.x, bin_m).len();
         shown.iter().map(visible).sum()
     };
-    while dots(bin_m) > DOT_BUDGET {
-        bin_m *= 1.15;
+    let mut bin_px = FINEST_BIN_PX;
+    while bin_px < COARSEST_BIN_PX && dots(bin_px / layout.px_per_m) > most {
+        bin_px *= 1.1;
     }
-    bin_m
+    bin_px / layout.px_per_m
 }
 
 fn draw_header(sheet: &Area<'_>, scenario: &Scenario) -> Result<(), PictureError> {
