@@ -96,6 +96,17 @@ pub(crate) fn tiny() -> Value {
     })
 }
 
+/// The tiny scene with next to no stiffness in a hundredfold gravity: it soon
+/// moves many times faster than its own sound, where no sub-step is stable.
+pub(crate) fn unstable() -> Value {
+    let mut scenario = tiny();
+    scenario["gravity_m_s2"] = json!(1000);
+    scenario["numerics"]["sound_speed_m_s"] = json!(0.1);
+    scenario["duration_s"] = json!(0.5);
+    scenario["sample_interval_s"] = json!(0.0001);
+    scenario
+}
+
 /// A JSON file.
 pub(crate) fn json_file(path: &Path) -> Value {
     let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));

@@ -1,6 +1,6 @@
 //! `scree demo`: the whole way through a service and back.
 
-use crate::command::{Scene, ask, json_file, tiny};
+use crate::command::{Scene, ask, json_file, tiny, unstable};
 
 /// Through HTTP, queue, worker and database comes what the solver computes
 /// here, to the last bit.
@@ -49,4 +49,34 @@ fn an_illegal_scenario_is_told_without_a_service() {
     assert_eq!((answer.code, answer.stdout.as_str()), (Some(2), ""));
     assert!(answer.stderr.contains("/channel"), "{}", answer.stderr);
     assert!(!answer.stderr.contains("service on"), "{}", answer.stderr);
+}
+
+#[test]
+fn a_numerical_failure_has_its_own_exit_code() {
+    let scene = Scene::new(&unstable());
+    let answer = ask(&[
+        &"demo",
+        &"--scenario",
+        &scene.file(),
+        &"--out",
+        &scene.path("results"),
+    ]);
+    assert_eq!((answer.code, answer.stdout.as_str()), (Some(3), ""));
+    assert!(answer.stderr.contains("error: t = "), "{}", answer.stderr);
+}
+
+#[test]
+fn a_scene_beyond_the_point_limit_is_invalid_input() {
+    let mut scenario = tiny();
+    scenario["numerics"]["cell_size_m"] = serde_json::json!(1e-4);
+    let scene = Scene::new(&scenario);
+    let answer = ask(&[
+        &"demo",
+        &"--scenario",
+        &scene.file(),
+        &"--out",
+        &scene.path("results"),
+    ]);
+    assert_eq!((answer.code, answer.stdout.as_str()), (Some(2), ""));
+    assert!(answer.stderr.contains("cell_size_m"), "{}", answer.stderr);
 }

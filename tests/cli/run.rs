@@ -1,6 +1,6 @@
 //! `scree run`.
 
-use crate::command::{Scene, ask, ask_with_input, json_file, tiny};
+use crate::command::{Scene, ask, ask_with_input, json_file, tiny, unstable};
 use serde_json::{Value, json};
 
 #[test]
@@ -108,4 +108,16 @@ fn a_scene_beyond_the_point_limit_is_invalid_input() {
     let answer = ask_with_input(&["run", "-"], &scenario.to_string());
     assert_eq!((answer.code, answer.stdout.as_str()), (Some(2), ""));
     assert!(answer.stderr.contains("cell_size_m"), "{}", answer.stderr);
+}
+
+#[test]
+fn a_numerical_failure_has_its_own_exit_code_and_keeps_what_there_is() {
+    let scene = Scene::new(&unstable());
+    let out = scene.path("results");
+    let answer = ask(&[&"run", &scene.file(), &"--out", &out]);
+    assert_eq!((answer.code, answer.stdout.as_str()), (Some(3), ""));
+    assert!(answer.stderr.contains("t = "), "{}", answer.stderr);
+    let trajectory = json_file(&out.join("trajectory-0.json"));
+    assert!(trajectory["columns"]["time_s"].as_array().unwrap().len() > 1);
+    assert!(!out.join("outcome.json").exists());
 }

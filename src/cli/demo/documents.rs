@@ -9,6 +9,8 @@ use serde::Deserialize;
 
 /// Kind of failure that is the computation's own.
 const NUMERICAL: &str = "urn:scree:failure:numerical";
+/// Kind of failure that is the scenario's: too large to set up.
+const SETUP: &str = "urn:scree:failure:setup";
 
 /// What the demo reads of a job.
 #[derive(Debug, Deserialize)]
@@ -36,10 +38,11 @@ impl Job {
         }
         Some(match (self.outcome, self.problem) {
             (Some(outcome), _) if self.status == "successful" => Ok(outcome),
-            (_, Some(problem)) if problem.kind == NUMERICAL => {
-                Err(Failure::Numerical(problem.detail))
-            }
-            (_, Some(problem)) => Err(Failure::Other(problem.detail)),
+            (_, Some(problem)) => Err(match problem.kind.as_str() {
+                NUMERICAL => Failure::Numerical(problem.detail),
+                SETUP => Failure::Input(problem.detail),
+                _ => Failure::Other(problem.detail),
+            }),
             _ => Err(Failure::Other(format!("the job ended as {}", self.status))),
         })
     }
