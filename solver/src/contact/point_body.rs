@@ -8,9 +8,17 @@ use crate::rigid::{Body, Freedom, Load};
 use crate::transfer::motion_at;
 use crate::walls::Impulse;
 
-/// Share of a lone point's momentum that damping and friction may take per
-/// sub-step: below one, so that they can stop it but not turn it round.
-const LARGEST_BRAKING: f64 = 0.5;
+/// What the points are to a body: spheres of one size, with the impedance of
+/// the material they stand for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointSphere {
+    /// Radius R_p [m] (equation P3).
+    pub radius: f64,
+    /// Largest damping coefficient, ρ c_p l² [N s/m]: what a plane P-wave of
+    /// the material resists on one point's cross-section. More would brake the
+    /// flow before it touches.
+    pub impedance: f64,
+}
 
 /// A point that may touch a body within the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,8 +97,7 @@ impl Loads {
         points: &[Point],
         grid: &Grid,
         bodies: &[Body],
-        point_radius: f64,
-        dt: f64,
+        sphere: PointSphere,
     ) {
         for point in self.pushed.drain(..) {
             self.on_points[point] = Vec3::zeros();
@@ -108,9 +115,9 @@ impl Loads {
                     arm: point.position + displacement - body.state.position,
                     velocity,
                     mass: point.mass,
-                    radius: point_radius,
+                    sphere,
                 };
-                if let Some(force) = meeting.force(body, dt, on_body) {
+                if let Some(force) = meeting.force(body, on_body) {
                     self.on_points[candidate.point] += force;
                     self.pushed.push(candidate.point);
                 }
@@ -124,14 +131,14 @@ struct Meeting {
     arm: Vec3,
     velocity: Vec3,
     mass: f64,
-    radius: f64,
+    sphere: PointSphere,
 }
 
 impl Meeting {
     /// Force on the point [N], its reverse added to the body; `None` if apart.
-    fn force(&self, body: &Body, dt: f64, on_body: &mut FlowLoad) -> Option<Vec3> {
+    fn force(&self, body: &Body, on_body: &mut FlowLoad) -> Option<Vec3> {
         let closest = body.shape.closest_feature(&body.to_body(&self.arm));
-        let reach = self.radius + body.shape.sphero_radius();
+        let reach = self.sphere.radius + body.shape.sphero_radius();
         let overlap = reach - closest.distance;
         if overlap <= 0.0 {
             return None;
@@ -140,7 +147,7 @@ impl Meeting {
         let relative = self.velocity - body.velocity_at(&self.arm);
         let along = relative.dot(&normal);
         let law = &body.flow_law;
-        let braking = LARGEST_BRAKING * self.mass / dt;
+        let braking = self.sphere.impedance;
         let damping = law.damping_coefficient(overlap, self.mass).min(braking);
         let elastic = law.stiffness * overlap * overlap.sqrt();
         let pressed = (elastic - damping * along).max(0.0);

@@ -197,7 +197,7 @@ impl Simulation {
         self.given
             .flow
             .as_ref()
-            .map_or(0.0, |flow| flow.point_radius)
+            .map_or(0.0, |flow| flow.sphere.radius)
     }
 
     /// Threads in use.

@@ -2,6 +2,7 @@
 
 use super::clock::Timing;
 use crate::contact::law::ContactLaw;
+use crate::contact::point_body::PointSphere;
 use crate::error::SetupError;
 use crate::kernel::Lattice;
 use crate::material::{Material, Yielding};
@@ -54,8 +55,8 @@ pub(super) struct Setup {
 pub(super) struct Flow {
     pub material: Material,
     pub limits: Limits,
-    /// Radius of a point's sphere, R_p [m] (equation P3).
-    pub point_radius: f64,
+    /// What points are to bodies.
+    pub sphere: PointSphere,
     /// Distance of neighbouring points [m].
     pub point_spacing: f64,
 }
@@ -96,7 +97,7 @@ impl Setup {
             .fold(0.0, f64::max);
         let flow_travel = flow.limits.flow_courant * flow.limits.cell_size;
         // Twice both, for what speeds up within the step.
-        flow.point_radius + 2.0 * (flow_travel + body_travel)
+        flow.sphere.radius + 2.0 * (flow_travel + body_travel)
     }
 }
 
@@ -105,6 +106,7 @@ impl Flow {
         let material = material(scenario, &flow.material);
         let numerics = &scenario.numerics;
         let volume = lattice.cell_volume() / f64::from(numerics.points_per_cell);
+        let spacing = volume.cbrt();
         Self {
             limits: Limits {
                 p_wave_speed: material.p_wave_speed(),
@@ -115,8 +117,11 @@ impl Flow {
                 slow: SLOW * resolution::expected_speed(scenario),
             },
             material,
-            point_radius: (3.0 * volume / (4.0 * std::f64::consts::PI)).cbrt(),
-            point_spacing: volume.cbrt(),
+            sphere: PointSphere {
+                radius: (3.0 * volume / (4.0 * std::f64::consts::PI)).cbrt(),
+                impedance: material.bulk_density * material.p_wave_speed() * spacing * spacing,
+            },
+            point_spacing: spacing,
         }
     }
 
@@ -288,7 +293,7 @@ fn settle(body: &mut Body, planes: &[Plane], gravity: &Vec3) {
 impl Setup {
     /// Points overlapping none of the bodies are released.
     fn is_free(&self, x: &Vec3, bodies: &[Body]) -> bool {
-        let radius = self.flow.as_ref().map_or(0.0, |flow| flow.point_radius);
+        let radius = self.flow.as_ref().map_or(0.0, |flow| flow.sphere.radius);
         bodies.iter().all(|body| {
             let arm = x - body.state.position;
             let reach = radius + body.shape.bounding_radius();

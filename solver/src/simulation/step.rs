@@ -96,7 +96,7 @@ impl Simulation {
         let (given, state, scratch) = (&self.given, &mut self.state, &mut self.scratch);
         if let Some(flow) = &given.flow {
             let (grid, loads) = (&mut scratch.grid, &mut scratch.loads);
-            loads.evaluate(&state.points, grid, &state.bodies, flow.point_radius, dt);
+            loads.evaluate(&state.points, grid, &state.bodies, flow.sphere);
             transfer::scatter_forces(&state.points, &scratch.deformations, &loads.on_points, grid);
             grid.advance_momentum(given.gravity, dt);
             let from_walls = given.walls.constrain(&scratch.boundary, grid);
