@@ -91,6 +91,17 @@ impl StepError {
     }
 }
 
+/// A state that can't be saved now.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum SaveError {
+    /// Some of a step's sub-steps are still to come.
+    #[error("t = {time_s:.6} s: amid a step; save where a step ended")]
+    AmidStep {
+        /// Simulated time [s].
+        time_s: f64,
+    },
+}
+
 /// A saved state that can't be taken up again.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RestoreError {

@@ -25,7 +25,7 @@ pub mod stability;
 pub mod transfer;
 pub mod walls;
 
-pub use error::{SetupError, StepError};
+pub use error::{RestoreError, SaveError, SetupError, StepError};
 pub use simulation::{Ending, Simulation, SubstepReport};
 
 /// Version of this crate, part of every answer.

@@ -8,12 +8,13 @@ mod step;
 use crate::contact::body_wall::BodyReport;
 use crate::contact::point_body::{FlowLoad, Loads};
 use crate::diagnostics::{Audit, FlowMoments};
-use crate::error::{RestoreError, SetupError, StepError};
+use crate::error::{RestoreError, SaveError, SetupError, StepError};
 use crate::grid::Grid;
 use crate::math::Vec3;
 use crate::points::{Deformation, Point};
 use crate::rigid::Body;
 use crate::scenario::Scenario;
+use crate::stability::Pace;
 use crate::walls::Boundary;
 use clock::Clock;
 use rayon::ThreadPool;
@@ -39,7 +40,7 @@ struct State {
     audit: Audit,
 }
 
-/// What a step works on; nothing of it outlives the step.
+/// What a step works on; between two steps nothing of it counts.
 #[derive(Debug)]
 struct Scratch {
     grid: Grid,
@@ -47,8 +48,19 @@ struct Scratch {
     deformations: Vec<Deformation>,
     loads: Loads,
     body_reports: Vec<BodyReport>,
+    /// The step whose sub-steps are being taken.
+    in_hand: Option<StepInHand>,
     /// Sums of the flow, followed through a step for gravity's torque.
     flow: FlowMoments,
+}
+
+/// A step some of whose sub-steps are done.
+#[derive(Debug)]
+struct StepInHand {
+    pace: Pace,
+    /// Simulated time at its start [s].
+    start: f64,
+    done: u32,
 }
 
 /// What one acoustic sub-step did.
@@ -75,7 +87,7 @@ pub struct SubstepReport {
 pub enum Ending {
     /// It reached the time asked for.
     Reached,
-    /// The observer asked it to stop; the state is sound and can be saved.
+    /// The observer asked it to stop.
     Interrupted,
 }
 
@@ -107,6 +119,7 @@ impl Simulation {
             deformations: Vec::new(),
             loads: Loads::default(),
             body_reports: vec![BodyReport::default(); bodies.len()],
+            in_hand: None,
             flow: FlowMoments::default(),
         };
         let state = State {
@@ -125,10 +138,10 @@ impl Simulation {
 
     /// Runs to the first step end at or after `until_s` (never beyond the
     /// scenario's duration), calling `observe` after every sub-step. On
-    /// `Break` the step in hand is finished first, so the state is whole.
+    /// `Break` it returns at once; a later call goes on from there.
     ///
-    /// Where `until_s` lies does not change how the run is divided into steps:
-    /// runs to a and on to b give the same bits as one to b.
+    /// Neither where `until_s` lies nor where the observer broke off changes
+    /// how the run is divided into steps: the bits are those of one call.
     ///
     /// # Errors
     /// A state that can't be advanced: see [`StepError`].
@@ -138,8 +151,9 @@ impl Simulation {
         mut observe: impl FnMut(&Simulation, &SubstepReport) -> ControlFlow<()>,
     ) -> Result<Ending, StepError> {
         let until = until_s.min(self.given.timing.duration);
-        while self.state.clock.time < until {
-            if self.step(&mut observe)?.is_break() {
+        while self.state.clock.time < until || self.scratch.in_hand.is_some() {
+            let report = self.advance()?;
+            if observe(self, &report).is_break() {
                 return Ok(Ending::Interrupted);
             }
         }
@@ -221,11 +235,18 @@ impl Simulation {
         (clock.steps, clock.substeps, clock.point_steps)
     }
 
-    /// The whole state between two steps as bytes. Called from within an
-    /// observer amid a step it holds that step's bodies but not its points:
-    /// save when [`run`](Self::run) has returned, or at a step's end.
-    pub fn save(&self) -> Vec<u8> {
-        saved::save(self)
+    /// The whole state between two steps as bytes.
+    ///
+    /// # Errors
+    /// Amid a step, while the points' motion lies on the grid: break off where
+    /// [`SubstepReport::step_ended`] says so.
+    pub fn save(&self) -> Result<Vec<u8>, SaveError> {
+        match &self.scratch.in_hand {
+            None => Ok(saved::save(self)),
+            Some(_) => Err(SaveError::AmidStep {
+                time_s: self.time_s(),
+            }),
+        }
     }
 
     /// Takes up a saved state: the run goes on with the same bits.

@@ -280,11 +280,11 @@ fn settle(body: &mut Body, planes: &[Plane], gravity: &Vec3) {
     let touches = |height: &f64| *height < radius * (1.0 + 1e-6);
     let Some(support) = planes
         .iter()
-        .find(|plane| heights(plane).iter().any(|height| touches(height)))
+        .find(|plane| heights(plane).iter().any(touches))
     else {
         return;
     };
-    let carriers = heights(support).iter().filter(|h| touches(h)).count() as f64;
+    let carriers = heights(support).iter().copied().filter(touches).count() as f64;
     let pressed = -gravity.dot(&support.normal) * body.mass / carriers;
     let overlap = (pressed.max(0.0) / body.wall_law.stiffness).powf(2.0 / 3.0);
     body.state.position -= support.normal * overlap;

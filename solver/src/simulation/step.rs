@@ -1,7 +1,7 @@
 //! One step: a transfer at the speed of the flow, sub-steps at the speed of
 //! sound, one gather.
 
-use super::{Simulation, SubstepReport};
+use super::{Simulation, StepInHand, SubstepReport};
 use crate::contact::{body_wall, point_body};
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
@@ -10,36 +10,38 @@ use crate::rigid::Freedom;
 use crate::stability::{self, Pace};
 use crate::transfer;
 use rayon::prelude::*;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 impl Simulation {
-    /// Takes one step, showing every sub-step to `observe`.
-    pub(super) fn step(
-        &mut self,
-        observe: &mut impl FnMut(&Simulation, &SubstepReport) -> ControlFlow<()>,
-    ) -> Result<ControlFlow<()>, StepError> {
-        let pace = self.pace()?;
-        let start = self.state.clock.time;
-        let mut answer = ControlFlow::Continue(());
-        self.on_threads(|simulation| simulation.lay_grid(&pace));
-        for number in 1..=pace.count {
-            self.on_threads(|simulation| simulation.substep(pace.substep));
-            self.state.clock.time = start + f64::from(number) * pace.substep;
-            self.state.clock.substeps += 1;
-            self.state.clock.point_steps += self.state.points.len() as u64;
-            let mut report = self.report(pace.substep);
-            if number == pace.count {
-                report.sample = self.end_step(&pace)?;
-                report.step_ended = true;
-                report.steps = self.state.clock.steps;
-                report.time_s = self.state.clock.time;
-            }
-            if observe(self, &report).is_break() {
-                answer = ControlFlow::Break(());
-            }
+    /// Takes one sub-step, of the step in hand or of a new one.
+    pub(super) fn advance(&mut self) -> Result<SubstepReport, StepError> {
+        let mut step = match self.scratch.in_hand.take() {
+            Some(step) => step,
+            None => self.begin_step()?,
+        };
+        let dt = step.pace.substep;
+        self.on_threads(|simulation| simulation.substep(dt));
+        step.done += 1;
+        let clock = &mut self.state.clock;
+        clock.time = step.start + f64::from(step.done) * dt;
+        clock.substeps += 1;
+        clock.point_steps += self.state.points.len() as u64;
+        if step.done < step.pace.count {
+            self.scratch.in_hand = Some(step);
+            return Ok(self.report(dt, None));
         }
-        Ok(answer)
+        let sample = self.end_step(&step.pace)?;
+        Ok(self.report(dt, sample))
+    }
+
+    fn begin_step(&mut self) -> Result<StepInHand, StepError> {
+        let pace = self.pace()?;
+        self.on_threads(|simulation| simulation.lay_grid(&pace));
+        Ok(StepInHand {
+            pace,
+            start: self.state.clock.time,
+            done: 0,
+        })
     }
 
     /// Sub-steps at the speed of sound in one step of the flow.
@@ -154,7 +156,7 @@ impl Simulation {
         Ok(sample)
     }
 
-    fn report(&self, substep_s: f64) -> SubstepReport {
+    fn report(&self, substep_s: f64, sample: Option<u64>) -> SubstepReport {
         let clock = &self.state.clock;
         SubstepReport {
             time_s: clock.time,
@@ -162,8 +164,8 @@ impl Simulation {
             substeps: clock.substeps,
             steps: clock.steps,
             points: self.state.points.len() as u64,
-            step_ended: false,
-            sample: None,
+            step_ended: self.scratch.in_hand.is_none(),
+            sample,
         }
     }
 
