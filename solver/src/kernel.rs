@@ -56,7 +56,7 @@ impl Lattice {
     /// Lowest node a point at `x` touches, per axis.
     pub fn base(&self, x: &Vec3) -> [i32; 3] {
         let in_cells = (x - self.origin).component_div(&self.spacing);
-        [0, 1, 2].map(|axis| (in_cells[axis] - 0.5).floor() as i32)
+        [0, 1, 2].map(|axis| floor(in_cells[axis] - 0.5))
     }
 
     /// The nodes a point at `x` touches, their weights and offsets.
@@ -69,9 +69,9 @@ impl Lattice {
         for axis in 0..3 {
             let h = self.spacing[axis];
             let in_cells = (x[axis] - self.origin[axis]) / h;
-            let base = (in_cells - 0.5).floor();
-            let f = in_cells - base;
-            stencil.base[axis] = base as i32;
+            let base = floor(in_cells - 0.5);
+            let f = in_cells - f64::from(base);
+            stencil.base[axis] = base;
             stencil.weight[axis] = [
                 0.5 * (1.5 - f) * (1.5 - f),
                 0.75 - (f - 1.0) * (f - 1.0),
@@ -81,6 +81,13 @@ impl Lattice {
         }
         stencil
     }
+}
+
+/// Largest whole number not above `x`. The library's own is a call on
+/// processors that are not assumed to round in hardware.
+fn floor(x: f64) -> i32 {
+    let towards_zero = x as i32;
+    towards_zero - i32::from(f64::from(towards_zero) > x)
 }
 
 #[cfg(test)]

@@ -8,6 +8,16 @@ pub type Vec3 = Vector3<f64>;
 /// Matrix of 3 × 3 f64.
 pub type Mat3 = Matrix3<f64>;
 
+/// Determinant and inverse of a matrix; the inverse of a singular one is not
+/// finite.
+pub fn inverted(m: &Mat3) -> (f64, Mat3) {
+    let (a, b, c) = (m.column(0), m.column(1), m.column(2));
+    let (bc, ca, ab) = (b.cross(&c), c.cross(&a), a.cross(&b));
+    let determinant = a.dot(&bc);
+    let rows = Mat3::from_columns(&[bc, ca, ab]).transpose();
+    (determinant, rows * (1.0 / determinant))
+}
+
 /// A symmetric tensor by its six components.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sym3 {
@@ -115,5 +125,19 @@ impl Sym3 {
     /// False if any component is NaN or infinite.
     pub fn is_finite(&self) -> bool {
         (self.xx + self.yy + self.zz + self.xy + self.xz + self.yz).is_finite()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_times_its_inverse_is_one() {
+        let m = Mat3::new(1.1, 0.2, -0.3, 0.05, 0.9, 0.1, -0.2, 0.3, 1.2);
+        let (determinant, inverse) = inverted(&m);
+        // A few roundings of numbers of order one.
+        assert!((m * inverse - Mat3::identity()).norm() < 1e-15);
+        assert!((determinant - m.determinant()).abs() < 1e-15);
     }
 }

@@ -3,7 +3,7 @@
 use crate::grid::{BlockKey, block_of};
 use crate::kernel::Lattice;
 use crate::material::Material;
-use crate::math::{Mat3, Sym3, Vec3};
+use crate::math::{Mat3, Sym3, Vec3, inverted};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -79,6 +79,8 @@ pub struct Deformation {
     /// Its inverse; not a number once the point has turned inside out, which
     /// ends the run.
     pub inverse: Mat3,
+    /// Volume since the transfer, det F̂.
+    pub volume_ratio: f64,
     /// Velocity gradient with respect to the present positions, L [1/s].
     pub velocity_gradient: Mat3,
     /// Volume at the transfer [m³].
@@ -91,6 +93,7 @@ impl Deformation {
         Self {
             gradient: Mat3::identity(),
             inverse: Mat3::identity(),
+            volume_ratio: 1.0,
             velocity_gradient: Mat3::zeros(),
             transfer_volume: point.volume,
         }
@@ -100,11 +103,9 @@ impl Deformation {
     pub fn advance(&mut self, gradient_at_transfer: &Mat3, dt: f64) {
         self.velocity_gradient = gradient_at_transfer * self.inverse;
         self.gradient += gradient_at_transfer * dt;
-        self.inverse = if self.gradient.determinant() > 0.0 {
-            self.gradient.try_inverse().unwrap_or(INVALID)
-        } else {
-            INVALID
-        };
+        let (determinant, inverse) = inverted(&self.gradient);
+        self.volume_ratio = determinant;
+        self.inverse = if determinant > 0.0 { inverse } else { INVALID };
     }
 }
 
@@ -124,7 +125,7 @@ pub fn update_stress(
         .par_iter_mut()
         .zip(deformations)
         .for_each(|(point, deformation)| {
-            point.volume = deformation.transfer_volume * deformation.gradient.determinant();
+            point.volume = deformation.transfer_volume * deformation.volume_ratio;
             point.stress = material.stress(
                 &point.stress,
                 &deformation.velocity_gradient,
