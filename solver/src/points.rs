@@ -62,7 +62,7 @@ impl Point {
             ("position", self.position.sum().is_finite()),
             ("velocity", self.velocity.sum().is_finite()),
             ("affine velocity", self.affine.sum().is_finite()),
-            ("volume", self.volume.is_finite()),
+            ("volume", self.volume.is_finite() && self.volume > 0.0),
             ("stress", self.stress.is_finite()),
         ];
         finite
