@@ -1,10 +1,13 @@
 //! The outcome as a table for people.
 
-use scree_solver::record::{BodyOutcome, Outcome};
+use scree_solver::record::{Audit, BodyOutcome, Cost, FlowOutcome, Outcome};
 use std::fmt::Write as _;
 
 /// What stands for something that did not happen.
 const NEVER: &str = "–";
+
+/// A named value with its unit.
+type Entry = (&'static str, String, &'static str);
 
 /// Bodies, flow, audit and cost of a run.
 pub(super) fn outcome(outcome: &Outcome) -> String {
@@ -13,128 +16,126 @@ pub(super) fn outcome(outcome: &Outcome) -> String {
         text.push_str(&bodies(&outcome.bodies));
         text.push('\n');
     }
-    let flow = &outcome.flow;
-    let audit = &outcome.audit;
-    let cost = &outcome.cost;
-    let lines = [
-        line(
-            "flow",
-            &[
-                ("front", optional(flow.front_m, 3), " m"),
-                ("run-out", optional(flow.runout_m, 3), " m"),
-                (
-                    "left by the open end",
-                    format!("{:.3}", flow.mass_left_kg),
-                    " kg",
-                ),
-            ],
-        ),
-        line(
-            "audit",
-            &[
-                ("mass error", format!("{:.1e}", audit.mass_error), ""),
-                (
-                    "momentum residual",
-                    format!("{:.1e}", audit.momentum_residual),
-                    "",
-                ),
-                (
-                    "angular",
-                    format!("{:.1e}", audit.angular_momentum_residual),
-                    "",
-                ),
-                (
-                    "energy residual",
-                    format!("{:.1e}", audit.energy_residual),
-                    "",
-                ),
-            ],
-        ),
-        line(
-            "",
-            &[
-                (
-                    "largest overlap",
-                    format!("{:.3}", audit.max_overlap_ratio),
-                    "",
-                ),
-                ("points put back", audit.points_put_back.to_string(), ""),
-                ("left", audit.points_left.to_string(), ""),
-                ("lost", audit.points_lost.to_string(), ""),
-            ],
-        ),
-        line(
-            "cost",
-            &[
-                ("points", cost.points.to_string(), ""),
-                ("cell", format!("{:.4}", cost.cell_size_m), " m"),
-                ("steps", cost.steps.to_string(), ""),
-                ("sub-steps", cost.substeps.to_string(), ""),
-            ],
-        ),
-        line(
-            "",
-            &[
-                ("wall time", format!("{:.1}", cost.wall_s), " s"),
-                (
-                    "point-steps/s",
-                    format!("{:.2e}", cost.point_steps_per_s),
-                    "",
-                ),
-                ("threads", cost.threads.to_string(), ""),
-            ],
-        ),
-    ];
-    text.push_str(&lines.join("\n"));
-    text
+    text.push_str(&line("flow", &flow(&outcome.flow)));
+    let [balances, points] = audit(&outcome.audit);
+    text.push_str(&line("audit", &balances));
+    text.push_str(&line("", &points));
+    let [size, time] = cost(&outcome.cost);
+    text.push_str(&line("cost", &size));
+    text.push_str(&line("", &time));
+    text.trim_end().to_owned()
 }
 
-fn line(title: &str, entries: &[(&str, String, &str)]) -> String {
-    let entry = |(name, value, unit): &(&str, String, &str)| format!("{name} {value}{unit}");
-    let entries: Vec<String> = entries.iter().map(entry).collect();
-    format!("{title:<6}{}", entries.join(", "))
+fn flow(flow: &FlowOutcome) -> [Entry; 3] {
+    [
+        ("front", optional(flow.front_m, 3), " m"),
+        ("run-out", optional(flow.runout_m, 3), " m"),
+        (
+            "left by the open end",
+            format!("{:.3}", flow.mass_left_kg),
+            " kg",
+        ),
+    ]
 }
+
+fn audit(audit: &Audit) -> [[Entry; 4]; 2] {
+    let small = |value: f64| format!("{value:.1e}");
+    [
+        [
+            ("mass error", small(audit.mass_error), ""),
+            ("momentum residual", small(audit.momentum_residual), ""),
+            ("angular", small(audit.angular_momentum_residual), ""),
+            ("energy residual", small(audit.energy_residual), ""),
+        ],
+        [
+            (
+                "largest overlap",
+                format!("{:.3}", audit.max_overlap_ratio),
+                "",
+            ),
+            ("points put back", audit.points_put_back.to_string(), ""),
+            ("left", audit.points_left.to_string(), ""),
+            ("lost", audit.points_lost.to_string(), ""),
+        ],
+    ]
+}
+
+fn cost(cost: &Cost) -> [Vec<Entry>; 2] {
+    let size = vec![
+        ("points", cost.points.to_string(), ""),
+        ("cell", format!("{:.4}", cost.cell_size_m), " m"),
+        ("steps", cost.steps.to_string(), ""),
+        ("sub-steps", cost.substeps.to_string(), ""),
+    ];
+    let time = vec![
+        ("wall time", format!("{:.1}", cost.wall_s), " s"),
+        (
+            "point-steps/s",
+            format!("{:.2e}", cost.point_steps_per_s),
+            "",
+        ),
+        ("threads", cost.threads.to_string(), ""),
+    ];
+    [size, time]
+}
+
+fn line(title: &str, entries: &[Entry]) -> String {
+    let entry = |(name, value, unit): &Entry| format!("{name} {value}{unit}");
+    let entries: Vec<String> = entries.iter().map(entry).collect();
+    format!("{title:<6}{}\n", entries.join(", "))
+}
+
+/// Columns of the bodies' table, with their units.
+const COLUMNS: [(&str, &str); 10] = [
+    ("body", ""),
+    ("onset", "s"),
+    ("peak", "m/s"),
+    ("peak at", "s"),
+    ("rest from", "s"),
+    ("displaced", "m"),
+    ("path", "m"),
+    ("final x", "m"),
+    ("y", "m"),
+    ("z", "m"),
+];
 
 /// One line a body under two lines of headings.
 fn bodies(bodies: &[BodyOutcome]) -> String {
     let mut text = String::new();
-    let columns = [
-        ("body", ""),
-        ("onset", "s"),
-        ("peak", "m/s"),
-        ("peak at", "s"),
-        ("rest from", "s"),
-        ("displaced", "m"),
-        ("path", "m"),
-        ("final x", "m"),
-        ("y", "m"),
-        ("z", "m"),
-    ];
-    let headings: String = columns.iter().map(|(name, _)| cell(name)).collect();
-    let units: String = columns.iter().map(|(_, unit)| cell(unit)).collect();
+    let headings: String = COLUMNS.iter().map(|(name, _)| cell(name)).collect();
+    let units: String = COLUMNS.iter().map(|(_, unit)| cell(unit)).collect();
     let _ = writeln!(text, "{}\n{}", headings.trim_end(), units.trim_end());
     for (index, body) in bodies.iter().enumerate() {
-        let [x, y, z] = body
-            .final_position_m
-            .map(|coordinate| format!("{coordinate:.4}"));
-        let row: String = [
-            index.to_string(),
-            optional(body.onset_time_s, 3),
-            format!("{:.3}", body.peak_speed_m_s),
-            optional(body.peak_speed_time_s, 3),
-            optional(body.stop_time_s, 3),
-            format!("{:.4}", body.displacement_m),
-            format!("{:.4}", body.path_length_m),
-            x,
-            y,
-            z,
-        ]
-        .iter()
-        .map(|value| cell(value))
-        .collect();
-        let _ = writeln!(text, "{}", row.trim_end());
+        let cells: String = row(index, body).iter().map(|value| cell(value)).collect();
+        let _ = writeln!(text, "{cells}");
     }
     text
+}
+
+fn row(index: usize, body: &BodyOutcome) -> [String; COLUMNS.len()] {
+    let [x, y, z] = body.final_position_m.map(metres);
+    [
+        index.to_string(),
+        optional(body.onset_time_s, 3),
+        format!("{:.3}", body.peak_speed_m_s),
+        optional(body.peak_speed_time_s, 3),
+        optional(body.stop_time_s, 3),
+        metres(body.displacement_m),
+        metres(body.path_length_m),
+        x,
+        y,
+        z,
+    ]
+}
+
+/// A length [m] to a tenth of a millimetre; without the sign of a zero.
+fn metres(length: f64) -> String {
+    let text = format!("{length:.4}");
+    if text == "-0.0000" {
+        "0.0000".to_owned()
+    } else {
+        text
+    }
 }
 
 fn cell(text: &str) -> String {
@@ -143,4 +144,40 @@ fn cell(text: &str) -> String {
 
 fn optional(value: Option<f64>, decimals: usize) -> String {
     value.map_or_else(|| NEVER.to_owned(), |value| format!("{value:.decimals$}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn body(onset_time_s: Option<f64>) -> BodyOutcome {
+        BodyOutcome {
+            onset_time_s,
+            peak_speed_m_s: 1.0796,
+            peak_speed_time_s: onset_time_s.map(|onset| onset + 0.1),
+            stop_time_s: None,
+            displacement_m: 0.41234,
+            path_length_m: 0.5,
+            final_position_m: [0.45, -1e-9, 0.02],
+            final_orientation: [1.0, 0.0, 0.0, 0.0],
+        }
+    }
+
+    #[test]
+    fn bodies_stand_under_their_headings_and_nothing_is_a_dash() {
+        let text = bodies(&[body(Some(0.17)), body(None)]);
+        let lines: Vec<Vec<&str>> = text
+            .lines()
+            .map(|l| l.split_whitespace().collect())
+            .collect();
+        let first = "0 0.170 1.080 0.270 – 0.4123 0.5000 0.4500 0.0000 0.0200";
+        assert_eq!(lines[2].join(" "), first);
+        assert_eq!(lines[3][..5].join(" "), "1 – 1.080 – –");
+        // Every heading ends in the column where its values end.
+        let ends = |line: &str| line.chars().count();
+        assert!(
+            text.lines()
+                .all(|line| ends(line) == ends("          ") * COLUMNS.len())
+        );
+    }
 }
