@@ -91,7 +91,8 @@ fn draw_header(sheet: &Area<'_>, scenario: &Scenario) -> Result<(), PictureError
 
 /// The scale of speed, at the right of the subtitle.
 fn draw_color_bar(sheet: &Area<'_>, speeds: &SpeedScale) -> Result<(), PictureError> {
-    let left = layout::WIDTH - layout::RIGHT - BAR.0;
+    // The label at its end is wider than the tick it stands under.
+    let left = layout::WIDTH - layout::RIGHT - BAR.0 - 8.0;
     let top = 38.0;
     let steps = 90;
     let step = BAR.0 / f64::from(steps);

@@ -160,7 +160,6 @@ fn draw_note_text(
     (end_s, top): (f64, f64),
 ) -> Result<(), PictureError> {
     let (aside, above, vertical) = match note.placement {
-        Placement::Beside => (9.0, 2.0, VPos::Center),
         Placement::Above => (0.0, 9.0, VPos::Bottom),
         Placement::Head => (7.0, 0.0, VPos::Top),
     };

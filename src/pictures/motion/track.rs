@@ -31,9 +31,7 @@ impl Quantity {
 /// Where the text of a mark stands, to keep clear of the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Placement {
-    /// Beside the mark: a peak, from which the curve falls to both sides.
-    Beside,
-    /// Above the mark: the curve is level there.
+    /// Above the mark: the curve is level there, or falls to both sides.
     Above,
     /// At the head of a dashed line: the curve rises from there.
     Head,
@@ -145,7 +143,7 @@ impl<'a> Track<'a> {
                 significant(outcome.peak_speed_m_s, 3),
                 significant(time, 3)
             ),
-            placement: Placement::Beside,
+            placement: Placement::Above,
         });
         let rest = outcome.stop_time_s.map(|time| Note {
             at: (time, interpolate(&self.speed, time)),
