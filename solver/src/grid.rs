@@ -4,7 +4,7 @@
 //! tiles are then added to the nodes in a fixed order. So the work runs in
 //! parallel without locks and gives the same bits for any number of threads.
 
-use crate::kernel::{Lattice, WIDTH};
+use crate::kernel::{Lattice, Stencil, WIDTH};
 use crate::math::Vec3;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -237,7 +237,7 @@ impl Grid {
     }
 
     /// The nodes of a stencil in one block of points, in the order (a, b, c).
-    pub fn stencil_nodes(
+    fn stencil_nodes(
         &self,
         block: &PointBlock,
         base: [i32; 3],
@@ -252,6 +252,19 @@ impl Grid {
             let place = block.reach[octant] as usize * BLOCK_NODES + within;
             (a, b, c, &self.nodes[place])
         })
+    }
+
+    /// Velocity [m/s] and displacement [m] of the grid at a point's transfer
+    /// position: Σ w v_i and Σ w u_i.
+    pub fn motion_at(&self, block: &PointBlock, stencil: &Stencil) -> (Vec3, Vec3) {
+        let mut velocity = Vec3::zeros();
+        let mut displacement = Vec3::zeros();
+        for (a, b, c, node) in self.stencil_nodes(block, stencil.base) {
+            let weight = stencil.weight[0][a] * stencil.weight[1][b] * stencil.weight[2][c];
+            velocity += node.velocity * weight;
+            displacement += node.displacement * weight;
+        }
+        (velocity, displacement)
     }
 
     /// v ← v + Δt (f/m + g) at every node with mass.

@@ -151,18 +151,6 @@ fn with_angular_momentum(gradient: &Mat3, target: &Mat3, moment: &Vec3) -> Mat3 
     affine
 }
 
-/// Velocity and displacement of the grid at a point's transfer position.
-pub fn motion_at(grid: &Grid, block: &PointBlock, stencil: &Stencil) -> (Vec3, Vec3) {
-    let mut velocity = Vec3::zeros();
-    let mut displacement = Vec3::zeros();
-    for (a, b, c, node) in grid.stencil_nodes(block, stencil.base) {
-        let weight = stencil.weight[0][a] * stencil.weight[1][b] * stencil.weight[2][c];
-        velocity += node.velocity * weight;
-        displacement += node.displacement * weight;
-    }
-    (velocity, displacement)
-}
-
 /// A quantity that varies linearly about the point: constant + slope · d.
 struct Carried {
     constant: [f64; 4],

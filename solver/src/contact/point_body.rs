@@ -5,7 +5,6 @@ use crate::grid::{BLOCK, Grid, PointBlock};
 use crate::math::Vec3;
 use crate::points::Point;
 use crate::rigid::{Body, Freedom, Load};
-use crate::transfer::motion_at;
 use crate::walls::Impulse;
 
 /// What the points are to a body: spheres of one size, with the impedance of
@@ -110,7 +109,7 @@ impl Loads {
                 let point = &points[candidate.point];
                 let stencil = grid.lattice().stencil(&point.position);
                 let block = &grid.point_blocks()[candidate.block];
-                let (velocity, displacement) = motion_at(grid, block, &stencil);
+                let (velocity, displacement) = grid.motion_at(block, &stencil);
                 let meeting = Meeting {
                     arm: point.position + displacement - body.state.position,
                     velocity,
