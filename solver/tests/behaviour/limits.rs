@@ -1,0 +1,117 @@
+//! Where scenes end: nothing to compute, and nothing that can be computed.
+
+use crate::scenes::{Scene, run, watch};
+use scree_solver::StepError;
+use scree_solver::record::Recorder;
+use serde_json::json;
+
+#[test]
+fn a_run_of_no_duration_is_its_start() {
+    let scene = Scene::impact().lasting(0.0);
+    let simulation = scene.finished();
+    assert_eq!(simulation.time_s(), 0.0);
+    assert_eq!(simulation.counts(), (0, 0, 0));
+    let mut recorder = Recorder::new(&scene.scenario());
+    assert_eq!(
+        recorder.start(&simulation).len(),
+        2,
+        "a sample and a snapshot"
+    );
+    let outcome = recorder.outcome(&simulation, 0.0);
+    assert_eq!(outcome.bodies[0].onset_time_s, None);
+    assert_eq!(outcome.flow.runout_m.map(f64::round), Some(0.0));
+}
+
+#[test]
+fn no_volume_is_no_flow() {
+    let body = json!({"shape": {"cube": {"side_m": 0.04}}, "position": {"downstream_m": -0.5}});
+    let bare = Scene::channel(35.0, 1.0, 1.0, 0.2).body(body).lasting(0.3);
+    let empty = bare.clone().flow(json!({"volume_m3": 0.0}));
+    let (without, with) = (bare.finished(), empty.finished());
+    assert_eq!(with.released_points(), 0);
+    assert_eq!(with.sound_speed_m_s(), None);
+    assert_eq!(without.bodies()[0].state, with.bodies()[0].state);
+}
+
+#[test]
+fn nothing_at_all_runs_to_its_end() {
+    let scene = Scene::channel(35.0, 1.0, 1.0, 0.2).lasting(0.5);
+    let simulation = scene.finished();
+    assert_eq!(simulation.time_s(), 0.5);
+    let outcome = Recorder::new(&scene.scenario()).outcome(&simulation, 1.0);
+    assert!(outcome.bodies.is_empty());
+    assert_eq!(outcome.flow.front_m, None);
+}
+
+#[test]
+fn a_flow_without_bodies_runs() {
+    let simulation = Scene::impact().without_bodies().lasting(0.05).finished();
+    assert!(simulation.counts().2 > 0);
+}
+
+// After the last point has left by the open end the run goes on to its end.
+#[test]
+fn a_flow_may_leave_altogether() {
+    let scene = Scene::channel(60.0, 0.3, 0.01, 0.04)
+        .flow(json!({"volume_m3": 0.0001, "release": {"height_m": 0.03, "toe_distance_m": 0.0}}))
+        .set("channel", "base_friction", 0.0)
+        .set("numerics", "cell_size_m", 0.02)
+        .lasting(1.5);
+    let simulation = scene.finished();
+    assert_eq!(simulation.time_s(), 1.5);
+    assert_eq!(simulation.audit().points_left, simulation.released_points());
+    assert!(simulation.audit().mass_error < 1e-12);
+}
+
+// A sound of 0.1 m/s can't carry a flow of metres per second: its points fall
+// through each other until they are twenty times faster than it.
+#[test]
+fn a_flow_faster_than_its_sound_is_a_typed_error() {
+    let scene = Scene::impact().set("numerics", "sound_speed_m_s", 0.1);
+    let mut simulation = scene.start();
+    let error = watch(&mut simulation, 0.3, |_, _| {}).expect_err("it can't run");
+    println!("{error}");
+    assert!(
+        matches!(error, StepError::TimeStepCollapse { .. }),
+        "{error:?}"
+    );
+    assert!(error.time_s() > 0.0 && error.time_s() < 0.3);
+}
+
+// A body thrown as fast as scenarios allow either runs or ends with the time
+// and the culprit; never a panic, never a state that is no number.
+#[test]
+fn an_absurd_throw_ends_in_order() {
+    for (sound, velocity) in [(None, 1e3), (Some(20.0), 1e3), (Some(20.0), 50.0)] {
+        let scene = Scene::impact()
+            .first_body("velocity_m_s", json!([-velocity, 0.0, 0.0]))
+            .set("numerics", "sound_speed_m_s", sound)
+            .lasting(0.001);
+        let mut simulation = scene.start();
+        match watch(&mut simulation, 0.001, |_, _| {}) {
+            Ok(()) => assert_eq!(simulation.time_s(), 0.001),
+            Err(error) => {
+                println!("{velocity} m/s, sound {sound:?}: {error}");
+                assert!(error.time_s() <= 0.001);
+                assert!(error.to_string().contains("t = "));
+            }
+        }
+        let audit = simulation.audit();
+        println!(
+            "{velocity} m/s, sound {sound:?}: {} put back, energy {:.1e}, mass {:.1e}, linear {:.1e}, angular {:.1e}",
+            audit.points_put_back,
+            audit.energy_residual(),
+            audit.mass_error,
+            audit.momentum_residual,
+            audit.angular_momentum_residual
+        );
+    }
+}
+
+#[test]
+fn running_beyond_the_end_changes_nothing() {
+    let mut simulation = Scene::impact().lasting(0.02).finished();
+    let saved = simulation.save();
+    run(&mut simulation, 5.0);
+    assert_eq!(simulation.save(), saved);
+}

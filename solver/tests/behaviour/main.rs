@@ -1,0 +1,18 @@
+//! The solver through its public API: physics with a known answer, balances,
+//! symmetries, and sameness of bits. Figures behind the assertions are printed
+//! and show with `--nocapture`.
+#![allow(
+    clippy::print_stdout,
+    reason = "measured figures belong to a test's output"
+)]
+
+mod scenes;
+
+mod balances;
+mod bodies_alone;
+mod column_at_rest;
+mod layers;
+mod limits;
+mod same_bits;
+mod sliding_block;
+mod symmetry;

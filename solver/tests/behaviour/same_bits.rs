@@ -1,0 +1,164 @@
+//! Same scenario, same bits: for any number of threads, however a run is
+//! divided, and across saved states.
+
+use crate::scenes::{Scene, points_by_id, run};
+use scree_solver::record::{Record, Recorder};
+use scree_solver::scenario::Scenario;
+use scree_solver::{Ending, SaveError, Simulation};
+use std::ops::ControlFlow;
+
+/// A run with its records.
+struct Recorded {
+    simulation: Simulation,
+    recorder: Recorder,
+    records: Vec<Record>,
+}
+
+impl Recorded {
+    fn start(scenario: &Scenario, threads: usize) -> Self {
+        let simulation = Simulation::new(scenario, threads).expect("the scene fits");
+        let mut recorder = Recorder::new(scenario);
+        let records = recorder.start(&simulation);
+        Self {
+            simulation,
+            recorder,
+            records,
+        }
+    }
+
+    fn run(&mut self, until_s: f64) {
+        let (recorder, records) = (&mut self.recorder, &mut self.records);
+        let ending = self.simulation.run(until_s, |simulation, report| {
+            records.extend(recorder.observe(simulation, report));
+            ControlFlow::Continue(())
+        });
+        assert_eq!(ending, Ok(Ending::Reached));
+    }
+
+    /// Saved, taken to bytes, and taken up again on other threads.
+    fn moved(self, scenario: &Scenario, threads: usize) -> Self {
+        let bytes = self.simulation.save().expect("a step ended");
+        let recorder = serde_json::to_string(&self.recorder).expect("a recorder is JSON");
+        drop((self.simulation, self.recorder));
+        Self {
+            simulation: Simulation::restore(scenario, threads, &bytes).expect("it was just saved"),
+            recorder: serde_json::from_str(&recorder).expect("it was just written"),
+            records: self.records,
+        }
+    }
+}
+
+/// Equal bits of everything a run leaves. `==` on floats would take −0 for 0
+/// and says no for NaN; the saved state is compared by its bytes.
+fn assert_same(one: &Recorded, other: &Recorded) {
+    assert!(
+        one.simulation.save().expect("it ended") == other.simulation.save().expect("it ended"),
+        "states differ"
+    );
+    assert_eq!(
+        points_by_id(&one.simulation),
+        points_by_id(&other.simulation)
+    );
+    let bytes = |run: &Recorded| serde_json::to_string(&run.records).expect("records are JSON");
+    assert!(bytes(one) == bytes(other), "records differ");
+    assert_eq!(one.recorder, other.recorder);
+    let outcome = |run: &Recorded| {
+        let mut outcome = run.recorder.outcome(&run.simulation, 1.0);
+        outcome.cost.threads = 0;
+        outcome
+    };
+    assert_eq!(outcome(one), outcome(other));
+}
+
+fn scenario() -> Scenario {
+    Scene::impact()
+        .set("channel", "runout_length_m", 0.2)
+        .scenario()
+}
+
+fn uninterrupted(scenario: &Scenario) -> Recorded {
+    let mut whole = Recorded::start(scenario, 1);
+    whole.run(0.3);
+    whole
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let scenario = scenario();
+    let one = uninterrupted(&scenario);
+    assert!(one.records.len() > 30, "{}", one.records.len());
+    for threads in [2, 3, 7] {
+        let mut other = Recorded::start(&scenario, threads);
+        assert_eq!(other.simulation.threads(), threads);
+        other.run(0.3);
+        assert_same(&one, &other);
+    }
+}
+
+// The times lie at, between and off the samples every 0.01 s.
+#[test]
+fn a_run_in_parts_gives_the_same_bits() {
+    let scenario = scenario();
+    let mut parts = Recorded::start(&scenario, 2);
+    for until_s in [0.0, 0.013, 0.05, 0.050_001, 0.217, 0.3] {
+        parts.run(until_s);
+    }
+    assert_same(&uninterrupted(&scenario), &parts);
+}
+
+#[test]
+fn a_saved_run_goes_on_with_the_same_bits() {
+    let scenario = scenario();
+    let mut moved = Recorded::start(&scenario, 1);
+    for (until_s, threads) in [(0.0, 2), (0.037, 3), (0.12, 1), (0.2, 2), (0.281, 1)] {
+        moved.run(until_s);
+        moved = moved.moved(&scenario, threads);
+    }
+    moved.run(0.3);
+    assert_same(&uninterrupted(&scenario), &moved);
+}
+
+/// Runs on for so many sub-steps and breaks off, mostly amid a step.
+fn break_off(run: &mut Recorded, substeps: u32) {
+    let mut seen = 0;
+    let (recorder, records) = (&mut run.recorder, &mut run.records);
+    let ending = run.simulation.run(0.3, |simulation, report| {
+        records.extend(recorder.observe(simulation, report));
+        seen += 1;
+        if seen < substeps {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    });
+    assert_eq!(ending, Ok(Ending::Interrupted));
+}
+
+#[test]
+fn a_run_broken_off_amid_steps_goes_on_with_the_same_bits() {
+    let scenario = scenario();
+    let mut parts = Recorded::start(&scenario, 1);
+    let mut amid = 0;
+    for substeps in [1, 1, 7, 100, 334] {
+        break_off(&mut parts, substeps);
+        if let Err(SaveError::AmidStep { time_s }) = parts.simulation.save() {
+            assert_eq!(time_s, parts.simulation.time_s());
+            amid += 1;
+        }
+    }
+    assert!(amid > 0, "never amid a step");
+    parts.run(0.3);
+    assert_same(&uninterrupted(&scenario), &parts);
+}
+
+#[test]
+fn only_its_own_saved_state_is_taken_up() {
+    let scenario = scenario();
+    let mut simulation = Simulation::new(&scenario, 1).expect("the scene fits");
+    run(&mut simulation, 0.01);
+    let saved = simulation.save().expect("a step ended");
+    let other = Scene::impact().scenario();
+    assert!(Simulation::restore(&other, 1, &saved).is_err());
+    assert!(Simulation::restore(&scenario, 1, &saved[..saved.len() / 2]).is_err());
+    assert!(Simulation::restore(&scenario, 1, b"").is_err());
+}

@@ -1,0 +1,68 @@
+//! A block of flow that hardly yields slides down an incline the grid is not
+//! aligned with: validation.md, case 9.
+
+use crate::scenes::{Scene, mean_velocity, run};
+use scree_solver::math::Vec3;
+use serde_json::json;
+
+const GRAVITY: f64 = 9.81;
+const FRICTION: f64 = 0.2;
+
+const CELL_M: f64 = 0.015;
+
+/// The block: 0.06 m thick (four cells), 0.3 m long, two cells wide between
+/// smooth walls, of a material that the frictions allowed hardly let yield.
+fn block(inclination_deg: f64) -> Scene {
+    let cos = inclination_deg.to_radians().cos();
+    let (height_m, length_m, width) = (0.06, 0.3, 2.0 * CELL_M);
+    let volume = width * height_m * length_m;
+    Scene::channel(inclination_deg, 1.6 * cos, 0.1, width)
+        .set("channel", "base_friction", FRICTION)
+        .flow(json!({
+            "volume_m3": volume,
+            "release": {"height_m": height_m, "toe_distance_m": 1.1 * cos},
+            "material": {"static_friction": 10.0, "limiting_friction": 10.0}
+        }))
+        .set("numerics", "cell_size_m", CELL_M)
+        .lasting(0.4)
+}
+
+/// Acceleration along the slope between two times after the start [m/s²].
+fn acceleration(scene: &Scene, inclination_deg: f64, from_s: f64, to_s: f64) -> f64 {
+    let (sin, cos) = inclination_deg.to_radians().sin_cos();
+    let down = Vec3::new(cos, 0.0, -sin);
+    let mut simulation = scene.start();
+    run(&mut simulation, from_s);
+    let (first, start) = (mean_velocity(&simulation).dot(&down), simulation.time_s());
+    run(&mut simulation, to_s);
+    let (last, end) = (mean_velocity(&simulation).dot(&down), simulation.time_s());
+    (last - first) / (end - start)
+}
+
+// Bar: 1 % of g (validation.md). Measured on cells of 0.015 m, in parts of g:
+// +0.2 % at 20°, +0.02 % at 30°, −0.1 % at 45°; over windows half as long the
+// block's own ringing shows, ±0.4 %.
+#[test]
+fn a_block_slides_at_the_acceleration_of_coulomb() {
+    for inclination_deg in [20.0, 30.0, 45.0] {
+        let (sin, cos) = f64::to_radians(inclination_deg).sin_cos();
+        let exact = GRAVITY * (sin - FRICTION * cos);
+        let got = acceleration(&block(inclination_deg), inclination_deg, 0.1, 0.4);
+        let error = (got - exact) / GRAVITY;
+        println!("{inclination_deg}°: {got:.4} against {exact:.4} m/s², error {error:+.4} g");
+        assert!(error.abs() < 0.01, "{inclination_deg}°: {error}");
+    }
+}
+
+// Well below the angle of friction, 11.3°, a block stays once it has settled:
+// the bar is 1 % of what gravity along the slope would give.
+//
+// Nearer to that angle it does not, which is a known flaw: measured from 0.4 to
+// 0.8 s it creeps at 8 mm/s at 7° and 53 mm/s at 10° (10 µm/s and 32 mm/s with
+// a quarter of the flow's Courant number), kept going by its own ringing.
+#[test]
+fn a_block_well_below_the_angle_of_friction_stays() {
+    let got = acceleration(&block(5.0), 5.0, 0.2, 0.4);
+    println!("5°: {got:+.5} m/s²");
+    assert!(got.abs() < 0.01 * GRAVITY * f64::to_radians(5.0).sin());
+}
