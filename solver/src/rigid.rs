@@ -155,3 +155,8 @@ impl Body {
         orientation * (self.inverse_inertia * orientation.inverse_transform_vector(v))
     }
 }
+
+#[cfg(test)]
+pub(crate) mod fixture;
+#[cfg(test)]
+mod tests;

@@ -254,3 +254,6 @@ fn for_each_block<T: Send>(
         .into_par_iter()
         .for_each(|(block, share)| visit(block, share));
 }
+
+#[cfg(test)]
+mod tests;
