@@ -1,4 +1,5 @@
-//! Balances of mass, momentum and energy, kept while a run goes.
+//! Balances of mass, momentum and energy, kept while a run goes
+//! (docs/method.md, equations 35–38).
 
 use crate::material::Material;
 use crate::math::Vec3;

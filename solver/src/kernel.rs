@@ -1,4 +1,5 @@
-//! Quadratic B-spline kernel: the 3 × 3 × 3 nodes a point touches.
+//! Quadratic B-spline kernel: the 3 × 3 × 3 nodes a point touches
+//! (docs/method.md, equation 7).
 
 use crate::math::Vec3;
 

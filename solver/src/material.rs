@@ -1,4 +1,4 @@
-//! The granular material: stress of one point (docs/method.md, equations 3–6).
+//! The granular material: stress of one point (docs/method.md, equations 1–6).
 
 use crate::math::{Mat3, Sym3};
 use serde::{Deserialize, Serialize};
@@ -47,7 +47,7 @@ impl Material {
         (self.p_wave_modulus() / self.bulk_density).sqrt()
     }
 
-    /// Pressure of a bulk of this density [Pa]; zero for grains apart.
+    /// Pressure of a bulk of this density [Pa] (equation 3); zero for grains apart.
     pub fn pressure(&self, density: f64) -> f64 {
         let pressure = self.bulk_modulus * (density / self.bulk_density - 1.0);
         match self.yielding {
@@ -90,7 +90,8 @@ impl Material {
     }
 
     /// Equivalent shear stress after a step of `dt` [s] whose elastic trial is
-    /// `trial` [Pa]: the closed form of Dunatunga & Kamrin (2015) for μ(I).
+    /// `trial` [Pa]: the closed form of Dunatunga & Kamrin (2015) for μ(I)
+    /// (equation 6).
     fn shear_stress(&self, trial: f64, pressure: f64, dt: f64) -> f64 {
         let Yielding::Granular {
             static_friction,

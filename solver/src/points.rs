@@ -1,4 +1,4 @@
-//! The material points: the state of the flow.
+//! The material points: the state of the flow (docs/method.md, equations 2 and 11).
 
 use crate::grid::{BlockKey, block_of};
 use crate::kernel::Lattice;

@@ -1,4 +1,4 @@
-//! Rigid bodies: sphero-polyhedra that move (docs/method.md, equations 14–16).
+//! Rigid bodies: sphero-polyhedra that move (docs/method.md, equations 15 and 16).
 
 use crate::contact::law::ContactLaw;
 use crate::math::{Mat3, Vec3};

@@ -1,4 +1,4 @@
-//! How far one sub-step and one step may go (docs/method.md, equations 25–27).
+//! How far one sub-step and one step may go (docs/method.md, equations 25 and 27).
 
 /// Sub-step without a flow, where bodies choose their own [s].
 const SUBSTEP_WITHOUT_FLOW: f64 = 1e-3;
@@ -36,8 +36,8 @@ pub struct Pace {
 
 impl Limits {
     /// Longest stable sub-step at this largest speed [s]: a P-wave may cross a
-    /// share of a cell, and a lone point, which rings at √(3K/ρ)/h, must not
-    /// blow up.
+    /// share of a cell, and a lone point, which rings against its own nodes at
+    /// 2√(3K/ρ)/h, must not blow up (equation 25).
     pub fn substep(&self, speed: f64) -> f64 {
         let crossing = self.cell_size / (self.p_wave_speed + speed);
         let lone_point = self.cell_size / (3f64.sqrt() * self.sound_speed);

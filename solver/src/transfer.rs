@@ -1,4 +1,7 @@
-//! Transfers between points and grid (docs/method.md, equations 7–13).
+//! Transfers between points and grid (docs/method.md, equations 8–13).
+//!
+//! ∇w_i stands for w_i M⁻¹ (x_i − x_p) with the kernel's second moment M, the
+//! gradient of moving least squares (equation 7).
 //!
 //! Within one step the weights stay those of the transfer; the displaced nodes
 //! carry the deformation F̂ of every point (two clocks).
@@ -20,7 +23,7 @@ const ROWS: [usize; WIDTH * WIDTH] = {
     rows
 };
 
-/// Node mass and velocity from the points: m_i = Σ w m,
+/// Node mass and velocity from the points (equation 8): m_i = Σ w m,
 /// m_i v_i = Σ w m (v + C (x_i − x_p)).
 pub fn scatter_momentum(points: &[Point], grid: &mut Grid) {
     let lattice = *grid.lattice();
@@ -55,7 +58,8 @@ pub fn scatter_momentum(points: &[Point], grid: &mut Grid) {
     );
 }
 
-/// Node forces of stress and contact: f_i = −V σ F̂⁻ᵀ ∇w_i + w_i f_p.
+/// Node forces of stress and contact (equation 9):
+/// f_i = Σ (−V σ F̂⁻ᵀ ∇w_i + w_i f_p).
 pub fn scatter_forces(
     points: &[Point],
     deformations: &[Deformation],
@@ -82,7 +86,7 @@ pub fn scatter_forces(
 }
 
 /// Velocity gradient at every point, L = (Σ v_i ⊗ ∇w_i) F̂⁻¹, and the
-/// deformation after the sub-step, F̂ + Δt Σ v_i ⊗ ∇w_i.
+/// deformation after the sub-step, F̂ + Δt Σ v_i ⊗ ∇w_i (equation 11).
 pub fn gather_gradient(grid: &Grid, points: &[Point], dt: f64, deformations: &mut [Deformation]) {
     let lattice = *grid.lattice();
     let inverse_moment = Mat3::from_diagonal(&lattice.kernel_moment().map(f64::recip));
@@ -100,7 +104,7 @@ pub fn gather_gradient(grid: &Grid, points: &[Point], dt: f64, deformations: &mu
 }
 
 /// Ends a step: velocity, affine velocity and position of every point from
-/// the displaced nodes.
+/// the displaced nodes (equations 12 and 13).
 ///
 /// The affine velocity is the gradient on the displaced nodes, C F̂⁻¹, with
 /// its skew part set so that points and displaced nodes have the same angular

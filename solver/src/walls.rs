@@ -3,7 +3,8 @@
 //! The channel is convex: it lies above the floor and above the incline, and
 //! between the upright walls. The upright walls lie on grid planes and act as
 //! mirrors: a node and its images move as one, so a smooth wall reflects
-//! exactly. Incline and floor stop inflow at the nodes on and below them.
+//! exactly (docs/method.md, equation 28). Incline and floor stop inflow at the
+//! nodes on and below them (equation 29).
 
 use crate::grid::Grid;
 use crate::math::Vec3;
@@ -171,8 +172,9 @@ impl Walls {
             .fold(0, |bits, (which, _)| bits | 1 << which)
     }
 
-    /// Makes node velocities obey the walls: no inflow, free separation,
-    /// Coulomb friction. Returns the impulse given to the flow.
+    /// Makes node velocities obey the walls: mirrors at the upright ones, no
+    /// inflow and free separation at the base, Coulomb friction at both. Returns
+    /// the impulse given to the flow.
     pub fn constrain(&self, boundary: &Boundary, grid: &mut Grid) -> Impulse {
         let mut given = Impulse::default();
         for group in &boundary.groups {

@@ -1,5 +1,5 @@
 //! Bodies on walls: sphere-swept vertices of a convex body against planes,
-//! and the body's own sub-steps (docs/method.md, equations 14–18).
+//! and the body's own sub-steps (docs/method.md, equations 15–20).
 
 use crate::contact::law::TANGENTIAL_STIFFNESS_RATIO;
 use crate::math::Vec3;

@@ -1,5 +1,5 @@
 //! The contact law of two rounded surfaces: numbers in, force out
-//! (docs/method.md, equations 17–20).
+//! (docs/method.md, equations 17–19).
 
 use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
@@ -84,7 +84,7 @@ impl ContactLaw {
 /// The impact of a unit mass with unit stiffness, ẍ = −max(0, x^1.5 + η x^¼ ẋ),
 /// is independent of the impact speed but for scale (Tsuji 1992), so one
 /// bisection serves every contact. Restitutions below what [`MAX_DAMPING`]
-/// gives (about 0.02) get that.
+/// gives (about 0.008) get that.
 pub fn damping_number(restitution: f64) -> f64 {
     if restitution >= 1.0 {
         return 0.0;

@@ -1,5 +1,6 @@
 //! What a run leaves behind: samples of every body, snapshots of the flow, and
-//! the outcome. Serialised, these are the JSON of the service.
+//! the outcome. Serialised, these are the JSON of the service. Definitions:
+//! docs/method.md, section 9.
 
 mod outcome;
 mod recorder;

@@ -122,7 +122,7 @@ impl SpheroPolyhedron {
         self.sphero_radius
     }
 
-    /// Volume of the rounded solid [m³], exact:
+    /// Volume of the rounded solid [m³], exact (docs/method.md, equation 14):
     /// V0 + S0 r + (r²/2) Σ L (π − φ) + 4/3 π r³.
     pub fn volume(&self) -> f64 {
         self.volume

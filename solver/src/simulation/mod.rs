@@ -1,4 +1,5 @@
-//! The simulation: the step of docs/method.md, and the run.
+//! The simulation: the step of docs/method.md, and the run (what they do in
+//! which order: docs/architecture.md).
 
 mod clock;
 mod saved;

@@ -126,7 +126,7 @@ impl Flow {
     }
 
     /// Law of a body's contacts with points: as stiff at the reference overlap
-    /// as a column of material one point wide, M l.
+    /// as a column of material one point wide, M l (equation 22).
     fn contact_law(&self, body: &scenario::Body) -> ContactLaw {
         let spacing = self.point_spacing;
         let tangent = self.material.p_wave_modulus() * spacing;
@@ -137,7 +137,7 @@ impl Flow {
     }
 
     /// Longest sub-step at which a free body covered with points does not ring
-    /// against them unstably [s].
+    /// against them unstably [s] (docs/method.md, equation 26).
     pub(super) fn contact_substep(&self, bodies: &[Body]) -> f64 {
         let modulus = self.material.p_wave_modulus();
         let of_body = |body: &Body| {

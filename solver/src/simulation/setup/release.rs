@@ -1,4 +1,5 @@
-//! The release: points on a lattice that follows the slope, near equilibrium.
+//! The release: points on a lattice that follows the slope, near equilibrium
+//! (docs/method.md, equation 34).
 
 use super::{Setup, resting_point};
 use crate::error::SetupError;

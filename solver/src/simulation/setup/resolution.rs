@@ -1,5 +1,5 @@
 //! Automatic choices: cell size, expected speed, contact modulus
-//! (docs/method.md, section on automatic choices).
+//! (docs/method.md, equations 30–33).
 
 use crate::kernel::Lattice;
 use crate::math::Vec3;
