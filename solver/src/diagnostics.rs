@@ -238,3 +238,6 @@ impl Audit {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -328,3 +328,6 @@ fn added_up(sources: &[u32; 8], tiles: &[Tile]) -> [[f64; 4]; BLOCK_NODES] {
     }
     sums
 }
+
+#[cfg(test)]
+mod tests;

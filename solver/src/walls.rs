@@ -342,3 +342,6 @@ fn meets(distance: i32, inward: f64) -> Meets {
         _ => Meets::Not,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,193 @@
+use super::*;
+use crate::grid::block_of;
+use crate::kernel::Lattice;
+
+const H: f64 = 0.01;
+
+fn plane(name: &'static str, normal: Vec3, offset: f64, flow_friction: f64) -> Plane {
+    Plane {
+        name,
+        normal,
+        offset,
+        flow_friction,
+    }
+}
+
+/// A flat channel of so many cells across, with this friction on base and sides.
+fn channel(cells_across: i32, base_friction: f64, side_friction: f64) -> Walls {
+    let width = f64::from(cells_across) * H;
+    Walls {
+        base: vec![plane("floor", Vec3::z(), 0.0, base_friction)],
+        upright: Upright {
+            planes: [
+                plane("back wall", Vec3::x(), 0.0, side_friction),
+                plane("right side wall", Vec3::y(), 0.0, side_friction),
+                plane("left side wall", -Vec3::y(), -width, side_friction),
+            ],
+            cells_across,
+        },
+    }
+}
+
+/// A grid round a few blocks with mass 1 at these nodes, moving as said.
+fn grid_with(nodes: &[([i32; 3], Vec3)]) -> Grid {
+    let lattice = Lattice {
+        origin: Vec3::zeros(),
+        spacing: Vec3::repeat(H),
+    };
+    let mut grid = Grid::new(lattice);
+    let mut occupied: Vec<_> = nodes
+        .iter()
+        .map(|(node, _)| (block_of(*node), 0..0))
+        .collect();
+    occupied.sort_unstable_by_key(|(key, _)| *key);
+    occupied.dedup();
+    grid.reset_around(&occupied);
+    for (index, velocity) in nodes {
+        let place = grid.place_of(*index).expect("its block is there");
+        let node = grid.node_mut(place);
+        (node.mass, node.velocity) = (1.0, *velocity);
+    }
+    grid
+}
+
+fn velocity(grid: &Grid, index: [i32; 3]) -> Vec3 {
+    grid.nodes()[grid.place_of(index).expect("its block is there")].velocity
+}
+
+/// Constrains and checks that what the walls say they gave is what changed.
+fn constrained(walls: &Walls, grid: &mut Grid) -> Impulse {
+    let momentum = |grid: &Grid| {
+        let mut sum = Impulse::default();
+        for (place, node) in grid.nodes().iter().enumerate() {
+            let at = grid.lattice().position(grid.index_of(place)) + node.displacement;
+            sum.add_at(&at, &(node.velocity * node.mass));
+        }
+        sum
+    };
+    let before = momentum(grid);
+    let mut boundary = Boundary::default();
+    walls.find_boundary(grid, &mut boundary);
+    let given = walls.constrain(&boundary, grid);
+    let after = momentum(grid);
+    assert!((after.linear - before.linear - given.linear).norm() < 1e-14);
+    assert!((after.angular - before.angular - given.angular).norm() < 1e-14);
+    given
+}
+
+#[test]
+fn inflow_stops_and_friction_takes_its_share() {
+    let at = [5, 3, 0];
+    let mut grid = grid_with(&[(at, Vec3::new(3.0, 4.0, -2.0))]);
+    let given = constrained(&channel(8, 0.5, 0.0), &mut grid);
+    // Speed 5 along the floor less μ × 2.
+    assert!((velocity(&grid, at) - Vec3::new(2.4, 3.2, 0.0)).norm() < 1e-14);
+    assert!((given.linear - Vec3::new(-0.6, -0.8, 2.0)).norm() < 1e-14);
+}
+
+#[test]
+fn friction_stops_but_never_turns_back() {
+    let mut grid = grid_with(&[([5, 3, 0], Vec3::new(0.3, 0.4, -2.0))]);
+    constrained(&channel(8, 0.5, 0.0), &mut grid);
+    assert_eq!(velocity(&grid, [5, 3, 0]), Vec3::zeros());
+}
+
+#[test]
+fn leaving_the_floor_is_free_and_so_is_all_above() {
+    let (rising, above) = (Vec3::new(1.0, 0.0, 0.1), Vec3::new(1.0, 0.0, -5.0));
+    let mut grid = grid_with(&[([5, 3, 0], rising), ([5, 3, 1], above)]);
+    let given = constrained(&channel(8, 0.5, 0.0), &mut grid);
+    assert_eq!(velocity(&grid, [5, 3, 0]), rising);
+    assert_eq!(velocity(&grid, [5, 3, 1]), above);
+    assert_eq!(given, Impulse::default());
+}
+
+#[test]
+fn nodes_below_the_floor_are_held_too() {
+    let mut grid = grid_with(&[([5, 3, -1], Vec3::new(0.0, 0.0, -1.0))]);
+    constrained(&channel(8, 0.0, 0.0), &mut grid);
+    assert_eq!(velocity(&grid, [5, 3, -1]), Vec3::zeros());
+}
+
+// A node and its image behind a smooth side are one flow and its reflection:
+// both end with the mean, mirrored, and nothing is lost along the wall.
+#[test]
+fn a_smooth_side_mirrors() {
+    for (node, image, wall) in [
+        ([5, 1, 4], [5, -1, 4], [5, 0, 4]),
+        ([5, 7, 4], [5, 9, 4], [5, 8, 4]),
+    ] {
+        let mut grid = grid_with(&[
+            (node, Vec3::new(1.0, 0.5, 3.0)),
+            (image, Vec3::new(2.0, 0.1, -1.0)),
+            (wall, Vec3::new(1.0, 9.0, 2.0)),
+        ]);
+        let given = constrained(&channel(8, 0.0, 0.0), &mut grid);
+        assert!((velocity(&grid, node) - Vec3::new(1.5, 0.2, 1.0)).norm() < 1e-15);
+        assert!((velocity(&grid, image) - Vec3::new(1.5, -0.2, 1.0)).norm() < 1e-15);
+        assert_eq!(velocity(&grid, wall), Vec3::new(1.0, 0.0, 2.0));
+        assert!(given.linear.x.abs() < 1e-15 && given.linear.z.abs() < 1e-15);
+    }
+}
+
+// In the edge of back wall and side a node has three images.
+#[test]
+fn a_corner_mirrors_both_ways() {
+    let v = Vec3::new(1.0, 2.0, 3.0);
+    let mut grid = grid_with(&[
+        ([1, 1, 4], v * 4.0),
+        ([-1, -1, 4], Vec3::zeros()),
+        ([-1, 1, 4], Vec3::zeros()),
+        ([1, -1, 4], Vec3::zeros()),
+    ]);
+    constrained(&channel(8, 0.0, 0.0), &mut grid);
+    assert!((velocity(&grid, [1, 1, 4]) - v).norm() < 1e-15);
+    assert!((velocity(&grid, [-1, -1, 4]) - Vec3::new(-1.0, -2.0, 3.0)).norm() < 1e-15);
+    assert!((velocity(&grid, [-1, 1, 4]) - Vec3::new(-1.0, 2.0, 3.0)).norm() < 1e-15);
+}
+
+#[test]
+fn one_cell_across_lies_between_two_mirrors() {
+    let v = Vec3::new(1.0, 2.0, 3.0);
+    let mut grid = grid_with(&[
+        ([5, 0, 4], v),
+        ([5, 1, 4], v),
+        ([5, -1, 4], v),
+        ([5, 2, 4], v),
+    ]);
+    constrained(&channel(1, 0.0, 0.0), &mut grid);
+    for j in -1..=2 {
+        assert!(
+            (velocity(&grid, [5, j, 4]) - Vec3::new(1.0, 0.0, 3.0)).norm() < 1e-15,
+            "{j}"
+        );
+    }
+}
+
+// A wall node pushed into the side at 2 m/s is pressed with that impulse, of
+// which friction takes 0.25 from 5 m/s along the wall.
+#[test]
+fn a_rough_side_rubs() {
+    let mut grid = grid_with(&[([5, 0, 4], Vec3::new(3.0, -2.0, 4.0))]);
+    let given = constrained(&channel(8, 0.0, 0.25), &mut grid);
+    assert!((velocity(&grid, [5, 0, 4]) - Vec3::new(2.7, 0.0, 3.6)).norm() < 1e-14);
+    assert!((given.linear - Vec3::new(-0.3, 2.0, -0.4)).norm() < 1e-14);
+    // Pulled off the wall it is not pressed.
+    let mut grid = grid_with(&[([5, 0, 4], Vec3::new(3.0, 2.0, 4.0))]);
+    constrained(&channel(8, 0.0, 0.25), &mut grid);
+    assert_eq!(velocity(&grid, [5, 0, 4]), Vec3::new(3.0, 0.0, 4.0));
+}
+
+// On the back wall and below the incline only the vertical is left: the node
+// must not slide through either.
+#[test]
+fn the_foot_of_the_back_wall_holds() {
+    let mut walls = channel(8, 0.0, 0.0);
+    let slope = Vec3::new(0.6, 0.0, 0.8);
+    walls
+        .base
+        .push(plane("incline", slope, 0.6 * H + 0.8 * 4.0 * H, 0.0));
+    let mut grid = grid_with(&[([0, 3, 2], Vec3::new(-1.0, 0.5, -2.0))]);
+    constrained(&walls, &mut grid);
+    assert!((velocity(&grid, [0, 3, 2]) - Vec3::new(0.0, 0.5, 0.0)).norm() < 1e-15);
+}
