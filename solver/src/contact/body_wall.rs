@@ -191,3 +191,6 @@ fn wall_force(body: &Body, touch: &Touch, dt: f64, spring: &mut Vec3) -> (Vec3, 
         elastic + stretched,
     )
 }
+
+#[cfg(test)]
+mod tests;

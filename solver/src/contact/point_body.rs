@@ -232,3 +232,6 @@ impl Around {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

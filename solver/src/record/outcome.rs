@@ -122,3 +122,6 @@ fn front(simulation: &Simulation, open_end: f64) -> Option<f64> {
     }
     None
 }
+
+#[cfg(test)]
+mod tests;

@@ -234,3 +234,6 @@ fn snapshot(simulation: &Simulation) -> FlowSnapshot {
             .collect(),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,68 @@
+use super::*;
+use crate::rigid::fixture::cuboid;
+
+/// The cube at (x, 0, 0), moving along x.
+fn at(x: f64, speed: f64) -> Body {
+    let mut body = cuboid([0.04; 3]);
+    body.state.position.x = x;
+    body.state.momentum.x = body.mass * speed;
+    body
+}
+
+fn history(seen: &[(f64, f64, f64)]) -> BodyOutcome {
+    let mut history = BodyHistory::start(&at(0.0, 0.0));
+    for &(time_s, x, speed) in seen {
+        history.take_in(&at(x, speed), time_s);
+    }
+    history.outcome()
+}
+
+#[test]
+fn what_never_moved_has_no_times() {
+    let outcome = history(&[(0.1, 0.0, 0.0), (0.2, 5e-4, 5e-4)]);
+    assert_eq!(outcome.onset_time_s, None);
+    assert_eq!(outcome.stop_time_s, None);
+    assert_eq!(outcome.displacement_m, 5e-4);
+    let outcome = BodyHistory::start(&at(0.0, 0.0)).outcome();
+    assert_eq!(
+        (outcome.peak_speed_m_s, outcome.peak_speed_time_s),
+        (0.0, None)
+    );
+}
+
+#[test]
+fn onset_peak_and_stop_are_where_they_were_seen() {
+    let outcome = history(&[
+        (0.1, 5e-4, 0.1),
+        (0.2, 2e-3, 0.5),
+        (0.3, 0.05, 0.4),
+        (0.4, 0.06, 5e-4),
+        (0.5, 0.055, 0.1),
+        (0.6, 0.05, 0.0),
+        (0.7, 0.05, 0.0),
+    ]);
+    assert_eq!(outcome.onset_time_s, Some(0.2));
+    assert!((outcome.peak_speed_m_s - 0.5).abs() < 1e-15);
+    assert_eq!(outcome.peak_speed_time_s, Some(0.2));
+    assert_eq!(outcome.stop_time_s, Some(0.6), "a pause is no stop");
+    assert!((outcome.displacement_m - 0.05).abs() < 1e-15);
+    assert!((outcome.path_length_m - 0.07).abs() < 1e-15);
+}
+
+#[test]
+fn what_still_moves_has_not_stopped() {
+    let outcome = history(&[(0.1, 0.01, 0.1), (0.2, 0.02, 2e-3)]);
+    assert_eq!(outcome.stop_time_s, None);
+}
+
+// Displacement is horizontal; the path is not.
+#[test]
+fn a_fall_is_no_displacement() {
+    let mut history = BodyHistory::start(&at(0.0, 0.0));
+    let mut fallen = at(0.0, 0.0);
+    fallen.state.position.z = -2.0;
+    history.take_in(&fallen, 0.5);
+    let outcome = history.outcome();
+    assert_eq!((outcome.displacement_m, outcome.path_length_m), (0.0, 2.0));
+    assert_eq!(outcome.onset_time_s, Some(0.5));
+}
