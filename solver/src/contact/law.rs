@@ -83,7 +83,7 @@ impl ContactLaw {
 ///
 /// The impact of a unit mass with unit stiffness, ẍ = −max(0, x^1.5 + η x^¼ ẋ),
 /// is independent of the impact speed but for scale (Tsuji 1992), so one
-/// bisection serves every contact. Restitutions below what [`MAX_DAMPING`]
+/// bisection serves every contact. Restitutions below what `MAX_DAMPING`
 /// gives (about 0.008) get that.
 pub fn damping_number(restitution: f64) -> f64 {
     if restitution >= 1.0 {
