@@ -30,6 +30,8 @@ pub struct Simulation {
     state: State,
     scratch: Scratch,
     pool: Arc<ThreadPool>,
+    /// Why the run can't go on.
+    failed: Option<StepError>,
 }
 
 /// What a checkpoint holds.
@@ -134,6 +136,7 @@ impl Simulation {
             state,
             scratch,
             pool,
+            failed: None,
         }
     }
 
@@ -145,7 +148,8 @@ impl Simulation {
     /// how the run is divided into steps: the bits are those of one call.
     ///
     /// # Errors
-    /// A state that can't be advanced: see [`StepError`].
+    /// A state that can't be advanced: see [`StepError`]. Every later call
+    /// gives the same error.
     pub fn run(
         &mut self,
         until_s: f64,
@@ -153,7 +157,16 @@ impl Simulation {
     ) -> Result<Ending, StepError> {
         let until = until_s.min(self.given.timing.duration);
         while self.state.clock.time < until || self.scratch.in_hand.is_some() {
-            let report = self.advance()?;
+            if let Some(error) = &self.failed {
+                return Err(error.clone());
+            }
+            let report = match self.advance() {
+                Ok(report) => report,
+                Err(error) => {
+                    self.failed = Some(error.clone());
+                    return Err(error);
+                }
+            };
             if observe(self, &report).is_break() {
                 return Ok(Ending::Interrupted);
             }

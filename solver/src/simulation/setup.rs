@@ -95,7 +95,9 @@ impl Setup {
             .iter()
             .map(|body| body.largest_speed() * duration)
             .fold(0.0, f64::max);
-        let flow_travel = flow.limits.flow_courant * flow.limits.cell_size;
+        // A step of a single sub-step may go beyond the flow's Courant number.
+        let cells = flow.limits.flow_courant.max(flow.limits.courant);
+        let flow_travel = cells * flow.limits.cell_size;
         // Twice both, for what speeds up within the step.
         flow.sphere.radius + 2.0 * (flow_travel + body_travel)
     }
