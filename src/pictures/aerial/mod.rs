@@ -100,7 +100,8 @@ fn draw_color_bar(sheet: &Area<'_>, speeds: &SpeedScale) -> Result<(), PictureEr
         let share = (f64::from(index) + 0.5) / f64::from(steps);
         let color = speeds.color(share * speeds.top_m_s);
         let from = (px(left + step * f64::from(index)), px(top));
-        let to = (px(left + step * f64::from(index + 1)), px(top + BAR.1));
+        // To the end of the bar, under those that follow: no seams.
+        let to = (px(left + BAR.0), px(top + BAR.1));
         sheet.draw(&Rectangle::new([from, to], color.filled()))?;
     }
     let beside = text(11.0, &INK).pos(Pos::new(HPos::Right, VPos::Center));
