@@ -56,9 +56,11 @@ impl Simulation {
         }
         let flow_speed = largest(self.state.points.iter().map(|p| p.velocity.norm()));
         let body_speed = largest(self.state.bodies.iter().map(|body| body.largest_speed()));
+        // A body faster than the flow must not jump over points either.
+        let fastest = flow_speed.max(body_speed);
         let substep = flow
             .limits
-            .substep(flow_speed)
+            .substep(fastest)
             .min(flow.contact_substep(&self.state.bodies));
         let limit = flow.limits.shortest_substep();
         if flow.limits.substep(flow_speed) < limit {
@@ -69,9 +71,7 @@ impl Simulation {
                 limit_s: limit,
             });
         }
-        Ok(flow
-            .limits
-            .pace(substep, flow_speed.max(body_speed), remaining))
+        Ok(flow.limits.pace(substep, fastest, remaining))
     }
 
     /// Transfers the points to a new grid.

@@ -108,6 +108,26 @@ fn an_absurd_throw_ends_in_order() {
     }
 }
 
+// A cube thrown at 50 m/s through a flow given a sound of 20 m/s once went half a
+// cell per sub-step, past points it should have struck: the sub-step looked at
+// the points' speed alone.
+#[test]
+fn a_thrown_body_does_not_jump_over_points() {
+    let scene = Scene::impact()
+        .first_body("velocity_m_s", json!([-50.0, 0.0, 0.0]))
+        .set("numerics", "sound_speed_m_s", 20.0)
+        .lasting(0.002);
+    let mut simulation = scene.start();
+    let cell = simulation.cell_size_m();
+    watch(&mut simulation, 0.002, |simulation, report| {
+        let travel = report.substep_s * simulation.bodies()[0].velocity().norm();
+        // The default Courant number.
+        assert!(travel < 0.4 * cell, "{travel} m in one sub-step");
+    })
+    .expect("it runs");
+    assert!(simulation.flow_load(0).touching_points > 0);
+}
+
 #[test]
 fn running_beyond_the_end_changes_nothing() {
     let mut simulation = Scene::impact().lasting(0.02).finished();
