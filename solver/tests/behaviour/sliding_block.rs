@@ -40,7 +40,7 @@ fn acceleration(scene: &Scene, inclination_deg: f64, from_s: f64, to_s: f64) -> 
 }
 
 // Bar: 1 % of g (validation.md). Measured on cells of 0.015 m, in parts of g:
-// +0.2 % at 20°, +0.02 % at 30°, −0.1 % at 45°; over windows half as long the
+// +0.2 to +0.3 % at 20°, +0.03 % at 30°, −0.1 % at 45°; over windows half as long the
 // block's own ringing shows, ±0.4 %.
 #[test]
 fn a_block_slides_at_the_acceleration_of_coulomb() {
