@@ -192,7 +192,7 @@ fn spinning_cube(lattice: &Lattice) -> Vec<Point> {
 }
 
 // Five steps of 0.2 rad, 200 sub-steps each. What stretches the cube are the
-// centrifugal strain ρ (ω R)²/K = 1e-4 and its ringing; without F̂ each step
+// centrifugal strain ρ (ω R)²/K = 1e-4 and its ringing (measured: 2e-5); without F̂ each step
 // would lose 3.9 % of the volume (method.md).
 #[test]
 fn a_spinning_cube_keeps_its_volume() {
@@ -210,7 +210,7 @@ fn a_spinning_cube_keeps_its_volume() {
     assert!(lost < 1e-12, "{lost:e}");
     let tracked: f64 = points.iter().map(|point| point.volume).sum();
     let off = tracked / (512.0 * 0.005f64.powi(3)) - 1.0;
-    assert!(off.abs() < 2e-3, "{off:e}");
+    assert!(off.abs() < 3e-4, "{off:e}");
     // The hull agrees with what is tracked: the corners keep their distance.
     let corner = |id| points.iter().find(|p| p.id == id).map(|p| p.position);
     let diagonal = corner(511)
@@ -219,6 +219,6 @@ fn a_spinning_cube_keeps_its_volume() {
         .expect("both are there");
     let stretched = diagonal.norm() / (0.035 * 3f64.sqrt()) - 1.0;
     let turned = diagonal.y.atan2(diagonal.x) - std::f64::consts::FRAC_PI_4;
-    assert!(stretched.abs() < 2e-2, "{stretched:e}");
-    assert!((turned - 1.0).abs() < 0.03, "{turned}");
+    assert!(stretched.abs() < 1e-3, "{stretched:e}");
+    assert!((turned - 1.0).abs() < 2e-3, "{turned}");
 }
