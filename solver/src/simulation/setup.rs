@@ -24,7 +24,7 @@ const COURANT: f64 = 0.4;
 const FLOW_COURANT: f64 = 0.2;
 /// A flow slower than this share of its expected speed is transferred as
 /// often as if it had that speed.
-const SLOW: f64 = 0.4;
+const SLOW: f64 = 1.0;
 /// Sound speed over expected flow speed: density varies by its inverse square
 /// under steady load.
 const STIFFNESS_FACTOR: f64 = 10.0;
