@@ -77,6 +77,21 @@ pub enum StepError {
         /// Distance behind the wall [m].
         depth_m: f64,
     },
+    /// The core of a body went through a wall: its contact is too soft for
+    /// what presses on it.
+    #[error(
+        "t = {time_s:.6} s: the core of body {body} is {depth_m:.6} m behind the {wall}: its contact with walls is too soft (contact_modulus_pa)"
+    )]
+    BodyBehindWall {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Index of the body in the scenario.
+        body: usize,
+        /// Name of the wall.
+        wall: &'static str,
+        /// Distance behind the wall [m].
+        depth_m: f64,
+    },
 }
 
 impl StepError {
@@ -86,6 +101,7 @@ impl StepError {
             Self::NonFinitePoint { time_s, .. }
             | Self::NonFiniteBody { time_s, .. }
             | Self::TimeStepCollapse { time_s, .. }
+            | Self::BodyBehindWall { time_s, .. }
             | Self::PointBehindWall { time_s, .. } => time_s,
         }
     }

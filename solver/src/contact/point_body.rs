@@ -17,6 +17,32 @@ pub struct PointSphere {
     /// the material resists on one point's cross-section. More would brake the
     /// flow before it touches.
     pub impedance: f64,
+    /// Distance of neighbouring points, l [m].
+    pub spacing: f64,
+}
+
+/// Share of a free body's momentum relative to the flow that damping and
+/// friction of all points that can touch it may take per sub-step: a light body
+/// is carried along, not thrown.
+const LARGEST_BRAKING: f64 = 0.5;
+
+impl PointSphere {
+    /// Points that find room on a body's silhouette, at least one.
+    pub fn most_touching(&self, body: &Body) -> f64 {
+        let radius = body.shape.bounding_radius();
+        (std::f64::consts::PI * (radius / self.spacing).powi(2)).max(1.0)
+    }
+
+    /// Largest damping coefficient of one point on this body [N s/m].
+    fn braking(&self, body: &Body, dt: f64) -> f64 {
+        match body.freedom {
+            Freedom::Fixed => self.impedance,
+            Freedom::Free => {
+                let share = LARGEST_BRAKING * body.mass / (self.most_touching(body) * dt);
+                self.impedance.min(share)
+            }
+        }
+    }
 }
 
 /// A point that may touch a body within the step.
@@ -97,6 +123,7 @@ impl Loads {
         grid: &Grid,
         bodies: &[Body],
         sphere: PointSphere,
+        dt: f64,
     ) {
         for point in self.pushed.drain(..) {
             self.on_points[point] = Vec3::zeros();
@@ -105,6 +132,7 @@ impl Loads {
             bodies.iter().zip(&self.candidates).zip(&mut self.on_bodies)
         {
             *on_body = FlowLoad::default();
+            let braking = sphere.braking(body, dt);
             for candidate in candidates {
                 let point = &points[candidate.point];
                 let stencil = grid.lattice().stencil(&point.position);
@@ -114,7 +142,8 @@ impl Loads {
                     arm: point.position + displacement - body.state.position,
                     velocity,
                     mass: point.mass,
-                    sphere,
+                    radius: sphere.radius,
+                    braking,
                 };
                 if let Some(force) = meeting.force(body, on_body) {
                     self.on_points[candidate.point] += force;
@@ -130,14 +159,16 @@ struct Meeting {
     arm: Vec3,
     velocity: Vec3,
     mass: f64,
-    sphere: PointSphere,
+    radius: f64,
+    /// Largest damping coefficient [N s/m].
+    braking: f64,
 }
 
 impl Meeting {
     /// Force on the point [N], its reverse added to the body; `None` if apart.
     fn force(&self, body: &Body, on_body: &mut FlowLoad) -> Option<Vec3> {
         let closest = body.shape.closest_feature(&body.to_body(&self.arm));
-        let reach = self.sphere.radius + body.shape.sphero_radius();
+        let reach = self.radius + body.shape.sphero_radius();
         let overlap = reach - closest.distance;
         if overlap <= 0.0 {
             return None;
@@ -146,12 +177,14 @@ impl Meeting {
         let relative = self.velocity - body.velocity_at(&self.arm);
         let along = relative.dot(&normal);
         let law = &body.flow_law;
-        let braking = self.sphere.impedance;
-        let damping = law.damping_coefficient(overlap, self.mass).min(braking);
+        let damping = law
+            .damping_coefficient(overlap, self.mass)
+            .min(self.braking);
         let elastic = law.stiffness * overlap * overlap.sqrt();
         let pressed = (elastic - damping * along).max(0.0);
         let sliding = relative - normal * along;
-        let friction = braking.min(law.friction * pressed / sliding.norm().max(f64::MIN_POSITIVE));
+        let slip = sliding.norm().max(f64::MIN_POSITIVE);
+        let friction = self.braking.min(law.friction * pressed / slip);
         let force = normal * pressed - sliding * friction;
 
         on_body.load.add_at(&self.arm, &-force);

@@ -61,12 +61,17 @@ impl BodyHistory {
         }
     }
 
+    /// Beyond the trembling of a body at rest.
+    fn moved(&self) -> bool {
+        self.onset_time.is_some() || self.peak_speed >= REST_SPEED
+    }
+
     pub(super) fn outcome(&self) -> BodyOutcome {
         let way = self.last - self.start;
         BodyOutcome {
             onset_time_s: self.onset_time,
             peak_speed_m_s: self.peak_speed,
-            peak_speed_time_s: self.peak_speed_time,
+            peak_speed_time_s: self.peak_speed_time.filter(|_| self.moved()),
             // At rest since the start is not a stop.
             stop_time_s: self.rest_since.filter(|since| *since > 0.0),
             displacement_m: way.xy().norm(),

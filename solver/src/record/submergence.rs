@@ -7,12 +7,12 @@ use crate::simulation::Simulation;
 /// Sectors of the horizon looked at round a body.
 const SECTORS: usize = 8;
 /// Width of the ring looked at, in cells.
-const RING_CELLS: f64 = 2.0;
+const RING_CELLS: f64 = 1.0;
 
 /// Share of the body's height below the surface of the flow round it, 0..1.
 ///
 /// In each of eight sectors the surface is the highest point within the body's
-/// bounding radius and two cells; the share is the mean over the sectors, so
+/// bounding radius and one cell; the share is the mean over the sectors, so
 /// that one splash does not drown a body.
 pub(super) fn submerged_fraction(simulation: &Simulation, body: &Body) -> f64 {
     let centre = body.state.position;

@@ -57,8 +57,6 @@ pub(super) struct Flow {
     pub limits: Limits,
     /// What points are to bodies.
     pub sphere: PointSphere,
-    /// Distance of neighbouring points [m].
-    pub point_spacing: f64,
 }
 
 impl Setup {
@@ -67,8 +65,11 @@ impl Setup {
         let lattice = resolution::lattice(scenario);
         let walls = walls(channel, &lattice);
         let planes = walls.planes().copied().collect();
-        let flow = match &scenario.flow {
-            Some(flow) if flow.volume_m3 > 0.0 => Some(Flow::of(scenario, flow, &lattice)),
+        let flow = match (&scenario.flow, scenario.release()) {
+            (Some(flow), Some(release)) => {
+                let volume = release::Columns::of(scenario, &lattice, &release)?.volume;
+                Some(Flow::of(scenario, flow, &lattice, volume))
+            }
             _ => None,
         };
         Ok(Self {
@@ -104,10 +105,10 @@ impl Setup {
 }
 
 impl Flow {
-    fn of(scenario: &Scenario, flow: &scenario::Flow, lattice: &Lattice) -> Self {
+    /// `volume` is that of one point [m³].
+    fn of(scenario: &Scenario, flow: &scenario::Flow, lattice: &Lattice, volume: f64) -> Self {
         let material = material(scenario, &flow.material);
         let numerics = &scenario.numerics;
-        let volume = lattice.cell_volume() / f64::from(numerics.points_per_cell);
         let spacing = volume.cbrt();
         Self {
             limits: Limits {
@@ -122,15 +123,15 @@ impl Flow {
             sphere: PointSphere {
                 radius: (3.0 * volume / (4.0 * std::f64::consts::PI)).cbrt(),
                 impedance: material.bulk_density * material.p_wave_speed() * spacing * spacing,
+                spacing,
             },
-            point_spacing: spacing,
         }
     }
 
     /// Law of a body's contacts with points: as stiff at the reference overlap
     /// as a column of material one point wide, M l (equation 22).
     fn contact_law(&self, body: &scenario::Body) -> ContactLaw {
-        let spacing = self.point_spacing;
+        let spacing = self.sphere.spacing;
         let tangent = self.material.p_wave_modulus() * spacing;
         ContactLaw {
             stiffness: tangent / (1.5 * (REFERENCE_OVERLAP * spacing).sqrt()),
@@ -143,9 +144,7 @@ impl Flow {
     pub(super) fn contact_substep(&self, bodies: &[Body]) -> f64 {
         let modulus = self.material.p_wave_modulus();
         let of_body = |body: &Body| {
-            let radius = body.shape.bounding_radius();
-            let area = (std::f64::consts::PI * radius * radius).max(self.point_spacing.powi(2));
-            let stiffness = modulus * area / self.point_spacing;
+            let stiffness = modulus * self.sphere.spacing * self.sphere.most_touching(body);
             BODY_CONTACT_SHARE * (body.mass / stiffness).sqrt()
         };
         bodies

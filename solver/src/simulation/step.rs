@@ -98,7 +98,7 @@ impl Simulation {
         let (given, state, scratch) = (&self.given, &mut self.state, &mut self.scratch);
         if let Some(flow) = &given.flow {
             let (grid, loads) = (&mut scratch.grid, &mut scratch.loads);
-            loads.evaluate(&state.points, grid, &state.bodies, flow.sphere);
+            loads.evaluate(&state.points, grid, &state.bodies, flow.sphere, dt);
             transfer::scatter_forces(&state.points, &scratch.deformations, &loads.on_points, grid);
             grid.advance_momentum(given.gravity, dt);
             let from_walls = given.walls.constrain(&scratch.boundary, grid);
@@ -180,6 +180,7 @@ impl Simulation {
                 });
             }
         }
+        self.look_behind_walls()?;
         let sick = |point: &&Point| point.non_finite().is_some();
         if let Some(point) = self.state.points.par_iter().find_first(sick) {
             return Err(StepError::NonFinitePoint {
@@ -198,6 +199,27 @@ impl Simulation {
                     wall: plane.name,
                     depth_m: -plane.height(&point.position),
                 });
+            }
+        }
+        Ok(())
+    }
+
+    /// A body whose core has gone through a wall was not held by its contacts.
+    fn look_behind_walls(&self) -> Result<(), StepError> {
+        let time_s = self.state.clock.time;
+        for (place, body) in self.state.bodies.iter().enumerate() {
+            for plane in &self.given.planes {
+                let deepest = body.shape.extent_along(&body.to_body(&-plane.normal));
+                let core =
+                    plane.height(&body.state.position) - deepest + body.shape.sphero_radius();
+                if body.freedom == Freedom::Free && core < 0.0 {
+                    return Err(StepError::BodyBehindWall {
+                        time_s,
+                        body: place,
+                        wall: plane.name,
+                        depth_m: -core,
+                    });
+                }
             }
         }
         Ok(())

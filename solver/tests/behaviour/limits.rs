@@ -135,3 +135,90 @@ fn running_beyond_the_end_changes_nothing() {
     run(&mut simulation, 5.0);
     assert_eq!(simulation.save(), saved);
 }
+
+/// A coarse release on the incline, close to a cube.
+fn beside_a_cube(flow: serde_json::Value) -> Scene {
+    Scene::channel(40.0, 0.6, 0.6, 0.2)
+        .flow(flow)
+        .body(json!({
+            "shape": {"cube": {"side_m": 0.06}},
+            "position": {"downstream_m": 0.035},
+        }))
+        .set("numerics", "cell_size_m", 0.03)
+        .lasting(0.1)
+}
+
+// Once a cube of 0.1 kg/m³ flew off at 15 km/s: the friction of the points that
+// touched it could take more momentum per sub-step than the cube had. Nothing
+// here can be faster than a fall through the release.
+#[test]
+fn a_body_lighter_than_air_is_carried_not_thrown() {
+    let flow = json!({"volume_m3": 0.002, "release": {"height_m": 0.08, "toe_distance_m": 0.0}});
+    for friction in [0.4, 10.0] {
+        let mut simulation = Scene::channel(40.0, 0.6, 0.6, 0.2)
+            .flow(flow.clone())
+            .body(json!({
+                "shape": {"cube": {"side_m": 0.06}},
+                "density_kg_m3": 0.1,
+                "flow_friction": friction,
+                "position": {"downstream_m": -0.1},
+            }))
+            .set("numerics", "cell_size_m", 0.03)
+            .lasting(0.05)
+            .start();
+        let mut fastest = 0.0f64;
+        watch(&mut simulation, 0.05, |simulation, _| {
+            fastest = fastest.max(simulation.bodies()[0].velocity().norm());
+        })
+        .expect("the scene runs");
+        assert!(
+            fastest < 2.0 * f64::sqrt(2.0 * 9.81 * 0.08),
+            "{fastest} m/s"
+        );
+    }
+}
+
+// Points of a release much thinner than a cell are as light as it is, and the
+// cube they touch once was as stiff to them as to whole ones: they shot away.
+#[test]
+fn a_release_thinner_than_a_point_stays_slow() {
+    for volume_m3 in [1e-9, 1e-6] {
+        let flow = json!({
+            "volume_m3": volume_m3, "release": {"height_m": 0.08, "toe_distance_m": 0.0}
+        });
+        let simulation = beside_a_cube(flow).finished();
+        let speeds = simulation
+            .points()
+            .iter()
+            .map(|point| point.velocity.norm());
+        let fastest = speeds.fold(0.0, f64::max);
+        // Free fall over the release's height.
+        assert!(fastest < f64::sqrt(2.0 * 9.81 * 0.08), "{fastest} m/s");
+    }
+}
+
+#[test]
+fn a_body_pressed_through_the_floor_ends_the_run() {
+    let scene = Scene::channel(40.0, 0.6, 0.6, 0.2)
+        .body(json!({
+            "shape": {"cube": {"side_m": 0.06}},
+            "contact_modulus_pa": 100.0,
+            "position": {"downstream_m": 0.1},
+        }))
+        .lasting(0.5);
+    let error = scene
+        .start()
+        .run(0.5, |_, _| std::ops::ControlFlow::Continue(()))
+        .unwrap_err();
+    assert!(
+        matches!(
+            error,
+            StepError::BodyBehindWall {
+                body: 0,
+                wall: "floor",
+                ..
+            }
+        ),
+        "{error}"
+    );
+}

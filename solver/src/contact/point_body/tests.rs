@@ -9,6 +9,7 @@ use nalgebra::UnitQuaternion;
 const SPHERE: PointSphere = PointSphere {
     radius: 0.003,
     impedance: 5.0,
+    spacing: 0.005,
 };
 
 fn lattice() -> Lattice {
@@ -54,7 +55,7 @@ fn loads(points: &mut Vec<Point>, velocity: Vec3, body: &Body) -> Loads {
     let bodies = std::slice::from_ref(body);
     let mut loads = Loads::default();
     loads.find_candidates(points, &grid, bodies, 0.01);
-    loads.evaluate(points, &grid, bodies, SPHERE);
+    loads.evaluate(points, &grid, bodies, SPHERE, 1e-5);
     loads
 }
 
@@ -158,10 +159,10 @@ fn forces_of_the_last_sub_step_are_gone() {
     let mut body = cube();
     let mut loads = Loads::default();
     loads.find_candidates(&points, &grid, std::slice::from_ref(&body), 0.01);
-    loads.evaluate(&points, &grid, std::slice::from_ref(&body), SPHERE);
+    loads.evaluate(&points, &grid, std::slice::from_ref(&body), SPHERE, 1e-5);
     assert!(loads.on_points[0].z > 0.0);
     body.state.position.z -= 0.01;
-    loads.evaluate(&points, &grid, &[body], SPHERE);
+    loads.evaluate(&points, &grid, &[body], SPHERE, 1e-5);
     assert_eq!(loads.on_points[0], Vec3::zeros());
     assert_eq!(loads.on_bodies[0], FlowLoad::default());
 }

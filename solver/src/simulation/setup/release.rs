@@ -3,6 +3,7 @@
 
 use super::{Setup, resting_point};
 use crate::error::SetupError;
+use crate::kernel::Lattice;
 use crate::material::Material;
 use crate::math::{Mat3, Sym3, Vec3};
 use crate::points::Point;
@@ -13,11 +14,11 @@ use crate::scenario::{ReleaseBox, Scenario};
 const MOST_POINTS: u64 = 20_000_000;
 
 /// Counts and distances of the release's points.
-struct Columns {
+pub(super) struct Columns {
     count: [u32; 3],
     spacing: Vec3,
     /// Volume of one point [m³].
-    volume: f64,
+    pub(super) volume: f64,
 }
 
 /// Points of the release that overlap no body, and the volume left out.
@@ -29,7 +30,7 @@ pub(in crate::simulation) fn release(
     let (Some(release), Some(flow)) = (scenario.release(), &given.flow) else {
         return Ok((Vec::new(), 0.0));
     };
-    let columns = Columns::of(scenario, given, &release)?;
+    let columns = Columns::of(scenario, &given.lattice, &release)?;
     let slope = scenario.channel.inclination_deg.to_radians();
     let start = Start {
         material: &flow.material,
@@ -66,8 +67,12 @@ pub(in crate::simulation) fn release(
 impl Columns {
     /// As close to the points per cell asked for as whole numbers allow, the
     /// volume being exact: across the channel every cell has the same number.
-    fn of(scenario: &Scenario, given: &Setup, release: &ReleaseBox) -> Result<Self, SetupError> {
-        let cell = given.lattice.spacing;
+    pub(super) fn of(
+        scenario: &Scenario,
+        lattice: &Lattice,
+        release: &ReleaseBox,
+    ) -> Result<Self, SetupError> {
+        let cell = lattice.spacing;
         let per_cell = f64::from(scenario.numerics.points_per_cell);
         let per_cell_across = per_cell.cbrt().round().max(1.0);
         let in_plane = (cell.x * cell.z * per_cell_across / per_cell).sqrt();
