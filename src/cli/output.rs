@@ -14,12 +14,15 @@ pub(super) struct OutputDirectory {
 }
 
 impl OutputDirectory {
-    /// Makes the directory, before any computing, so that a bad name costs no time.
+    /// Makes the directory, before any computing, so that a bad name costs no
+    /// time, and clears it of an earlier run's results: a run that fails must
+    /// not leave them beside its own.
     ///
     /// # Errors
-    /// It can't be made.
+    /// It can't be made or cleared.
     pub(super) fn create(path: &Path) -> Result<Self, Failure> {
         std::fs::create_dir_all(path).map_err(|error| Failure::path("make", path, &error))?;
+        clear(path).map_err(|error| Failure::path("clear", path, &error))?;
         Ok(Self {
             path: path.to_path_buf(),
             written: Vec::new(),
@@ -73,4 +76,21 @@ impl OutputDirectory {
         self.written.push(name.to_owned());
         Ok(())
     }
+}
+
+/// Removes the files a run writes, and no others.
+fn clear(directory: &Path) -> std::io::Result<()> {
+    for entry in std::fs::read_dir(directory)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let is_trajectory = name
+            .strip_prefix("trajectory-")
+            .and_then(|rest| rest.strip_suffix(".json"))
+            .is_some_and(|body| body.parse::<usize>().is_ok());
+        if is_trajectory || ["outcome.json", "motion.svg", "aerial.svg"].contains(&&*name) {
+            std::fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
 }

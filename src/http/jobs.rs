@@ -2,6 +2,7 @@
 
 use super::contract::ScenarioDocument;
 use super::documents::{JobDocument, JobPageDocument};
+use super::named_job::NamedJob;
 use super::problem::Problem;
 use super::query::Query;
 use super::scenario_body::{ScenarioText, malformed};
@@ -10,7 +11,7 @@ use crate::jobs::store::Page;
 use crate::jobs::submit::ScenarioError;
 use crate::jobs::{Dismissed, Jobs, SubmitError};
 use axum::Json;
-use axum::extract::{Path, RawQuery, State};
+use axum::extract::{RawQuery, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
@@ -102,7 +103,7 @@ pub(super) async fn list(
 )]
 pub(super) async fn show(
     State(jobs): State<Jobs>,
-    Path(id): Path<String>,
+    NamedJob(id): NamedJob,
 ) -> Result<Json<JobDocument>, Problem> {
     Ok(Json(find(&jobs, &id).await?.into()))
 }
@@ -124,7 +125,7 @@ pub(super) async fn show(
 )]
 pub(super) async fn dismiss(
     State(jobs): State<Jobs>,
-    Path(id): Path<String>,
+    NamedJob(id): NamedJob,
 ) -> Result<Json<JobDocument>, Problem> {
     match jobs.dismiss(parse_id(&id)?).await? {
         Dismissed::Done(job) => Ok(Json((*job).into())),
@@ -152,7 +153,7 @@ fn parse_id(id: &str) -> Result<JobId, Problem> {
     id.parse().map_err(|_| unknown_job(id))
 }
 
-fn unknown_job(id: &str) -> Problem {
+pub(super) fn unknown_job(id: &str) -> Problem {
     Problem::not_found("unknown-job", format!("there is no job {id}"))
 }
 

@@ -5,6 +5,7 @@
 pub mod contract;
 mod documents;
 mod jobs;
+mod named_job;
 mod problem;
 mod query;
 mod results;

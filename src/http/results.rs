@@ -2,6 +2,7 @@
 
 use super::contract::{FlowSchema, TrajectorySchema};
 use super::jobs::find;
+use super::named_job::NamedJob;
 use super::problem::Problem;
 use super::query::Query;
 use crate::jobs::Jobs;
@@ -10,7 +11,7 @@ use crate::results::flow::FlowDocument;
 use crate::results::json::TrajectoryPieces;
 use axum::Json;
 use axum::body::{Body, Bytes};
-use axum::extract::{Path, RawQuery, State};
+use axum::extract::{RawQuery, State};
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
@@ -38,7 +39,7 @@ use futures_util::stream;
 )]
 pub(super) async fn trajectory(
     State(jobs): State<Jobs>,
-    Path(id): Path<String>,
+    NamedJob(id): NamedJob,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let (body, selection) = read_selection(query.as_deref())?;
@@ -73,7 +74,7 @@ pub(super) async fn trajectory(
 )]
 pub(super) async fn flow(
     State(jobs): State<Jobs>,
-    Path(id): Path<String>,
+    NamedJob(id): NamedJob,
     RawQuery(query): RawQuery,
 ) -> Result<Json<FlowDocument>, Problem> {
     let mut query = Query::new(query.as_deref());

@@ -120,6 +120,14 @@ fn step_numbers(error: &StepError) -> Value {
         } => {
             json!({"time_s": time_s, "point": point, "wall": wall, "depth_m": depth_m})
         }
+        StepError::BodyBehindWall {
+            time_s,
+            body,
+            wall,
+            depth_m,
+        } => {
+            json!({"time_s": time_s, "body": body, "wall": wall, "depth_m": depth_m})
+        }
     }
 }
 

@@ -114,10 +114,18 @@ fn a_scene_beyond_the_point_limit_is_invalid_input() {
 fn a_numerical_failure_has_its_own_exit_code_and_keeps_what_there_is() {
     let scene = Scene::new(&unstable());
     let out = scene.path("results");
+    // An earlier run's outcome must not stand beside this one's trajectory;
+    // files of the user's own stay.
+    std::fs::create_dir_all(&out).unwrap();
+    for name in ["outcome.json", "trajectory-7.json", "notes.json"] {
+        std::fs::write(out.join(name), "{}").unwrap();
+    }
     let answer = ask(&[&"run", &scene.file(), &"--out", &out]);
     assert_eq!((answer.code, answer.stdout.as_str()), (Some(3), ""));
     assert!(answer.stderr.contains("t = "), "{}", answer.stderr);
     let trajectory = json_file(&out.join("trajectory-0.json"));
     assert!(trajectory["columns"]["time_s"].as_array().unwrap().len() > 1);
     assert!(!out.join("outcome.json").exists());
+    assert!(!out.join("trajectory-7.json").exists());
+    assert!(out.join("notes.json").exists());
 }

@@ -22,7 +22,12 @@ async fn what_is_not_there_is_a_problem_document() {
     let app = TestApp::start().await;
     let unknown = "/v1/jobs/01890a5d-ac96-774b-bcce-b302099a8057";
     for path in ["", "/trajectory", "/flow"] {
-        for job in [unknown, "/v1/jobs/17", "/v1/jobs/no-such-job"] {
+        for job in [
+            unknown,
+            "/v1/jobs/17",
+            "/v1/jobs/no-such-job",
+            "/v1/jobs/%ff",
+        ] {
             let answer = app.get(&format!("{job}{path}")).await;
             answer.assert_problem(StatusCode::NOT_FOUND, "unknown-job");
         }

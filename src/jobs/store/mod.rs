@@ -147,7 +147,11 @@ impl Store {
 }
 
 fn lock(database: &Path) -> Result<File, StoreError> {
-    let mut path = database.as_os_str().to_owned();
+    // By its real name, so that a link to it meets the same lock.
+    let real = database
+        .canonicalize()
+        .unwrap_or_else(|_| database.to_owned());
+    let mut path = real.into_os_string();
     path.push(".lock");
     let path = PathBuf::from(path);
     let file = File::options().create(true).append(true).open(&path);
