@@ -13,7 +13,7 @@ use thiserror::Error;
 use tokio::time::timeout;
 
 /// How long a dismissal waits for the run to end, so that its answer shows the
-/// job as it stays. A run stops after the step in hand, well within this.
+/// job as it stays. A run stops after the sub-step in hand, well within this.
 const STOP_WAIT: Duration = Duration::from_millis(450);
 
 /// Jobs, as a client deals with them.

@@ -32,7 +32,7 @@ pub trait Sink {
     fn progress(&mut self, progress: &Progress) -> Result<(), Self::Error>;
 }
 
-/// Asks a run to stop after the step in hand. Raised once, never lowered.
+/// Asks a run to stop after the sub-step in hand. Raised once, never lowered.
 #[derive(Debug, Default)]
 pub struct StopFlag(AtomicBool);
 
