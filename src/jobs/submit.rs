@@ -3,6 +3,7 @@
 use super::job::JobId;
 use scree_solver::scenario::Scenario;
 pub use scree_solver::scenario::{ScenarioError, Violation};
+use scree_solver::{SetupError, Simulation};
 use serde_json::{Value, json};
 
 /// A job that may enter the queue.
@@ -43,10 +44,19 @@ pub fn admit(text: &str, threads_per_worker: usize) -> Result<NewJob, ScenarioEr
 
 fn parse(text: &str, threads_per_worker: usize) -> Result<Scenario, ScenarioError> {
     match Scenario::from_json(text) {
-        Ok(scenario) => match too_many_threads(scenario.numerics.threads, threads_per_worker) {
-            Some(violation) => Err(ScenarioError::Invalid(vec![violation])),
-            None => Ok(scenario),
-        },
+        Ok(scenario) => {
+            let mut violations = Vec::new();
+            violations.extend(too_many_points(&scenario));
+            violations.extend(too_many_threads(
+                scenario.numerics.threads,
+                threads_per_worker,
+            ));
+            if violations.is_empty() {
+                Ok(scenario)
+            } else {
+                Err(ScenarioError::Invalid(violations))
+            }
+        }
         Err(ScenarioError::Invalid(mut violations)) => {
             violations.extend(too_many_threads(
                 threads_asked_for(text),
@@ -55,6 +65,25 @@ fn parse(text: &str, threads_per_worker: usize) -> Result<Scenario, ScenarioErro
             Err(ScenarioError::Invalid(violations))
         }
         Err(malformed) => Err(malformed),
+    }
+}
+
+/// A flow that no run can hold is refused where it is submitted, not when its
+/// turn has come.
+fn too_many_points(scenario: &Scenario) -> Option<Violation> {
+    match Simulation::check(scenario) {
+        Err(
+            error @ SetupError::TooManyPoints {
+                limit, cell_size_m, ..
+            },
+        ) => Some(Violation {
+            pointer: "/numerics/cell_size_m".to_owned(),
+            value: json!(cell_size_m),
+            allowed: format!("cells that lead to at most {limit} material points"),
+            unit: Some("m".to_owned()),
+            detail: error.to_string(),
+        }),
+        Err(SetupError::Threads { .. }) | Ok(()) => None,
     }
 }
 

@@ -63,20 +63,14 @@ async fn the_scenario_comes_back_with_its_defaults_filled_in() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_scenario_that_can_not_be_set_up_fails_with_its_numbers() {
+async fn a_flow_of_too_many_points_is_refused_at_once() {
     let app = TestApp::start().await;
     let mut scene = tiny_scene();
     // 0.0003 m³ in cells of 0.2 mm with 64 points each: 2.4 thousand million points.
     scene["numerics"] = json!({"cell_size_m": 0.0002, "points_per_cell": 64});
-    let job = app.submit(&scene).await;
-    let job = app.wait(&job, has_ended).await;
-    assert_eq!(job["status"], "failed");
-    assert_eq!(job["outcome"], Value::Null);
-    assert_eq!(job["problem"]["type"], "urn:scree:failure:setup");
-    assert!(job["problem"]["points"].as_u64() > job["problem"]["limit"].as_u64());
-    // The worker lives on.
-    let next = app.submit(&tiny_scene()).await;
-    app.wait_for_success(&next).await;
+    let answer = app.post("application/json", scene.to_string()).await;
+    answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-scenario");
+    assert_eq!(answer.wrong_fields(), ["/numerics/cell_size_m"]);
     app.stop().await;
 }
 

@@ -110,6 +110,14 @@ impl Simulation {
         Ok(simulation)
     }
 
+    /// Whether a scenario can be set up, found out without doing it.
+    ///
+    /// # Errors
+    /// Too many points for one run.
+    pub fn check(scenario: &Scenario) -> Result<(), SetupError> {
+        Setup::of(scenario).map(drop)
+    }
+
     fn assemble(
         given: Setup,
         points: Vec<Point>,
