@@ -315,3 +315,17 @@ async fn a_closed_database_leaves_one_file_and_the_lock() {
     names.sort();
     assert_eq!(names, ["test.db", "test.db.lock"]);
 }
+
+// Once a link to the database let a second service take over its jobs.
+#[cfg(unix)]
+#[tokio::test]
+async fn a_database_has_one_service_by_whatever_name() {
+    let fixture = Fixture::new().await;
+    let database = fixture.directory.path().join("test.db");
+    let link = fixture.directory.path().join("link.db");
+    std::os::unix::fs::symlink(&database, &link).unwrap();
+    for name in [database, link] {
+        let second = Store::open(&name).await;
+        assert!(matches!(second, Err(StoreError::InUse(_))), "{name:?}");
+    }
+}
