@@ -181,7 +181,7 @@ fn wall_force(body: &Body, touch: &Touch, dt: f64, spring: &mut Vec3) -> (Vec3, 
     let sliding = velocity - touch.normal * along;
     *spring += sliding * dt;
     let tangential = law.tangential_force(spring, &sliding, (touch.overlap, normal_force, mass));
-    let elastic = 0.4 * law.stiffness * touch.overlap.powf(2.5);
+    let elastic = law.elastic_energy(touch.overlap);
     let stretched = 0.5
         * TANGENTIAL_STIFFNESS_RATIO
         * law.tangent_stiffness(touch.overlap)

@@ -35,8 +35,17 @@ impl ContactLaw {
         if overlap <= 0.0 {
             return 0.0;
         }
-        let elastic = self.stiffness * overlap * overlap.sqrt();
-        (elastic + self.damping_coefficient(overlap, mass) * rate).max(0.0)
+        (self.elastic_force(overlap) + self.damping_coefficient(overlap, mass) * rate).max(0.0)
+    }
+
+    /// k δ^1.5 [N].
+    pub fn elastic_force(&self, overlap: f64) -> f64 {
+        self.stiffness * overlap * overlap.sqrt()
+    }
+
+    /// Energy the overlap holds, 2/5 k δ^2.5 [J].
+    pub fn elastic_energy(&self, overlap: f64) -> f64 {
+        0.4 * self.elastic_force(overlap) * overlap
     }
 
     /// η √(m k) δ^¼ [N s/m].

@@ -180,8 +180,7 @@ impl Meeting {
         let damping = law
             .damping_coefficient(overlap, self.mass)
             .min(self.braking);
-        let elastic = law.stiffness * overlap * overlap.sqrt();
-        let pressed = (elastic - damping * along).max(0.0);
+        let pressed = (law.elastic_force(overlap) - damping * along).max(0.0);
         let sliding = relative - normal * along;
         let slip = sliding.norm().max(f64::MIN_POSITIVE);
         let friction = self.braking.min(law.friction * pressed / slip);
@@ -190,7 +189,7 @@ impl Meeting {
         on_body.load.add_at(&self.arm, &-force);
         on_body.touching_points += 1;
         on_body.deepest_overlap_ratio = on_body.deepest_overlap_ratio.max(overlap / reach);
-        on_body.energy += 0.4 * elastic * overlap;
+        on_body.energy += law.elastic_energy(overlap);
         Some(force)
     }
 }

@@ -103,7 +103,7 @@ impl Simulation {
         let pool = start_threads(threads)?;
         let given = Setup::of(scenario)?;
         let bodies = setup::bodies(scenario, &given);
-        let (points, volume_left_out) = setup::release(scenario, &given, &bodies)?;
+        let (points, volume_left_out) = setup::release(scenario, &given, &bodies);
         let mut simulation = Self::assemble(given, points, bodies, pool);
         simulation.state.clock.volume_left_out = volume_left_out;
         simulation.start_audit();

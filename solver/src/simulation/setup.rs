@@ -16,6 +16,7 @@ use crate::walls::{Plane, Upright, Walls};
 mod release;
 mod resolution;
 
+use release::Columns;
 pub(super) use release::release;
 
 /// Default Courant number of the sub-step.
@@ -57,6 +58,8 @@ pub(super) struct Flow {
     pub limits: Limits,
     /// What points are to bodies.
     pub sphere: PointSphere,
+    /// How the release is divided into points.
+    columns: Columns,
 }
 
 impl Setup {
@@ -67,8 +70,8 @@ impl Setup {
         let planes = walls.planes().copied().collect();
         let flow = match (&scenario.flow, scenario.release()) {
             (Some(flow), Some(release)) => {
-                let volume = release::Columns::of(scenario, &lattice, &release)?.volume;
-                Some(Flow::of(scenario, flow, &lattice, volume))
+                let columns = Columns::of(scenario, &lattice, &release)?;
+                Some(Flow::of(scenario, flow, &lattice, columns))
             }
             _ => None,
         };
@@ -105,10 +108,10 @@ impl Setup {
 }
 
 impl Flow {
-    /// `volume` is that of one point [m³].
-    fn of(scenario: &Scenario, flow: &scenario::Flow, lattice: &Lattice, volume: f64) -> Self {
+    fn of(scenario: &Scenario, flow: &scenario::Flow, lattice: &Lattice, columns: Columns) -> Self {
         let material = material(scenario, &flow.material);
         let numerics = &scenario.numerics;
+        let volume = columns.volume;
         let spacing = volume.cbrt();
         Self {
             limits: Limits {
@@ -125,6 +128,7 @@ impl Flow {
                 impedance: material.bulk_density * material.p_wave_speed() * spacing * spacing,
                 spacing,
             },
+            columns,
         }
     }
 

@@ -14,6 +14,7 @@ use crate::scenario::{ReleaseBox, Scenario};
 const MOST_POINTS: u64 = 20_000_000;
 
 /// Counts and distances of the release's points.
+#[derive(Debug)]
 pub(super) struct Columns {
     count: [u32; 3],
     spacing: Vec3,
@@ -26,11 +27,11 @@ pub(in crate::simulation) fn release(
     scenario: &Scenario,
     given: &Setup,
     bodies: &[Body],
-) -> Result<(Vec<Point>, f64), SetupError> {
+) -> (Vec<Point>, f64) {
     let (Some(release), Some(flow)) = (scenario.release(), &given.flow) else {
-        return Ok((Vec::new(), 0.0));
+        return (Vec::new(), 0.0);
     };
-    let columns = Columns::of(scenario, &given.lattice, &release)?;
+    let columns = &flow.columns;
     let slope = scenario.channel.inclination_deg.to_radians();
     let start = Start {
         material: &flow.material,
@@ -61,7 +62,7 @@ pub(in crate::simulation) fn release(
             }
         }
     }
-    Ok((points, left_out))
+    (points, left_out)
 }
 
 impl Columns {
