@@ -1,6 +1,6 @@
 //! `scree demo`: the whole way through a service and back.
 
-use crate::command::{Scene, ask, json_file, tiny, unstable};
+use crate::command::{Answer, Scene, ask, json_file, tiny, unstable};
 
 /// Through HTTP, queue, worker and database comes what the solver computes
 /// here, to the last bit.
@@ -41,11 +41,16 @@ fn the_service_gives_what_a_local_run_gives() {
     }
 }
 
+/// The demo on another scene, its results beside the scene's file.
+fn demo_of(scene: &Scene) -> Answer {
+    let (file, out) = (scene.file(), scene.path("results"));
+    ask(&[&"demo", &"--scenario", &file, &"--out", &out])
+}
+
 #[test]
 fn an_illegal_scenario_is_told_without_a_service() {
     let scene = Scene::new(&serde_json::json!({"channel": {}}));
-    let out = scene.path("results");
-    let answer = ask(&[&"demo", &"--scenario", &scene.file(), &"--out", &out]);
+    let answer = demo_of(&scene);
     assert_eq!((answer.code, answer.stdout.as_str()), (Some(2), ""));
     assert!(answer.stderr.contains("/channel"), "{}", answer.stderr);
     assert!(!answer.stderr.contains("service on"), "{}", answer.stderr);
@@ -54,13 +59,7 @@ fn an_illegal_scenario_is_told_without_a_service() {
 #[test]
 fn a_numerical_failure_has_its_own_exit_code() {
     let scene = Scene::new(&unstable());
-    let answer = ask(&[
-        &"demo",
-        &"--scenario",
-        &scene.file(),
-        &"--out",
-        &scene.path("results"),
-    ]);
+    let answer = demo_of(&scene);
     assert_eq!((answer.code, answer.stdout.as_str()), (Some(3), ""));
     assert!(answer.stderr.contains("error: t = "), "{}", answer.stderr);
 }
@@ -70,13 +69,7 @@ fn a_scene_beyond_the_point_limit_is_invalid_input() {
     let mut scenario = tiny();
     scenario["numerics"]["cell_size_m"] = serde_json::json!(1e-4);
     let scene = Scene::new(&scenario);
-    let answer = ask(&[
-        &"demo",
-        &"--scenario",
-        &scene.file(),
-        &"--out",
-        &scene.path("results"),
-    ]);
+    let answer = demo_of(&scene);
     assert_eq!((answer.code, answer.stdout.as_str()), (Some(2), ""));
     assert!(answer.stderr.contains("cell_size_m"), "{}", answer.stderr);
 }
