@@ -3,7 +3,9 @@
 use scree_solver::record::{
     Audit, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, Mode, Outcome, Sample,
 };
-use scree_solver::scenario::{Body, Channel, Flow, Material, Numerics, Position, Release};
+use scree_solver::scenario::{
+    Body, Channel, Flow, Material, Numerics, Position, Precision, Release,
+};
 use scree_solver::scenario::{Scenario, Shape};
 
 pub(super) fn cube(side_m: f64, sphero_radius_m: f64) -> Body {
@@ -135,6 +137,7 @@ pub(super) fn scenario(bodies: Vec<Body>) -> Scenario {
             sound_speed_m_s: None,
             courant: None,
             flow_courant: None,
+            precision: Precision::Single,
             threads: None,
         },
     }

@@ -38,6 +38,7 @@ async fn every_broken_rule_is_named_by_its_pointer() {
         ("/sample_interval_s", json!(0)),
         ("/numerics/points_per_cell", json!(0)),
         ("/numerics/courant", json!(2)),
+        ("/numerics/precision", json!("half")),
         ("/numerics/solver", json!("fast")),
         ("/colour", json!("red")),
     ] {

@@ -59,6 +59,7 @@ async fn the_scenario_comes_back_with_its_defaults_filled_in() {
         Value::Null
     );
     assert_eq!(scenario["numerics"]["courant"], Value::Null);
+    assert_eq!(scenario["numerics"]["precision"], "single");
     app.stop().await;
 }
 

@@ -174,8 +174,22 @@ pub struct Numerics {
     pub courant: Option<f64>,
     /// Courant number of the flow's own step.
     pub flow_courant: Option<f64>,
+    /// Arithmetic of points and grid.
+    pub precision: Precision,
     /// Solver threads.
     pub threads: Option<usize>,
+}
+
+/// Arithmetic of the flow, its points and its grid; bodies, time and audits are
+/// in f64 either way. As JSON `"single"` or `"double"`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Precision {
+    /// The fast path, in f32.
+    #[default]
+    Single,
+    /// The plain reference path, in f64.
+    Double,
 }
 
 /// One violated rule of a scenario.

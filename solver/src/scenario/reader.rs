@@ -164,6 +164,29 @@ impl<'a> Object<'a> {
         }
     }
 
+    /// One of a few words, each with what it stands for.
+    pub(super) fn choice<T: Copy>(
+        &self,
+        key: &'static str,
+        choices: &[(&str, T)],
+        default: T,
+    ) -> Option<T> {
+        let Some(node) = self.member(key) else {
+            return Some(default);
+        };
+        let allowed = choice_words(choices);
+        let why = match node {
+            Node::Text(text) => match choices.iter().find(|(word, _)| word == text) {
+                Some((_, meaning)) => return Some(*meaning),
+                None => format!("is {}, not {allowed}", node.excerpt()),
+            },
+            _ => format!("must be {allowed}"),
+        };
+        self.report
+            .refuse(&self.pointer_to(key), &allowed, None, &why);
+        None
+    }
+
     /// A list of N numbers, each under the rule.
     pub(super) fn vector<const N: usize>(&self, rule: &Rule) -> Option<[f64; N]> {
         match (self.member(rule.key), rule.default) {
@@ -219,6 +242,15 @@ impl<'a> Object<'a> {
         self.report.refuse(pointer, &words, rule.unit, &why);
         None
     }
+}
+
+/// `"this" or "that"`.
+pub(super) fn choice_words<T>(choices: &[(&str, T)]) -> String {
+    let words: Vec<String> = choices
+        .iter()
+        .map(|(word, _)| format!("\"{word}\""))
+        .collect();
+    words.join(" or ")
 }
 
 fn list_words<const N: usize>(range: &Range) -> String {

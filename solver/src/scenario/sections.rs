@@ -4,7 +4,11 @@ use super::agreement::ascend;
 use super::node::Node;
 use super::reader::Object;
 use super::rules::*;
-use super::{Channel, Flow, Material, Numerics, Release};
+use super::{Channel, Flow, Material, Numerics, Precision, Release};
+
+/// Words for the precision.
+pub(super) const PRECISIONS: [(&str, Precision); 2] =
+    [("single", Precision::Single), ("double", Precision::Double)];
 
 pub(super) fn read_title(object: &Object<'_>) -> Option<String> {
     match object.member("title") {
@@ -105,6 +109,7 @@ pub(super) fn read_numerics(parent: &Object<'_>) -> Option<Numerics> {
     let sound_speed_m_s = object.automatic(&SOUND_SPEED);
     let courant = object.automatic(&COURANT);
     let flow_courant = object.automatic(&FLOW_COURANT);
+    let precision = object.choice("precision", &PRECISIONS, Precision::default());
     let threads = object.automatic_count(&THREADS);
     object.refuse_unknown();
     Some(Numerics {
@@ -113,6 +118,7 @@ pub(super) fn read_numerics(parent: &Object<'_>) -> Option<Numerics> {
         sound_speed_m_s: sound_speed_m_s?,
         courant: courant?,
         flow_courant: flow_courant?,
+        precision: precision?,
         threads: threads?.map(|threads| threads as usize),
     })
 }

@@ -207,6 +207,20 @@ pub struct NumericsDocument {
     pub courant: Option<f64>,
     /// Courant number of the flow's own step.
     pub flow_courant: Option<f64>,
+    /// Arithmetic of points and grid.
+    #[schema(required = false)]
+    pub precision: PrecisionDocument,
     /// Solver threads; at most those of a worker.
     pub threads: Option<u32>,
+}
+
+/// Arithmetic of points and grid; bodies, time and audits are in 64 bits.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = Precision)]
+pub enum PrecisionDocument {
+    /// 32 bits, the faster one.
+    Single,
+    /// 64 bits, the reference.
+    Double,
 }

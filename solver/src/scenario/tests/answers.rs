@@ -42,6 +42,23 @@ fn all_at_once_in_document_order() {
 }
 
 #[test]
+fn a_wrong_word_is_named_with_the_right_ones() {
+    let found = refused(&with("/numerics/precision", json!("half")));
+    assert_eq!(found[0].value, json!("half"));
+    assert_eq!(found[0].allowed, r#""single" or "double""#);
+    assert_eq!(found[0].unit, None);
+    assert_eq!(
+        found[0].detail,
+        r#"numerics.precision is "half", not "single" or "double"."#
+    );
+    let found = refused(&with("/numerics/precision", json!(32)));
+    assert_eq!(
+        found[0].detail,
+        r#"numerics.precision must be "single" or "double"."#
+    );
+}
+
+#[test]
 fn geometry_is_judged_even_when_something_else_is_wrong() {
     let mut scenario = with("/gravity_m_s2", json!("heavy"));
     set(&mut scenario, "/bodies/0/position/lateral_m", json!(1));
@@ -120,6 +137,9 @@ fn answers_stay_small() {
     let found = refused(&scenario);
     assert_eq!(found.len(), 501);
     assert!(found[500].detail.contains("500 further"));
+
+    let found = refused(&with("/numerics/precision", json!("x".repeat(100_000))));
+    assert!(found[0].detail.chars().count() < 400);
 
     let found = refused(&with("/title", json!(vec![1; 20_001])));
     assert_eq!((found.len(), found[0].pointer.as_str()), (1, ""));

@@ -1,7 +1,7 @@
 //! Defaults, and what is legal at the edges.
 
 use super::{accepted, minimal, set, with};
-use crate::scenario::Scenario;
+use crate::scenario::{Precision, Scenario};
 use serde_json::{Value, json};
 
 #[test]
@@ -24,7 +24,7 @@ fn the_minimal_scenario_has_the_documented_defaults() {
                     "contact_modulus_pa": null, "fixed": false}],
         "gravity_m_s2": 9.81, "duration_s": 3.0, "sample_interval_s": 0.01, "flow_snapshots": 6,
         "numerics": {"cell_size_m": null, "points_per_cell": 8, "sound_speed_m_s": null,
-                     "courant": null, "flow_courant": null, "threads": null}
+                     "courant": null, "flow_courant": null, "precision": "single", "threads": null}
     });
     let filled = serde_json::to_value(accepted(&minimal())).unwrap();
     assert_eq!(filled, expected);
@@ -35,6 +35,19 @@ fn the_filled_scenario_reads_back_equal() {
     let scenario = accepted(&minimal());
     let text = serde_json::to_string(&scenario).unwrap();
     assert_eq!(Scenario::from_json(&text), Ok(scenario));
+}
+
+#[test]
+fn precision_is_read_and_written_by_its_word() {
+    for (word, precision) in [("single", Precision::Single), ("double", Precision::Double)] {
+        let scenario = accepted(&with("/numerics/precision", json!(word)));
+        assert_eq!(scenario.numerics.precision, precision);
+        let text = scenario.to_json();
+        assert!(text.contains(&format!(r#""precision":"{word}""#)), "{text}");
+        assert_eq!(Scenario::from_json(&text), Ok(scenario));
+    }
+    let unsaid = accepted(&minimal()).numerics.precision;
+    assert_eq!(unsaid, Precision::Single);
 }
 
 #[test]
@@ -72,6 +85,8 @@ fn hard_cases_are_legal() {
         ("/numerics/cell_size_m", json!(0.16)),
         ("/numerics/cell_size_m", json!(0.00125)),
         ("/numerics/points_per_cell", json!(1)),
+        ("/numerics/precision", json!("single")),
+        ("/numerics/precision", json!("double")),
         ("/numerics/threads", json!(3)),
         ("/numerics/flow_courant", json!(1)),
         ("/title", json!("Größe ✓")),

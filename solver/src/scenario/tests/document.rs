@@ -2,7 +2,9 @@
 
 use super::{accepted, minimal};
 use crate::scenario::range::Rule;
+use crate::scenario::reader::choice_words;
 use crate::scenario::rules::*;
+use crate::scenario::sections::PRECISIONS;
 use serde_json::Value;
 
 const DOCUMENT: &str = include_str!("../../../../docs/scenario.md");
@@ -141,6 +143,13 @@ fn counts_are_those_of_the_code() {
     assert!(row("bodies[].orientation")[4].contains(&format!("within {QUATERNION_SLACK}")));
     assert!(DOCUMENT.contains("a thousandth of the sphero radius") && TOUCHING == 1e-3);
     assert!(row("bodies[].sphero_radius_m")[3].contains("1/20") && SIZE_PER_SPHERO_RADIUS == 20.0);
+}
+
+#[test]
+fn words_are_those_of_the_code() {
+    let [_, _, unit, _, allowed] = row("numerics.precision");
+    assert_eq!(unit, "–");
+    assert_eq!(allowed.replace('`', ""), choice_words(&PRECISIONS));
 }
 
 #[test]
