@@ -27,12 +27,11 @@ pub struct Totals {
     pub kinetic_energy: f64,
     /// Kinetic, potential and elastic energy [J].
     pub energy: f64,
-    /// Largest speed [m/s].
-    pub largest_speed: f64,
 }
 
 impl Totals {
-    fn plus(mut self, other: &Self) -> Self {
+    /// Both together.
+    pub fn plus(mut self, other: &Self) -> Self {
         self.mass += other.mass;
         self.first_moment += other.first_moment;
         self.momentum.linear += other.momentum.linear;
@@ -40,7 +39,6 @@ impl Totals {
         self.momentum_scale += other.momentum_scale;
         self.kinetic_energy += other.kinetic_energy;
         self.energy += other.energy;
-        self.largest_speed = self.largest_speed.max(other.largest_speed);
         self
     }
 
@@ -75,7 +73,6 @@ impl Totals {
             momentum_scale: point.mass * speed,
             kinetic_energy,
             energy: kinetic_energy + potential + point.elastic_energy(material),
-            largest_speed: speed,
         }
     }
 
@@ -102,14 +99,12 @@ impl Totals {
             momentum_scale: state.momentum.norm(),
             kinetic_energy,
             energy: kinetic_energy + potential + state.wall_energy,
-            largest_speed: body.largest_speed(),
         }
     }
 }
 
-/// Sums of the flow that move with it through the sub-steps of a step, while
-/// the points' own state stands still.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// Sums of the flow that move with it from one audit to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct FlowMoments {
     mass: f64,
     /// Σ m x [kg m].
@@ -119,13 +114,20 @@ pub struct FlowMoments {
 }
 
 impl FlowMoments {
-    /// At the start of a step.
+    /// At an audit.
     pub fn of(flow: &Totals) -> Self {
         Self {
             mass: flow.mass,
             first_moment: flow.first_moment,
             momentum: flow.momentum.linear,
         }
+    }
+
+    /// Takes out what left.
+    pub fn lose(&mut self, gone: &Totals) {
+        self.mass -= gone.mass;
+        self.first_moment -= gone.first_moment;
+        self.momentum -= gone.momentum.linear;
     }
 
     /// Impulse of gravity in `dt`.
@@ -184,6 +186,11 @@ impl Audit {
         self.expected.angular += impulse.angular;
         self.exchanged.0 += impulse.linear.norm();
         self.exchanged.1 += impulse.angular.norm();
+    }
+
+    /// Takes in how deep a point and a body overlapped, δ/(R_p + r).
+    pub fn meet(&mut self, overlap_ratio: f64) {
+        self.deepest_overlap_ratio = self.deepest_overlap_ratio.max(overlap_ratio);
     }
 
     /// Takes in points that left by the open end.

@@ -108,8 +108,11 @@ impl StepError {
 }
 
 /// A state that can't be saved now.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[derive(Debug, Clone, PartialEq, Error)]
 pub enum SaveError {
+    /// The run can't go on from here.
+    #[error("a run that failed is not saved: {0}")]
+    Failed(StepError),
     /// Some of a step's sub-steps are still to come.
     #[error("t = {time_s:.6} s: amid a step; save where a step ended")]
     AmidStep {

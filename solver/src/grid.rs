@@ -128,9 +128,22 @@ impl Grid {
         &self.point_blocks
     }
 
+    /// The blocks of nodes, sorted.
+    pub fn node_blocks(&self) -> &[BlockKey] {
+        &self.node_blocks
+    }
+
     /// All nodes, block after block.
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.nodes.capacity() * size_of::<Node>()
+            + self.tiles.capacity() * size_of::<Tile>()
+            + self.point_blocks.capacity() * size_of::<PointBlock>()
+            + self.sources.capacity() * size_of::<(BlockKey, [u32; 8])>()
     }
 
     /// A node by its place.

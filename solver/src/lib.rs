@@ -11,6 +11,7 @@
 pub mod contact;
 pub mod diagnostics;
 pub mod error;
+pub mod fast;
 pub mod grid;
 pub mod kernel;
 pub mod material;
@@ -26,7 +27,8 @@ pub mod transfer;
 pub mod walls;
 
 pub use error::{RestoreError, SaveError, SetupError, StepError};
-pub use simulation::{Ending, Simulation, SubstepReport};
+pub use fast::instructions::Instructions;
+pub use simulation::{Ending, LapWatch, Simulation, SubstepReport, Verb};
 
 /// Version of this crate, part of every answer.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -6,10 +6,64 @@
 //! exactly (docs/method.md, equation 28). Incline and floor stop inflow at the
 //! nodes on and below them (equation 29).
 
-use crate::grid::Grid;
+use crate::grid::{BLOCK, BLOCK_NODES, BlockKey, Grid};
+use crate::kernel::Lattice;
 use crate::math::Vec3;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
+
+/// Groups of nodes one task takes.
+const TASK: usize = 128;
+
+/// The nodes of a grid, by their places: block by block, within a block along z
+/// first.
+pub trait NodeAccess: Sync {
+    /// Where the nodes lie.
+    fn lattice(&self) -> &Lattice;
+    /// The blocks of nodes.
+    fn blocks(&self) -> &[BlockKey];
+    /// Place of node (i, j, k), if its block is there.
+    fn place_of(&self, index: [i32; 3]) -> Option<usize>;
+    /// Mass [kg].
+    fn mass(&self, place: usize) -> f64;
+    /// Velocity [m/s].
+    fn velocity(&self, place: usize) -> Vec3;
+    /// Displacement at the start of the sub-step of `dt` [m].
+    fn displacement(&self, place: usize, dt: f64) -> Vec3;
+    /// Gives a node the velocity [m/s] with which it moves through the sub-step.
+    fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64);
+}
+
+impl NodeAccess for Grid {
+    fn lattice(&self) -> &Lattice {
+        self.lattice()
+    }
+
+    fn blocks(&self) -> &[BlockKey] {
+        self.node_blocks()
+    }
+
+    fn place_of(&self, index: [i32; 3]) -> Option<usize> {
+        self.place_of(index)
+    }
+
+    fn mass(&self, place: usize) -> f64 {
+        self.nodes()[place].mass
+    }
+
+    fn velocity(&self, place: usize) -> Vec3 {
+        self.nodes()[place].velocity
+    }
+
+    fn displacement(&self, place: usize, _: f64) -> Vec3 {
+        self.nodes()[place].displacement
+    }
+
+    fn set_velocity(&mut self, place: usize, velocity: &Vec3, _: f64) {
+        self.node_mut(place).velocity = *velocity;
+    }
+}
 
 /// A wall's surface; the channel lies on the side its normal points to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,6 +127,8 @@ struct Member {
     place: u32,
     /// +1, or −1 where the image is mirrored, for x and y.
     sign: [f64; 2],
+    /// Where it lies at the transfer [m].
+    resting: Vec3,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -82,6 +138,12 @@ struct Group {
     side: Meets,
     /// Which base planes it is on or below, as bits.
     below: u8,
+}
+
+impl Group {
+    fn is_upright(&self) -> bool {
+        self.back != Meets::Not || self.side != Meets::Not
+    }
 }
 
 /// How a group of nodes meets an upright wall; `inward` is the sign of the
@@ -104,6 +166,17 @@ enum Meets {
 pub struct Boundary {
     members: Vec<Member>,
     groups: Vec<Group>,
+    /// What a sub-step does to each group.
+    answers: Vec<Answer>,
+}
+
+/// What walls do to a group.
+#[derive(Debug, Clone, Copy, Default)]
+struct Answer {
+    /// Velocity in the frame of the first member [m/s]; `None` if it stays.
+    velocity: Option<Vec3>,
+    /// Impulse given.
+    impulse: Impulse,
 }
 
 impl Walls {
@@ -113,43 +186,79 @@ impl Walls {
     }
 
     /// Finds the nodes that walls act on.
-    pub fn find_boundary(&self, grid: &Grid, boundary: &mut Boundary) {
+    pub fn find_boundary(&self, nodes: &impl NodeAccess, boundary: &mut Boundary) {
         boundary.members.clear();
         boundary.groups.clear();
-        for (place, node) in grid.nodes().iter().enumerate() {
-            let index = grid.index_of(place);
-            if self.upright.mirrored(index) == index {
-                self.add_group(grid, place, node.mass, index, boundary);
+        for (block, key) in nodes.blocks().iter().enumerate() {
+            let first = key.map(|k| k * BLOCK as i32);
+            if !self.may_act_in(nodes.lattice(), first) {
+                continue;
+            }
+            for local in 0..BLOCK_NODES {
+                let along = [
+                    local / (BLOCK * BLOCK),
+                    local / BLOCK % BLOCK,
+                    local % BLOCK,
+                ];
+                let index = [0, 1, 2].map(|axis| first[axis] + along[axis] as i32);
+                let place = block * BLOCK_NODES + local;
+                // An empty node counts where its images may not be empty.
+                let counts = nodes.mass(place) > 0.0 || self.upright.has_images(index);
+                if counts && self.upright.mirrored(index) == index {
+                    self.add_group(nodes, place, index, boundary);
+                }
             }
         }
+        boundary
+            .answers
+            .resize(boundary.groups.len(), Answer::default());
+    }
+
+    /// Whether walls may act on a node of the block that starts at `first`.
+    fn may_act_in(&self, lattice: &Lattice, first: [i32; 3]) -> bool {
+        let last = first.map(|along| along + BLOCK as i32 - 1);
+        let upright = first[0] <= 1 || first[1] <= 1 || last[1] >= self.upright.cells_across - 1;
+        let (low, high) = (lattice.position(first), lattice.position(last));
+        // The lowest of a box's corners above a plane.
+        let lowest =
+            |plane: &Plane| {
+                let corner = plane
+                    .normal
+                    .zip_zip_map(&low, &high, |n, low, high| if n > 0.0 { low } else { high });
+                plane.height(&corner)
+            };
+        let margin = 1e-6 * lattice.finest_spacing();
+        upright || self.base.iter().any(|plane| lowest(plane) <= margin)
     }
 
     fn add_group(
         &self,
-        grid: &Grid,
+        nodes: &impl NodeAccess,
         place: usize,
-        mass: f64,
         index: [i32; 3],
         boundary: &mut Boundary,
     ) {
-        let below = self.below(&grid.lattice().position(index));
+        let resting = nodes.lattice().position(index);
+        let below = self.below(&resting);
         let start = boundary.members.len();
         boundary.members.push(Member {
             place: place as u32,
             sign: [1.0, 1.0],
+            resting,
         });
         self.upright
-            .for_each_image(index, |image, sign| match grid.place_of(image) {
-                Some(place) if grid.nodes()[place].mass > 0.0 => boundary.members.push(Member {
+            .for_each_image(index, |image, sign| match nodes.place_of(image) {
+                Some(place) if nodes.mass(place) > 0.0 => boundary.members.push(Member {
                     place: place as u32,
                     sign,
+                    resting: nodes.lattice().position(image),
                 }),
                 _ => {}
             });
         let back = self.upright.meets_back(index);
         let side = self.upright.meets_side(index);
         let plain = below == 0 && back == Meets::Not && side == Meets::Not;
-        let empty = mass <= 0.0 && boundary.members.len() == start + 1;
+        let empty = nodes.mass(place) <= 0.0 && boundary.members.len() == start + 1;
         if plain || empty {
             boundary.members.truncate(start);
             return;
@@ -172,30 +281,87 @@ impl Walls {
             .fold(0, |bits, (which, _)| bits | 1 << which)
     }
 
-    /// Makes node velocities obey the walls: mirrors at the upright ones, no
-    /// inflow and free separation at the base, Coulomb friction at both. Returns
-    /// the impulse given to the flow.
-    pub fn constrain(&self, boundary: &Boundary, grid: &mut Grid) -> Impulse {
+    /// Makes node velocities obey the walls for a sub-step of `dt` [s]: mirrors
+    /// at the upright ones, no inflow and free separation at the base, Coulomb
+    /// friction at both. Returns the impulse given to the flow.
+    pub fn constrain(
+        &self,
+        boundary: &mut Boundary,
+        nodes: &mut impl NodeAccess,
+        dt: f64,
+    ) -> Impulse {
+        let Boundary {
+            members,
+            groups,
+            answers,
+        } = boundary;
+        let seen: &_ = nodes;
+        answers
+            .par_iter_mut()
+            .zip(&*groups)
+            .with_min_len(TASK)
+            .for_each(|(answer, group)| {
+                *answer = self.answer(group, &members[group.members.clone()], seen, dt);
+            });
         let mut given = Impulse::default();
-        for group in &boundary.groups {
-            let members = &boundary.members[group.members.clone()];
-            let velocity = self.velocity_of(group, members, grid);
-            for member in members {
-                let place = member.place as usize;
-                let resting = grid.lattice().position(grid.index_of(place));
-                let node = grid.node_mut(place);
-                let new = mirrored(&velocity, member.sign);
-                let impulse = (new - node.velocity) * node.mass;
-                given.add_at(&(resting + node.displacement), &impulse);
-                node.velocity = new;
+        for (answer, group) in answers.iter().zip(groups) {
+            let Some(velocity) = answer.velocity else {
+                continue;
+            };
+            given.linear += answer.impulse.linear;
+            given.angular += answer.impulse.angular;
+            for member in &members[group.members.clone()] {
+                let velocity = mirrored(&velocity, member.sign);
+                nodes.set_velocity(member.place as usize, &velocity, dt);
             }
         }
         given
     }
 
+    fn answer(
+        &self,
+        group: &Group,
+        members: &[Member],
+        nodes: &impl NodeAccess,
+        dt: f64,
+    ) -> Answer {
+        let velocity = self.velocity_of(group, members, nodes);
+        if let [only] = members
+            && velocity == nodes.velocity(only.place as usize)
+        {
+            return Answer::default();
+        }
+        let mut impulse = Impulse::default();
+        for member in members {
+            let place = member.place as usize;
+            let change = mirrored(&velocity, member.sign) - nodes.velocity(place);
+            let present = member.resting + nodes.displacement(place, dt);
+            impulse.add_at(&present, &(change * nodes.mass(place)));
+        }
+        Answer {
+            velocity: Some(velocity),
+            impulse,
+        }
+    }
+
     /// Common velocity of a group in the frame of its first member.
-    fn velocity_of(&self, group: &Group, members: &[Member], grid: &Grid) -> Vec3 {
-        let folded = Folded::of(members, grid);
+    fn velocity_of(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Vec3 {
+        let mut velocity = match members {
+            [only] if !group.is_upright() => nodes.velocity(only.place as usize),
+            _ => self.between_uprights(group, members, nodes),
+        };
+        let against_back_wall = matches!(group.back, Meets::On { .. });
+        for (which, plane) in self.base.iter().enumerate() {
+            if group.below & 1 << which != 0 {
+                constrain_to(plane, against_back_wall, &mut velocity);
+            }
+        }
+        velocity
+    }
+
+    /// Common velocity of a group that meets an upright wall, but for the base.
+    fn between_uprights(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Vec3 {
+        let folded = Folded::of(members, nodes);
         let mut velocity = folded.momentum / folded.mass;
         for (axis, meets) in [(0, group.back), (1, group.side)] {
             let inward = match meets {
@@ -211,12 +377,6 @@ impl Walls {
             let pressed = (after - folded.unfolded[axis]) * inward;
             if friction > 0.0 && pressed > 0.0 {
                 rub(axis, friction * pressed / folded.mass, &mut velocity);
-            }
-        }
-        let against_back_wall = matches!(group.back, Meets::On { .. });
-        for (which, plane) in self.base.iter().enumerate() {
-            if group.below & 1 << which != 0 {
-                constrain_to(plane, against_back_wall, &mut velocity);
             }
         }
         velocity
@@ -235,7 +395,7 @@ struct Folded {
 }
 
 impl Folded {
-    fn of(members: &[Member], grid: &Grid) -> Self {
+    fn of(members: &[Member], nodes: &impl NodeAccess) -> Self {
         let mut folded = Self {
             mass: 0.0,
             momentum: Vec3::zeros(),
@@ -243,12 +403,13 @@ impl Folded {
             signed_mass: [0.0; 2],
         };
         for member in members {
-            let node = &grid.nodes()[member.place as usize];
-            folded.mass += node.mass;
-            folded.momentum += mirrored(&node.velocity, member.sign) * node.mass;
-            folded.unfolded += node.velocity * node.mass;
+            let place = member.place as usize;
+            let (mass, velocity) = (nodes.mass(place), nodes.velocity(place));
+            folded.mass += mass;
+            folded.momentum += mirrored(&velocity, member.sign) * mass;
+            folded.unfolded += velocity * mass;
             for axis in 0..2 {
-                folded.signed_mass[axis] += member.sign[axis] * node.mass;
+                folded.signed_mass[axis] += member.sign[axis] * mass;
             }
         }
         folded
@@ -300,6 +461,11 @@ impl Upright {
         let across = self.cells_across;
         let j = j.abs();
         [i.abs(), if j > across { 2 * across - j } else { j }, k]
+    }
+
+    /// Whether a node has images that the kernel can reach.
+    fn has_images(&self, [i, j, _]: [i32; 3]) -> bool {
+        i == 1 || j == 1 || j == self.cells_across - 1
     }
 
     /// Visits the images that the kernel can reach, one node behind a wall.

@@ -15,9 +15,9 @@ use thiserror::Error;
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Where a run's records and progress go.
-pub trait Sink {
+pub trait Sink: Send {
     /// Why the sink can't take any more; ends the run.
-    type Error;
+    type Error: Send;
 
     /// Takes a sample or a flow snapshot, in order of time.
     ///

@@ -1,11 +1,15 @@
 //! Material points on bodies: each point's sphere against the body's rounded
 //! surface at the closest feature (docs/method.md, equations 21–24).
 
-use crate::grid::{BLOCK, Grid, PointBlock};
+use crate::grid::{BLOCK, BlockKey};
+use crate::kernel::Lattice;
 use crate::math::Vec3;
-use crate::points::Point;
 use crate::rigid::{Body, Freedom, Load};
 use crate::walls::Impulse;
+use rayon::prelude::*;
+
+/// Candidates one task looks at.
+const TASK: usize = 64;
 
 /// What the points are to a body: spheres of one size, with the impedance of
 /// the material they stand for.
@@ -45,22 +49,74 @@ impl PointSphere {
     }
 }
 
-/// A point that may touch a body within the step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Candidate {
-    point: usize,
-    block: usize,
+/// The points of a flow as bodies meet them within a step.
+pub trait PointAccess: Sync {
+    /// Where a point is kept, from one transfer to the next.
+    type Place: Copy + Send + Sync;
+    /// Finds the points that were within a box at the transfer.
+    fn find_within(&self, around: &Around, found: &mut Vec<Self::Place>);
+    /// Where a point was at the transfer [m].
+    fn resting(&self, place: Self::Place) -> Vec3;
+    /// A point as it is now.
+    fn moving(&self, place: Self::Place) -> Moving;
 }
 
-/// Contact forces of one sub-step.
-#[derive(Debug, Default)]
-pub struct Loads {
-    /// Force on every point [N].
-    pub on_points: Vec<Vec3>,
+/// A point amid a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moving {
+    /// Present position [m].
+    pub position: Vec3,
+    /// Present velocity [m/s].
+    pub velocity: Vec3,
+    /// Mass [kg].
+    pub mass: f64,
+}
+
+/// A point that may touch a body within the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate<P> {
+    /// Where the point is kept.
+    pub place: P,
+    /// Share of the step before which it is too far off to touch.
+    earliest: f64,
+}
+
+/// How far off a point can be at a transfer and still touch a body before the
+/// next one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// Radius of a point's sphere [m].
+    pub sphere: f64,
+    /// Largest distance by which point and body may come closer [m].
+    pub travel: f64,
+}
+
+/// Contact forces of one sub-step, on points that are kept at places `P`.
+#[derive(Debug)]
+pub struct Loads<P> {
     /// What the flow does to every body.
     pub on_bodies: Vec<FlowLoad>,
-    candidates: Vec<Vec<Candidate>>,
-    pushed: Vec<usize>,
+    /// Points in touch and the force on them [N]; one of several bodies comes
+    /// several times.
+    pub on_points: Vec<(P, Vec3)>,
+    /// Per body, the points that may touch it within the step.
+    pub candidates: Vec<Vec<Candidate<P>>>,
+    /// Points in a body's box.
+    near: Vec<P>,
+    /// Per body, what became of them.
+    met: Vec<Vec<Option<Touch>>>,
+}
+
+impl<P> Default for Loads<P> {
+    fn default() -> Self {
+        Self {
+            on_bodies: Vec::new(),
+            on_points: Vec::new(),
+            candidates: Vec::new(),
+            near: Vec::new(),
+            met: Vec::new(),
+        }
+    }
 }
 
 /// What the flow does to one body.
@@ -76,155 +132,174 @@ pub struct FlowLoad {
     pub energy: f64,
 }
 
-impl Loads {
-    /// Prepares a step: finds the points within `reach` [m] of each body.
-    pub fn find_candidates(&mut self, points: &[Point], grid: &Grid, bodies: &[Body], reach: f64) {
+impl<P: Copy + Send + Sync> Loads<P> {
+    /// Prepares a step: finds the points within reach of each body.
+    pub fn find_candidates(
+        &mut self,
+        points: &impl PointAccess<Place = P>,
+        bodies: &[Body],
+        reach: Reach,
+    ) {
         self.on_points.clear();
-        self.on_points.resize(points.len(), Vec3::zeros());
-        self.pushed.clear();
         self.on_bodies.clear();
         self.on_bodies.resize(bodies.len(), FlowLoad::default());
-        self.candidates.resize(bodies.len(), Vec::new());
+        self.candidates.resize_with(bodies.len(), Vec::new);
+        let near = &mut self.near;
         for (body, candidates) in bodies.iter().zip(&mut self.candidates) {
+            near.clear();
+            points.find_within(&Around::body(body, reach.sphere + reach.travel), near);
             candidates.clear();
-            let around = Around::body(body, reach);
-            for (place, block) in grid.point_blocks().iter().enumerate() {
-                if !around.meets_block(grid, block) {
-                    continue;
-                }
-                let inside = block
-                    .points
-                    .clone()
-                    .filter(|point| around.holds(&points[*point].position));
-                candidates.extend(inside.map(|point| Candidate {
-                    point,
-                    block: place,
-                }));
-            }
+            candidates.extend(near.iter().filter_map(|place| {
+                let arm = points.resting(*place) - body.state.position;
+                let closest = body.shape.closest_feature(&body.to_body(&arm));
+                let gap = closest.distance - reach.sphere - body.shape.sphero_radius();
+                let earliest = gap / reach.travel;
+                let place = *place;
+                (earliest <= 1.0).then_some(Candidate { place, earliest })
+            }));
         }
     }
 
-    /// Impulse the bodies of one freedom give the flow in `dt`.
-    pub fn impulse_on_flow(&self, bodies: &[Body], dt: f64, freedom: Freedom) -> Impulse {
-        let mut impulse = Impulse::default();
-        for (body, flow) in bodies.iter().zip(&self.on_bodies) {
-            if body.freedom == freedom {
-                impulse.add_at(&body.state.position, &(flow.load.force * -dt));
-                impulse.angular -= flow.load.torque * dt;
-            }
-        }
-        impulse
-    }
-
-    /// Contact forces at the points' present positions and velocities.
+    /// Contact forces at the points' present positions and velocities, `passed`
+    /// of the step (0..1) being over.
     pub fn evaluate(
         &mut self,
-        points: &[Point],
-        grid: &Grid,
+        points: &impl PointAccess<Place = P>,
         bodies: &[Body],
         sphere: PointSphere,
         dt: f64,
+        passed: f64,
     ) {
-        for point in self.pushed.drain(..) {
-            self.on_points[point] = Vec3::zeros();
-        }
-        for ((body, candidates), on_body) in
-            bodies.iter().zip(&self.candidates).zip(&mut self.on_bodies)
-        {
-            *on_body = FlowLoad::default();
-            let braking = sphere.braking(body, dt);
-            for candidate in candidates {
-                let point = &points[candidate.point];
-                let stencil = grid.lattice().stencil(&point.position);
-                let block = &grid.point_blocks()[candidate.block];
-                let (velocity, displacement) = grid.motion_at(block, &stencil);
+        self.met.resize_with(bodies.len(), Vec::new);
+        bodies
+            .par_iter()
+            .zip(&self.candidates)
+            .zip(&mut self.met)
+            .for_each(|((body, candidates), met)| {
+                met.resize(candidates.len(), None);
                 let meeting = Meeting {
-                    arm: point.position + displacement - body.state.position,
-                    velocity,
-                    mass: point.mass,
+                    body,
                     radius: sphere.radius,
-                    braking,
+                    braking: sphere.braking(body, dt),
                 };
-                if let Some(force) = meeting.force(body, on_body) {
-                    self.on_points[candidate.point] += force;
-                    self.pushed.push(candidate.point);
+                candidates
+                    .par_iter()
+                    .zip(met)
+                    .with_min_len(TASK)
+                    .for_each(|(candidate, met)| {
+                        let in_reach = candidate.earliest <= passed;
+                        *met = in_reach
+                            .then(|| meeting.touch(&points.moving(candidate.place)))
+                            .flatten();
+                    });
+            });
+        self.add_up();
+    }
+
+    /// Sums in the order of the bodies and their candidates.
+    fn add_up(&mut self) {
+        self.on_points.clear();
+        let of_bodies = self.candidates.iter().zip(&self.met);
+        for ((candidates, met), on_body) in of_bodies.zip(&mut self.on_bodies) {
+            *on_body = FlowLoad::default();
+            for (candidate, touch) in candidates.iter().zip(met) {
+                if let Some(touch) = touch {
+                    on_body.take_in(touch);
+                    self.on_points.push((candidate.place, touch.force));
                 }
             }
         }
     }
 }
 
-/// A point's sphere near a body.
-struct Meeting {
+/// Impulse the bodies of one freedom give the flow in `dt`, by what the flow does
+/// to all of them.
+pub fn impulse_on_flow(
+    on_bodies: &[FlowLoad],
+    bodies: &[Body],
+    dt: f64,
+    freedom: Freedom,
+) -> Impulse {
+    let mut impulse = Impulse::default();
+    for (body, flow) in bodies.iter().zip(on_bodies) {
+        if body.freedom == freedom {
+            impulse.add_at(&body.state.position, &(flow.load.force * -dt));
+            impulse.angular -= flow.load.torque * dt;
+        }
+    }
+    impulse
+}
+
+impl FlowLoad {
+    fn take_in(&mut self, touch: &Touch) {
+        self.load.add_at(&touch.arm, &-touch.force);
+        self.touching_points += 1;
+        self.deepest_overlap_ratio = self.deepest_overlap_ratio.max(touch.overlap_ratio);
+        self.energy += touch.energy;
+    }
+}
+
+/// A point and a body in touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Touch {
+    /// From the body's centre to the point [m].
     arm: Vec3,
-    velocity: Vec3,
-    mass: f64,
+    /// On the point [N].
+    force: Vec3,
+    /// δ/(R_p + r).
+    overlap_ratio: f64,
+    /// Energy the contact holds [J].
+    energy: f64,
+}
+
+/// How a body meets spheres of points.
+struct Meeting<'a> {
+    body: &'a Body,
     radius: f64,
     /// Largest damping coefficient [N s/m].
     braking: f64,
 }
 
-impl Meeting {
-    /// Force on the point [N], its reverse added to the body; `None` if apart.
-    fn force(&self, body: &Body, on_body: &mut FlowLoad) -> Option<Vec3> {
-        let closest = body.shape.closest_feature(&body.to_body(&self.arm));
+impl Meeting<'_> {
+    /// What the body does to a point; `None` if apart.
+    fn touch(&self, point: &Moving) -> Option<Touch> {
+        let body = self.body;
+        let arm = point.position - body.state.position;
+        let closest = body.shape.closest_feature(&body.to_body(&arm));
         let reach = self.radius + body.shape.sphero_radius();
         let overlap = reach - closest.distance;
         if overlap <= 0.0 {
             return None;
         }
         let normal = body.to_world(&closest.normal);
-        let relative = self.velocity - body.velocity_at(&self.arm);
+        let relative = point.velocity - body.velocity_at(&arm);
         let along = relative.dot(&normal);
         let law = &body.flow_law;
         let damping = law
-            .damping_coefficient(overlap, self.mass)
+            .damping_coefficient(overlap, point.mass)
             .min(self.braking);
         let pressed = (law.elastic_force(overlap) - damping * along).max(0.0);
         let sliding = relative - normal * along;
         let slip = sliding.norm().max(f64::MIN_POSITIVE);
         let friction = self.braking.min(law.friction * pressed / slip);
-        let force = normal * pressed - sliding * friction;
-
-        on_body.load.add_at(&self.arm, &-force);
-        on_body.touching_points += 1;
-        on_body.deepest_overlap_ratio = on_body.deepest_overlap_ratio.max(overlap / reach);
-        on_body.energy += law.elastic_energy(overlap);
-        Some(force)
+        Some(Touch {
+            arm,
+            force: normal * pressed - sliding * friction,
+            overlap_ratio: overlap / reach,
+            energy: law.elastic_energy(overlap),
+        })
     }
 }
 
-/// Puts points that ended a step inside a body's core back on its surface;
-/// returns how many.
-pub fn put_back(points: &mut [Point], grid: &Grid, bodies: &[Body]) -> u64 {
-    let mut count = 0;
-    for body in bodies {
-        let around = Around::body(body, 0.0);
-        for block in grid.point_blocks() {
-            // Points may have left the block's box by a fraction of a cell
-            // since the transfer; meets_block allows for it.
-            if !around.meets_block(grid, block) {
-                continue;
-            }
-            for point in &mut points[block.points.clone()] {
-                if around.holds(&point.position) {
-                    count += u64::from(pushed_out(point, body));
-                }
-            }
-        }
-    }
-    count
-}
-
-fn pushed_out(point: &mut Point, body: &Body) -> bool {
-    let arm = body.to_body(&(point.position - body.state.position));
+/// Where a point belongs that ended a step inside a body's core: on the surface
+/// nearest to it. `None` if it is outside.
+pub fn put_back(position: &Vec3, body: &Body) -> Option<Vec3> {
+    let arm = body.to_body(&(position - body.state.position));
     let closest = body.shape.closest_feature(&arm);
-    let inside = closest.distance < 0.0;
-    if inside {
+    (closest.distance < 0.0).then(|| {
         let out = closest.normal * (body.shape.sphero_radius() - closest.distance);
-        point.position += body.to_world(&out);
-    }
-    inside
+        position + body.to_world(&out)
+    })
 }
 
 /// A box of world axes round a body.
@@ -247,20 +322,28 @@ impl Around {
         }
     }
 
+    /// The box round an upright column of this radius [m], without end.
+    pub fn column(centre: Vec3, radius: f64) -> Self {
+        let half = Vec3::new(radius, radius, f64::INFINITY);
+        Self {
+            low: centre - half,
+            high: centre + half,
+        }
+    }
+
     /// Whether a place is in it.
     pub fn holds(&self, x: &Vec3) -> bool {
         (0..3).all(|axis| self.low[axis] <= x[axis] && x[axis] <= self.high[axis])
     }
 
-    /// Whether it meets the box of a block of points, widened by a cell for
-    /// what the points moved since they were sorted.
-    fn meets_block(&self, grid: &Grid, block: &PointBlock) -> bool {
-        let lattice = grid.lattice();
-        let first = lattice.position(block.key.map(|k| k * BLOCK as i32));
-        let last = lattice.position(block.key.map(|k| (k + 1) * BLOCK as i32));
+    /// Whether it meets the box of a block of points.
+    pub fn meets(&self, lattice: &Lattice, block: &BlockKey) -> bool {
+        let first = lattice.position(block.map(|k| k * BLOCK as i32));
+        let last = lattice.position(block.map(|k| (k + 1) * BLOCK as i32));
         (0..3).all(|axis| {
+            // A point's lowest node is up to one and a half cells below it.
             let h = lattice.spacing[axis];
-            self.low[axis] <= last[axis] + 1.5 * h && first[axis] - 0.5 * h <= self.high[axis]
+            self.low[axis] <= last[axis] + 0.5 * h && first[axis] + 0.5 * h <= self.high[axis]
         })
     }
 }

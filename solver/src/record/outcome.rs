@@ -113,11 +113,8 @@ fn front(simulation: &Simulation, open_end: f64) -> Option<f64> {
     if beyond >= wanted {
         return Some(open_end);
     }
-    let mut ahead: Vec<(f64, f64)> = simulation
-        .points()
-        .iter()
-        .map(|point| (point.position.x, point.mass))
-        .collect();
+    let mut ahead = Vec::with_capacity(simulation.point_count());
+    simulation.visit_points(None, |point| ahead.push((point.position.x, point.mass)));
     ahead.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
     for (x, mass) in ahead {
         beyond += mass;

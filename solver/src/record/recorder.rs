@@ -119,7 +119,7 @@ impl Recorder {
                 points_left: audit.points_left,
                 points_lost: simulation.released_points()
                     - audit.points_left
-                    - simulation.points().len() as u64,
+                    - simulation.point_count() as u64,
             },
             cost: Cost {
                 points: simulation.released_points(),
@@ -212,17 +212,19 @@ fn snapshot_times(scenario: &Scenario) -> Vec<f64> {
 
 /// The flow now, thinned evenly by identity.
 fn snapshot(simulation: &Simulation) -> FlowSnapshot {
-    let points = simulation.points();
-    let thinning = points.len().div_ceil(SNAPSHOT_POINTS).max(1) as u32;
-    let mut kept: Vec<_> = points
-        .iter()
-        .filter(|point| point.id % thinning == 0)
-        .collect();
+    let points = simulation.point_count();
+    let thinning = points.div_ceil(SNAPSHOT_POINTS).max(1) as u32;
+    let mut kept = Vec::new();
+    simulation.visit_points(None, |point| {
+        if point.id.is_multiple_of(thinning) {
+            kept.push(*point);
+        }
+    });
     kept.sort_unstable_by_key(|point| point.id);
     kept.truncate(SNAPSHOT_POINTS);
     FlowSnapshot {
         time_s: simulation.time_s(),
-        points: points.len() as u64,
+        points: points as u64,
         thinning,
         position_m: kept
             .iter()

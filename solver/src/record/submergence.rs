@@ -1,5 +1,6 @@
 //! How deep a body is in the flow.
 
+use crate::contact::point_body::Around;
 use crate::math::Vec3;
 use crate::rigid::Body;
 use crate::simulation::Simulation;
@@ -20,13 +21,14 @@ pub(super) fn submerged_fraction(simulation: &Simulation, body: &Body) -> f64 {
     let (low, high) = (centre.z - extent(-Vec3::z()), centre.z + extent(Vec3::z()));
     let ring = body.shape.bounding_radius() + RING_CELLS * simulation.cell_size_m();
     let mut surface = [f64::NEG_INFINITY; SECTORS];
-    for point in simulation.points() {
+    let around = Around::column(centre, ring);
+    simulation.visit_points(Some(&around), |point| {
         let (x, y) = (point.position.x - centre.x, point.position.y - centre.y);
         if x * x + y * y <= ring * ring {
             let sector = &mut surface[sector(x, y)];
             *sector = sector.max(point.position.z + simulation.point_radius_m());
         }
-    }
+    });
     let share = |top: &f64| ((top - low) / (high - low)).clamp(0.0, 1.0);
     surface.iter().map(share).sum::<f64>() / SECTORS as f64
 }

@@ -15,6 +15,8 @@ pub(super) struct Clock {
     pub point_steps: u64,
     /// Index of the next sample time.
     pub next_sample: u64,
+    /// Sub-steps at the last audit.
+    pub last_audit: u64,
     /// Points at the start.
     pub released_points: u64,
     /// Volume not released [m³].
@@ -30,6 +32,7 @@ impl Clock {
             substeps: 0,
             point_steps: 0,
             next_sample: 1,
+            last_audit: 0,
             released_points,
             volume_left_out: 0.0,
         }

@@ -2,26 +2,31 @@
 //! which order: docs/architecture.md).
 
 mod clock;
+mod flow;
+mod laps;
 mod saved;
 mod setup;
 mod step;
 
 use crate::contact::body_wall::BodyReport;
-use crate::contact::point_body::{FlowLoad, Loads};
+use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::{RestoreError, SaveError, SetupError, StepError};
-use crate::grid::Grid;
+use crate::fast::instructions::Instructions;
 use crate::math::Vec3;
-use crate::points::{Deformation, Point};
+use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::Scenario;
 use crate::stability::Pace;
-use crate::walls::Boundary;
 use clock::Clock;
+use flow::Flow;
+use laps::Laps;
 use rayon::ThreadPool;
 use setup::Setup;
 use std::ops::ControlFlow;
 use std::sync::Arc;
+
+pub use laps::{LapWatch, Verb};
 
 /// A run in progress: what is given, what changes, and scratch.
 #[derive(Debug)]
@@ -38,23 +43,20 @@ pub struct Simulation {
 #[derive(Debug)]
 struct State {
     clock: Clock,
-    points: Vec<Point>,
+    flow: Box<dyn Flow>,
     bodies: Vec<Body>,
     audit: Audit,
+    /// Sums of the flow, followed from audit to audit for gravity's torque.
+    moments: FlowMoments,
 }
 
 /// What a step works on; between two steps nothing of it counts.
 #[derive(Debug)]
 struct Scratch {
-    grid: Grid,
-    boundary: Boundary,
-    deformations: Vec<Deformation>,
-    loads: Loads,
     body_reports: Vec<BodyReport>,
     /// The step whose sub-steps are being taken.
     in_hand: Option<StepInHand>,
-    /// Sums of the flow, followed through a step for gravity's torque.
-    flow: FlowMoments,
+    laps: Laps,
 }
 
 /// A step some of whose sub-steps are done.
@@ -77,7 +79,7 @@ pub struct SubstepReport {
     pub substeps: u64,
     /// Steps (transfers) finished so far.
     pub steps: u64,
-    /// Points that took part.
+    /// Points in the flow at its end.
     pub points: u64,
     /// Whether this sub-step ended a step: the points' own state is up to date.
     pub step_ended: bool,
@@ -104,7 +106,8 @@ impl Simulation {
         let given = Setup::of(scenario)?;
         let bodies = setup::bodies(scenario, &given);
         let (points, volume_left_out) = setup::release(scenario, &given, &bodies);
-        let mut simulation = Self::assemble(given, points, bodies, pool);
+        let flow = flow::start(points, &given, scenario.numerics.precision);
+        let mut simulation = Self::assemble(given, flow, bodies, pool);
         simulation.state.clock.volume_left_out = volume_left_out;
         simulation.start_audit();
         Ok(simulation)
@@ -120,24 +123,21 @@ impl Simulation {
 
     fn assemble(
         given: Setup,
-        points: Vec<Point>,
+        flow: Box<dyn Flow>,
         bodies: Vec<Body>,
         pool: Arc<ThreadPool>,
     ) -> Self {
         let scratch = Scratch {
-            grid: Grid::new(given.lattice),
-            boundary: Boundary::default(),
-            deformations: Vec::new(),
-            loads: Loads::default(),
             body_reports: vec![BodyReport::default(); bodies.len()],
             in_hand: None,
-            flow: FlowMoments::default(),
+            laps: Laps::default(),
         };
         let state = State {
-            clock: Clock::start(points.len() as u64),
-            points,
+            clock: Clock::start(flow.count() as u64),
+            flow,
             bodies,
             audit: Audit::default(),
+            moments: FlowMoments::default(),
         };
         Self {
             given,
@@ -161,13 +161,22 @@ impl Simulation {
     pub fn run(
         &mut self,
         until_s: f64,
+        observe: impl FnMut(&Simulation, &SubstepReport) -> ControlFlow<()> + Send,
+    ) -> Result<Ending, StepError> {
+        let pool = Arc::clone(&self.pool);
+        pool.install(|| self.run_here(until_s, observe))
+    }
+
+    fn run_here(
+        &mut self,
+        until_s: f64,
         mut observe: impl FnMut(&Simulation, &SubstepReport) -> ControlFlow<()>,
     ) -> Result<Ending, StepError> {
+        if let Some(error) = &self.failed {
+            return Err(error.clone());
+        }
         let until = until_s.min(self.given.timing.duration);
         while self.state.clock.time < until || self.scratch.in_hand.is_some() {
-            if let Some(error) = &self.failed {
-                return Err(error.clone());
-            }
             let report = match self.advance() {
                 Ok(report) => report,
                 Err(error) => {
@@ -187,9 +196,29 @@ impl Simulation {
         self.state.clock.time
     }
 
-    /// The material points, in no particular order.
-    pub fn points(&self) -> &[Point] {
-        &self.state.points
+    /// The material points, in no particular order. On the fast path they are
+    /// unpacked for this, and amid a step only identity, mass and their position
+    /// at the transfer mean anything.
+    pub fn points(&self) -> Vec<Point> {
+        let mut points = Vec::with_capacity(self.state.flow.count());
+        self.visit_points(None, |point| points.push(*point));
+        points
+    }
+
+    /// How many material points there are.
+    pub fn point_count(&self) -> usize {
+        self.state.flow.count()
+    }
+
+    /// Visits the material points, those within a box if one is given; amid a
+    /// step as [`Simulation::points`] gives them.
+    pub fn visit_points(&self, within: Option<&Around>, mut visit: impl FnMut(&Point)) {
+        self.state.flow.visit(within, &mut visit);
+    }
+
+    /// Bytes held for points and for the grid.
+    pub fn bytes(&self) -> (usize, usize) {
+        self.state.flow.bytes()
     }
 
     /// The bodies, in the scenario's order.
@@ -199,8 +228,12 @@ impl Simulation {
 
     /// What the flow does to a body in the present sub-step.
     pub fn flow_load(&self, body: usize) -> FlowLoad {
-        let loads = &self.scratch.loads.on_bodies;
-        loads.get(body).copied().unwrap_or_default()
+        self.state
+            .flow
+            .on_bodies()
+            .get(body)
+            .copied()
+            .unwrap_or_default()
     }
 
     /// What the present sub-step did to a body.
@@ -236,6 +269,17 @@ impl Simulation {
             .map_or(0.0, |flow| flow.sphere.radius)
     }
 
+    /// Calls `watch` whenever a verb of the step is done, for timing.
+    pub fn watch_verbs(&mut self, watch: LapWatch) {
+        self.scratch.laps.tell(watch);
+    }
+
+    /// Lets the fast path use no better instructions than these; the best there
+    /// are by default.
+    pub fn limit_instructions(&mut self, instructions: Instructions) {
+        self.state.flow.limit_instructions(instructions);
+    }
+
     /// Threads in use.
     pub fn threads(&self) -> usize {
         self.pool.current_num_threads()
@@ -261,8 +305,11 @@ impl Simulation {
     ///
     /// # Errors
     /// Amid a step, while the points' motion lies on the grid: break off where
-    /// [`SubstepReport::step_ended`] says so.
+    /// [`SubstepReport::step_ended`] says so. Never a run that has failed.
     pub fn save(&self) -> Result<Vec<u8>, SaveError> {
+        if let Some(error) = &self.failed {
+            return Err(SaveError::Failed(error.clone()));
+        }
         match &self.scratch.in_hand {
             None => Ok(saved::save(self)),
             Some(_) => Err(SaveError::AmidStep {

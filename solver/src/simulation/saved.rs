@@ -1,11 +1,11 @@
 //! Saved states.
 
 use super::clock::Clock;
+use super::flow::SavedFlow;
 use super::setup::{self, Setup};
 use super::{Simulation, start_threads};
-use crate::diagnostics::Audit;
+use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::RestoreError;
-use crate::points::Point;
 use crate::rigid::BodyState;
 use crate::scenario::Scenario;
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,8 @@ struct Saved {
     version: String,
     scenario: String,
     clock: Clock,
-    points: Vec<Point>,
+    flow: SavedFlow,
+    moments: FlowMoments,
     bodies: Vec<BodyState>,
     audit: Audit,
 }
@@ -28,7 +29,8 @@ pub(super) fn save(simulation: &Simulation) -> Vec<u8> {
         version: crate::VERSION.to_owned(),
         scenario: simulation.given.scenario.clone(),
         clock: state.clock.clone(),
-        points: state.points.clone(),
+        flow: state.flow.saved(),
+        moments: state.moments,
         bodies: bodies.collect(),
         audit: state.audit.clone(),
     };
@@ -62,9 +64,10 @@ pub(super) fn restore(
     for (body, state) in bodies.iter_mut().zip(saved.bodies) {
         body.state = state;
     }
-    let mut simulation = Simulation::assemble(given, saved.points, bodies, pool);
+    let flow = saved.flow.restored(&given);
+    let mut simulation = Simulation::assemble(given, flow, bodies, pool);
     simulation.state.clock = saved.clock;
     simulation.state.audit = saved.audit;
-    simulation.resume_audit();
+    simulation.state.moments = saved.moments;
     Ok(simulation)
 }

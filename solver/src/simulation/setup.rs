@@ -2,7 +2,7 @@
 
 use super::clock::Timing;
 use crate::contact::law::ContactLaw;
-use crate::contact::point_body::PointSphere;
+use crate::contact::point_body::{PointSphere, Reach};
 use crate::error::SetupError;
 use crate::kernel::Lattice;
 use crate::material::{Material, Yielding};
@@ -92,8 +92,13 @@ impl Setup {
 
     /// How far from a body a point can be at a transfer and still touch it
     /// before the next one [m].
-    pub(super) fn contact_reach(&self, bodies: &[Body], pace: &Pace) -> f64 {
-        let Some(flow) = &self.flow else { return 0.0 };
+    pub(super) fn contact_reach(&self, bodies: &[Body], pace: &Pace) -> Reach {
+        let Some(flow) = &self.flow else {
+            return Reach {
+                sphere: 0.0,
+                travel: 0.0,
+            };
+        };
         let duration = pace.substep * f64::from(pace.count);
         let body_travel = bodies
             .iter()
@@ -102,8 +107,11 @@ impl Setup {
         // A step of a single sub-step may go beyond the flow's Courant number.
         let cells = flow.limits.flow_courant.max(flow.limits.courant);
         let flow_travel = cells * flow.limits.cell_size;
-        // Twice both, for what speeds up within the step.
-        flow.sphere.radius + 2.0 * (flow_travel + body_travel)
+        Reach {
+            sphere: flow.sphere.radius,
+            // Twice both, for what speeds up within the step.
+            travel: 2.0 * (flow_travel + body_travel),
+        }
     }
 }
 

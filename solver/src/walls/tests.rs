@@ -68,7 +68,7 @@ fn constrained(walls: &Walls, grid: &mut Grid) -> Impulse {
     let before = momentum(grid);
     let mut boundary = Boundary::default();
     walls.find_boundary(grid, &mut boundary);
-    let given = walls.constrain(&boundary, grid);
+    let given = walls.constrain(&mut boundary, grid, 1e-3);
     let after = momentum(grid);
     assert!((after.linear - before.linear - given.linear).norm() < 1e-14);
     assert!((after.angular - before.angular - given.angular).norm() < 1e-14);

@@ -1,6 +1,6 @@
 //! A column at rest: validation.md, case 8.
 
-use crate::scenes::{Scene, mean_velocity, points_by_id, run, watch};
+use crate::scenes::{PRECISIONS, Scene, mean_velocity, points_by_id, run, watch};
 use serde_json::json;
 use std::collections::BTreeMap;
 
@@ -42,8 +42,14 @@ fn layers(scene: &Scene) -> Vec<Vec<usize>> {
 
 #[test]
 fn a_column_rests_on_the_floor_with_its_weight() {
-    let scene = column();
-    let layers = layers(&scene);
+    for precision in PRECISIONS {
+        println!("{precision} precision");
+        rests(&column().precision(precision));
+    }
+}
+
+fn rests(scene: &Scene) {
+    let layers = layers(scene);
     let mut simulation = scene.start();
     assert_eq!(simulation.volume_left_out_m3(), 0.0);
     run(&mut simulation, 0.2);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Layers, lowest first. The scenario is a description that knows of shapes
 /// alone; the simulation reads it.
-const LAYERS: [&[&str]; 5] = [
+const LAYERS: [&[&str]; 6] = [
     &["math", "error", "stability"],
     &["kernel", "material", "shape", "contact::law"],
     &["grid", "scenario"],
@@ -17,6 +17,7 @@ const LAYERS: [&[&str]; 5] = [
         "contact::point_body",
         "diagnostics",
     ],
+    &["fast"],
 ];
 
 /// Above the layers, in this order: they bring them together.

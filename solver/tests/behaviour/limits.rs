@@ -1,8 +1,8 @@
 //! Where scenes end: nothing to compute, and nothing that can be computed.
 
 use crate::scenes::{Scene, run, watch};
-use scree_solver::StepError;
 use scree_solver::record::Recorder;
+use scree_solver::{SaveError, StepError};
 use serde_json::json;
 
 #[test]
@@ -76,6 +76,11 @@ fn a_flow_faster_than_its_sound_is_a_typed_error() {
         "{error:?}"
     );
     assert!(error.time_s() > 0.0 && error.time_s() < 0.3);
+    // It stays so, also for who asks for no more than there is, and is no state
+    // to go on from.
+    let now = simulation.time_s();
+    assert_eq!(watch(&mut simulation, now, |_, _| {}), Err(error.clone()));
+    assert_eq!(simulation.save(), Err(SaveError::Failed(error)));
 }
 
 // A body thrown as fast as scenarios allow either runs or ends with the time
@@ -187,10 +192,8 @@ fn a_release_thinner_than_a_point_stays_slow() {
             "volume_m3": volume_m3, "release": {"height_m": 0.08, "toe_distance_m": 0.0}
         });
         let simulation = beside_a_cube(flow).finished();
-        let speeds = simulation
-            .points()
-            .iter()
-            .map(|point| point.velocity.norm());
+        let points = simulation.points();
+        let speeds = points.iter().map(|point| point.velocity.norm());
         let fastest = speeds.fold(0.0, f64::max);
         // Free fall over the release's height.
         assert!(fastest < f64::sqrt(2.0 * 9.81 * 0.08), "{fastest} m/s");

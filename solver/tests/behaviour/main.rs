@@ -13,6 +13,7 @@ mod bodies_alone;
 mod column_at_rest;
 mod layers;
 mod limits;
+mod precisions;
 mod same_bits;
 mod sliding_block;
 mod symmetry;

@@ -1,11 +1,12 @@
-//! Same scenario, same bits: for any number of threads, however a run is
-//! divided, and across saved states.
+//! Same scenario, same bits, in either precision: for any number of threads,
+//! however a run is divided, and across saved states.
 
-use crate::scenes::{Scene, points_by_id, run};
+use crate::scenes::{PRECISIONS, Scene, points_by_id, run};
 use scree_solver::record::{Record, Recorder};
 use scree_solver::scenario::Scenario;
 use scree_solver::{Ending, SaveError, Simulation};
 use std::ops::ControlFlow;
+use std::sync::LazyLock;
 
 /// A run with its records.
 struct Recorded {
@@ -70,52 +71,61 @@ fn assert_same(one: &Recorded, other: &Recorded) {
     assert_eq!(outcome(one), outcome(other));
 }
 
-fn scenario() -> Scenario {
-    Scene::impact()
-        .set("channel", "runout_length_m", 0.2)
-        .scenario()
+/// The same scene in every precision.
+fn scenarios() -> [Scenario; 2] {
+    let scene = Scene::impact().set("channel", "runout_length_m", 0.2);
+    PRECISIONS.map(|precision| scene.clone().precision(precision).scenario())
 }
 
-fn uninterrupted(scenario: &Scenario) -> Recorded {
-    let mut whole = Recorded::start(scenario, 1);
-    whole.run(0.3);
-    whole
+/// The runs of these scenarios in one go.
+static UNINTERRUPTED: LazyLock<[Recorded; 2]> = LazyLock::new(|| {
+    scenarios().map(|scenario| {
+        let mut whole = Recorded::start(&scenario, 1);
+        whole.run(0.3);
+        whole
+    })
+});
+
+fn each() -> impl Iterator<Item = (Scenario, &'static Recorded)> {
+    scenarios().into_iter().zip(UNINTERRUPTED.iter())
 }
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    let scenario = scenario();
-    let one = uninterrupted(&scenario);
-    assert!(one.records.len() > 30, "{}", one.records.len());
-    for threads in [2, 3, 7] {
-        let mut other = Recorded::start(&scenario, threads);
-        assert_eq!(other.simulation.threads(), threads);
-        other.run(0.3);
-        assert_same(&one, &other);
+    for (scenario, one) in each() {
+        assert!(one.records.len() > 30, "{}", one.records.len());
+        for threads in [2, 3, 7] {
+            let mut other = Recorded::start(&scenario, threads);
+            assert_eq!(other.simulation.threads(), threads);
+            other.run(0.3);
+            assert_same(one, &other);
+        }
     }
 }
 
 // The times lie at, between and off the samples every 0.01 s.
 #[test]
 fn a_run_in_parts_gives_the_same_bits() {
-    let scenario = scenario();
-    let mut parts = Recorded::start(&scenario, 2);
-    for until_s in [0.0, 0.013, 0.05, 0.050_001, 0.217, 0.3] {
-        parts.run(until_s);
+    for (scenario, whole) in each() {
+        let mut parts = Recorded::start(&scenario, 2);
+        for until_s in [0.0, 0.013, 0.05, 0.050_001, 0.217, 0.3] {
+            parts.run(until_s);
+        }
+        assert_same(whole, &parts);
     }
-    assert_same(&uninterrupted(&scenario), &parts);
 }
 
 #[test]
 fn a_saved_run_goes_on_with_the_same_bits() {
-    let scenario = scenario();
-    let mut moved = Recorded::start(&scenario, 1);
-    for (until_s, threads) in [(0.0, 2), (0.037, 3), (0.12, 1), (0.2, 2), (0.281, 1)] {
-        moved.run(until_s);
-        moved = moved.moved(&scenario, threads);
+    for (scenario, whole) in each() {
+        let mut moved = Recorded::start(&scenario, 1);
+        for (until_s, threads) in [(0.0, 2), (0.037, 3), (0.12, 1), (0.2, 2), (0.281, 1)] {
+            moved.run(until_s);
+            moved = moved.moved(&scenario, threads);
+        }
+        moved.run(0.3);
+        assert_same(whole, &moved);
     }
-    moved.run(0.3);
-    assert_same(&uninterrupted(&scenario), &moved);
 }
 
 /// Runs on for so many sub-steps and breaks off, mostly amid a step.
@@ -136,29 +146,31 @@ fn break_off(run: &mut Recorded, substeps: u32) {
 
 #[test]
 fn a_run_broken_off_amid_steps_goes_on_with_the_same_bits() {
-    let scenario = scenario();
-    let mut parts = Recorded::start(&scenario, 1);
-    let mut amid = 0;
-    for substeps in [1, 1, 7, 100, 334] {
-        break_off(&mut parts, substeps);
-        if let Err(SaveError::AmidStep { time_s }) = parts.simulation.save() {
-            assert_eq!(time_s, parts.simulation.time_s());
-            amid += 1;
+    for (scenario, whole) in each() {
+        let mut parts = Recorded::start(&scenario, 1);
+        let mut amid = 0;
+        for substeps in [1, 1, 7, 100, 334] {
+            break_off(&mut parts, substeps);
+            if let Err(SaveError::AmidStep { time_s }) = parts.simulation.save() {
+                assert_eq!(time_s, parts.simulation.time_s());
+                amid += 1;
+            }
         }
+        assert!(amid > 0, "never amid a step");
+        parts.run(0.3);
+        assert_same(whole, &parts);
     }
-    assert!(amid > 0, "never amid a step");
-    parts.run(0.3);
-    assert_same(&uninterrupted(&scenario), &parts);
 }
 
 #[test]
 fn only_its_own_saved_state_is_taken_up() {
-    let scenario = scenario();
+    let [scenario, in_single] = scenarios();
     let mut simulation = Simulation::new(&scenario, 1).expect("the scene fits");
     run(&mut simulation, 0.01);
     let saved = simulation.save().expect("a step ended");
     let other = Scene::impact().scenario();
     assert!(Simulation::restore(&other, 1, &saved).is_err());
+    assert!(Simulation::restore(&in_single, 1, &saved).is_err());
     assert!(Simulation::restore(&scenario, 1, &saved[..saved.len() / 2]).is_err());
     assert!(Simulation::restore(&scenario, 1, b"").is_err());
 }

@@ -7,6 +7,9 @@ use scree_solver::{Simulation, StepError, SubstepReport};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 
+/// In which a flow can be computed.
+pub(crate) const PRECISIONS: [&str; 2] = ["double", "single"];
+
 /// A scenario under construction.
 #[derive(Debug, Clone)]
 pub(crate) struct Scene(Value);
@@ -37,6 +40,12 @@ impl Scene {
             .lasting(0.3)
     }
 
+    /// The minimal scenario of the repository.
+    pub(crate) fn minimal() -> Self {
+        let text = include_str!("../../../configs/scenarios/minimal.json");
+        Self(serde_json::from_str(text).expect("it is JSON"))
+    }
+
     /// Sets `key` of the part named (a top-level object, made if missing).
     pub(crate) fn set(mut self, part: &str, key: &str, value: impl Into<Value>) -> Self {
         self.0[part][key] = value.into();
@@ -53,6 +62,11 @@ impl Scene {
     pub(crate) fn flow(mut self, flow: Value) -> Self {
         self.0["flow"] = flow;
         self
+    }
+
+    /// Computed in single or double precision.
+    pub(crate) fn precision(self, word: &str) -> Self {
+        self.set("numerics", "precision", word)
     }
 
     /// One more body.
@@ -102,7 +116,7 @@ pub(crate) fn run(simulation: &mut Simulation, until_s: f64) {
 pub(crate) fn watch(
     simulation: &mut Simulation,
     until_s: f64,
-    mut look: impl FnMut(&Simulation, &SubstepReport),
+    mut look: impl FnMut(&Simulation, &SubstepReport) + Send,
 ) -> Result<(), StepError> {
     simulation.run(until_s, |simulation, report| {
         look(simulation, report);
@@ -113,7 +127,7 @@ pub(crate) fn watch(
 
 /// The points by identity.
 pub(crate) fn points_by_id(simulation: &Simulation) -> Vec<Point> {
-    let mut points = simulation.points().to_vec();
+    let mut points = simulation.points();
     points.sort_unstable_by_key(|point| point.id);
     points
 }

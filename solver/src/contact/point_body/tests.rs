@@ -1,8 +1,6 @@
 use super::*;
 use crate::grid::block_of;
 use crate::kernel::Lattice;
-use crate::math::{Mat3, Sym3};
-use crate::points::sort_by_block;
 use crate::rigid::fixture::cuboid;
 use nalgebra::UnitQuaternion;
 
@@ -12,6 +10,11 @@ const SPHERE: PointSphere = PointSphere {
     spacing: 0.005,
 };
 
+const REACH: Reach = Reach {
+    sphere: SPHERE.radius,
+    travel: 0.007,
+};
+
 fn lattice() -> Lattice {
     Lattice {
         origin: Vec3::zeros(),
@@ -19,27 +22,41 @@ fn lattice() -> Lattice {
     }
 }
 
-fn point(id: u32, position: Vec3) -> Point {
-    Point {
-        id,
-        mass: 1e-3,
-        volume: 1e-6,
-        position,
-        velocity: Vec3::zeros(),
-        affine: Mat3::zeros(),
-        stress: Sym3::default(),
+/// Points of 1 g that move as one.
+struct Cloud {
+    positions: Vec<Vec3>,
+    velocity: Vec3,
+}
+
+impl PointAccess for Cloud {
+    type Place = usize;
+
+    fn find_within(&self, around: &Around, found: &mut Vec<usize>) {
+        let inside = |place: &usize| around.holds(&self.positions[*place]);
+        found.extend((0..self.positions.len()).filter(inside));
+    }
+
+    fn resting(&self, place: usize) -> Vec3 {
+        self.positions[place]
+    }
+
+    fn moving(&self, place: usize) -> Moving {
+        Moving {
+            position: self.positions[place],
+            velocity: self.velocity,
+            mass: 1e-3,
+        }
     }
 }
 
-/// A grid that moves as one, with the points laid on it.
-fn grid_moving(points: &mut Vec<Point>, velocity: Vec3) -> Grid {
-    let occupied = sort_by_block(points, &lattice());
-    let mut grid = Grid::new(lattice());
-    grid.reset_around(&occupied);
-    for place in 0..grid.nodes().len() {
-        grid.node_mut(place).velocity = velocity;
-    }
-    grid
+/// A cube of points, so many a side and so far apart.
+fn lump(side: u32, start: f64, spacing: f64) -> Vec<Vec3> {
+    let place = |n: u32| start + spacing * f64::from(n);
+    let position = |id: u32| {
+        let (x, y, z) = (id % side, id / side % side, id / side.pow(2));
+        Vec3::new(place(x), place(y), place(z))
+    };
+    (0..side.pow(3)).map(position).collect()
 }
 
 /// The cube of 0.04 m, turned and moving, its centre at 0.1 m on every axis.
@@ -49,14 +66,24 @@ fn cube() -> Body {
     body
 }
 
-/// Forces on points where they stand, the grid moving as one.
-fn loads(points: &mut Vec<Point>, velocity: Vec3, body: &Body) -> Loads {
-    let grid = grid_moving(points, velocity);
+/// Forces on points where they stand, moving as one.
+fn loads(positions: Vec<Vec3>, velocity: Vec3, body: &Body) -> Loads<usize> {
+    let cloud = Cloud {
+        positions,
+        velocity,
+    };
     let bodies = std::slice::from_ref(body);
     let mut loads = Loads::default();
-    loads.find_candidates(points, &grid, bodies, 0.01);
-    loads.evaluate(points, &grid, bodies, SPHERE, 1e-5);
+    loads.find_candidates(&cloud, bodies, REACH);
+    loads.evaluate(&cloud, bodies, SPHERE, 1e-5, 0.0);
     loads
+}
+
+/// Force on a single point over the upper face, so far above the flat in R_p.
+fn force_on_one(in_radii: f64, velocity: Vec3) -> Vec3 {
+    let loads = loads(vec![above(in_radii)], velocity, &cube());
+    assert_eq!(loads.on_points.len(), 1);
+    loads.on_points[0].1
 }
 
 /// A place over the upper face: so far above the flat, in R_p.
@@ -66,16 +93,15 @@ fn above(in_radii: f64) -> Vec3 {
 
 #[test]
 fn a_point_in_touch_is_pushed_out_and_the_body_back() {
-    let mut points = vec![point(0, above(0.5))];
     let body = cube();
-    let loads = loads(&mut points, Vec3::zeros(), &body);
-    let force = loads.on_points[0];
+    let loads = loads(vec![above(0.5)], Vec3::zeros(), &body);
+    let (_, force) = loads.on_points[0];
     // Hertz at δ = R_p/2, the point at rest.
     let expected = body.flow_law.stiffness * (0.5 * SPHERE.radius).powf(1.5);
     assert!((force - Vec3::new(0.0, 0.0, expected)).norm() < 1e-9 * expected);
     let on_body = loads.on_bodies[0];
     assert_eq!(on_body.load.force, -force);
-    let arm = points[0].position - body.state.position;
+    let arm = above(0.5) - body.state.position;
     assert_eq!(on_body.load.torque, arm.cross(&-force));
     assert_eq!(on_body.touching_points, 1);
     let overlap = 0.5 * SPHERE.radius / (SPHERE.radius + body.shape.sphero_radius());
@@ -85,9 +111,9 @@ fn a_point_in_touch_is_pushed_out_and_the_body_back() {
 
 #[test]
 fn apart_is_apart() {
-    let mut points = vec![point(0, above(1.01)), point(1, Vec3::repeat(0.2))];
-    let loads = loads(&mut points, Vec3::new(0.0, 0.0, -5.0), &cube());
-    assert_eq!(loads.on_points, vec![Vec3::zeros(); 2]);
+    let places = vec![above(1.01), Vec3::repeat(0.2)];
+    let loads = loads(places, Vec3::new(0.0, 0.0, -5.0), &cube());
+    assert_eq!(loads.on_points, vec![]);
     assert_eq!(loads.on_bodies[0], FlowLoad::default());
 }
 
@@ -99,20 +125,12 @@ fn forces_are_equal_and_opposite() {
     body.state.orientation = UnitQuaternion::from_euler_angles(0.3, -0.5, 0.8);
     body.state.momentum = Vec3::new(0.05, 0.01, -0.02);
     body.state.angular_momentum = body.inertia * Vec3::new(5.0, 3.0, -8.0);
-    let place = |n: u32| 0.07 + 0.004 * f64::from(n);
-    let mut points: Vec<_> = (0..16u32.pow(3))
-        .map(|id| {
-            point(
-                id,
-                Vec3::new(place(id % 16), place(id / 16 % 16), place(id / 256)),
-            )
-        })
-        .collect();
-    let loads = loads(&mut points, Vec3::new(0.3, -0.2, 0.4), &body);
+    let places = lump(16, 0.07, 0.004);
+    let loads = loads(places.clone(), Vec3::new(0.3, -0.2, 0.4), &body);
     let (mut force, mut torque) = (Vec3::zeros(), Vec3::zeros());
-    for (point, on_point) in points.iter().zip(&loads.on_points) {
+    for (point, on_point) in &loads.on_points {
         force += on_point;
-        torque += (point.position - body.state.position).cross(on_point);
+        torque += (places[*point] - body.state.position).cross(on_point);
     }
     let on_body = loads.on_bodies[0];
     assert!(on_body.touching_points > 50);
@@ -122,30 +140,18 @@ fn forces_are_equal_and_opposite() {
 
 #[test]
 fn what_leaves_is_not_held_back() {
-    let leaving = loads(
-        &mut vec![point(0, above(0.9))],
-        Vec3::new(0.0, 0.0, 50.0),
-        &cube(),
-    );
-    assert_eq!(leaving.on_points[0], Vec3::zeros());
-    let arriving = loads(
-        &mut vec![point(0, above(0.9))],
-        Vec3::new(0.0, 0.0, -50.0),
-        &cube(),
-    );
-    let resting = loads(&mut vec![point(0, above(0.9))], Vec3::zeros(), &cube());
-    assert!(arriving.on_points[0].z > resting.on_points[0].z);
+    let along = |speed: f64| Vec3::new(0.0, 0.0, speed);
+    assert_eq!(force_on_one(0.9, along(50.0)), Vec3::zeros());
+    assert!(force_on_one(0.9, along(-50.0)).z > force_on_one(0.9, along(0.0)).z);
 }
 
 #[test]
 fn friction_is_coulombs_and_against_the_sliding() {
-    let sliding = Vec3::new(2.0, 0.0, 0.0);
-    let force = loads(&mut vec![point(0, above(0.5))], sliding, &cube()).on_points[0];
+    let force = force_on_one(0.5, Vec3::new(2.0, 0.0, 0.0));
     assert!(force.y.abs() < 1e-12);
     assert!((force.x + 0.5 * force.z).abs() < 1e-12, "{force:?}");
     // Slow sliding is braked by no more than the impedance.
-    let slow = Vec3::new(1e-4, 0.0, 0.0);
-    let force = loads(&mut vec![point(0, above(0.5))], slow, &cube()).on_points[0];
+    let force = force_on_one(0.5, Vec3::new(1e-4, 0.0, 0.0));
     assert!(
         (force.x + SPHERE.impedance * 1e-4).abs() < 1e-12,
         "{force:?}"
@@ -154,64 +160,73 @@ fn friction_is_coulombs_and_against_the_sliding() {
 
 #[test]
 fn forces_of_the_last_sub_step_are_gone() {
-    let mut points = vec![point(0, above(0.5))];
-    let grid = grid_moving(&mut points, Vec3::zeros());
+    let cloud = Cloud {
+        positions: vec![above(0.5)],
+        velocity: Vec3::zeros(),
+    };
     let mut body = cube();
     let mut loads = Loads::default();
-    loads.find_candidates(&points, &grid, std::slice::from_ref(&body), 0.01);
-    loads.evaluate(&points, &grid, std::slice::from_ref(&body), SPHERE, 1e-5);
-    assert!(loads.on_points[0].z > 0.0);
+    loads.find_candidates(&cloud, std::slice::from_ref(&body), REACH);
+    loads.evaluate(&cloud, std::slice::from_ref(&body), SPHERE, 1e-5, 0.0);
+    assert_eq!(loads.on_points.len(), 1);
     body.state.position.z -= 0.01;
-    loads.evaluate(&points, &grid, &[body], SPHERE, 1e-5);
-    assert_eq!(loads.on_points[0], Vec3::zeros());
+    loads.evaluate(&cloud, &[body], SPHERE, 1e-5, 0.5);
+    assert_eq!(loads.on_points, vec![]);
     assert_eq!(loads.on_bodies[0], FlowLoad::default());
 }
 
 #[test]
 fn points_in_the_core_are_put_on_its_surface() {
     let body = cube();
-    let radius = body.shape.sphero_radius();
-    let core_top = 0.12 - radius;
-    let places = [
-        Vec3::new(0.1, 0.1, core_top - 1e-3),
-        Vec3::new(0.1, 0.1, core_top + 1e-3),
-        Vec3::repeat(0.15),
-    ];
-    let mut points: Vec<_> = (0u32..).zip(places).map(|(id, at)| point(id, at)).collect();
-    let grid = grid_moving(&mut points, Vec3::zeros());
-    assert_eq!(put_back(&mut points, &grid, &[body]), 1);
-    points.sort_unstable_by_key(|point| point.id);
-    assert!((points[0].position - Vec3::new(0.1, 0.1, 0.12)).norm() < 1e-15);
-    assert_eq!(points[1].position, places[1]);
-    assert_eq!(points[2].position, places[2]);
+    let core_top = 0.12 - body.shape.sphero_radius();
+    let at = |z: f64| put_back(&Vec3::new(0.1, 0.1, z), &body);
+    let outside = at(core_top - 1e-3).expect("it is inside");
+    assert!((outside - Vec3::new(0.1, 0.1, 0.12)).norm() < 1e-15);
+    assert_eq!(at(core_top + 1e-3), None);
+    assert_eq!(at(0.15), None);
 }
 
-// The search must not lose a point near a face of its block, wherever the
-// body's own box ends: it is moved over a block in steps of a third of a cell.
+// The search goes by blocks: a block that holds a point of a body's box must
+// meet that box, wherever it ends. It is moved in steps of a third of a cell.
 #[test]
-fn every_point_in_reach_is_a_candidate() {
-    let place = |n: u32| 0.055 + 0.0031 * f64::from(n);
-    let mut points: Vec<_> = (0..30u32.pow(3))
-        .map(|id| {
-            point(
-                id,
-                Vec3::new(place(id % 30), place(id / 30 % 30), place(id / 900)),
-            )
-        })
-        .collect();
-    let grid = grid_moving(&mut points, Vec3::zeros());
+fn blocks_in_reach_are_searched() {
+    let places = lump(30, 0.055, 0.0031);
     let mut body = cube();
     for _ in 0..12 {
         body.state.position += Vec3::repeat(0.0033);
         let around = Around::body(&body, 0.01);
-        let mut loads = Loads::default();
-        loads.find_candidates(&points, &grid, std::slice::from_ref(&body), 0.01);
-        let wanted = points.iter().filter(|p| around.holds(&p.position)).count();
-        assert!(wanted > 500 && wanted < points.len());
-        assert_eq!(loads.candidates[0].len(), wanted);
-        for candidate in &loads.candidates[0] {
-            let base = lattice().base(&points[candidate.point].position);
-            assert_eq!(grid.point_blocks()[candidate.block].key, block_of(base));
+        let inside = places.iter().filter(|place| around.holds(place));
+        assert!(inside.clone().count() > 500);
+        for place in inside {
+            let block = block_of(lattice().base(place));
+            assert!(around.meets(&lattice(), &block), "{place:?}");
         }
+        // And not every block is.
+        assert!(!around.meets(&lattice(), &block_of(lattice().base(&Vec3::repeat(0.3)))));
+    }
+}
+
+// A point half the largest travel away is let alone for half of the step, and
+// looked at after that.
+#[test]
+fn points_are_looked_at_when_they_can_touch() {
+    let gap = 0.5 * REACH.travel / SPHERE.radius;
+    let cloud = Cloud {
+        positions: vec![above(1.0 + gap), above(1.0 + 2.01 * gap)],
+        velocity: Vec3::zeros(),
+    };
+    let body = cube();
+    let mut loads = Loads::default();
+    loads.find_candidates(&cloud, std::slice::from_ref(&body), REACH);
+    assert_eq!(loads.candidates[0].len(), 1);
+    assert!((loads.candidates[0][0].earliest - 0.5).abs() < 1e-9);
+    // It has come into touch meanwhile.
+    let cloud = Cloud {
+        positions: vec![above(0.5)],
+        ..cloud
+    };
+    for (passed, touching) in [(0.4, 0), (0.6, 1)] {
+        loads.evaluate(&cloud, std::slice::from_ref(&body), SPHERE, 1e-5, passed);
+        assert_eq!(loads.on_points.len(), touching);
     }
 }

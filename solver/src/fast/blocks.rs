@@ -1,0 +1,424 @@
+//! Points in blocks of 4³ cells: each block keeps its own, sorted by cell.
+//!
+//! After a step a point that has left its block travels to the next one, and a
+//! block whose order has suffered too much sorts itself anew.
+
+use super::chunk::{Chunk, LANES, Packed, put, take};
+use crate::grid::{BLOCK, BlockKey};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Cells of a block.
+const CELLS: usize = BLOCK * BLOCK * BLOCK;
+/// A block is sorted anew once its runs of points in the same cell have become
+/// more, by one in so many of its points, than they were after the last sort.
+const DISORDER: u32 = 8;
+
+/// Blocks from the origin beyond which a point is put no farther, so that the
+/// indices of its nodes stay whole numbers: it is far outside of every channel.
+const FARTHEST: i32 = i32::MAX / (4 * BLOCK as i32);
+
+/// What is known of a block's points since they were last moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct End {
+    /// Speed of the fastest [m/s].
+    pub fastest: f32,
+    /// Whether every number is a number.
+    pub finite: bool,
+}
+
+impl Default for End {
+    fn default() -> Self {
+        Self {
+            fastest: 0.0,
+            finite: true,
+        }
+    }
+}
+
+/// The points of one block.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Block {
+    /// Which block.
+    pub key: BlockKey,
+    #[expect(
+        clippy::vec_box,
+        reason = "chunks move between blocks, their contents stay"
+    )]
+    chunks: Vec<Box<Chunk>>,
+    len: usize,
+    /// Runs of points in the same cell, as of the last transfer and as of the
+    /// last sort.
+    runs: u32,
+    sorted_runs: u32,
+    /// What the last pass found.
+    #[serde(skip)]
+    end: End,
+    /// Whether some of its points may have left it.
+    #[serde(skip)]
+    left: bool,
+}
+
+impl Block {
+    /// Points in it.
+    pub fn count(&self) -> usize {
+        self.len
+    }
+
+    /// Its chunks, each with the number of its points.
+    pub fn chunks(&self) -> impl Iterator<Item = (&Chunk, usize)> {
+        let len = self.len;
+        let used = len.div_ceil(LANES);
+        self.chunks[..used]
+            .iter()
+            .enumerate()
+            .map(move |(place, chunk)| (&**chunk, (len - place * LANES).min(LANES)))
+    }
+
+    /// Its chunks, each with the number of its points.
+    pub fn chunks_mut(&mut self) -> impl Iterator<Item = (&mut Chunk, usize)> {
+        let len = self.len;
+        let used = len.div_ceil(LANES);
+        self.chunks[..used]
+            .iter_mut()
+            .enumerate()
+            .map(move |(place, chunk)| (&mut **chunk, (len - place * LANES).min(LANES)))
+    }
+
+    /// One of its points.
+    pub fn get(&self, slot: usize) -> Packed {
+        self.chunks[slot / LANES].get(slot % LANES)
+    }
+
+    /// Changes one of its points.
+    pub fn set(&mut self, slot: usize, point: &Packed) {
+        self.chunks[slot / LANES].set(slot % LANES, point);
+    }
+
+    /// Position of one of its points [cells].
+    pub fn position(&self, slot: usize) -> [f32; 3] {
+        take(&self.chunks[slot / LANES].position, slot % LANES)
+    }
+
+    /// Mass of one of its points [kg].
+    pub fn mass(&self, slot: usize) -> f32 {
+        self.chunks[slot / LANES].mass[slot % LANES]
+    }
+
+    /// Gives one of its points another position [cells], which may lie in
+    /// another block until [`Blocks::settle`].
+    pub fn shift(&mut self, slot: usize, position: &[f32; 3]) {
+        put(
+            &mut self.chunks[slot / LANES].position,
+            slot % LANES,
+            position,
+        );
+    }
+
+    /// What is known of its points since they were last moved.
+    pub fn end(&self) -> End {
+        self.end
+    }
+
+    /// Notes what a pass found of its points.
+    pub fn note_end(&mut self, end: End) {
+        self.end = end;
+    }
+
+    /// Notes how many runs of points in the same cell a pass met.
+    pub fn note_runs(&mut self, runs: u32) {
+        self.runs = runs;
+    }
+
+    /// Takes a point in, and a chunk from the pool if it needs one.
+    fn push(&mut self, point: &Packed, pool: &mut Pool) {
+        if self.len == self.chunks.len() * LANES {
+            self.chunks.push(pool.take());
+        }
+        self.len += 1;
+        self.set(self.len - 1, point);
+    }
+
+    /// Takes a point out, whose place the last one takes.
+    fn swap_remove(&mut self, slot: usize, pool: &mut Pool) {
+        let last = self.len - 1;
+        let moved = self.get(last);
+        self.set(slot, &moved);
+        self.set(last, &Packed::NONE);
+        self.len = last;
+        let used = last.div_ceil(LANES);
+        pool.chunks.extend(self.chunks.drain(used..));
+    }
+
+    fn swap(&mut self, one: usize, other: usize) {
+        let (a, b) = (self.get(one), self.get(other));
+        self.set(one, &b);
+        self.set(other, &a);
+    }
+
+    fn look_for_leaving(&mut self) {
+        let left = self.chunks().any(|(chunk, _)| unsettled(chunk).is_some());
+        self.left = left;
+    }
+
+    /// Takes out what has left the block.
+    fn send_off(&mut self, travelling: &mut Vec<(BlockKey, Packed)>, pool: &mut Pool) {
+        let mut place = 0;
+        while place < self.chunks.len() {
+            let Some(lane) = unsettled(&self.chunks[place]) else {
+                place += 1;
+                continue;
+            };
+            let slot = place * LANES + lane;
+            let mut point = self.get(slot);
+            let key = settle(&self.key, &mut point.position);
+            travelling.push((key, point));
+            // The last point comes here, and is looked at in turn.
+            self.swap_remove(slot, pool);
+        }
+    }
+
+    /// Sorts the points by cell if their order has suffered.
+    fn tidy(&mut self) {
+        let most = self.sorted_runs + self.len as u32 / DISORDER;
+        if self.runs <= most {
+            return;
+        }
+        let mut counts = [0u16; CELLS];
+        for (chunk, count) in self.chunks() {
+            for lane in 0..count {
+                counts[cell_of(chunk, lane)] += 1;
+            }
+        }
+        self.sort(&counts);
+        self.sorted_runs = counts.iter().filter(|count| **count > 0).count() as u32;
+        self.runs = self.sorted_runs;
+    }
+
+    /// Swaps every point into the range of its cell. Few swaps where few points
+    /// changed theirs; the order within a cell is of no interest, but depends on
+    /// nothing than the state.
+    fn sort(&mut self, counts: &[u16; CELLS]) {
+        let mut next = [0usize; CELLS];
+        let mut end = [0usize; CELLS];
+        let mut sum = 0;
+        for place in 0..CELLS {
+            next[place] = sum;
+            sum += usize::from(counts[place]);
+            end[place] = sum;
+        }
+        for place in 0..CELLS {
+            while next[place] < end[place] {
+                let slot = next[place];
+                let home = cell_of(&self.chunks[slot / LANES], slot % LANES);
+                if home != place {
+                    self.swap(slot, next[home]);
+                }
+                next[home] += 1;
+            }
+        }
+    }
+}
+
+/// Lane of a point that has left its block, if there is one.
+fn unsettled(chunk: &Chunk) -> Option<usize> {
+    let mut settled = [true; LANES];
+    for of in &chunk.position {
+        for lane in 0..LANES {
+            settled[lane] &= is_settled(of[lane]);
+        }
+    }
+    settled.iter().position(|settled| !settled)
+}
+
+/// Chunks without points, kept for blocks that will need them.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Pool {
+    #[expect(
+        clippy::vec_box,
+        reason = "chunks move between blocks, their contents stay"
+    )]
+    chunks: Vec<Box<Chunk>>,
+}
+
+impl Pool {
+    fn take(&mut self) -> Box<Chunk> {
+        self.chunks.pop().unwrap_or_else(|| Box::new(Chunk::EMPTY))
+    }
+}
+
+/// Whether a coordinate belongs to the block [cells].
+fn is_settled(x: f32) -> bool {
+    x >= 0.5 && x < BLOCK as f32 + 0.5
+}
+
+/// Place of a settled point's cell.
+fn cell_of(chunk: &Chunk, lane: usize) -> usize {
+    // What is no number is in the first cell.
+    let along = |axis: usize| ((chunk.position[axis][lane] - 0.5) as usize).min(BLOCK - 1);
+    (along(0) * BLOCK + along(1)) * BLOCK + along(2)
+}
+
+/// Brings a position relative to `key`'s block into the block it lies in, which
+/// is returned. What is no number stays where it is.
+pub fn settle(key: &BlockKey, position: &mut [f32; 3]) -> BlockKey {
+    let mut settled = *key;
+    for (along, x) in settled.iter_mut().zip(position) {
+        if !x.is_finite() {
+            continue;
+        }
+        let blocks = ((*x - 0.5) / BLOCK as f32).floor();
+        *along = along
+            .saturating_add(blocks as i32)
+            .clamp(-FARTHEST, FARTHEST);
+        *x -= blocks * BLOCK as f32;
+        // Rounding may have pushed it over a rim.
+        if *x < 0.5 {
+            *along = along.saturating_sub(1);
+            *x = (*x + BLOCK as f32).min((BLOCK as f32 + 0.5).next_down());
+        } else if *x >= BLOCK as f32 + 0.5 {
+            *along = along.saturating_add(1);
+            *x -= BLOCK as f32;
+        }
+    }
+    settled
+}
+
+/// All blocks with points, sorted by key.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Blocks {
+    occupied: Vec<Block>,
+    #[serde(skip)]
+    pool: Pool,
+    #[serde(skip)]
+    emptied: Vec<Block>,
+    #[serde(skip)]
+    travelling: Vec<(BlockKey, Packed)>,
+    #[serde(skip)]
+    born: Vec<BlockKey>,
+}
+
+impl Blocks {
+    /// Points, each with its block.
+    pub fn of(points: impl Iterator<Item = (BlockKey, Packed)>) -> Self {
+        let mut blocks = Self {
+            travelling: points.collect(),
+            ..Self::default()
+        };
+        blocks.arrive();
+        blocks.travelling = Vec::new();
+        for block in &mut blocks.occupied {
+            block.runs = u32::MAX;
+            block.tidy();
+        }
+        blocks
+    }
+
+    /// The blocks.
+    pub fn occupied(&self) -> &[Block] {
+        &self.occupied
+    }
+
+    /// The blocks.
+    pub fn occupied_mut(&mut self) -> &mut [Block] {
+        &mut self.occupied
+    }
+
+    /// Points in all blocks.
+    pub fn count(&self) -> usize {
+        self.occupied.iter().map(Block::count).sum()
+    }
+
+    /// Lets the points that left their blocks travel to others, and keeps every
+    /// block in order.
+    pub fn settle(&mut self) {
+        self.occupied
+            .par_iter_mut()
+            .for_each(Block::look_for_leaving);
+        for block in self.occupied.iter_mut().filter(|block| block.left) {
+            block.send_off(&mut self.travelling, &mut self.pool);
+        }
+        self.arrive();
+        self.occupied.par_iter_mut().for_each(Block::tidy);
+    }
+
+    /// Takes points out for which `gone` says so, of blocks for which `search`
+    /// does.
+    pub fn take_out(
+        &mut self,
+        search: impl Fn(&BlockKey) -> bool,
+        mut gone: impl FnMut(&BlockKey, &Packed) -> bool,
+    ) {
+        for block in self.occupied.iter_mut().filter(|block| search(&block.key)) {
+            let mut slot = 0;
+            while slot < block.len {
+                if gone(&block.key, &block.get(slot)) {
+                    block.swap_remove(slot, &mut self.pool);
+                } else {
+                    slot += 1;
+                }
+            }
+        }
+        self.drop_empty();
+    }
+
+    /// Puts the travelling points into their blocks.
+    fn arrive(&mut self) {
+        self.born.clear();
+        for (key, _) in &self.travelling {
+            if self.find(key).is_err() {
+                self.born.push(*key);
+            }
+        }
+        self.born.sort_unstable();
+        self.born.dedup();
+        for key in &self.born {
+            let mut block = self.emptied.pop().unwrap_or_default();
+            block.key = *key;
+            block.end = End::default();
+            (block.runs, block.sorted_runs) = (0, 0);
+            self.occupied.push(block);
+        }
+        if !self.born.is_empty() {
+            self.occupied.sort_unstable_by_key(|block| block.key);
+        }
+        for place in 0..self.travelling.len() {
+            let (key, point) = self.travelling[place];
+            if let Ok(block) = self.find(&key) {
+                self.occupied[block].push(&point, &mut self.pool);
+            }
+        }
+        self.travelling.clear();
+        self.drop_empty();
+    }
+
+    fn find(&self, key: &BlockKey) -> Result<usize, usize> {
+        self.occupied.binary_search_by_key(key, |block| block.key)
+    }
+
+    fn drop_empty(&mut self) {
+        let mut place = 0;
+        while place < self.occupied.len() {
+            if self.occupied[place].len == 0 {
+                self.emptied.push(self.occupied.remove(place));
+            } else {
+                place += 1;
+            }
+        }
+    }
+
+    /// Bytes held for points.
+    pub fn bytes(&self) -> usize {
+        let of_block = |block: &Block| {
+            block.chunks.len() * size_of::<Chunk>()
+                + block.chunks.capacity() * size_of::<Box<Chunk>>()
+                + size_of::<Block>()
+        };
+        let pool = self.pool.chunks.len() * size_of::<Chunk>();
+        let kept = self.occupied.iter().chain(&self.emptied).map(of_block);
+        kept.sum::<usize>() + pool + self.travelling.capacity() * size_of::<(BlockKey, Packed)>()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,387 @@
+//! The nodes of the fast path: blocks of 4³, only where points are, in single
+//! precision (docs/method.md, equations 8–10).
+
+use super::rows::Tile;
+use super::stencil::weights;
+use crate::grid::{BLOCK, BLOCK_NODES, BlockKey, TILE, block_of, in_tile};
+use crate::kernel::{Lattice, WIDTH};
+use crate::math::Vec3;
+use crate::walls::NodeAccess;
+use fearless_simd::{Level, dispatch, f32x4, f32x8, f32x16, prelude::*};
+use rayon::prelude::*;
+
+/// Four numbers of each node of a block.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+pub struct NodeBlock([f32; 4 * BLOCK_NODES]);
+
+impl NodeBlock {
+    const EMPTY: Self = Self([0.0; 4 * BLOCK_NODES]);
+
+    fn node(&self, node: usize) -> &[f32] {
+        &self.0[4 * node..4 * node + 4]
+    }
+}
+
+/// No such block.
+const NONE: u32 = u32::MAX;
+/// A node lighter than this [kg] is empty: its numbers would be rounding, and
+/// the points hardly see it.
+const LIGHTEST: f32 = 1e-30;
+/// Blocks of nodes one task takes.
+const TASK: usize = 16;
+/// The eight blocks a tile reaches, in the order in which tiles are added.
+const OCTANTS: [[usize; 3]; 8] = [
+    [0, 0, 0],
+    [0, 0, 1],
+    [0, 1, 0],
+    [0, 1, 1],
+    [1, 0, 0],
+    [1, 0, 1],
+    [1, 1, 0],
+    [1, 1, 1],
+];
+
+/// The grid of one step.
+#[derive(Debug)]
+pub struct Nodes {
+    lattice: Lattice,
+    /// Blocks of points and the node blocks their tiles reach.
+    reach: Vec<(BlockKey, [u32; 8])>,
+    keys: Vec<BlockKey>,
+    /// Per node block: the blocks of points whose tiles reach it.
+    sources: Vec<[u32; 8]>,
+    /// Mass [kg] and velocity [m/s].
+    motion: Vec<NodeBlock>,
+    /// What rounding took from the velocity since the transfer [m/s], after a
+    /// number that means nothing. Without it the same small change, added again
+    /// and again, would be rounded the same way again and again.
+    remainder: Vec<NodeBlock>,
+    /// Displacement since the transfer [m], after a number that means nothing.
+    displacement: Vec<NodeBlock>,
+}
+
+impl Nodes {
+    /// No nodes.
+    pub fn new(lattice: Lattice) -> Self {
+        Self {
+            lattice,
+            reach: Vec::new(),
+            keys: Vec::new(),
+            sources: Vec::new(),
+            motion: Vec::new(),
+            remainder: Vec::new(),
+            displacement: Vec::new(),
+        }
+    }
+
+    /// Lays blocks of nodes round these blocks of points, which come sorted. What
+    /// the nodes hold then means nothing.
+    pub fn lay_around(&mut self, blocks: impl ExactSizeIterator<Item = BlockKey> + Clone) {
+        let same = blocks.len() == self.reach.len()
+            && blocks
+                .clone()
+                .zip(&self.reach)
+                .all(|(key, old)| key == old.0);
+        if same {
+            return;
+        }
+        self.keys.clear();
+        for key in blocks.clone() {
+            self.keys
+                .extend(OCTANTS.map(|octant| shifted(key, octant, 1)));
+        }
+        self.keys.sort_unstable();
+        self.keys.dedup();
+        let keys = &self.keys;
+        self.reach.clear();
+        self.reach.extend(blocks.map(|key| {
+            let reached = OCTANTS.map(|octant| place(keys, shifted(key, octant, 1), |k| *k));
+            (key, reached)
+        }));
+        let reach = &self.reach;
+        self.sources.clear();
+        self.sources.extend(keys.iter().map(|key| {
+            OCTANTS.map(|octant| place(reach, shifted(*key, octant, -1), |block| block.0))
+        }));
+        self.motion.resize(keys.len(), NodeBlock::EMPTY);
+        self.remainder.resize(keys.len(), NodeBlock::EMPTY);
+        self.displacement.resize(keys.len(), NodeBlock::EMPTY);
+    }
+
+    /// Takes mass and momentum from the tiles of the points: v = Σ p / Σ m.
+    pub fn take_momentum(&mut self, tiles: &[Tile], level: Level) {
+        self.motion
+            .par_iter_mut()
+            .zip(&mut self.remainder)
+            .zip(&mut self.displacement)
+            .zip(&self.sources)
+            .with_min_len(TASK)
+            .for_each(|(((motion, remainder), displacement), sources)| {
+                dispatch!(level, simd => take(simd, sources, tiles, motion));
+                *remainder = NodeBlock::EMPTY;
+                *displacement = NodeBlock::EMPTY;
+            });
+    }
+
+    /// v ← v + Δt (f/m + g) with the forces in the tiles; u ← u + Δt v.
+    pub fn advance(&mut self, tiles: &[Tile], gravity: &Vec3, dt: f64, level: Level) {
+        let fall = gravity.map(|g| (g * dt) as f32);
+        let push = Push {
+            fall: [0.0, fall.x, fall.y, fall.z],
+            dt: dt as f32,
+        };
+        self.motion
+            .par_iter_mut()
+            .zip(&mut self.remainder)
+            .zip(&mut self.displacement)
+            .zip(&self.sources)
+            .with_min_len(TASK)
+            .for_each(|(((motion, remainder), displacement), sources)| {
+                dispatch!(level, simd => {
+                    let mut forces = NodeBlock::EMPTY;
+                    add_up(simd, sources, tiles, &mut forces);
+                    advance(simd, &forces, &push, motion, remainder, displacement);
+                });
+            });
+    }
+
+    /// Mass and velocity of the nodes that a block of points touches.
+    #[inline(always)]
+    pub fn motion_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
+        fill(simd, &self.reach[block].1, &self.motion, tile);
+    }
+
+    /// Displacement of the nodes that a block of points touches.
+    #[inline(always)]
+    pub fn displacement_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
+        fill(simd, &self.reach[block].1, &self.displacement, tile);
+    }
+
+    /// Velocity [m/s] and displacement [m] of the nodes at a place in a block of
+    /// points, Σ w v_i and Σ w u_i.
+    pub fn motion_at(&self, block: usize, position: &[f32; 3]) -> (Vec3, Vec3) {
+        let (base, weight) = weights(position);
+        let reach = &self.reach[block].1;
+        let (mut velocity, mut displacement) = ([0.0; 4], [0.0; 4]);
+        for a in 0..WIDTH {
+            for b in 0..WIDTH {
+                let across = weight[0][a] * weight[1][b];
+                for c in 0..WIDTH {
+                    let local = [base[0] + a, base[1] + b, base[2] + c];
+                    let high = local.map(|along| along / BLOCK);
+                    let node = in_block(local.map(|along| along % BLOCK));
+                    let block = reach[high[0] * 4 + high[1] * 2 + high[2]] as usize;
+                    let w = across * weight[2][c];
+                    add_weighted(&mut velocity, self.motion[block].node(node), w);
+                    add_weighted(&mut displacement, self.displacement[block].node(node), w);
+                }
+            }
+        }
+        (vector(&velocity), vector(&displacement))
+    }
+
+    /// Bytes held for nodes.
+    pub fn bytes(&self) -> usize {
+        self.motion.capacity() * 3 * size_of::<NodeBlock>()
+            + self.keys.capacity() * size_of::<(BlockKey, [u32; 8])>()
+            + self.reach.capacity() * size_of::<(BlockKey, [u32; 8])>()
+    }
+}
+
+impl NodeAccess for Nodes {
+    fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    fn blocks(&self) -> &[BlockKey] {
+        &self.keys
+    }
+
+    fn place_of(&self, index: [i32; 3]) -> Option<usize> {
+        let key = block_of(index);
+        let block = place(&self.keys, key, |k| *k);
+        (block != NONE).then(|| {
+            let local = [0, 1, 2].map(|axis| (index[axis] - key[axis] * BLOCK as i32) as usize);
+            block as usize * BLOCK_NODES + in_block(local)
+        })
+    }
+
+    fn mass(&self, place: usize) -> f64 {
+        f64::from(self.motion[place / BLOCK_NODES].node(place % BLOCK_NODES)[0])
+    }
+
+    fn velocity(&self, place: usize) -> Vec3 {
+        let (block, node) = (place / BLOCK_NODES, place % BLOCK_NODES);
+        vector(self.motion[block].node(node)) + vector(self.remainder[block].node(node))
+    }
+
+    fn displacement(&self, place: usize, dt: f64) -> Vec3 {
+        // The nodes have moved already, freely.
+        vector(self.displacement[place / BLOCK_NODES].node(place % BLOCK_NODES))
+            - self.velocity(place) * dt
+    }
+
+    fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64) {
+        let (block, node) = (place / BLOCK_NODES, place % BLOCK_NODES);
+        let moving = &mut self.motion[block].0[4 * node..4 * node + 4];
+        let moved = &mut self.displacement[block].0[4 * node..4 * node + 4];
+        let remainder = &mut self.remainder[block].0[4 * node..4 * node + 4];
+        for k in 0..3 {
+            let new = velocity[k] as f32;
+            moved[k + 1] += (new - moving[k + 1]) * dt as f32;
+            moving[k + 1] = new;
+            remainder[k + 1] = (velocity[k] - f64::from(new)) as f32;
+        }
+    }
+}
+
+/// What a sub-step adds to every node with mass.
+struct Push {
+    /// Δt g, after a zero [m/s].
+    fall: [f32; 4],
+    /// [s].
+    dt: f32,
+}
+
+fn add_weighted(sum: &mut [f32; 4], part: &[f32], weight: f32) {
+    for (sum, part) in sum.iter_mut().zip(part) {
+        *sum += weight * part;
+    }
+}
+
+fn vector(numbers: &[f32]) -> Vec3 {
+    Vec3::new(
+        f64::from(numbers[1]),
+        f64::from(numbers[2]),
+        f64::from(numbers[3]),
+    )
+}
+
+fn shifted(key: BlockKey, octant: [usize; 3], sign: i32) -> BlockKey {
+    [0, 1, 2].map(|axis| key[axis] + sign * octant[axis] as i32)
+}
+
+fn place<T>(sorted: &[T], key: BlockKey, key_of: impl Fn(&T) -> BlockKey) -> u32 {
+    sorted
+        .binary_search_by_key(&key, key_of)
+        .map_or(NONE, |place| place as u32)
+}
+
+const fn in_block([a, b, c]: [usize; 3]) -> usize {
+    (a * BLOCK + b) * BLOCK + c
+}
+
+/// Rows along z that a tile shares with the block in an octant of it: how many
+/// along x and y, and where they begin in the tile. They are whole, four nodes
+/// long, in the lower octants and half as long in the upper ones.
+const fn shared(octant: [usize; 3]) -> ([usize; 2], usize) {
+    let rows = [
+        if octant[0] == 0 { BLOCK } else { TILE - BLOCK },
+        if octant[1] == 0 { BLOCK } else { TILE - BLOCK },
+    ];
+    let start = in_tile(octant[0] * BLOCK, octant[1] * BLOCK, octant[2] * BLOCK);
+    (rows, start)
+}
+
+#[inline(always)]
+fn fill<S: Simd>(simd: S, reach: &[u32; 8], blocks: &[NodeBlock], tile: &mut Tile) {
+    for (octant, block) in OCTANTS.iter().zip(reach) {
+        let nodes = &blocks[*block as usize].0;
+        let ([along_x, along_y], start) = shared(*octant);
+        for a in 0..along_x {
+            for b in 0..along_y {
+                let from = &nodes[4 * in_block([a, b, 0])..];
+                let to = &mut tile.0[4 * (start + in_tile(a, b, 0))..];
+                if octant[2] == 0 {
+                    copy::<S, f32x16<S>>(simd, from, to);
+                } else {
+                    copy::<S, f32x8<S>>(simd, from, to);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn copy<S: Simd, V: SimdBase<S, Element = f32>>(simd: S, from: &[f32], to: &mut [f32]) {
+    V::from_slice(simd, &from[..V::LEN]).store_slice(&mut to[..V::LEN]);
+}
+
+#[inline(always)]
+fn add_up<S: Simd>(simd: S, sources: &[u32; 8], tiles: &[Tile], sums: &mut NodeBlock) {
+    *sums = NodeBlock::EMPTY;
+    for (octant, source) in OCTANTS.iter().zip(sources) {
+        if *source == NONE {
+            continue;
+        }
+        let tile = &tiles[*source as usize].0;
+        let ([along_x, along_y], start) = shared(*octant);
+        for a in 0..along_x {
+            for b in 0..along_y {
+                let part = &tile[4 * (start + in_tile(a, b, 0))..];
+                let sum = &mut sums.0[4 * in_block([a, b, 0])..];
+                if octant[2] == 0 {
+                    add::<S, f32x16<S>>(simd, part, sum);
+                } else {
+                    add::<S, f32x8<S>>(simd, part, sum);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn add<S: Simd, V: SimdFloat<S, Element = f32>>(simd: S, part: &[f32], sum: &mut [f32]) {
+    let part = V::from_slice(simd, &part[..V::LEN]);
+    (V::from_slice(simd, &sum[..V::LEN]) + part).store_slice(&mut sum[..V::LEN]);
+}
+
+#[inline(always)]
+fn take<S: Simd>(simd: S, sources: &[u32; 8], tiles: &[Tile], motion: &mut NodeBlock) {
+    add_up(simd, sources, tiles, motion);
+    for node in motion.0.chunks_exact_mut(4) {
+        let mass = node[0];
+        if mass > LIGHTEST {
+            let velocity = f32x4::from_slice(simd, node) * f32x4::splat(simd, 1.0 / mass);
+            velocity.store_slice(node);
+            node[0] = mass;
+        } else {
+            f32x4::splat(simd, 0.0).store_slice(node);
+        }
+    }
+}
+
+#[inline(always)]
+fn advance<S: Simd>(
+    simd: S,
+    forces: &NodeBlock,
+    push: &Push,
+    motion: &mut NodeBlock,
+    remainder: &mut NodeBlock,
+    displacement: &mut NodeBlock,
+) {
+    let fall = f32x4::from_slice(simd, &push.fall);
+    let dt = f32x4::splat(simd, push.dt);
+    for node in 0..BLOCK_NODES {
+        let here = 4 * node..4 * node + 4;
+        let moving = &mut motion.0[here.clone()];
+        let mass = moving[0];
+        if mass > 0.0 {
+            let left = &mut remainder.0[here.clone()];
+            let moved = &mut displacement.0[here.clone()];
+            let force = f32x4::from_slice(simd, &forces.0[here]);
+            let before = f32x4::from_slice(simd, moving);
+            let owed = fall + f32x4::from_slice(simd, left);
+            // Kahan's sum.
+            let change = force.mul_add(f32x4::splat(simd, push.dt / mass), owed);
+            let velocity = before + change;
+            (change - (velocity - before)).store_slice(left);
+            let displaced = velocity.mul_add(dt, f32x4::from_slice(simd, moved));
+            displaced.store_slice(moved);
+            velocity.store_slice(moving);
+            // The tiles of forces hold nothing in this place.
+            moving[0] = mass;
+        }
+    }
+}

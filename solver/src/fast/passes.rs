@@ -1,0 +1,242 @@
+//! What a block of points does: give mass, momentum and force to its tile, take
+//! a sub-step, take the motion back.
+
+use super::blocks::Block;
+use super::chunk::{Chunk, LANES, Lanes};
+use super::rows::{Given, Moments, Quads, Tile, gather_mean};
+use super::stencil::Stencils;
+use super::stress::{self, Law, Matrix, Strained};
+use super::totals::EndSums;
+use crate::math::Vec3;
+use fearless_simd::{f32x16, prelude::*};
+
+/// The nodes' state as a block of points sees it at the end of a step.
+pub struct EndTiles {
+    /// Mass and velocity.
+    pub motion: Tile,
+    /// Displacement.
+    pub displacement: Tile,
+    /// Displacement × velocity.
+    pub twist: Tile,
+}
+
+impl EndTiles {
+    /// All zero.
+    pub const EMPTY: Self = Self {
+        motion: Tile::EMPTY,
+        displacement: Tile::EMPTY,
+        twist: Tile::EMPTY,
+    };
+
+    /// Fills in the twist of the nodes.
+    #[inline(always)]
+    pub fn cross(&mut self) {
+        let nodes = self
+            .motion
+            .0
+            .chunks_exact(4)
+            .zip(self.displacement.0.chunks_exact(4));
+        for (twist, (v, u)) in self.twist.0.chunks_exact_mut(4).zip(nodes) {
+            twist[1] = u[2] * v[3] - u[3] * v[2];
+            twist[2] = u[3] * v[1] - u[1] * v[3];
+            twist[3] = u[1] * v[2] - u[2] * v[1];
+        }
+    }
+}
+
+/// Gives mass and momentum to one tile and the force of stress to another
+/// (equations 8 and 9), and starts the deformation anew.
+#[inline(always)]
+pub fn transfer<S: Simd>(
+    simd: S,
+    block: &mut Block,
+    law: &Law,
+    momentum: &mut Tile,
+    force: &mut Tile,
+) {
+    (*momentum, *force) = (Tile::EMPTY, Tile::EMPTY);
+    let mut given = Given::NOTHING;
+    let mut runs = 0;
+    for (chunk, count) in block.chunks_mut() {
+        let stencils = Stencils::of(simd, &chunk.position);
+        runs += stencils.runs(count);
+        give_momentum(simd, chunk, law, &mut given);
+        given.scatter::<S, true>(simd, &stencils, count, momentum);
+        chunk.gradient = [[[0.0; LANES]; 3]; 3];
+        give_force(
+            simd,
+            &stress::at_transfer(simd, chunk, law),
+            chunk,
+            law,
+            &mut given,
+        );
+        given.scatter::<S, false>(simd, &stencils, count, force);
+    }
+    block.note_runs(runs);
+}
+
+/// One sub-step: the velocity gradient of the nodes strains the points, whose
+/// stress pushes the nodes (equations 11, 2–6 and 9).
+#[inline(always)]
+pub fn substep<S: Simd>(
+    simd: S,
+    block: &mut Block,
+    law: &Law,
+    dt: f32,
+    motion: &Tile,
+    force: &mut Tile,
+) {
+    *force = Tile::EMPTY;
+    let mut moments = Moments::EMPTY;
+    let mut given = Given::NOTHING;
+    for (chunk, count) in block.chunks_mut() {
+        let stencils = Stencils::of(simd, &chunk.position);
+        moments.gather::<S, false>(simd, &stencils, count, motion);
+        let gradient = gradient(simd, &moments, law);
+        let strained = stress::strain(simd, chunk, &gradient, law, dt);
+        give_force(simd, &strained, chunk, law, &mut given);
+        given.scatter::<S, false>(simd, &stencils, count, force);
+    }
+}
+
+/// The last sub-step of a step, and the motion back to the points (equations 12
+/// and 13).
+#[inline(always)]
+pub fn finish<S: Simd>(
+    simd: S,
+    block: &mut Block,
+    law: &Law,
+    spacing: &Vec3,
+    dt: f32,
+    nodes: &EndTiles,
+) {
+    let mut moments = Moments::EMPTY;
+    let mut displacement = Quads::EMPTY;
+    let mut twist = Quads::EMPTY;
+    let mut sums = EndSums::NONE;
+    for (chunk, count) in block.chunks_mut() {
+        let stencils = Stencils::of(simd, &chunk.position);
+        moments.gather::<S, true>(simd, &stencils, count, &nodes.motion);
+        gather_mean(
+            simd,
+            &stencils,
+            count,
+            &nodes.displacement,
+            &mut displacement,
+        );
+        gather_mean(simd, &stencils, count, &nodes.twist, &mut twist);
+        let a = gradient(simd, &moments, law);
+        let strained = stress::strain(simd, chunk, &a, law, dt);
+        chunk.dilation = strained.dilation.into();
+        let [_, vx, vy, vz] = moments.zeroth.spread(simd);
+        let [_, ux, uy, uz] = displacement.spread(simd);
+        let [_, tx, ty, tz] = twist.spread(simd);
+        let on_displaced = strained.deformed.undone(simd, &a);
+        // Of Σ w v_i (d_i + u_i − u_p)ᵀ only the skew part counts: what the
+        // nodes' displacement adds is u_p × v_p − Σ w u_i × v_i.
+        let added = [
+            uy * vz - uz * vy - tx,
+            uz * vx - ux * vz - ty,
+            ux * vy - uy * vx - tz,
+        ];
+        let affine = with_angular_momentum(simd, &on_displaced, &a, &added, spacing);
+        let (velocity, moved) = ([vx, vy, vz], [ux, uy, uz]);
+        for axis in 0..3 {
+            chunk.velocity[axis] = velocity[axis].into();
+            let cells = f32x16::splat(simd, (1.0 / spacing[axis]) as f32);
+            let position = f32x16::simd_from(simd, chunk.position[axis]);
+            chunk.position[axis] = moved[axis].mul_add(cells, position).into();
+            for row in 0..3 {
+                chunk.gradient[axis][row] = affine[row][axis].into();
+            }
+        }
+        sums.add(chunk);
+    }
+    block.note_end(sums.end());
+}
+
+/// A = Σ v_i ⊗ ∇w_i from the moments of mass and velocity.
+#[inline(always)]
+fn gradient<S: Simd>(simd: S, moments: &Moments, law: &Law) -> Matrix<S> {
+    let mut gradient = [[f32x16::splat(simd, 0.0); 3]; 3];
+    for axis in 0..3 {
+        let factor = f32x16::splat(simd, law.gradient[axis]);
+        let [_, x, y, z] = moments.first[axis].spread(simd);
+        gradient[0][axis] = x * factor;
+        gradient[1][axis] = y * factor;
+        gradient[2][axis] = z * factor;
+    }
+    gradient
+}
+
+/// `gradient` with the skew part that keeps the angular momentum (equation 13);
+/// `plain` is the gradient at the transfer positions.
+#[inline(always)]
+fn with_angular_momentum<S: Simd>(
+    simd: S,
+    gradient: &Matrix<S>,
+    plain: &Matrix<S>,
+    added: &[f32x16<S>; 3],
+    spacing: &Vec3,
+) -> Matrix<S> {
+    let moment = spacing.component_mul(spacing) * 0.25;
+    let mut affine = *gradient;
+    for (axis, (i, j)) in [(2, (0, 1)), (1, (0, 2)), (0, (1, 2))] {
+        let symmetric = splat(simd, 0.5) * (gradient[i][j] + gradient[j][i]);
+        // (v uᵀ)_ij − (v uᵀ)_ji is −(u × v) for (0, 1) and (1, 2), + for (0, 2).
+        let sign = if axis == 1 { -1.0 } else { 1.0 };
+        let turned = plain[i][j] * splat(simd, moment[j]) - plain[j][i] * splat(simd, moment[i]);
+        let wanted = splat(simd, sign).mul_add(added[axis], turned);
+        let skew = (wanted - symmetric * splat(simd, moment[j] - moment[i]))
+            * splat(simd, 1.0 / (moment[i] + moment[j]));
+        affine[i][j] = symmetric + skew;
+        affine[j][i] = symmetric - skew;
+    }
+    affine
+}
+
+/// m and m v, and m C d with d in cells.
+#[inline(always)]
+fn give_momentum<S: Simd>(simd: S, chunk: &Chunk, law: &Law, given: &mut Given) {
+    let none = f32x16::splat(simd, 0.0);
+    let mass = f32x16::simd_from(simd, chunk.mass);
+    let [x, y, z] = times(simd, &chunk.velocity, mass);
+    given.constant.gathered([mass, x, y, z]);
+    for axis in 0..3 {
+        let spacing = f32x16::splat(simd, 4.0 / law.gradient[axis]);
+        let [x, y, z] = times(simd, &chunk.gradient[axis], mass * spacing);
+        given.slope[axis].gathered([none, x, y, z]);
+    }
+}
+
+#[inline(always)]
+fn times<S: Simd>(simd: S, vector: &[Lanes; 3], factor: f32x16<S>) -> [f32x16<S>; 3] {
+    [
+        f32x16::simd_from(simd, vector[0]) * factor,
+        f32x16::simd_from(simd, vector[1]) * factor,
+        f32x16::simd_from(simd, vector[2]) * factor,
+    ]
+}
+
+#[inline(always)]
+fn splat<S: Simd>(simd: S, value: f64) -> f32x16<S> {
+    f32x16::splat(simd, value as f32)
+}
+
+#[inline(always)]
+fn give_force<S: Simd>(
+    simd: S,
+    strained: &Strained<S>,
+    chunk: &Chunk,
+    law: &Law,
+    given: &mut Given,
+) {
+    let none = f32x16::splat(simd, 0.0);
+    let force = strained.force(simd, chunk, law);
+    for axis in 0..3 {
+        given.slope[axis].gathered([none, force[0][axis], force[1][axis], force[2][axis]]);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,403 @@
+//! The fast path: blocks of points in single precision, a whole sub-step in one
+//! pass over them.
+
+use super::{Culprit, Flow, SavedFlow, Substep};
+use crate::contact::point_body::{self, Around, FlowLoad, Loads, Moving, PointAccess, Reach};
+use crate::diagnostics::Totals;
+use crate::fast::blocks::{Block, Blocks};
+use crate::fast::instructions::Instructions;
+use crate::fast::nodes::Nodes;
+use crate::fast::packing::Packing;
+use crate::fast::passes::{self, EndTiles};
+use crate::fast::rows::Tile;
+use crate::fast::stress::Law;
+use crate::fast::totals;
+use crate::grid::{BLOCK, BlockKey};
+use crate::math::Vec3;
+use crate::points::Point;
+use crate::rigid::Body;
+use crate::simulation::laps::{Laps, Verb};
+use crate::simulation::setup::Setup;
+use crate::walls::{Boundary, Impulse, Plane};
+use fearless_simd::{Level, dispatch};
+use rayon::prelude::*;
+
+/// A flow on the fast path.
+#[derive(Debug)]
+pub(in crate::simulation) struct FastFlow {
+    blocks: Blocks,
+    nodes: Nodes,
+    /// What each block gives its nodes: mass and momentum at a transfer.
+    momentum: Vec<Tile>,
+    /// Forces of the present sub-step, for the next.
+    forces: Vec<Tile>,
+    boundary: Boundary,
+    loads: Loads<Place>,
+    packing: Packing,
+    law: Law,
+    level: Level,
+    /// Speed of the fastest point [m/s].
+    fastest: f64,
+    /// Whether some point has a quantity that is no number.
+    flawed: bool,
+}
+
+/// Where a point is kept.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    block: u32,
+    slot: u32,
+}
+
+struct Access<'a> {
+    blocks: &'a [Block],
+    nodes: &'a Nodes,
+    packing: &'a Packing,
+}
+
+impl PointAccess for Access<'_> {
+    type Place = Place;
+
+    fn find_within(&self, around: &Around, found: &mut Vec<Place>) {
+        for (place, block) in self.blocks.iter().enumerate() {
+            if !around.meets(&self.packing.lattice, &block.key) {
+                continue;
+            }
+            let inside = (0..block.count()).filter(|slot| {
+                let position = block.position(*slot);
+                around.holds(&self.packing.position(&block.key, &position))
+            });
+            found.extend(inside.map(|slot| Place {
+                block: place as u32,
+                slot: slot as u32,
+            }));
+        }
+    }
+
+    fn resting(&self, place: Place) -> Vec3 {
+        let block = &self.blocks[place.block as usize];
+        let position = block.position(place.slot as usize);
+        self.packing.position(&block.key, &position)
+    }
+
+    fn moving(&self, place: Place) -> Moving {
+        let block = &self.blocks[place.block as usize];
+        let position = block.position(place.slot as usize);
+        let (velocity, displacement) = self.nodes.motion_at(place.block as usize, &position);
+        Moving {
+            position: self.packing.position(&block.key, &position) + displacement,
+            velocity,
+            mass: f64::from(block.mass(place.slot as usize)),
+        }
+    }
+}
+
+impl FastFlow {
+    /// A flow of these points.
+    pub(super) fn new(points: &[Point], given: &Setup) -> Self {
+        let packing = packing(given);
+        let blocks = Blocks::of(points.iter().map(|point| packing.pack(point)));
+        Self::restored(blocks, given)
+    }
+
+    /// A flow as it was between two steps.
+    pub(super) fn restored(blocks: Blocks, given: &Setup) -> Self {
+        let packing = packing(given);
+        let mut flow = Self {
+            blocks,
+            nodes: Nodes::new(given.lattice),
+            momentum: Vec::new(),
+            forces: Vec::new(),
+            boundary: Boundary::default(),
+            loads: Loads::default(),
+            packing,
+            law: Law::of(&packing.material, &given.lattice.spacing),
+            level: Instructions::detected().level(),
+            fastest: 0.0,
+            flawed: false,
+        };
+        flow.look_over();
+        flow
+    }
+
+    /// Looks at every point for what a step has to know of them all.
+    fn look_over(&mut self) {
+        for block in self.blocks.occupied_mut() {
+            block.note_end(totals::end_of(block));
+        }
+        self.sum_up_ends();
+    }
+
+    /// Sums up what the blocks know of their points.
+    fn sum_up_ends(&mut self) {
+        self.fastest = self.largest_speed();
+        let mut blocks = self.blocks.occupied().iter();
+        self.flawed = blocks.any(|block| !block.end().finite);
+    }
+
+    fn largest_speed(&self) -> f64 {
+        let blocks = self.blocks.occupied().iter();
+        let speeds = blocks.map(|block| block.end().fastest);
+        f64::from(speeds.fold(0.0, f32::max))
+    }
+
+    /// Adds the forces of bodies to those of stress.
+    fn add_contact_forces(&mut self) {
+        for (place, force) in &self.loads.on_points {
+            let block = place.block as usize;
+            let position = self.blocks.occupied()[block].position(place.slot as usize);
+            let force = force.map(|part| part as f32);
+            self.forces[block].push_at(&position, &force.into());
+        }
+    }
+
+    /// Hands the nodes' motion to the points, in parallel.
+    fn pass(&mut self, dt: f64) {
+        let (nodes, law, level) = (&self.nodes, &self.law, self.level);
+        let dt = dt as f32;
+        self.blocks
+            .occupied_mut()
+            .par_iter_mut()
+            .zip(&mut self.forces)
+            .enumerate()
+            .for_each(|(place, (block, force))| {
+                dispatch!(level, simd => {
+                    let mut motion = Tile::EMPTY;
+                    nodes.motion_tile(simd, place, &mut motion);
+                    passes::substep(simd, block, law, dt, &motion, force);
+                });
+            });
+    }
+
+    fn put_back(&mut self, bodies: &[Body]) -> u64 {
+        let mut count = 0;
+        for (body, candidates) in bodies.iter().zip(&self.loads.candidates) {
+            for candidate in candidates {
+                let place = &candidate.place;
+                let block = &mut self.blocks.occupied_mut()[place.block as usize];
+                let slot = place.slot as usize;
+                let position = self.packing.position(&block.key, &block.position(slot));
+                if let Some(outside) = point_body::put_back(&position, body) {
+                    block.shift(slot, &self.packing.in_block(&block.key, &outside));
+                    count += 1;
+                }
+            }
+        }
+        count
+    }
+}
+
+fn packing(given: &Setup) -> Packing {
+    let flow = given.flow.as_ref().expect("a run with points has a flow");
+    Packing {
+        lattice: given.lattice,
+        material: flow.material,
+    }
+}
+
+impl Flow for FastFlow {
+    fn count(&self) -> usize {
+        self.blocks.count()
+    }
+
+    fn fastest(&self) -> f64 {
+        self.fastest
+    }
+
+    fn transfer(&mut self, given: &Setup, bodies: &[Body], reach: Reach, laps: &mut Laps) {
+        let keys = self.blocks.occupied().iter().map(|block| block.key);
+        self.nodes.lay_around(keys);
+        let count = self.blocks.occupied().len();
+        self.momentum.resize(count, Tile::EMPTY);
+        self.forces.resize(count, Tile::EMPTY);
+        let (law, level) = (&self.law, self.level);
+        self.blocks
+            .occupied_mut()
+            .par_iter_mut()
+            .zip(&mut self.momentum)
+            .zip(&mut self.forces)
+            .for_each(|((block, momentum), force)| {
+                dispatch!(level, simd => passes::transfer(simd, block, law, momentum, force));
+            });
+        self.nodes.take_momentum(&self.momentum, level);
+        laps.done(Verb::Transfer);
+        given.walls.find_boundary(&self.nodes, &mut self.boundary);
+        let access = Access {
+            blocks: self.blocks.occupied(),
+            nodes: &self.nodes,
+            packing: &self.packing,
+        };
+        self.loads.find_candidates(&access, bodies, reach);
+        laps.done(Verb::Search);
+    }
+
+    fn substep(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        Substep { dt, passed, last }: Substep,
+        laps: &mut Laps,
+    ) -> Impulse {
+        let Some(flow) = &given.flow else {
+            return Impulse::default();
+        };
+        let access = Access {
+            blocks: self.blocks.occupied(),
+            nodes: &self.nodes,
+            packing: &self.packing,
+        };
+        self.loads
+            .evaluate(&access, bodies, flow.sphere, dt, passed);
+        self.add_contact_forces();
+        laps.done(Verb::Contact);
+        self.nodes
+            .advance(&self.forces, &given.gravity, dt, self.level);
+        laps.done(Verb::Nodes);
+        let from_walls = given
+            .walls
+            .constrain(&mut self.boundary, &mut self.nodes, dt);
+        laps.done(Verb::Walls);
+        if !last {
+            self.pass(dt);
+            laps.done(Verb::Points);
+        }
+        from_walls
+    }
+
+    fn on_bodies(&self) -> &[FlowLoad] {
+        &self.loads.on_bodies
+    }
+
+    fn finish(&mut self, given: &Setup, bodies: &[Body], dt: f64, laps: &mut Laps) -> u64 {
+        let (nodes, law, level) = (&self.nodes, &self.law, self.level);
+        let spacing = &given.lattice.spacing;
+        let dt = dt as f32;
+        self.blocks
+            .occupied_mut()
+            .par_iter_mut()
+            .enumerate()
+            .for_each(|(place, block)| {
+                dispatch!(level, simd => {
+                    let mut tiles = EndTiles::EMPTY;
+                    nodes.motion_tile(simd, place, &mut tiles.motion);
+                    nodes.displacement_tile(simd, place, &mut tiles.displacement);
+                    tiles.cross();
+                    passes::finish(simd, block, law, spacing, dt, &tiles);
+                });
+            });
+        // Before the points go to other blocks.
+        self.sum_up_ends();
+        let count = self.put_back(bodies);
+        laps.done(Verb::Motion);
+        self.blocks.settle();
+        laps.done(Verb::Settle);
+        count
+    }
+
+    fn culprit(&self, planes: &[Plane], tolerance: f64) -> Option<Culprit> {
+        let lattice = &self.packing.lattice;
+        let behind = |plane: &Plane, block: &Block| {
+            let height = |slot| {
+                let position = block.position(slot);
+                plane.height(&self.packing.position(&block.key, &position))
+            };
+            lowest(plane, lattice, &block.key) < -tolerance
+                && (0..block.count()).any(|slot| height(slot) < -tolerance)
+        };
+        let suspect =
+            |block: &&Block| self.flawed || planes.iter().any(|plane| behind(plane, block));
+        let suspects = self.blocks.occupied().iter().filter(suspect);
+        let mut points = suspects.flat_map(|block| {
+            (0..block.count()).map(|slot| self.packing.unpack(&block.key, &block.get(slot)))
+        });
+        points.find_map(|point| Culprit::of(&point, planes, tolerance))
+    }
+
+    fn take_out_beyond(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)> {
+        let packing = self.packing;
+        let mut gone = Vec::new();
+        let near_end = |key: &BlockKey| {
+            let last = packing
+                .lattice
+                .position(key.map(|k| (k + 1) * BLOCK as i32));
+            last.x + packing.lattice.spacing.x > end
+        };
+        self.blocks.take_out(near_end, |key, point| {
+            let beyond = packing.position(key, &point.position).x > end;
+            if beyond {
+                gone.push(packing.unpack(key, point));
+            }
+            beyond
+        });
+        if gone.is_empty() {
+            return None;
+        }
+        // What is known of the others must not depend on those that left, or a
+        // saved run would go on with other bits.
+        self.look_over();
+        let moment = packing.lattice.kernel_moment();
+        let totals = Totals::of_points(&gone, &packing.material, &moment, &given.gravity);
+        Some((gone.len() as u64, totals))
+    }
+
+    fn totals(&self, given: &Setup) -> Totals {
+        let (packing, level) = (&self.packing, self.level);
+        let of_block = |block: &Block| dispatch!(level, _simd => totals::of_block(block, packing, &given.gravity));
+        // A tree of its own, so that the sums do not depend on the threads.
+        sum_up(self.blocks.occupied(), &of_block)
+    }
+
+    fn visit(&self, within: Option<&Around>, visit: &mut dyn FnMut(&Point)) {
+        let lattice = &self.packing.lattice;
+        for block in self.blocks.occupied() {
+            if within.is_some_and(|around| !around.meets(lattice, &block.key)) {
+                continue;
+            }
+            for slot in 0..block.count() {
+                let point = self.packing.unpack(&block.key, &block.get(slot));
+                if within.is_none_or(|around| around.holds(&point.position)) {
+                    visit(&point);
+                }
+            }
+        }
+    }
+
+    fn saved(&self) -> SavedFlow {
+        SavedFlow::Fast(self.blocks.clone())
+    }
+
+    fn limit_instructions(&mut self, instructions: Instructions) {
+        self.level = instructions.level();
+    }
+
+    fn bytes(&self) -> (usize, usize) {
+        let tiles = self.momentum.capacity() + self.forces.capacity();
+        let grid = self.nodes.bytes() + tiles * size_of::<Tile>();
+        (self.blocks.bytes(), grid)
+    }
+}
+
+/// Adds up what the blocks have, half by half.
+fn sum_up(blocks: &[Block], of: &(impl Fn(&Block) -> Totals + Sync)) -> Totals {
+    match blocks {
+        [] => Totals::default(),
+        [block] => of(block),
+        _ => {
+            let (low, high) = blocks.split_at(blocks.len() / 2);
+            let (low, high) = rayon::join(|| sum_up(low, of), || sum_up(high, of));
+            low.plus(&high)
+        }
+    }
+}
+
+/// Height above a plane of the lowest place a point of this block can have [m].
+fn lowest(plane: &Plane, lattice: &crate::kernel::Lattice, key: &BlockKey) -> f64 {
+    let first = lattice.position(key.map(|k| k * BLOCK as i32)) + lattice.spacing * 0.5;
+    let size = lattice.spacing * BLOCK as f64;
+    let corner = plane.normal.zip_zip_map(
+        &first,
+        &size,
+        |n, low, size| if n > 0.0 { low } else { low + size },
+    );
+    plane.height(&corner)
+}

@@ -1,0 +1,152 @@
+//! The flow of a run and the verbs of its step, on one of two paths: the plain
+//! one in double precision, the reference, and the fast one in single.
+
+mod fast;
+mod plain;
+
+use super::laps::Laps;
+use super::setup::Setup;
+use crate::contact::point_body::{Around, FlowLoad, Reach};
+use crate::diagnostics::Totals;
+use crate::fast::blocks::Blocks;
+use crate::fast::instructions::Instructions;
+use crate::points::Point;
+use crate::rigid::Body;
+use crate::scenario::Precision;
+use crate::walls::{Impulse, Plane};
+use serde::{Deserialize, Serialize};
+use std::fmt::Debug;
+
+pub(super) use fast::FastFlow;
+pub(super) use plain::PlainFlow;
+
+/// A granular flow: its points, its grid, and what bodies do to it.
+pub(super) trait Flow: Debug + Send + Sync {
+    /// Points in the flow.
+    fn count(&self) -> usize;
+
+    /// Speed of the fastest point after the last step [m/s].
+    fn fastest(&self) -> f64;
+
+    /// Begins a step: hands mass and momentum to a new grid, and finds the nodes
+    /// at walls and the points within reach of bodies.
+    fn transfer(&mut self, given: &Setup, bodies: &[Body], reach: Reach, laps: &mut Laps);
+
+    /// One sub-step: forces of bodies and stress, momentum, walls, strain (the
+    /// last strain of a step may wait for [`Flow::finish`]). Returns the impulse of the walls.
+    fn substep(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        substep: Substep,
+        laps: &mut Laps,
+    ) -> Impulse;
+
+    /// What the flow does to each body in the present sub-step; nothing yet
+    /// before the first.
+    fn on_bodies(&self) -> &[FlowLoad];
+
+    /// Ends a step whose last sub-step took `dt` [s]: hands the motion back to
+    /// the points and those inside a body back to its surface. Returns how many
+    /// these were.
+    fn finish(&mut self, given: &Setup, bodies: &[Body], dt: f64, laps: &mut Laps) -> u64;
+
+    /// A point that should not be as it is after a step.
+    fn culprit(&self, planes: &[Plane], tolerance: f64) -> Option<Culprit>;
+
+    /// Takes out the points beyond x = `end` [m]; `None` if there are none.
+    fn take_out_beyond(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)>;
+
+    /// Sums over the points.
+    fn totals(&self, given: &Setup) -> Totals;
+
+    /// Visits the points, those within a box if one is given, in an order of its
+    /// own.
+    fn visit(&self, within: Option<&Around>, visit: &mut dyn FnMut(&Point));
+
+    /// What a checkpoint holds of it.
+    fn saved(&self) -> SavedFlow;
+
+    /// Lets it use no better instructions than these.
+    fn limit_instructions(&mut self, instructions: Instructions);
+
+    /// Bytes held for points and for the grid.
+    fn bytes(&self) -> (usize, usize);
+}
+
+/// A sub-step of a flow.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Substep {
+    /// Its length [s].
+    pub dt: f64,
+    /// Share of its step that is over, 0..1.
+    pub passed: f64,
+    /// Whether its step ends with it.
+    pub last: bool,
+}
+
+/// What is wrong with a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Culprit {
+    /// A quantity of it is no number.
+    NonFinite {
+        /// Identity of the point.
+        point: u32,
+        /// Name of the quantity.
+        quantity: &'static str,
+    },
+    /// It is behind a wall.
+    BehindWall {
+        /// Identity of the point.
+        point: u32,
+        /// Name of the wall.
+        wall: &'static str,
+        /// How far [m].
+        depth_m: f64,
+    },
+}
+
+impl Culprit {
+    /// What is wrong with a point, if anything is.
+    fn of(point: &Point, planes: &[Plane], tolerance: f64) -> Option<Self> {
+        if let Some(quantity) = point.non_finite() {
+            return Some(Self::NonFinite {
+                point: point.id,
+                quantity,
+            });
+        }
+        let behind = |plane: &&Plane| plane.height(&point.position) < -tolerance;
+        planes.iter().find(behind).map(|plane| Self::BehindWall {
+            point: point.id,
+            wall: plane.name,
+            depth_m: -plane.height(&point.position),
+        })
+    }
+}
+
+/// A flow between two steps, as a checkpoint holds it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) enum SavedFlow {
+    /// On the plain path.
+    Plain(Vec<Point>),
+    /// On the fast path.
+    Fast(Blocks),
+}
+
+impl SavedFlow {
+    /// The flow it was.
+    pub(super) fn restored(self, given: &Setup) -> Box<dyn Flow> {
+        match self {
+            Self::Plain(points) => Box::new(PlainFlow::new(points, given)),
+            Self::Fast(blocks) => Box::new(FastFlow::restored(blocks, given)),
+        }
+    }
+}
+
+/// A flow of these points in the precision asked for.
+pub(super) fn start(points: Vec<Point>, given: &Setup, precision: Precision) -> Box<dyn Flow> {
+    match precision {
+        Precision::Single if given.flow.is_some() => Box::new(FastFlow::new(&points, given)),
+        _ => Box::new(PlainFlow::new(points, given)),
+    }
+}

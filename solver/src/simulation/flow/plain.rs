@@ -1,0 +1,225 @@
+//! The plain path: every verb on its own, in double precision.
+
+use super::{Culprit, Flow, SavedFlow, Substep};
+use crate::contact::point_body::{self, Around, FlowLoad, Loads, Moving, PointAccess, Reach};
+use crate::diagnostics::Totals;
+use crate::fast::instructions::Instructions;
+use crate::grid::Grid;
+use crate::math::Vec3;
+use crate::points::{self, Deformation, Point};
+use crate::rigid::Body;
+use crate::simulation::laps::{Laps, Verb};
+use crate::simulation::setup::Setup;
+use crate::transfer;
+use crate::walls::{Boundary, Impulse, Plane};
+use rayon::prelude::*;
+
+#[derive(Debug)]
+pub(in crate::simulation) struct PlainFlow {
+    points: Vec<Point>,
+    deformations: Vec<Deformation>,
+    grid: Grid,
+    boundary: Boundary,
+    loads: Loads<Place>,
+    /// Force of bodies on every point [N].
+    contact_forces: Vec<Vec3>,
+}
+
+/// Where a point is kept.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    point: usize,
+    block: usize,
+}
+
+struct Access<'a> {
+    points: &'a [Point],
+    grid: &'a Grid,
+}
+
+impl PointAccess for Access<'_> {
+    type Place = Place;
+
+    fn find_within(&self, around: &Around, found: &mut Vec<Place>) {
+        for (place, block) in self.grid.point_blocks().iter().enumerate() {
+            if !around.meets(self.grid.lattice(), &block.key) {
+                continue;
+            }
+            let inside = block.points.clone();
+            let inside = inside.filter(|point| around.holds(&self.points[*point].position));
+            found.extend(inside.map(|point| Place {
+                point,
+                block: place,
+            }));
+        }
+    }
+
+    fn resting(&self, place: Place) -> Vec3 {
+        self.points[place.point].position
+    }
+
+    fn moving(&self, place: Place) -> Moving {
+        let point = &self.points[place.point];
+        let stencil = self.grid.lattice().stencil(&point.position);
+        let block = &self.grid.point_blocks()[place.block];
+        let (velocity, displacement) = self.grid.motion_at(block, &stencil);
+        Moving {
+            position: point.position + displacement,
+            velocity,
+            mass: point.mass,
+        }
+    }
+}
+
+impl PlainFlow {
+    pub(super) fn new(points: Vec<Point>, given: &Setup) -> Self {
+        Self {
+            points,
+            deformations: Vec::new(),
+            grid: Grid::new(given.lattice),
+            boundary: Boundary::default(),
+            loads: Loads::default(),
+            contact_forces: Vec::new(),
+        }
+    }
+
+    fn totals_of(points: &[Point], given: &Setup) -> Totals {
+        let Some(flow) = &given.flow else {
+            return Totals::default();
+        };
+        let moment = given.lattice.kernel_moment();
+        Totals::of_points(points, &flow.material, &moment, &given.gravity)
+    }
+}
+
+impl Flow for PlainFlow {
+    fn count(&self) -> usize {
+        self.points.len()
+    }
+
+    fn fastest(&self) -> f64 {
+        let speeds = self.points.iter().map(|point| point.velocity.norm());
+        speeds.fold(0.0, f64::max)
+    }
+
+    fn transfer(&mut self, given: &Setup, bodies: &[Body], reach: Reach, laps: &mut Laps) {
+        let occupied = points::sort_by_block(&mut self.points, &given.lattice);
+        self.grid.reset_around(&occupied);
+        transfer::scatter_momentum(&self.points, &mut self.grid);
+        laps.done(Verb::Transfer);
+        given.walls.find_boundary(&self.grid, &mut self.boundary);
+        self.deformations.clear();
+        self.deformations
+            .extend(self.points.iter().map(Deformation::start));
+        let access = Access {
+            points: &self.points,
+            grid: &self.grid,
+        };
+        self.loads.find_candidates(&access, bodies, reach);
+        self.contact_forces.clear();
+        self.contact_forces.resize(self.points.len(), Vec3::zeros());
+        laps.done(Verb::Search);
+    }
+
+    fn substep(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        Substep { dt, passed, .. }: Substep,
+        laps: &mut Laps,
+    ) -> Impulse {
+        let Some(flow) = &given.flow else {
+            return Impulse::default();
+        };
+        for (place, _) in &self.loads.on_points {
+            self.contact_forces[place.point] = Vec3::zeros();
+        }
+        let access = Access {
+            points: &self.points,
+            grid: &self.grid,
+        };
+        self.loads
+            .evaluate(&access, bodies, flow.sphere, dt, passed);
+        for (place, force) in &self.loads.on_points {
+            self.contact_forces[place.point] += force;
+        }
+        laps.done(Verb::Contact);
+        transfer::scatter_forces(
+            &self.points,
+            &self.deformations,
+            &self.contact_forces,
+            &mut self.grid,
+        );
+        self.grid.advance_momentum(given.gravity, dt);
+        laps.done(Verb::Nodes);
+        let from_walls = given
+            .walls
+            .constrain(&mut self.boundary, &mut self.grid, dt);
+        laps.done(Verb::Walls);
+        self.grid.displace(dt);
+        transfer::gather_gradient(&self.grid, &self.points, dt, &mut self.deformations);
+        points::update_stress(&mut self.points, &self.deformations, &flow.material, dt);
+        laps.done(Verb::Points);
+        from_walls
+    }
+
+    fn on_bodies(&self) -> &[FlowLoad] {
+        &self.loads.on_bodies
+    }
+
+    fn finish(&mut self, _: &Setup, bodies: &[Body], _: f64, laps: &mut Laps) -> u64 {
+        transfer::gather_motion(&self.grid, &self.deformations, &mut self.points);
+        let mut count = 0;
+        for (body, candidates) in bodies.iter().zip(&self.loads.candidates) {
+            for candidate in candidates {
+                let place = &candidate.place;
+                let point = &mut self.points[place.point];
+                if let Some(outside) = point_body::put_back(&point.position, body) {
+                    point.position = outside;
+                    count += 1;
+                }
+            }
+        }
+        laps.done(Verb::Motion);
+        count
+    }
+
+    fn culprit(&self, planes: &[Plane], tolerance: f64) -> Option<Culprit> {
+        let culprit = |point: &Point| Culprit::of(point, planes, tolerance);
+        self.points.par_iter().find_map_first(culprit)
+    }
+
+    fn take_out_beyond(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)> {
+        if self.points.iter().all(|point| point.position.x <= end) {
+            return None;
+        }
+        let (stay, gone) = self
+            .points
+            .iter()
+            .partition::<Vec<Point>, _>(|point| point.position.x <= end);
+        self.points = stay;
+        Some((gone.len() as u64, Self::totals_of(&gone, given)))
+    }
+
+    fn totals(&self, given: &Setup) -> Totals {
+        Self::totals_of(&self.points, given)
+    }
+
+    fn visit(&self, within: Option<&Around>, visit: &mut dyn FnMut(&Point)) {
+        let inside = |point: &&Point| within.is_none_or(|around| around.holds(&point.position));
+        self.points.iter().filter(inside).for_each(visit);
+    }
+
+    fn saved(&self) -> SavedFlow {
+        SavedFlow::Plain(self.points.clone())
+    }
+
+    fn limit_instructions(&mut self, _: Instructions) {}
+
+    fn bytes(&self) -> (usize, usize) {
+        let points = self.points.capacity() * size_of::<Point>()
+            + self.deformations.capacity() * size_of::<Deformation>()
+            + self.contact_forces.capacity() * size_of::<Vec3>();
+        (points, self.grid.bytes())
+    }
+}
