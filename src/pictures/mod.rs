@@ -8,6 +8,7 @@
 
 mod aerial;
 mod canvas;
+mod chart;
 #[cfg(test)]
 mod fixtures;
 mod format;
@@ -20,4 +21,5 @@ mod tests;
 
 pub use aerial::aerial_view;
 pub use canvas::PictureError;
+pub use chart::{Axis, Chart, Curve, Scale};
 pub use motion::motion;
