@@ -1,6 +1,6 @@
 //! What can be asked on the command line.
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
@@ -24,6 +24,8 @@ pub(super) enum Command {
     Validate(ValidateOptions),
     /// Send the source paper's scene through a service of its own
     Demo(DemoOptions),
+    /// Measure how fast the solver is on this machine
+    Bench(BenchOptions),
 }
 
 #[derive(Debug, Args)]
@@ -73,4 +75,58 @@ pub(super) struct DemoOptions {
     /// Another scenario than the source paper's
     #[arg(long, value_name = "SCENARIO.json")]
     pub(super) scenario: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct BenchOptions {
+    /// Measure this alone; may be given several times [default: everything]
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub(super) only: Vec<Measurement>,
+    /// Measure all 0.15 s of the collapse instead of its start, the channel on
+    /// its fine grid and twice as long, and ten million points too: takes many
+    /// minutes instead of two
+    #[arg(long)]
+    pub(super) full: bool,
+    /// Laps each way of computing takes, in turn with what it is compared with;
+    /// medians are given
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(super) repeats: u32,
+    /// Points of the collapse [default: 200000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1000..=20_000_000))]
+    pub(super) points: Option<u32>,
+    /// Write pictures of sizes and roofline into this directory
+    #[arg(long, value_name = "DIR")]
+    pub(super) figures: Option<PathBuf>,
+    /// Print one JSON document instead of tables
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// What `scree bench` can measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Measurement {
+    /// A block of 200,000 points collapses: each precision and instruction set,
+    /// on one thread and on all
+    S200k,
+    /// The collapse at 10,000 to 1,000,000 points (full: to 10,000,000), on one
+    /// thread and on all
+    Size,
+    /// The source paper's channel with and without its cube
+    Channel,
+    /// The channel with none, 1, 10 and 50 small cubes
+    Bodies,
+    /// Shares of the step's verbs
+    Verbs,
+    /// The collapse on one thread to all, with the hash of how it ends
+    Threads,
+    /// The machine's own limits, and how close the collapse comes
+    Roofline,
+}
+
+impl Measurement {
+    /// Its name on the command line.
+    pub(super) fn name(self) -> String {
+        let value = self.to_possible_value();
+        value.map_or_else(String::new, |value| value.get_name().to_owned())
+    }
 }

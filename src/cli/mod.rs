@@ -4,6 +4,7 @@
 //! computation could not go on. 1: anything else (a full disk, a busy port).
 
 mod arguments;
+mod bench;
 mod console;
 mod demo;
 mod failure;
@@ -31,6 +32,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Run(options) => local_run::run(options),
         Command::Validate(options) => validate::validate(options),
         Command::Demo(options) => demo::demo(options),
+        Command::Bench(options) => bench::bench(options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

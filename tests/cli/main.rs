@@ -1,6 +1,7 @@
 //! The command line, as a user meets it: arguments in; exit code, texts and
 //! files out.
 
+mod bench;
 mod command;
 mod demo;
 mod run;

@@ -7,7 +7,7 @@ use std::process::Stdio;
 fn help_and_version_are_answers() {
     let help = ask(&[&"--help"]);
     assert_eq!(help.code, Some(0));
-    for command in ["serve", "run", "validate", "demo", "Exit codes"] {
+    for command in ["serve", "run", "validate", "demo", "bench", "Exit codes"] {
         assert!(help.stdout.contains(command), "{command}: {}", help.stdout);
     }
     let version = ask(&[&"--version"]);
@@ -19,12 +19,13 @@ fn help_and_version_are_answers() {
 
 #[test]
 fn arguments_not_understood_are_invalid_input() {
-    let wrong: [&[&dyn AsRef<std::ffi::OsStr>]; 5] = [
+    let wrong: [&[&dyn AsRef<std::ffi::OsStr>]; 6] = [
         &[],
         &[&"simulate"],
         &[&"run"],
         &[&"run", &"a.json", &"--threads", &"0"],
         &[&"serve", &"--listen", &"somewhere"],
+        &[&"bench", &"--only", &"s300k"],
     ];
     for arguments in wrong {
         let answer = ask(arguments);

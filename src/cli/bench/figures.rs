@@ -1,0 +1,103 @@
+//! What was measured, as pictures.
+
+use super::Report;
+use super::size::Size;
+use crate::cli::failure::Failure;
+use scree::pictures::{Axis, Chart, Curve, Scale};
+use scree_solver::fast::cost::{BYTES, OPERATIONS};
+use std::fs;
+use std::path::Path;
+
+/// Ends of the roofline picture's lower axis [operations/byte].
+const INTENSITIES: (f64, f64) = (0.5, 64.0);
+
+/// Writes a picture of each measurement that has one into a folder, which is
+/// made if it is not there.
+pub(super) fn write(report: &Report, folder: &Path) -> Result<(), Failure> {
+    let machine = report.machine.in_words();
+    let size = report
+        .size
+        .as_ref()
+        .map(|sizes| of_size(sizes.each(), &machine));
+    let roofline = report
+        .roofline
+        .as_ref()
+        .map(|rooflines| of_roofline(rooflines.each(), &machine));
+    let failed = |error: &dyn std::fmt::Display| {
+        Failure::Other(format!(
+            "cannot write pictures into {}: {error}",
+            folder.display()
+        ))
+    };
+    fs::create_dir_all(folder).map_err(|error| failed(&error))?;
+    for (name, chart) in [("speed-size.svg", size), ("roofline.svg", roofline)] {
+        let Some(chart) = chart else { continue };
+        let svg = chart.draw().map_err(|error| failed(&error))?;
+        fs::write(folder.join(name), svg).map_err(|error| failed(&error))?;
+    }
+    Ok(())
+}
+
+fn of_size(sizes: &[Size], machine: &str) -> Chart {
+    let mut threads: Vec<usize> = sizes.iter().map(|size| size.threads).collect();
+    threads.sort_unstable();
+    threads.dedup();
+    let curve = |threads: usize| Curve {
+        name: in_threads(threads),
+        points: sizes
+            .iter()
+            .filter(|size| size.threads == threads)
+            .map(|size| (size.points as f64, size.point_steps_per_s / 1e6))
+            .collect(),
+    };
+    Chart {
+        title: "Speed against the number of points".to_owned(),
+        subtitle: format!("Collapse of a block, single precision; {machine}"),
+        x: axis("material points", Scale::Logarithmic),
+        y: axis("million point-steps per second", Scale::Linear),
+        curves: threads.into_iter().map(curve).collect(),
+    }
+}
+
+fn of_roofline(rooflines: &[super::roofline::Roofline], machine: &str) -> Chart {
+    let mut curves = Vec::new();
+    for roof in rooflines {
+        let ridge = roof.peak_operations_per_s / roof.bytes_per_s;
+        let bound = |x: f64| {
+            (
+                x,
+                (x * roof.bytes_per_s).min(roof.peak_operations_per_s) / 1e9,
+            )
+        };
+        let (low, high) = INTENSITIES;
+        curves.push(Curve {
+            name: format!("limit, {}", in_threads(roof.threads)),
+            points: [low, ridge, high].map(bound).to_vec(),
+        });
+        curves.push(Curve {
+            name: format!("collapse, {}", in_threads(roof.threads)),
+            points: vec![(OPERATIONS / BYTES, roof.collapse * OPERATIONS / 1e9)],
+        });
+    }
+    Chart {
+        title: "How close to the machine's limits".to_owned(),
+        subtitle: machine.to_owned(),
+        x: axis("operations per byte from memory", Scale::Logarithmic),
+        y: axis("billion operations per second", Scale::Logarithmic),
+        curves,
+    }
+}
+
+fn axis(title: &str, scale: Scale) -> Axis {
+    Axis {
+        title: title.to_owned(),
+        scale,
+    }
+}
+
+fn in_threads(threads: usize) -> String {
+    match threads {
+        1 => "1 thread".to_owned(),
+        more => format!("{more} threads"),
+    }
+}

@@ -1,0 +1,153 @@
+//! `scree bench`: how fast the solver is on this machine.
+
+mod bodies;
+mod collapse;
+mod figures;
+mod machine;
+mod roofline;
+mod scenes;
+mod size;
+mod stopwatch;
+mod table;
+mod threads;
+mod verbs;
+
+use super::arguments::{BenchOptions, Measurement};
+use super::console;
+use super::failure::Failure;
+use machine::Machine;
+use scree_solver::VERSION;
+use serde::Serialize;
+use std::io::IsTerminal;
+
+/// Cell size of the channel, quick and full [m].
+const CHANNEL_CELLS_M: (f64, f64) = (0.0125, 0.01);
+
+/// How long to measure.
+#[derive(Debug, Serialize)]
+struct Effort {
+    /// The whole of each scene, and the largest.
+    full: bool,
+    /// Laps each way of computing takes, in turn with the others.
+    repeats: u32,
+    /// Points of the collapse.
+    points: u32,
+}
+
+/// What was measured; what was not is left out.
+#[derive(Debug, Serialize)]
+struct Report {
+    solver_version: &'static str,
+    machine: Machine,
+    effort: Effort,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    s200k: Option<collapse::Speeds>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    size: Option<size::Sizes>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    channel: Option<bodies::Growth>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bodies: Option<bodies::Growth>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verbs: Option<verbs::Shares>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    threads: Option<threads::Scaling>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roofline: Option<roofline::Rooflines>,
+}
+
+/// Measures what is asked for and prints it.
+///
+/// # Errors
+/// See [`Failure`].
+pub(super) fn bench(options: &BenchOptions) -> Result<(), Failure> {
+    let effort = Effort {
+        full: options.full,
+        repeats: options.repeats,
+        points: options.points.unwrap_or(scenes::COLLAPSE_POINTS),
+    };
+    let report = Report::measured(effort, &options.only)?;
+    if let Some(folder) = &options.figures {
+        figures::write(&report, folder)?;
+    }
+    let answer = if options.json {
+        serde_json::to_string_pretty(&report)?
+    } else {
+        report.tables()
+    };
+    Ok(console::answer(&answer)?)
+}
+
+/// Does it if it is among those asked for, telling a waiting person so.
+fn if_asked<T>(
+    only: &[Measurement],
+    one: Measurement,
+    measure: impl FnOnce() -> Result<T, Failure>,
+) -> Result<Option<T>, Failure> {
+    if !only.is_empty() && !only.contains(&one) {
+        return Ok(None);
+    }
+    if std::io::stderr().is_terminal() {
+        console::note(&format!("measuring: {}", one.name()));
+    }
+    measure().map(Some)
+}
+
+impl Report {
+    fn measured(effort: Effort, only: &[Measurement]) -> Result<Self, Failure> {
+        use Measurement::{Bodies, Channel, Roofline, S200k, Size, Threads, Verbs};
+        Ok(Self {
+            solver_version: VERSION,
+            machine: Machine::here(),
+            s200k: if_asked(only, S200k, || collapse::measure(&effort))?,
+            size: if_asked(only, Size, || size::measure(&effort))?,
+            channel: if_asked(only, Channel, || bodies::measure_channel(&effort))?,
+            bodies: if_asked(only, Bodies, || bodies::measure_bodies(&effort))?,
+            verbs: if_asked(only, Verbs, || verbs::measure(&effort))?,
+            threads: if_asked(only, Threads, || threads::measure(&effort))?,
+            roofline: if_asked(only, Roofline, || roofline::measure(&effort))?,
+            effort,
+        })
+    }
+
+    fn tables(&self) -> String {
+        let tables = [
+            self.s200k.as_ref().map(collapse::Speeds::table),
+            self.size.as_ref().map(size::Sizes::table),
+            self.channel.as_ref().map(|growth| {
+                growth.table("channel: the source paper's, without and with its cube")
+            }),
+            self.bodies
+                .as_ref()
+                .map(|growth| growth.table("bodies: small cubes in the same channel")),
+            self.verbs.as_ref().map(verbs::Shares::table),
+            self.threads.as_ref().map(threads::Scaling::table),
+            self.roofline.as_ref().map(roofline::Rooflines::table),
+        ];
+        let how = format!(
+            "Scree {}; {}\n{}\n",
+            self.solver_version,
+            self.machine.in_words(),
+            self.effort.in_words()
+        );
+        let parts: Vec<String> = [Some(how)].into_iter().chain(tables).flatten().collect();
+        parts.join("\n").trim_end().to_owned()
+    }
+}
+
+impl Effort {
+    /// Cell size of the channel [m].
+    fn channel_cell_m(&self) -> f64 {
+        let (quick, full) = CHANNEL_CELLS_M;
+        if self.full { full } else { quick }
+    }
+
+    fn in_words(&self) -> String {
+        let how = if self.full {
+            "full: 0.15 s of the collapse, after a warm-up of some sub-steps"
+        } else {
+            "quick: the start of the collapse only, the channel on a coarser grid and half as long"
+        };
+        format!("{how}; medians of {} laps taken in turns", self.repeats)
+    }
+}

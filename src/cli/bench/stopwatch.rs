@@ -1,0 +1,179 @@
+//! Times simulations lap by lap, turn by turn.
+
+use crate::cli::failure::{Failure, not_set_up};
+use scree_solver::scenario::Scenario;
+use scree_solver::{Instructions, Simulation};
+use serde::Serialize;
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+/// Sub-steps taken before the first lap.
+const WARM_UP: u64 = 16;
+
+/// How far a lap goes; it always ends with a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Length {
+    /// So many sub-steps or a few more.
+    Substeps(u64),
+    /// So much simulated time or a little more [s].
+    Simulated(f64),
+}
+
+/// What a lap, or several, did and took.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub(super) struct Lap {
+    /// Wall time [s].
+    pub(super) wall_s: f64,
+    /// Simulated time [s].
+    pub(super) simulated_s: f64,
+    /// Transfers.
+    pub(super) steps: u64,
+    /// Sub-steps.
+    pub(super) substeps: u64,
+    /// Sub-steps summed over the points.
+    pub(super) point_steps: u64,
+}
+
+impl Lap {
+    /// Point-steps per second of wall time.
+    pub(super) fn rate(&self) -> f64 {
+        self.point_steps as f64 / self.wall_s
+    }
+
+    /// Wall time per simulated time.
+    pub(super) fn wall_per_simulated(&self) -> f64 {
+        self.wall_s / self.simulated_s
+    }
+}
+
+/// A simulation on the bench, and its laps.
+#[derive(Debug)]
+pub(super) struct Runner {
+    pub(super) simulation: Simulation,
+    pub(super) laps: Vec<Lap>,
+}
+
+impl Runner {
+    /// Sets a scenario up.
+    pub(super) fn new(scenario: &Scenario, threads: usize) -> Result<Self, Failure> {
+        let simulation = Simulation::new(scenario, threads).map_err(|error| not_set_up(&error))?;
+        let laps = Vec::new();
+        Ok(Self { simulation, laps })
+    }
+
+    /// Uses these instructions, or the best below them.
+    pub(super) fn with(mut self, instructions: Instructions) -> Self {
+        self.simulation.limit_instructions(instructions);
+        self
+    }
+
+    /// Takes the first steps, which touch all memory for the first time.
+    pub(super) fn warmed_up(mut self) -> Result<Self, Failure> {
+        self.go(Length::Substeps(WARM_UP))?;
+        Ok(self)
+    }
+
+    /// Goes to a simulated time without timing it.
+    pub(super) fn skipped_to(mut self, time_s: f64) -> Result<Self, Failure> {
+        self.go(Length::Simulated(time_s - self.simulation.time_s()))?;
+        Ok(self)
+    }
+
+    /// One lap.
+    pub(super) fn lap(&mut self, length: Length) -> Result<(), Failure> {
+        let lap = self.go(length)?;
+        self.laps.push(lap);
+        Ok(())
+    }
+
+    fn go(&mut self, length: Length) -> Result<Lap, Failure> {
+        let simulation = &mut self.simulation;
+        let (steps, substeps, point_steps) = simulation.counts();
+        let from_s = simulation.time_s();
+        let start = Instant::now();
+        let ended = match length {
+            Length::Simulated(time_s) => {
+                simulation.run(from_s + time_s, |_, _| ControlFlow::Continue(()))
+            }
+            Length::Substeps(count) => simulation.run(f64::INFINITY, |_, report| {
+                if report.step_ended && report.substeps >= substeps + count {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            }),
+        };
+        let wall_s = start.elapsed().as_secs_f64();
+        ended.map_err(|error| Failure::Numerical(error.to_string()))?;
+        let now = simulation.counts();
+        Ok(Lap {
+            wall_s,
+            simulated_s: simulation.time_s() - from_s,
+            steps: now.0 - steps,
+            substeps: now.1 - substeps,
+            point_steps: now.2 - point_steps,
+        })
+    }
+
+    /// Median of what `of` says of the laps.
+    pub(super) fn median(&self, of: impl Fn(&Lap) -> f64) -> f64 {
+        median(self.laps.iter().map(of).collect())
+    }
+
+    /// Median over the laps of this one's over the other's.
+    pub(super) fn ratio(&self, other: &Self, of: impl Fn(&Lap) -> f64) -> f64 {
+        let pairs = self.laps.iter().zip(&other.laps);
+        median(pairs.map(|(a, b)| of(a) / of(b)).collect())
+    }
+
+    /// All laps together.
+    pub(super) fn total(&self) -> Lap {
+        self.laps.iter().fold(Lap::default(), |sum, lap| Lap {
+            wall_s: sum.wall_s + lap.wall_s,
+            simulated_s: sum.simulated_s + lap.simulated_s,
+            steps: sum.steps + lap.steps,
+            substeps: sum.substeps + lap.substeps,
+            point_steps: sum.point_steps + lap.point_steps,
+        })
+    }
+}
+
+/// Gives every runner a lap, again and again: what else the machine does meets
+/// all of them alike.
+pub(super) fn take_turns(
+    runners: &mut [Runner],
+    rounds: u32,
+    length: impl Fn(&Runner) -> Length,
+) -> Result<(), Failure> {
+    for _ in 0..rounds {
+        for runner in runners.iter_mut() {
+            let length = length(runner);
+            runner.lap(length)?;
+        }
+    }
+    Ok(())
+}
+
+/// The middle one, or the mean of the two in the middle; not a number if there
+/// are none.
+pub(super) fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() {
+        0 => f64::NAN,
+        odd if odd % 2 == 1 => values[middle],
+        _ => 0.5 * (values[middle - 1] + values[middle]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_stands_in_the_middle() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), 2.5);
+        assert!(median(Vec::new()).is_nan());
+    }
+}
