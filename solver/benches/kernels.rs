@@ -1,0 +1,258 @@
+//! The parts a sub-step is made of, on one block of 512 points or one body:
+//! `cargo bench -p scree-solver`.
+
+use criterion::{BatchSize, Bencher, Criterion, Throughput};
+use fearless_simd::dispatch;
+use nalgebra::UnitQuaternion;
+use scree_solver::Instructions;
+use scree_solver::contact::body_wall;
+use scree_solver::contact::law::ContactLaw;
+use scree_solver::fast::blocks::{Block, Blocks};
+use scree_solver::fast::packing::Packing;
+use scree_solver::fast::passes;
+use scree_solver::fast::rows::Tile;
+use scree_solver::fast::stress::{self, Law};
+use scree_solver::grid::{BLOCK, Grid};
+use scree_solver::kernel::Lattice;
+use scree_solver::material::{Material, Yielding};
+use scree_solver::math::{Mat3, Sym3, Vec3};
+use scree_solver::points::{self, Deformation, Point};
+use scree_solver::rigid::{Body, BodyState, Freedom, Load};
+use scree_solver::shape::SpheroPolyhedron;
+use scree_solver::transfer;
+use scree_solver::walls::Plane;
+use std::hint::black_box;
+
+/// Distance of nodes [m].
+const CELL: f64 = 0.01;
+/// Points along each side of a block, two a cell.
+const SIDE: usize = 2 * BLOCK;
+/// Length of a sub-step [s].
+const DT: f64 = 1e-4;
+const GRAVITY: f64 = 9.81;
+
+const LATTICE: Lattice = Lattice {
+    origin: Vec3::new(0.0, 0.0, 0.0),
+    spacing: Vec3::new(CELL, CELL, CELL),
+};
+
+/// E = 1 MPa, ν = 0.3, μ(I).
+const MATERIAL: Material = Material {
+    bulk_density: 1550.0,
+    bulk_modulus: 1e6 / 1.2,
+    shear_modulus: 1e6 / 2.6,
+    yielding: Yielding::Granular {
+        static_friction: 0.6,
+        limiting_friction: 0.86,
+        reference_inertial_number: 0.279,
+        grain_diameter: 1e-3,
+        grain_density: 2600.0,
+    },
+};
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    fast_block(&mut criterion);
+    plain_block(&mut criterion);
+    closest_feature(&mut criterion);
+    body_substep(&mut criterion);
+    criterion.final_summary();
+}
+
+/// A full block under a little pressure, sheared.
+fn points_of_a_block() -> Vec<Point> {
+    let distance = CELL / 2.0;
+    let volume = distance.powi(3) / 1.001;
+    let shear = Mat3::new(0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    let pressure = MATERIAL.pressure(1.001 * MATERIAL.bulk_density);
+    let place = |index: usize, along: usize| {
+        let step = index / SIDE.pow(along as u32) % SIDE;
+        0.5 * CELL + (step as f64 + 0.5) * distance
+    };
+    let point = |index: usize| {
+        let position = Vec3::new(place(index, 2), place(index, 1), place(index, 0));
+        Point {
+            id: index as u32,
+            mass: MATERIAL.bulk_density * distance.powi(3),
+            volume,
+            position,
+            velocity: shear * position,
+            affine: shear,
+            stress: Sym3::isotropic(-pressure),
+        }
+    };
+    (0..SIDE.pow(3)).map(point).collect()
+}
+
+/// The same on the fast path, with the nodes' motion it makes.
+fn block_and_motion(law: &Law) -> (Block, Tile) {
+    let packing = Packing {
+        lattice: LATTICE,
+        material: MATERIAL,
+    };
+    let points = points_of_a_block();
+    let mut blocks = Blocks::of(points.iter().map(|point| packing.pack(point)));
+    let block = &mut blocks.occupied_mut()[0];
+    assert_eq!(block.count(), points.len(), "one block holds them all");
+    let (mut motion, mut force) = (Tile::EMPTY, Tile::EMPTY);
+    let level = Instructions::detected().level();
+    dispatch!(level, simd => passes::transfer(simd, block, law, &mut motion, &mut force));
+    for place in 0..motion.0.len() / 4 {
+        let node = motion.node_mut(place);
+        if node[0] > 0.0 {
+            for k in 1..4 {
+                node[k] /= node[0];
+            }
+        }
+    }
+    (block.clone(), motion)
+}
+
+/// Times something that changes a copy.
+fn on_a_copy<T: Clone, O>(bencher: &mut Bencher, of: &T, work: impl FnMut(&mut T) -> O) {
+    bencher.iter_batched_ref(|| of.clone(), work, BatchSize::SmallInput);
+}
+
+fn fast_block(criterion: &mut Criterion) {
+    let law = Law::of(&MATERIAL, &LATTICE.spacing);
+    let (block, motion) = block_and_motion(&law);
+    let sets = [
+        Instructions::Baseline,
+        Instructions::Avx2,
+        Instructions::Avx512,
+    ];
+    let best = Instructions::detected();
+    for set in sets.into_iter().filter(|set| *set <= best) {
+        let level = set.level();
+        let mut group = criterion.benchmark_group(format!("fast block, {set}"));
+        group.throughput(Throughput::Elements(block.count() as u64));
+        group.bench_function("stress", |bencher| {
+            on_a_copy(bencher, &block, |block| {
+                dispatch!(level, simd => stress_of_block(simd, block, &law));
+            });
+        });
+        group.bench_function("gather, stress, scatter", |bencher| {
+            let mut force = Tile::EMPTY;
+            on_a_copy(bencher, &block, |block| {
+                let (dt, force) = (DT as f32, &mut force);
+                dispatch!(level, simd => passes::substep(simd, block, &law, dt, &motion, force));
+            });
+        });
+        group.bench_function("transfer", |bencher| {
+            let (mut momentum, mut force) = (Tile::EMPTY, Tile::EMPTY);
+            on_a_copy(bencher, &block, |block| {
+                let (momentum, force) = (&mut momentum, &mut force);
+                dispatch!(level, simd => passes::transfer(simd, block, &law, momentum, force));
+            });
+        });
+        group.finish();
+    }
+}
+
+#[inline(always)]
+fn stress_of_block<S: fearless_simd::Simd>(simd: S, block: &mut Block, law: &Law) {
+    use fearless_simd::{f32x16, prelude::*};
+    let none = f32x16::splat(simd, 0.0);
+    let mut gradient = [[none; 3]; 3];
+    gradient[0][2] = f32x16::splat(simd, 2.0);
+    for (chunk, _) in block.chunks_mut() {
+        black_box(stress::strain(simd, chunk, &gradient, law, DT as f32).dilation);
+    }
+}
+
+fn plain_block(criterion: &mut Criterion) {
+    let mut points = points_of_a_block();
+    let occupied = points::sort_by_block(&mut points, &LATTICE);
+    let mut grid = Grid::new(LATTICE);
+    grid.reset_around(&occupied);
+    transfer::scatter_momentum(&points, &mut grid);
+    let mut deformations: Vec<_> = points.iter().map(Deformation::start).collect();
+    transfer::gather_gradient(&grid, &points, DT, &mut deformations);
+    let contact = vec![Vec3::zeros(); points.len()];
+
+    let mut group = criterion.benchmark_group("plain block");
+    group.throughput(Throughput::Elements(points.len() as u64));
+    group.bench_function("stress", |bencher| {
+        on_a_copy(bencher, &points, |points| {
+            points::update_stress(points, &deformations, &MATERIAL, DT);
+        });
+    });
+    group.bench_function("gather, stress, scatter", |bencher| {
+        let state = (points.clone(), deformations.clone());
+        on_a_copy(bencher, &state, |(points, deformations)| {
+            transfer::gather_gradient(&grid, points, DT, deformations);
+            points::update_stress(points, deformations, &MATERIAL, DT);
+            transfer::scatter_forces(points, deformations, &contact, &mut grid);
+        });
+    });
+    group.bench_function("transfer", |bencher| {
+        bencher.iter(|| transfer::scatter_momentum(black_box(&points), &mut grid));
+    });
+    group.finish();
+}
+
+fn cube() -> SpheroPolyhedron {
+    SpheroPolyhedron::cube(0.04, 0.002).expect("a cube")
+}
+
+/// Places all round the cube, near enough to ask for, each once.
+fn closest_feature(criterion: &mut Criterion) {
+    let shape = cube();
+    let along = |k: i32| f64::from(k) * 0.003;
+    let places: Vec<Vec3> = (-8..=8)
+        .flat_map(|i| (-8..=8).map(move |j| (i, j)))
+        .flat_map(|(i, j)| (-8..=8).map(move |k| Vec3::new(along(i), along(j), along(k))))
+        .collect();
+    let mut group = criterion.benchmark_group("body");
+    group.throughput(Throughput::Elements(places.len() as u64));
+    group.bench_function("closest feature of a cube", |bencher| {
+        bencher.iter(|| {
+            let distances = places
+                .iter()
+                .map(|x| shape.closest_feature(black_box(x)).distance);
+            distances.sum::<f64>()
+        });
+    });
+    group.finish();
+}
+
+/// A cube that lies on the floor, under its weight.
+fn body_substep(criterion: &mut Criterion) {
+    let shape = cube();
+    let law = ContactLaw::hertz(1e7, shape.sphero_radius(), 0.3, 0.4);
+    let inertia = shape.unit_inertia() * 2000.0;
+    let planes = [Plane {
+        name: "floor",
+        normal: Vec3::z(),
+        offset: 0.0,
+        flow_friction: 0.4,
+    }];
+    let mut body = Body {
+        mass: 2000.0 * shape.volume(),
+        inertia,
+        inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
+        wall_law: law,
+        flow_law: law,
+        freedom: Freedom::Free,
+        state: BodyState {
+            position: Vec3::new(0.0, 0.0, 0.019_99),
+            orientation: UnitQuaternion::identity(),
+            momentum: Vec3::zeros(),
+            angular_momentum: Vec3::zeros(),
+            springs: vec![Vec3::zeros(); shape.core_vertices().len() * planes.len()],
+            wall_load: Load::default(),
+            wall_energy: 0.0,
+        },
+        shape,
+    };
+    let gravity = Vec3::new(0.0, 0.0, -GRAVITY);
+    let advance =
+        |body: &mut Body| body_wall::advance(body, &planes, &Load::default(), &gravity, DT);
+    let substeps = advance(&mut body).substeps;
+    let mut group = criterion.benchmark_group("body");
+    group.throughput(Throughput::Elements(u64::from(substeps)));
+    group.bench_function("sub-steps on the floor", |bencher| {
+        on_a_copy(bencher, &body, advance);
+    });
+    group.finish();
+}
