@@ -6,8 +6,11 @@
 
 use crate::kernel::{Lattice, Stencil, WIDTH};
 use crate::math::Vec3;
+use layout::{Layout, OCTANTS, there, within};
 use rayon::prelude::*;
 use std::ops::Range;
+
+pub mod layout;
 
 /// Cells along a block's edge.
 pub const BLOCK: usize = 4;
@@ -20,20 +23,6 @@ pub const TILE_NODES: usize = TILE * TILE * TILE;
 
 /// What the points of one block give to each node they touch.
 pub type Tile = [[f64; 4]; TILE_NODES];
-
-/// No such block.
-const NONE: u32 = u32::MAX;
-/// The eight blocks a tile reaches, in the order in which tiles are added.
-const OCTANTS: [[usize; 3]; 8] = [
-    [0, 0, 0],
-    [0, 0, 1],
-    [0, 1, 0],
-    [0, 1, 1],
-    [1, 0, 0],
-    [1, 0, 1],
-    [1, 1, 0],
-    [1, 1, 1],
-];
 
 /// Index of a block along x, y, z.
 pub type BlockKey = [i32; 3];
@@ -76,9 +65,7 @@ pub struct PointBlock {
 pub struct Grid {
     lattice: Lattice,
     point_blocks: Vec<PointBlock>,
-    node_blocks: Vec<BlockKey>,
-    /// Per node block: the point blocks whose tiles reach it.
-    sources: Vec<[u32; 8]>,
+    layout: Layout,
     nodes: Vec<Node>,
     tiles: Vec<Tile>,
 }
@@ -93,7 +80,8 @@ pub const fn in_tile(a: usize, b: usize, c: usize) -> usize {
     (a * TILE + b) * TILE + c
 }
 
-const fn in_block(a: usize, b: usize, c: usize) -> usize {
+/// Place of node (a, b, c) of a block.
+pub const fn in_block(a: usize, b: usize, c: usize) -> usize {
     (a * BLOCK + b) * BLOCK + c
 }
 
@@ -111,8 +99,7 @@ impl Grid {
         Self {
             lattice,
             point_blocks: Vec::new(),
-            node_blocks: Vec::new(),
-            sources: Vec::new(),
+            layout: Layout::default(),
             nodes: Vec::new(),
             tiles: Vec::new(),
         }
@@ -130,7 +117,7 @@ impl Grid {
 
     /// The blocks of nodes, sorted.
     pub fn node_blocks(&self) -> &[BlockKey] {
-        &self.node_blocks
+        self.layout.node_blocks()
     }
 
     /// All nodes, block after block.
@@ -143,7 +130,7 @@ impl Grid {
         self.nodes.capacity() * size_of::<Node>()
             + self.tiles.capacity() * size_of::<Tile>()
             + self.point_blocks.capacity() * size_of::<PointBlock>()
-            + self.sources.capacity() * size_of::<(BlockKey, [u32; 8])>()
+            + self.layout.bytes()
     }
 
     /// A node by its place.
@@ -154,40 +141,24 @@ impl Grid {
     /// Empties the grid and lays blocks round the occupied ones, which come
     /// sorted with the range of their points.
     pub fn reset_around(&mut self, occupied: &[(BlockKey, Range<usize>)]) {
-        self.node_blocks.clear();
-        for (key, _) in occupied {
-            for octant in OCTANTS {
-                self.node_blocks.push(shifted(*key, octant, 1));
-            }
-        }
-        self.node_blocks.sort_unstable();
-        self.node_blocks.dedup();
+        self.layout.lay_around(occupied.iter().map(|(key, _)| *key));
+        let count = self.layout.node_blocks().len();
         self.nodes.clear();
-        self.nodes
-            .resize(self.node_blocks.len() * BLOCK_NODES, Node::EMPTY);
+        self.nodes.resize(count * BLOCK_NODES, Node::EMPTY);
         self.tiles.resize(occupied.len(), [[0.0; 4]; TILE_NODES]);
-        self.connect(occupied);
-    }
-
-    fn connect(&mut self, occupied: &[(BlockKey, Range<usize>)]) {
-        let node_blocks = &self.node_blocks;
+        let blocks = occupied.iter().enumerate();
         self.point_blocks.clear();
         self.point_blocks
-            .extend(occupied.iter().map(|(key, points)| PointBlock {
+            .extend(blocks.map(|(place, (key, points))| PointBlock {
                 key: *key,
                 points: points.clone(),
-                reach: OCTANTS.map(|octant| place(node_blocks, shifted(*key, octant, 1), |k| *k)),
+                reach: *self.layout.reach(place),
             }));
-        let point_blocks = &self.point_blocks;
-        self.sources.clear();
-        self.sources.extend(node_blocks.iter().map(|key| {
-            OCTANTS.map(|octant| place(point_blocks, shifted(*key, octant, -1), |b| b.key))
-        }));
     }
 
     /// Node index (i, j, k) of a node's place.
     pub fn index_of(&self, place: usize) -> [i32; 3] {
-        let key = self.node_blocks[place / BLOCK_NODES];
+        let key = self.layout.node_blocks()[place / BLOCK_NODES];
         let local = place % BLOCK_NODES;
         let (a, b, c) = (
             local / (BLOCK * BLOCK),
@@ -203,12 +174,7 @@ impl Grid {
 
     /// Place of node (i, j, k), if its block is there.
     pub fn place_of(&self, index: [i32; 3]) -> Option<usize> {
-        let key = block_of(index);
-        let block = place(&self.node_blocks, key, |k| *k);
-        (block != NONE).then(|| {
-            let local = [0, 1, 2].map(|axis| (index[axis] - key[axis] * BLOCK as i32) as usize);
-            block as usize * BLOCK_NODES + in_block(local[0], local[1], local[2])
-        })
+        self.layout.place_of(index)
     }
 
     /// Lets every block of points fill its tile, then adds the tiles up and
@@ -228,7 +194,7 @@ impl Grid {
         let tiles = &self.tiles;
         self.nodes
             .par_chunks_mut(BLOCK_NODES)
-            .zip(&self.sources)
+            .zip(self.layout.sources())
             .for_each(|(nodes, sources)| {
                 let sums = added_up(sources, tiles);
                 for (node, sum) in nodes.iter_mut().zip(sums) {
@@ -260,9 +226,8 @@ impl Grid {
             (0..WIDTH * WIDTH * WIDTH).map(|n| (n / (WIDTH * WIDTH), n / WIDTH % WIDTH, n % WIDTH));
         triples.map(move |(a, b, c)| {
             let t = [local[0] + a, local[1] + b, local[2] + c];
-            let octant = (t[0] / BLOCK) * 4 + (t[1] / BLOCK) * 2 + t[2] / BLOCK;
-            let within = in_block(t[0] % BLOCK, t[1] % BLOCK, t[2] % BLOCK);
-            let place = block.reach[octant] as usize * BLOCK_NODES + within;
+            let (octant, node) = within(t);
+            let place = block.reach[octant] as usize * BLOCK_NODES + node;
             (a, b, c, &self.nodes[place])
         })
     }
@@ -299,16 +264,6 @@ impl Grid {
     }
 }
 
-fn shifted(key: BlockKey, octant: [usize; 3], sign: i32) -> BlockKey {
-    [0, 1, 2].map(|axis| key[axis] + sign * octant[axis] as i32)
-}
-
-fn place<T>(sorted: &[T], key: BlockKey, key_of: impl Fn(&T) -> BlockKey) -> u32 {
-    sorted
-        .binary_search_by_key(&key, key_of)
-        .map_or(NONE, |place| place as u32)
-}
-
 /// Runs over the nodes that a tile shares with the block in one octant of it,
 /// as (place in the tile, place in the block).
 fn for_overlap(octant: [usize; 3], mut visit: impl FnMut(usize, usize)) {
@@ -329,10 +284,10 @@ fn for_overlap(octant: [usize; 3], mut visit: impl FnMut(usize, usize)) {
 fn added_up(sources: &[u32; 8], tiles: &[Tile]) -> [[f64; 4]; BLOCK_NODES] {
     let mut sums = [[0.0; 4]; BLOCK_NODES];
     for (octant, source) in OCTANTS.iter().zip(sources) {
-        if *source == NONE {
+        let Some(source) = there(*source) else {
             continue;
-        }
-        let tile = &tiles[*source as usize];
+        };
+        let tile = &tiles[source];
         for_overlap(*octant, |in_tile, in_block| {
             for (sum, part) in sums[in_block].iter_mut().zip(tile[in_tile]) {
                 *sum += part;

@@ -3,7 +3,8 @@
 
 use super::rows::Tile;
 use super::stencil::weights;
-use crate::grid::{BLOCK, BLOCK_NODES, BlockKey, TILE, block_of, in_tile};
+use crate::grid::layout::{Layout, OCTANTS, there, within};
+use crate::grid::{BLOCK, BLOCK_NODES, BlockKey, TILE, in_block, in_tile};
 use crate::kernel::{Lattice, WIDTH};
 use crate::math::Vec3;
 use crate::walls::NodeAccess;
@@ -23,34 +24,16 @@ impl NodeBlock {
     }
 }
 
-/// No such block.
-const NONE: u32 = u32::MAX;
 /// A node lighter than this [kg] is empty: its numbers would be rounding, and
 /// the points hardly see it.
 const LIGHTEST: f32 = 1e-30;
 /// Blocks of nodes one task takes.
 const TASK: usize = 16;
-/// The eight blocks a tile reaches, in the order in which tiles are added.
-const OCTANTS: [[usize; 3]; 8] = [
-    [0, 0, 0],
-    [0, 0, 1],
-    [0, 1, 0],
-    [0, 1, 1],
-    [1, 0, 0],
-    [1, 0, 1],
-    [1, 1, 0],
-    [1, 1, 1],
-];
-
 /// The grid of one step.
 #[derive(Debug)]
 pub struct Nodes {
     lattice: Lattice,
-    /// Blocks of points and the node blocks their tiles reach.
-    reach: Vec<(BlockKey, [u32; 8])>,
-    keys: Vec<BlockKey>,
-    /// Per node block: the blocks of points whose tiles reach it.
-    sources: Vec<[u32; 8]>,
+    layout: Layout,
     /// Mass [kg] and velocity [m/s].
     motion: Vec<NodeBlock>,
     /// What rounding took from the velocity since the transfer [m/s], after a
@@ -66,9 +49,7 @@ impl Nodes {
     pub fn new(lattice: Lattice) -> Self {
         Self {
             lattice,
-            reach: Vec::new(),
-            keys: Vec::new(),
-            sources: Vec::new(),
+            layout: Layout::default(),
             motion: Vec::new(),
             remainder: Vec::new(),
             displacement: Vec::new(),
@@ -78,35 +59,11 @@ impl Nodes {
     /// Lays blocks of nodes round these blocks of points, which come sorted. What
     /// the nodes hold then means nothing.
     pub fn lay_around(&mut self, blocks: impl ExactSizeIterator<Item = BlockKey> + Clone) {
-        let same = blocks.len() == self.reach.len()
-            && blocks
-                .clone()
-                .zip(&self.reach)
-                .all(|(key, old)| key == old.0);
-        if same {
-            return;
-        }
-        self.keys.clear();
-        for key in blocks.clone() {
-            self.keys
-                .extend(OCTANTS.map(|octant| shifted(key, octant, 1)));
-        }
-        self.keys.sort_unstable();
-        self.keys.dedup();
-        let keys = &self.keys;
-        self.reach.clear();
-        self.reach.extend(blocks.map(|key| {
-            let reached = OCTANTS.map(|octant| place(keys, shifted(key, octant, 1), |k| *k));
-            (key, reached)
-        }));
-        let reach = &self.reach;
-        self.sources.clear();
-        self.sources.extend(keys.iter().map(|key| {
-            OCTANTS.map(|octant| place(reach, shifted(*key, octant, -1), |block| block.0))
-        }));
-        self.motion.resize(keys.len(), NodeBlock::EMPTY);
-        self.remainder.resize(keys.len(), NodeBlock::EMPTY);
-        self.displacement.resize(keys.len(), NodeBlock::EMPTY);
+        self.layout.lay_around(blocks);
+        let count = self.layout.node_blocks().len();
+        self.motion.resize(count, NodeBlock::EMPTY);
+        self.remainder.resize(count, NodeBlock::EMPTY);
+        self.displacement.resize(count, NodeBlock::EMPTY);
     }
 
     /// Takes mass and momentum from the tiles of the points: v = Σ p / Σ m.
@@ -115,7 +72,7 @@ impl Nodes {
             .par_iter_mut()
             .zip(&mut self.remainder)
             .zip(&mut self.displacement)
-            .zip(&self.sources)
+            .zip(self.layout.sources())
             .with_min_len(TASK)
             .for_each(|(((motion, remainder), displacement), sources)| {
                 dispatch!(level, simd => take(simd, sources, tiles, motion));
@@ -135,7 +92,7 @@ impl Nodes {
             .par_iter_mut()
             .zip(&mut self.remainder)
             .zip(&mut self.displacement)
-            .zip(&self.sources)
+            .zip(self.layout.sources())
             .with_min_len(TASK)
             .for_each(|(((motion, remainder), displacement), sources)| {
                 dispatch!(level, simd => {
@@ -149,29 +106,28 @@ impl Nodes {
     /// Mass and velocity of the nodes that a block of points touches.
     #[inline(always)]
     pub fn motion_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
-        fill(simd, &self.reach[block].1, &self.motion, tile);
+        fill(simd, self.layout.reach(block), &self.motion, tile);
     }
 
     /// Displacement of the nodes that a block of points touches.
     #[inline(always)]
     pub fn displacement_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
-        fill(simd, &self.reach[block].1, &self.displacement, tile);
+        fill(simd, self.layout.reach(block), &self.displacement, tile);
     }
 
     /// Velocity [m/s] and displacement [m] of the nodes at a place in a block of
     /// points, Σ w v_i and Σ w u_i.
     pub fn motion_at(&self, block: usize, position: &[f32; 3]) -> (Vec3, Vec3) {
         let (base, weight) = weights(position);
-        let reach = &self.reach[block].1;
+        let reach = self.layout.reach(block);
         let (mut velocity, mut displacement) = ([0.0; 4], [0.0; 4]);
         for a in 0..WIDTH {
             for b in 0..WIDTH {
                 let across = weight[0][a] * weight[1][b];
                 for c in 0..WIDTH {
                     let local = [base[0] + a, base[1] + b, base[2] + c];
-                    let high = local.map(|along| along / BLOCK);
-                    let node = in_block(local.map(|along| along % BLOCK));
-                    let block = reach[high[0] * 4 + high[1] * 2 + high[2]] as usize;
+                    let (octant, node) = within(local);
+                    let block = reach[octant] as usize;
                     let w = across * weight[2][c];
                     add_weighted(&mut velocity, self.motion[block].node(node), w);
                     add_weighted(&mut displacement, self.displacement[block].node(node), w);
@@ -183,9 +139,7 @@ impl Nodes {
 
     /// Bytes held for nodes.
     pub fn bytes(&self) -> usize {
-        self.motion.capacity() * 3 * size_of::<NodeBlock>()
-            + self.keys.capacity() * size_of::<(BlockKey, [u32; 8])>()
-            + self.reach.capacity() * size_of::<(BlockKey, [u32; 8])>()
+        self.motion.capacity() * 3 * size_of::<NodeBlock>() + self.layout.bytes()
     }
 }
 
@@ -195,16 +149,11 @@ impl NodeAccess for Nodes {
     }
 
     fn blocks(&self) -> &[BlockKey] {
-        &self.keys
+        self.layout.node_blocks()
     }
 
     fn place_of(&self, index: [i32; 3]) -> Option<usize> {
-        let key = block_of(index);
-        let block = place(&self.keys, key, |k| *k);
-        (block != NONE).then(|| {
-            let local = [0, 1, 2].map(|axis| (index[axis] - key[axis] * BLOCK as i32) as usize);
-            block as usize * BLOCK_NODES + in_block(local)
-        })
+        self.layout.place_of(index)
     }
 
     fn mass(&self, place: usize) -> f64 {
@@ -258,20 +207,6 @@ fn vector(numbers: &[f32]) -> Vec3 {
     )
 }
 
-fn shifted(key: BlockKey, octant: [usize; 3], sign: i32) -> BlockKey {
-    [0, 1, 2].map(|axis| key[axis] + sign * octant[axis] as i32)
-}
-
-fn place<T>(sorted: &[T], key: BlockKey, key_of: impl Fn(&T) -> BlockKey) -> u32 {
-    sorted
-        .binary_search_by_key(&key, key_of)
-        .map_or(NONE, |place| place as u32)
-}
-
-const fn in_block([a, b, c]: [usize; 3]) -> usize {
-    (a * BLOCK + b) * BLOCK + c
-}
-
 /// Rows along z that a tile shares with the block in an octant of it: how many
 /// along x and y, and where they begin in the tile. They are whole, four nodes
 /// long, in the lower octants and half as long in the upper ones.
@@ -291,7 +226,7 @@ fn fill<S: Simd>(simd: S, reach: &[u32; 8], blocks: &[NodeBlock], tile: &mut Til
         let ([along_x, along_y], start) = shared(*octant);
         for a in 0..along_x {
             for b in 0..along_y {
-                let from = &nodes[4 * in_block([a, b, 0])..];
+                let from = &nodes[4 * in_block(a, b, 0)..];
                 let to = &mut tile.0[4 * (start + in_tile(a, b, 0))..];
                 if octant[2] == 0 {
                     copy::<S, f32x16<S>>(simd, from, to);
@@ -312,15 +247,15 @@ fn copy<S: Simd, V: SimdBase<S, Element = f32>>(simd: S, from: &[f32], to: &mut 
 fn add_up<S: Simd>(simd: S, sources: &[u32; 8], tiles: &[Tile], sums: &mut NodeBlock) {
     *sums = NodeBlock::EMPTY;
     for (octant, source) in OCTANTS.iter().zip(sources) {
-        if *source == NONE {
+        let Some(source) = there(*source) else {
             continue;
-        }
-        let tile = &tiles[*source as usize].0;
+        };
+        let tile = &tiles[source].0;
         let ([along_x, along_y], start) = shared(*octant);
         for a in 0..along_x {
             for b in 0..along_y {
                 let part = &tile[4 * (start + in_tile(a, b, 0))..];
-                let sum = &mut sums.0[4 * in_block([a, b, 0])..];
+                let sum = &mut sums.0[4 * in_block(a, b, 0)..];
                 if octant[2] == 0 {
                     add::<S, f32x16<S>>(simd, part, sum);
                 } else {

@@ -173,8 +173,8 @@ fn over_nodes<S: Simd>(row: f32x16<S>) -> f32x4<S> {
     even + odd
 }
 
-/// Σ w q and Σ w q δ of a nodal quantity q of four numbers, for sixteen points; zero in lanes
-/// without a point.
+/// Σ w q and Σ w q δ of a nodal quantity q of four numbers, for sixteen points;
+/// zero in lanes without a point.
 pub struct Moments {
     /// Σ w q.
     pub zeroth: Quads,

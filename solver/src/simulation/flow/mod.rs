@@ -33,7 +33,8 @@ pub(super) trait Flow: Debug + Send + Sync {
     fn transfer(&mut self, given: &Setup, bodies: &[Body], reach: Reach, laps: &mut Laps);
 
     /// One sub-step: forces of bodies and stress, momentum, walls, strain (the
-    /// last strain of a step may wait for [`Flow::finish`]). Returns the impulse of the walls.
+    /// last strain of a step may wait for [`Flow::finish`]). Returns the impulse
+    /// of the walls.
     fn substep(
         &mut self,
         given: &Setup,
