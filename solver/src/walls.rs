@@ -11,6 +11,7 @@ use crate::kernel::Lattice;
 use crate::math::Vec3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::iter::once;
 use std::ops::Range;
 
 /// Groups of nodes one task takes.
@@ -94,14 +95,29 @@ pub struct Walls {
     pub upright: Upright,
 }
 
-/// The upright walls, on planes of nodes: back at index 0 along x, sides at
+/// The upright walls, on planes of nodes: ends at index 0 along x, sides at
 /// index 0 and `cells_across` along y.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Upright {
-    /// Back wall, then the two sides.
-    pub planes: [Plane; 3],
+    /// What is at index 0 along x.
+    pub ends: Ends,
+    /// The side walls.
+    pub sides: [Plane; 2],
     /// Cells between the side walls.
     pub cells_across: i32,
+}
+
+/// What bounds the flow along x.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ends {
+    /// A wall at the back; the front is open.
+    BackWall(Plane),
+    /// None: what leaves after `cells` cells comes in at the back. Energy and
+    /// angular momentum of such a flow can't be audited.
+    Seam {
+        /// Cells from end to end.
+        cells: i32,
+    },
 }
 
 /// Impulse that walls gave, linear [N s] and angular about the origin [N m s].
@@ -182,7 +198,11 @@ struct Answer {
 impl Walls {
     /// Every plane a body can touch.
     pub fn planes(&self) -> impl Iterator<Item = &Plane> {
-        self.base.iter().chain(&self.upright.planes)
+        let back = match &self.upright.ends {
+            Ends::BackWall(plane) => Some(plane),
+            Ends::Seam { .. } => None,
+        };
+        self.base.iter().chain(back).chain(&self.upright.sides)
     }
 
     /// Finds the nodes that walls act on.
@@ -204,7 +224,7 @@ impl Walls {
                 let place = block * BLOCK_NODES + local;
                 // An empty node counts where its images may not be empty.
                 let counts = nodes.mass(place) > 0.0 || self.upright.has_images(index);
-                if counts && self.upright.mirrored(index) == index {
+                if counts && self.upright.leader(index, nodes) == index {
                     self.add_group(nodes, place, index, boundary);
                 }
             }
@@ -217,7 +237,11 @@ impl Walls {
     /// Whether walls may act on a node of the block that starts at `first`.
     fn may_act_in(&self, lattice: &Lattice, first: [i32; 3]) -> bool {
         let last = first.map(|along| along + BLOCK as i32 - 1);
-        let upright = first[0] <= 1 || first[1] <= 1 || last[1] >= self.upright.cells_across - 1;
+        let ends = match self.upright.ends {
+            Ends::BackWall(_) => first[0] <= 1,
+            Ends::Seam { cells } => first[0] <= 1 || last[0] >= cells - 1,
+        };
+        let upright = ends || first[1] <= 1 || last[1] >= self.upright.cells_across - 1;
         let (low, high) = (lattice.position(first), lattice.position(last));
         // The lowest of a box's corners above a plane.
         let lowest =
@@ -257,8 +281,9 @@ impl Walls {
             });
         let back = self.upright.meets_back(index);
         let side = self.upright.meets_side(index);
-        let plain = below == 0 && back == Meets::Not && side == Meets::Not;
-        let empty = nodes.mass(place) <= 0.0 && boundary.members.len() == start + 1;
+        let alone = boundary.members.len() == start + 1;
+        let plain = alone && below == 0 && back == Meets::Not && side == Meets::Not;
+        let empty = alone && nodes.mass(place) <= 0.0;
         if plain || empty {
             boundary.members.truncate(start);
             return;
@@ -372,7 +397,7 @@ impl Walls {
                     inward
                 }
             };
-            let friction = self.upright.planes[axis].flow_friction;
+            let friction = self.upright.friction(axis);
             let after = velocity[axis] * folded.signed_mass[axis];
             let pressed = (after - folded.unfolded[axis]) * inward;
             if friction > 0.0 && pressed > 0.0 {
@@ -456,28 +481,50 @@ fn mirrored(v: &Vec3, sign: [f64; 2]) -> Vec3 {
 }
 
 impl Upright {
-    /// The node in the channel that a node is the image of (itself, mostly).
-    fn mirrored(&self, [i, j, k]: [i32; 3]) -> [i32; 3] {
+    /// The node in the channel that a node is the image of (itself, mostly);
+    /// across a seam the first that has a block.
+    fn leader(&self, [i, j, k]: [i32; 3], nodes: &impl NodeAccess) -> [i32; 3] {
         let across = self.cells_across;
         let j = j.abs();
-        [i.abs(), if j > across { 2 * across - j } else { j }, k]
+        let j = if j > across { 2 * across - j } else { j };
+        let i = match self.ends {
+            Ends::BackWall(_) => i.abs(),
+            Ends::Seam { cells } => {
+                let there = |i: &i32| nodes.place_of([*i, j, k]).is_some();
+                let first = i.rem_euclid(cells);
+                let mut alike = once(first).chain(across_seam(first, cells));
+                alike.find(there).unwrap_or(first)
+            }
+        };
+        [i, j, k]
     }
 
     /// Whether a node has images that the kernel can reach.
     fn has_images(&self, [i, j, _]: [i32; 3]) -> bool {
-        i == 1 || j == 1 || j == self.cells_across - 1
+        let along = match self.ends {
+            Ends::BackWall(_) => i == 1,
+            Ends::Seam { cells } => across_seam(i, cells).next().is_some(),
+        };
+        along || j == 1 || j == self.cells_across - 1
     }
 
     /// Visits the images that the kernel can reach, one node behind a wall.
     fn for_each_image(&self, [i, j, k]: [i32; 3], mut visit: impl FnMut([i32; 3], [f64; 2])) {
         let across = self.cells_across;
-        let along_x = [Some((i, 1.0)), (i == 1).then_some((-i, -1.0))];
+        let (mirror, period) = match self.ends {
+            Ends::BackWall(_) => ((i == 1).then_some((-i, -1.0)), None),
+            Ends::Seam { cells } => (None, Some(cells)),
+        };
+        let repeats = period.into_iter().flat_map(|cells| across_seam(i, cells));
+        let along_x = once((i, 1.0))
+            .chain(mirror)
+            .chain(repeats.map(|i| (i, 1.0)));
         let along_y = [
             Some((j, 1.0)),
             (j == 1).then_some((-j, -1.0)),
             (j == across - 1).then_some((2 * across - j, -1.0)),
         ];
-        for (x, &(i, sign_x)) in along_x.iter().flatten().enumerate() {
+        for (x, (i, sign_x)) in along_x.enumerate() {
             for (y, &(j, sign_y)) in along_y.iter().flatten().enumerate() {
                 if x + y > 0 {
                     visit([i, j, k], [sign_x, sign_y]);
@@ -487,7 +534,10 @@ impl Upright {
     }
 
     fn meets_back(&self, [i, ..]: [i32; 3]) -> Meets {
-        meets(i, 1.0)
+        match self.ends {
+            Ends::BackWall(_) => meets(i, 1.0),
+            Ends::Seam { .. } => Meets::Not,
+        }
     }
 
     fn meets_side(&self, [_, j, _]: [i32; 3]) -> Meets {
@@ -498,6 +548,38 @@ impl Upright {
             meets(j, 1.0)
         }
     }
+
+    /// Whether what leaves comes in again.
+    pub fn has_seam(&self) -> bool {
+        matches!(self.ends, Ends::Seam { .. })
+    }
+
+    /// By how many cells a place `along` cells from the back is moved so that it
+    /// lies between the ends of a seam.
+    pub fn shift_across_seam(&self, along: f64) -> Option<i32> {
+        let Ends::Seam { cells } = self.ends else {
+            return None;
+        };
+        let outside = (along / f64::from(cells)).floor();
+        (outside != 0.0).then_some(-(outside as i32) * cells)
+    }
+
+    /// Friction of the walls across an axis.
+    fn friction(&self, axis: usize) -> f64 {
+        match (&self.ends, axis) {
+            (Ends::BackWall(plane), 0) => plane.flow_friction,
+            (Ends::Seam { .. }, 0) => 0.0,
+            _ => self.sides[0].flow_friction,
+        }
+    }
+}
+
+/// The other nodes along x that are the same across a seam of `cells` cells and
+/// within the kernel's reach.
+fn across_seam(i: i32, cells: i32) -> impl Iterator<Item = i32> {
+    let first = i.rem_euclid(cells) - cells;
+    let alike = (0..4).map(move |period| first + period * cells);
+    alike.filter(move |alike| *alike != i && (-1..=cells + 1).contains(alike))
 }
 
 /// How a node `distance` nodes from a wall meets it.

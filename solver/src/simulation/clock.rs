@@ -41,7 +41,7 @@ impl Clock {
 
 /// Duration and sample times.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Timing {
+pub struct Timing {
     /// End of the run [s].
     pub duration: f64,
     /// Time between samples [s].

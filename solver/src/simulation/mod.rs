@@ -22,11 +22,12 @@ use clock::Clock;
 use flow::Flow;
 use laps::Laps;
 use rayon::ThreadPool;
-use setup::Setup;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+pub use clock::Timing;
 pub use laps::{LapWatch, Verb};
+pub use setup::{GivenFlow, Scene, Setup};
 
 /// A run in progress: what is given, what changes, and scratch.
 #[derive(Debug)]
@@ -102,13 +103,19 @@ impl Simulation {
     /// # Errors
     /// Too many points for one run, or threads that can't be started.
     pub fn new(scenario: &Scenario, threads: usize) -> Result<Self, SetupError> {
+        Self::of_scene(Scene::of(scenario)?, threads)
+    }
+
+    /// Sets a scene up on `threads` solver threads. Only a scenario's scene can
+    /// be restored once saved.
+    ///
+    /// # Errors
+    /// Threads that can't be started.
+    pub fn of_scene(scene: Scene, threads: usize) -> Result<Self, SetupError> {
         let pool = start_threads(threads)?;
-        let given = Setup::of(scenario)?;
-        let bodies = setup::bodies(scenario, &given);
-        let (points, volume_left_out) = setup::release(scenario, &given, &bodies);
-        let flow = flow::start(points, &given, scenario.numerics.precision);
-        let mut simulation = Self::assemble(given, flow, bodies, pool);
-        simulation.state.clock.volume_left_out = volume_left_out;
+        let flow = flow::start(scene.points, &scene.given, scene.precision);
+        let mut simulation = Self::assemble(scene.given, flow, scene.bodies, pool);
+        simulation.state.clock.volume_left_out = scene.volume_left_out;
         simulation.start_audit();
         Ok(simulation)
     }

@@ -27,7 +27,7 @@ pub(super) fn save(simulation: &Simulation) -> Vec<u8> {
     let bodies = state.bodies.iter().map(|body| body.state.clone());
     let saved = Saved {
         version: crate::VERSION.to_owned(),
-        scenario: simulation.given.scenario.clone(),
+        scenario: simulation.given.identity.clone(),
         clock: state.clock.clone(),
         flow: state.flow.saved(),
         moments: state.moments,
@@ -54,7 +54,7 @@ pub(super) fn restore(
         });
     }
     let pool = start_threads(threads).map_err(|error| unreadable(error.to_string()))?;
-    let given = Setup::of(scenario).map_err(|error| unreadable(error.to_string()))?;
+    let (given, _) = Setup::of(scenario).map_err(|error| unreadable(error.to_string()))?;
     let mut bodies = setup::bodies(scenario, &given);
     if bodies.len() != saved.bodies.len() {
         return Err(RestoreError::OtherScenario {

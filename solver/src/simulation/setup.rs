@@ -1,4 +1,4 @@
-//! From a scenario to what a run is given, and its bodies.
+//! From a scenario to a scene: what a run is given, its bodies and its points.
 
 use super::clock::Timing;
 use crate::contact::law::ContactLaw;
@@ -9,15 +9,14 @@ use crate::material::{Material, Yielding};
 use crate::math::Vec3;
 use crate::points::Point;
 use crate::rigid::{Body, BodyState, Freedom, Load};
-use crate::scenario::{self, Scenario};
+use crate::scenario::{self, Precision, Scenario};
 use crate::stability::{Limits, Pace};
-use crate::walls::{Plane, Upright, Walls};
+use crate::walls::{Ends, Plane, Upright, Walls};
 
 mod release;
 mod resolution;
 
 use release::Columns;
-pub(super) use release::release;
 
 /// Default Courant number of the sub-step.
 const COURANT: f64 = 0.4;
@@ -35,59 +34,115 @@ const REFERENCE_OVERLAP: f64 = 0.1;
 /// Share of a body's own contact time scale allowed per sub-step.
 const BODY_CONTACT_SHARE: f64 = 0.5;
 
+/// A scene in the solver's own terms: what a scenario is turned into. Whoever
+/// builds one without a scenario answers for it: nothing here is validated.
+#[derive(Debug)]
+pub struct Scene {
+    /// What does not change.
+    pub given: Setup,
+    /// The bodies at the start.
+    pub bodies: Vec<Body>,
+    /// The material points at the start.
+    pub points: Vec<Point>,
+    /// Arithmetic of the flow. The elastic test law is always in f64.
+    pub precision: Precision,
+    /// Volume not released because a body stands there [m³].
+    pub volume_left_out: f64,
+}
+
 /// What a run is given; it does not change.
 #[derive(Debug)]
-pub(super) struct Setup {
-    /// Identity of the scenario: its JSON.
-    pub scenario: String,
+pub struct Setup {
+    /// Identity of the scene: a scenario's JSON.
+    pub identity: String,
+    /// Duration and sample times.
     pub timing: Timing,
+    /// [m/s²].
     pub gravity: Vec3,
+    /// Where the nodes lie.
     pub lattice: Lattice,
+    /// The walls as the flow meets them.
     pub walls: Walls,
-    /// The same walls as bodies meet them.
+    /// The walls as bodies meet them.
     pub planes: Vec<Plane>,
     /// x of the open end [m].
     pub open_end: f64,
-    pub flow: Option<Flow>,
+    /// The flow, if there is one.
+    pub flow: Option<GivenFlow>,
 }
 
 /// What a run with a flow is given besides.
 #[derive(Debug)]
-pub(super) struct Flow {
+pub struct GivenFlow {
+    /// What it is made of.
     pub material: Material,
+    /// What bounds its steps.
     pub limits: Limits,
     /// What points are to bodies.
     pub sphere: PointSphere,
-    /// How the release is divided into points.
-    columns: Columns,
+}
+
+impl Scene {
+    /// The scene of a scenario.
+    ///
+    /// # Errors
+    /// Too many points for one run.
+    pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
+        let (given, columns) = Setup::of(scenario)?;
+        let bodies = bodies(scenario, &given);
+        let (points, volume_left_out) = match columns {
+            Some(columns) => columns.release(scenario, &given, &bodies),
+            None => (Vec::new(), 0.0),
+        };
+        Ok(Self {
+            given,
+            bodies,
+            points,
+            precision: scenario.numerics.precision,
+            volume_left_out,
+        })
+    }
 }
 
 impl Setup {
-    pub(super) fn of(scenario: &Scenario) -> Result<Self, SetupError> {
+    /// What the run of a scenario is given, and how its release is divided.
+    pub(super) fn of(scenario: &Scenario) -> Result<(Self, Option<Columns>), SetupError> {
         let channel = &scenario.channel;
         let lattice = resolution::lattice(scenario);
         let walls = walls(channel, &lattice);
-        let planes = walls.planes().copied().collect();
-        let flow = match (&scenario.flow, scenario.release()) {
-            (Some(flow), Some(release)) => {
-                let columns = Columns::of(scenario, &lattice, &release)?;
-                Some(Flow::of(scenario, flow, &lattice, columns))
-            }
-            _ => None,
+        let columns = match scenario.release() {
+            Some(release) => Some(Columns::of(scenario, &lattice, &release)?),
+            None => None,
         };
-        Ok(Self {
-            scenario: scenario.to_json(),
+        let flow = scenario.flow.as_ref().zip(columns.as_ref());
+        let flow = flow.map(|(flow, columns)| {
+            let material = material(scenario, &flow.material);
+            let numerics = &scenario.numerics;
+            let limits = Limits {
+                courant: numerics.courant.unwrap_or(COURANT),
+                flow_courant: numerics.flow_courant.unwrap_or(FLOW_COURANT),
+                ..default_limits(&material, &lattice, resolution::expected_speed(scenario))
+            };
+            GivenFlow {
+                sphere: sphere(&material, columns.volume),
+                material,
+                limits,
+            }
+        });
+        let given = Self {
+            identity: scenario.to_json(),
             timing: Timing {
                 duration: scenario.duration_s,
                 sample_interval: scenario.sample_interval_s,
             },
             gravity: Vec3::new(0.0, 0.0, -scenario.gravity_m_s2),
             lattice,
+            planes: walls.planes().copied().collect(),
             walls,
-            planes,
             open_end: channel.runout_length_m,
             flow,
-        })
+        };
+        Ok((given, columns))
     }
 
     /// How far from a body a point can be at a transfer and still touch it
@@ -115,39 +170,53 @@ impl Setup {
     }
 }
 
-impl Flow {
-    fn of(scenario: &Scenario, flow: &scenario::Flow, lattice: &Lattice, columns: Columns) -> Self {
-        let material = material(scenario, &flow.material);
-        let numerics = &scenario.numerics;
-        let volume = columns.volume;
-        let spacing = volume.cbrt();
+/// Limits of a flow on a lattice at the default Courant numbers, expected to
+/// reach this speed [m/s].
+fn default_limits(material: &Material, lattice: &Lattice, expected_speed: f64) -> Limits {
+    Limits {
+        p_wave_speed: material.p_wave_speed(),
+        sound_speed: (material.bulk_modulus / material.bulk_density).sqrt(),
+        cell_size: lattice.finest_spacing(),
+        courant: COURANT,
+        flow_courant: FLOW_COURANT,
+        slow: SLOW * expected_speed,
+    }
+}
+
+/// What points of this volume [m³] are to bodies (equation 21).
+fn sphere(material: &Material, volume: f64) -> PointSphere {
+    let spacing = volume.cbrt();
+    PointSphere {
+        radius: (3.0 * volume / (4.0 * std::f64::consts::PI)).cbrt(),
+        impedance: material.bulk_density * material.p_wave_speed() * spacing * spacing,
+        spacing,
+    }
+}
+
+impl GivenFlow {
+    /// A flow of points of this volume [m³] on a lattice, expected to reach this
+    /// speed [m/s], at the default Courant numbers.
+    pub fn new(
+        material: Material,
+        lattice: &Lattice,
+        point_volume: f64,
+        expected_speed: f64,
+    ) -> Self {
         Self {
-            limits: Limits {
-                p_wave_speed: material.p_wave_speed(),
-                sound_speed: (material.bulk_modulus / material.bulk_density).sqrt(),
-                cell_size: lattice.finest_spacing(),
-                courant: numerics.courant.unwrap_or(COURANT),
-                flow_courant: numerics.flow_courant.unwrap_or(FLOW_COURANT),
-                slow: SLOW * resolution::expected_speed(scenario),
-            },
+            limits: default_limits(&material, lattice, expected_speed),
+            sphere: sphere(&material, point_volume),
             material,
-            sphere: PointSphere {
-                radius: (3.0 * volume / (4.0 * std::f64::consts::PI)).cbrt(),
-                impedance: material.bulk_density * material.p_wave_speed() * spacing * spacing,
-                spacing,
-            },
-            columns,
         }
     }
 
     /// Law of a body's contacts with points: as stiff at the reference overlap
     /// as a column of material one point wide, M l (equation 22).
-    fn contact_law(&self, body: &scenario::Body) -> ContactLaw {
+    pub fn contact_law(&self, restitution: f64, friction: f64) -> ContactLaw {
         let spacing = self.sphere.spacing;
         let tangent = self.material.p_wave_modulus() * spacing;
         ContactLaw {
             stiffness: tangent / (1.5 * (REFERENCE_OVERLAP * spacing).sqrt()),
-            ..ContactLaw::hertz(0.0, 1.0, body.flow_restitution, body.flow_friction)
+            ..ContactLaw::hertz(0.0, 1.0, restitution, friction)
         }
     }
 
@@ -212,8 +281,8 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
     Walls {
         base: planes,
         upright: Upright {
-            planes: [
-                upright("back wall", Vec3::x(), channel.incline_length_m),
+            ends: Ends::BackWall(upright("back wall", Vec3::x(), channel.incline_length_m)),
+            sides: [
                 upright("right side wall", Vec3::y(), half_width),
                 upright("left side wall", -Vec3::y(), half_width),
             ],
@@ -245,7 +314,7 @@ fn body(scenario: &Scenario, given: &Setup, place: usize) -> Body {
         spec.friction,
     );
     let flow_law = match &given.flow {
-        Some(flow) => flow.contact_law(spec),
+        Some(flow) => flow.contact_law(spec.flow_restitution, spec.flow_friction),
         None => wall_law,
     };
     let mut body = Body {

@@ -169,6 +169,23 @@ impl FastFlow {
             });
     }
 
+    /// Brings points that went through a seam in at its other end.
+    fn go_round(&mut self, given: &Setup) {
+        let upright = &given.walls.upright;
+        if !upright.has_seam() {
+            return;
+        }
+        for block in self.blocks.occupied_mut() {
+            let first = f64::from(block.key[0]) * BLOCK as f64;
+            for slot in 0..block.count() {
+                let [x, y, z] = block.position(slot);
+                if let Some(cells) = upright.shift_across_seam(first + f64::from(x)) {
+                    block.shift(slot, &[x + cells as f32, y, z]);
+                }
+            }
+        }
+    }
+
     fn put_back(&mut self, bodies: &[Body]) -> u64 {
         let mut count = 0;
         for (body, candidates) in bodies.iter().zip(&self.loads.candidates) {
@@ -288,6 +305,7 @@ impl Flow for FastFlow {
         // Before the points go to other blocks.
         self.sum_up_ends();
         let count = self.put_back(bodies);
+        self.go_round(given);
         laps.done(Verb::Motion);
         self.blocks.settle();
         laps.done(Verb::Settle);

@@ -5,11 +5,12 @@ mod fast;
 mod plain;
 
 use super::laps::Laps;
-use super::setup::Setup;
+use super::setup::{GivenFlow, Setup};
 use crate::contact::point_body::{Around, FlowLoad, Reach};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::Blocks;
 use crate::fast::instructions::Instructions;
+use crate::material::Yielding;
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::Precision;
@@ -146,8 +147,12 @@ impl SavedFlow {
 
 /// A flow of these points in the precision asked for.
 pub(super) fn start(points: Vec<Point>, given: &Setup, precision: Precision) -> Box<dyn Flow> {
+    // The fast path knows granular materials only.
+    let granular = |flow: &GivenFlow| matches!(flow.material.yielding, Yielding::Granular { .. });
     match precision {
-        Precision::Single if given.flow.is_some() => Box::new(FastFlow::new(&points, given)),
+        Precision::Single if given.flow.as_ref().is_some_and(granular) => {
+            Box::new(FastFlow::new(&points, given))
+        }
         _ => Box::new(PlainFlow::new(points, given)),
     }
 }

@@ -83,6 +83,20 @@ impl PlainFlow {
         }
     }
 
+    /// Brings points that went through a seam in at its other end.
+    fn go_round(&mut self, given: &Setup) {
+        let (upright, lattice) = (&given.walls.upright, &given.lattice);
+        if !upright.has_seam() {
+            return;
+        }
+        for point in &mut self.points {
+            let along = (point.position.x - lattice.origin.x) / lattice.spacing.x;
+            if let Some(cells) = upright.shift_across_seam(along) {
+                point.position.x += f64::from(cells) * lattice.spacing.x;
+            }
+        }
+    }
+
     fn totals_of(points: &[Point], given: &Setup) -> Totals {
         let Some(flow) = &given.flow else {
             return Totals::default();
@@ -167,7 +181,7 @@ impl Flow for PlainFlow {
         &self.loads.on_bodies
     }
 
-    fn finish(&mut self, _: &Setup, bodies: &[Body], _: f64, laps: &mut Laps) -> u64 {
+    fn finish(&mut self, given: &Setup, bodies: &[Body], _: f64, laps: &mut Laps) -> u64 {
         transfer::gather_motion(&self.grid, &self.deformations, &mut self.points);
         let mut count = 0;
         for (body, candidates) in bodies.iter().zip(&self.loads.candidates) {
@@ -180,6 +194,7 @@ impl Flow for PlainFlow {
                 }
             }
         }
+        self.go_round(given);
         laps.done(Verb::Motion);
         count
     }

@@ -15,60 +15,59 @@ const MOST_POINTS: u64 = 20_000_000;
 
 /// Counts and distances of the release's points.
 #[derive(Debug)]
-pub(super) struct Columns {
+pub(in crate::simulation) struct Columns {
     count: [u32; 3],
     spacing: Vec3,
     /// Volume of one point [m³].
     pub(super) volume: f64,
 }
 
-/// Points of the release that overlap no body, and the volume left out.
-pub(in crate::simulation) fn release(
-    scenario: &Scenario,
-    given: &Setup,
-    bodies: &[Body],
-) -> (Vec<Point>, f64) {
-    let (Some(release), Some(flow)) = (scenario.release(), &given.flow) else {
-        return (Vec::new(), 0.0);
-    };
-    let columns = &flow.columns;
-    let slope = scenario.channel.inclination_deg.to_radians();
-    let start = Start {
-        material: &flow.material,
-        gravity: scenario.gravity_m_s2,
-        slope,
-    };
-    let mass = flow.material.bulk_density * columns.volume;
-    let mut points = Vec::new();
-    let mut left_out = 0.0;
-    let [along, across, up] = columns.count;
-    for i in 0..along {
-        for j in 0..across {
-            for k in 0..up {
-                let place = |n: u32, axis: usize| (f64::from(n) + 0.5) * columns.spacing[axis];
-                let x = release.back_m + place(i, 0);
-                let height = place(k, 2);
-                let base = scenario.channel.bed_elevation_m(x);
-                let y = place(j, 1) - 0.5 * release.width_m;
-                let position = Vec3::new(x, y, base + height);
-                if !given.is_free(&position, bodies) {
-                    left_out += columns.volume;
-                    continue;
+impl Columns {
+    /// Points of the release that overlap no body, and the volume left out.
+    pub(in crate::simulation) fn release(
+        &self,
+        scenario: &Scenario,
+        given: &Setup,
+        bodies: &[Body],
+    ) -> (Vec<Point>, f64) {
+        let (Some(release), Some(flow)) = (scenario.release(), &given.flow) else {
+            return (Vec::new(), 0.0);
+        };
+        let start = Start {
+            material: &flow.material,
+            gravity: scenario.gravity_m_s2,
+            slope: scenario.channel.inclination_deg.to_radians(),
+        };
+        let mass = flow.material.bulk_density * self.volume;
+        let mut points = Vec::new();
+        let mut left_out = 0.0;
+        let [along, across, up] = self.count;
+        for i in 0..along {
+            for j in 0..across {
+                for k in 0..up {
+                    let place = |n: u32, axis: usize| (f64::from(n) + 0.5) * self.spacing[axis];
+                    let x = release.back_m + place(i, 0);
+                    let height = place(k, 2);
+                    let base = scenario.channel.bed_elevation_m(x);
+                    let y = place(j, 1) - 0.5 * release.width_m;
+                    let position = Vec3::new(x, y, base + height);
+                    if !given.is_free(&position, bodies) {
+                        left_out += self.volume;
+                        continue;
+                    }
+                    let id = points.len() as u32;
+                    let mut point = resting_point(id, position, mass, self.volume);
+                    start.press(&mut point, release.vertical_thickness_m - height);
+                    points.push(point);
                 }
-                let id = points.len() as u32;
-                let mut point = resting_point(id, position, mass, columns.volume);
-                start.press(&mut point, release.vertical_thickness_m - height);
-                points.push(point);
             }
         }
+        (points, left_out)
     }
-    (points, left_out)
-}
 
-impl Columns {
     /// As close to the points per cell asked for as whole numbers allow, the
     /// volume being exact: across the channel every cell has the same number.
-    pub(super) fn of(
+    pub(in crate::simulation) fn of(
         scenario: &Scenario,
         lattice: &Lattice,
         release: &ReleaseBox,
