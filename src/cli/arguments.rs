@@ -12,7 +12,8 @@ pub(super) struct Arguments {
     pub(super) command: Command,
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 fine, 2 invalid input, 3 numerical failure, 1 other.";
+const EXIT_CODES: &str =
+    "Exit codes: 0 fine, 2 invalid input, 3 numerical failure, 4 a case was missed, 1 other.";
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
@@ -26,6 +27,8 @@ pub(super) enum Command {
     Demo(DemoOptions),
     /// Measure how fast the solver is on this machine
     Bench(BenchOptions),
+    /// Compare the solver with cases whose answer is known
+    Verify(VerifyOptions),
 }
 
 #[derive(Debug, Args)]
@@ -97,6 +100,19 @@ pub(super) struct BenchOptions {
     /// Write pictures of sizes and roofline into this directory
     #[arg(long, value_name = "DIR")]
     pub(super) figures: Option<PathBuf>,
+    /// Print one JSON document instead of tables
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct VerifyOptions {
+    /// Run this case alone; may be given several times [default: all]
+    #[arg(long, value_name = "NAME")]
+    pub(super) case: Vec<String>,
+    /// More and finer resolutions: takes minutes instead of seconds
+    #[arg(long)]
+    pub(super) full: bool,
     /// Print one JSON document instead of tables
     #[arg(long)]
     pub(super) json: bool,

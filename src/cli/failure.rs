@@ -18,6 +18,9 @@ pub(super) enum Failure {
     /// The computation could not go on: whoever knows the method.
     #[error("{0}")]
     Numerical(String),
+    /// So many known answers were missed: whoever knows the method.
+    #[error("{0} missed")]
+    Missed(usize),
     /// Anything else: whoever runs the machine.
     #[error("{0}")]
     Other(String),
@@ -40,12 +43,13 @@ impl Failure {
         ExitCode::from(self.exit_code())
     }
 
-    /// Exit code: 2 invalid input, 3 numerical failure, 1 other.
+    /// Exit code: 2 invalid input, 3 numerical failure, 4 a case missed, 1 other.
     pub(super) fn exit_code(&self) -> u8 {
         match self {
             Self::Other(_) => 1,
             Self::Input(_) => 2,
             Self::Numerical(_) => 3,
+            Self::Missed(_) => 4,
         }
     }
 }

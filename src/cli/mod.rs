@@ -1,20 +1,24 @@
 //! The command line: what can be asked, and the exit codes of the answers.
 //!
 //! 0: fine. 2: the input is at fault (arguments, files, scenario). 3: the
-//! computation could not go on. 1: anything else (a full disk, a busy port).
+//! computation could not go on. 4: a case with a known answer was missed.
+//! 1: anything else (a full disk, a busy port).
 
 mod arguments;
 mod bench;
+mod columns;
 mod console;
 mod demo;
 mod failure;
 mod local_run;
+mod machine;
 mod meter;
 mod output;
 mod scenario_file;
 mod serve;
 mod table;
 mod validate;
+mod verify;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -33,6 +37,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Validate(options) => validate::validate(options),
         Command::Demo(options) => demo::demo(options),
         Command::Bench(options) => bench::bench(options),
+        Command::Verify(options) => verify::verify(options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,11 +1,11 @@
 //! What bodies in the flow cost.
 
 use super::Effort;
-use super::machine::cores;
 use super::scenes::{self, IN_THE_FLOW_S};
 use super::stopwatch::{Lap, Length, Runner, take_turns};
-use super::table::{millions, table};
+use crate::cli::columns::{millions, table};
 use crate::cli::failure::Failure;
+use crate::cli::machine::cores;
 use scree_solver::scenario::Scenario;
 use serde::Serialize;
 

@@ -1,11 +1,11 @@
 //! The collapse, each way it can be computed.
 
 use super::Effort;
-use super::machine::{instruction_sets, one_and_all};
 use super::scenes::{COLLAPSE_S, Collapse};
 use super::stopwatch::{Lap, Length, Runner, take_turns};
-use super::table::{millions, table};
+use crate::cli::columns::{millions, table};
 use crate::cli::failure::Failure;
+use crate::cli::machine::{instruction_sets, one_and_all};
 use scree_solver::Instructions;
 use serde::Serialize;
 

@@ -3,19 +3,17 @@
 mod bodies;
 mod collapse;
 mod figures;
-mod machine;
 mod roofline;
 mod scenes;
 mod size;
 mod stopwatch;
-mod table;
 mod threads;
 mod verbs;
 
 use super::arguments::{BenchOptions, Measurement};
 use super::console;
 use super::failure::Failure;
-use machine::Machine;
+use crate::cli::machine::Machine;
 use scree_solver::VERSION;
 use serde::Serialize;
 use std::io::IsTerminal;

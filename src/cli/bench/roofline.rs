@@ -5,11 +5,11 @@
 //! here; the lower of the two bounds is the roof.
 
 use super::Effort;
-use super::machine::one_and_all;
 use super::scenes::Collapse;
 use super::stopwatch::{Lap, Length, Runner, median, take_turns};
-use super::table::table;
+use crate::cli::columns::table;
 use crate::cli::failure::Failure;
+use crate::cli::machine::one_and_all;
 use fearless_simd::{Level, dispatch, f32x16, prelude::*};
 use scree_solver::Instructions;
 use scree_solver::fast::cost::{BYTES, OPERATIONS};

@@ -1,11 +1,11 @@
 //! The collapse at different numbers of points.
 
 use super::Effort;
-use super::machine::one_and_all;
 use super::scenes::Collapse;
 use super::stopwatch::{Lap, Length, Runner, take_turns};
-use super::table::{millions, table};
+use crate::cli::columns::{millions, table};
 use crate::cli::failure::Failure;
+use crate::cli::machine::one_and_all;
 use serde::Serialize;
 
 const SIZES: [u32; 3] = [10_000, 100_000, 1_000_000];

@@ -1,11 +1,11 @@
 //! The collapse on more and more threads, and the bits it ends with.
 
 use super::Effort;
-use super::machine::cores;
 use super::scenes::Collapse;
 use super::stopwatch::{Lap, Length, Runner, take_turns};
-use super::table::{millions, table};
+use crate::cli::columns::{millions, table};
 use crate::cli::failure::Failure;
+use crate::cli::machine::cores;
 use serde::Serialize;
 
 /// Sub-steps of a lap.

@@ -1,11 +1,11 @@
 //! Which verb of the step takes which share.
 
 use super::Effort;
-use super::machine::cores;
 use super::scenes::{self, Collapse, IN_THE_FLOW_S};
 use super::stopwatch::{Length, Runner};
-use super::table::table;
+use crate::cli::columns::table;
 use crate::cli::failure::Failure;
+use crate::cli::machine::cores;
 use scree_solver::Verb;
 use serde::Serialize;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,0 +1,204 @@
+//! `scree verify`: the solver against cases with a trusted answer.
+
+use super::arguments::VerifyOptions;
+use super::columns::{millions, table};
+use super::console;
+use super::failure::Failure;
+use super::machine::Machine;
+use scree::verify::findings::{Count, Error, Finding, Verdict};
+use scree::verify::order::Order;
+use scree::verify::{Case, Effort, How, Verified, cases, count, verify as run_case};
+use scree_solver::VERSION;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::io::IsTerminal;
+
+/// What stands where there is nothing.
+const NOTHING: &str = "–";
+
+/// All that was verified.
+#[derive(Debug, Serialize)]
+struct Report {
+    solver_version: &'static str,
+    machine: Machine,
+    effort: Effort,
+    count: Count,
+    cases: Vec<Verified>,
+}
+
+/// Runs the cases asked for and prints what was found.
+///
+/// # Errors
+/// A case that is not there, or one that missed its bar.
+pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
+    let effort = if options.full {
+        Effort::Full
+    } else {
+        Effort::Quick
+    };
+    let mut verified = Vec::new();
+    for case in asked_for(&options.case)? {
+        if std::io::stderr().is_terminal() {
+            console::note(&format!("verifying: {}", case.name));
+        }
+        verified.push(run_case(case, effort));
+    }
+    let report = Report {
+        solver_version: VERSION,
+        machine: Machine::here(),
+        effort,
+        count: count(&verified),
+        cases: verified,
+    };
+    let answer = if options.json {
+        serde_json::to_string_pretty(&report)?
+    } else {
+        report.tables()
+    };
+    console::answer(&answer)?;
+    match report.count.missed {
+        0 => Ok(()),
+        missed => Err(Failure::Missed(missed)),
+    }
+}
+
+/// The cases with these names, in the order of the list; all if none is named.
+fn asked_for(names: &[String]) -> Result<Vec<&'static Case>, Failure> {
+    let known = |name: &&String| cases::ALL.iter().any(|case| case.name == **name);
+    if let Some(unknown) = names.iter().find(|name| !known(name)) {
+        let all: Vec<&str> = cases::ALL.iter().map(|case| case.name).collect();
+        let all = all.join(", ");
+        return Err(Failure::Input(format!(
+            "there is no case {unknown}; there are: {all}"
+        )));
+    }
+    let asked = |case: &&Case| names.is_empty() || names.iter().any(|name| name == case.name);
+    Ok(cases::ALL.iter().filter(asked).collect())
+}
+
+impl Report {
+    fn tables(&self) -> String {
+        let effort = match self.effort {
+            Effort::Quick => "quick: small versions",
+            Effort::Full => "full",
+        };
+        let machine = self.machine.in_words();
+        let mut text = format!("Scree {}; {machine}\n{effort}\n", self.solver_version);
+        for verified in &self.cases {
+            let _ = write!(text, "\n{}", page(verified));
+        }
+        let Count {
+            passed,
+            missed,
+            reported,
+        } = self.count;
+        let _ = write!(
+            text,
+            "\n{passed} passed, {missed} missed, {reported} reported only"
+        );
+        text
+    }
+}
+
+/// A case for people.
+fn page(Verified { case, found }: &Verified) -> String {
+    let mut text = format!(
+        "{} {}: {}\n  oracle: {}\n",
+        case.number, case.name, case.title, case.source
+    );
+    if let How::NotYet(why) = case.how {
+        let _ = writeln!(text, "  not yet expressible: {why}");
+        return text;
+    }
+    let headings = [
+        "quantity",
+        "resolution",
+        "measured",
+        "oracle",
+        "unit",
+        "error",
+        "bar",
+        "wall [s]",
+        "M point-steps/s",
+        "verdict",
+    ];
+    text.push_str(&table("", headings, found.values.iter().map(row))[1..]);
+    for failure in found.values.iter().filter_map(|one| one.failure.as_ref()) {
+        let _ = writeln!(text, "  failed: {failure}");
+    }
+    for order in &found.orders {
+        let _ = writeln!(text, "  {}", order_in_words(order));
+    }
+    text
+}
+
+fn row(finding: &Finding) -> [String; 10] {
+    let question = &finding.question;
+    let of = match question.error {
+        Error::Relative => String::new(),
+        Error::Absolute => unit(question.unit),
+        Error::Over { of, .. } => unit(of),
+    };
+    let optional = |value: Option<f64>, show: fn(f64) -> String| {
+        value.map_or_else(|| NOTHING.to_owned(), show)
+    };
+    [
+        question.quantity.clone(),
+        finding.resolution.label.clone(),
+        optional(finding.measured, number),
+        number(question.oracle),
+        question.unit.to_owned(),
+        optional(finding.measured_error, |error| format!("{error:+.1e}")) + &of,
+        optional(question.bar, |bar| format!("{bar:.0e}")) + &of,
+        format!("{:.2}", finding.cost.wall_s),
+        optional(finding.cost.point_steps_per_s, millions),
+        word(finding.verdict).to_owned(),
+    ]
+}
+
+fn unit(unit: &str) -> String {
+    format!(" {unit}")
+}
+
+/// A value with six digits.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    if value != 0.0 && !(1e-3..1e6).contains(&size) {
+        return format!("{value:.4e}");
+    }
+    let before = if size >= 1.0 {
+        size.log10() as usize
+    } else {
+        0
+    };
+    format!("{value:.*}", 6 - before.min(6))
+}
+
+fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "pass",
+        Verdict::Miss => "MISS",
+        Verdict::Report => "report",
+    }
+}
+
+fn order_in_words(order: &Order) -> String {
+    let mut text = format!("order of {}: ", order.quantity);
+    match order.fitted {
+        Some(fitted) => {
+            let pairs = order.pairwise.iter().map(|pair| format!("{pair:.2}"));
+            let pairs = pairs.collect::<Vec<_>>().join(", ");
+            let _ = write!(text, "{fitted:.2} (pairwise {pairs})");
+        }
+        None => text.push_str("none, fewer than three resolutions"),
+    }
+    let _ = write!(text, " over {}", order.used.join("; "));
+    if !order.on_the_floor.is_empty() {
+        let out = order.on_the_floor.join("; ");
+        let _ = write!(text, "; on the floor of {:.0e}: {out}", order.floor);
+    }
+    if let Some(asked) = order.asked {
+        let _ = write!(text, "; asked {asked}: {}", word(order.verdict));
+    }
+    text
+}

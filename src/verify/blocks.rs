@@ -1,0 +1,154 @@
+//! Scenes in the solver's own terms: blocks of points where no scenario puts
+//! them, and of materials it doesn't know.
+
+use scree_solver::kernel::Lattice;
+use scree_solver::material::{Material, Yielding};
+use scree_solver::math::{Mat3, Sym3, Vec3};
+use scree_solver::points::Point;
+use scree_solver::scenario::Precision;
+use scree_solver::simulation::{GivenFlow, Scene, Setup, Timing};
+use scree_solver::walls::{Ends, Plane, Upright, Walls};
+
+/// Points per cell and axis.
+const PER_CELL: u32 = 2;
+
+/// A box of points in a channel with a flat, smooth floor and smooth sides.
+#[derive(Debug, Clone)]
+pub(super) struct Block {
+    /// Cell size [m].
+    pub(super) cell: f64,
+    /// Its lowest cell, counted from the back, the right side and the floor.
+    pub(super) at: [u32; 3],
+    /// Cells along each side.
+    pub(super) cells: [u32; 3],
+    /// Cells between the side walls.
+    pub(super) cells_across: u32,
+    /// Whether it runs round instead of having a back wall and a front.
+    pub(super) endless: bool,
+    /// What it is made of.
+    pub(super) material: Material,
+    /// [m/s²], downward.
+    pub(super) gravity: f64,
+    /// Speed the flow is expected to reach [m/s].
+    pub(super) expected_speed: f64,
+    /// Arithmetic.
+    pub(super) precision: Precision,
+    /// Simulated time [s].
+    pub(super) duration: f64,
+}
+
+/// The elastic test law with these moduli.
+pub(super) fn elastic(bulk_density: f64, youngs_modulus: f64, poissons_ratio: f64) -> Material {
+    Material {
+        bulk_density,
+        bulk_modulus: youngs_modulus / (3.0 * (1.0 - 2.0 * poissons_ratio)),
+        shear_modulus: youngs_modulus / (2.0 * (1.0 + poissons_ratio)),
+        yielding: Yielding::Never,
+    }
+}
+
+impl Block {
+    /// The scene, its points at rest and without stress.
+    pub(super) fn scene(&self) -> Scene {
+        let points = self.points();
+        Scene {
+            given: self.given(),
+            bodies: Vec::new(),
+            points,
+            precision: self.precision,
+            volume_left_out: 0.0,
+        }
+    }
+
+    /// Its middle [m].
+    pub(super) fn middle(&self) -> Vec3 {
+        let lattice = self.lattice();
+        let place = |axis: usize| f64::from(self.at[axis]) + 0.5 * f64::from(self.cells[axis]);
+        lattice.origin + Vec3::new(place(0), place(1), place(2)) * self.cell
+    }
+
+    fn lattice(&self) -> Lattice {
+        let half_width = 0.5 * self.cell * f64::from(self.cells_across);
+        Lattice {
+            origin: Vec3::new(0.0, -half_width, 0.0),
+            spacing: Vec3::repeat(self.cell),
+        }
+    }
+
+    fn point_volume(&self) -> f64 {
+        (self.cell / f64::from(PER_CELL)).powi(3)
+    }
+
+    fn given(&self) -> Setup {
+        let lattice = self.lattice();
+        let walls = self.walls();
+        Setup {
+            identity: String::new(),
+            timing: Timing {
+                duration: self.duration,
+                sample_interval: self.duration,
+            },
+            gravity: Vec3::new(0.0, 0.0, -self.gravity),
+            planes: walls.planes().copied().collect(),
+            walls,
+            open_end: f64::MAX,
+            flow: Some(GivenFlow::new(
+                self.material,
+                &lattice,
+                self.point_volume(),
+                self.expected_speed,
+            )),
+            lattice,
+        }
+    }
+
+    fn walls(&self) -> Walls {
+        let smooth = |name, normal, distance: f64| Plane {
+            name,
+            normal,
+            offset: -distance,
+            flow_friction: 0.0,
+        };
+        let half_width = 0.5 * self.cell * f64::from(self.cells_across);
+        let ends = if self.endless {
+            Ends::Seam {
+                cells: self.cells[0] as i32,
+            }
+        } else {
+            Ends::BackWall(smooth("back wall", Vec3::x(), 0.0))
+        };
+        Walls {
+            base: vec![smooth("floor", Vec3::z(), 0.0)],
+            upright: Upright {
+                ends,
+                sides: [
+                    smooth("right side wall", Vec3::y(), half_width),
+                    smooth("left side wall", -Vec3::y(), half_width),
+                ],
+                cells_across: self.cells_across as i32,
+            },
+        }
+    }
+
+    fn points(&self) -> Vec<Point> {
+        let lattice = self.lattice();
+        let spacing = self.cell / f64::from(PER_CELL);
+        let [along, across, up] = self.cells.map(|cells| cells * PER_CELL);
+        let volume = self.point_volume();
+        let mut points = Vec::new();
+        for place in 0..along * across * up {
+            let index = [place / (across * up), place / up % across, place % up];
+            let along = |axis: usize| f64::from(self.at[axis] * PER_CELL + index[axis]) + 0.5;
+            points.push(Point {
+                id: place,
+                mass: self.material.bulk_density * volume,
+                volume,
+                position: lattice.origin + Vec3::new(along(0), along(1), along(2)) * spacing,
+                velocity: Vec3::zeros(),
+                affine: Mat3::zeros(),
+                stress: Sym3::default(),
+            });
+        }
+        points
+    }
+}

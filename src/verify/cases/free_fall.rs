@@ -1,0 +1,110 @@
+//! Case 1: free fall.
+//!
+//! A block of flow is thrown with v₀ in the air and falls without touching
+//! anything. Its mass centre follows the parabola
+//!
+//! x(t) = x₀ + v₀ t + ½ g t²,  v(t) = v₀ + g t
+//!
+//! (Galilei 1638). Uniform acceleration strains nothing, so that no stress may
+//! arise, whatever the grid. Bars: rounding. In double precision 1e-12 of the
+//! path; in single 6e-8 per operation, on places of order 1 m over some hundred
+//! steps, 2e-6 in all. The path's own error comes from symplectic Euler, which
+//! is ½ g t Δt beside the parabola: a bound of its own, reported with its order.
+
+use crate::verify::blocks::{Block, elastic};
+use crate::verify::findings::{Findings, Question, Resolution};
+use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::scenes::{GRAVITY, mean_velocity};
+use crate::verify::{Case, Effort, How};
+use scree_solver::Simulation;
+use scree_solver::material::{Material, Yielding};
+use scree_solver::math::Vec3;
+use scree_solver::scenario::Precision;
+
+pub(super) const CASE: Case = Case {
+    name: "free-fall",
+    number: "1",
+    title: "free fall of a block of flow",
+    source: "parabola of uniform acceleration (Galilei 1638), exact",
+    how: How::Runs(run),
+};
+
+/// Duration [s] and speed at the start [m/s].
+const DURATION: f64 = 0.2;
+const THROWN: Vec3 = Vec3::new(0.5, 0.0, 0.3);
+
+fn run(effort: Effort, findings: &mut Findings) {
+    for (precision, word, rounding) in [
+        (Precision::Double, "double", 1e-12),
+        (Precision::Single, "single", 2e-6),
+    ] {
+        for &courant in effort.take(&[0.4, 0.2, 0.1, 0.05], 3) {
+            let fall = fall(precision, courant);
+            let substep = fall.as_ref().map_or(f64::NAN, |fall| fall.substep);
+            let resolution = Resolution::sized(format!("{word}, Δt {substep:.1e} s"), substep);
+            let gain = GRAVITY * DURATION;
+            let path = 0.5 * gain * DURATION;
+            let questions = [
+                Question::new(format!("speed gained, {word}"), "m/s", gain).within(rounding),
+                // Symplectic Euler's own lag, and rounding.
+                Question::new(format!("height lost, {word}"), "m", path)
+                    .within(0.5 * gain * substep / path + rounding),
+            ];
+            findings.take(&resolution, questions, fall.map(|fall| fall.answer));
+        }
+        findings.take_order(&format!("height lost, {word}"), rounding, None);
+    }
+}
+
+struct Fall {
+    substep: f64,
+    answer: Answer<2>,
+}
+
+fn fall(precision: Precision, courant: f64) -> Result<Fall, Trouble> {
+    let block = Block {
+        cell: 0.02,
+        at: [6, 5, 30],
+        cells: [4, 4, 4],
+        cells_across: 14,
+        endless: false,
+        material: Material {
+            yielding: Yielding::Granular {
+                static_friction: 0.4,
+                limiting_friction: 0.6,
+                reference_inertial_number: 0.3,
+                grain_diameter: 1e-3,
+                grain_density: 2500.0,
+            },
+            ..elastic(1500.0, 1e6, 0.3)
+        },
+        gravity: GRAVITY,
+        expected_speed: 1.0,
+        precision,
+        duration: DURATION,
+    };
+    let mut scene = block.scene();
+    for point in &mut scene.points {
+        point.velocity = THROWN;
+    }
+    if let Some(flow) = &mut scene.given.flow {
+        flow.limits.courant = courant;
+    }
+    let mut run = Run::start(scene)?;
+    let start = mean_height(&run.simulation);
+    run.to(DURATION)?;
+    let gained = THROWN.z - mean_velocity(&run.simulation).z;
+    let lost = start + THROWN.z * DURATION - mean_height(&run.simulation);
+    let (_, substeps, _) = run.simulation.counts();
+    Ok(Fall {
+        substep: DURATION / substeps as f64,
+        answer: run.answer([gained, lost]),
+    })
+}
+
+/// Height of the mass centre [m]; all points have one mass.
+fn mean_height(simulation: &Simulation) -> f64 {
+    let mut sum = 0.0;
+    simulation.visit_points(None, |point| sum += point.position.z);
+    sum / simulation.point_count() as f64
+}

@@ -1,0 +1,299 @@
+//! What a case finds: measured against oracle, and the verdict.
+
+use super::order::Order;
+use super::run::{Answer, Cost, Trouble};
+use serde::Serialize;
+
+/// Question, answer by the oracle, and what is asked of the computation.
+#[derive(Debug, Clone, Serialize)]
+pub struct Question {
+    /// What is measured.
+    pub quantity: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// The right answer.
+    pub oracle: f64,
+    /// How the error is counted.
+    pub error: Error,
+    /// Largest error allowed; none if it is only reported.
+    pub bar: Option<f64>,
+}
+
+/// How an error is counted.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Error {
+    /// As a share of the oracle.
+    Relative,
+    /// In the quantity's own unit.
+    Absolute,
+    /// As a share of something else.
+    Over {
+        /// What it is called.
+        of: &'static str,
+        /// Its size, in the quantity's unit.
+        size: f64,
+    },
+}
+
+impl Question {
+    /// A question whose error is a share of the oracle, without a bar.
+    pub fn new(quantity: impl Into<String>, unit: &'static str, oracle: f64) -> Self {
+        Self {
+            quantity: quantity.into(),
+            unit,
+            oracle,
+            error: Error::Relative,
+            bar: None,
+        }
+    }
+
+    /// Counts the error another way.
+    #[must_use]
+    pub fn by(mut self, error: Error) -> Self {
+        self.error = error;
+        self
+    }
+
+    /// Asks for an error no larger than this.
+    #[must_use]
+    pub fn within(mut self, bar: f64) -> Self {
+        self.bar = Some(bar);
+        self
+    }
+
+    /// Error of a measured value, with its sign.
+    fn error_of(&self, measured: f64) -> f64 {
+        let off = measured - self.oracle;
+        match self.error {
+            Error::Relative => off / self.oracle.abs(),
+            Error::Absolute => off,
+            Error::Over { size, .. } => off / size,
+        }
+    }
+}
+
+/// How fine something was computed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Resolution {
+    /// In words.
+    pub label: String,
+    /// Length of a cell or of a step, in whatever unit the label has; none
+    /// where nothing was divided.
+    pub size: Option<f64>,
+}
+
+impl Resolution {
+    /// With a size that an order can be taken over.
+    pub fn sized(label: impl Into<String>, size: f64) -> Self {
+        Self {
+            label: label.into(),
+            size: Some(size),
+        }
+    }
+
+    /// In words only.
+    pub fn named(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            size: None,
+        }
+    }
+}
+
+/// What error and bar say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Within the bar.
+    Pass,
+    /// Beyond it, or no number, or the run failed.
+    Miss,
+    /// There is no bar.
+    Report,
+}
+
+impl Verdict {
+    /// Of the size of an error; one that is no number is beyond every bar.
+    fn of(error: f64, bar: Option<f64>) -> Self {
+        match bar {
+            None if error.is_finite() => Self::Report,
+            Some(bar) if error.abs() <= bar => Self::Pass,
+            _ => Self::Miss,
+        }
+    }
+}
+
+/// One measured value.
+#[derive(Debug, Clone, Serialize)]
+pub struct Finding {
+    /// What was asked.
+    #[serde(flatten)]
+    pub question: Question,
+    /// How fine it was computed.
+    pub resolution: Resolution,
+    /// What came out; none if the run failed.
+    pub measured: Option<f64>,
+    /// Its error as the question counts it; none if the run failed.
+    pub measured_error: Option<f64>,
+    /// Why the run failed.
+    pub failure: Option<String>,
+    /// Computed from error and bar.
+    pub verdict: Verdict,
+    /// What it cost.
+    pub cost: Cost,
+}
+
+impl Finding {
+    fn measured(question: Question, resolution: Resolution, value: f64, cost: Cost) -> Self {
+        let error = question.error_of(value);
+        Self {
+            verdict: Verdict::of(error, question.bar),
+            measured: Some(value),
+            measured_error: Some(error),
+            failure: None,
+            question,
+            resolution,
+            cost,
+        }
+    }
+
+    fn failed(question: Question, resolution: Resolution, trouble: &Trouble) -> Self {
+        Self {
+            verdict: Verdict::Miss,
+            measured: None,
+            measured_error: None,
+            failure: Some(trouble.to_string()),
+            question,
+            resolution,
+            cost: Cost::default(),
+        }
+    }
+}
+
+/// Everything a case found.
+#[derive(Debug, Default, Serialize)]
+pub struct Findings {
+    /// Values, in the order they were measured.
+    pub values: Vec<Finding>,
+    /// Orders of convergence.
+    pub orders: Vec<Order>,
+}
+
+impl Findings {
+    /// Takes in the answers of one run to these questions; a run that failed
+    /// answers none of them.
+    pub fn take<const N: usize>(
+        &mut self,
+        resolution: &Resolution,
+        questions: [Question; N],
+        answer: Result<Answer<N>, Trouble>,
+    ) {
+        let finding = |(place, question)| match &answer {
+            Ok(answer) => Finding::measured(
+                question,
+                resolution.clone(),
+                answer.values[place],
+                answer.cost,
+            ),
+            Err(trouble) => Finding::failed(question, resolution.clone(), trouble),
+        };
+        self.values
+            .extend(questions.into_iter().enumerate().map(finding));
+    }
+
+    /// Takes the order at which the errors of a quantity shrink with the size
+    /// of its resolutions. Errors no larger than `floor` are left out of it.
+    pub fn take_order(&mut self, quantity: &str, floor: f64, asked: Option<f64>) {
+        let of_it = self
+            .values
+            .iter()
+            .filter(|finding| finding.question.quantity == quantity);
+        let order = Order::of(quantity, of_it, floor, asked);
+        self.orders.push(order);
+    }
+
+    /// How many verdicts of each kind.
+    pub fn count(&self) -> Count {
+        let verdicts = self.values.iter().map(|finding| finding.verdict);
+        let orders = self.orders.iter().map(|order| order.verdict);
+        let mut count = Count::default();
+        for verdict in verdicts.chain(orders) {
+            match verdict {
+                Verdict::Pass => count.passed += 1,
+                Verdict::Miss => count.missed += 1,
+                Verdict::Report => count.reported += 1,
+            }
+        }
+        count
+    }
+
+    /// The values of a quantity.
+    pub fn of<'a>(&'a self, quantity: &'a str) -> impl Iterator<Item = &'a Finding> {
+        let values = self.values.iter();
+        values.filter(move |finding| finding.question.quantity == quantity)
+    }
+}
+
+/// How many verdicts of each kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Count {
+    /// Within the bar.
+    pub passed: usize,
+    /// Beyond it.
+    pub missed: usize,
+    /// Without one.
+    pub reported: usize,
+}
+
+impl Count {
+    /// Both together.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            passed: self.passed + other.passed,
+            missed: self.missed + other.missed,
+            reported: self.reported + other.reported,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdict(question: Question, value: f64) -> Verdict {
+        let resolution = Resolution::named("one");
+        Finding::measured(question, resolution, value, Cost::default()).verdict
+    }
+
+    #[test]
+    fn error_and_bar_make_the_verdict() {
+        let question = || Question::new("speed", "m/s", -2.0).within(0.01);
+        assert_eq!(verdict(question(), -2.019), Verdict::Pass);
+        assert_eq!(verdict(question(), -1.979), Verdict::Miss);
+        assert_eq!(verdict(question(), f64::NAN), Verdict::Miss);
+        assert_eq!(
+            verdict(question().by(Error::Absolute), -1.979),
+            Verdict::Miss
+        );
+        let over = Error::Over {
+            of: "g",
+            size: 9.81,
+        };
+        assert_eq!(verdict(question().by(over), -1.979), Verdict::Pass);
+        assert_eq!(
+            verdict(Question::new("speed", "m/s", 1.0), 7.0),
+            Verdict::Report
+        );
+    }
+
+    #[test]
+    fn a_failed_run_is_a_miss_even_without_a_bar() {
+        let mut findings = Findings::default();
+        let question = Question::new("speed", "m/s", 1.0);
+        let trouble = Trouble::Scene("none".to_owned());
+        findings.take(&Resolution::named("one"), [question], Err(trouble));
+        assert_eq!(findings.count().missed, 1);
+    }
+}

@@ -1,0 +1,93 @@
+//! Verification: cases with a trusted answer, computed and compared with it.
+//!
+//! The way through it: [`cases::ALL`] lists the cases, each a page of its own
+//! with problem, answer and bar; [`verify`] runs them and gathers what each
+//! [`findings::Findings`] holds. Verdicts come out of error and bar alone.
+
+pub mod cases;
+pub mod findings;
+pub mod order;
+pub mod run;
+
+mod blocks;
+mod scenes;
+
+use findings::{Count, Findings};
+use serde::{Serialize, Serializer};
+
+/// How much to compute.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Effort {
+    /// Small versions, seconds each.
+    Quick,
+    /// More resolutions, and finer ones.
+    Full,
+}
+
+impl Effort {
+    /// The first `quick` of these, or all of them: coarse ones come first.
+    fn take<T>(self, all: &[T], quick: usize) -> &[T] {
+        match self {
+            Self::Quick => &all[..quick],
+            Self::Full => all,
+        }
+    }
+}
+
+/// A case with a trusted answer.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Case {
+    /// What it is called on the command line.
+    pub name: &'static str,
+    /// Its number in the list of cases.
+    pub number: &'static str,
+    /// What it is, in one line.
+    pub title: &'static str,
+    /// Where the answer comes from.
+    pub source: &'static str,
+    /// How it is computed.
+    #[serde(serialize_with = "reason")]
+    pub how: How,
+}
+
+/// How a case is computed.
+#[derive(Debug, Clone, Copy)]
+pub enum How {
+    /// By this.
+    Runs(fn(Effort, &mut Findings)),
+    /// Not yet: what it needs and the solver can't do.
+    NotYet(&'static str),
+}
+
+/// In JSON: why not, or null.
+fn reason<S: Serializer>(how: &How, serializer: S) -> Result<S::Ok, S::Error> {
+    match how {
+        How::Runs(_) => serializer.serialize_none(),
+        How::NotYet(why) => serializer.serialize_some(why),
+    }
+}
+
+/// A case and what came of it.
+#[derive(Debug, Serialize)]
+pub struct Verified {
+    /// Which case.
+    pub case: Case,
+    /// What was found.
+    pub found: Findings,
+}
+
+/// Runs a case.
+pub fn verify(case: &Case, effort: Effort) -> Verified {
+    let mut found = Findings::default();
+    if let How::Runs(run) = case.how {
+        run(effort, &mut found);
+    }
+    Verified { case: *case, found }
+}
+
+/// All verdicts of these together.
+pub fn count(verified: &[Verified]) -> Count {
+    let each = verified.iter().map(|one| one.found.count());
+    each.fold(Count::default(), Count::plus)
+}

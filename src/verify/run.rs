@@ -1,0 +1,119 @@
+//! A run of a case, timed.
+
+use scree_solver::scenario::{Scenario, ScenarioError};
+use scree_solver::simulation::Scene;
+use scree_solver::{SetupError, Simulation, StepError, SubstepReport};
+use serde::Serialize;
+use std::ops::ControlFlow;
+use std::time::Instant;
+use thiserror::Error;
+
+/// Points from which a run takes all cores.
+const MANY_POINTS: usize = 20_000;
+
+/// Why a value could not be measured.
+#[derive(Debug, Error)]
+pub enum Trouble {
+    /// The scene of the case can't be made.
+    #[error("the scene is refused: {0}")]
+    Scene(String),
+    /// The scene can't be set up.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The computation could not go on.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// What was to be measured never happened.
+    #[error("{0}")]
+    Never(&'static str),
+}
+
+/// Values measured in one run, and its cost.
+#[derive(Debug, Clone, Copy)]
+pub struct Answer<const N: usize> {
+    /// One for each question.
+    pub values: [f64; N],
+    /// Of all of them together.
+    pub cost: Cost,
+}
+
+/// What a measurement cost.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Cost {
+    /// Wall time [s].
+    pub wall_s: f64,
+    /// Point-steps per second of it; none without points.
+    pub point_steps_per_s: Option<f64>,
+}
+
+/// A simulation with a clock beside it.
+#[derive(Debug)]
+pub struct Run {
+    /// What runs.
+    pub simulation: Simulation,
+    started: Instant,
+}
+
+impl Run {
+    /// Sets a scene up.
+    ///
+    /// # Errors
+    /// It can't be set up.
+    pub fn start(scene: Scene) -> Result<Self, Trouble> {
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let threads = if scene.points.len() < MANY_POINTS {
+            1
+        } else {
+            cores
+        };
+        let simulation = Simulation::of_scene(scene, threads)?;
+        let started = Instant::now();
+        Ok(Self {
+            simulation,
+            started,
+        })
+    }
+
+    /// Runs on to a time.
+    ///
+    /// # Errors
+    /// The computation can't go on.
+    pub fn to(&mut self, time_s: f64) -> Result<(), Trouble> {
+        self.watch(time_s, |_, _| ControlFlow::Continue(()))
+    }
+
+    /// Runs on to a time or until told to stop, showing every sub-step.
+    ///
+    /// # Errors
+    /// The computation can't go on.
+    pub fn watch(
+        &mut self,
+        time_s: f64,
+        look: impl FnMut(&Simulation, &SubstepReport) -> ControlFlow<()> + Send,
+    ) -> Result<(), Trouble> {
+        self.simulation.run(time_s, look)?;
+        Ok(())
+    }
+
+    /// These values at what the run has cost so far.
+    pub fn answer<const N: usize>(&self, values: [f64; N]) -> Answer<N> {
+        let wall_s = self.started.elapsed().as_secs_f64();
+        let (_, _, point_steps) = self.simulation.counts();
+        let rate = (point_steps > 0).then(|| point_steps as f64 / wall_s);
+        let cost = Cost {
+            wall_s,
+            point_steps_per_s: rate,
+        };
+        Answer { values, cost }
+    }
+}
+
+/// The scene of a scenario in JSON.
+///
+/// # Errors
+/// The scenario is refused.
+pub fn scene_of(document: &serde_json::Value) -> Result<Scene, Trouble> {
+    let refused = |error: ScenarioError| Trouble::Scene(format!("{error:?}"));
+    let scenario = Scenario::from_json(&document.to_string()).map_err(refused)?;
+    Ok(Scene::of(&scenario)?)
+}
