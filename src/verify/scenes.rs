@@ -3,6 +3,7 @@
 use super::run::{Trouble, scene_of};
 use scree_solver::Simulation;
 use scree_solver::math::Vec3;
+use scree_solver::rigid::Body;
 use scree_solver::simulation::Scene;
 use serde_json::{Value, json};
 
@@ -21,8 +22,8 @@ pub(super) fn channel(inclination_deg: f64, incline_m: f64, runout_m: f64, width
     })
 }
 
-/// A cube of 40 mm in the air over a flat floor, without gravity, flying down;
-/// `body` adds to its description or overrides it.
+/// A cube of 40 mm, just touching a flat floor, that flies down into it at 1 m/s
+/// without gravity or friction; `body` adds to its description or overrides it.
 pub(super) fn thrown_down(body: &Value) -> Result<Scene, Trouble> {
     let mut document = channel(0.0, 0.5, 0.5, 0.2);
     let mut cube = json!({"shape": {"cube": {"side_m": 0.04}},
@@ -35,7 +36,14 @@ pub(super) fn thrown_down(body: &Value) -> Result<Scene, Trouble> {
     document["duration_s"] = json!(1.0);
     let mut scene = scene_of(&document)?;
     scene.given.gravity = Vec3::zeros();
+    let body = &mut scene.bodies[0];
+    body.state.position.z = height_of_touch(body);
     Ok(scene)
+}
+
+/// Height of a body's centre when it touches the floor as it stands [m].
+pub(super) fn height_of_touch(body: &Body) -> f64 {
+    body.shape.extent_along(&body.to_body(&-Vec3::z()))
 }
 
 /// Orientation that stands a cube on a vertex: its diagonal (1, 1, 1) upright.

@@ -1,8 +1,12 @@
 //! The cases. To add one: a file, its `mod` line and its place in [`ALL`].
 
 mod free_fall;
+mod hertz;
+mod incline;
 mod mass;
+mod restitution;
 mod sliding_block;
+mod torque_free;
 
 use super::{Case, How};
 
@@ -10,6 +14,10 @@ use super::{Case, How};
 pub const ALL: &[Case] = &[
     free_fall::CASE,
     mass::CASE,
+    hertz::CASE,
+    restitution::CASE,
+    torque_free::CASE,
+    incline::CASE,
     FEATURE_CONTACTS,
     sliding_block::CASE,
 ];
