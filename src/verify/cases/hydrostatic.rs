@@ -1,0 +1,155 @@
+//! Case 8: a column at rest under its weight.
+//!
+//! A layer without ends stands on the floor between smooth sides, one cell apart.
+//! Statics give the vertical stress everywhere:
+//!
+//! σ_zz = −g × mass above / area,
+//!
+//! whatever has settled, since mass is counted by points. It starts close to
+//! that state and rings; stresses are averaged over the second half of the run.
+//! Bars: order 1.8 in the L2 error of the profile over its value at the bottom;
+//! the floor carries the weight within 1 %.
+//!
+//! The profile above the lowest cell is shown beside the whole one: nodes of the
+//! first row above the floor still have weight below it, and what that costs
+//! stays in the lowest cell.
+
+use crate::verify::blocks::{Block, elastic};
+use crate::verify::findings::{Error, Findings, Question, Resolution};
+use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::scenes::{GRAVITY, mean_velocity};
+use crate::verify::{Case, Effort, How};
+use scree_solver::Simulation;
+use scree_solver::material::{Material, Yielding};
+use scree_solver::math::Sym3;
+use scree_solver::scenario::Precision;
+use scree_solver::simulation::Scene;
+use std::ops::ControlFlow;
+
+pub(super) const CASE: Case = Case {
+    name: "hydrostatic",
+    number: "8b",
+    title: "vertical stress in a column at rest",
+    source: "σ_zz = −g × mass above / area (statics)",
+    how: How::Runs(run),
+};
+
+const HEIGHT: f64 = 0.08;
+const DENSITY: f64 = 1500.0;
+const DURATION: f64 = 0.4;
+/// From here on stresses are averaged [s].
+const FROM: f64 = 0.2;
+/// Layers of points per cell.
+const LAYERS: usize = 2;
+
+/// Cells over the height.
+const CELLS: [u32; 4] = [4, 8, 16, 32];
+
+fn run(effort: Effort, findings: &mut Findings) {
+    let bottom = DENSITY * GRAVITY * HEIGHT;
+    let (whole, above) = ("σ_zz off, L2", "σ_zz off above the lowest cell, L2");
+    let over = Error::Over {
+        of: "of the bottom's",
+        size: bottom,
+    };
+    for &cells in effort.take(&CELLS, 3) {
+        let size = HEIGHT / f64::from(cells);
+        let resolution = Resolution::sized(format!("{cells} cells"), size);
+        let questions = [
+            Question::new(whole, "Pa", 0.0).by(over),
+            Question::new(above, "Pa", 0.0).by(over),
+            Question::new("weight the floor carries", "", 1.0).within(0.01),
+        ];
+        findings.take(&resolution, questions, rest(cells));
+    }
+    findings.take_order(whole, 1e-5, Some(1.8));
+    findings.take_order(above, 1e-5, None);
+}
+
+fn material() -> Material {
+    // Sound ten times as fast as the height falls, ν = 0.3.
+    let bulk_modulus = DENSITY * 100.0 * GRAVITY * HEIGHT;
+    Material {
+        yielding: Yielding::Granular {
+            static_friction: 0.5,
+            limiting_friction: 0.5,
+            reference_inertial_number: 0.3,
+            grain_diameter: 1e-3,
+            grain_density: 2500.0,
+        },
+        ..elastic(DENSITY, 1.2 * bulk_modulus, 0.3)
+    }
+}
+
+fn scene(cells: u32) -> Scene {
+    let block = Block {
+        cell: HEIGHT / f64::from(cells),
+        at: [0, 0, 0],
+        cells: [4, 1, cells],
+        cells_across: 1,
+        endless: true,
+        material: material(),
+        gravity: GRAVITY,
+        expected_speed: (GRAVITY * HEIGHT).sqrt(),
+        precision: Precision::Double,
+        duration: DURATION,
+    };
+    let mut scene = block.scene();
+    // Lateral over vertical stress of an elastic bed, ν/(1 − ν).
+    let lateral = 0.3 / 0.7;
+    for point in &mut scene.points {
+        let pressed = DENSITY * GRAVITY * (HEIGHT - point.position.z);
+        point.stress = Sym3 {
+            xx: -lateral * pressed,
+            yy: -lateral * pressed,
+            zz: -pressed,
+            ..Sym3::default()
+        };
+        let pressure = (1.0 + 2.0 * lateral) * pressed / 3.0;
+        point.volume = point.mass / block.material.density(pressure);
+    }
+    scene
+}
+
+fn rest(cells: u32) -> Result<Answer<3>, Trouble> {
+    let layers = cells as usize * LAYERS;
+    let mut run = Run::start(scene(cells))?;
+    run.to(FROM)?;
+    let (start, from) = (mean_velocity(&run.simulation).z, run.simulation.time_s());
+    let (mut sums, mut count) = (vec![0.0; layers], 0.0);
+    run.watch(DURATION, |simulation, report| {
+        if report.step_ended {
+            add_stresses(simulation, &mut sums);
+            count += 1.0;
+        }
+        ControlFlow::Continue(())
+    })?;
+    let (end, to) = (mean_velocity(&run.simulation).z, run.simulation.time_s());
+    let carried = 1.0 + (end - start) / (GRAVITY * (to - from));
+    let per_layer = count * run.simulation.point_count() as f64 / layers as f64;
+    let off = |(layer, sum): (usize, &f64)| {
+        let above = HEIGHT * (1.0 - (layer as f64 + 0.5) / layers as f64);
+        sum / per_layer + DENSITY * GRAVITY * above
+    };
+    let off: Vec<f64> = sums.iter().enumerate().map(off).collect();
+    let values = [
+        root_mean_square(&off),
+        root_mean_square(&off[LAYERS..]),
+        carried,
+    ];
+    Ok(run.answer(values))
+}
+
+/// Adds the vertical stress of every point to its layer's; points are numbered
+/// upward first.
+fn add_stresses(simulation: &Simulation, sums: &mut [f64]) {
+    let layers = sums.len();
+    simulation.visit_points(None, |point| {
+        sums[point.id as usize % layers] += point.stress.zz;
+    });
+}
+
+fn root_mean_square(values: &[f64]) -> f64 {
+    let squares: f64 = values.iter().map(|value| value * value).sum();
+    (squares / values.len() as f64).sqrt()
+}

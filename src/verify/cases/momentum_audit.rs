@@ -1,0 +1,75 @@
+//! Case 14: momentum of flow and body against walls and gravity.
+//!
+//! A flow on 40° strikes a cube at the foot. What flow and body have is what they
+//! had at the start, plus every impulse of walls and gravity (Newton 1687):
+//! nothing is lost between points, nodes, body and walls. The residual is that of
+//! the audit, the largest over all steps, over all momentum there is and all
+//! impulses so far. Samples are so close that every step is audited. Bars: 1e-6 in
+//! single, 1e-12 in double precision, for linear momentum; the same is shown of
+//! angular momentum, without a bar.
+
+use crate::verify::findings::{Error, Findings, Question, Resolution};
+use crate::verify::run::{Answer, Run, Trouble, scene_of};
+use crate::verify::scenes::{PRECISIONS, channel};
+use crate::verify::{Case, Effort, How};
+use serde_json::json;
+use std::ops::ControlFlow;
+
+pub(super) const CASE: Case = Case {
+    name: "momentum-audit",
+    number: "14",
+    title: "momentum of flow, body, walls and gravity",
+    source: "conservation of momentum (Newton 1687)",
+    how: How::Runs(run),
+};
+
+/// Shorter than any step of this scene [s].
+const SAMPLE_INTERVAL: f64 = 2e-4;
+
+fn run(effort: Effort, findings: &mut Findings) {
+    for (precision, bar) in PRECISIONS.into_iter().zip([1e-12, 1e-6]) {
+        for &cells in effort.take(&[2.0, 4.0], 1) {
+            let zero = |what: &str| {
+                let quantity = format!("{what} momentum residual, {precision}");
+                Question::new(quantity, "", 0.0).by(Error::Absolute)
+            };
+            let questions = [
+                zero("linear").within(bar),
+                zero("angular"),
+                Question::new(format!("steps audited, {precision}"), "", 1.0).within(0.0),
+            ];
+            let resolution = Resolution::named(format!("{cells} cells a cube"));
+            findings.take(&resolution, questions, residuals(precision, cells));
+        }
+    }
+}
+
+/// Linear and angular residual, and the share of steps that ended in an audit.
+fn residuals(precision: &str, cells: f64) -> Result<Answer<3>, Trouble> {
+    let mut document = channel(40.0, 1.0, 1.0, 0.12);
+    document["flow"] = json!({
+        "volume_m3": 0.002, "release": {"height_m": 0.1, "toe_distance_m": 0.0}
+    });
+    document["bodies"] = json!([{
+        "shape": {"cube": {"side_m": 0.04}}, "position": {"downstream_m": 0.04}
+    }]);
+    document["numerics"] = json!({"cell_size_m": 0.04 / cells, "precision": precision});
+    document["duration_s"] = json!(0.3);
+    let mut scene = scene_of(&document)?;
+    scene.given.timing.sample_interval = SAMPLE_INTERVAL;
+    let mut run = Run::start(scene)?;
+    let start = run.simulation.bodies()[0].state.position;
+    let (mut steps, mut audited) = (0.0, 0.0);
+    run.watch(f64::INFINITY, |_, report| {
+        steps += f64::from(u8::from(report.step_ended));
+        audited += f64::from(u8::from(report.sample.is_some()));
+        ControlFlow::Continue(())
+    })?;
+    let moved = (run.simulation.bodies()[0].state.position - start).norm();
+    if moved < 1e-3 {
+        return Err(Trouble::Never("the flow never moved the cube"));
+    }
+    let audit = run.simulation.audit();
+    let (linear, angular) = (audit.momentum_residual, audit.angular_momentum_residual);
+    Ok(run.answer([linear, angular, audited / steps]))
+}

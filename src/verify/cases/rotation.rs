@@ -1,0 +1,136 @@
+//! Case 1b: an elastic block spins.
+//!
+//! A cube of the elastic test law spins about an oblique axis, free of gravity
+//! and walls. Its angular momentum is constant, its energy never rises, and its
+//! volume grows by what the spin stretches it: by the virial theorem the mean of
+//! tr σ is 2 E_kin/V, and the volume therefore larger by
+//!
+//! ε = 2 E_kin/(3 K V) = ρ ω² ⟨r²⟩/(3 K),  ⟨r²⟩ = side²/6
+//!
+//! on average over its ringing. It is a test of the frozen grid: a step turns the
+//! block while its weights stand still. Bars: rounding, 1e-12, for the angular
+//! momentum (the forces on displaced nodes are free of torque); the spin's own
+//! stretch ε for the volume; 1e-3 of the kinetic energy for its rise.
+
+use crate::verify::blocks::{Block, elastic};
+use crate::verify::findings::{Error, Findings, Question, Resolution};
+use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::{Case, Effort, How};
+use scree_solver::Simulation;
+use scree_solver::math::Vec3;
+use scree_solver::scenario::Precision;
+use scree_solver::simulation::Scene;
+use std::ops::ControlFlow;
+
+pub(super) const CASE: Case = Case {
+    name: "rigid-rotation",
+    number: "1b",
+    title: "an elastic block spins freely about an oblique axis",
+    source: "constant angular momentum; virial theorem for the mean stretch",
+    how: How::Runs(run),
+};
+
+/// About one turn [s].
+const DURATION: f64 = 0.6;
+const SIDE: f64 = 0.1;
+const DENSITY: f64 = 1500.0;
+
+/// Travel per step [cells] and Courant number of the sub-step.
+const STEPS: [[f64; 2]; 6] = [
+    [0.2, 0.4],
+    [0.2, 0.2],
+    [0.2, 0.1],
+    [0.4, 0.4],
+    [0.1, 0.4],
+    [0.05, 0.4],
+];
+
+fn spin() -> Vec3 {
+    Vec3::new(1.0, 2.0, 3.0).normalize() * 10.0
+}
+
+fn run(effort: Effort, findings: &mut Findings) {
+    let block = block();
+    let stretch =
+        DENSITY * spin().norm_squared() * SIDE * SIDE / (6.0 * 3.0 * block.material.bulk_modulus);
+    for &[travel, courant] in effort.take(&STEPS, 4) {
+        let questions = [
+            Question::new("angular momentum kept", "", 1.0).within(1e-12),
+            Question::new("volume gained", "", stretch).within(1.0),
+            Question::new("rise of energy over kinetic", "", 0.0)
+                .by(Error::Absolute)
+                .within(1e-3),
+        ];
+        let label = format!("{travel} cells a step, Courant {courant}");
+        findings.take(&Resolution::named(label), questions, turn(travel, courant));
+    }
+}
+
+fn block() -> Block {
+    Block {
+        cell: SIDE / 5.0,
+        at: [6, 5, 20],
+        cells: [5, 5, 5],
+        cells_across: 15,
+        endless: false,
+        material: elastic(DENSITY, 1e6, 0.3),
+        gravity: 0.0,
+        expected_speed: 0.5,
+        precision: Precision::Double,
+        duration: DURATION,
+    }
+}
+
+fn scene(travel: f64, courant: f64) -> Scene {
+    let block = block();
+    let (middle, spin) = (block.middle(), spin());
+    let mut scene = block.scene();
+    for point in &mut scene.points {
+        point.velocity = spin.cross(&(point.position - middle));
+        point.affine = spin.cross_matrix();
+    }
+    if let Some(flow) = &mut scene.given.flow {
+        flow.limits.courant = courant;
+        flow.limits.flow_courant = travel;
+    }
+    scene
+}
+
+fn turn(travel: f64, courant: f64) -> Result<Answer<3>, Trouble> {
+    let mut run = Run::start(scene(travel, courant))?;
+    let start = Sums::of(&run.simulation);
+    let (mut volume, mut steps) = (0.0, 0.0);
+    run.watch(DURATION, |simulation, report| {
+        if report.step_ended {
+            volume += Sums::of(simulation).volume;
+            steps += 1.0;
+        }
+        ControlFlow::Continue(())
+    })?;
+    let end = Sums::of(&run.simulation);
+    let off = (end.angular_momentum - start.angular_momentum).norm();
+    let kept = 1.0 - off / start.angular_momentum.norm();
+    let gained = volume / steps / start.volume - 1.0;
+    let rise = run.simulation.audit().energy_residual();
+    Ok(run.answer([kept, gained, rise]))
+}
+
+struct Sums {
+    volume: f64,
+    angular_momentum: Vec3,
+}
+
+impl Sums {
+    fn of(simulation: &Simulation) -> Self {
+        let moment = simulation.spacing().map(|h| 0.25 * h * h);
+        let (mut volume, mut angular_momentum) = (0.0, Vec3::zeros());
+        simulation.visit_points(None, |point| {
+            volume += point.volume;
+            angular_momentum += point.angular_momentum(&moment);
+        });
+        Self {
+            volume,
+            angular_momentum,
+        }
+    }
+}
