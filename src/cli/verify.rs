@@ -149,7 +149,7 @@ fn row(finding: &Finding) -> [String; 10] {
         number(question.oracle),
         question.unit.to_owned(),
         optional(finding.measured_error, |error| format!("{error:+.1e}")) + &of,
-        optional(question.bar, |bar| format!("{bar:.0e}")) + &of,
+        optional(question.bar, |bar| format!("{bar:.1e}")),
         format!("{:.2}", finding.cost.wall_s),
         optional(finding.cost.point_steps_per_s, millions),
         word(finding.verdict).to_owned(),

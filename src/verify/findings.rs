@@ -189,17 +189,21 @@ impl Findings {
         questions: [Question; N],
         answer: Result<Answer<N>, Trouble>,
     ) {
-        let finding = |(place, question)| match &answer {
-            Ok(answer) => Finding::measured(
-                question,
-                resolution.clone(),
-                answer.values[place],
-                answer.cost,
-            ),
-            Err(trouble) => Finding::failed(question, resolution.clone(), trouble),
-        };
-        self.values
-            .extend(questions.into_iter().enumerate().map(finding));
+        let resolution = || resolution.clone();
+        match answer {
+            Ok(Answer { values, cost }) => {
+                for (question, value) in questions.into_iter().zip(values) {
+                    let finding = Finding::measured(question, resolution(), value, cost);
+                    self.values.push(finding);
+                }
+            }
+            Err(trouble) => {
+                for question in questions {
+                    let finding = Finding::failed(question, resolution(), &trouble);
+                    self.values.push(finding);
+                }
+            }
+        }
     }
 
     /// Takes the order at which the errors of a quantity shrink with the size

@@ -47,7 +47,7 @@ pub struct Case {
     /// Where the answer comes from.
     pub source: &'static str,
     /// How it is computed.
-    #[serde(serialize_with = "reason")]
+    #[serde(rename = "not_yet_expressible", serialize_with = "reason")]
     pub how: How,
 }
 

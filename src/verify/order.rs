@@ -60,7 +60,7 @@ impl Order {
                 places.push((size.ln(), error.abs().ln()));
             }
         }
-        order.pairwise = places.windows(2).map(|pair| slope(pair)).collect();
+        order.pairwise = places.windows(2).map(slope).collect();
         order.fitted = (places.len() >= FEWEST).then(|| slope(&places));
         order.verdict = order.judged();
         order

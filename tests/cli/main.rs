@@ -8,3 +8,4 @@ mod run;
 mod serve;
 mod usage;
 mod validate;
+mod verify;

@@ -7,7 +7,15 @@ use std::process::Stdio;
 fn help_and_version_are_answers() {
     let help = ask(&[&"--help"]);
     assert_eq!(help.code, Some(0));
-    for command in ["serve", "run", "validate", "demo", "bench", "Exit codes"] {
+    for command in [
+        "serve",
+        "run",
+        "validate",
+        "demo",
+        "bench",
+        "verify",
+        "Exit codes",
+    ] {
         assert!(help.stdout.contains(command), "{command}: {}", help.stdout);
     }
     let version = ask(&[&"--version"]);

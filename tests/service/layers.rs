@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder of the service, and what none of its files may name.
-const RULES: [(&str, &[&str]); 4] = [
+const RULES: [(&str, &[&str]); 5] = [
     ("src/http", &["sqlx", "scree_solver", "SELECT ", "rayon"]),
     ("src/jobs", &["axum", "hyper", "crate::http"]),
     (
@@ -16,6 +16,17 @@ const RULES: [(&str, &[&str]); 4] = [
     (
         "src/results",
         &["sqlx", "axum", "crate::jobs", "crate::http", "Simulation"],
+    ),
+    (
+        "src/verify",
+        &[
+            "sqlx",
+            "axum",
+            "clap",
+            "crate::jobs",
+            "crate::http",
+            "println",
+        ],
     ),
 ];
 

@@ -1,0 +1,47 @@
+//! `scree verify`.
+
+use crate::command::ask;
+use serde_json::Value;
+
+#[test]
+fn a_case_that_holds_is_no_failure() {
+    let answer = ask(&[&"verify", &"--case", &"mass", &"--json"]);
+    assert_eq!((answer.code, answer.stderr.as_str()), (Some(0), ""));
+    let report: Value = serde_json::from_str(&answer.stdout).unwrap();
+    assert!(report["machine"]["cores"].as_u64() >= Some(1));
+    assert_eq!(report["count"]["missed"], 0);
+    let [case] = &report["cases"].as_array().unwrap()[..] else {
+        panic!("one case was asked for");
+    };
+    assert_eq!(case["case"]["number"], "2");
+    for value in case["found"]["values"].as_array().unwrap() {
+        assert_eq!(value["verdict"], "pass");
+        assert!(value["measured"].is_f64() && value["oracle"].is_f64());
+        assert!(value["cost"]["wall_s"].as_f64() >= Some(0.0));
+    }
+}
+
+// Restitution on a face is a known miss.
+#[test]
+fn a_case_that_misses_is_shown_and_told_by_the_exit_code() {
+    let answer = ask(&[&"verify", &"--case", &"restitution"]);
+    assert_eq!(answer.code, Some(4));
+    assert!(answer.stderr.contains("missed"), "{}", answer.stderr);
+    for words in ["oracle", "verdict", "pass", "MISS", "reported only"] {
+        assert!(answer.stdout.contains(words), "{}", answer.stdout);
+    }
+}
+
+#[test]
+fn a_case_that_cannot_be_run_yet_says_why() {
+    let answer = ask(&[&"verify", &"--case", &"feature-contacts"]);
+    assert_eq!(answer.code, Some(0));
+    assert!(answer.stdout.contains("not yet expressible"));
+}
+
+#[test]
+fn an_unknown_case_is_invalid_input() {
+    let answer = ask(&[&"verify", &"--case", &"perpetual-motion"]);
+    assert_eq!(answer.code, Some(2));
+    assert!(answer.stderr.contains("free-fall"), "{}", answer.stderr);
+}
