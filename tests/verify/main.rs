@@ -94,7 +94,7 @@ fn hydrostatic() {
         let errors = found.of(quantity).map(|one| one.measured_error.unwrap());
         errors.collect::<Vec<f64>>()
     };
-    for quantity in ["σ_zz off, L2", "σ_zz off above the lowest cell, L2"] {
+    for quantity in ["σ_zz off, L2", "σ_zz off above two cells, L2"] {
         let errors = errors(quantity);
         assert!(errors.len() >= 3);
         assert!(

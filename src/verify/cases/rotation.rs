@@ -48,7 +48,7 @@ const STEPS: [[f64; 2]; 6] = [
 ];
 
 /// Cells along a side.
-const CELLS: [u32; 4] = [3, 5, 8, 12];
+const CELLS: [u32; 5] = [3, 4, 6, 9, 12];
 
 fn spin() -> Vec3 {
     Vec3::new(1.0, 2.0, 3.0).normalize() * 10.0
