@@ -92,9 +92,12 @@ impl Report {
             missed,
             reported,
         } = self.count;
+        let not_yet = |one: &&Verified| matches!(one.case.how, How::NotYet(_));
+        let not_yet = self.cases.iter().filter(not_yet).count();
         let _ = write!(
             text,
-            "\n{passed} passed, {missed} missed, {reported} reported only"
+            "\n{passed} passed, {missed} missed, {reported} reported only; \
+             cases not yet expressible: {not_yet}"
         );
         text
     }

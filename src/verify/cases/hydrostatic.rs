@@ -47,24 +47,26 @@ const LAYERS: usize = 2;
 const CELLS: [u32; 4] = [4, 8, 16, 32];
 
 fn run(effort: Effort, findings: &mut Findings) {
-    let bottom = DENSITY * GRAVITY * HEIGHT;
-    let (whole, above) = ("σ_zz off, L2", "σ_zz off above two cells, L2");
-    let over = Error::Over {
-        of: "of the bottom's",
-        size: bottom,
-    };
-    for &cells in effort.take(&CELLS, 3) {
-        let size = HEIGHT / f64::from(cells);
-        let resolution = Resolution::sized(format!("{cells} cells"), size);
-        let questions = [
-            Question::new(whole, "Pa", 0.0).by(over),
-            Question::new(above, "Pa", 0.0).by(over),
-            Question::new("weight the floor carries", "", 1.0).within(0.01),
-        ];
-        findings.take(&resolution, questions, rest(cells));
+    for (precision, word) in [(Precision::Double, "double"), (Precision::Single, "single")] {
+        let whole = format!("σ_zz off, L2, {word}");
+        let above = format!("σ_zz off above two cells, L2, {word}");
+        let over = Error::Over {
+            of: "of the bottom's",
+            size: DENSITY * GRAVITY * HEIGHT,
+        };
+        for &cells in effort.take(&CELLS, 3) {
+            let size = HEIGHT / f64::from(cells);
+            let resolution = Resolution::sized(format!("{cells} cells"), size);
+            let questions = [
+                Question::new(&whole, "Pa", 0.0).by(over),
+                Question::new(&above, "Pa", 0.0).by(over),
+                Question::new(format!("weight the floor carries, {word}"), "", 1.0).within(0.01),
+            ];
+            findings.take(&resolution, questions, rest(cells, precision));
+        }
+        findings.take_order(&whole, 1e-5, Some(1.8));
+        findings.take_order(&above, 1e-5, None);
     }
-    findings.take_order(whole, 1e-5, Some(1.8));
-    findings.take_order(above, 1e-5, None);
 }
 
 fn material() -> Material {
@@ -82,7 +84,7 @@ fn material() -> Material {
     }
 }
 
-fn scene(cells: u32) -> Scene {
+fn scene(cells: u32, precision: Precision) -> Scene {
     let block = Block {
         cell: HEIGHT / f64::from(cells),
         at: [0, 0, 0],
@@ -92,7 +94,7 @@ fn scene(cells: u32) -> Scene {
         material: material(),
         gravity: GRAVITY,
         expected_speed: (GRAVITY * HEIGHT).sqrt(),
-        precision: Precision::Double,
+        precision,
         duration: DURATION,
     };
     let mut scene = block.scene();
@@ -146,9 +148,9 @@ fn layers_at_rest(cells: u32, material: &Material) -> Vec<Layer> {
     (0..count).map(layer).collect()
 }
 
-fn rest(cells: u32) -> Result<Answer<3>, Trouble> {
+fn rest(cells: u32, precision: Precision) -> Result<Answer<3>, Trouble> {
     let layers = cells as usize * LAYERS;
-    let mut run = Run::start(scene(cells))?;
+    let mut run = Run::start(scene(cells, precision))?;
     run.to(FROM)?;
     let (start, from) = (mean_velocity(&run.simulation).z, run.simulation.time_s());
     let (mut sums, mut count) = (vec![0.0; layers], 0.0);
