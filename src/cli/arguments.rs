@@ -110,7 +110,7 @@ pub(super) struct VerifyOptions {
     /// Run this case alone; may be given several times [default: all]
     #[arg(long, value_name = "NAME")]
     pub(super) case: Vec<String>,
-    /// More and finer resolutions: takes minutes instead of seconds
+    /// More and finer resolutions: takes ten minutes or more instead of one
     #[arg(long)]
     pub(super) full: bool,
     /// Print one JSON document instead of tables
