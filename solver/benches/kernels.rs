@@ -94,9 +94,9 @@ fn block_and_motion(law: &Law) -> (Block, Tile) {
     let mut blocks = Blocks::of(points.iter().map(|point| packing.pack(point)));
     let block = &mut blocks.occupied_mut()[0];
     assert_eq!(block.count(), points.len(), "one block holds them all");
-    let (mut motion, mut force) = (Tile::EMPTY, Tile::EMPTY);
+    let mut motion = Tile::EMPTY;
     let level = Instructions::detected().level();
-    dispatch!(level, simd => passes::transfer(simd, block, law, &mut motion, &mut force));
+    dispatch!(level, simd => passes::transfer(simd, block, law, &mut motion));
     for place in 0..motion.0.len() / 4 {
         let node = motion.node_mut(place);
         if node[0] > 0.0 {
@@ -142,7 +142,10 @@ fn fast_block(criterion: &mut Criterion) {
             let (mut momentum, mut force) = (Tile::EMPTY, Tile::EMPTY);
             on_a_copy(bencher, &block, |block| {
                 let (momentum, force) = (&mut momentum, &mut force);
-                dispatch!(level, simd => passes::transfer(simd, block, &law, momentum, force));
+                dispatch!(level, simd => {
+                    passes::transfer(simd, block, &law, momentum);
+                    passes::hand_over_rest(simd, block, &law, &motion, momentum, force);
+                });
             });
         });
         group.finish();
@@ -174,19 +177,34 @@ fn plain_block(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(points.len() as u64));
     group.bench_function("stress", |bencher| {
         on_a_copy(bencher, &points, |points| {
-            points::update_stress(points, &deformations, &MATERIAL, DT);
+            points::update_stress(
+                points,
+                &deformations,
+                &MATERIAL,
+                LATTICE.finest_spacing(),
+                DT,
+            );
         });
     });
     group.bench_function("gather, stress, scatter", |bencher| {
         let state = (points.clone(), deformations.clone());
         on_a_copy(bencher, &state, |(points, deformations)| {
             transfer::gather_gradient(&grid, points, DT, deformations);
-            points::update_stress(points, deformations, &MATERIAL, DT);
+            points::update_stress(
+                points,
+                deformations,
+                &MATERIAL,
+                LATTICE.finest_spacing(),
+                DT,
+            );
             transfer::scatter_forces(points, deformations, &contact, &mut grid);
         });
     });
     group.bench_function("transfer", |bencher| {
-        bencher.iter(|| transfer::scatter_momentum(black_box(&points), &mut grid));
+        bencher.iter(|| {
+            transfer::scatter_momentum(black_box(&points), &mut grid);
+            transfer::hand_over_rest(&points, MATERIAL.bulk_density, &mut grid);
+        });
     });
     group.finish();
 }

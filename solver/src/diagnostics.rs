@@ -163,6 +163,9 @@ pub struct Audit {
     pub angular_momentum_residual: f64,
     /// Largest overlap δ/(R_p + r).
     pub deepest_overlap_ratio: f64,
+    spread: Vec3,
+    /// Angular momentum that spreading the points made, relative as the residual.
+    pub angular_momentum_spread: f64,
     lowest_energy: f64,
     largest_rise: f64,
     largest_kinetic_energy: f64,
@@ -186,6 +189,12 @@ impl Audit {
         self.expected.angular += impulse.angular;
         self.exchanged.0 += impulse.linear.norm();
         self.exchanged.1 += impulse.angular.norm();
+    }
+
+    /// Takes in the angular momentum that spreading the points made [N m s].
+    pub fn spread(&mut self, angular: &Vec3) {
+        self.expected.angular += angular;
+        self.spread += angular;
     }
 
     /// Takes in how deep a point and a body overlapped, δ/(R_p + r).
@@ -223,6 +232,9 @@ impl Audit {
             &self.expected.angular,
             total.momentum.angular.norm() + self.exchanged.1,
         );
+        let scale = total.momentum.angular.norm() + self.exchanged.1;
+        let spread = self.spread.norm() / scale.max(f64::MIN_POSITIVE);
+        self.angular_momentum_spread = self.angular_momentum_spread.max(spread);
         self.momentum_residual = self.momentum_residual.max(linear);
         self.angular_momentum_residual = self.angular_momentum_residual.max(angular);
         if self.released_mass > 0.0 {

@@ -38,14 +38,21 @@ pub struct Node {
     pub displacement: Vec3,
     /// Force of stress and contact [N].
     pub force: Vec3,
+    /// Volume of points over room for them, at the transfer.
+    pub fullness: f64,
+    /// Mean dilation of its points at the transfer.
+    pub dilation: f64,
 }
 
 impl Node {
-    const EMPTY: Self = Self {
+    /// Without points.
+    pub const EMPTY: Self = Self {
         mass: 0.0,
         velocity: Vec3::new(0.0, 0.0, 0.0),
         displacement: Vec3::new(0.0, 0.0, 0.0),
         force: Vec3::new(0.0, 0.0, 0.0),
+        fullness: 0.0,
+        dilation: 0.0,
     };
 }
 

@@ -9,6 +9,7 @@
 //! incline), y across (0 on the centre line), z up (0 on the floor).
 
 pub mod contact;
+pub mod crowding;
 pub mod diagnostics;
 pub mod error;
 pub mod fast;

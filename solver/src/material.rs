@@ -3,6 +3,9 @@
 use crate::math::{Mat3, Sym3};
 use serde::{Deserialize, Serialize};
 
+/// Bulk viscosity over ρ_c c_P h, b of equation 3a.
+const BULK_DAMPING: f64 = 0.2;
+
 /// When shear yields.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Yielding {
@@ -37,6 +40,11 @@ pub struct Material {
 }
 
 impl Material {
+    /// Whether it is made of grains, which may part.
+    pub fn is_granular(&self) -> bool {
+        matches!(self.yielding, Yielding::Granular { .. })
+    }
+
     /// P-wave modulus M = K + 4G/3 [Pa].
     pub fn p_wave_modulus(&self) -> f64 {
         self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus
@@ -56,14 +64,34 @@ impl Material {
         }
     }
 
+    /// Bulk viscosity on cells of `spacing` [m]: b ρ_c c_P h [Pa s] (equation 3a).
+    /// The elastic test law has none.
+    pub fn bulk_viscosity(&self, spacing: f64) -> f64 {
+        match self.yielding {
+            Yielding::Granular { .. } => {
+                BULK_DAMPING * self.bulk_density * self.p_wave_speed() * spacing
+            }
+            Yielding::Never => 0.0,
+        }
+    }
+
     /// Density of a bulk under this pressure [kg/m³].
     pub fn density(&self, pressure: f64) -> f64 {
         self.bulk_density * (1.0 + pressure / self.bulk_modulus)
     }
 
     /// Stress [Pa] after `dt` [s] of the velocity gradient [1/s], for a point
-    /// that now has the density `density` [kg/m³].
-    pub fn stress(&self, stress: &Sym3, gradient: &Mat3, density: f64, dt: f64) -> Sym3 {
+    /// that now has the density `density` [kg/m³]. A bulk viscosity [Pa s] resists
+    /// the change of volume of grains in touch, but never pulls; yielding does not
+    /// know of it.
+    pub fn stress(
+        &self,
+        stress: &Sym3,
+        gradient: &Mat3,
+        density: f64,
+        bulk_viscosity: f64,
+        dt: f64,
+    ) -> Sym3 {
         let pressure = self.pressure(density);
         if pressure <= 0.0 && matches!(self.yielding, Yielding::Granular { .. }) {
             return Sym3::default();
@@ -73,7 +101,19 @@ impl Material {
         let rate = deviator
             .jaumann_spin(gradient)
             .plus(&strain_rate.times(2.0 * self.shear_modulus));
-        self.yielded(&deviator.plus(&rate.times(dt)), pressure, dt)
+        let elastic = self.yielded(&deviator.plus(&rate.times(dt)), pressure, dt);
+        let resisted = match self.yielding {
+            Yielding::Granular { .. } => (-bulk_viscosity * gradient.trace()).max(-pressure),
+            Yielding::Never => 0.0,
+        };
+        elastic.plus(&Sym3::isotropic(-resisted))
+    }
+
+    /// The stress [Pa] of a point whose density has become `density` [kg/m³]
+    /// without strain: its deviator stays.
+    pub fn under_density(&self, stress: &Sym3, density: f64) -> Sym3 {
+        let pressure = self.pressure(density);
+        stress.deviator().plus(&Sym3::isotropic(-pressure))
     }
 
     /// Stress of a trial deviator under a pressure, returned to the yield
@@ -171,7 +211,7 @@ mod tests {
     #[test]
     fn grains_apart_carry_nothing() {
         let pressed = Sym3::isotropic(-100.0);
-        let stress = glass_beads(0.644).stress(&pressed, &Mat3::zeros(), 1499.9, 1e-5);
+        let stress = glass_beads(0.644).stress(&pressed, &Mat3::zeros(), 1499.9, 0.0, 1e-5);
         assert_eq!(stress, Sym3::default());
     }
 
@@ -192,7 +232,7 @@ mod tests {
             ..Sym3::default()
         };
         for _ in 0..steps {
-            stress = elastic.stress(&stress, &spin, 1500.0, dt);
+            stress = elastic.stress(&stress, &spin, 1500.0, 0.0, dt);
         }
         assert!((stress.xx + 1.0).abs() < 1e-3, "{stress:?}");
         assert!((stress.yy - 1.0).abs() < 1e-3);

@@ -114,13 +114,16 @@ const INVALID: Mat3 = {
     Mat3::new(N, N, N, N, N, N, N, N, N)
 };
 
-/// Volume V = V_transfer det F̂ and stress of every point after a sub-step.
+/// Volume V = V_transfer det F̂ and stress of every point after a sub-step, on
+/// cells of this size [m].
 pub fn update_stress(
     points: &mut [Point],
     deformations: &[Deformation],
     material: &Material,
+    cell_size: f64,
     dt: f64,
 ) {
+    let bulk_viscosity = material.bulk_viscosity(cell_size);
     points
         .par_iter_mut()
         .zip(deformations)
@@ -130,6 +133,7 @@ pub fn update_stress(
                 &point.stress,
                 &deformation.velocity_gradient,
                 point.mass / point.volume,
+                bulk_viscosity,
                 dt,
             );
         });

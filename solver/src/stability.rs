@@ -44,6 +44,12 @@ impl Limits {
         self.courant * crossing.min(lone_point)
     }
 
+    /// Cells that a point at the speed of the fastest [m/s], or at the expected
+    /// one if that is larger, travels in `duration` [s].
+    pub fn travel(&self, duration: f64, fastest: f64) -> f64 {
+        fastest.max(self.slow) * duration / self.cell_size
+    }
+
     /// Shortest sub-step accepted [s]; below it the run has blown up.
     pub fn shortest_substep(&self) -> f64 {
         self.substep(LARGEST_MACH_NUMBER * self.p_wave_speed)

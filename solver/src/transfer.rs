@@ -6,10 +6,13 @@
 //! Within one step the weights stay those of the transfer; the displaced nodes
 //! carry the deformation F̂ of every point (two clocks).
 
+use crate::crowding::{Seen, Spread, Tending, crowding, not_into_wall};
 use crate::grid::{Grid, Node, PointBlock, TILE, Tile, in_tile};
 use crate::kernel::{Stencil, WIDTH};
+use crate::material::Material;
 use crate::math::{Mat3, Vec3};
 use crate::points::{Deformation, Point};
+use crate::walls::Plane;
 use rayon::prelude::*;
 
 /// Rows of nodes along z in a stencil, by their place in the tile.
@@ -51,9 +54,58 @@ pub fn scatter_momentum(points: &[Point], grid: &mut Grid) {
                 } else {
                     Vec3::zeros()
                 },
-                displacement: Vec3::zeros(),
-                force: Vec3::zeros(),
+                ..Node::EMPTY
             };
+        },
+    );
+}
+
+/// Hands over what the first scatter lost, and the dilation: the nodes' motion
+/// seen at the points falls short of the points' own, and what is missing goes to
+/// the nodes as well (equations 8a and 39).
+pub fn hand_over_rest(points: &[Point], bulk_density: f64, grid: &mut Grid) {
+    let lattice = *grid.lattice();
+    let inverse_moment = Mat3::from_diagonal(&lattice.kernel_moment().map(f64::recip));
+    let room = lattice.spacing.product() * bulk_density;
+    let mut missing = vec![(Vec3::zeros(), Mat3::zeros()); points.len()];
+    for_each_block(grid, &mut missing, |block, missing| {
+        let velocities = grid.tile_of(block, |node| {
+            [node.velocity.x, node.velocity.y, node.velocity.z, 0.0]
+        });
+        for (point, missing) in points[block.points.clone()].iter().zip(missing) {
+            let stencil = lattice.stencil(&point.position);
+            let shown = gather_moments(block, &stencil, &velocities);
+            *missing = (
+                point.velocity - shown.zeroth,
+                point.affine - shown.first * inverse_moment,
+            );
+        }
+    });
+    grid.scatter(
+        |block, tile| {
+            for place in block.points.clone() {
+                let point = &points[place];
+                let (velocity, affine) = missing[place];
+                let stencil = lattice.stencil(&point.position);
+                let dilation = point.volume * bulk_density / point.mass - 1.0;
+                let rest = Carried {
+                    constant: [
+                        point.mass * dilation,
+                        point.mass * velocity.x,
+                        point.mass * velocity.y,
+                        point.mass * velocity.z,
+                    ],
+                    slope: slopes(&(affine * point.mass)),
+                };
+                scatter_affine(block, &stencil, &rest, tile);
+            }
+        },
+        |node, [dilation, px, py, pz]| {
+            if node.mass > 0.0 {
+                node.velocity += Vec3::new(px, py, pz) / node.mass;
+                node.dilation = dilation / node.mass;
+            }
+            node.fullness = (node.mass + dilation) / room;
         },
     );
 }
@@ -104,41 +156,69 @@ pub fn gather_gradient(grid: &Grid, points: &[Point], dt: f64, deformations: &mu
 }
 
 /// Ends a step: velocity, affine velocity and position of every point from
-/// the displaced nodes (equations 12 and 13).
+/// the displaced nodes (equations 12 and 13), and keeps the points evenly spread
+/// (equations 39–42). Returns what that did to their sums.
 ///
 /// The affine velocity is the gradient on the displaced nodes, C F̂⁻¹, with
 /// its skew part set so that points and displaced nodes have the same angular
 /// momentum.
-pub fn gather_motion(grid: &Grid, deformations: &[Deformation], points: &mut [Point]) {
+pub fn gather_motion(
+    grid: &Grid,
+    deformations: &[Deformation],
+    material: &Material,
+    tending: &Tending,
+    base: &[Plane],
+    points: &mut [Point],
+) -> Spread {
     let lattice = *grid.lattice();
     let moment = lattice.kernel_moment();
     let inverse_moment = Mat3::from_diagonal(&moment.map(f64::recip));
-    for_each_block(grid, points, |block, points| {
+    let spread = for_each_block(grid, points, |block, points| {
+        let mut spread = Spread::default();
         let velocities = grid.tile_of(block, |node| {
-            [node.velocity.x, node.velocity.y, node.velocity.z, 0.0]
+            let v = &node.velocity;
+            [v.x, v.y, v.z, crowding(node.fullness)]
         });
         let displacements = grid.tile_of(block, |node| {
             [
                 node.displacement.x,
                 node.displacement.y,
                 node.displacement.z,
-                0.0,
+                node.dilation,
             ]
         });
         let deformations = &deformations[block.points.clone()];
         for (point, deformation) in points.iter_mut().zip(deformations) {
             let stencil = lattice.stencil(&point.position);
             let velocity = gather_moments(block, &stencil, &velocities);
-            let displacement = gather_moments(block, &stencil, &displacements).zeroth;
+            let moved = gather_moments(block, &stencil, &displacements);
+            let displacement = moved.zeroth;
             let outer = gather_outer(block, &stencil, &velocities, &displacements);
             // Σ w v_i (x_i' − x_p')ᵀ on the displaced nodes.
             let on_displaced = velocity.first + outer - velocity.zeroth * displacement.transpose();
             let gradient = velocity.first * inverse_moment * deformation.inverse;
             point.velocity = velocity.zeroth;
-            point.position += displacement;
             point.affine = with_angular_momentum(&gradient, &on_displaced, &moment);
+            let dilation = |volume: f64| volume * material.bulk_density / point.mass - 1.0;
+            let seen = Seen {
+                dilation: dilation(point.volume),
+                dilation_at_transfer: dilation(deformation.transfer_volume),
+                mean_dilation: moved.last,
+                crowding: velocity.last,
+                slope: inverse_moment * velocity.last_first,
+            };
+            let travel = displacement.component_div(&lattice.spacing).norm();
+            let tended = tending.of(&seen, travel, &lattice.spacing);
+            point.position += displacement;
+            let shift = not_into_wall(&tended.shift, &point.position, base, &lattice.spacing);
+            point.position += shift;
+            spread.add(point.mass, &shift, &point.velocity);
+            point.volume += point.mass / material.bulk_density * (tended.dilation - seen.dilation);
+            point.stress = material.under_density(&point.stress, point.mass / point.volume);
         }
+        spread
     });
+    spread.iter().fold(Spread::default(), Spread::plus)
 }
 
 /// `gradient` with the skew part that makes (affine · h²/4) have the skew part
@@ -194,6 +274,9 @@ fn scatter_affine(block: &PointBlock, stencil: &Stencil, carried: &Carried, tile
 struct Moments {
     zeroth: Vec3,
     first: Mat3,
+    /// The same of the number beside it.
+    last: f64,
+    last_first: Vec3,
 }
 
 fn gather_moments(block: &PointBlock, stencil: &Stencil, tile: &Tile) -> Moments {
@@ -219,6 +302,8 @@ fn gather_moments(block: &PointBlock, stencil: &Stencil, tile: &Tile) -> Moments
     Moments {
         zeroth: column(sums[0]),
         first: Mat3::from_columns(&[column(sums[1]), column(sums[2]), column(sums[3])]),
+        last: sums[0][3],
+        last_first: Vec3::new(sums[1][3], sums[2][3], sums[3][3]),
     }
 }
 
@@ -241,12 +326,12 @@ fn gather_outer(block: &PointBlock, stencil: &Stencil, q: &Tile, r: &Tile) -> Ma
 }
 
 /// Runs over the blocks of points in parallel, each with its own share of a
-/// list that has one entry per point.
-fn for_each_block<T: Send>(
+/// list that has one entry per point; the answers come in the order of the blocks.
+fn for_each_block<T: Send, R: Send>(
     grid: &Grid,
     list: &mut [T],
-    visit: impl Fn(&PointBlock, &mut [T]) + Sync,
-) {
+    visit: impl Fn(&PointBlock, &mut [T]) -> R + Sync,
+) -> Vec<R> {
     let mut rest = list;
     let mut shares = Vec::with_capacity(grid.point_blocks().len());
     for block in grid.point_blocks() {
@@ -256,7 +341,8 @@ fn for_each_block<T: Send>(
     }
     shares
         .into_par_iter()
-        .for_each(|(block, share)| visit(block, share));
+        .map(|(block, share)| visit(block, share))
+        .collect()
 }
 
 #[cfg(test)]

@@ -16,6 +16,11 @@ use std::ops::Range;
 
 /// Groups of nodes one task takes.
 const TASK: usize = 128;
+/// Half the kernel's width [node distances].
+const REACH: f64 = 1.5;
+/// A node with less than this share of its kernel in the channel does not say
+/// how full it is.
+const LEAST_ROOM: f64 = 0.02;
 
 /// The nodes of a grid, by their places: block by block, within a block along z
 /// first.
@@ -34,6 +39,10 @@ pub trait NodeAccess: Sync {
     fn displacement(&self, place: usize, dt: f64) -> Vec3;
     /// Gives a node the velocity [m/s] with which it moves through the sub-step.
     fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64);
+    /// Volume of points over room for them.
+    fn fullness(&self, place: usize) -> f64;
+    /// Changes it.
+    fn set_fullness(&mut self, place: usize, fullness: f64);
 }
 
 impl NodeAccess for Grid {
@@ -63,6 +72,14 @@ impl NodeAccess for Grid {
 
     fn set_velocity(&mut self, place: usize, velocity: &Vec3, _: f64) {
         self.node_mut(place).velocity = *velocity;
+    }
+
+    fn fullness(&self, place: usize) -> f64 {
+        self.nodes()[place].fullness
+    }
+
+    fn set_fullness(&mut self, place: usize, fullness: f64) {
+        self.node_mut(place).fullness = fullness;
     }
 }
 
@@ -154,6 +171,8 @@ struct Group {
     side: Meets,
     /// Which base planes it is on or below, as bits.
     below: u8,
+    /// Share of the kernels that lies above the base planes.
+    room: f64,
 }
 
 impl Group {
@@ -177,11 +196,24 @@ enum Meets {
     },
 }
 
+impl Meets {
+    /// Share of the kernel on the channel's side, images counted with it.
+    fn room(self) -> f64 {
+        match self {
+            Meets::On { .. } => 0.5,
+            Meets::Not | Meets::Near { .. } => 1.0,
+        }
+    }
+}
+
 /// The nodes of one step that walls act on.
 #[derive(Debug, Default)]
 pub struct Boundary {
     members: Vec<Member>,
     groups: Vec<Group>,
+    /// Other nodes whose kernel a base plane cuts: their places, and the share
+    /// of it that lies in the channel.
+    cut: Vec<(u32, f64)>,
     /// What a sub-step does to each group.
     answers: Vec<Answer>,
 }
@@ -193,6 +225,48 @@ struct Answer {
     velocity: Option<Vec3>,
     /// Impulse given.
     impulse: Impulse,
+}
+
+impl Boundary {
+    /// Where walls leave less room, the same volume of points fills more of it;
+    /// a node and its images share theirs.
+    pub fn leave_less_room(&self, nodes: &mut impl NodeAccess) {
+        for (place, room) in &self.cut {
+            let place = *place as usize;
+            nodes.set_fullness(place, filled(nodes.fullness(place), *room));
+        }
+        for group in &self.groups {
+            let members = &self.members[group.members.clone()];
+            let of_member = |member: &Member| nodes.fullness(member.place as usize);
+            let inside = group.back.room() * group.side.room();
+            let sum: f64 = members.iter().map(of_member).sum();
+            let fullness = filled(sum / inside, group.room);
+            for member in members {
+                nodes.set_fullness(member.place as usize, fullness);
+            }
+        }
+    }
+}
+
+/// Fullness of a share of the room, what fills all of it to `fullness`.
+pub fn filled(fullness: f64, room: f64) -> f64 {
+    if room > LEAST_ROOM {
+        fullness / room
+    } else {
+        // Too few points see such a node to say.
+        0.0
+    }
+}
+
+/// Share of the kernel above a plane `height` node distances below its node.
+pub fn share_above(height: f64) -> f64 {
+    let beyond = (REACH - height.abs()).max(0.0);
+    let below = if height.abs() < 0.5 {
+        0.5 - 0.75 * height.abs() + height.abs().powi(3) / 3.0
+    } else {
+        beyond.powi(3) / 6.0
+    };
+    if height > 0.0 { 1.0 - below } else { below }
 }
 
 impl Walls {
@@ -209,6 +283,7 @@ impl Walls {
     pub fn find_boundary(&self, nodes: &impl NodeAccess, boundary: &mut Boundary) {
         boundary.members.clear();
         boundary.groups.clear();
+        boundary.cut.clear();
         for (block, key) in nodes.blocks().iter().enumerate() {
             let first = key.map(|k| k * BLOCK as i32);
             if !self.may_act_in(nodes.lattice(), first) {
@@ -251,7 +326,8 @@ impl Walls {
                     .zip_zip_map(&low, &high, |n, low, high| if n > 0.0 { low } else { high });
                 plane.height(&corner)
             };
-        let margin = 1e-6 * lattice.finest_spacing();
+        // The kernel's reach along a diagonal.
+        let margin = REACH * lattice.spacing.norm();
         upright || self.base.iter().any(|plane| lowest(plane) <= margin)
     }
 
@@ -286,6 +362,12 @@ impl Walls {
         let empty = alone && nodes.mass(place) <= 0.0;
         if plain || empty {
             boundary.members.truncate(start);
+        }
+        let room = self.room(&resting, &nodes.lattice().spacing);
+        if plain && room < 1.0 {
+            boundary.cut.push((place as u32, room));
+        }
+        if plain || empty {
             return;
         }
         boundary.groups.push(Group {
@@ -293,7 +375,18 @@ impl Walls {
             back,
             side,
             below,
+            room,
         });
+    }
+
+    /// Share of the kernel of a node at `x` that lies above the base planes.
+    fn room(&self, x: &Vec3, spacing: &Vec3) -> f64 {
+        let share = |plane: &Plane| {
+            // The kernel is as wide along a slant as along its axes.
+            let width = plane.normal.component_mul(spacing).norm();
+            share_above(plane.height(x) / width)
+        };
+        self.base.iter().map(share).product()
     }
 
     fn below(&self, x: &Vec3) -> u8 {
@@ -304,6 +397,23 @@ impl Walls {
             .enumerate()
             .filter(|(_, plane)| plane.height(x) <= rounding)
             .fold(0, |bits, (which, _)| bits | 1 << which)
+    }
+
+    /// Makes nodes and their images move as one, as they will in the first
+    /// sub-step. What it takes from the nodes' momentum the rest of the transfer
+    /// gives back, so it is no impulse.
+    pub fn reflect(&self, boundary: &Boundary, nodes: &mut impl NodeAccess) {
+        for group in &boundary.groups {
+            let members = &boundary.members[group.members.clone()];
+            if members.len() == 1 && !group.is_upright() {
+                continue;
+            }
+            let velocity = self.between_uprights(group, members, nodes);
+            for member in members {
+                let velocity = mirrored(&velocity, member.sign);
+                nodes.set_velocity(member.place as usize, &velocity, 0.0);
+            }
+        }
     }
 
     /// Makes node velocities obey the walls for a sub-step of `dt` [s]: mirrors
@@ -319,6 +429,7 @@ impl Walls {
             members,
             groups,
             answers,
+            ..
         } = boundary;
         let seen: &_ = nodes;
         answers

@@ -182,6 +182,7 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
             mass_error: 0.0,
             momentum_residual: 0.0,
             angular_momentum_residual: 0.0,
+            angular_momentum_spread: 0.0,
             energy_residual: 0.0,
             max_overlap_ratio: 0.0,
             points_put_back: 0,

@@ -4,7 +4,9 @@
 //! block whose order has suffered too much sorts itself anew.
 
 use super::chunk::{Chunk, LANES, Packed, put, take};
+use crate::crowding::Spread;
 use crate::grid::{BLOCK, BlockKey};
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -54,6 +56,8 @@ pub struct Block {
     /// What the last pass found.
     #[serde(skip)]
     end: End,
+    #[serde(skip)]
+    spread: Spread,
     /// Whether some of its points may have left it.
     #[serde(skip)]
     left: bool,
@@ -121,8 +125,13 @@ impl Block {
     }
 
     /// Notes what a pass found of its points.
-    pub fn note_end(&mut self, end: End) {
-        self.end = end;
+    pub fn note_end(&mut self, end: End, spread: Spread) {
+        (self.end, self.spread) = (end, spread);
+    }
+
+    /// What spreading its points did to their sums.
+    pub fn spread(&self) -> Spread {
+        self.spread
     }
 
     /// Notes how many runs of points in the same cell a pass met.

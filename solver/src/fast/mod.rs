@@ -23,6 +23,7 @@ pub mod passes;
 pub mod rows;
 pub mod stencil;
 pub mod stress;
+pub mod tend;
 pub mod totals;
 
 #[cfg(test)]

@@ -36,11 +36,11 @@ pub struct Nodes {
     layout: Layout,
     /// Mass [kg] and velocity [m/s].
     motion: Vec<NodeBlock>,
-    /// What rounding took from the velocity since the transfer [m/s], after a
-    /// number that means nothing. Without it the same small change, added again
-    /// and again, would be rounded the same way again and again.
+    /// Volume of points over room for them, and what rounding took from the
+    /// velocity since the transfer [m/s]: without that the same small change,
+    /// added again and again, would be rounded the same way again and again.
     remainder: Vec<NodeBlock>,
-    /// Displacement since the transfer [m], after a number that means nothing.
+    /// Mean dilation at the transfer, and displacement since then [m].
     displacement: Vec<NodeBlock>,
 }
 
@@ -81,6 +81,24 @@ impl Nodes {
             });
     }
 
+    /// Takes what was missing of the momentum, and the dilations, from the tiles;
+    /// `room` is the mass that fills a kernel, ρ_c h³ [kg].
+    pub fn take_rest(&mut self, tiles: &[Tile], room: f32, level: Level) {
+        self.motion
+            .par_iter_mut()
+            .zip(&mut self.remainder)
+            .zip(&mut self.displacement)
+            .zip(self.layout.sources())
+            .with_min_len(TASK)
+            .for_each(|(((motion, remainder), displacement), sources)| {
+                dispatch!(level, simd => {
+                    let mut rest = NodeBlock::EMPTY;
+                    add_up(simd, sources, tiles, &mut rest);
+                    take_rest(simd, &rest, room, motion, remainder, displacement);
+                });
+            });
+    }
+
     /// v ← v + Δt (f/m + g) with the forces in the tiles; u ← u + Δt v.
     pub fn advance(&mut self, tiles: &[Tile], gravity: &Vec3, dt: f64, level: Level) {
         let fall = gravity.map(|g| (g * dt) as f32);
@@ -109,7 +127,14 @@ impl Nodes {
         fill(simd, self.layout.reach(block), &self.motion, tile);
     }
 
-    /// Displacement of the nodes that a block of points touches.
+    /// Fullness of the nodes that a block of points touches, and numbers that mean
+    /// nothing to points.
+    #[inline(always)]
+    pub fn fullness_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
+        fill(simd, self.layout.reach(block), &self.remainder, tile);
+    }
+
+    /// Mean dilation and displacement of the nodes that a block of points touches.
     #[inline(always)]
     pub fn displacement_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
         fill(simd, self.layout.reach(block), &self.displacement, tile);
@@ -169,6 +194,14 @@ impl NodeAccess for Nodes {
         // The nodes have moved already, freely.
         vector(self.displacement[place / BLOCK_NODES].node(place % BLOCK_NODES))
             - self.velocity(place) * dt
+    }
+
+    fn fullness(&self, place: usize) -> f64 {
+        f64::from(self.remainder[place / BLOCK_NODES].node(place % BLOCK_NODES)[0])
+    }
+
+    fn set_fullness(&mut self, place: usize, fullness: f64) {
+        self.remainder[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)] = fullness as f32;
     }
 
     fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64) {
@@ -288,6 +321,31 @@ fn take<S: Simd>(simd: S, sources: &[u32; 8], tiles: &[Tile], motion: &mut NodeB
 }
 
 #[inline(always)]
+fn take_rest<S: Simd>(
+    simd: S,
+    rest: &NodeBlock,
+    room: f32,
+    motion: &mut NodeBlock,
+    remainder: &mut NodeBlock,
+    displacement: &mut NodeBlock,
+) {
+    for node in 0..BLOCK_NODES {
+        let moving = &mut motion.0[4 * node..4 * node + 4];
+        let given = &rest.0[4 * node..4 * node + 4];
+        let mass = moving[0];
+        remainder.0[4 * node] = (mass + given[0]) / room;
+        if mass > 0.0 {
+            let per_mass = f32x4::splat(simd, 1.0 / mass);
+            displacement.0[4 * node] = given[0] / mass;
+            let missing = f32x4::from_slice(simd, given);
+            let velocity = missing.mul_add(per_mass, f32x4::from_slice(simd, moving));
+            velocity.store_slice(moving);
+            moving[0] = mass;
+        }
+    }
+}
+
+#[inline(always)]
 fn advance<S: Simd>(
     simd: S,
     forces: &NodeBlock,
@@ -305,6 +363,7 @@ fn advance<S: Simd>(
         if mass > 0.0 {
             let left = &mut remainder.0[here.clone()];
             let moved = &mut displacement.0[here.clone()];
+            let (fullness, dilation) = (left[0], moved[0]);
             let force = f32x4::from_slice(simd, &forces.0[here]);
             let before = f32x4::from_slice(simd, moving);
             let owed = fall + f32x4::from_slice(simd, left);
@@ -315,8 +374,7 @@ fn advance<S: Simd>(
             let displaced = velocity.mul_add(dt, f32x4::from_slice(simd, moved));
             displaced.store_slice(moved);
             velocity.store_slice(moving);
-            // The tiles of forces hold nothing in this place.
-            moving[0] = mass;
+            (moving[0], left[0], moved[0]) = (mass, fullness, dilation);
         }
     }
 }

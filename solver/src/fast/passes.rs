@@ -6,17 +6,19 @@ use super::chunk::{Chunk, LANES, Lanes};
 use super::rows::{Given, Moments, Quads, Tile, gather_mean};
 use super::stencil::Stencils;
 use super::stress::{self, Law, Matrix, Strained};
+use super::tend::{Seen, Shelter, SpreadSums, tend};
 use super::totals::EndSums;
+use crate::crowding::Tending;
 use crate::math::Vec3;
 use fearless_simd::{f32x16, prelude::*};
 
 /// The nodes' state as a block of points sees it at the end of a step.
 pub struct EndTiles {
-    /// Mass and velocity.
+    /// Crowding and velocity.
     pub motion: Tile,
-    /// Displacement.
+    /// Mean dilation and displacement.
     pub displacement: Tile,
-    /// Displacement × velocity.
+    /// Fullness at first, then displacement × velocity.
     pub twist: Tile,
 }
 
@@ -28,15 +30,16 @@ impl EndTiles {
         twist: Tile::EMPTY,
     };
 
-    /// Fills in the twist of the nodes.
+    /// Fills in crowding and twist of the nodes.
     #[inline(always)]
     pub fn cross(&mut self) {
         let nodes = self
             .motion
             .0
-            .chunks_exact(4)
+            .chunks_exact_mut(4)
             .zip(self.displacement.0.chunks_exact(4));
         for (twist, (v, u)) in self.twist.0.chunks_exact_mut(4).zip(nodes) {
+            v[0] = (twist[0] - 1.0).clamp(0.0, 1.0);
             twist[1] = u[2] * v[3] - u[3] * v[2];
             twist[2] = u[3] * v[1] - u[1] * v[3];
             twist[3] = u[1] * v[2] - u[2] * v[1];
@@ -44,17 +47,25 @@ impl EndTiles {
     }
 }
 
-/// Gives mass and momentum to one tile and the force of stress to another
-/// (equations 8 and 9), and starts the deformation anew.
+/// How a step ends.
+#[derive(Debug, Clone, Copy)]
+pub struct Ending<'a> {
+    /// What the points are made of.
+    pub law: &'a Law,
+    /// Node distances [m].
+    pub spacing: &'a Vec3,
+    /// Length of the last sub-step [s].
+    pub dt: f32,
+    /// How the points are kept evenly spread.
+    pub tending: &'a Tending,
+    /// The base planes.
+    pub shelters: &'a [Shelter],
+}
+
+/// Gives mass and momentum to a tile (equation 8).
 #[inline(always)]
-pub fn transfer<S: Simd>(
-    simd: S,
-    block: &mut Block,
-    law: &Law,
-    momentum: &mut Tile,
-    force: &mut Tile,
-) {
-    (*momentum, *force) = (Tile::EMPTY, Tile::EMPTY);
+pub fn transfer<S: Simd>(simd: S, block: &mut Block, law: &Law, momentum: &mut Tile) {
+    *momentum = Tile::EMPTY;
     let mut given = Given::NOTHING;
     let mut runs = 0;
     for (chunk, count) in block.chunks_mut() {
@@ -62,6 +73,30 @@ pub fn transfer<S: Simd>(
         runs += stencils.runs(count);
         give_momentum(simd, chunk, law, &mut given);
         given.scatter::<S, true>(simd, &stencils, count, momentum);
+    }
+    block.note_runs(runs);
+}
+
+/// Gives a tile the dilations and what the nodes' `motion` is short of the
+/// points' own, and another the force of stress (equations 9 and 39); starts the
+/// deformation anew.
+#[inline(always)]
+pub fn hand_over_rest<S: Simd>(
+    simd: S,
+    block: &mut Block,
+    law: &Law,
+    motion: &Tile,
+    rest: &mut Tile,
+    force: &mut Tile,
+) {
+    (*rest, *force) = (Tile::EMPTY, Tile::EMPTY);
+    let mut moments = Moments::EMPTY;
+    let mut given = Given::NOTHING;
+    for (chunk, count) in block.chunks_mut() {
+        let stencils = Stencils::of(simd, &chunk.position);
+        moments.gather::<S, true>(simd, &stencils, count, motion);
+        give_rest(simd, chunk, law, &moments, &mut given);
+        given.scatter::<S, true>(simd, &stencils, count, rest);
         chunk.gradient = [[[0.0; LANES]; 3]; 3];
         give_force(
             simd,
@@ -72,7 +107,6 @@ pub fn transfer<S: Simd>(
         );
         given.scatter::<S, false>(simd, &stencils, count, force);
     }
-    block.note_runs(runs);
 }
 
 /// One sub-step: the velocity gradient of the nodes strains the points, whose
@@ -102,18 +136,20 @@ pub fn substep<S: Simd>(
 /// The last sub-step of a step, and the motion back to the points (equations 12
 /// and 13).
 #[inline(always)]
-pub fn finish<S: Simd>(
-    simd: S,
-    block: &mut Block,
-    law: &Law,
-    spacing: &Vec3,
-    dt: f32,
-    nodes: &EndTiles,
-) {
+pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndTiles) {
+    let Ending {
+        law,
+        spacing,
+        dt,
+        tending,
+        shelters,
+    } = *ending;
     let mut moments = Moments::EMPTY;
     let mut displacement = Quads::EMPTY;
     let mut twist = Quads::EMPTY;
     let mut sums = EndSums::NONE;
+    let mut spread = SpreadSums::NONE;
+    let key = block.key;
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
         moments.gather::<S, true>(simd, &stencils, count, &nodes.motion);
@@ -127,9 +163,8 @@ pub fn finish<S: Simd>(
         gather_mean(simd, &stencils, count, &nodes.twist, &mut twist);
         let a = gradient(simd, &moments, law);
         let strained = stress::strain(simd, chunk, &a, law, dt);
-        chunk.dilation = strained.dilation.into();
-        let [_, vx, vy, vz] = moments.zeroth.spread(simd);
-        let [_, ux, uy, uz] = displacement.spread(simd);
+        let [crowding, vx, vy, vz] = moments.zeroth.spread(simd);
+        let [mean_dilation, ux, uy, uz] = displacement.spread(simd);
         let [_, tx, ty, tz] = twist.spread(simd);
         let on_displaced = strained.deformed.undone(simd, &a);
         // Of Σ w v_i (d_i + u_i − u_p)ᵀ only the skew part counts: what the
@@ -140,19 +175,49 @@ pub fn finish<S: Simd>(
             ux * vy - uy * vx - tz,
         ];
         let affine = with_angular_momentum(simd, &on_displaced, &a, &added, spacing);
-        let (velocity, moved) = ([vx, vy, vz], [ux, uy, uz]);
+        let (velocity, mut moved) = ([vx, vy, vz], [ux, uy, uz]);
+        for axis in 0..3 {
+            moved[axis] *= splat(simd, 1.0 / spacing[axis]);
+        }
+        let seen = Seen {
+            dilation: strained.dilation,
+            dilation_at_transfer: f32x16::simd_from(simd, chunk.dilation),
+            mean_dilation,
+            crowding,
+            slope: crowding_slope(simd, &moments),
+        };
+        let mut position = moved;
+        for axis in 0..3 {
+            position[axis] += f32x16::simd_from(simd, chunk.position[axis]);
+        }
+        let mut tended = tend(simd, tending, &seen, &moved);
+        for shelter in shelters {
+            let here = shelter.in_block(&key);
+            here.keep_off(simd, &position, &mut tended.shift);
+        }
+        chunk.dilation = tended.dilation.into();
+        spread.add(simd, chunk, &tended.shift, &velocity, spacing);
         for axis in 0..3 {
             chunk.velocity[axis] = velocity[axis].into();
-            let cells = f32x16::splat(simd, (1.0 / spacing[axis]) as f32);
-            let position = f32x16::simd_from(simd, chunk.position[axis]);
-            chunk.position[axis] = moved[axis].mul_add(cells, position).into();
+            chunk.position[axis] = (position[axis] + tended.shift[axis]).into();
             for row in 0..3 {
                 chunk.gradient[axis][row] = affine[row][axis].into();
             }
         }
         sums.add(chunk);
     }
-    block.note_end(sums.end());
+    block.note_end(sums.end(), spread.total());
+}
+
+/// h ∇crowding, per axis [1/cell].
+#[inline(always)]
+fn crowding_slope<S: Simd>(simd: S, moments: &Moments) -> [f32x16<S>; 3] {
+    let mut slope = [f32x16::splat(simd, 0.0); 3];
+    for axis in 0..3 {
+        let [along, ..] = moments.first[axis].spread(simd);
+        slope[axis] = along * splat(simd, 4.0);
+    }
+    slope
 }
 
 /// A = Σ v_i ⊗ ∇w_i from the moments of mass and velocity.
@@ -206,6 +271,35 @@ fn give_momentum<S: Simd>(simd: S, chunk: &Chunk, law: &Law, given: &mut Given) 
         let spacing = f32x16::splat(simd, 4.0 / law.gradient[axis]);
         let [x, y, z] = times(simd, &chunk.gradient[axis], mass * spacing);
         given.slope[axis].gathered([none, x, y, z]);
+    }
+}
+
+/// m φ, and what of v and C the nodes do not show.
+#[inline(always)]
+fn give_rest<S: Simd>(simd: S, chunk: &Chunk, law: &Law, moments: &Moments, given: &mut Given) {
+    let none = f32x16::splat(simd, 0.0);
+    let mass = f32x16::simd_from(simd, chunk.mass);
+    let dilation = f32x16::simd_from(simd, chunk.dilation);
+    let [_, vx, vy, vz] = moments.zeroth.spread(simd);
+    let [x, y, z] = &chunk.velocity;
+    given.constant.gathered([
+        mass * dilation,
+        (f32x16::simd_from(simd, *x) - vx) * mass,
+        (f32x16::simd_from(simd, *y) - vy) * mass,
+        (f32x16::simd_from(simd, *z) - vz) * mass,
+    ]);
+    for axis in 0..3 {
+        // C h, of which the nodes show 4 Σ w v δ.
+        let spacing = f32x16::splat(simd, 4.0 / law.gradient[axis]);
+        let four = f32x16::splat(simd, 4.0);
+        let [_, lx, ly, lz] = moments.first[axis].spread(simd);
+        let [x, y, z] = &chunk.gradient[axis];
+        given.slope[axis].gathered([
+            none,
+            (f32x16::simd_from(simd, *x) * spacing - lx * four) * mass,
+            (f32x16::simd_from(simd, *y) * spacing - ly * four) * mass,
+            (f32x16::simd_from(simd, *z) * spacing - lz * four) * mass,
+        ]);
     }
 }
 

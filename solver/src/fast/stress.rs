@@ -17,6 +17,8 @@ pub struct Law {
     limiting_friction: f32,
     /// G I0/(d √ρ_s) [Pa^½/s].
     viscosity: f32,
+    /// b ρ_c c_P h [Pa s].
+    bulk_viscosity: f32,
     /// 4/h per axis [1/m]: ∇w is w δ times this, with δ in cells.
     pub gradient: [f32; 3],
 }
@@ -50,6 +52,7 @@ impl Law {
             static_friction: statically as f32,
             limiting_friction: limiting as f32,
             viscosity: viscosity as f32,
+            bulk_viscosity: material.bulk_viscosity(spacing.min()) as f32,
             gradient: [0, 1, 2].map(|axis| (4.0 / spacing[axis]) as f32),
         }
     }
@@ -60,6 +63,16 @@ impl Law {
         let compression = splat(simd, 0.0) - dilation;
         let pressure = splat(simd, self.bulk_modulus) * compression / (splat(simd, 1.0) + dilation);
         pressure.max(splat(simd, 0.0))
+    }
+
+    /// Pressure with what the bulk viscosity adds to it (equation 3a).
+    #[inline(always)]
+    fn resisting<S: Simd>(&self, simd: S, pressure: f32x16<S>, gradient: &Matrix<S>) -> f32x16<S> {
+        let none = splat(simd, 0.0);
+        let growth = gradient[0][0] + gradient[1][1] + gradient[2][2];
+        let resisting = growth.mul_add(splat(simd, -self.bulk_viscosity), pressure);
+        let pressed = pressure.simd_gt(none);
+        pressed.select(resisting.max(none), pressure)
     }
 
     /// Deviator after `dt` of the velocity gradient `gradient`, at the dilation
@@ -242,6 +255,7 @@ pub fn strain<S: Simd>(
     let pressure = law.pressure(simd, dilation);
     let before = loaded(simd, &chunk.deviator);
     let mut deviator = law.deviator(simd, before, &gradient, pressure, dt);
+    let pressure = law.resisting(simd, pressure, &gradient);
     // A point turned inside out becomes no number, which ends the run.
     let inside_out = deformed.volume_change.simd_le(splat(simd, -1.0));
     for (kept, part) in chunk.deviator.iter_mut().zip(&mut deviator) {

@@ -133,6 +133,9 @@ pub struct Audit {
     pub momentum_residual: f64,
     /// The same for angular momentum about the origin.
     pub angular_momentum_residual: f64,
+    /// Angular momentum that spreading the points evenly made; the residual does
+    /// not count it.
+    pub angular_momentum_spread: f64,
     /// Largest rise of mechanical energy above its running minimum, relative
     /// to the largest kinetic energy.
     pub energy_residual: f64,

@@ -113,6 +113,7 @@ impl Recorder {
                 mass_error: audit.mass_error,
                 momentum_residual: audit.momentum_residual,
                 angular_momentum_residual: audit.angular_momentum_residual,
+                angular_momentum_spread: audit.angular_momentum_spread,
                 energy_residual: audit.energy_residual(),
                 max_overlap_ratio: audit.deepest_overlap_ratio,
                 points_put_back: audit.points_put_back,

@@ -1,11 +1,12 @@
 //! One step: a transfer at the speed of the flow, sub-steps at the speed of
 //! sound, one gather.
 
-use super::flow::{Culprit, Substep};
+use super::flow::{Culprit, StepEnd, Substep};
 use super::laps::Verb;
 use super::{Simulation, StepInHand, SubstepReport};
 use crate::contact::body_wall;
 use crate::contact::point_body::impulse_on_flow;
+use crate::crowding::Tending;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
 use crate::rigid::{Freedom, Load};
@@ -129,10 +130,21 @@ impl Simulation {
     fn end_step(&mut self, pace: &Pace) -> Result<Option<u64>, StepError> {
         let state = &mut self.state;
         let laps = &mut self.scratch.laps;
-        let put_back = state
-            .flow
-            .finish(&self.given, &state.bodies, pace.substep, laps);
-        state.audit.points_put_back += put_back;
+        let duration = pace.substep * f64::from(pace.count);
+        let fastest = state.flow.fastest();
+        let end = StepEnd {
+            dt: pace.substep,
+            tending: match &self.given.flow {
+                Some(flow) if flow.material.is_granular() => {
+                    Tending::after(flow.limits.travel(duration, fastest))
+                }
+                _ => Tending::NONE,
+            },
+        };
+        let finished = state.flow.finish(&self.given, &state.bodies, &end, laps);
+        state.audit.points_put_back += finished.put_back;
+        state.audit.spread(&finished.spread.angular);
+        state.moments.first_moment += finished.spread.first_moment;
         let clock = &mut state.clock;
         clock.steps += 1;
         let mut sample = None;

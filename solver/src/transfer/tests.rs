@@ -51,6 +51,7 @@ fn scattered(points: &mut Vec<Point>, lattice: Lattice) -> Grid {
     let mut grid = Grid::new(lattice);
     grid.reset_around(&occupied);
     scatter_momentum(points, &mut grid);
+    hand_over_rest(points, elastic(1.0).bulk_density, &mut grid);
     grid
 }
 
@@ -64,9 +65,15 @@ fn step(points: &mut Vec<Point>, lattice: Lattice, substeps: u32, dt: f64, mater
         grid.advance_momentum(Vec3::zeros(), dt);
         grid.displace(dt);
         gather_gradient(&grid, points, dt, &mut deformations);
-        update_stress(points, &deformations, material, dt);
+        update_stress(
+            points,
+            &deformations,
+            material,
+            lattice.finest_spacing(),
+            dt,
+        );
     }
-    gather_motion(&grid, &deformations, points);
+    gather_motion(&grid, &deformations, material, &Tending::NONE, &[], points);
 }
 
 fn momentum(points: &[Point], lattice: &Lattice) -> (f64, Impulse) {
@@ -144,7 +151,14 @@ fn linear_fields_come_back() {
     }
     let deformations: Vec<_> = points.iter().map(Deformation::start).collect();
     let before = points.clone();
-    gather_motion(&grid, &deformations, &mut points);
+    gather_motion(
+        &grid,
+        &deformations,
+        &elastic(1.0),
+        &Tending::NONE,
+        &[],
+        &mut points,
+    );
     for (point, old) in points.iter().zip(&before) {
         assert!((point.velocity - old.velocity).norm() < 1e-13);
         assert!((point.affine - b).norm() < 1e-11);

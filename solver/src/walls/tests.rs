@@ -191,3 +191,43 @@ fn the_foot_of_the_back_wall_holds() {
     constrained(&walls, &mut grid);
     assert!((velocity(&grid, [0, 3, 2]) - Vec3::new(0.0, 0.5, 0.0)).norm() < 1e-15);
 }
+
+// Nodes a period apart are one node: velocities are those of their joint momentum,
+// which stays, and both see the same room.
+#[test]
+fn nodes_across_a_seam_move_as_one() {
+    let mut walls = channel(4, 0.0, 0.0);
+    walls.upright.ends = Ends::Seam { cells: 8 };
+    let pair = [[1, 2, 5], [9, 2, 5]];
+    let fast = Vec3::new(3.0, 0.0, 1.0);
+    let mut grid = grid_with(&[(pair[0], fast), (pair[1], Vec3::zeros())]);
+    for (node, fullness) in pair.iter().zip([0.75, 0.5]) {
+        let place = grid.place_of(*node).expect("its block is there");
+        grid.set_fullness(place, fullness);
+    }
+    let mut boundary = Boundary::default();
+    walls.find_boundary(&grid, &mut boundary);
+    boundary.leave_less_room(&mut grid);
+    walls.reflect(&boundary, &mut grid);
+    for node in pair {
+        assert_eq!(velocity(&grid, node), fast / 2.0);
+        let place = grid.place_of(node).expect("its block is there");
+        assert_eq!(grid.fullness(place), 1.25);
+    }
+}
+
+#[test]
+fn what_leaves_through_a_seam_comes_in_again() {
+    let mut walls = channel(4, 0.0, 0.0);
+    assert_eq!(walls.upright.shift_across_seam(9.0), None);
+    walls.upright.ends = Ends::Seam { cells: 8 };
+    for (along, shift) in [
+        (-0.1, Some(8)),
+        (0.0, None),
+        (7.9, None),
+        (8.0, Some(-8)),
+        (17.0, Some(-16)),
+    ] {
+        assert_eq!(walls.upright.shift_across_seam(along), shift, "{along}");
+    }
+}

@@ -6,17 +6,18 @@ use std::path::{Path, PathBuf};
 
 /// Layers, lowest first. The scenario is a description that knows of shapes
 /// alone; the simulation reads it.
-const LAYERS: [&[&str]; 6] = [
+const LAYERS: [&[&str]; 7] = [
     &["math", "error", "stability"],
     &["kernel", "material", "shape", "contact::law"],
     &["grid", "scenario"],
     &["points", "rigid", "walls"],
     &[
-        "transfer",
         "contact::body_wall",
         "contact::point_body",
+        "crowding",
         "diagnostics",
     ],
+    &["transfer"],
     &["fast"],
 ];
 

@@ -68,6 +68,9 @@ pub struct AuditDocument {
     pub momentum_residual: f64,
     /// The same for angular momentum.
     pub angular_momentum_residual: f64,
+    /// Relative angular momentum that spreading the points evenly made; the
+    /// residual does not count it.
+    pub angular_momentum_spread: f64,
     /// Largest relative rise of mechanical energy.
     pub energy_residual: f64,
     /// Largest overlap of a point with a body.

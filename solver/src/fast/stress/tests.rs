@@ -61,7 +61,8 @@ fn plain(state: &State) -> After {
     deformation.advance(&matrix(&state.nodes), f64::from(DT));
     let volume = deformation.transfer_volume * deformation.volume_ratio;
     let gradient = &deformation.velocity_gradient;
-    let stress = material.stress(&stress, gradient, mass / volume, f64::from(DT));
+    let viscosity = material.bulk_viscosity(lattice().finest_spacing());
+    let stress = material.stress(&stress, gradient, mass / volume, viscosity, f64::from(DT));
     let s = stress.deviator();
     let per_cell = Mat3::from_diagonal(&lattice().spacing.map(|h| 4.0 / h));
     After {
@@ -124,7 +125,9 @@ impl Worst {
         let added = matrix(&state.nodes).amax() * f64::from(DT);
         let strain = before + added + f64::from(state.record.dilation.abs());
         let sizes = state.record.deviator.iter().map(|s| f64::from(s.abs()));
-        let stress = material.p_wave_modulus() * strain + sizes.fold(0.0, f64::max);
+        let viscosity = material.bulk_viscosity(lattice().finest_spacing());
+        let resisting = viscosity * matrix(&state.nodes).amax();
+        let stress = material.p_wave_modulus() * strain + sizes.fold(resisting, f64::max);
         let off = |fast: &[f64], plain: &[f64]| {
             let pairs = fast.iter().zip(plain);
             pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)

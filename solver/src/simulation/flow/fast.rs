@@ -1,16 +1,18 @@
 //! The fast path: blocks of points in single precision, a whole sub-step in one
 //! pass over them.
 
-use super::{Culprit, Flow, SavedFlow, Substep};
+use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, Substep};
 use crate::contact::point_body::{self, Around, FlowLoad, Loads, Moving, PointAccess, Reach};
+use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::{Block, Blocks};
 use crate::fast::instructions::Instructions;
 use crate::fast::nodes::Nodes;
 use crate::fast::packing::Packing;
-use crate::fast::passes::{self, EndTiles};
+use crate::fast::passes::{self, EndTiles, Ending};
 use crate::fast::rows::Tile;
 use crate::fast::stress::Law;
+use crate::fast::tend::Shelter;
 use crate::fast::totals;
 use crate::grid::{BLOCK, BlockKey};
 use crate::math::Vec3;
@@ -27,7 +29,8 @@ use rayon::prelude::*;
 pub(in crate::simulation) struct FastFlow {
     blocks: Blocks,
     nodes: Nodes,
-    /// What each block gives its nodes: mass and momentum at a transfer.
+    /// What each block gives its nodes at a transfer: mass and momentum, then the
+    /// rest of it.
     momentum: Vec<Tile>,
     /// Forces of the present sub-step, for the next.
     forces: Vec<Tile>,
@@ -35,6 +38,7 @@ pub(in crate::simulation) struct FastFlow {
     loads: Loads<Place>,
     packing: Packing,
     law: Law,
+    shelters: Vec<Shelter>,
     level: Level,
     /// Speed of the fastest point [m/s].
     fastest: f64,
@@ -103,6 +107,7 @@ impl FastFlow {
     /// A flow as it was between two steps.
     pub(super) fn restored(blocks: Blocks, given: &Setup) -> Self {
         let packing = packing(given);
+        let base = given.walls.base.iter();
         let mut flow = Self {
             blocks,
             nodes: Nodes::new(given.lattice),
@@ -112,6 +117,9 @@ impl FastFlow {
             loads: Loads::default(),
             packing,
             law: Law::of(&packing.material, &given.lattice.spacing),
+            shelters: base
+                .map(|plane| Shelter::of(plane, &given.lattice))
+                .collect(),
             level: Instructions::detected().level(),
             fastest: 0.0,
             flawed: false,
@@ -123,7 +131,7 @@ impl FastFlow {
     /// Looks at every point for what a step has to know of them all.
     fn look_over(&mut self) {
         for block in self.blocks.occupied_mut() {
-            block.note_end(totals::end_of(block));
+            block.note_end(totals::end_of(block), Spread::default());
         }
         self.sum_up_ends();
     }
@@ -186,6 +194,27 @@ impl FastFlow {
         }
     }
 
+    /// Hands over what the nodes do not show of the points' motion, the dilations
+    /// and the first forces.
+    fn hand_over_rest(&mut self, given: &Setup) {
+        let room = self.packing.material.bulk_density * given.lattice.spacing.product();
+        let (nodes, law, level) = (&self.nodes, &self.law, self.level);
+        self.blocks
+            .occupied_mut()
+            .par_iter_mut()
+            .zip(&mut self.momentum)
+            .zip(&mut self.forces)
+            .enumerate()
+            .for_each(|(place, ((block, rest), force))| {
+                dispatch!(level, simd => {
+                    let mut motion = Tile::EMPTY;
+                    nodes.motion_tile(simd, place, &mut motion);
+                    passes::hand_over_rest(simd, block, law, &motion, rest, force);
+                });
+            });
+        self.nodes.take_rest(&self.momentum, room as f32, level);
+    }
+
     fn put_back(&mut self, bodies: &[Body]) -> u64 {
         let mut count = 0;
         for (body, candidates) in bodies.iter().zip(&self.loads.candidates) {
@@ -232,13 +261,20 @@ impl Flow for FastFlow {
             .occupied_mut()
             .par_iter_mut()
             .zip(&mut self.momentum)
-            .zip(&mut self.forces)
-            .for_each(|((block, momentum), force)| {
-                dispatch!(level, simd => passes::transfer(simd, block, law, momentum, force));
+            .for_each(|(block, momentum)| {
+                dispatch!(level, simd => passes::transfer(simd, block, law, momentum));
             });
         self.nodes.take_momentum(&self.momentum, level);
         laps.done(Verb::Transfer);
         given.walls.find_boundary(&self.nodes, &mut self.boundary);
+        given.walls.reflect(&self.boundary, &mut self.nodes);
+        laps.done(Verb::Search);
+        self.hand_over_rest(given);
+        laps.done(Verb::Transfer);
+        self.boundary.leave_less_room(&mut self.nodes);
+        for body in bodies {
+            crowding::leave_less_room(body, &mut self.nodes);
+        }
         let access = Access {
             blocks: self.blocks.occupied(),
             nodes: &self.nodes,
@@ -285,10 +321,21 @@ impl Flow for FastFlow {
         &self.loads.on_bodies
     }
 
-    fn finish(&mut self, given: &Setup, bodies: &[Body], dt: f64, laps: &mut Laps) -> u64 {
-        let (nodes, law, level) = (&self.nodes, &self.law, self.level);
-        let spacing = &given.lattice.spacing;
-        let dt = dt as f32;
+    fn finish(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        end: &StepEnd,
+        laps: &mut Laps,
+    ) -> Finished {
+        let (nodes, level) = (&self.nodes, self.level);
+        let ending = Ending {
+            law: &self.law,
+            spacing: &given.lattice.spacing,
+            dt: end.dt as f32,
+            tending: &end.tending,
+            shelters: &self.shelters,
+        };
         self.blocks
             .occupied_mut()
             .par_iter_mut()
@@ -298,18 +345,21 @@ impl Flow for FastFlow {
                     let mut tiles = EndTiles::EMPTY;
                     nodes.motion_tile(simd, place, &mut tiles.motion);
                     nodes.displacement_tile(simd, place, &mut tiles.displacement);
+                    nodes.fullness_tile(simd, place, &mut tiles.twist);
                     tiles.cross();
-                    passes::finish(simd, block, law, spacing, dt, &tiles);
+                    passes::finish(simd, block, &ending, &tiles);
                 });
             });
         // Before the points go to other blocks.
         self.sum_up_ends();
-        let count = self.put_back(bodies);
+        let blocks = self.blocks.occupied().iter();
+        let spread = blocks.fold(Spread::default(), |sum, block| sum.plus(&block.spread()));
+        let put_back = self.put_back(bodies);
         self.go_round(given);
         laps.done(Verb::Motion);
         self.blocks.settle();
         laps.done(Verb::Settle);
-        count
+        Finished { put_back, spread }
     }
 
     fn culprit(&self, planes: &[Plane], tolerance: f64) -> Option<Culprit> {

@@ -7,10 +7,10 @@ mod plain;
 use super::laps::Laps;
 use super::setup::{GivenFlow, Setup};
 use crate::contact::point_body::{Around, FlowLoad, Reach};
+use crate::crowding::{Spread, Tending};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::Blocks;
 use crate::fast::instructions::Instructions;
-use crate::material::Yielding;
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::Precision;
@@ -48,10 +48,15 @@ pub(super) trait Flow: Debug + Send + Sync {
     /// before the first.
     fn on_bodies(&self) -> &[FlowLoad];
 
-    /// Ends a step whose last sub-step took `dt` [s]: hands the motion back to
-    /// the points and those inside a body back to its surface. Returns how many
-    /// these were.
-    fn finish(&mut self, given: &Setup, bodies: &[Body], dt: f64, laps: &mut Laps) -> u64;
+    /// Ends a step: hands the motion back to the points, spreads them evenly, and
+    /// puts those inside a body back to its surface.
+    fn finish(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        end: &StepEnd,
+        laps: &mut Laps,
+    ) -> Finished;
 
     /// A point that should not be as it is after a step.
     fn culprit(&self, planes: &[Plane], tolerance: f64) -> Option<Culprit>;
@@ -85,6 +90,24 @@ pub(super) struct Substep {
     pub passed: f64,
     /// Whether its step ends with it.
     pub last: bool,
+}
+
+/// The end of a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StepEnd {
+    /// Length of its last sub-step [s].
+    pub dt: f64,
+    /// How points are kept evenly spread after it.
+    pub tending: Tending,
+}
+
+/// What ending a step did to points besides moving them with the nodes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Finished {
+    /// Points put back to a body's surface.
+    pub put_back: u64,
+    /// What spreading the points did to their sums.
+    pub spread: Spread,
 }
 
 /// What is wrong with a point.
@@ -148,7 +171,7 @@ impl SavedFlow {
 /// A flow of these points in the precision asked for.
 pub(super) fn start(points: Vec<Point>, given: &Setup, precision: Precision) -> Box<dyn Flow> {
     // The fast path knows granular materials only.
-    let granular = |flow: &GivenFlow| matches!(flow.material.yielding, Yielding::Granular { .. });
+    let granular = |flow: &GivenFlow| flow.material.is_granular();
     match precision {
         Precision::Single if given.flow.as_ref().is_some_and(granular) => {
             Box::new(FastFlow::new(&points, given))

@@ -1,7 +1,8 @@
 //! The plain path: every verb on its own, in double precision.
 
-use super::{Culprit, Flow, SavedFlow, Substep};
+use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, Substep};
 use crate::contact::point_body::{self, Around, FlowLoad, Loads, Moving, PointAccess, Reach};
+use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::instructions::Instructions;
 use crate::grid::Grid;
@@ -122,6 +123,17 @@ impl Flow for PlainFlow {
         transfer::scatter_momentum(&self.points, &mut self.grid);
         laps.done(Verb::Transfer);
         given.walls.find_boundary(&self.grid, &mut self.boundary);
+        given.walls.reflect(&self.boundary, &mut self.grid);
+        laps.done(Verb::Search);
+        if let Some(flow) = &given.flow {
+            let density = flow.material.bulk_density;
+            transfer::hand_over_rest(&self.points, density, &mut self.grid);
+        }
+        laps.done(Verb::Transfer);
+        self.boundary.leave_less_room(&mut self.grid);
+        for body in bodies {
+            crowding::leave_less_room(body, &mut self.grid);
+        }
         self.deformations.clear();
         self.deformations
             .extend(self.points.iter().map(Deformation::start));
@@ -172,7 +184,13 @@ impl Flow for PlainFlow {
         laps.done(Verb::Walls);
         self.grid.displace(dt);
         transfer::gather_gradient(&self.grid, &self.points, dt, &mut self.deformations);
-        points::update_stress(&mut self.points, &self.deformations, &flow.material, dt);
+        points::update_stress(
+            &mut self.points,
+            &self.deformations,
+            &flow.material,
+            given.lattice.finest_spacing(),
+            dt,
+        );
         laps.done(Verb::Points);
         from_walls
     }
@@ -181,8 +199,23 @@ impl Flow for PlainFlow {
         &self.loads.on_bodies
     }
 
-    fn finish(&mut self, given: &Setup, bodies: &[Body], _: f64, laps: &mut Laps) -> u64 {
-        transfer::gather_motion(&self.grid, &self.deformations, &mut self.points);
+    fn finish(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        end: &StepEnd,
+        laps: &mut Laps,
+    ) -> Finished {
+        let spread = given.flow.as_ref().map_or_else(Spread::default, |flow| {
+            transfer::gather_motion(
+                &self.grid,
+                &self.deformations,
+                &flow.material,
+                &end.tending,
+                &given.walls.base,
+                &mut self.points,
+            )
+        });
         let mut count = 0;
         for (body, candidates) in bodies.iter().zip(&self.loads.candidates) {
             for candidate in candidates {
@@ -196,7 +229,10 @@ impl Flow for PlainFlow {
         }
         self.go_round(given);
         laps.done(Verb::Motion);
-        count
+        Finished {
+            put_back: count,
+            spread,
+        }
     }
 
     fn culprit(&self, planes: &[Plane], tolerance: f64) -> Option<Culprit> {

@@ -1,0 +1,272 @@
+//! Points kept evenly spread, and their volumes true to the room they take
+//! (docs/method.md, equations 39–42).
+//!
+//! A point's volume follows the velocity gradient along its path; where points
+//! gather, nothing in that tells. In long shear they gather, the volumes scatter,
+//! and the flow settles into less room than its volumes say. So once per step the
+//! volumes are averaged over the grid, points move away from crowds, and those in
+//! a crowd are pressed together on paper, so that pressure drives them apart.
+
+use crate::kernel::Lattice;
+use crate::math::Vec3;
+use crate::rigid::Body;
+use crate::walls::{NodeAccess, Plane, filled, share_above};
+
+/// Points move by this share of −h² ∇crowding per cell of travel.
+const SHIFT: f64 = 1.0;
+/// Largest shift in a step [cells].
+const LARGEST_SHIFT: f64 = 0.1;
+/// Share of its own dilation a point exchanges for the mean per cell of travel.
+const AVERAGING: f64 = 2.0;
+/// Relative rise of pressure per crowding and cell of travel.
+const PRESSING: f64 = 5.0;
+/// Largest relative rise of pressure in a step.
+const LARGEST_RISE: f64 = 0.5;
+/// A point that travels less than this share of what the fastest may is tended
+/// less, by the square: what only trembles is left alone.
+const SLOW: f64 = 0.2;
+
+/// Height above a base plane below which no point is shifted towards it [cells].
+pub const KEPT_OFF: f64 = 0.5;
+
+/// What a step's length makes of the rates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tending {
+    /// Shift over −h² ∇crowding.
+    pub shift: f64,
+    /// Largest shift [cells].
+    pub largest_shift: f64,
+    /// Share of the mean dilation.
+    pub averaging: f64,
+    /// Relative rise of pressure per crowding.
+    pub pressing: f64,
+    /// Largest relative rise of pressure.
+    pub largest_rise: f64,
+    /// Travel from which on a point is fully tended [cells].
+    pub full_travel: f64,
+}
+
+impl Tending {
+    /// None at all: an elastic body keeps its points.
+    pub const NONE: Self = Self {
+        shift: 0.0,
+        largest_shift: 0.0,
+        averaging: 0.0,
+        pressing: 0.0,
+        largest_rise: 0.0,
+        full_travel: 0.0,
+    };
+
+    /// After a step in which the fastest point could travel so many cells.
+    pub fn after(travel: f64) -> Self {
+        Self {
+            shift: SHIFT * travel,
+            largest_shift: LARGEST_SHIFT,
+            averaging: (AVERAGING * travel).min(1.0),
+            pressing: PRESSING * travel,
+            largest_rise: LARGEST_RISE,
+            full_travel: SLOW * travel,
+        }
+    }
+
+    /// What becomes of a point that travelled `travel` cells, where the nodes
+    /// say this of it.
+    pub fn of(&self, seen: &Seen, travel: f64, spacing: &Vec3) -> Tended {
+        let degree = if travel < self.full_travel {
+            (travel / self.full_travel).powi(2)
+        } else {
+            1.0
+        };
+        let in_cells = seen.slope.component_mul(spacing) * (-self.shift * degree);
+        let length = in_cells.norm();
+        let shorter = if length > self.largest_shift {
+            self.largest_shift / length
+        } else {
+            1.0
+        };
+        let rise = (self.pressing * seen.crowding).min(self.largest_rise);
+        let compression = (-seen.dilation).max(0.0);
+        let exchanged = self.averaging * (seen.mean_dilation - seen.dilation_at_transfer);
+        Tended {
+            shift: (in_cells * shorter).component_mul(spacing),
+            dilation: seen.dilation + degree * (exchanged - rise * compression),
+        }
+    }
+}
+
+/// What a point has and what the nodes tell it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    /// V ρ_c/m − 1 now.
+    pub dilation: f64,
+    /// The same at the transfer.
+    pub dilation_at_transfer: f64,
+    /// Its mean over the nodes.
+    pub mean_dilation: f64,
+    /// Crowding of the nodes round the point.
+    pub crowding: f64,
+    /// Its gradient [1/m].
+    pub slope: Vec3,
+}
+
+/// What becomes of a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tended {
+    /// Where it moves to, from where it is [m].
+    pub shift: Vec3,
+    /// Its dilation.
+    pub dilation: f64,
+}
+
+/// A shift [m] without its part into a base plane that the point is near to or
+/// behind: nodes behind a wall can't say how crowded it is there.
+pub fn not_into_wall(shift: &Vec3, position: &Vec3, base: &[Plane], spacing: &Vec3) -> Vec3 {
+    let mut shift = *shift;
+    for plane in base {
+        let near = KEPT_OFF * plane.normal.component_mul(spacing).norm();
+        let into = -plane.normal.dot(&shift);
+        if into > 0.0 && plane.height(position) < near {
+            shift += plane.normal * into;
+        }
+    }
+    shift
+}
+
+/// What shifting points does to their sums: a shift leaves the velocity.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spread {
+    /// Σ m δx [kg m].
+    pub first_moment: Vec3,
+    /// Σ m δx × v [N m s].
+    pub angular: Vec3,
+}
+
+impl Spread {
+    /// Both together.
+    pub fn plus(self, other: &Self) -> Self {
+        Self {
+            first_moment: self.first_moment + other.first_moment,
+            angular: self.angular + other.angular,
+        }
+    }
+
+    /// Takes in a point of this mass [kg] and velocity [m/s].
+    pub fn add(&mut self, mass: f64, shift: &Vec3, velocity: &Vec3) {
+        self.first_moment += shift * mass;
+        self.angular += shift.cross(velocity) * mass;
+    }
+}
+
+/// Crowding of a node of this fullness.
+pub fn crowding(fullness: f64) -> f64 {
+    (fullness - 1.0).clamp(0.0, 1.0)
+}
+
+/// Kernel weight of a node at its own place.
+const PEAK: f64 = 0.75 * 0.75 * 0.75;
+
+/// A body leaves less room at the nodes round it.
+pub fn leave_less_room(body: &Body, nodes: &mut impl NodeAccess) {
+    let lattice = *nodes.lattice();
+    let (low, high) = box_of(body, &lattice);
+    // However small its share, a small body does not fill a kernel.
+    let least = 1.0 - PEAK * body.shape.volume() / lattice.spacing.product();
+    let width = lattice.spacing.max();
+    for i in low[0]..=high[0] {
+        for j in low[1]..=high[1] {
+            for k in low[2]..=high[2] {
+                let Some(place) = nodes.place_of([i, j, k]) else {
+                    continue;
+                };
+                let arm = lattice.position([i, j, k]) - body.state.position;
+                let closest = body.shape.closest_feature(&body.to_body(&arm));
+                let height = closest.distance - body.shape.sphero_radius();
+                let room = share_above(height / width).max(least);
+                nodes.set_fullness(place, filled(nodes.fullness(place), room));
+            }
+        }
+    }
+}
+
+/// Lowest and highest node whose kernel may meet a body.
+fn box_of(body: &Body, lattice: &Lattice) -> ([i32; 3], [i32; 3]) {
+    let reach = body.shape.bounding_radius() + 1.5 * lattice.spacing.max();
+    let at = |sign: f64| {
+        let corner = body.state.position + Vec3::repeat(sign * reach) - lattice.origin;
+        let in_cells = corner.component_div(&lattice.spacing);
+        [0, 1, 2].map(|axis| in_cells[axis].clamp(-1e9, 1e9) as i32)
+    };
+    (at(-1.0), at(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Quadratic B-spline at a distance from its node.
+    fn kernel(x: f64) -> f64 {
+        match x.abs() {
+            x if x < 0.5 => 0.75 - x * x,
+            x if x < 1.5 => 0.5 * (1.5 - x).powi(2),
+            _ => 0.0,
+        }
+    }
+
+    // The midpoint rule on 3,000 strips, good to some 1e-7.
+    #[test]
+    fn the_room_above_a_wall_is_the_integral_of_the_kernel() {
+        for height in [-1.6, -1.2, -0.5, -0.2, 0.0, 0.3, 0.5, 1.1, 1.5, 2.0] {
+            let strips = (0..3000).map(|k| -1.5 + (f64::from(k) + 0.5) * 1e-3);
+            let above = strips.filter(|x| *x > -height).map(|x| kernel(x) * 1e-3);
+            let sum: f64 = above.sum();
+            assert!((share_above(height) - sum).abs() < 1e-6, "{height}: {sum}");
+        }
+    }
+
+    const CROWDED: Seen = Seen {
+        dilation: -0.01,
+        dilation_at_transfer: -0.01,
+        mean_dilation: -0.02,
+        crowding: 0.1,
+        slope: Vec3::new(20.0, 0.0, 0.0),
+    };
+    const SPACING: Vec3 = Vec3::new(0.01, 0.01, 0.01);
+
+    // By hand, with T = 0.2: shift −0.2 h² · 20/m = −0.4 mm; dilation −0.01
+    // + 0.4 (−0.02 + 0.01) − 0.2 · 5 · 0.1 · 0.01.
+    #[test]
+    fn a_point_moves_out_of_a_crowd_and_is_pressed() {
+        let tended = Tending::after(0.2).of(&CROWDED, 0.2, &SPACING);
+        assert!((tended.shift - Vec3::new(-4e-4, 0.0, 0.0)).norm() < 1e-12);
+        assert!(
+            (tended.dilation + 0.015).abs() < 1e-12,
+            "{}",
+            tended.dilation
+        );
+    }
+
+    #[test]
+    fn a_point_at_rest_is_left_alone() {
+        for tending in [Tending::after(0.2), Tending::NONE] {
+            let tended = tending.of(&CROWDED, 0.0, &SPACING);
+            assert_eq!(tended.shift, Vec3::zeros());
+            assert_eq!(tended.dilation, CROWDED.dilation);
+        }
+    }
+
+    #[test]
+    fn no_point_near_a_wall_is_moved_towards_it() {
+        let floor = [Plane {
+            name: "floor",
+            normal: Vec3::z(),
+            offset: 0.0,
+            flow_friction: 0.4,
+        }];
+        let kept = |z, shift| not_into_wall(&shift, &Vec3::new(0.0, 0.0, z), &floor, &SPACING);
+        let (down, up) = (Vec3::new(1e-4, 0.0, -1e-4), Vec3::new(0.0, 0.0, 1e-4));
+        assert_eq!(kept(0.004, down), Vec3::new(1e-4, 0.0, 0.0));
+        assert_eq!(kept(-0.004, down), Vec3::new(1e-4, 0.0, 0.0));
+        assert_eq!(kept(0.006, down), down);
+        assert_eq!(kept(0.004, up), up);
+    }
+}

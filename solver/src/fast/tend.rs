@@ -1,0 +1,188 @@
+//! Points kept evenly spread, sixteen at a time: the formulas of `crowding.rs`.
+
+use super::chunk::{Chunk, LANES, Lanes};
+use crate::crowding::{KEPT_OFF, Spread, Tending};
+use crate::grid::{BLOCK, BlockKey};
+use crate::kernel::Lattice;
+use crate::math::Vec3;
+use crate::walls::Plane;
+use fearless_simd::{f32x16, prelude::*};
+
+/// What points have and what the nodes tell them; as in `crowding.rs`, but the
+/// slope per cell.
+pub struct Seen<S: Simd> {
+    /// V ρ_c/m − 1 now.
+    pub dilation: f32x16<S>,
+    /// The same at the transfer.
+    pub dilation_at_transfer: f32x16<S>,
+    /// Its mean over the nodes.
+    pub mean_dilation: f32x16<S>,
+    /// Crowding of the nodes round the point.
+    pub crowding: f32x16<S>,
+    /// Its gradient [1/cell].
+    pub slope: [f32x16<S>; 3],
+}
+
+/// What becomes of points.
+pub struct Tended<S: Simd> {
+    /// Where they move to, from where they are [cells].
+    pub shift: [f32x16<S>; 3],
+    /// Their dilation.
+    pub dilation: f32x16<S>,
+}
+
+/// What becomes of points that travelled so far [cells].
+#[inline(always)]
+pub fn tend<S: Simd>(
+    simd: S,
+    tending: &Tending,
+    seen: &Seen<S>,
+    travel: &[f32x16<S>; 3],
+) -> Tended<S> {
+    let (none, one) = (splat(simd, 0.0), splat(simd, 1.0));
+    let least = splat(simd, f64::from(f32::MIN_POSITIVE));
+    let full = splat(simd, tending.full_travel).max(least);
+    let share = (length(travel) / full).min(one);
+    let degree = share * share;
+    let pull = splat(simd, -tending.shift) * degree;
+    let mut shift = seen.slope;
+    for along in &mut shift {
+        *along *= pull;
+    }
+    let largest = splat(simd, tending.largest_shift);
+    let shorter = (largest / length(&shift).max(least)).min(one);
+    for along in &mut shift {
+        *along *= shorter;
+    }
+    let rise =
+        (splat(simd, tending.pressing) * seen.crowding).min(splat(simd, tending.largest_rise));
+    let compression = (none - seen.dilation).max(none);
+    let exchanged =
+        splat(simd, tending.averaging) * (seen.mean_dilation - seen.dilation_at_transfer);
+    Tended {
+        shift,
+        dilation: degree.mul_add(exchanged - rise * compression, seen.dilation),
+    }
+}
+
+#[inline(always)]
+fn length<S: Simd>(v: &[f32x16<S>; 3]) -> f32x16<S> {
+    v[0].mul_add(v[0], v[1].mul_add(v[1], v[2] * v[2])).sqrt()
+}
+
+#[inline(always)]
+fn splat<S: Simd>(simd: S, value: f64) -> f32x16<S> {
+    f32x16::splat(simd, value as f32)
+}
+
+/// A base plane: no point near it is shifted towards it
+/// (`crowding::not_into_wall`).
+#[derive(Debug, Clone, Copy)]
+pub struct Shelter {
+    /// Height of a place [m] over its position [cells].
+    rise: [f32; 3],
+    /// Height of the origin of positions [m].
+    origin: f64,
+    /// Normal over node distance [1/m].
+    out: [f32; 3],
+    /// Height below which points are kept off [m].
+    near: f32,
+}
+
+impl Shelter {
+    /// Of a plane, for positions from the lattice's origin.
+    pub fn of(plane: &Plane, lattice: &Lattice) -> Self {
+        let spacing = &lattice.spacing;
+        let rise = plane.normal.component_mul(spacing);
+        Self {
+            rise: [rise.x as f32, rise.y as f32, rise.z as f32],
+            origin: plane.height(&lattice.origin),
+            out: [0, 1, 2].map(|axis| (plane.normal[axis] / spacing[axis]) as f32),
+            near: (KEPT_OFF * rise.norm()) as f32,
+        }
+    }
+
+    /// The same for positions in a block.
+    pub fn in_block(&self, key: &BlockKey) -> Self {
+        let mut here = *self;
+        for axis in 0..3 {
+            here.origin += f64::from(self.rise[axis]) * f64::from(key[axis]) * BLOCK as f64;
+        }
+        here
+    }
+
+    /// Takes the part into the plane out of shifts [cells] of points near to it.
+    #[inline(always)]
+    pub fn keep_off<S: Simd>(
+        &self,
+        simd: S,
+        position: &[f32x16<S>; 3],
+        shift: &mut [f32x16<S>; 3],
+    ) {
+        let none = f32x16::splat(simd, 0.0);
+        let (mut height, mut along) = (f32x16::splat(simd, self.origin as f32), none);
+        for axis in 0..3 {
+            let rise = f32x16::splat(simd, self.rise[axis]);
+            height = rise.mul_add(position[axis], height);
+            along = rise.mul_add(shift[axis], along);
+        }
+        let near = height.simd_lt(f32x16::splat(simd, self.near));
+        let into = near.select((none - along).max(none), none);
+        for axis in 0..3 {
+            shift[axis] = f32x16::splat(simd, self.out[axis]).mul_add(into, shift[axis]);
+        }
+    }
+}
+
+/// What shifting points does to their sums, chunk by chunk.
+pub struct SpreadSums {
+    first_moment: [Lanes; 3],
+    angular: [Lanes; 3],
+}
+
+impl SpreadSums {
+    /// Of no points.
+    pub const NONE: Self = Self {
+        first_moment: [[0.0; LANES]; 3],
+        angular: [[0.0; LANES]; 3],
+    };
+
+    /// Takes a chunk in, shifted by so many cells.
+    #[inline(always)]
+    pub fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        chunk: &Chunk,
+        shift: &[f32x16<S>; 3],
+        velocity: &[f32x16<S>; 3],
+        spacing: &Vec3,
+    ) {
+        let mass = f32x16::simd_from(simd, chunk.mass);
+        let mut moved = *shift;
+        for axis in 0..3 {
+            moved[axis] *= splat(simd, spacing[axis]) * mass;
+        }
+        let [x, y, z] = moved;
+        let [vx, vy, vz] = *velocity;
+        let twist = [y * vz - z * vy, z * vx - x * vz, x * vy - y * vx];
+        for axis in 0..3 {
+            let sum = f32x16::simd_from(simd, self.first_moment[axis]) + moved[axis];
+            self.first_moment[axis] = sum.into();
+            let sum = f32x16::simd_from(simd, self.angular[axis]) + twist[axis];
+            self.angular[axis] = sum.into();
+        }
+    }
+
+    /// The sums.
+    pub fn total(&self) -> Spread {
+        Spread {
+            first_moment: total(&self.first_moment),
+            angular: total(&self.angular),
+        }
+    }
+}
+
+fn total(sums: &[Lanes; 3]) -> Vec3 {
+    let sum = |of: &Lanes| of.iter().map(|part| f64::from(*part)).sum();
+    Vec3::new(sum(&sums[0]), sum(&sums[1]), sum(&sums[2]))
+}
