@@ -113,6 +113,13 @@ pub(super) struct VerifyOptions {
     /// More and finer resolutions: takes ten minutes or more instead of one
     #[arg(long)]
     pub(super) full: bool,
+    /// Write diagrams of error against wall time into this directory; takes runs
+    /// of their own
+    #[arg(long, value_name = "DIR")]
+    pub(super) figures: Option<PathBuf>,
+    /// Put the tables between the marks in this file, in Markdown
+    #[arg(long, value_name = "FILE")]
+    pub(super) markdown: Option<PathBuf>,
     /// Print one JSON document instead of tables
     #[arg(long)]
     pub(super) json: bool,

@@ -60,6 +60,27 @@ impl Block {
         }
     }
 
+    /// The scene, its points at rest under their weight between smooth walls: with
+    /// the stress of an elastic bed, and as far apart as that leaves them.
+    pub(super) fn bed(&self, poissons_ratio: f64) -> Scene {
+        let mut scene = self.scene();
+        let lateral = poissons_ratio / (1.0 - poissons_ratio);
+        let height = self.cell * f64::from(self.cells[2]);
+        let weight = self.material.bulk_density * self.gravity;
+        let strain = (1.0 + 2.0 * lateral) / 3.0 * weight / self.material.bulk_modulus;
+        for point in &mut scene.points {
+            let z = point.position.z;
+            let pressed = weight * (height - z);
+            point.volume /= 1.0 + strain * (height - z);
+            // What is below, each layer thinner by its own strain.
+            point.position.z -= strain * z * (height - 0.5 * z);
+            point.stress.xx = -lateral * pressed;
+            point.stress.yy = -lateral * pressed;
+            point.stress.zz = -pressed;
+        }
+        scene
+    }
+
     /// Its middle [m].
     pub(super) fn middle(&self) -> Vec3 {
         let lattice = self.lattice();

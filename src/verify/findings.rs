@@ -1,5 +1,6 @@
 //! What a case finds: measured against oracle, and the verdict.
 
+use super::limit::Limit;
 use super::order::Order;
 use super::run::{Answer, Cost, Trouble};
 use serde::Serialize;
@@ -178,6 +179,8 @@ pub struct Findings {
     pub values: Vec<Finding>,
     /// Orders of convergence.
     pub orders: Vec<Order>,
+    /// Limits of vanishing cells.
+    pub limits: Vec<Limit>,
 }
 
 impl Findings {
@@ -215,6 +218,12 @@ impl Findings {
             .filter(|finding| finding.question.quantity == quantity);
         let order = Order::of(quantity, of_it, floor, asked);
         self.orders.push(order);
+    }
+
+    /// Takes where the values of a quantity go as cells get finer.
+    pub fn take_limit(&mut self, quantity: &str) {
+        let limit = Limit::of(quantity, self.of(quantity));
+        self.limits.push(limit);
     }
 
     /// How many verdicts of each kind.

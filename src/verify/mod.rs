@@ -6,11 +6,18 @@
 
 pub mod cases;
 pub mod findings;
+pub mod limit;
 pub mod order;
 pub mod run;
+pub mod work;
 
+mod beads;
 mod blocks;
+mod columns;
+mod paper;
 mod scenes;
+mod slope;
+mod stream;
 
 use findings::{Count, Findings};
 use serde::{Serialize, Serializer};

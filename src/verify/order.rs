@@ -77,7 +77,7 @@ impl Order {
 }
 
 /// Slope of the line nearest to these places.
-fn slope(places: &[(f64, f64)]) -> f64 {
+pub(super) fn slope(places: &[(f64, f64)]) -> f64 {
     let count = places.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| places.iter().map(of).sum::<f64>() / count;
     let (x, y) = (mean(|place| place.0), mean(|place| place.1));

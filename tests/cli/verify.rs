@@ -45,3 +45,22 @@ fn an_unknown_case_is_invalid_input() {
     assert_eq!(answer.code, Some(2));
     assert!(answer.stderr.contains("free-fall"), "{}", answer.stderr);
 }
+
+#[test]
+fn tables_go_between_the_marks_of_a_document() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("accuracy.md");
+    let marked = "# A\n<!-- tables of scree verify: begin -->\nold\n\
+                  <!-- tables of scree verify: end -->\nB\n";
+    std::fs::write(&file, marked).unwrap();
+    let asked = || ask(&[&"verify", &"--case", &"mass", &"--markdown", &file]);
+    assert_eq!(asked().code, Some(0));
+    let text = std::fs::read_to_string(&file).unwrap();
+    assert!(
+        text.starts_with("# A\n") && text.ends_with("\nB\n"),
+        "{text}"
+    );
+    assert!(text.contains("| pass |") && !text.contains("old"), "{text}");
+    std::fs::write(&file, "no marks").unwrap();
+    assert_eq!(asked().code, Some(1));
+}

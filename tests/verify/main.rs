@@ -63,9 +63,22 @@ fn elastic_bar() {
     holds("elastic-bar");
 }
 
+// Known miss: close to its angle of friction, 11.3°, the block creeps.
 #[test]
 fn sliding_block() {
-    holds("sliding-block");
+    let found = verified("sliding-block").found;
+    for finding in found.values {
+        if finding
+            .question
+            .quantity
+            .starts_with("acceleration at 10°, granular")
+        {
+            let error = finding.measured_error.expect("it was measured");
+            assert!(error.abs() < 0.03, "{finding:#?}");
+        } else {
+            assert_ne!(finding.verdict, Verdict::Miss, "{finding:#?}");
+        }
+    }
 }
 
 #[test]
@@ -108,4 +121,127 @@ fn hydrostatic() {
             assert_eq!(finding.verdict, Verdict::Pass);
         }
     }
+}
+
+// Known misses: a = 2 and 4, beyond the measured band as the published μ(I)
+// continuum is (4.40 at a = 2). Taller columns run farther, and a friction of 2
+// holds its column up.
+#[test]
+fn column_collapse() {
+    let found = verified("column-collapse").found;
+    let value = |quantity: &str| found.of(quantity).next().unwrap().measured.unwrap();
+    let runouts = [0.5, 1.0, 2.0, 4.0].map(|a| value(&format!("run-out, a = {a}")));
+    assert!(runouts.is_sorted(), "{runouts:?}");
+    assert!((0.6..0.9).contains(&runouts[0]), "{runouts:?}");
+    assert!((1.2..1.8).contains(&runouts[1]), "{runouts:?}");
+    assert!((runouts[2] / 4.4 - 1.0).abs() < 0.15, "{runouts:?}");
+    assert_eq!(value("control is outside the band (1: yes)"), 1.0);
+}
+
+// Without bars: within the 20 % that the law is good for, but for the tallest column,
+// which runs too far as the plane one does.
+#[test]
+fn axisymmetric_collapse() {
+    let found = verified("axisymmetric-collapse").found;
+    for a in [0.5, 1.0] {
+        for finding in found.of(&format!("run-out, a = {a}")) {
+            assert!(finding.measured_error.unwrap().abs() < 0.2, "{finding:#?}");
+        }
+    }
+}
+
+// Known miss: the speed of the undisturbed part, which leaves little between slope
+// and friction.
+#[test]
+fn dam_break() {
+    let found = verified("dam-break").found;
+    for finding in found.of("speed of the undisturbed part") {
+        assert!(finding.measured_error.unwrap().abs() < 0.15, "{finding:#?}");
+    }
+    for finding in found.of("profile off, root mean square") {
+        assert!(finding.measured_error.unwrap() < 0.15, "{finding:#?}");
+    }
+}
+
+// Known miss: at four cells per diameter a light sphere stays too high.
+#[test]
+fn sphere_into_bed() {
+    for finding in verified("sphere-into-bed").found.values {
+        let error = finding.measured_error.unwrap();
+        assert!(error.abs() < 0.6, "{finding:#?}");
+        if finding.question.quantity == "exponent of diameter" {
+            assert_eq!(finding.verdict, Verdict::Pass, "{finding:#?}");
+        }
+    }
+}
+
+// Known misses: what the step of the flow does to the peak.
+#[test]
+fn source_paper() {
+    let found = verified("source-paper").found;
+    let near = |quantity: &str, bar: f64| {
+        for finding in found.of(quantity) {
+            let error = finding.measured_error.expect("it was measured");
+            assert!(error.abs() < bar, "{finding:#?}");
+        }
+    };
+    near("onset, against the paper", 0.1);
+    near("peak speed, against the paper", 0.5);
+    near("peak speed, courant ×½", 0.05);
+}
+
+// Known miss: at ten cells the layer is 3 % too thick.
+#[test]
+fn bagnold() {
+    for finding in verified("bagnold").found.values {
+        let thickness = finding.question.quantity.contains("mass centre");
+        if thickness && finding.resolution.label == "10 cells" {
+            let error = finding.measured_error.expect("it was measured");
+            assert!(error.abs() < 0.04, "{finding:#?}");
+        } else {
+            assert_ne!(finding.verdict, Verdict::Miss, "{finding:#?}");
+        }
+    }
+}
+
+// Known miss: at ten cells a longer step of the flow makes it faster.
+#[test]
+fn two_clocks() {
+    for finding in verified("two-clocks").found.values {
+        let error = finding.measured_error.expect("it was measured");
+        let bar = if finding.question.quantity.contains("flow_courant ×2") {
+            0.2
+        } else {
+            0.03
+        };
+        assert!(error.abs() < bar, "{finding:#?}");
+    }
+}
+
+// Without bars: what a cube seems larger by stays within a cell.
+#[test]
+fn cube_in_dust_and_in_a_liquid() {
+    for name in ["dust-stream", "buried-body"] {
+        for finding in verified(name).found.values {
+            let value = finding.measured.expect("it was measured");
+            if finding.question.quantity.starts_with("s") {
+                assert!(value.abs() < 1.0, "{finding:#?}");
+            }
+        }
+    }
+}
+
+// Without bars: a drag, and less of it with finer cells.
+#[test]
+fn plate_drag() {
+    let found = verified("plate-drag").found;
+    let drags: Vec<f64> = found
+        .of("drag over ρ v² A, 2–4 sides")
+        .map(|finding| finding.measured.expect("it was measured"))
+        .collect();
+    assert!(
+        drags.is_sorted_by(|coarse, fine| coarse > fine),
+        "{drags:?}"
+    );
+    assert!(drags.iter().all(|drag| *drag > 0.5), "{drags:?}");
 }

@@ -1,5 +1,11 @@
 //! The cases. To add one: a file, its `mod` line and its place in [`ALL`].
 
+mod axisymmetric_collapse;
+mod bagnold;
+mod buried_body;
+mod column_collapse;
+mod dam_break;
+mod dust_stream;
 mod elastic_bar;
 mod free_fall;
 mod hertz;
@@ -7,10 +13,14 @@ mod hydrostatic;
 mod incline;
 mod mass;
 mod momentum_audit;
+mod plate_drag;
 mod restitution;
 mod rotation;
 mod sliding_block;
+mod source_paper;
+mod sphere_into_bed;
 mod torque_free;
+mod two_clocks;
 
 use super::{Case, How};
 
@@ -27,7 +37,18 @@ pub const ALL: &[Case] = &[
     elastic_bar::CASE,
     hydrostatic::CASE,
     sliding_block::CASE,
+    bagnold::CASE,
+    dust_stream::CASE,
+    buried_body::CASE,
+    plate_drag::CASE,
+    two_clocks::CASE,
+    column_collapse::CASE,
+    axisymmetric_collapse::CASE,
+    dam_break::CASE,
     momentum_audit::CASE,
+    sphere_into_bed::CASE,
+    source_paper::CASE,
+    CUBES_AND_COLUMN,
 ];
 
 const FEATURE_CONTACTS: Case = Case {
@@ -36,4 +57,13 @@ const FEATURE_CONTACTS: Case = Case {
     title: "contacts of vertices, edges and faces between bodies",
     source: "continuity of force and energy; conservation in an undamped collision",
     how: How::NotYet("bodies don't touch each other yet, only walls and points"),
+};
+
+// One cube alone would leave out what the scene is about: the heap coming apart.
+const CUBES_AND_COLUMN: Case = Case {
+    name: "cubes-and-column",
+    number: "17",
+    title: "a sand column strikes six cubes stacked 3-2-1",
+    source: "GeoTaichi's granular-impact scene, code to code",
+    how: How::NotYet("bodies don't touch each other yet, so the stack can't stand"),
 };

@@ -1,13 +1,17 @@
 //! `scree verify`: the solver against cases with a trusted answer.
 
+mod figures;
+mod markdown;
+
 use super::arguments::VerifyOptions;
 use super::columns::{millions, table};
 use super::console;
 use super::failure::Failure;
 use super::machine::Machine;
 use scree::verify::findings::{Count, Error, Finding, Verdict};
+use scree::verify::limit::Limit;
 use scree::verify::order::Order;
-use scree::verify::{Case, Effort, How, Verified, cases, count, verify as run_case};
+use scree::verify::{Case, Effort, How, Verified, cases, count, verify as run_case, work};
 use scree_solver::VERSION;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -55,6 +59,13 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     } else {
         report.tables()
     };
+    if let Some(folder) = &options.figures {
+        let machine = report.machine.in_words();
+        figures::write(&work::diagrams(effort), &machine, folder)?;
+    }
+    if let Some(file) = &options.markdown {
+        markdown::write(&report, file)?;
+    }
     console::answer(&answer)?;
     match report.count.missed {
         0 => Ok(()),
@@ -77,16 +88,18 @@ fn asked_for(names: &[String]) -> Result<Vec<&'static Case>, Failure> {
 }
 
 impl Report {
-    fn tables(&self) -> String {
+    /// Version, machine and effort.
+    fn heading(&self) -> String {
         let effort = match self.effort {
             Effort::Quick => "quick: small versions",
             Effort::Full => "full",
         };
         let machine = self.machine.in_words();
-        let mut text = format!("Scree {}; {machine}\n{effort}\n", self.solver_version);
-        for verified in &self.cases {
-            let _ = write!(text, "\n{}", page(verified));
-        }
+        format!("Scree {}; {machine}\n{effort}", self.solver_version)
+    }
+
+    /// All verdicts together.
+    fn ending(&self) -> String {
         let Count {
             passed,
             missed,
@@ -94,11 +107,18 @@ impl Report {
         } = self.count;
         let not_yet = |one: &&Verified| matches!(one.case.how, How::NotYet(_));
         let not_yet = self.cases.iter().filter(not_yet).count();
-        let _ = write!(
-            text,
-            "\n{passed} passed, {missed} missed, {reported} reported only; \
+        format!(
+            "{passed} passed, {missed} missed, {reported} reported only; \
              cases not yet expressible: {not_yet}"
-        );
+        )
+    }
+
+    fn tables(&self) -> String {
+        let mut text = self.heading() + "\n";
+        for verified in &self.cases {
+            let _ = write!(text, "\n{}", page(verified));
+        }
+        let _ = write!(text, "\n{}", self.ending());
         text
     }
 }
@@ -131,6 +151,9 @@ fn page(Verified { case, found }: &Verified) -> String {
     }
     for order in &found.orders {
         let _ = writeln!(text, "  {}", order_in_words(order));
+    }
+    for limit in &found.limits {
+        let _ = writeln!(text, "  {}", limit_in_words(limit));
     }
     text
 }
@@ -204,4 +227,18 @@ fn order_in_words(order: &Order) -> String {
         let _ = write!(text, "; asked {asked}: {}", word(order.verdict));
     }
     text
+}
+
+fn limit_in_words(limit: &Limit) -> String {
+    let over = limit.over.join("; ");
+    let found = match limit.found {
+        Some(found) => format!(
+            "{} {} (order {:.2})",
+            number(found.limit),
+            limit.unit,
+            found.order
+        ),
+        None => "none, the values don't settle".to_owned(),
+    };
+    format!("limit of {}: {found} over {over}", limit.quantity)
 }

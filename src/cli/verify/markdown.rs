@@ -1,0 +1,96 @@
+//! What was found, as a part of a document in Markdown.
+
+use super::{NOTHING, Report, limit_in_words, order_in_words, row};
+use crate::cli::failure::Failure;
+use scree::verify::{How, Verified};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+/// Lines between which the tables stand.
+const BEGIN: &str = "<!-- tables of scree verify: begin -->";
+const END: &str = "<!-- tables of scree verify: end -->";
+
+/// Replaces what stands between the marks in a file, which has to have them.
+pub(super) fn write(report: &Report, file: &Path) -> Result<(), Failure> {
+    let failed = |why: &dyn std::fmt::Display| Failure::Other(format!("{}: {why}", file.display()));
+    let text = fs::read_to_string(file).map_err(|error| failed(&error))?;
+    let Some(text) = replaced(&text, &tables(report)) else {
+        return Err(failed(&format!("no lines {BEGIN} and {END}")));
+    };
+    fs::write(file, text).map_err(|error| failed(&error))
+}
+
+fn replaced(text: &str, tables: &str) -> Option<String> {
+    let (before, rest) = text.split_once(BEGIN)?;
+    let (_, after) = rest.split_once(END)?;
+    Some(format!("{before}{BEGIN}\n{tables}\n{END}{after}"))
+}
+
+fn tables(report: &Report) -> String {
+    let mut text = report.heading();
+    text.push_str("\n\n| case | | passed | missed | reported |\n|---|---|---|---|---|\n");
+    for Verified { case, found } in &report.cases {
+        let count = found.count();
+        let counts = match case.how {
+            How::Runs(_) => [count.passed, count.missed, count.reported].map(|n| n.to_string()),
+            How::NotYet(_) => [NOTHING; 3].map(str::to_owned),
+        };
+        let cells = counts.join(" | ");
+        let _ = writeln!(
+            text,
+            "| {} `{}` | {} | {cells} |",
+            case.number, case.name, case.title
+        );
+    }
+    let _ = writeln!(text, "\n{}", report.ending());
+    for verified in &report.cases {
+        text.push_str(&section(verified));
+    }
+    text
+}
+
+fn section(Verified { case, found }: &Verified) -> String {
+    let mut text = format!("\n### {} `{}`\n\n{}. ", case.number, case.name, case.title);
+    let _ = writeln!(text, "Oracle: {}.", case.source);
+    if let How::NotYet(why) = case.how {
+        let _ = writeln!(text, "\nNot yet expressible: {why}.");
+        return text;
+    }
+    text.push_str(
+        "\n| quantity | resolution | measured | oracle | unit | error | bar | wall [s] | M point-steps/s | verdict |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for finding in &found.values {
+        let mut cells = row(finding);
+        if cells[9] == "MISS" {
+            cells[9] = "**MISS**".to_owned();
+        }
+        let cells = cells.map(|cell| cell.replace('|', "\\|"));
+        let _ = writeln!(text, "| {} |", cells.join(" | "));
+    }
+    let failures = found.values.iter().filter_map(|one| one.failure.as_ref());
+    let notes = failures.map(|failure| format!("failed: {failure}"));
+    let orders = found.orders.iter().map(order_in_words);
+    let limits = found.limits.iter().map(limit_in_words);
+    let mut notes: Vec<String> = notes.chain(orders).chain(limits).collect();
+    notes.dedup();
+    if !notes.is_empty() {
+        let _ = writeln!(text, "\n- {}", notes.join("\n- "));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_stands_between_the_marks_is_replaced() {
+        let text = format!("a\n{BEGIN}\nold\n{END}\nb\n");
+        let new = replaced(&text, "new").unwrap();
+        assert_eq!(new, format!("a\n{BEGIN}\nnew\n{END}\nb\n"));
+        assert_eq!(replaced(&new, "new"), Some(new.clone()));
+        assert_eq!(replaced("a", "new"), None);
+    }
+}

@@ -1,0 +1,63 @@
+//! Case 10d: what the two clocks do to a flowing layer.
+//!
+//! The layer of case 10 at 24°. Neither the length of a sub-step (`courant`) nor that
+//! of a step (`flow_courant`) is part of the problem; each is varied over a factor of
+//! four. Bar: the surface speed changes by less than 1 % (case 16 asks the same of the
+//! source paper's cube).
+
+use crate::verify::findings::{Findings, Question, Resolution};
+use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::slope::Slope;
+use crate::verify::{Case, Effort, How};
+use scree_solver::stability::Limits;
+
+pub(super) const CASE: Case = Case {
+    name: "two-clocks",
+    number: "10d",
+    title: "a flowing layer at other lengths of sub-step and step",
+    source: "the same layer as the solver chooses to compute it",
+    how: How::Runs(run),
+};
+
+/// A length, in words, and how it is set.
+type Clock = (&'static str, fn(&mut Limits));
+
+const CLOCKS: [Clock; 4] = [
+    ("courant ×½", |limits| limits.courant *= 0.5),
+    ("courant ×¼", |limits| limits.courant *= 0.25),
+    ("flow_courant ×2", |limits| limits.flow_courant *= 2.0),
+    ("flow_courant ×½", |limits| limits.flow_courant *= 0.5),
+];
+
+fn run(effort: Effort, findings: &mut Findings) {
+    let (cells, window) = match effort {
+        Effort::Quick => (10, [0.3, 0.6]),
+        Effort::Full => (20, [2.0, 3.0]),
+    };
+    let slope = Slope {
+        inclination_deg: 24.0,
+        cells,
+        start_deg: 24.0,
+        duration: window[1],
+    };
+    let as_chosen = surface(&slope, window[0], |_| {});
+    let oracle = as_chosen.map_or(f64::NAN, |answer| answer.values[0]);
+    let resolution = Resolution::named(format!("{cells} cells"));
+    for (word, set) in CLOCKS {
+        let question = Question::new(format!("surface speed, {word}"), "m/s", oracle);
+        let answer = surface(&slope, window[0], set);
+        findings.take(&resolution, [question.within(0.01)], answer);
+    }
+}
+
+/// Surface speed from here to the end of the run [m/s].
+fn surface(slope: &Slope, from: f64, set: fn(&mut Limits)) -> Result<Answer<1>, Trouble> {
+    let mut scene = slope.scene();
+    if let Some(flow) = &mut scene.given.flow {
+        set(&mut flow.limits);
+    }
+    let mut run = Run::start(scene)?;
+    run.to(from)?;
+    let means = slope.means(&mut run, slope.duration)?;
+    Ok(run.answer([means.surface(slope.inclination_deg).0]))
+}

@@ -1,0 +1,204 @@
+//! Columns of grains that are let go on a rough floor.
+
+use super::beads::{BULK_DENSITY, GRAIN_DENSITY, GRAIN_DIAMETER, REFERENCE_INERTIAL_NUMBER};
+use super::run::{Answer, Run, Trouble, scene_of};
+use super::scenes::{GRAVITY, channel};
+use scree_solver::Simulation;
+use scree_solver::simulation::Scene;
+use serde_json::json;
+use std::ops::ControlFlow;
+
+/// Half width of a plane column, radius of a round one [m].
+const BASE: f64 = 0.1;
+/// A point slower than this share of √(g H0) is at rest.
+const REST: f64 = 0.01;
+/// Time after which a column is taken as it is, in √(H0/g); experiments stop
+/// after about 3.3 (Lube et al. 2005).
+const LONGEST: f64 = 10.0;
+/// The front leaves this share of the mass beyond it.
+const FRONT_SHARE: f64 = 1e-3;
+
+/// A column, half of a plane one or a quarter of a round one, between the walls
+/// that mirror the rest of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Column {
+    /// Height over half width or radius.
+    pub(super) aspect: f64,
+    /// Friction of the grains, static and limiting. Grains yield before they slip
+    /// on the floor: its friction is the limiting one.
+    pub(super) friction: (f64, f64),
+    /// Cells over half width or radius.
+    pub(super) cells: u32,
+    /// Points per cell.
+    pub(super) per_cell: u32,
+    /// Width of the channel over half width or radius; a plane column, one cell
+    /// wide, where there is none.
+    pub(super) round: Option<f64>,
+}
+
+/// How a column came to rest.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Deposit {
+    /// (L∞ − L0)/L0 at the front.
+    pub(super) runout: f64,
+    /// The same with a hundredth of the mass beyond it.
+    pub(super) at_a_hundredth: f64,
+    /// The same out to where the deposit is one grain thick.
+    pub(super) one_grain_thick: f64,
+    /// Share of the mass that was not at rest at the end.
+    pub(super) moving: f64,
+}
+
+impl Column {
+    fn height(&self) -> f64 {
+        self.aspect * BASE
+    }
+
+    fn cell(&self) -> f64 {
+        BASE / f64::from(self.cells)
+    }
+
+    fn width(&self) -> f64 {
+        self.round.map_or(self.cell(), |width| width * BASE)
+    }
+
+    fn longest(&self) -> f64 {
+        LONGEST * (self.height() / GRAVITY).sqrt()
+    }
+
+    fn scene(&self) -> Result<Scene, Trouble> {
+        let (width, height) = (self.width(), self.height());
+        // Far enough for the front of the tallest.
+        let mut document = channel(0.0, BASE, 12.0 * BASE, width);
+        document["channel"]["base_friction"] = json!(self.friction.1);
+        document["flow"] = json!({
+            "volume_m3": BASE * height * width,
+            "release": {"height_m": height, "toe_distance_m": 0.0},
+            "material": {
+                "bulk_density_kg_m3": BULK_DENSITY,
+                "grain_density_kg_m3": GRAIN_DENSITY,
+                "grain_diameter_m": GRAIN_DIAMETER,
+                "static_friction": self.friction.0,
+                "limiting_friction": self.friction.1,
+                "reference_inertial_number": REFERENCE_INERTIAL_NUMBER,
+            },
+        });
+        document["numerics"] = json!({
+            "cell_size_m": self.cell(), "points_per_cell": self.per_cell
+        });
+        document["duration_s"] = json!(self.longest());
+        let mut scene = scene_of(&document)?;
+        if self.round.is_some() {
+            let within = |x: f64, y: f64| x.hypot(y) <= BASE;
+            let corner = -0.5 * width;
+            scene
+                .points
+                .retain(|p| within(p.position.x + BASE, p.position.y - corner));
+        }
+        Ok(scene)
+    }
+
+    /// Distance from the mirrors' plane or axis [m].
+    fn distance(&self, x: f64, y: f64) -> f64 {
+        match self.round {
+            None => x + BASE,
+            Some(_) => (x + BASE).hypot(y + 0.5 * self.width()),
+        }
+    }
+
+    /// Lets it go until all of it is at rest.
+    pub(super) fn collapse(&self) -> Result<(Deposit, Run), Trouble> {
+        let mut run = Run::start(self.scene()?)?;
+        let slow = REST * (GRAVITY * self.height()).sqrt();
+        let begun = 0.1 * self.longest();
+        run.watch(f64::INFINITY, |simulation, report| {
+            let over =
+                report.step_ended && report.time_s > begun && moving(simulation, slow) == 0.0;
+            if over {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })?;
+        Ok((self.deposit(&run.simulation, slow), run))
+    }
+
+    /// Run-outs and share of mass that moves, at what they cost.
+    pub(super) fn answer(&self) -> Result<Answer<4>, Trouble> {
+        let (deposit, run) = self.collapse()?;
+        Ok(run.answer([
+            deposit.runout,
+            deposit.at_a_hundredth,
+            deposit.one_grain_thick,
+            deposit.moving,
+        ]))
+    }
+
+    fn deposit(&self, simulation: &Simulation, slow: f64) -> Deposit {
+        let mut places = Vec::new();
+        simulation.visit_points(None, |point| {
+            let distance = self.distance(point.position.x, point.position.y);
+            places.push((distance, point.mass));
+        });
+        places.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        let runout = |distance: f64| (distance - BASE) / BASE;
+        Deposit {
+            runout: runout(front(&places, FRONT_SHARE)),
+            at_a_hundredth: runout(front(&places, 1e-2)),
+            one_grain_thick: runout(self.edge(&places)),
+            moving: moving(simulation, slow),
+        }
+    }
+
+    /// Outer edge of the outermost ring, one cell wide, that is a grain thick [m].
+    fn edge(&self, places: &[(f64, f64)]) -> f64 {
+        let cell = self.cell();
+        let mut rings = Vec::new();
+        for &(distance, mass) in places {
+            let ring = (distance / cell) as usize;
+            if rings.len() <= ring {
+                rings.resize(ring + 1, 0.0);
+            }
+            rings[ring] += mass;
+        }
+        let thick = |(ring, mass): (usize, &f64)| {
+            let (inner, outer) = (ring as f64 * cell, (ring + 1) as f64 * cell);
+            let area = match self.round {
+                None => cell * self.width(),
+                Some(_) => std::f64::consts::FRAC_PI_4 * (outer * outer - inner * inner),
+            };
+            (mass / (BULK_DENSITY * area) >= GRAIN_DIAMETER).then_some(outer)
+        };
+        rings
+            .iter()
+            .enumerate()
+            .rev()
+            .find_map(thick)
+            .unwrap_or(0.0)
+    }
+}
+
+/// Distance beyond which this share of the mass lies; farthest places first.
+fn front(places: &[(f64, f64)], share: f64) -> f64 {
+    let all: f64 = places.iter().map(|place| place.1).sum();
+    let mut beyond = 0.0;
+    for (distance, mass) in places {
+        beyond += mass;
+        if beyond >= share * all {
+            return *distance;
+        }
+    }
+    0.0
+}
+
+/// Share of the mass that is faster than this.
+fn moving(simulation: &Simulation, slow: f64) -> f64 {
+    let (mut all, mut fast) = (0.0, 0.0);
+    simulation.visit_points(None, |point| {
+        all += point.mass;
+        if point.velocity.norm() > slow {
+            fast += point.mass;
+        }
+    });
+    fast / all
+}

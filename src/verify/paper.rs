@@ -1,0 +1,65 @@
+//! The source paper's scene and what its cube does.
+
+use super::run::{Answer, Run, Trouble};
+use scree_solver::record::Recorder;
+use scree_solver::scenario::Scenario;
+use scree_solver::simulation::Scene;
+use serde_json::{Value, json};
+use std::ops::ControlFlow;
+
+const SCENE: &str = include_str!("../../configs/scenarios/source_paper.json");
+/// Side of its cube [m].
+const SIDE: f64 = 0.04;
+/// Names of what [`motion`] measures, and their units.
+pub(super) const QUANTITIES: [(&str, &str); 4] = [
+    ("onset", "s"),
+    ("peak speed", "m/s"),
+    ("displacement", "m"),
+    ("at rest from", "s"),
+];
+
+/// The scene at so many cells per side of the cube.
+pub(super) fn scene(cells: f64) -> Value {
+    let mut scene: Value = serde_json::from_str(SCENE).expect("the scene is JSON");
+    scene["numerics"] = json!({"cell_size_m": SIDE / cells});
+    scene["flow_snapshots"] = json!(0);
+    scene
+}
+
+/// The speed of sound the solver chooses for the scene [m/s].
+///
+/// # Errors
+/// The scene is refused.
+pub(super) fn sound_speed(scene: &Value) -> Result<f64, Trouble> {
+    let scene = Scene::of(&read(scene)?)?;
+    let flow = scene.given.flow.ok_or(Trouble::Never("there is no flow"))?;
+    Ok(flow.limits.sound_speed)
+}
+
+/// The [`QUANTITIES`] of the cube. It may still move at the end: then it is at
+/// rest from no time that is a number.
+///
+/// # Errors
+/// The scene is refused or can't be computed, or the flow doesn't move the cube.
+pub(super) fn motion(scene: &Value) -> Result<Answer<4>, Trouble> {
+    let scenario = read(scene)?;
+    let mut run = Run::start(Scene::of(&scenario)?)?;
+    let mut recorder = Recorder::new(&scenario);
+    recorder.start(&run.simulation);
+    run.watch(f64::INFINITY, |simulation, report| {
+        recorder.observe(simulation, report);
+        ControlFlow::Continue(())
+    })?;
+    let outcome = recorder.outcome(&run.simulation, 0.0);
+    let [cube] = &outcome.bodies[..] else {
+        return Err(Trouble::Never("there is not one cube"));
+    };
+    let onset = cube.onset_time_s;
+    let onset = onset.ok_or(Trouble::Never("the flow never moved the cube"))?;
+    let rest = cube.stop_time_s.unwrap_or(f64::NAN);
+    Ok(run.answer([onset, cube.peak_speed_m_s, cube.displacement_m, rest]))
+}
+
+fn read(scene: &Value) -> Result<Scenario, Trouble> {
+    Scenario::from_json(&scene.to_string()).map_err(|error| Trouble::Scene(format!("{error:?}")))
+}

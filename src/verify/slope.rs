@@ -1,0 +1,239 @@
+//! A layer of glass beads on a rough slope without end, and its exact profile.
+//!
+//! Velocity u(y) at height y of a steady layer of height h, inclined by θ, follows
+//! from μ(I) = tan θ at every height (Bagnold):
+//!
+//! u = ⅔ (I/d) √(φ g cos θ) [h^1.5 − (h − y)^1.5],   I = I0 (tan θ − μ_s)/(μ_2 − tan θ).
+
+use super::beads;
+use super::blocks::Block;
+use super::run::{Run, Trouble};
+use super::scenes::GRAVITY;
+use scree_solver::Simulation;
+use scree_solver::material::{Material, Yielding};
+use scree_solver::math::{Sym3, Vec3};
+use scree_solver::points::Point;
+use scree_solver::scenario::Precision;
+use scree_solver::simulation::Scene;
+use std::ops::ControlFlow;
+
+/// Of the layer [m].
+pub(super) const HEIGHT: f64 = 0.02;
+/// [m].
+const GRAIN_DIAMETER: f64 = 0.53e-3;
+/// Sound speed over that of the surface, or √(g h) if that is more.
+const STIFFNESS: f64 = 10.0;
+/// Length of the layer [cells]; it runs round.
+const ALONG: u32 = 4;
+/// Points over the height of a cell.
+const PER_CELL: usize = 2;
+/// Width of the scatter of points about their lattice, over their distance: on a
+/// lattice they would travel in rows, which no flow keeps.
+const SCATTER: f64 = 0.2;
+/// Friction of the floor: nothing slips on it.
+const ROUGH: f64 = 1e6;
+/// Time between two looks at a window [s].
+const BETWEEN_LOOKS: f64 = 0.004;
+
+/// Slope and resolution of a layer.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slope {
+    /// [°].
+    pub(super) inclination_deg: f64,
+    /// Cells over the height.
+    pub(super) cells: u32,
+    /// Slope whose profile it starts with [°]; one that is not steep enough for
+    /// a flow starts at rest.
+    pub(super) start_deg: f64,
+    /// Longest run [s].
+    pub(super) duration: f64,
+}
+
+/// Means over a window of time.
+#[derive(Debug, Clone)]
+pub(super) struct Means {
+    /// Downhill velocity of layers of equal mass, lowest first [m/s].
+    speeds: Vec<f64>,
+    /// Height of the mass centre [m].
+    pub(super) centre: f64,
+}
+
+/// I of a steady layer; none on a slope that holds the beads at rest.
+fn inertial_number(inclination_deg: f64) -> f64 {
+    let tangent = inclination_deg.to_radians().tan();
+    let (at_rest, limiting) = beads::FRICTION;
+    let share = (tangent - at_rest) / (limiting - tangent);
+    beads::REFERENCE_INERTIAL_NUMBER * share.max(0.0)
+}
+
+/// u(y) [m/s].
+pub(super) fn exact_speed(inclination_deg: f64, y: f64) -> f64 {
+    let packing = beads::BULK_DENSITY / beads::GRAIN_DENSITY;
+    let cos = inclination_deg.to_radians().cos();
+    let rate = inertial_number(inclination_deg) / GRAIN_DIAMETER * (packing * GRAVITY * cos).sqrt();
+    2.0 / 3.0 * rate * (HEIGHT.powf(1.5) - (HEIGHT - y).max(0.0).powf(1.5))
+}
+
+/// d ln u / d ln μ: percent of speed that one percent of friction makes.
+pub(super) fn leverage(inclination_deg: f64) -> f64 {
+    let tangent = inclination_deg.to_radians().tan();
+    let (at_rest, limiting) = beads::FRICTION;
+    tangent * (1.0 / (tangent - at_rest) + 1.0 / (limiting - tangent))
+}
+
+/// √(g h) [m/s].
+pub(super) fn wave_speed() -> f64 {
+    (GRAVITY * HEIGHT).sqrt()
+}
+
+impl Slope {
+    fn cell(&self) -> f64 {
+        HEIGHT / f64::from(self.cells)
+    }
+
+    /// The fastest it is expected to flow [m/s].
+    fn fastest(&self) -> f64 {
+        let steepest = self.inclination_deg.max(self.start_deg);
+        exact_speed(steepest, HEIGHT).max(wave_speed())
+    }
+
+    /// Poisson's ratio 0, so that G = 1.5 K: the sub-step is that of a lone point
+    /// with it as with a softer one, and the normal stresses that elastic shear
+    /// turns up, of order τ²/G and unknown to the exact profile, stay small.
+    fn material(&self) -> Material {
+        let beads = beads::with_sound_speed(STIFFNESS * self.fastest());
+        Material {
+            shear_modulus: 1.5 * beads.bulk_modulus,
+            yielding: Yielding::Granular {
+                static_friction: beads::FRICTION.0,
+                limiting_friction: beads::FRICTION.1,
+                reference_inertial_number: beads::REFERENCE_INERTIAL_NUMBER,
+                grain_diameter: GRAIN_DIAMETER,
+                grain_density: beads::GRAIN_DENSITY,
+            },
+            ..beads
+        }
+    }
+
+    fn tilted_gravity(&self) -> Vec3 {
+        let (sin, cos) = self.inclination_deg.to_radians().sin_cos();
+        Vec3::new(sin, 0.0, -cos) * GRAVITY
+    }
+
+    /// The layer at its start.
+    pub(super) fn scene(&self) -> Scene {
+        let block = Block {
+            cell: self.cell(),
+            at: [0, 0, 0],
+            cells: [ALONG, 1, self.cells],
+            cells_across: 1,
+            endless: true,
+            material: self.material(),
+            gravity: GRAVITY,
+            expected_speed: self.fastest(),
+            precision: Precision::Single,
+            duration: self.duration,
+        };
+        let mut scene = block.scene();
+        scene.given.gravity = self.tilted_gravity();
+        scene.given.walls.base[0].flow_friction = ROUGH;
+        let mut chance = Chance(1);
+        let spacing = self.cell() / PER_CELL as f64;
+        for point in &mut scene.points {
+            // Across, half as far: the mirrors are near.
+            let scatter = Vec3::new(chance.next(), 0.5 * chance.next(), chance.next());
+            point.position += scatter * (SCATTER * spacing);
+            self.set_off(point, &block.material);
+        }
+        scene
+    }
+
+    /// Gives a point the stress of its depth and the velocity of its height.
+    fn set_off(&self, point: &mut Point, material: &Material) {
+        let gravity = self.tilted_gravity();
+        let above = beads::BULK_DENSITY * (HEIGHT - point.position.z).max(0.0);
+        let pressed = -gravity.z * above;
+        point.volume = point.mass / material.density(pressed);
+        point.stress = Sym3 {
+            xz: gravity.x * above,
+            ..Sym3::isotropic(-pressed)
+        };
+        point.velocity.x = exact_speed(self.start_deg, point.position.z);
+    }
+
+    /// Means from the run's present time until `to` [s].
+    pub(super) fn means(&self, run: &mut Run, to: f64) -> Result<Means, Trouble> {
+        let mut sum = Means {
+            speeds: vec![0.0; self.cells as usize * PER_CELL],
+            centre: 0.0,
+        };
+        let (mut looks, mut last) = (0.0, run.simulation.time_s());
+        run.watch(to, |simulation, report| {
+            if report.step_ended && report.time_s >= last + BETWEEN_LOOKS {
+                sum.add(simulation);
+                looks += 1.0;
+                last = report.time_s;
+            }
+            ControlFlow::Continue(())
+        })?;
+        sum.centre /= looks;
+        sum.speeds.iter_mut().for_each(|speed| *speed /= looks);
+        Ok(sum)
+    }
+}
+
+impl Means {
+    fn add(&mut self, simulation: &Simulation) {
+        let mut points = Vec::with_capacity(simulation.point_count());
+        simulation.visit_points(None, |p| points.push((p.position.z, p.velocity.x)));
+        points.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let layer = points.len() / self.speeds.len();
+        for (speed, points) in self.speeds.iter_mut().zip(points.chunks_exact(layer)) {
+            *speed += points.iter().map(|point| point.1).sum::<f64>() / layer as f64;
+        }
+        self.centre += points.iter().map(|point| point.0).sum::<f64>() / points.len() as f64;
+    }
+
+    /// Height of a layer's middle, were the layer as dense as at rest [m].
+    fn height(&self, layer: usize) -> f64 {
+        HEIGHT * (layer as f64 + 0.5) / self.speeds.len() as f64
+    }
+
+    /// Speed of the topmost layer [m/s], and what the exact profile says of it.
+    pub(super) fn surface(&self, inclination_deg: f64) -> (f64, f64) {
+        let top = self.speeds.len() - 1;
+        (
+            self.speeds[top],
+            exact_speed(inclination_deg, self.height(top)),
+        )
+    }
+
+    /// Root mean square distance from the exact profile, over that of the profile.
+    pub(super) fn off(&self, inclination_deg: f64) -> f64 {
+        let (mut off, mut whole) = (0.0, 0.0);
+        for (layer, speed) in self.speeds.iter().enumerate() {
+            let exact = exact_speed(inclination_deg, self.height(layer));
+            off += (speed - exact).powi(2);
+            whole += exact * exact;
+        }
+        (off / whole).sqrt()
+    }
+}
+
+/// Speed of the fastest point [m/s].
+pub(super) fn fastest(simulation: &Simulation) -> f64 {
+    let mut fastest = 0.0f64;
+    simulation.visit_points(None, |point| fastest = fastest.max(point.velocity.norm()));
+    fastest
+}
+
+/// The same numbers every time, spread evenly from −½ to ½.
+struct Chance(u64);
+
+impl Chance {
+    fn next(&mut self) -> f64 {
+        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
+        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as f64 / (1u64 << 31) as f64 - 0.5
+    }
+}

@@ -1,0 +1,146 @@
+//! A fixed cube in a block of points: in the way of a stream, or buried in a bed.
+//! The block runs round along the channel, and smooth walls mirror it across.
+
+use super::blocks::Block;
+use super::run::{Answer, Run, Trouble, scene_of};
+use super::scenes::channel;
+use scree_solver::material::Material;
+use scree_solver::math::Vec3;
+use scree_solver::rigid::Body;
+use scree_solver::scenario::Precision;
+use scree_solver::simulation::Scene;
+use serde_json::json;
+use std::ops::ControlFlow;
+
+/// Side of the cube [m].
+pub(super) const SIDE: f64 = 0.04;
+/// Radius of its edges, over the side: as sharp as they may be, the areas and
+/// volumes here are those of a sharp cube.
+const ROUNDING: f64 = 0.01;
+/// Of the stream [m/s].
+const SPEED: f64 = 1.0;
+/// The stream starts so many cells above the cube.
+const GAP: u32 = 1;
+
+/// A stream falling onto the cube at constant speed, without gravity.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stream {
+    /// Cells per side of the cube.
+    pub(super) cells: u32,
+    /// Cells of stream along and across the channel, the cube in their middle.
+    pub(super) wide: u32,
+    /// Made of this, at rest as dense as it says.
+    pub(super) material: Material,
+    /// Density over that.
+    pub(super) share: f64,
+    /// Radius of the points' spheres over what it usually is.
+    pub(super) sphere: f64,
+    /// Cells that it travels after the first contact.
+    pub(super) travel: u32,
+}
+
+/// A cube that stays where it is, frictionless and never bounced off.
+pub(super) fn fixed_cube(centre: Vec3, scene: &Scene) -> Result<Body, Trouble> {
+    let mut document = channel(0.0, 1.0, 1.0, 1.0);
+    document["bodies"] = json!([{
+        "shape": {"cube": {"side_m": SIDE}},
+        "sphero_radius_m": ROUNDING * SIDE,
+        "fixed": true,
+        "position": {"downstream_m": 0.0, "elevation_m": 0.5},
+    }]);
+    document["duration_s"] = json!(1.0);
+    let cube = scene_of(&document)?.bodies.pop();
+    let mut cube = cube.ok_or(Trouble::Never("there is no cube"))?;
+    cube.state.position = centre;
+    if let Some(flow) = &scene.given.flow {
+        cube.flow_law = flow.contact_law(0.0, 0.0);
+    }
+    Ok(cube)
+}
+
+impl Stream {
+    fn cell(&self) -> f64 {
+        SIDE / f64::from(self.cells)
+    }
+
+    /// ρ v² A [N].
+    pub(super) fn momentum_flux(&self) -> f64 {
+        self.share * self.material.bulk_density * (SPEED * SIDE).powi(2)
+    }
+
+    /// Side over that of the cube, were all of the stream stopped that this force
+    /// [N] stops, less the cube's own, on each side [cells].
+    pub(super) fn stand_off(&self, force: f64) -> f64 {
+        let wider = (force / self.momentum_flux()).max(0.0).sqrt();
+        0.5 * (wider - 1.0) * f64::from(self.cells)
+    }
+
+    fn scene(&self) -> Result<Scene, Trouble> {
+        let wide = self.wide;
+        // What passes the cube does not reach the floor.
+        let below = self.travel + GAP + 2;
+        let block = Block {
+            cell: self.cell(),
+            at: [0, 0, below + self.cells + GAP],
+            // And what comes last is still above it.
+            cells: [wide, wide, self.travel + 4],
+            cells_across: wide,
+            endless: true,
+            material: self.material,
+            gravity: 0.0,
+            expected_speed: SPEED,
+            precision: Precision::Single,
+            duration: f64::from(self.travel + 2 * GAP) * self.cell() / SPEED,
+        };
+        let mut scene = block.scene();
+        let mut centre = block.middle();
+        centre.z = (f64::from(below) + 0.5 * f64::from(self.cells)) * self.cell();
+        if let Some(flow) = &mut scene.given.flow {
+            flow.sphere.radius *= self.sphere;
+            // The solver's sub-step is that of points at full density.
+            flow.limits.courant *= self.share;
+        }
+        for point in &mut scene.points {
+            point.mass *= self.share;
+            point.velocity.z = -SPEED;
+        }
+        let cube = fixed_cube(centre, &scene)?;
+        scene.bodies.push(cube);
+        Ok(scene)
+    }
+
+    /// Mean force on the cube [N] between travels after the first contact, given
+    /// in cells, each window starting where the one before it ends.
+    pub(super) fn forces<const N: usize>(
+        &self,
+        from: f64,
+        windows: [f64; N],
+    ) -> Result<Answer<N>, Trouble> {
+        let mut run = Run::start(self.scene()?)?;
+        let mut touched = None;
+        let (mut impulses, mut times) = ([0.0; N], [0.0; N]);
+        let cell = self.cell();
+        run.watch(f64::INFINITY, |simulation, report| {
+            let load = simulation.flow_load(0);
+            if touched.is_none() && load.touching_points > 0 {
+                touched = Some(report.time_s);
+            }
+            let since = touched.map_or(0.0, |start| report.time_s - start);
+            let travelled = since * SPEED / cell;
+            let window = windows.iter().position(|end| travelled < *end);
+            if let (Some(window), true) = (window, travelled >= from) {
+                impulses[window] -= load.load.force.z * report.substep_s;
+                times[window] += report.substep_s;
+            }
+            ControlFlow::Continue(())
+        })?;
+        if times.contains(&0.0) {
+            return Err(Trouble::Never("the stream did not come so far"));
+        }
+        let mut forces = impulses;
+        for (force, time) in forces.iter_mut().zip(times) {
+            *force /= time;
+        }
+        Ok(run.answer(forces))
+    }
+}
