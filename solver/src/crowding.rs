@@ -7,21 +7,21 @@
 //! volumes are averaged over the grid, points move away from crowds, and those in
 //! a crowd are pressed together on paper, so that pressure drives them apart.
 
-use crate::kernel::Lattice;
+use crate::kernel::{Lattice, REACH, share_above};
 use crate::math::Vec3;
 use crate::rigid::Body;
-use crate::walls::{NodeAccess, Plane, filled, share_above};
+use crate::walls::{Boundary, NodeAccess, Plane, filled};
 
 /// Points move by this share of −h² ∇crowding per cell of travel.
 const SHIFT: f64 = 1.0;
 /// Largest shift in a step [cells].
-const LARGEST_SHIFT: f64 = 0.1;
+pub const LARGEST_SHIFT: f64 = 0.1;
 /// Share of its own dilation a point exchanges for the mean per cell of travel.
 const AVERAGING: f64 = 2.0;
 /// Relative rise of pressure per crowding and cell of travel.
 const PRESSING: f64 = 5.0;
 /// Largest relative rise of pressure in a step.
-const LARGEST_RISE: f64 = 0.5;
+pub const LARGEST_RISE: f64 = 0.5;
 /// A point that travels less than this share of what the fastest may is tended
 /// less, by the square: what only trembles is left alone.
 const SLOW: f64 = 0.2;
@@ -34,14 +34,10 @@ pub const KEPT_OFF: f64 = 0.5;
 pub struct Tending {
     /// Shift over −h² ∇crowding.
     pub shift: f64,
-    /// Largest shift [cells].
-    pub largest_shift: f64,
     /// Share of the mean dilation.
     pub averaging: f64,
     /// Relative rise of pressure per crowding.
     pub pressing: f64,
-    /// Largest relative rise of pressure.
-    pub largest_rise: f64,
     /// Travel from which on a point is fully tended [cells].
     pub full_travel: f64,
 }
@@ -50,10 +46,8 @@ impl Tending {
     /// None at all: an elastic body keeps its points.
     pub const NONE: Self = Self {
         shift: 0.0,
-        largest_shift: 0.0,
         averaging: 0.0,
         pressing: 0.0,
-        largest_rise: 0.0,
         full_travel: 0.0,
     };
 
@@ -61,10 +55,8 @@ impl Tending {
     pub fn after(travel: f64) -> Self {
         Self {
             shift: SHIFT * travel,
-            largest_shift: LARGEST_SHIFT,
             averaging: (AVERAGING * travel).min(1.0),
             pressing: PRESSING * travel,
-            largest_rise: LARGEST_RISE,
             full_travel: SLOW * travel,
         }
     }
@@ -79,12 +71,12 @@ impl Tending {
         };
         let in_cells = seen.slope.component_mul(spacing) * (-self.shift * degree);
         let length = in_cells.norm();
-        let shorter = if length > self.largest_shift {
-            self.largest_shift / length
+        let shorter = if length > LARGEST_SHIFT {
+            LARGEST_SHIFT / length
         } else {
             1.0
         };
-        let rise = (self.pressing * seen.crowding).min(self.largest_rise);
+        let rise = (self.pressing * seen.crowding).min(LARGEST_RISE);
         let compression = (-seen.dilation).max(0.0);
         let exchanged = self.averaging * (seen.mean_dilation - seen.dilation_at_transfer);
         Tended {
@@ -165,8 +157,15 @@ pub fn crowding(fullness: f64) -> f64 {
 /// Kernel weight of a node at its own place.
 const PEAK: f64 = 0.75 * 0.75 * 0.75;
 
-/// A body leaves less room at the nodes round it.
-pub fn leave_less_room(body: &Body, nodes: &mut impl NodeAccess) {
+/// Walls and bodies leave less room at the nodes round them.
+pub fn leave_less_room(boundary: &Boundary, bodies: &[Body], nodes: &mut impl NodeAccess) {
+    boundary.leave_less_room(nodes);
+    for body in bodies {
+        make_room_for(body, nodes);
+    }
+}
+
+fn make_room_for(body: &Body, nodes: &mut impl NodeAccess) {
     let lattice = *nodes.lattice();
     let (low, high) = box_of(body, &lattice);
     // However small its share, a small body does not fill a kernel.
@@ -178,9 +177,7 @@ pub fn leave_less_room(body: &Body, nodes: &mut impl NodeAccess) {
                 let Some(place) = nodes.place_of([i, j, k]) else {
                     continue;
                 };
-                let arm = lattice.position([i, j, k]) - body.state.position;
-                let closest = body.shape.closest_feature(&body.to_body(&arm));
-                let height = closest.distance - body.shape.sphero_radius();
+                let height = body.distance_to(&lattice.position([i, j, k]));
                 let room = share_above(height / width).max(least);
                 nodes.set_fullness(place, filled(nodes.fullness(place), room));
             }
@@ -190,7 +187,7 @@ pub fn leave_less_room(body: &Body, nodes: &mut impl NodeAccess) {
 
 /// Lowest and highest node whose kernel may meet a body.
 fn box_of(body: &Body, lattice: &Lattice) -> ([i32; 3], [i32; 3]) {
-    let reach = body.shape.bounding_radius() + 1.5 * lattice.spacing.max();
+    let reach = body.shape.bounding_radius() + REACH * lattice.spacing.max();
     let at = |sign: f64| {
         let corner = body.state.position + Vec3::repeat(sign * reach) - lattice.origin;
         let in_cells = corner.component_div(&lattice.spacing);
@@ -202,26 +199,6 @@ fn box_of(body: &Body, lattice: &Lattice) -> ([i32; 3], [i32; 3]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Quadratic B-spline at a distance from its node.
-    fn kernel(x: f64) -> f64 {
-        match x.abs() {
-            x if x < 0.5 => 0.75 - x * x,
-            x if x < 1.5 => 0.5 * (1.5 - x).powi(2),
-            _ => 0.0,
-        }
-    }
-
-    // The midpoint rule on 3,000 strips, good to some 1e-7.
-    #[test]
-    fn the_room_above_a_wall_is_the_integral_of_the_kernel() {
-        for height in [-1.6, -1.2, -0.5, -0.2, 0.0, 0.3, 0.5, 1.1, 1.5, 2.0] {
-            let strips = (0..3000).map(|k| -1.5 + (f64::from(k) + 0.5) * 1e-3);
-            let above = strips.filter(|x| *x > -height).map(|x| kernel(x) * 1e-3);
-            let sum: f64 = above.sum();
-            assert!((share_above(height) - sum).abs() < 1e-6, "{height}: {sum}");
-        }
-    }
 
     const CROWDED: Seen = Seen {
         dilation: -0.01,

@@ -227,13 +227,9 @@ impl Audit {
             &self.expected.linear,
             total.momentum_scale + self.exchanged.0,
         );
-        let angular = off(
-            &total.momentum.angular,
-            &self.expected.angular,
-            total.momentum.angular.norm() + self.exchanged.1,
-        );
         let scale = total.momentum.angular.norm() + self.exchanged.1;
-        let spread = self.spread.norm() / scale.max(f64::MIN_POSITIVE);
+        let angular = off(&total.momentum.angular, &self.expected.angular, scale);
+        let spread = off(&self.spread, &Vec3::zeros(), scale);
         self.angular_momentum_spread = self.angular_momentum_spread.max(spread);
         self.momentum_residual = self.momentum_residual.max(linear);
         self.angular_momentum_residual = self.angular_momentum_residual.max(angular);

@@ -93,7 +93,7 @@ impl Material {
         dt: f64,
     ) -> Sym3 {
         let pressure = self.pressure(density);
-        if pressure <= 0.0 && matches!(self.yielding, Yielding::Granular { .. }) {
+        if pressure <= 0.0 && self.is_granular() {
             return Sym3::default();
         }
         let deviator = stress.deviator();
@@ -102,10 +102,10 @@ impl Material {
             .jaumann_spin(gradient)
             .plus(&strain_rate.times(2.0 * self.shear_modulus));
         let elastic = self.yielded(&deviator.plus(&rate.times(dt)), pressure, dt);
-        let resisted = match self.yielding {
-            Yielding::Granular { .. } => (-bulk_viscosity * gradient.trace()).max(-pressure),
-            Yielding::Never => 0.0,
-        };
+        if !self.is_granular() {
+            return elastic;
+        }
+        let resisted = (-bulk_viscosity * gradient.trace()).max(-pressure);
         elastic.plus(&Sym3::isotropic(-resisted))
     }
 

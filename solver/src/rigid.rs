@@ -99,6 +99,13 @@ impl Body {
         self.state.orientation.inverse_transform_vector(v)
     }
 
+    /// Distance of a place from the rounded surface [m]; negative inside.
+    pub fn distance_to(&self, place: &Vec3) -> f64 {
+        let arm = place - self.state.position;
+        let closest = self.shape.closest_feature(&self.to_body(&arm));
+        closest.distance - self.shape.sphero_radius()
+    }
+
     /// Mass that resists a force along `direction` (unit) at `arm` [kg].
     pub fn effective_mass(&self, arm: &Vec3, direction: &Vec3) -> f64 {
         let lever = arm.cross(direction);

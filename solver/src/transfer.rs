@@ -34,15 +34,8 @@ pub fn scatter_momentum(points: &[Point], grid: &mut Grid) {
         |block, tile| {
             for point in &points[block.points.clone()] {
                 let stencil = lattice.stencil(&point.position);
-                let mass = Carried {
-                    constant: [
-                        point.mass,
-                        point.mass * point.velocity.x,
-                        point.mass * point.velocity.y,
-                        point.mass * point.velocity.z,
-                    ],
-                    slope: slopes(&(point.affine * point.mass)),
-                };
+                let motion = (&point.velocity, &point.affine);
+                let mass = Carried::with_motion(point.mass, point.mass, motion);
                 scatter_affine(block, &stencil, &mass, tile);
             }
         },
@@ -69,9 +62,7 @@ pub fn hand_over_rest(points: &[Point], bulk_density: f64, grid: &mut Grid) {
     let room = lattice.spacing.product() * bulk_density;
     let mut missing = vec![(Vec3::zeros(), Mat3::zeros()); points.len()];
     for_each_block(grid, &mut missing, |block, missing| {
-        let velocities = grid.tile_of(block, |node| {
-            [node.velocity.x, node.velocity.y, node.velocity.z, 0.0]
-        });
+        let velocities = grid.tile_of(block, velocity_of);
         for (point, missing) in points[block.points.clone()].iter().zip(missing) {
             let stencil = lattice.stencil(&point.position);
             let shown = gather_moments(block, &stencil, &velocities);
@@ -85,18 +76,11 @@ pub fn hand_over_rest(points: &[Point], bulk_density: f64, grid: &mut Grid) {
         |block, tile| {
             for place in block.points.clone() {
                 let point = &points[place];
-                let (velocity, affine) = missing[place];
+                let (velocity, affine) = &missing[place];
                 let stencil = lattice.stencil(&point.position);
                 let dilation = point.volume * bulk_density / point.mass - 1.0;
-                let rest = Carried {
-                    constant: [
-                        point.mass * dilation,
-                        point.mass * velocity.x,
-                        point.mass * velocity.y,
-                        point.mass * velocity.z,
-                    ],
-                    slope: slopes(&(affine * point.mass)),
-                };
+                let rest =
+                    Carried::with_motion(point.mass * dilation, point.mass, (velocity, affine));
                 scatter_affine(block, &stencil, &rest, tile);
             }
         },
@@ -143,9 +127,7 @@ pub fn gather_gradient(grid: &Grid, points: &[Point], dt: f64, deformations: &mu
     let lattice = *grid.lattice();
     let inverse_moment = Mat3::from_diagonal(&lattice.kernel_moment().map(f64::recip));
     for_each_block(grid, deformations, |block, deformations| {
-        let velocities = grid.tile_of(block, |node| {
-            [node.velocity.x, node.velocity.y, node.velocity.z, 0.0]
-        });
+        let velocities = grid.tile_of(block, velocity_of);
         for (point, deformation) in points[block.points.clone()].iter().zip(deformations) {
             let stencil = lattice.stencil(&point.position);
             let moments = gather_moments(block, &stencil, &velocities);
@@ -235,10 +217,30 @@ fn with_angular_momentum(gradient: &Mat3, target: &Mat3, moment: &Vec3) -> Mat3 
     affine
 }
 
+fn velocity_of(node: &Node) -> [f64; 4] {
+    [node.velocity.x, node.velocity.y, node.velocity.z, 0.0]
+}
+
 /// A quantity that varies linearly about the point: constant + slope · d.
 struct Carried {
     constant: [f64; 4],
     slope: [[f64; 4]; 3],
+}
+
+impl Carried {
+    /// A number, and the momentum of a mass [kg] with this velocity and affine
+    /// velocity.
+    fn with_motion(first: f64, mass: f64, (velocity, affine): (&Vec3, &Mat3)) -> Self {
+        Self {
+            constant: [
+                first,
+                mass * velocity.x,
+                mass * velocity.y,
+                mass * velocity.z,
+            ],
+            slope: slopes(&(affine * mass)),
+        }
+    }
 }
 
 /// Columns of a matrix as slopes of components 1..4.

@@ -6,7 +6,6 @@
 use super::chunk::{Chunk, LANES, Packed, put, take};
 use crate::crowding::Spread;
 use crate::grid::{BLOCK, BlockKey};
-
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -24,6 +24,13 @@ impl NodeBlock {
     }
 }
 
+/// All numbers of the nodes of a block; see [`Nodes`].
+struct WholeBlock<'a> {
+    motion: &'a mut NodeBlock,
+    remainder: &'a mut NodeBlock,
+    displacement: &'a mut NodeBlock,
+}
+
 /// A node lighter than this [kg] is empty: its numbers would be rounding, and
 /// the points hardly see it.
 const LIGHTEST: f32 = 1e-30;
@@ -68,35 +75,23 @@ impl Nodes {
 
     /// Takes mass and momentum from the tiles of the points: v = Σ p / Σ m.
     pub fn take_momentum(&mut self, tiles: &[Tile], level: Level) {
-        self.motion
-            .par_iter_mut()
-            .zip(&mut self.remainder)
-            .zip(&mut self.displacement)
-            .zip(self.layout.sources())
-            .with_min_len(TASK)
-            .for_each(|(((motion, remainder), displacement), sources)| {
-                dispatch!(level, simd => take(simd, sources, tiles, motion));
-                *remainder = NodeBlock::EMPTY;
-                *displacement = NodeBlock::EMPTY;
-            });
+        self.for_each_block(|block, sources| {
+            dispatch!(level, simd => take(simd, sources, tiles, block.motion));
+            *block.remainder = NodeBlock::EMPTY;
+            *block.displacement = NodeBlock::EMPTY;
+        });
     }
 
     /// Takes what was missing of the momentum, and the dilations, from the tiles;
     /// `room` is the mass that fills a kernel, ρ_c h³ [kg].
     pub fn take_rest(&mut self, tiles: &[Tile], room: f32, level: Level) {
-        self.motion
-            .par_iter_mut()
-            .zip(&mut self.remainder)
-            .zip(&mut self.displacement)
-            .zip(self.layout.sources())
-            .with_min_len(TASK)
-            .for_each(|(((motion, remainder), displacement), sources)| {
-                dispatch!(level, simd => {
-                    let mut rest = NodeBlock::EMPTY;
-                    add_up(simd, sources, tiles, &mut rest);
-                    take_rest(simd, &rest, room, motion, remainder, displacement);
-                });
+        self.for_each_block(|block, sources| {
+            dispatch!(level, simd => {
+                let mut rest = NodeBlock::EMPTY;
+                add_up(simd, sources, tiles, &mut rest);
+                take_rest(simd, &rest, room, block);
             });
+        });
     }
 
     /// v ← v + Δt (f/m + g) with the forces in the tiles; u ← u + Δt v.
@@ -106,6 +101,17 @@ impl Nodes {
             fall: [0.0, fall.x, fall.y, fall.z],
             dt: dt as f32,
         };
+        self.for_each_block(|block, sources| {
+            dispatch!(level, simd => {
+                let mut forces = NodeBlock::EMPTY;
+                add_up(simd, sources, tiles, &mut forces);
+                advance(simd, &forces, &push, block);
+            });
+        });
+    }
+
+    /// Visits the blocks, each with the tiles that reach it, in parallel.
+    fn for_each_block(&mut self, visit: impl Fn(WholeBlock, &[u32; 8]) + Sync) {
         self.motion
             .par_iter_mut()
             .zip(&mut self.remainder)
@@ -113,11 +119,12 @@ impl Nodes {
             .zip(self.layout.sources())
             .with_min_len(TASK)
             .for_each(|(((motion, remainder), displacement), sources)| {
-                dispatch!(level, simd => {
-                    let mut forces = NodeBlock::EMPTY;
-                    add_up(simd, sources, tiles, &mut forces);
-                    advance(simd, &forces, &push, motion, remainder, displacement);
-                });
+                let block = WholeBlock {
+                    motion,
+                    remainder,
+                    displacement,
+                };
+                visit(block, sources);
             });
     }
 
@@ -321,14 +328,12 @@ fn take<S: Simd>(simd: S, sources: &[u32; 8], tiles: &[Tile], motion: &mut NodeB
 }
 
 #[inline(always)]
-fn take_rest<S: Simd>(
-    simd: S,
-    rest: &NodeBlock,
-    room: f32,
-    motion: &mut NodeBlock,
-    remainder: &mut NodeBlock,
-    displacement: &mut NodeBlock,
-) {
+fn take_rest<S: Simd>(simd: S, rest: &NodeBlock, room: f32, block: WholeBlock) {
+    let WholeBlock {
+        motion,
+        remainder,
+        displacement,
+    } = block;
     for node in 0..BLOCK_NODES {
         let moving = &mut motion.0[4 * node..4 * node + 4];
         let given = &rest.0[4 * node..4 * node + 4];
@@ -346,14 +351,12 @@ fn take_rest<S: Simd>(
 }
 
 #[inline(always)]
-fn advance<S: Simd>(
-    simd: S,
-    forces: &NodeBlock,
-    push: &Push,
-    motion: &mut NodeBlock,
-    remainder: &mut NodeBlock,
-    displacement: &mut NodeBlock,
-) {
+fn advance<S: Simd>(simd: S, forces: &NodeBlock, push: &Push, block: WholeBlock) {
+    let WholeBlock {
+        motion,
+        remainder,
+        displacement,
+    } = block;
     let fall = f32x4::from_slice(simd, &push.fall);
     let dt = f32x4::splat(simd, push.dt);
     for node in 0..BLOCK_NODES {

@@ -8,7 +8,7 @@ use super::stencil::Stencils;
 use super::stress::{self, Law, Matrix, Strained};
 use super::tend::{Seen, Shelter, SpreadSums, tend};
 use super::totals::EndSums;
-use crate::crowding::Tending;
+use crate::crowding::{Tending, crowding};
 use crate::math::Vec3;
 use fearless_simd::{f32x16, prelude::*};
 
@@ -39,7 +39,7 @@ impl EndTiles {
             .chunks_exact_mut(4)
             .zip(self.displacement.0.chunks_exact(4));
         for (twist, (v, u)) in self.twist.0.chunks_exact_mut(4).zip(nodes) {
-            v[0] = (twist[0] - 1.0).clamp(0.0, 1.0);
+            v[0] = crowding(f64::from(twist[0])) as f32;
             twist[1] = u[2] * v[3] - u[3] * v[2];
             twist[2] = u[3] * v[1] - u[1] * v[3];
             twist[3] = u[1] * v[2] - u[2] * v[1];

@@ -1,7 +1,7 @@
 //! Points kept evenly spread, sixteen at a time: the formulas of `crowding.rs`.
 
 use super::chunk::{Chunk, LANES, Lanes};
-use crate::crowding::{KEPT_OFF, Spread, Tending};
+use crate::crowding::{KEPT_OFF, LARGEST_RISE, LARGEST_SHIFT, Spread, Tending};
 use crate::grid::{BLOCK, BlockKey};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
@@ -49,13 +49,12 @@ pub fn tend<S: Simd>(
     for along in &mut shift {
         *along *= pull;
     }
-    let largest = splat(simd, tending.largest_shift);
+    let largest = splat(simd, LARGEST_SHIFT);
     let shorter = (largest / length(&shift).max(least)).min(one);
     for along in &mut shift {
         *along *= shorter;
     }
-    let rise =
-        (splat(simd, tending.pressing) * seen.crowding).min(splat(simd, tending.largest_rise));
+    let rise = (splat(simd, tending.pressing) * seen.crowding).min(splat(simd, LARGEST_RISE));
     let compression = (none - seen.dilation).max(none);
     let exchanged =
         splat(simd, tending.averaging) * (seen.mean_dilation - seen.dilation_at_transfer);

@@ -8,14 +8,16 @@ use crate::kernel::Lattice;
 use crate::material::{Material, Yielding};
 use crate::math::Vec3;
 use crate::points::Point;
-use crate::rigid::{Body, BodyState, Freedom, Load};
+use crate::rigid::{Body, Freedom};
 use crate::scenario::{self, Precision, Scenario};
 use crate::stability::{Limits, Pace};
 use crate::walls::{Ends, Plane, Upright, Walls};
 
+mod bodies;
 mod release;
 mod resolution;
 
+pub(super) use bodies::bodies;
 use release::Columns;
 
 /// Default Courant number of the sub-step.
@@ -110,24 +112,18 @@ impl Setup {
         let channel = &scenario.channel;
         let lattice = resolution::lattice(scenario);
         let walls = walls(channel, &lattice);
-        let columns = match scenario.release() {
-            Some(release) => Some(Columns::of(scenario, &lattice, &release)?),
-            None => None,
-        };
+        let release = scenario.release();
+        let columns = release.map(|release| Columns::of(scenario, &lattice, &release));
+        let columns = columns.transpose()?;
         let flow = scenario.flow.as_ref().zip(columns.as_ref());
         let flow = flow.map(|(flow, columns)| {
             let material = material(scenario, &flow.material);
-            let numerics = &scenario.numerics;
-            let limits = Limits {
-                courant: numerics.courant.unwrap_or(COURANT),
-                flow_courant: numerics.flow_courant.unwrap_or(FLOW_COURANT),
-                ..default_limits(&material, &lattice, resolution::expected_speed(scenario))
-            };
-            GivenFlow {
-                sphere: sphere(&material, columns.volume),
-                material,
-                limits,
-            }
+            let speed = resolution::expected_speed(scenario);
+            let mut flow = GivenFlow::new(material, &lattice, columns.volume, speed);
+            let (numerics, limits) = (&scenario.numerics, &mut flow.limits);
+            limits.courant = numerics.courant.unwrap_or(limits.courant);
+            limits.flow_courant = numerics.flow_courant.unwrap_or(limits.flow_courant);
+            flow
         });
         let given = Self {
             identity: scenario.to_json(),
@@ -170,29 +166,6 @@ impl Setup {
     }
 }
 
-/// Limits of a flow on a lattice at the default Courant numbers, expected to
-/// reach this speed [m/s].
-fn default_limits(material: &Material, lattice: &Lattice, expected_speed: f64) -> Limits {
-    Limits {
-        p_wave_speed: material.p_wave_speed(),
-        sound_speed: (material.bulk_modulus / material.bulk_density).sqrt(),
-        cell_size: lattice.finest_spacing(),
-        courant: COURANT,
-        flow_courant: FLOW_COURANT,
-        slow: SLOW * expected_speed,
-    }
-}
-
-/// What points of this volume [m³] are to bodies (equation 21).
-fn sphere(material: &Material, volume: f64) -> PointSphere {
-    let spacing = volume.cbrt();
-    PointSphere {
-        radius: (3.0 * volume / (4.0 * std::f64::consts::PI)).cbrt(),
-        impedance: material.bulk_density * material.p_wave_speed() * spacing * spacing,
-        spacing,
-    }
-}
-
 impl GivenFlow {
     /// A flow of points of this volume [m³] on a lattice, expected to reach this
     /// speed [m/s], at the default Courant numbers.
@@ -202,9 +175,21 @@ impl GivenFlow {
         point_volume: f64,
         expected_speed: f64,
     ) -> Self {
+        let spacing = point_volume.cbrt();
         Self {
-            limits: default_limits(&material, lattice, expected_speed),
-            sphere: sphere(&material, point_volume),
+            limits: Limits {
+                p_wave_speed: material.p_wave_speed(),
+                sound_speed: (material.bulk_modulus / material.bulk_density).sqrt(),
+                cell_size: lattice.finest_spacing(),
+                courant: COURANT,
+                flow_courant: FLOW_COURANT,
+                slow: SLOW * expected_speed,
+            },
+            sphere: PointSphere {
+                radius: (3.0 * point_volume / (4.0 * std::f64::consts::PI)).cbrt(),
+                impedance: material.bulk_density * material.p_wave_speed() * spacing * spacing,
+                spacing,
+            },
             material,
         }
     }
@@ -289,87 +274,6 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
             cells_across: (channel.width_m / lattice.spacing.y).round() as i32,
         },
     }
-}
-
-/// The bodies of a scenario, where they start.
-pub(super) fn bodies(scenario: &Scenario, given: &Setup) -> Vec<Body> {
-    (0..scenario.bodies.len())
-        .map(|place| body(scenario, given, place))
-        .collect()
-}
-
-fn body(scenario: &Scenario, given: &Setup, place: usize) -> Body {
-    let spec = &scenario.bodies[place];
-    let shape = scenario.shape_of(place);
-    let pose = scenario.initial_pose(place);
-    let mass = spec.density_kg_m3 * shape.volume();
-    let inertia = shape.unit_inertia() * spec.density_kg_m3;
-    let modulus = spec
-        .contact_modulus_pa
-        .unwrap_or_else(|| resolution::contact_modulus(scenario, place, mass, &pose.position));
-    let wall_law = ContactLaw::hertz(
-        modulus,
-        shape.sphero_radius(),
-        spec.restitution,
-        spec.friction,
-    );
-    let flow_law = match &given.flow {
-        Some(flow) => flow.contact_law(spec.flow_restitution, spec.flow_friction),
-        None => wall_law,
-    };
-    let mut body = Body {
-        inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
-        state: BodyState {
-            position: pose.position,
-            orientation: pose.orientation,
-            momentum: Vec3::from(spec.velocity_m_s) * mass,
-            angular_momentum: Vec3::zeros(),
-            springs: Vec::new(),
-            wall_load: Load::default(),
-            wall_energy: 0.0,
-        },
-        shape,
-        mass,
-        inertia,
-        wall_law,
-        flow_law,
-        freedom: if spec.fixed {
-            Freedom::Fixed
-        } else {
-            Freedom::Free
-        },
-    };
-    let spin = body.to_body(&Vec3::from(spec.angular_velocity_rad_s));
-    body.state.angular_momentum = body.to_world(&(body.inertia * spin));
-    if spec.position.elevation_m.is_none() && body.freedom == Freedom::Free {
-        settle(&mut body, &given.planes, &given.gravity);
-    }
-    crate::contact::body_wall::touch_walls(&mut body, &given.planes, 0.0);
-    body
-}
-
-/// Sinks a resting body to where its support carries its weight, so that it
-/// does not start with a small fall.
-fn settle(body: &mut Body, planes: &[Plane], gravity: &Vec3) {
-    let heights = |plane: &Plane| -> Vec<f64> {
-        body.shape
-            .core_vertices()
-            .iter()
-            .map(|v| plane.height(&(body.state.position + body.to_world(v))))
-            .collect()
-    };
-    let radius = body.shape.sphero_radius();
-    let touches = |height: &f64| *height < radius * (1.0 + 1e-6);
-    let Some(support) = planes
-        .iter()
-        .find(|plane| heights(plane).iter().any(touches))
-    else {
-        return;
-    };
-    let carriers = heights(support).iter().copied().filter(touches).count() as f64;
-    let pressed = -gravity.dot(&support.normal) * body.mass / carriers;
-    let overlap = (pressed.max(0.0) / body.wall_law.stiffness).powf(2.0 / 3.0);
-    body.state.position -= support.normal * overlap;
 }
 
 impl Setup {

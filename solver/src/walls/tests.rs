@@ -1,5 +1,5 @@
 use super::*;
-use crate::grid::block_of;
+use crate::grid::{Grid, block_of};
 use crate::kernel::Lattice;
 
 const H: f64 = 0.01;

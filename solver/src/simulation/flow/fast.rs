@@ -2,7 +2,7 @@
 //! pass over them.
 
 use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, Substep};
-use crate::contact::point_body::{self, Around, FlowLoad, Loads, Moving, PointAccess, Reach};
+use crate::contact::point_body::{self, Around, FlowLoad, Loads, Reach};
 use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::{Block, Blocks};
@@ -15,7 +15,6 @@ use crate::fast::stress::Law;
 use crate::fast::tend::Shelter;
 use crate::fast::totals;
 use crate::grid::{BLOCK, BlockKey};
-use crate::math::Vec3;
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::simulation::laps::{Laps, Verb};
@@ -23,6 +22,10 @@ use crate::simulation::setup::Setup;
 use crate::walls::{Boundary, Impulse, Plane};
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
+
+mod access;
+
+use access::{Access, Place};
 
 /// A flow on the fast path.
 #[derive(Debug)]
@@ -44,56 +47,6 @@ pub(in crate::simulation) struct FastFlow {
     fastest: f64,
     /// Whether some point has a quantity that is no number.
     flawed: bool,
-}
-
-/// Where a point is kept.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    block: u32,
-    slot: u32,
-}
-
-struct Access<'a> {
-    blocks: &'a [Block],
-    nodes: &'a Nodes,
-    packing: &'a Packing,
-}
-
-impl PointAccess for Access<'_> {
-    type Place = Place;
-
-    fn find_within(&self, around: &Around, found: &mut Vec<Place>) {
-        for (place, block) in self.blocks.iter().enumerate() {
-            if !around.meets(&self.packing.lattice, &block.key) {
-                continue;
-            }
-            let inside = (0..block.count()).filter(|slot| {
-                let position = block.position(*slot);
-                around.holds(&self.packing.position(&block.key, &position))
-            });
-            found.extend(inside.map(|slot| Place {
-                block: place as u32,
-                slot: slot as u32,
-            }));
-        }
-    }
-
-    fn resting(&self, place: Place) -> Vec3 {
-        let block = &self.blocks[place.block as usize];
-        let position = block.position(place.slot as usize);
-        self.packing.position(&block.key, &position)
-    }
-
-    fn moving(&self, place: Place) -> Moving {
-        let block = &self.blocks[place.block as usize];
-        let position = block.position(place.slot as usize);
-        let (velocity, displacement) = self.nodes.motion_at(place.block as usize, &position);
-        Moving {
-            position: self.packing.position(&block.key, &position) + displacement,
-            velocity,
-            mass: f64::from(block.mass(place.slot as usize)),
-        }
-    }
 }
 
 impl FastFlow {
@@ -271,10 +224,7 @@ impl Flow for FastFlow {
         laps.done(Verb::Search);
         self.hand_over_rest(given);
         laps.done(Verb::Transfer);
-        self.boundary.leave_less_room(&mut self.nodes);
-        for body in bodies {
-            crowding::leave_less_room(body, &mut self.nodes);
-        }
+        crowding::leave_less_room(&self.boundary, bodies, &mut self.nodes);
         let access = Access {
             blocks: self.blocks.occupied(),
             nodes: &self.nodes,

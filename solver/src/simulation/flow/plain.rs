@@ -130,10 +130,7 @@ impl Flow for PlainFlow {
             transfer::hand_over_rest(&self.points, density, &mut self.grid);
         }
         laps.done(Verb::Transfer);
-        self.boundary.leave_less_room(&mut self.grid);
-        for body in bodies {
-            crowding::leave_less_room(body, &mut self.grid);
-        }
+        crowding::leave_less_room(&self.boundary, bodies, &mut self.grid);
         self.deformations.clear();
         self.deformations
             .extend(self.points.iter().map(Deformation::start));

@@ -1,0 +1,57 @@
+//! The points of the fast path as bodies meet them.
+
+use crate::contact::point_body::{Around, Moving, PointAccess};
+use crate::fast::blocks::Block;
+use crate::fast::nodes::Nodes;
+use crate::fast::packing::Packing;
+use crate::math::Vec3;
+
+/// Where a point is kept.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) block: u32,
+    pub(super) slot: u32,
+}
+
+pub(super) struct Access<'a> {
+    pub(super) blocks: &'a [Block],
+    pub(super) nodes: &'a Nodes,
+    pub(super) packing: &'a Packing,
+}
+
+impl PointAccess for Access<'_> {
+    type Place = Place;
+
+    fn find_within(&self, around: &Around, found: &mut Vec<Place>) {
+        for (place, block) in self.blocks.iter().enumerate() {
+            if !around.meets(&self.packing.lattice, &block.key) {
+                continue;
+            }
+            let inside = (0..block.count()).filter(|slot| {
+                let position = block.position(*slot);
+                around.holds(&self.packing.position(&block.key, &position))
+            });
+            found.extend(inside.map(|slot| Place {
+                block: place as u32,
+                slot: slot as u32,
+            }));
+        }
+    }
+
+    fn resting(&self, place: Place) -> Vec3 {
+        let block = &self.blocks[place.block as usize];
+        let position = block.position(place.slot as usize);
+        self.packing.position(&block.key, &position)
+    }
+
+    fn moving(&self, place: Place) -> Moving {
+        let block = &self.blocks[place.block as usize];
+        let position = block.position(place.slot as usize);
+        let (velocity, displacement) = self.nodes.motion_at(place.block as usize, &position);
+        Moving {
+            position: self.packing.position(&block.key, &position) + displacement,
+            velocity,
+            mass: f64::from(block.mass(place.slot as usize)),
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! The bodies of a scenario at its start.
+
+use super::{Setup, resolution};
+use crate::contact::body_wall::touch_walls;
+use crate::contact::law::ContactLaw;
+use crate::math::Vec3;
+use crate::rigid::{Body, BodyState, Freedom, Load};
+use crate::scenario::Scenario;
+use crate::walls::Plane;
+
+/// The bodies of a scenario, where they start.
+pub(in crate::simulation) fn bodies(scenario: &Scenario, given: &Setup) -> Vec<Body> {
+    (0..scenario.bodies.len())
+        .map(|place| body(scenario, given, place))
+        .collect()
+}
+
+fn body(scenario: &Scenario, given: &Setup, place: usize) -> Body {
+    let spec = &scenario.bodies[place];
+    let shape = scenario.shape_of(place);
+    let pose = scenario.initial_pose(place);
+    let mass = spec.density_kg_m3 * shape.volume();
+    let inertia = shape.unit_inertia() * spec.density_kg_m3;
+    let modulus = spec
+        .contact_modulus_pa
+        .unwrap_or_else(|| resolution::contact_modulus(scenario, place, mass, &pose.position));
+    let wall_law = ContactLaw::hertz(
+        modulus,
+        shape.sphero_radius(),
+        spec.restitution,
+        spec.friction,
+    );
+    let flow_law = match &given.flow {
+        Some(flow) => flow.contact_law(spec.flow_restitution, spec.flow_friction),
+        None => wall_law,
+    };
+    let mut body = Body {
+        inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
+        state: BodyState {
+            position: pose.position,
+            orientation: pose.orientation,
+            momentum: Vec3::from(spec.velocity_m_s) * mass,
+            angular_momentum: Vec3::zeros(),
+            springs: Vec::new(),
+            wall_load: Load::default(),
+            wall_energy: 0.0,
+        },
+        shape,
+        mass,
+        inertia,
+        wall_law,
+        flow_law,
+        freedom: if spec.fixed {
+            Freedom::Fixed
+        } else {
+            Freedom::Free
+        },
+    };
+    let spin = body.to_body(&Vec3::from(spec.angular_velocity_rad_s));
+    body.state.angular_momentum = body.to_world(&(body.inertia * spin));
+    if spec.position.elevation_m.is_none() && body.freedom == Freedom::Free {
+        settle(&mut body, &given.planes, &given.gravity);
+    }
+    touch_walls(&mut body, &given.planes, 0.0);
+    body
+}
+
+/// Sinks a resting body to where its support carries its weight, so that it
+/// does not start with a small fall.
+fn settle(body: &mut Body, planes: &[Plane], gravity: &Vec3) {
+    let heights = |plane: &Plane| -> Vec<f64> {
+        body.shape
+            .core_vertices()
+            .iter()
+            .map(|v| plane.height(&(body.state.position + body.to_world(v))))
+            .collect()
+    };
+    let radius = body.shape.sphero_radius();
+    let touches = |height: &f64| *height < radius * (1.0 + 1e-6);
+    let Some(support) = planes
+        .iter()
+        .find(|plane| heights(plane).iter().any(touches))
+    else {
+        return;
+    };
+    let carriers = heights(support).iter().copied().filter(touches).count() as f64;
+    let pressed = -gravity.dot(&support.normal) * body.mass / carriers;
+    let overlap = (pressed.max(0.0) / body.wall_law.stiffness).powf(2.0 / 3.0);
+    body.state.position -= support.normal * overlap;
+}

@@ -1,0 +1,207 @@
+//! Which nodes walls act on, and how much room they leave them.
+
+use super::Plane;
+use super::Walls;
+use super::constraint::Answer;
+use super::nodes::NodeAccess;
+use super::upright::{Ends, Meets};
+use crate::grid::{BLOCK, BLOCK_NODES};
+use crate::kernel::{Lattice, REACH, share_above};
+use crate::math::Vec3;
+use std::ops::Range;
+
+/// A node with less than this share of its kernel in the channel does not say
+/// how full it is.
+const LEAST_ROOM: f64 = 0.02;
+
+/// A node with its images: they move as one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Member {
+    pub(super) place: u32,
+    /// +1, or −1 where the image is mirrored, for x and y.
+    pub(super) sign: [f64; 2],
+    /// Where it lies at the transfer [m].
+    pub(super) resting: Vec3,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Group {
+    pub(super) members: Range<usize>,
+    pub(super) back: Meets,
+    pub(super) side: Meets,
+    /// Which base planes it is on or below, as bits.
+    pub(super) below: u8,
+    /// Share of the kernels that lies above the base planes.
+    room: f64,
+}
+
+impl Group {
+    pub(super) fn is_upright(&self) -> bool {
+        self.back != Meets::Not || self.side != Meets::Not
+    }
+}
+
+/// The nodes of one step that walls act on.
+#[derive(Debug, Default)]
+pub struct Boundary {
+    pub(super) members: Vec<Member>,
+    pub(super) groups: Vec<Group>,
+    /// Other nodes whose kernel a base plane cuts: their places, and the share
+    /// of it that lies in the channel.
+    cut: Vec<(u32, f64)>,
+    /// What a sub-step does to each group.
+    pub(super) answers: Vec<Answer>,
+}
+
+impl Boundary {
+    /// Where walls leave less room, the same volume of points fills more of it;
+    /// a node and its images share theirs.
+    pub fn leave_less_room(&self, nodes: &mut impl NodeAccess) {
+        for (place, room) in &self.cut {
+            let place = *place as usize;
+            nodes.set_fullness(place, filled(nodes.fullness(place), *room));
+        }
+        for group in &self.groups {
+            let members = &self.members[group.members.clone()];
+            let of_member = |member: &Member| nodes.fullness(member.place as usize);
+            let inside = group.back.room() * group.side.room();
+            let sum: f64 = members.iter().map(of_member).sum();
+            let fullness = filled(sum / inside, group.room);
+            for member in members {
+                nodes.set_fullness(member.place as usize, fullness);
+            }
+        }
+    }
+}
+
+/// Fullness of a share of the room, what fills all of it to `fullness`.
+pub fn filled(fullness: f64, room: f64) -> f64 {
+    if room > LEAST_ROOM {
+        fullness / room
+    } else {
+        // Too few points see such a node to say.
+        0.0
+    }
+}
+
+impl Walls {
+    /// Finds the nodes that walls act on.
+    pub fn find_boundary(&self, nodes: &impl NodeAccess, boundary: &mut Boundary) {
+        boundary.members.clear();
+        boundary.groups.clear();
+        boundary.cut.clear();
+        for (block, key) in nodes.blocks().iter().enumerate() {
+            let first = key.map(|k| k * BLOCK as i32);
+            if !self.may_act_in(nodes.lattice(), first) {
+                continue;
+            }
+            for local in 0..BLOCK_NODES {
+                let along = [
+                    local / (BLOCK * BLOCK),
+                    local / BLOCK % BLOCK,
+                    local % BLOCK,
+                ];
+                let index = [0, 1, 2].map(|axis| first[axis] + along[axis] as i32);
+                let place = block * BLOCK_NODES + local;
+                // An empty node counts where its images may not be empty.
+                let counts = nodes.mass(place) > 0.0 || self.upright.has_images(index);
+                if counts && self.upright.leader(index, nodes) == index {
+                    self.add_group(nodes, place, index, boundary);
+                }
+            }
+        }
+        boundary
+            .answers
+            .resize(boundary.groups.len(), Answer::default());
+    }
+
+    /// Whether walls may act on a node of the block that starts at `first`.
+    fn may_act_in(&self, lattice: &Lattice, first: [i32; 3]) -> bool {
+        let last = first.map(|along| along + BLOCK as i32 - 1);
+        let ends = match self.upright.ends {
+            Ends::BackWall(_) => first[0] <= 1,
+            Ends::Seam { cells } => first[0] <= 1 || last[0] >= cells - 1,
+        };
+        let upright = ends || first[1] <= 1 || last[1] >= self.upright.cells_across - 1;
+        let (low, high) = (lattice.position(first), lattice.position(last));
+        // The lowest of a box's corners above a plane.
+        let lowest =
+            |plane: &Plane| {
+                let corner = plane
+                    .normal
+                    .zip_zip_map(&low, &high, |n, low, high| if n > 0.0 { low } else { high });
+                plane.height(&corner)
+            };
+        // The kernel's reach along a diagonal.
+        let margin = REACH * lattice.spacing.norm();
+        upright || self.base.iter().any(|plane| lowest(plane) <= margin)
+    }
+
+    fn add_group(
+        &self,
+        nodes: &impl NodeAccess,
+        place: usize,
+        index: [i32; 3],
+        boundary: &mut Boundary,
+    ) {
+        let resting = nodes.lattice().position(index);
+        let below = self.below(&resting);
+        let start = boundary.members.len();
+        boundary.members.push(Member {
+            place: place as u32,
+            sign: [1.0, 1.0],
+            resting,
+        });
+        self.upright
+            .for_each_image(index, |image, sign| match nodes.place_of(image) {
+                Some(place) if nodes.mass(place) > 0.0 => boundary.members.push(Member {
+                    place: place as u32,
+                    sign,
+                    resting: nodes.lattice().position(image),
+                }),
+                _ => {}
+            });
+        let back = self.upright.meets_back(index);
+        let side = self.upright.meets_side(index);
+        let alone = boundary.members.len() == start + 1;
+        let plain = alone && below == 0 && back == Meets::Not && side == Meets::Not;
+        let empty = alone && nodes.mass(place) <= 0.0;
+        if plain || empty {
+            boundary.members.truncate(start);
+        }
+        let room = self.room(&resting, &nodes.lattice().spacing);
+        if plain && room < 1.0 {
+            boundary.cut.push((place as u32, room));
+        }
+        if plain || empty {
+            return;
+        }
+        boundary.groups.push(Group {
+            members: start..boundary.members.len(),
+            back,
+            side,
+            below,
+            room,
+        });
+    }
+
+    /// Share of the kernel of a node at `x` that lies above the base planes.
+    fn room(&self, x: &Vec3, spacing: &Vec3) -> f64 {
+        let share = |plane: &Plane| {
+            // The kernel is as wide along a slant as along its axes.
+            let width = plane.normal.component_mul(spacing).norm();
+            share_above(plane.height(x) / width)
+        };
+        self.base.iter().map(share).product()
+    }
+
+    fn below(&self, x: &Vec3) -> u8 {
+        // A node that lies on the plane but for rounding belongs to it.
+        let rounding = 1e-9 * (1.0 + x.norm());
+        self.base
+            .iter()
+            .enumerate()
+            .filter(|(_, plane)| plane.height(x) <= rounding)
+            .fold(0, |bits, (which, _)| bits | 1 << which)
+    }
+}

@@ -1,0 +1,213 @@
+//! What walls do to the motion of nodes.
+
+use super::boundary::{Boundary, Group, Member};
+use super::nodes::NodeAccess;
+use super::upright::Meets;
+use super::{Impulse, Plane, Walls};
+use crate::math::Vec3;
+use rayon::prelude::*;
+
+/// Groups of nodes one task takes.
+const TASK: usize = 128;
+
+/// What walls do to a group.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Answer {
+    /// Velocity in the frame of the first member [m/s]; `None` if it stays.
+    velocity: Option<Vec3>,
+    /// Impulse given.
+    impulse: Impulse,
+}
+
+impl Walls {
+    /// Makes nodes and their images move as one, as they will in the first
+    /// sub-step. What it takes from the nodes' momentum the rest of the transfer
+    /// gives back, so it is no impulse.
+    pub fn reflect(&self, boundary: &Boundary, nodes: &mut impl NodeAccess) {
+        for group in &boundary.groups {
+            let members = &boundary.members[group.members.clone()];
+            if members.len() == 1 && !group.is_upright() {
+                continue;
+            }
+            let velocity = self.between_uprights(group, members, nodes);
+            for member in members {
+                let velocity = mirrored(&velocity, member.sign);
+                nodes.set_velocity(member.place as usize, &velocity, 0.0);
+            }
+        }
+    }
+
+    /// Makes node velocities obey the walls for a sub-step of `dt` [s]: mirrors
+    /// at the upright ones, no inflow and free separation at the base, Coulomb
+    /// friction at both. Returns the impulse given to the flow.
+    pub fn constrain(
+        &self,
+        boundary: &mut Boundary,
+        nodes: &mut impl NodeAccess,
+        dt: f64,
+    ) -> Impulse {
+        let Boundary {
+            members,
+            groups,
+            answers,
+            ..
+        } = boundary;
+        let seen: &_ = nodes;
+        answers
+            .par_iter_mut()
+            .zip(&*groups)
+            .with_min_len(TASK)
+            .for_each(|(answer, group)| {
+                *answer = self.answer(group, &members[group.members.clone()], seen, dt);
+            });
+        let mut given = Impulse::default();
+        for (answer, group) in answers.iter().zip(groups) {
+            let Some(velocity) = answer.velocity else {
+                continue;
+            };
+            given.linear += answer.impulse.linear;
+            given.angular += answer.impulse.angular;
+            for member in &members[group.members.clone()] {
+                let velocity = mirrored(&velocity, member.sign);
+                nodes.set_velocity(member.place as usize, &velocity, dt);
+            }
+        }
+        given
+    }
+
+    fn answer(
+        &self,
+        group: &Group,
+        members: &[Member],
+        nodes: &impl NodeAccess,
+        dt: f64,
+    ) -> Answer {
+        let velocity = self.velocity_of(group, members, nodes);
+        if let [only] = members
+            && velocity == nodes.velocity(only.place as usize)
+        {
+            return Answer::default();
+        }
+        let mut impulse = Impulse::default();
+        for member in members {
+            let place = member.place as usize;
+            let change = mirrored(&velocity, member.sign) - nodes.velocity(place);
+            let present = member.resting + nodes.displacement(place, dt);
+            impulse.add_at(&present, &(change * nodes.mass(place)));
+        }
+        Answer {
+            velocity: Some(velocity),
+            impulse,
+        }
+    }
+
+    /// Common velocity of a group in the frame of its first member.
+    fn velocity_of(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Vec3 {
+        let mut velocity = match members {
+            [only] if !group.is_upright() => nodes.velocity(only.place as usize),
+            _ => self.between_uprights(group, members, nodes),
+        };
+        let against_back_wall = matches!(group.back, Meets::On { .. });
+        for (which, plane) in self.base.iter().enumerate() {
+            if group.below & 1 << which != 0 {
+                constrain_to(plane, against_back_wall, &mut velocity);
+            }
+        }
+        velocity
+    }
+
+    /// Common velocity of a group that meets an upright wall, but for the base.
+    fn between_uprights(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Vec3 {
+        let folded = Folded::of(members, nodes);
+        let mut velocity = folded.momentum / folded.mass;
+        for (axis, meets) in [(0, group.back), (1, group.side)] {
+            let inward = match meets {
+                Meets::Not => continue,
+                Meets::Near { inward } => inward,
+                Meets::On { inward } => {
+                    velocity[axis] = 0.0;
+                    inward
+                }
+            };
+            let friction = self.upright.friction(axis);
+            let after = velocity[axis] * folded.signed_mass[axis];
+            let pressed = (after - folded.unfolded[axis]) * inward;
+            if friction > 0.0 && pressed > 0.0 {
+                rub(axis, friction * pressed / folded.mass, &mut velocity);
+            }
+        }
+        velocity
+    }
+}
+
+/// What a node and its images carry together.
+struct Folded {
+    mass: f64,
+    /// Momentum, the images' mirrored back.
+    momentum: Vec3,
+    /// Momentum as it lies on the grid.
+    unfolded: Vec3,
+    /// Mass less mass of images, for x and y.
+    signed_mass: [f64; 2],
+}
+
+impl Folded {
+    fn of(members: &[Member], nodes: &impl NodeAccess) -> Self {
+        let mut folded = Self {
+            mass: 0.0,
+            momentum: Vec3::zeros(),
+            unfolded: Vec3::zeros(),
+            signed_mass: [0.0; 2],
+        };
+        for member in members {
+            let place = member.place as usize;
+            let (mass, velocity) = (nodes.mass(place), nodes.velocity(place));
+            folded.mass += mass;
+            folded.momentum += mirrored(&velocity, member.sign) * mass;
+            folded.unfolded += velocity * mass;
+            for axis in 0..2 {
+                folded.signed_mass[axis] += member.sign[axis] * mass;
+            }
+        }
+        folded
+    }
+}
+
+/// Coulomb friction of an upright wall: takes at most `largest_loss` of the
+/// speed along it.
+fn rub(axis: usize, largest_loss: f64, velocity: &mut Vec3) {
+    let normal = velocity[axis];
+    velocity[axis] = 0.0;
+    *velocity *= kept_by_friction(largest_loss, velocity.norm());
+    velocity[axis] = normal;
+}
+
+/// No inflow through a base plane, and friction on what was stopped.
+fn constrain_to(plane: &Plane, against_back_wall: bool, velocity: &mut Vec3) {
+    // On the back wall only the vertical is left to move in, so the incline
+    // acts along it there.
+    let normal = if against_back_wall {
+        Vec3::z()
+    } else {
+        plane.normal
+    };
+    let inflow = -velocity.dot(&normal);
+    if inflow <= 0.0 {
+        return;
+    }
+    let tangential = *velocity + normal * inflow;
+    *velocity = tangential * kept_by_friction(plane.flow_friction * inflow, tangential.norm());
+}
+
+/// Share of a tangential speed that Coulomb friction leaves.
+fn kept_by_friction(largest_loss: f64, speed: f64) -> f64 {
+    if speed > largest_loss {
+        1.0 - largest_loss / speed
+    } else {
+        0.0
+    }
+}
+
+fn mirrored(v: &Vec3, sign: [f64; 2]) -> Vec3 {
+    Vec3::new(sign[0] * v.x, sign[1] * v.y, v.z)
+}

@@ -1,0 +1,66 @@
+//! The nodes as walls see them, whichever grid they are of.
+
+use crate::grid::{BlockKey, Grid};
+use crate::kernel::Lattice;
+use crate::math::Vec3;
+
+/// The nodes of a grid, by their places: block by block, within a block along z
+/// first.
+pub trait NodeAccess: Sync {
+    /// Where the nodes lie.
+    fn lattice(&self) -> &Lattice;
+    /// The blocks of nodes.
+    fn blocks(&self) -> &[BlockKey];
+    /// Place of node (i, j, k), if its block is there.
+    fn place_of(&self, index: [i32; 3]) -> Option<usize>;
+    /// Mass [kg].
+    fn mass(&self, place: usize) -> f64;
+    /// Velocity [m/s].
+    fn velocity(&self, place: usize) -> Vec3;
+    /// Displacement at the start of the sub-step of `dt` [m].
+    fn displacement(&self, place: usize, dt: f64) -> Vec3;
+    /// Gives a node the velocity [m/s] with which it moves through the sub-step.
+    fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64);
+    /// Volume of points over room for them.
+    fn fullness(&self, place: usize) -> f64;
+    /// Changes it.
+    fn set_fullness(&mut self, place: usize, fullness: f64);
+}
+
+impl NodeAccess for Grid {
+    fn lattice(&self) -> &Lattice {
+        self.lattice()
+    }
+
+    fn blocks(&self) -> &[BlockKey] {
+        self.node_blocks()
+    }
+
+    fn place_of(&self, index: [i32; 3]) -> Option<usize> {
+        self.place_of(index)
+    }
+
+    fn mass(&self, place: usize) -> f64 {
+        self.nodes()[place].mass
+    }
+
+    fn velocity(&self, place: usize) -> Vec3 {
+        self.nodes()[place].velocity
+    }
+
+    fn displacement(&self, place: usize, _: f64) -> Vec3 {
+        self.nodes()[place].displacement
+    }
+
+    fn set_velocity(&mut self, place: usize, velocity: &Vec3, _: f64) {
+        self.node_mut(place).velocity = *velocity;
+    }
+
+    fn fullness(&self, place: usize) -> f64 {
+        self.nodes()[place].fullness
+    }
+
+    fn set_fullness(&mut self, place: usize, fullness: f64) {
+        self.node_mut(place).fullness = fullness;
+    }
+}

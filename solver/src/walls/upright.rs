@@ -1,0 +1,170 @@
+//! The upright walls: which nodes are images of which.
+
+use super::Plane;
+use super::nodes::NodeAccess;
+use std::iter::once;
+
+/// The upright walls, on planes of nodes: ends at index 0 along x, sides at
+/// index 0 and `cells_across` along y.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Upright {
+    /// What is at index 0 along x.
+    pub ends: Ends,
+    /// The side walls.
+    pub sides: [Plane; 2],
+    /// Cells between the side walls.
+    pub cells_across: i32,
+}
+
+/// What bounds the flow along x.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ends {
+    /// A wall at the back; the front is open.
+    BackWall(Plane),
+    /// None: what leaves after `cells` cells comes in at the back. Energy and
+    /// angular momentum of such a flow can't be audited.
+    Seam {
+        /// Cells from end to end.
+        cells: i32,
+    },
+}
+
+/// How a group of nodes meets an upright wall; `inward` is the sign of the
+/// wall's normal along its axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Meets {
+    Not,
+    /// One node away, so that its image is behind the wall.
+    Near {
+        inward: f64,
+    },
+    /// On the wall's plane: it has no normal velocity.
+    On {
+        inward: f64,
+    },
+}
+
+impl Meets {
+    /// Share of the kernel on the channel's side, images counted with it.
+    pub(super) fn room(self) -> f64 {
+        match self {
+            Meets::On { .. } => 0.5,
+            Meets::Not | Meets::Near { .. } => 1.0,
+        }
+    }
+}
+
+impl Upright {
+    /// The node in the channel that a node is the image of (itself, mostly);
+    /// across a seam the first that has a block.
+    pub(super) fn leader(&self, [i, j, k]: [i32; 3], nodes: &impl NodeAccess) -> [i32; 3] {
+        let across = self.cells_across;
+        let j = j.abs();
+        let j = if j > across { 2 * across - j } else { j };
+        let i = match self.ends {
+            Ends::BackWall(_) => i.abs(),
+            Ends::Seam { cells } => {
+                let there = |i: &i32| nodes.place_of([*i, j, k]).is_some();
+                let first = i.rem_euclid(cells);
+                let mut alike = once(first).chain(across_seam(first, cells));
+                alike.find(there).unwrap_or(first)
+            }
+        };
+        [i, j, k]
+    }
+
+    /// Whether a node has images that the kernel can reach.
+    pub(super) fn has_images(&self, [i, j, _]: [i32; 3]) -> bool {
+        let along = match self.ends {
+            Ends::BackWall(_) => i == 1,
+            Ends::Seam { cells } => across_seam(i, cells).next().is_some(),
+        };
+        along || j == 1 || j == self.cells_across - 1
+    }
+
+    /// Visits the images that the kernel can reach, one node behind a wall.
+    pub(super) fn for_each_image(
+        &self,
+        [i, j, k]: [i32; 3],
+        mut visit: impl FnMut([i32; 3], [f64; 2]),
+    ) {
+        let across = self.cells_across;
+        let (mirror, period) = match self.ends {
+            Ends::BackWall(_) => ((i == 1).then_some((-i, -1.0)), None),
+            Ends::Seam { cells } => (None, Some(cells)),
+        };
+        let repeats = period.into_iter().flat_map(|cells| across_seam(i, cells));
+        let along_x = once((i, 1.0))
+            .chain(mirror)
+            .chain(repeats.map(|i| (i, 1.0)));
+        let along_y = [
+            Some((j, 1.0)),
+            (j == 1).then_some((-j, -1.0)),
+            (j == across - 1).then_some((2 * across - j, -1.0)),
+        ];
+        for (x, (i, sign_x)) in along_x.enumerate() {
+            for (y, &(j, sign_y)) in along_y.iter().flatten().enumerate() {
+                if x + y > 0 {
+                    visit([i, j, k], [sign_x, sign_y]);
+                }
+            }
+        }
+    }
+
+    pub(super) fn meets_back(&self, [i, ..]: [i32; 3]) -> Meets {
+        match self.ends {
+            Ends::BackWall(_) => meets(i, 1.0),
+            Ends::Seam { .. } => Meets::Not,
+        }
+    }
+
+    pub(super) fn meets_side(&self, [_, j, _]: [i32; 3]) -> Meets {
+        let from_far_side = self.cells_across - j;
+        if from_far_side < j {
+            meets(from_far_side, -1.0)
+        } else {
+            meets(j, 1.0)
+        }
+    }
+
+    /// Whether what leaves comes in again.
+    pub fn has_seam(&self) -> bool {
+        matches!(self.ends, Ends::Seam { .. })
+    }
+
+    /// By how many cells a place `along` cells from the back is moved so that it
+    /// lies between the ends of a seam.
+    pub fn shift_across_seam(&self, along: f64) -> Option<i32> {
+        let Ends::Seam { cells } = self.ends else {
+            return None;
+        };
+        let outside = (along / f64::from(cells)).floor();
+        (outside != 0.0).then_some(-(outside as i32) * cells)
+    }
+
+    /// Friction of the walls across an axis.
+    pub(super) fn friction(&self, axis: usize) -> f64 {
+        match (&self.ends, axis) {
+            (Ends::BackWall(plane), 0) => plane.flow_friction,
+            (Ends::Seam { .. }, 0) => 0.0,
+            _ => self.sides[0].flow_friction,
+        }
+    }
+}
+
+/// The other nodes along x that are the same across a seam of `cells` cells and
+/// within the kernel's reach.
+fn across_seam(i: i32, cells: i32) -> impl Iterator<Item = i32> {
+    let first = i.rem_euclid(cells) - cells;
+    let alike = (0..4).map(move |period| first + period * cells);
+    alike.filter(move |alike| *alike != i && (-1..=cells + 1).contains(alike))
+}
+
+/// How a node `distance` nodes from a wall meets it.
+fn meets(distance: i32, inward: f64) -> Meets {
+    match distance {
+        0 => Meets::On { inward },
+        1 => Meets::Near { inward },
+        _ => Meets::Not,
+    }
+}
