@@ -6,6 +6,7 @@
 
 mod arguments;
 mod bench;
+mod charts;
 mod columns;
 mod console;
 mod demo;

@@ -10,7 +10,7 @@ use scree_solver::simulation::{GivenFlow, Scene, Setup, Timing};
 use scree_solver::walls::{Ends, Plane, Upright, Walls};
 
 /// Points per cell and axis.
-const PER_CELL: u32 = 2;
+pub(super) const PER_CELL: u32 = 2;
 
 /// A box of points in a channel with a flat, smooth floor and smooth sides.
 #[derive(Debug, Clone)]

@@ -1,6 +1,9 @@
 //! Columns of grains that are let go on a rough floor.
 
-use super::beads::{BULK_DENSITY, GRAIN_DENSITY, GRAIN_DIAMETER, REFERENCE_INERTIAL_NUMBER};
+use super::beads::{
+    BULK_DENSITY, FRICTION, GRAIN_DENSITY, GRAIN_DIAMETER, REFERENCE_INERTIAL_NUMBER,
+};
+use super::findings::{Error, Question};
 use super::run::{Answer, Run, Trouble, scene_of};
 use super::scenes::{GRAVITY, channel};
 use scree_solver::Simulation;
@@ -36,6 +39,11 @@ pub(super) struct Column {
     pub(super) round: Option<f64>,
 }
 
+/// The run-out at this aspect, as a quantity.
+pub(super) fn runout(aspect: f64) -> String {
+    format!("run-out, a = {aspect}")
+}
+
 /// How a column came to rest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Deposit {
@@ -50,6 +58,30 @@ pub(super) struct Deposit {
 }
 
 impl Column {
+    /// Half of a plane column of beads.
+    pub(super) fn plane(aspect: f64, cells: u32) -> Self {
+        Self {
+            aspect,
+            friction: FRICTION,
+            cells,
+            per_cell: 8,
+            round: None,
+        }
+    }
+
+    /// What is asked of [`Column::answer`], an `oracle` standing beside every
+    /// run-out.
+    pub(super) fn questions(&self, oracle: f64) -> [Question; 4] {
+        let aspect = self.aspect;
+        let about = |words: &str| Question::new(format!("{words}, a = {aspect}"), "", oracle);
+        [
+            Question::new(runout(aspect), "", oracle),
+            about("run-out at 1 % of the mass"),
+            about("run-out, one grain thick"),
+            Question::new(format!("mass still moving, a = {aspect}"), "", 0.0).by(Error::Absolute),
+        ]
+    }
+
     fn height(&self) -> f64 {
         self.aspect * BASE
     }

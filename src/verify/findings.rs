@@ -212,11 +212,7 @@ impl Findings {
     /// Takes the order at which the errors of a quantity shrink with the size
     /// of its resolutions. Errors no larger than `floor` are left out of it.
     pub fn take_order(&mut self, quantity: &str, floor: f64, asked: Option<f64>) {
-        let of_it = self
-            .values
-            .iter()
-            .filter(|finding| finding.question.quantity == quantity);
-        let order = Order::of(quantity, of_it, floor, asked);
+        let order = Order::of(quantity, self.of(quantity), floor, asked);
         self.orders.push(order);
     }
 

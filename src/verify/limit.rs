@@ -52,6 +52,13 @@ impl Limit {
     }
 }
 
+/// Where these sizes and values go; the finest value where they don't settle, no
+/// number where there is none.
+pub(super) fn limit_or_finest(places: &[(f64, f64)]) -> f64 {
+    let finest = places.last().map_or(f64::NAN, |place| place.1);
+    extrapolated(places).map_or(finest, |found| found.limit)
+}
+
 /// From the last three of these sizes and values.
 pub(super) fn extrapolated(places: &[(f64, f64)]) -> Option<Extrapolated> {
     let [.., coarse, middle, fine] = places else {

@@ -1,9 +1,9 @@
 //! The source paper's scene and what its cube does.
 
-use super::run::{Answer, Run, Trouble};
+use super::run::{Answer, Run, Trouble, scenario_of, scene_of};
 use scree_solver::record::Recorder;
-use scree_solver::scenario::Scenario;
 use scree_solver::simulation::Scene;
+use scree_solver::stability::Limits;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 
@@ -26,14 +26,13 @@ pub(super) fn scene(cells: f64) -> Value {
     scene
 }
 
-/// The speed of sound the solver chooses for the scene [m/s].
+/// What the solver chooses for the steps of the scene.
 ///
 /// # Errors
 /// The scene is refused.
-pub(super) fn sound_speed(scene: &Value) -> Result<f64, Trouble> {
-    let scene = Scene::of(&read(scene)?)?;
-    let flow = scene.given.flow.ok_or(Trouble::Never("there is no flow"))?;
-    Ok(flow.limits.sound_speed)
+pub(super) fn limits_of(scene: &Value) -> Result<Limits, Trouble> {
+    let flow = scene_of(scene)?.given.flow;
+    Ok(flow.ok_or(Trouble::Never("there is no flow"))?.limits)
 }
 
 /// The [`QUANTITIES`] of the cube. It may still move at the end: then it is at
@@ -42,7 +41,7 @@ pub(super) fn sound_speed(scene: &Value) -> Result<f64, Trouble> {
 /// # Errors
 /// The scene is refused or can't be computed, or the flow doesn't move the cube.
 pub(super) fn motion(scene: &Value) -> Result<Answer<4>, Trouble> {
-    let scenario = read(scene)?;
+    let scenario = scenario_of(scene)?;
     let mut run = Run::start(Scene::of(&scenario)?)?;
     let mut recorder = Recorder::new(&scenario);
     recorder.start(&run.simulation);
@@ -58,8 +57,4 @@ pub(super) fn motion(scene: &Value) -> Result<Answer<4>, Trouble> {
     let onset = onset.ok_or(Trouble::Never("the flow never moved the cube"))?;
     let rest = cube.stop_time_s.unwrap_or(f64::NAN);
     Ok(run.answer([onset, cube.peak_speed_m_s, cube.displacement_m, rest]))
-}
-
-fn read(scene: &Value) -> Result<Scenario, Trouble> {
-    Scenario::from_json(&scene.to_string()).map_err(|error| Trouble::Scene(format!("{error:?}")))
 }

@@ -95,6 +95,24 @@ impl Run {
         Ok(())
     }
 
+    /// Mean change of a speed [m/s²] from the first step's end after one time to the
+    /// first after another.
+    ///
+    /// # Errors
+    /// The computation can't go on.
+    pub fn acceleration(
+        &mut self,
+        from_s: f64,
+        to_s: f64,
+        speed: impl Fn(&Simulation) -> f64,
+    ) -> Result<f64, Trouble> {
+        self.to(from_s)?;
+        let (start, first) = (self.simulation.time_s(), speed(&self.simulation));
+        self.to(to_s)?;
+        let (end, last) = (self.simulation.time_s(), speed(&self.simulation));
+        Ok((last - first) / (end - start))
+    }
+
     /// These values at what the run has cost so far.
     pub fn answer<const N: usize>(&self, values: [f64; N]) -> Answer<N> {
         let wall_s = self.started.elapsed().as_secs_f64();
@@ -113,7 +131,14 @@ impl Run {
 /// # Errors
 /// The scenario is refused.
 pub fn scene_of(document: &serde_json::Value) -> Result<Scene, Trouble> {
+    Ok(Scene::of(&scenario_of(document)?)?)
+}
+
+/// A scenario in JSON.
+///
+/// # Errors
+/// It is refused.
+pub fn scenario_of(document: &serde_json::Value) -> Result<Scenario, Trouble> {
     let refused = |error: ScenarioError| Trouble::Scene(format!("{error:?}"));
-    let scenario = Scenario::from_json(&document.to_string()).map_err(refused)?;
-    Ok(Scene::of(&scenario)?)
+    Scenario::from_json(&document.to_string()).map_err(refused)
 }

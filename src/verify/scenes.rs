@@ -60,6 +60,21 @@ pub(super) fn downhill(inclination_deg: f64) -> Vec3 {
     Vec3::new(cos, 0.0, -sin)
 }
 
+/// Gravity of a slope whose surface lies flat [m/s²].
+pub(super) fn tilted_gravity(inclination_deg: f64) -> Vec3 {
+    let (sin, cos) = inclination_deg.to_radians().sin_cos();
+    Vec3::new(sin, 0.0, -cos) * GRAVITY
+}
+
+/// A body of this description, in a channel of its own.
+pub(super) fn body(description: &Value) -> Result<Body, Trouble> {
+    let mut document = channel(0.0, 1.0, 1.0, 1.0);
+    document["bodies"] = json!([description]);
+    document["duration_s"] = json!(1.0);
+    let body = scene_of(&document)?.bodies.pop();
+    body.ok_or(Trouble::Never("there is no body"))
+}
+
 /// Velocity of the flow's mass centre [m/s].
 pub(super) fn mean_velocity(simulation: &Simulation) -> Vec3 {
     let (mut mass, mut momentum) = (0.0, Vec3::zeros());

@@ -6,9 +6,9 @@
 //! u = ⅔ (I/d) √(φ g cos θ) [h^1.5 − (h − y)^1.5],   I = I0 (tan θ − μ_s)/(μ_2 − tan θ).
 
 use super::beads;
-use super::blocks::Block;
+use super::blocks::{Block, PER_CELL};
 use super::run::{Run, Trouble};
-use super::scenes::GRAVITY;
+use super::scenes::{GRAVITY, tilted_gravity};
 use scree_solver::Simulation;
 use scree_solver::material::{Material, Yielding};
 use scree_solver::math::{Sym3, Vec3};
@@ -25,8 +25,6 @@ const GRAIN_DIAMETER: f64 = 0.53e-3;
 const STIFFNESS: f64 = 10.0;
 /// Length of the layer [cells]; it runs round.
 const ALONG: u32 = 4;
-/// Points over the height of a cell.
-const PER_CELL: usize = 2;
 /// Width of the scatter of points about their lattice, over their distance: on a
 /// lattice they would travel in rows, which no flow keeps.
 const SCATTER: f64 = 0.2;
@@ -115,11 +113,6 @@ impl Slope {
         }
     }
 
-    fn tilted_gravity(&self) -> Vec3 {
-        let (sin, cos) = self.inclination_deg.to_radians().sin_cos();
-        Vec3::new(sin, 0.0, -cos) * GRAVITY
-    }
-
     /// The layer at its start.
     pub(super) fn scene(&self) -> Scene {
         let block = Block {
@@ -135,10 +128,10 @@ impl Slope {
             duration: self.duration,
         };
         let mut scene = block.scene();
-        scene.given.gravity = self.tilted_gravity();
+        scene.given.gravity = tilted_gravity(self.inclination_deg);
         scene.given.walls.base[0].flow_friction = ROUGH;
         let mut chance = Chance(1);
-        let spacing = self.cell() / PER_CELL as f64;
+        let spacing = self.cell() / f64::from(PER_CELL);
         for point in &mut scene.points {
             // Across, half as far: the mirrors are near.
             let scatter = Vec3::new(chance.next(), 0.5 * chance.next(), chance.next());
@@ -150,7 +143,7 @@ impl Slope {
 
     /// Gives a point the stress of its depth and the velocity of its height.
     fn set_off(&self, point: &mut Point, material: &Material) {
-        let gravity = self.tilted_gravity();
+        let gravity = tilted_gravity(self.inclination_deg);
         let above = beads::BULK_DENSITY * (HEIGHT - point.position.z).max(0.0);
         let pressed = -gravity.z * above;
         point.volume = point.mass / material.density(pressed);
@@ -164,7 +157,7 @@ impl Slope {
     /// Means from the run's present time until `to` [s].
     pub(super) fn means(&self, run: &mut Run, to: f64) -> Result<Means, Trouble> {
         let mut sum = Means {
-            speeds: vec![0.0; self.cells as usize * PER_CELL],
+            speeds: vec![0.0; (self.cells * PER_CELL) as usize],
             centre: 0.0,
         };
         let (mut looks, mut last) = (0.0, run.simulation.time_s());

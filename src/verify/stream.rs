@@ -2,8 +2,8 @@
 //! The block runs round along the channel, and smooth walls mirror it across.
 
 use super::blocks::Block;
-use super::run::{Answer, Run, Trouble, scene_of};
-use super::scenes::channel;
+use super::run::{Answer, Run, Trouble};
+use super::scenes::body;
 use scree_solver::material::Material;
 use scree_solver::math::Vec3;
 use scree_solver::rigid::Body;
@@ -41,16 +41,12 @@ pub(super) struct Stream {
 
 /// A cube that stays where it is, frictionless and never bounced off.
 pub(super) fn fixed_cube(centre: Vec3, scene: &Scene) -> Result<Body, Trouble> {
-    let mut document = channel(0.0, 1.0, 1.0, 1.0);
-    document["bodies"] = json!([{
+    let mut cube = body(&json!({
         "shape": {"cube": {"side_m": SIDE}},
         "sphero_radius_m": ROUNDING * SIDE,
         "fixed": true,
         "position": {"downstream_m": 0.0, "elevation_m": 0.5},
-    }]);
-    document["duration_s"] = json!(1.0);
-    let cube = scene_of(&document)?.bodies.pop();
-    let mut cube = cube.ok_or(Trouble::Never("there is no cube"))?;
+    }))?;
     cube.state.position = centre;
     if let Some(flow) = &scene.given.flow {
         cube.flow_law = flow.contact_law(0.0, 0.0);

@@ -1,6 +1,5 @@
 //! Error against wall time: what a choice of resolution, points or stiffness buys.
 
-use super::beads;
 use super::cases::ALL;
 use super::columns::Column;
 use super::findings::Findings;
@@ -70,11 +69,8 @@ fn collapse(effort: Effort) -> Diagram {
     let finest = 2 * cells[cells.len() - 1];
     let runout = |cells: u32, per_cell: u32| {
         let column = Column {
-            aspect: 1.0,
-            friction: beads::FRICTION,
-            cells,
             per_cell,
-            round: None,
+            ..Column::plane(1.0, cells)
         };
         let Answer { values, cost } = column.answer().ok()?;
         Some((cost.wall_s, values[0]))
@@ -195,7 +191,7 @@ impl Choice {
 
     fn motion(self, cells: f64) -> Motion {
         let mut scene: Value = paper::scene(cells);
-        let sound_speed = self.stiffer * paper::sound_speed(&scene)?;
+        let sound_speed = self.stiffer * paper::limits_of(&scene)?.sound_speed;
         scene["numerics"]["sound_speed_m_s"] = json!(sound_speed);
         scene["numerics"]["points_per_cell"] = json!(self.per_cell);
         paper::motion(&scene)

@@ -2,10 +2,10 @@
 
 use super::Report;
 use super::size::Size;
+use crate::cli::charts::write_charts;
 use crate::cli::failure::Failure;
 use scree::pictures::{Axis, Chart, Curve, Scale};
 use scree_solver::fast::cost::{BYTES, OPERATIONS};
-use std::fs;
 use std::path::Path;
 
 /// Ends of the roofline picture's lower axis [operations/byte].
@@ -23,19 +23,12 @@ pub(super) fn write(report: &Report, folder: &Path) -> Result<(), Failure> {
         .roofline
         .as_ref()
         .map(|rooflines| of_roofline(rooflines.each(), &machine));
-    let failed = |error: &dyn std::fmt::Display| {
-        Failure::Other(format!(
-            "cannot write pictures into {}: {error}",
-            folder.display()
-        ))
-    };
-    fs::create_dir_all(folder).map_err(|error| failed(&error))?;
-    for (name, chart) in [("speed-size.svg", size), ("roofline.svg", roofline)] {
-        let Some(chart) = chart else { continue };
-        let svg = chart.draw().map_err(|error| failed(&error))?;
-        fs::write(folder.join(name), svg).map_err(|error| failed(&error))?;
-    }
-    Ok(())
+    let charts = [("speed-size", size), ("roofline", roofline)];
+    let drawn = charts.into_iter();
+    write_charts(
+        drawn.filter_map(|(name, chart)| Some((name, chart?))),
+        folder,
+    )
 }
 
 fn of_size(sizes: &[Size], machine: &str) -> Chart {

@@ -1,28 +1,16 @@
 //! Error against wall time, as pictures.
 
+use crate::cli::charts::write_charts;
 use crate::cli::failure::Failure;
 use scree::pictures::{Axis, Chart, Curve, Scale};
 use scree::verify::work::{Diagram, Series};
-use std::fs;
 use std::path::Path;
 
 /// Writes a picture of each diagram into a folder, which is made if it is not
 /// there.
 pub(super) fn write(diagrams: &[Diagram], machine: &str, folder: &Path) -> Result<(), Failure> {
-    let failed = |error: &dyn std::fmt::Display| {
-        Failure::Other(format!(
-            "cannot write pictures into {}: {error}",
-            folder.display()
-        ))
-    };
-    fs::create_dir_all(folder).map_err(|error| failed(&error))?;
-    for diagram in diagrams {
-        let svg = chart(diagram, machine).draw();
-        let svg = svg.map_err(|error| failed(&error))?;
-        let file = folder.join(format!("{}.svg", diagram.name));
-        fs::write(file, svg).map_err(|error| failed(&error))?;
-    }
-    Ok(())
+    let charts = diagrams.iter();
+    write_charts(charts.map(|one| (one.name, chart(one, machine))), folder)
 }
 
 fn chart(diagram: &Diagram, machine: &str) -> Chart {

@@ -11,9 +11,8 @@
 //! rest; the other side is beyond reach. Material, rest and front are those of the
 //! plane column.
 
-use crate::verify::beads;
-use crate::verify::columns::Column;
-use crate::verify::findings::{Error, Findings, Question, Resolution};
+use crate::verify::columns::{Column, runout};
+use crate::verify::findings::{Findings, Resolution};
 use crate::verify::{Case, Effort, How};
 
 pub(super) const CASE: Case = Case {
@@ -35,30 +34,20 @@ fn run(effort: Effort, findings: &mut Findings) {
         for &cells in effort.take(&CELLS, 1) {
             at(aspect, cells, findings);
         }
-        findings.take_limit(&format!("run-out, a = {aspect}"));
+        findings.take_limit(&runout(aspect));
     }
 }
 
 fn at(aspect: f64, cells: u32, findings: &mut Findings) {
     let column = Column {
-        aspect,
-        friction: beads::FRICTION,
-        cells,
-        per_cell: 8,
         round: Some(WIDTH),
+        ..Column::plane(aspect, cells)
     };
     let measured = if aspect < 1.7 {
         1.24 * aspect
     } else {
         1.6 * aspect.sqrt()
     };
-    let about = |words: &str| Question::new(format!("{words}, a = {aspect}"), "", measured);
-    let questions = [
-        about("run-out"),
-        about("run-out at 1 % of the mass"),
-        about("run-out, one grain thick"),
-        Question::new(format!("mass still moving, a = {aspect}"), "", 0.0).by(Error::Absolute),
-    ];
     let resolution = Resolution::sized(format!("{cells} cells over R0"), 1.0 / f64::from(cells));
-    findings.take(&resolution, questions, column.answer());
+    findings.take(&resolution, column.questions(measured), column.answer());
 }

@@ -20,8 +20,6 @@ use crate::verify::scenes::GRAVITY;
 use crate::verify::stream::{SIDE, fixed_cube};
 use crate::verify::{Case, Effort, How};
 use scree_solver::material::{Material, Yielding};
-use scree_solver::math::Vec3;
-use scree_solver::rigid::Body;
 use scree_solver::scenario::Precision;
 use scree_solver::simulation::Scene;
 use std::ops::ControlFlow;
@@ -106,18 +104,12 @@ fn scene(block: &Block) -> Result<(Scene, f64), Trouble> {
     let radius = sphere.map_or(0.0, |flow| flow.sphere.radius);
     let mass = |scene: &Scene| scene.points.iter().map(|point| point.mass).sum::<f64>();
     let whole = mass(&scene);
-    scene.points.retain(|point| {
-        let arm = point.position - cube.state.position;
-        distance(&cube, &cube.to_body(&arm)) >= radius
-    });
+    scene
+        .points
+        .retain(|point| cube.distance_to(&point.position) >= radius);
     scene.bodies.push(cube);
     let left_out = whole - mass(&scene);
     Ok((scene, left_out))
-}
-
-/// Of a place, in the body's frame, from its surface [m].
-fn distance(body: &Body, place: &Vec3) -> f64 {
-    body.shape.closest_feature(place).distance - body.shape.sphero_radius()
 }
 
 fn buoyancy(cells: u32, duration: f64) -> Result<Answer<4>, Trouble> {

@@ -21,8 +21,7 @@
 //! a = 2 the published solution of μ(I) (Lagrée, Staron & Popinet 2011: 4.40) is
 //! shown too; its material is another.
 
-use crate::verify::beads;
-use crate::verify::columns::Column;
+use crate::verify::columns::{Column, runout};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::Answer;
 use crate::verify::{Case, Effort, How};
@@ -53,41 +52,22 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-fn runout(aspect: f64) -> String {
-    format!("run-out, a = {aspect}")
-}
-
 fn resolution(cells: u32) -> Resolution {
     Resolution::sized(format!("{cells} cells over L0"), 1.0 / f64::from(cells))
 }
 
 fn at(aspect: f64, cells: u32, findings: &mut Findings) {
-    let column = Column {
-        aspect,
-        friction: beads::FRICTION,
-        cells,
-        per_cell: 8,
-        round: None,
-    };
+    let column = Column::plane(aspect, cells);
     let (low, high) = band(aspect);
-    let middle = 0.5 * (low + high);
-    let about = |words: &str| Question::new(format!("{words}, a = {aspect}"), "", middle);
-    let questions = [
-        Question::new(runout(aspect), "", middle)
-            .by(Error::Absolute)
-            .within(0.5 * (high - low)),
-        about("run-out at 1 % of the mass"),
-        about("run-out, one grain thick"),
-        Question::new(format!("mass still moving, a = {aspect}"), "", 0.0).by(Error::Absolute),
-    ];
+    let [at_the_front, at_a_hundredth, one_grain, moving] = column.questions(0.5 * (low + high));
+    let at_the_front = at_the_front.by(Error::Absolute).within(0.5 * (high - low));
+    let questions = [at_the_front, at_a_hundredth, one_grain, moving];
     let answer = column.answer();
-    let published = answer.as_ref().ok().map(|answer| answer.values[0]);
-    let cost = answer.as_ref().map(|answer| answer.cost);
-    if let (2.0, Some(value), Ok(cost)) = (aspect, published, cost) {
+    if let (2.0, Ok(Answer { values, cost })) = (aspect, &answer) {
         let question = Question::new("run-out, a = 2, against the published μ(I)", "", 4.4);
         let answer = Answer {
-            values: [value],
-            cost,
+            values: [values[0]],
+            cost: *cost,
         };
         findings.take(&resolution(cells), [question], Ok(answer));
     }
@@ -96,11 +76,8 @@ fn at(aspect: f64, cells: u32, findings: &mut Findings) {
 
 fn control(cells: u32, findings: &mut Findings) {
     let column = Column {
-        aspect: 2.0,
         friction: CONTROL,
-        cells,
-        per_cell: 8,
-        round: None,
+        ..Column::plane(2.0, cells)
     };
     let (low, high) = band(2.0);
     let questions = [

@@ -19,13 +19,12 @@
 //! better than to the floor, so the layer starts as one.
 
 use crate::verify::beads;
-use crate::verify::blocks::Block;
+use crate::verify::blocks::{Block, PER_CELL};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble};
-use crate::verify::scenes::GRAVITY;
+use crate::verify::scenes::{GRAVITY, tilted_gravity};
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
-use scree_solver::math::Vec3;
 use scree_solver::scenario::Precision;
 use scree_solver::simulation::Scene;
 use std::collections::BTreeSet;
@@ -140,8 +139,7 @@ fn scene(cells: u32, theory: &Theory) -> Scene {
         duration: theory.time,
     };
     let mut scene = block.bed(beads::POISSONS_RATIO);
-    let (sin, cos) = INCLINATION_DEG.to_radians().sin_cos();
-    scene.given.gravity = Vec3::new(sin, 0.0, -cos) * GRAVITY;
+    scene.given.gravity = tilted_gravity(INCLINATION_DEG);
     scene.given.walls.base[0].flow_friction = FRICTION;
     scene
 }
@@ -156,24 +154,16 @@ fn flow(cells: u32, theory: &Theory) -> Result<Answer<4>, Trouble> {
         .filter(|point| middle.contains(&point.position.x));
     let undisturbed: BTreeSet<u32> = within.map(|point| point.id).collect();
     let mut run = Run::start(scene)?;
-    run.to(0.5 * theory.time)?;
-    let half = (
-        run.simulation.time_s(),
-        speed(&run.simulation, &undisturbed),
-    );
-    run.to(f64::INFINITY)?;
-    let end = (
-        run.simulation.time_s(),
-        speed(&run.simulation, &undisturbed),
-    );
+    let along = |simulation: &Simulation| speed(simulation, &undisturbed);
+    let acceleration = run.acceleration(0.5 * theory.time, f64::INFINITY, along)?;
+    let fastest = along(&run.simulation);
     let mut places = Vec::new();
     run.simulation
         .visit_points(None, |point| places.push(point.position.x - length));
     places.sort_unstable_by(|a, b| b.total_cmp(a));
     let front = places[(FRONT_SHARE * places.len() as f64) as usize];
     let off = profile_off(&run.simulation, &places, theory);
-    let acceleration = (end.1 - half.1) / (end.0 - half.0);
-    Ok(run.answer([end.1, acceleration, off, front]))
+    Ok(run.answer([fastest, acceleration, off, front]))
 }
 
 /// Mean speed of these points down the slope [m/s].
@@ -191,8 +181,8 @@ fn speed(simulation: &Simulation, points: &BTreeSet<u32>) -> f64 {
 fn profile_off(simulation: &Simulation, places: &[f64], theory: &Theory) -> f64 {
     let (cell, tail) = (simulation.cell_size_m(), theory.tail());
     let bins = ((theory.front() - tail) / cell) as usize;
-    // Two points per cell and axis, and one cell across.
-    let area_of_point = cell * cell / 8.0;
+    // One cell across.
+    let area_of_point = cell * cell / f64::from(PER_CELL.pow(3));
     let mut heights = vec![0.0; bins];
     for x in places.iter().filter(|x| **x >= tail) {
         if let Some(height) = heights.get_mut(((x - tail) / cell) as usize) {

@@ -11,6 +11,7 @@ use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Cost, Run, Trouble, scene_of};
 use crate::verify::scenes::{GRAVITY, channel, downhill};
 use crate::verify::{Case, Effort, How};
+use scree_solver::Simulation;
 use serde_json::json;
 
 pub(super) const CASE: Case = Case {
@@ -62,15 +63,9 @@ fn on_slope(angle: f64, friction: f64, radius: f64, duration: f64) -> Result<Run
 
 fn acceleration(angle: f64, friction: f64) -> Result<Answer<1>, Trouble> {
     let mut run = on_slope(angle, friction, 0.002, 0.8)?;
-    let now = |run: &Run| {
-        let speed = run.simulation.bodies()[0].velocity().dot(&downhill(angle));
-        (run.simulation.time_s(), speed)
-    };
-    run.to(SETTLED)?;
-    let (start, first) = now(&run);
-    run.to(f64::INFINITY)?;
-    let (end, last) = now(&run);
-    Ok(run.answer([(last - first) / (end - start)]))
+    let along = |simulation: &Simulation| simulation.bodies()[0].velocity().dot(&downhill(angle));
+    let acceleration = run.acceleration(SETTLED, f64::INFINITY, along)?;
+    Ok(run.answer([acceleration]))
 }
 
 fn creep(angle: f64, friction: f64) -> Result<Answer<1>, Trouble> {

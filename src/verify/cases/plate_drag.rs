@@ -9,7 +9,7 @@
 
 use crate::verify::beads;
 use crate::verify::findings::{Findings, Question, Resolution};
-use crate::verify::limit::extrapolated;
+use crate::verify::limit::limit_or_finest;
 use crate::verify::run::{Answer, Trouble};
 use crate::verify::stream::{SIDE, Stream};
 use crate::verify::{Case, Effort, How};
@@ -55,8 +55,7 @@ fn limit(cells: &[u32], drags: &[Drag], window: usize) -> f64 {
         Some((1.0 / f64::from(*cells), drag))
     };
     let places: Vec<_> = cells.iter().zip(drags).filter_map(place).collect();
-    let finest = places.last().map_or(f64::NAN, |place| place.1);
-    extrapolated(&places).map_or(finest, |found| found.limit)
+    limit_or_finest(&places)
 }
 
 /// Over ρ v² A.

@@ -14,6 +14,7 @@ use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble, scene_of};
 use crate::verify::scenes::{GRAVITY, PRECISIONS, channel, downhill, mean_velocity};
 use crate::verify::{Case, Effort, How};
+use scree_solver::Simulation;
 use scree_solver::material::Yielding;
 use scree_solver::scenario::Precision;
 use scree_solver::simulation::Scene;
@@ -83,17 +84,9 @@ fn run(effort: Effort, findings: &mut Findings) {
 fn acceleration(law: Law, angle: f64, cells: u32) -> Result<Answer<1>, Trouble> {
     let down = downhill(angle);
     let mut run = Run::start(block(law, angle, cells)?)?;
-    run.to(FROM)?;
-    let first = (
-        run.simulation.time_s(),
-        mean_velocity(&run.simulation).dot(&down),
-    );
-    run.to(TO)?;
-    let last = (
-        run.simulation.time_s(),
-        mean_velocity(&run.simulation).dot(&down),
-    );
-    Ok(run.answer([(last.1 - first.1) / (last.0 - first.0)]))
+    let along = |simulation: &Simulation| mean_velocity(simulation).dot(&down);
+    let acceleration = run.acceleration(FROM, TO, along)?;
+    Ok(run.answer([acceleration]))
 }
 
 /// The block: 0.06 m thick, 0.3 m long, two cells wide between smooth walls.

@@ -16,8 +16,8 @@
 //! problem; what they do is shown without a bar.
 
 use crate::verify::findings::{Findings, Question, Resolution};
-use crate::verify::limit::extrapolated;
-use crate::verify::paper::{QUANTITIES, motion, scene, sound_speed};
+use crate::verify::limit::limit_or_finest;
+use crate::verify::paper::{QUANTITIES, limits_of, motion, scene};
 use crate::verify::run::{Answer, Trouble};
 use crate::verify::{Case, Effort, How};
 use serde_json::{Value, json};
@@ -34,9 +34,6 @@ pub(super) const CASE: Case = Case {
 const MEASURED: [f64; 2] = [0.17, 1.08];
 /// Cells per side of the cube.
 const CELLS: [f64; 6] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
-/// Courant numbers the solver chooses, of the sub-step and of the step.
-const COURANT: f64 = 0.4;
-const FLOW_COURANT: f64 = 0.2;
 
 type Motion = Result<Answer<4>, Trouble>;
 
@@ -65,8 +62,7 @@ fn limits(cells: &[f64], motions: &[Motion]) -> [f64; 4] {
             Some((1.0 / cells, value))
         };
         let places: Vec<_> = cells.iter().zip(motions).filter_map(place).collect();
-        let finest = places.last().map_or(f64::NAN, |place| place.1);
-        extrapolated(&places).map_or(finest, |found| found.limit)
+        limit_or_finest(&places)
     })
 }
 
@@ -108,22 +104,26 @@ fn influences(cells: f64, findings: &mut Findings) {
         });
         findings.take(&resolution, [question(1), question(2)], motion);
     };
+    let chosen = limits_of(&scene(cells));
+    let (courant, flow_courant, sound_speed) = match chosen {
+        Ok(limits) => (limits.courant, limits.flow_courant, limits.sound_speed),
+        Err(_) => (f64::NAN, f64::NAN, f64::NAN),
+    };
     let numerics = |key: &str, value: f64| {
         let mut scene = scene(cells);
         scene["numerics"][key] = json!(value);
         scene
     };
     for (what, factor) in [("courant ×½", 0.5), ("courant ×¼", 0.25)] {
-        take(what, Some(0.01), &numerics("courant", factor * COURANT));
+        take(what, Some(0.01), &numerics("courant", factor * courant));
     }
     for (what, factor) in [("flow_courant ×2", 2.0), ("flow_courant ×½", 0.5)] {
         take(
             what,
             Some(0.01),
-            &numerics("flow_courant", factor * FLOW_COURANT),
+            &numerics("flow_courant", factor * flow_courant),
         );
     }
-    let sound_speed = sound_speed(&scene(cells)).unwrap_or(f64::NAN);
     take(
         "sound speed ×2",
         None,

@@ -17,8 +17,8 @@ use crate::verify::beads;
 use crate::verify::blocks::Block;
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::order::slope;
-use crate::verify::run::{Answer, Cost, Run, Trouble, scene_of};
-use crate::verify::scenes::{GRAVITY, channel};
+use crate::verify::run::{Answer, Cost, Run, Trouble};
+use crate::verify::scenes::{GRAVITY, body};
 use crate::verify::{Case, Effort, How};
 use scree_solver::rigid::Body;
 use scree_solver::scenario::Precision;
@@ -177,15 +177,11 @@ fn scene(drop: &Drop, cells: u32, surface: f64) -> Result<Scene, Trouble> {
 }
 
 fn sphere(drop: &Drop, speed: f64) -> Result<Body, Trouble> {
-    let mut document = channel(0.0, 1.0, 1.0, 1.0);
-    document["bodies"] = json!([{
+    body(&json!({
         "shape": {"cube": {"side_m": drop.diameter}},
         "sphero_radius_m": 0.48 * drop.diameter,
         "density_kg_m3": drop.density,
         "position": {"downstream_m": 0.0, "elevation_m": 0.5},
         "velocity_m_s": [0.0, 0.0, -speed],
-    }]);
-    document["duration_s"] = json!(LONGEST);
-    let sphere = scene_of(&document)?.bodies.pop();
-    sphere.ok_or(Trouble::Never("there is no sphere"))
+    }))
 }
