@@ -3,13 +3,14 @@
 //! The channel is convex: it lies above the floor and above the incline, and
 //! between the upright walls. The upright walls lie on grid planes and act as
 //! mirrors: a node and its images move as one, so a smooth wall reflects
-//! exactly (docs/method.md, equation 28). Incline and floor stop inflow at the
-//! nodes on and below them (equation 29).
+//! exactly (docs/method.md, equation 28). Incline and floor act on columns of
+//! nodes, each where it meets them (equation 29).
 
 use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
 
 mod boundary;
+mod columns;
 mod constraint;
 mod nodes;
 mod upright;

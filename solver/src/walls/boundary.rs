@@ -2,6 +2,7 @@
 
 use super::Plane;
 use super::Walls;
+use super::columns::{Column, Rung};
 use super::constraint::Answer;
 use super::nodes::NodeAccess;
 use super::upright::{Ends, Meets};
@@ -29,7 +30,10 @@ pub(super) struct Group {
     pub(super) members: Range<usize>,
     pub(super) back: Meets,
     pub(super) side: Meets,
-    /// Which base planes it is on or below, as bits.
+    /// Their mass together [kg].
+    pub(super) mass: f64,
+    /// Which base planes act on it alone, as bits: those it is on or below, unless
+    /// it is of a column.
     pub(super) below: u8,
     /// Share of the kernels that lies above the base planes.
     room: f64,
@@ -49,6 +53,11 @@ pub struct Boundary {
     /// Other nodes whose kernel a base plane cuts: their places, and the share
     /// of it that lies in the channel.
     cut: Vec<(u32, f64)>,
+    /// Groups near the base, by columns.
+    pub(super) rungs: Vec<Rung>,
+    pub(super) columns: Vec<Column>,
+    /// Velocities of the first two nodes of each column of a kind.
+    pub(super) ends: Vec<[Vec3; 2]>,
     /// What a sub-step does to each group.
     pub(super) answers: Vec<Answer>,
 }
@@ -90,6 +99,7 @@ impl Walls {
         boundary.members.clear();
         boundary.groups.clear();
         boundary.cut.clear();
+        boundary.rungs.clear();
         for (block, key) in nodes.blocks().iter().enumerate() {
             let first = key.map(|k| k * BLOCK as i32);
             if !self.may_act_in(nodes.lattice(), first) {
@@ -110,6 +120,7 @@ impl Walls {
                 }
             }
         }
+        self.make_columns(boundary, nodes.lattice());
         boundary
             .answers
             .resize(boundary.groups.len(), Answer::default());
@@ -164,10 +175,17 @@ impl Walls {
         let back = self.upright.meets_back(index);
         let side = self.upright.meets_side(index);
         let alone = boundary.members.len() == start + 1;
-        let plain = alone && below == 0 && back == Meets::Not && side == Meets::Not;
+        let group = boundary.groups.len() as u32;
+        let known = boundary.rungs.len();
+        let rungs = self.rungs_of(index, group, nodes.lattice());
+        boundary.rungs.extend(rungs);
+        let of_column = boundary.rungs.len() > known;
+        let upright = back != Meets::Not || side != Meets::Not;
+        let plain = alone && below == 0 && !upright && !of_column;
         let empty = alone && nodes.mass(place) <= 0.0;
         if plain || empty {
             boundary.members.truncate(start);
+            boundary.rungs.truncate(known);
         }
         let room = self.room(&resting, &nodes.lattice().spacing);
         if plain && room < 1.0 {
@@ -176,8 +194,15 @@ impl Walls {
         if plain || empty {
             return;
         }
+        let members = start..boundary.members.len();
+        let of_member = |member: &Member| nodes.mass(member.place as usize);
+        let mass = boundary.members[members.clone()]
+            .iter()
+            .map(of_member)
+            .sum();
         boundary.groups.push(Group {
-            members: start..boundary.members.len(),
+            members,
+            mass,
             back,
             side,
             below,

@@ -13,25 +13,24 @@ const TASK: usize = 128;
 /// What walls do to a group.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Answer {
-    /// Velocity in the frame of the first member [m/s]; `None` if it stays.
-    velocity: Option<Vec3>,
+    /// Velocity in the frame of the first member [m/s].
+    pub(super) velocity: Vec3,
     /// Impulse given.
     impulse: Impulse,
+    /// Whether it is another velocity than before.
+    changed: bool,
 }
 
 impl Walls {
-    /// Makes nodes and their images move as one, as they will in the first
-    /// sub-step. What it takes from the nodes' momentum the rest of the transfer
-    /// gives back, so it is no impulse.
-    pub fn reflect(&self, boundary: &Boundary, nodes: &mut impl NodeAccess) {
-        for group in &boundary.groups {
-            let members = &boundary.members[group.members.clone()];
-            if members.len() == 1 && !group.is_upright() {
-                continue;
-            }
-            let velocity = self.between_uprights(group, members, nodes);
-            for member in members {
-                let velocity = mirrored(&velocity, member.sign);
+    /// Makes nodes and their images move as one, and columns of nodes in a line, as
+    /// they will in the first sub-step. What it takes from the nodes' momentum the
+    /// rest of the transfer gives back, so it is no impulse.
+    pub fn reflect(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) {
+        self.propose(boundary, nodes, Self::joint_velocity);
+        self.line_up(boundary, false);
+        for (answer, group) in boundary.answers.iter().zip(&boundary.groups) {
+            for member in &boundary.members[group.members.clone()] {
+                let velocity = mirrored(&answer.velocity, member.sign);
                 nodes.set_velocity(member.place as usize, &velocity, 0.0);
             }
         }
@@ -46,6 +45,8 @@ impl Walls {
         nodes: &mut impl NodeAccess,
         dt: f64,
     ) -> Impulse {
+        self.propose(boundary, nodes, Self::velocity_of);
+        self.line_up(boundary, true);
         let Boundary {
             members,
             groups,
@@ -58,55 +59,58 @@ impl Walls {
             .zip(&*groups)
             .with_min_len(TASK)
             .for_each(|(answer, group)| {
-                *answer = self.answer(group, &members[group.members.clone()], seen, dt);
+                answer.account_for(&members[group.members.clone()], seen, dt);
             });
         let mut given = Impulse::default();
         for (answer, group) in answers.iter().zip(groups) {
-            let Some(velocity) = answer.velocity else {
+            if !answer.changed {
                 continue;
-            };
+            }
             given.linear += answer.impulse.linear;
             given.angular += answer.impulse.angular;
             for member in &members[group.members.clone()] {
-                let velocity = mirrored(&velocity, member.sign);
+                let velocity = mirrored(&answer.velocity, member.sign);
                 nodes.set_velocity(member.place as usize, &velocity, dt);
             }
         }
         given
     }
 
-    fn answer(
+    /// Finds for every group the velocity it would have without its column.
+    fn propose<N: NodeAccess>(
         &self,
-        group: &Group,
-        members: &[Member],
-        nodes: &impl NodeAccess,
-        dt: f64,
-    ) -> Answer {
-        let velocity = self.velocity_of(group, members, nodes);
-        if let [only] = members
-            && velocity == nodes.velocity(only.place as usize)
-        {
-            return Answer::default();
-        }
-        let mut impulse = Impulse::default();
-        for member in members {
-            let place = member.place as usize;
-            let change = mirrored(&velocity, member.sign) - nodes.velocity(place);
-            let present = member.resting + nodes.displacement(place, dt);
-            impulse.add_at(&present, &(change * nodes.mass(place)));
-        }
-        Answer {
-            velocity: Some(velocity),
-            impulse,
+        boundary: &mut Boundary,
+        nodes: &N,
+        velocity: impl Fn(&Self, &Group, &[Member], &N) -> Vec3 + Sync,
+    ) {
+        let Boundary {
+            members,
+            groups,
+            answers,
+            ..
+        } = boundary;
+        answers
+            .par_iter_mut()
+            .zip(&*groups)
+            .with_min_len(TASK)
+            .for_each(|(answer, group)| {
+                let members = &members[group.members.clone()];
+                answer.velocity = velocity(self, group, members, nodes);
+            });
+    }
+
+    /// Common velocity of a group in the frame of its first member, but for the
+    /// base.
+    fn joint_velocity(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Vec3 {
+        match members {
+            [only] if !group.is_upright() => nodes.velocity(only.place as usize),
+            _ => self.between_uprights(group, members, nodes),
         }
     }
 
-    /// Common velocity of a group in the frame of its first member.
+    /// The same with the base planes that act on it alone.
     fn velocity_of(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Vec3 {
-        let mut velocity = match members {
-            [only] if !group.is_upright() => nodes.velocity(only.place as usize),
-            _ => self.between_uprights(group, members, nodes),
-        };
+        let mut velocity = self.joint_velocity(group, members, nodes);
         let against_back_wall = matches!(group.back, Meets::On { .. });
         for (which, plane) in self.base.iter().enumerate() {
             if group.below & 1 << which != 0 {
@@ -137,6 +141,21 @@ impl Walls {
             }
         }
         velocity
+    }
+}
+
+impl Answer {
+    /// Finds the impulse that the velocity takes.
+    fn account_for(&mut self, members: &[Member], nodes: &impl NodeAccess, dt: f64) {
+        self.impulse = Impulse::default();
+        self.changed = false;
+        for member in members {
+            let place = member.place as usize;
+            let change = mirrored(&self.velocity, member.sign) - nodes.velocity(place);
+            self.changed |= change != Vec3::zeros();
+            let present = member.resting + nodes.displacement(place, dt);
+            self.impulse.add_at(&present, &(change * nodes.mass(place)));
+        }
     }
 }
 
@@ -183,7 +202,7 @@ fn rub(axis: usize, largest_loss: f64, velocity: &mut Vec3) {
 }
 
 /// No inflow through a base plane, and friction on what was stopped.
-fn constrain_to(plane: &Plane, against_back_wall: bool, velocity: &mut Vec3) {
+pub(super) fn constrain_to(plane: &Plane, against_back_wall: bool, velocity: &mut Vec3) {
     // On the back wall only the vertical is left to move in, so the incline
     // acts along it there.
     let normal = if against_back_wall {

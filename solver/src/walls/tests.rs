@@ -2,9 +2,9 @@ use super::*;
 use crate::grid::{Grid, block_of};
 use crate::kernel::Lattice;
 
-const H: f64 = 0.01;
+pub(super) const H: f64 = 0.01;
 
-fn plane(name: &'static str, normal: Vec3, offset: f64, flow_friction: f64) -> Plane {
+pub(super) fn plane(name: &'static str, normal: Vec3, offset: f64, flow_friction: f64) -> Plane {
     Plane {
         name,
         normal,
@@ -14,7 +14,7 @@ fn plane(name: &'static str, normal: Vec3, offset: f64, flow_friction: f64) -> P
 }
 
 /// A flat channel of so many cells across, with this friction on base and sides.
-fn channel(cells_across: i32, base_friction: f64, side_friction: f64) -> Walls {
+pub(super) fn channel(cells_across: i32, base_friction: f64, side_friction: f64) -> Walls {
     let width = f64::from(cells_across) * H;
     Walls {
         base: vec![plane("floor", Vec3::z(), 0.0, base_friction)],
@@ -30,7 +30,7 @@ fn channel(cells_across: i32, base_friction: f64, side_friction: f64) -> Walls {
 }
 
 /// A grid round a few blocks with mass 1 at these nodes, moving as said.
-fn grid_with(nodes: &[([i32; 3], Vec3)]) -> Grid {
+pub(super) fn grid_with(nodes: &[([i32; 3], Vec3)]) -> Grid {
     let lattice = Lattice {
         origin: Vec3::zeros(),
         spacing: Vec3::repeat(H),
@@ -51,12 +51,12 @@ fn grid_with(nodes: &[([i32; 3], Vec3)]) -> Grid {
     grid
 }
 
-fn velocity(grid: &Grid, index: [i32; 3]) -> Vec3 {
+pub(super) fn velocity(grid: &Grid, index: [i32; 3]) -> Vec3 {
     grid.nodes()[grid.place_of(index).expect("its block is there")].velocity
 }
 
 /// Constrains and checks that what the walls say they gave is what changed.
-fn constrained(walls: &Walls, grid: &mut Grid) -> Impulse {
+pub(super) fn constrained(walls: &Walls, grid: &mut Grid) -> Impulse {
     let momentum = |grid: &Grid| {
         let mut sum = Impulse::default();
         for (place, node) in grid.nodes().iter().enumerate() {
@@ -208,7 +208,7 @@ fn nodes_across_a_seam_move_as_one() {
     let mut boundary = Boundary::default();
     walls.find_boundary(&grid, &mut boundary);
     boundary.leave_less_room(&mut grid);
-    walls.reflect(&boundary, &mut grid);
+    walls.reflect(&mut boundary, &mut grid);
     for node in pair {
         assert_eq!(velocity(&grid, node), fast / 2.0);
         let place = grid.place_of(node).expect("its block is there");

@@ -220,7 +220,7 @@ impl Flow for FastFlow {
         self.nodes.take_momentum(&self.momentum, level);
         laps.done(Verb::Transfer);
         given.walls.find_boundary(&self.nodes, &mut self.boundary);
-        given.walls.reflect(&self.boundary, &mut self.nodes);
+        given.walls.reflect(&mut self.boundary, &mut self.nodes);
         laps.done(Verb::Search);
         self.hand_over_rest(given);
         laps.done(Verb::Transfer);

@@ -123,7 +123,7 @@ impl Flow for PlainFlow {
         transfer::scatter_momentum(&self.points, &mut self.grid);
         laps.done(Verb::Transfer);
         given.walls.find_boundary(&self.grid, &mut self.boundary);
-        given.walls.reflect(&self.boundary, &mut self.grid);
+        given.walls.reflect(&mut self.boundary, &mut self.grid);
         laps.done(Verb::Search);
         if let Some(flow) = &given.flow {
             let density = flow.material.bulk_density;

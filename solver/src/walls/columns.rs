@@ -1,0 +1,272 @@
+//! Columns of nodes over the base: behind it, velocity goes on as it came.
+//!
+//! A column is a row of nodes along the axis that the base faces. With a and b its
+//! first two nodes in the channel, a node t node distances behind a moves with
+//! v_a + t (v_a − v_b), and the base acts on the velocity at its own place
+//! (docs/method.md, equations 29–29c). So the motion near the base is a linear one,
+//! where nodes that are each held on their own would let it slip.
+
+use super::boundary::{Boundary, Group};
+use super::constraint::{Answer, constrain_to};
+use super::upright::Meets;
+use super::{Plane, Walls};
+use crate::kernel::Lattice;
+use crate::math::Vec3;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Slope (rise over run) from which on a base plane has lying columns, along x.
+const STEEP: f64 = 2.0;
+/// Columns whose masses lie closer than this along them [node distances²] say
+/// nothing of how the velocity changes.
+const LEAST_SPREAD: f64 = 1e-6;
+/// Columns one task takes.
+const TASK: usize = 64;
+
+/// Which columns a node is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Way {
+    /// Along x, on a steep plane. They come first: the floor has the last word.
+    Lying,
+    /// Along z.
+    Standing,
+}
+
+impl Way {
+    const BOTH: [Self; 2] = [Self::Lying, Self::Standing];
+
+    fn axis(self) -> usize {
+        match self {
+            Self::Lying => 0,
+            Self::Standing => 2,
+        }
+    }
+
+    fn of(plane: &Plane) -> Self {
+        if plane.normal.x.abs() > STEEP * plane.normal.z {
+            Self::Lying
+        } else {
+            Self::Standing
+        }
+    }
+}
+
+/// A node's place in a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Rung {
+    way: Way,
+    /// The column's index along the other two axes.
+    across: [i32; 2],
+    /// Nodes behind the first in the channel; −1 for the second.
+    depth: i32,
+    pub(super) group: u32,
+}
+
+/// A column and what it resists.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Column {
+    rungs: Range<usize>,
+    /// The base plane it stands on.
+    plane: usize,
+    against_back_wall: bool,
+    /// Inverse of the mass matrix of a and b [1/kg]: aa, ab, bb.
+    mobility: [f64; 3],
+    /// Shares of a and b in the velocity at the base.
+    at_base: [f64; 2],
+}
+
+/// Share of the first and the second node in the velocity of one `depth` behind.
+fn shares(depth: f64) -> [f64; 2] {
+    [1.0 + depth, -depth]
+}
+
+impl Column {
+    /// The column of these rungs, on this plane `gap` node distances behind the
+    /// first node; `None` if nodes with mass are too few or an upright wall holds
+    /// one of them across the way.
+    fn new(
+        all: &[Rung],
+        rungs: Range<usize>,
+        groups: &[Group],
+        plane: usize,
+        gap: f64,
+    ) -> Option<Self> {
+        let group = |rung: &Rung| &groups[rung.group as usize];
+        let against_back_wall = matches!(group(&all[rungs.start]).back, Meets::On { .. });
+        let way = all[rungs.start].way;
+        let held = |rung: &Rung| matches!(group(rung).back, Meets::On { .. });
+        if way == Way::Lying && all[rungs.clone()].iter().any(held) {
+            return None;
+        }
+        let (mut mass, mut first, mut second) = (0.0, 0.0, 0.0);
+        for rung in &all[rungs.clone()] {
+            let (of, depth) = (group(rung).mass, f64::from(rung.depth));
+            mass += of;
+            first += of * depth;
+            second += of * depth * depth;
+        }
+        let spread = second / mass - (first / mass).powi(2);
+        if spread.is_nan() || spread < LEAST_SPREAD {
+            return None;
+        }
+        // Σ m s sᵀ with the shares s = (1 + t, −t).
+        let (aa, ab, bb) = (mass + 2.0 * first + second, -(first + second), second);
+        let determinant = mass * mass * spread;
+        Some(Self {
+            rungs,
+            plane,
+            against_back_wall,
+            mobility: [bb, -ab, aa].map(|of| of / determinant),
+            at_base: shares(gap),
+        })
+    }
+
+    fn moved_by(&self, push: [Vec3; 2]) -> [Vec3; 2] {
+        let [aa, ab, bb] = self.mobility;
+        [push[0] * aa + push[1] * ab, push[0] * ab + push[1] * bb]
+    }
+
+    /// Velocities of its first two nodes that carry the momentum of all.
+    fn fitted(&self, rungs: &[Rung], groups: &[Group], answers: &[Answer]) -> [Vec3; 2] {
+        let mut momentum = [Vec3::zeros(); 2];
+        for rung in rungs {
+            let group = rung.group as usize;
+            let of = answers[group].velocity * groups[group].mass;
+            let shares = shares(f64::from(rung.depth));
+            for (sum, share) in momentum.iter_mut().zip(shares) {
+                *sum += of * share;
+            }
+        }
+        self.moved_by(momentum)
+    }
+
+    /// What the base makes of them: no inflow at its place, and friction there.
+    fn stopped(&self, plane: &Plane, ends: [Vec3; 2]) -> [Vec3; 2] {
+        let [a, b] = self.at_base;
+        let arriving = ends[0] * a + ends[1] * b;
+        let mut left = arriving;
+        constrain_to(plane, self.against_back_wall, &mut left);
+        if left == arriving {
+            return ends;
+        }
+        // An impulse at the base moves both, and its own place by the sum.
+        let [one, other] = self.moved_by([Vec3::repeat(a), Vec3::repeat(b)]);
+        let change = (left - arriving) / (a * one.x + b * other.x);
+        [ends[0] + change * one.x, ends[1] + change * other.x]
+    }
+}
+
+impl Walls {
+    /// The columns that a node is of: on their ends in the channel or behind.
+    pub(super) fn rungs_of(
+        &self,
+        index: [i32; 3],
+        group: u32,
+        lattice: &Lattice,
+    ) -> impl Iterator<Item = Rung> {
+        Way::BOTH.into_iter().filter_map(move |way| {
+            let across = match way {
+                Way::Lying => [index[1], index[2]],
+                Way::Standing => [index[0], index[1]],
+            };
+            let (_, _, first) = self.foot(way, across, lattice)?;
+            let depth = first - index[way.axis()];
+            let here = way == Way::Standing || !self.is_below_floor(index, lattice);
+            (depth >= -1 && here).then_some(Rung {
+                way,
+                across,
+                depth,
+                group,
+            })
+        })
+    }
+
+    /// Where a column meets the base: the plane, how far behind the first node in
+    /// the channel [node distances], and that node's index.
+    fn foot(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<(usize, f64, i32)> {
+        let axis = way.axis();
+        let index = match way {
+            Way::Lying => [0, across[0], across[1]],
+            Way::Standing => [across[0], across[1], 0],
+        };
+        let start = lattice.position(index);
+        let of_way = self.base.iter().enumerate();
+        let (plane, along) = of_way
+            .filter(|(_, plane)| Way::of(plane) == way)
+            .map(|(which, plane)| (which, -plane.height(&start) / plane.normal[axis]))
+            .max_by(|one, other| one.1.total_cmp(&other.1))?;
+        let cells = along / lattice.spacing[axis];
+        // A node that lies on the plane but for rounding is in the channel.
+        let first = (cells - 1e-9 * (1.0 + cells.abs())).ceil();
+        Some((plane, (first - cells).max(0.0), first as i32))
+    }
+
+    fn is_below_floor(&self, index: [i32; 3], lattice: &Lattice) -> bool {
+        let first = self.foot(Way::Standing, [index[0], index[1]], lattice);
+        first.is_some_and(|(_, _, first)| index[2] < first)
+    }
+
+    /// Makes columns of the rungs found.
+    pub(super) fn make_columns(&self, boundary: &mut Boundary, lattice: &Lattice) {
+        let Boundary {
+            rungs,
+            columns,
+            groups,
+            ..
+        } = boundary;
+        columns.clear();
+        rungs.sort_unstable();
+        let mut start = 0;
+        for alike in rungs.chunk_by(|a, b| (a.way, a.across) == (b.way, b.across)) {
+            let end = start + alike.len();
+            let Rung { way, across, .. } = alike[0];
+            if let Some((plane, gap, _)) = self.foot(way, across, lattice)
+                && let Some(column) = Column::new(rungs, start..end, groups, plane, gap)
+            {
+                for rung in alike {
+                    groups[rung.group as usize].below = 0;
+                }
+                columns.push(column);
+            }
+            start = end;
+        }
+    }
+
+    /// Gives the nodes of every column the velocities of one, and lets the base act
+    /// on them if it `acts`.
+    pub(super) fn line_up(&self, boundary: &mut Boundary, acts: bool) {
+        let Boundary {
+            rungs,
+            columns,
+            groups,
+            answers,
+            ends,
+            ..
+        } = boundary;
+        // A node can be of a lying and of a standing column.
+        let way = |column: &Column| rungs[column.rungs.start].way;
+        for alike in columns.chunk_by(|a, b| way(a) == way(b)) {
+            alike
+                .par_iter()
+                .with_min_len(TASK)
+                .map(|column| {
+                    let ends = column.fitted(&rungs[column.rungs.clone()], groups, answers);
+                    if acts {
+                        column.stopped(&self.base[column.plane], ends)
+                    } else {
+                        ends
+                    }
+                })
+                .collect_into_vec(ends);
+            for (column, [a, b]) in alike.iter().zip(ends.iter()) {
+                for rung in &rungs[column.rungs.clone()] {
+                    let shares = shares(f64::from(rung.depth));
+                    answers[rung.group as usize].velocity = a * shares[0] + b * shares[1];
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
