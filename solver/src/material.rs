@@ -109,11 +109,11 @@ impl Material {
         elastic.plus(&Sym3::isotropic(-resisted))
     }
 
-    /// The stress [Pa] of a point whose density has become `density` [kg/m³]
-    /// without strain: its deviator stays.
-    pub fn under_density(&self, stress: &Sym3, density: f64) -> Sym3 {
-        let pressure = self.pressure(density);
-        stress.deviator().plus(&Sym3::isotropic(-pressure))
+    /// The stress [Pa] of a point whose density has become `density` [kg/m³] without
+    /// strain, and whose deviator rises by a share of itself (equation 41a).
+    pub fn pressed_anew(&self, stress: &Sym3, rise: f64, density: f64) -> Sym3 {
+        let deviator = stress.deviator().times(1.0 + rise);
+        deviator.plus(&Sym3::isotropic(-self.pressure(density)))
     }
 
     /// Stress of a trial deviator under a pressure, returned to the yield

@@ -28,6 +28,11 @@ pub struct Point {
 }
 
 impl Point {
+    /// ρ = m/V [kg/m³].
+    pub fn density(&self) -> f64 {
+        self.mass / self.volume
+    }
+
     /// Angular momentum about the origin, the affine motion included [kg m²/s];
     /// `kernel_moment` is h²/4 per axis [m²].
     pub fn angular_momentum(&self, kernel_moment: &Vec3) -> Vec3 {
@@ -132,7 +137,7 @@ pub fn update_stress(
             point.stress = material.stress(
                 &point.stress,
                 &deformation.velocity_gradient,
-                point.mass / point.volume,
+                point.density(),
                 bulk_viscosity,
                 dt,
             );

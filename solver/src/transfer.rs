@@ -196,7 +196,7 @@ pub fn gather_motion(
             point.position += shift;
             spread.add(point.mass, &shift, &point.velocity);
             point.volume += point.mass / material.bulk_density * (tended.dilation - seen.dilation);
-            point.stress = material.under_density(&point.stress, point.mass / point.volume);
+            point.stress = material.pressed_anew(&point.stress, tended.rise, point.density());
         }
         spread
     });

@@ -195,6 +195,10 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
             let here = shelter.in_block(&key);
             here.keep_off(simd, &position, &mut tended.shift);
         }
+        for part in &mut chunk.deviator {
+            let before = f32x16::simd_from(simd, *part);
+            *part = tended.rise.mul_add(before, before).into();
+        }
         chunk.dilation = tended.dilation.into();
         spread.add(simd, chunk, &tended.shift, &velocity, spacing);
         for axis in 0..3 {

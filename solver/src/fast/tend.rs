@@ -29,6 +29,8 @@ pub struct Tended<S: Simd> {
     pub shift: [f32x16<S>; 3],
     /// Their dilation.
     pub dilation: f32x16<S>,
+    /// By which share of itself their stress rises.
+    pub rise: f32x16<S>,
 }
 
 /// What becomes of points that travelled so far [cells].
@@ -54,13 +56,16 @@ pub fn tend<S: Simd>(
     for along in &mut shift {
         *along *= shorter;
     }
-    let rise = (splat(simd, tending.pressing) * seen.crowding).min(splat(simd, LARGEST_RISE));
-    let compression = (none - seen.dilation).max(none);
+    let pressed = (splat(simd, tending.pressing) * seen.crowding).min(splat(simd, LARGEST_RISE));
+    let rise = degree * pressed;
     let exchanged =
         splat(simd, tending.averaging) * (seen.mean_dilation - seen.dilation_at_transfer);
+    let averaged = degree.mul_add(exchanged, seen.dilation);
+    let compression = (none - averaged).max(none);
     Tended {
         shift,
-        dilation: degree.mul_add(exchanged - rise * compression, seen.dilation),
+        dilation: averaged - rise * compression,
+        rise,
     }
 }
 
