@@ -20,11 +20,13 @@ pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
     log_to_standard_error(LevelFilter::INFO);
     let runtime = tokio::runtime::Runtime::new()?;
     runtime.block_on(async {
+        // Before anyone knows the address: what is asked while nobody listens is lost.
+        let asked_to_stop = StopRequests::listen()?;
         let running = service::start(config)
             .await
             .map_err(|error| not_started(&error))?;
         console::answer(&format!("listening on http://{}", running.address()))?;
-        stop_asked_for().await;
+        asked_to_stop.first().await;
         running.stop().await;
         Ok(())
     })
@@ -60,18 +62,43 @@ pub(super) fn log_to_standard_error(level: LevelFilter) {
         .init();
 }
 
-/// Returns on Ctrl-C or SIGTERM.
-async fn stop_asked_for() {
+/// Ctrl-C and SIGTERM, heard from the moment this is made.
+struct StopRequests {
     #[cfg(unix)]
-    {
+    signals: [tokio::signal::unix::Signal; 2],
+    #[cfg(windows)]
+    ctrl_c: tokio::signal::windows::CtrlC,
+}
+
+impl StopRequests {
+    #[cfg(unix)]
+    fn listen() -> std::io::Result<Self> {
         use tokio::signal::unix::{SignalKind, signal};
-        if let Ok(mut terminate) = signal(SignalKind::terminate()) {
-            tokio::select! {
-                _ = tokio::signal::ctrl_c() => {}
-                _ = terminate.recv() => {}
-            }
-            return;
+        let signals = [
+            signal(SignalKind::interrupt())?,
+            signal(SignalKind::terminate())?,
+        ];
+        Ok(Self { signals })
+    }
+
+    #[cfg(windows)]
+    fn listen() -> std::io::Result<Self> {
+        let ctrl_c = tokio::signal::windows::ctrl_c()?;
+        Ok(Self { ctrl_c })
+    }
+
+    /// Returns on the first of them.
+    #[cfg(unix)]
+    async fn first(self) {
+        let [mut interrupt, mut terminate] = self.signals;
+        tokio::select! {
+            _ = interrupt.recv() => {}
+            _ = terminate.recv() => {}
         }
     }
-    let _ = tokio::signal::ctrl_c().await;
+
+    #[cfg(windows)]
+    async fn first(mut self) {
+        self.ctrl_c.recv().await;
+    }
 }
