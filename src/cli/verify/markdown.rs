@@ -11,20 +11,47 @@ use std::path::Path;
 const BEGIN: &str = "<!-- tables of scree verify: begin -->";
 const END: &str = "<!-- tables of scree verify: end -->";
 
-/// Replaces what stands between the marks in a file, which has to have them.
-pub(super) fn write(report: &Report, file: &Path) -> Result<(), Failure> {
-    let failed = |why: &dyn std::fmt::Display| Failure::Other(format!("{}: {why}", file.display()));
-    let text = fs::read_to_string(file).map_err(|error| failed(&error))?;
-    let Some(text) = replaced(&text, &tables(report)) else {
-        return Err(failed(&format!("no lines {BEGIN} and {END}")));
-    };
-    fs::write(file, text).map_err(|error| failed(&error))
+/// A page whose tables are to be replaced: opened before the cases run, since a
+/// page that is none should not cost their time.
+pub(super) struct Page<'a> {
+    file: &'a Path,
+    before: String,
+    after: String,
 }
 
-fn replaced(text: &str, tables: &str) -> Option<String> {
+impl<'a> Page<'a> {
+    /// Reads a file, which has to have the marks.
+    pub(super) fn open(file: &'a Path) -> Result<Self, Failure> {
+        let text = fs::read_to_string(file).map_err(|error| failed(file, &error))?;
+        let parts = parted(&text);
+        let (before, after) =
+            parts.ok_or_else(|| failed(file, &format!("no lines {BEGIN} and {END}")))?;
+        Ok(Self {
+            file,
+            before: before.to_owned(),
+            after: after.to_owned(),
+        })
+    }
+
+    /// Writes it anew, with these tables between the marks.
+    pub(super) fn write(&self, report: &Report) -> Result<(), Failure> {
+        fs::write(self.file, self.with(&tables(report))).map_err(|error| failed(self.file, &error))
+    }
+
+    fn with(&self, tables: &str) -> String {
+        format!("{}{BEGIN}\n{tables}\n{END}{}", self.before, self.after)
+    }
+}
+
+fn failed(file: &Path, why: &dyn std::fmt::Display) -> Failure {
+    Failure::Other(format!("{}: {why}", file.display()))
+}
+
+/// What stands before and after the marks.
+fn parted(text: &str) -> Option<(&str, &str)> {
     let (before, rest) = text.split_once(BEGIN)?;
     let (_, after) = rest.split_once(END)?;
-    Some(format!("{before}{BEGIN}\n{tables}\n{END}{after}"))
+    Some((before, after))
 }
 
 fn tables(report: &Report) -> String {
@@ -87,10 +114,14 @@ mod tests {
 
     #[test]
     fn only_what_stands_between_the_marks_is_replaced() {
-        let text = format!("a\n{BEGIN}\nold\n{END}\nb\n");
-        let new = replaced(&text, "new").unwrap();
-        assert_eq!(new, format!("a\n{BEGIN}\nnew\n{END}\nb\n"));
-        assert_eq!(replaced(&new, "new"), Some(new.clone()));
-        assert_eq!(replaced("a", "new"), None);
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("page.md");
+        let text = |tables: &str| format!("a\n{BEGIN}\n{tables}\n{END}\nb\n");
+        for old in ["old", "new"] {
+            fs::write(&file, text(old)).unwrap();
+            assert_eq!(Page::open(&file).unwrap().with("new"), text("new"));
+        }
+        fs::write(&file, "a").unwrap();
+        assert!(Page::open(&file).is_err());
     }
 }

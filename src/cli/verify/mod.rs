@@ -40,6 +40,8 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     } else {
         Effort::Quick
     };
+    let page = options.markdown.as_deref().map(markdown::Page::open);
+    let page = page.transpose()?;
     let mut verified = Vec::new();
     for case in asked_for(&options.case)? {
         if std::io::stderr().is_terminal() {
@@ -63,10 +65,10 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
         let machine = report.machine.in_words();
         figures::write(&work::diagrams(effort), &machine, folder)?;
     }
-    if let Some(file) = &options.markdown {
-        markdown::write(&report, file)?;
-    }
     console::answer(&answer)?;
+    if let Some(page) = &page {
+        page.write(&report)?;
+    }
     match report.count.missed {
         0 => Ok(()),
         missed => Err(Failure::Missed(missed)),
