@@ -9,7 +9,7 @@ use scree_solver::scenario::Precision;
 use scree_solver::simulation::{GivenFlow, Scene, Setup, Timing};
 use scree_solver::walls::{Ends, Plane, Upright, Walls};
 
-/// Points per cell and axis.
+/// Points per cell and axis, as a scenario has them by default.
 pub(super) const PER_CELL: u32 = 2;
 
 /// A box of points in a channel with a flat, smooth floor and smooth sides.
@@ -23,6 +23,8 @@ pub(super) struct Block {
     pub(super) cells: [u32; 3],
     /// Cells between the side walls.
     pub(super) cells_across: u32,
+    /// Points per cell and axis.
+    pub(super) per_cell: u32,
     /// Whether it runs round instead of having a back wall and a front.
     pub(super) endless: bool,
     /// What it is made of.
@@ -97,7 +99,7 @@ impl Block {
     }
 
     fn point_volume(&self) -> f64 {
-        (self.cell / f64::from(PER_CELL)).powi(3)
+        (self.cell / f64::from(self.per_cell)).powi(3)
     }
 
     fn given(&self) -> Setup {
@@ -153,13 +155,13 @@ impl Block {
 
     fn points(&self) -> Vec<Point> {
         let lattice = self.lattice();
-        let spacing = self.cell / f64::from(PER_CELL);
-        let [along, across, up] = self.cells.map(|cells| cells * PER_CELL);
+        let spacing = self.cell / f64::from(self.per_cell);
+        let [along, across, up] = self.cells.map(|cells| cells * self.per_cell);
         let volume = self.point_volume();
         let mut points = Vec::new();
         for place in 0..along * across * up {
             let index = [place / (across * up), place / up % across, place % up];
-            let along = |axis: usize| f64::from(self.at[axis] * PER_CELL + index[axis]) + 0.5;
+            let along = |axis: usize| f64::from(self.at[axis] * self.per_cell + index[axis]) + 0.5;
             points.push(Point {
                 id: place,
                 mass: self.material.bulk_density * volume,

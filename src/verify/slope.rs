@@ -6,7 +6,7 @@
 //! u = ⅔ (I/d) √(φ g cos θ) [h^1.5 − (h − y)^1.5],   I = I0 (tan θ − μ_s)/(μ_2 − tan θ).
 
 use super::beads;
-use super::blocks::{Block, PER_CELL};
+use super::blocks::Block;
 use super::run::{Run, Trouble};
 use super::scenes::{GRAVITY, tilted_gravity};
 use scree_solver::Simulation;
@@ -40,6 +40,8 @@ pub(super) struct Slope {
     pub(super) inclination_deg: f64,
     /// Cells over the height.
     pub(super) cells: u32,
+    /// Points per cell and axis.
+    pub(super) per_cell: u32,
     /// Slope whose profile it starts with [°]; one that is not steep enough for
     /// a flow starts at rest.
     pub(super) start_deg: f64,
@@ -120,6 +122,7 @@ impl Slope {
             at: [0, 0, 0],
             cells: [ALONG, 1, self.cells],
             cells_across: 1,
+            per_cell: self.per_cell,
             endless: true,
             material: self.material(),
             gravity: GRAVITY,
@@ -131,7 +134,7 @@ impl Slope {
         scene.given.gravity = tilted_gravity(self.inclination_deg);
         scene.given.walls.base[0].flow_friction = ROUGH;
         let mut chance = Chance(1);
-        let spacing = self.cell() / f64::from(PER_CELL);
+        let spacing = self.cell() / f64::from(self.per_cell);
         for point in &mut scene.points {
             // Across, half as far: the mirrors are near.
             let scatter = Vec3::new(chance.next(), 0.5 * chance.next(), chance.next());
@@ -157,7 +160,7 @@ impl Slope {
     /// Means from the run's present time until `to` [s].
     pub(super) fn means(&self, run: &mut Run, to: f64) -> Result<Means, Trouble> {
         let mut sum = Means {
-            speeds: vec![0.0; (self.cells * PER_CELL) as usize],
+            speeds: vec![0.0; (self.cells * self.per_cell) as usize],
             centre: 0.0,
         };
         let (mut looks, mut last) = (0.0, run.simulation.time_s());

@@ -1,7 +1,7 @@
 //! A fixed cube in a block of points: in the way of a stream, or buried in a bed.
 //! The block runs round along the channel, and smooth walls mirror it across.
 
-use super::blocks::Block;
+use super::blocks::{Block, PER_CELL};
 use super::run::{Answer, Run, Trouble};
 use super::scenes::body;
 use scree_solver::material::Material;
@@ -81,6 +81,7 @@ impl Stream {
             // And what comes last is still above it.
             cells: [wide, wide, self.travel + 4],
             cells_across: wide,
+            per_cell: PER_CELL,
             endless: true,
             material: self.material,
             gravity: 0.0,

@@ -13,7 +13,7 @@
 //! that was left out for the cube. No bar.
 
 use crate::verify::beads;
-use crate::verify::blocks::Block;
+use crate::verify::blocks::{Block, PER_CELL};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble};
 use crate::verify::scenes::GRAVITY;
@@ -74,6 +74,7 @@ fn block(cells: u32, duration: f64) -> Block {
         at: [0, 0, 0],
         cells: [wide; 3],
         cells_across: wide,
+        per_cell: PER_CELL,
         endless: true,
         material: liquid(10.0 * fall),
         gravity: GRAVITY,

@@ -131,6 +131,7 @@ fn scene(cells: u32, theory: &Theory) -> Scene {
         at: [0, 0, 0],
         cells: [LENGTH * cells, 1, cells],
         cells_across: 1,
+        per_cell: PER_CELL,
         endless: false,
         material: beads::with_sound_speed(10.0 * expected_speed),
         gravity: theory.across,

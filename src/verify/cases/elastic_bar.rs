@@ -10,7 +10,7 @@
 //! share of the mode, Σ m v sin(πx/2L). Strains of 1e-4 keep it linear. Bar: order
 //! 1.8 over the cell size, the sub-step going with it; no bar on the error itself.
 
-use crate::verify::blocks::{Block, elastic};
+use crate::verify::blocks::{Block, PER_CELL, elastic};
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble};
 use crate::verify::{Case, Effort, How};
@@ -56,6 +56,7 @@ fn scene(cells: u32) -> Scene {
         at: [0, 0, 3],
         cells: [cells, 2, 2],
         cells_across: 2,
+        per_cell: PER_CELL,
         endless: false,
         material: elastic(DENSITY, DENSITY * WAVE_SPEED * WAVE_SPEED, 0.0),
         gravity: 0.0,

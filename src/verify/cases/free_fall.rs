@@ -12,7 +12,7 @@
 //! Euler is ½ g t Δt below the parabola, a bound the path is held to, and of order
 //! 1. The body moves by velocity Verlet, which is exact under a constant force.
 
-use crate::verify::blocks::{Block, elastic};
+use crate::verify::blocks::{Block, PER_CELL, elastic};
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble};
 use crate::verify::scenes::{GRAVITY, mean_velocity, thrown_down};
@@ -88,6 +88,7 @@ fn fall(precision: Precision, courant: f64) -> Result<Fall, Trouble> {
         at: [6, 5, 30],
         cells: [4, 4, 4],
         cells_across: 14,
+        per_cell: PER_CELL,
         endless: false,
         material: Material {
             yielding: Yielding::Granular {

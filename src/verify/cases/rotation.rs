@@ -14,7 +14,7 @@
 //! momentum (the forces on displaced nodes are free of torque); the spin's own
 //! stretch ε for the volume; 1e-3 of the kinetic energy for its rise.
 
-use crate::verify::blocks::{Block, elastic};
+use crate::verify::blocks::{Block, PER_CELL, elastic};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble};
 use crate::verify::{Case, Effort, How};
@@ -89,6 +89,7 @@ fn block(cells: u32) -> Block {
         at: [cells, cells, 4 * cells],
         cells: [cells; 3],
         cells_across: 3 * cells,
+        per_cell: PER_CELL,
         endless: false,
         material: elastic(DENSITY, 1e6, 0.3),
         gravity: 0.0,

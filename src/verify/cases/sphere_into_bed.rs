@@ -14,7 +14,7 @@
 //! wide and four deep; where it ends along the channel, it begins again.
 
 use crate::verify::beads;
-use crate::verify::blocks::Block;
+use crate::verify::blocks::{Block, PER_CELL};
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::order::slope;
 use crate::verify::run::{Answer, Cost, Run, Trouble};
@@ -158,6 +158,7 @@ fn scene(drop: &Drop, cells: u32, surface: f64) -> Result<Scene, Trouble> {
         at: [0, 0, 0],
         cells: [wide, wide, deep],
         cells_across: wide,
+        per_cell: PER_CELL,
         endless: true,
         material: beads::with_sound_speed(10.0 * speed),
         gravity: GRAVITY,

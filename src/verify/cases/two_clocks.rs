@@ -5,6 +5,7 @@
 //! four. Bar: the surface speed changes by less than 1 % (case 16 asks the same of the
 //! source paper's cube).
 
+use crate::verify::blocks::PER_CELL;
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble};
 use crate::verify::slope::Slope;
@@ -37,6 +38,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     let slope = Slope {
         inclination_deg: 24.0,
         cells,
+        per_cell: PER_CELL,
         start_deg: 24.0,
         duration: window[1],
     };
