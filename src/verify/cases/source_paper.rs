@@ -117,7 +117,11 @@ fn influences(cells: f64, findings: &mut Findings) {
     for (what, factor) in [("courant ×½", 0.5), ("courant ×¼", 0.25)] {
         take(what, Some(0.01), &numerics("courant", factor * courant));
     }
-    for (what, factor) in [("flow_courant ×2", 2.0), ("flow_courant ×½", 0.5)] {
+    for (what, factor) in [
+        ("flow_courant ×2", 2.0),
+        ("flow_courant ×½", 0.5),
+        ("flow_courant ×¼", 0.25),
+    ] {
         take(
             what,
             Some(0.01),

@@ -23,11 +23,12 @@ pub(super) const CASE: Case = Case {
 /// A length, in words, and how it is set.
 type Clock = (&'static str, fn(&mut Limits));
 
-const CLOCKS: [Clock; 4] = [
+const CLOCKS: [Clock; 5] = [
     ("courant ×½", |limits| limits.courant *= 0.5),
     ("courant ×¼", |limits| limits.courant *= 0.25),
     ("flow_courant ×2", |limits| limits.flow_courant *= 2.0),
     ("flow_courant ×½", |limits| limits.flow_courant *= 0.5),
+    ("flow_courant ×¼", |limits| limits.flow_courant *= 0.25),
 ];
 
 fn run(effort: Effort, findings: &mut Findings) {
