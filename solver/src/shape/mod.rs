@@ -10,16 +10,22 @@ mod check;
 mod closest;
 mod cuboid;
 mod error;
+mod half_spaces;
+mod hull;
 mod moments;
 mod polyhedron;
+mod regular;
 mod separation;
+mod sharp;
 #[cfg(test)]
 mod tests;
 
 pub use closest::{Closest, Feature};
 pub use error::ShapeError;
 pub use polyhedron::{ConvexPolyhedron, Edge, Face};
+pub use regular::RegularSolid;
 pub use separation::separation;
+pub use sharp::SharpPolyhedron;
 
 use cuboid::Cuboid;
 use moments::Moments;

@@ -1,6 +1,7 @@
 //! Tests of the geometry, and the solids they share.
 
 mod closest;
+mod hull;
 mod mass;
 mod separation;
 mod validity;
