@@ -88,12 +88,15 @@ impl Candidates {
     fn faces(&self, size: f64) -> Vec<Flat> {
         let count = self.points.len();
         let mut faces: Vec<Flat> = Vec::new();
+        let mut split = [0, 0];
         for a in 0..count {
             for b in a + 1..count {
                 for c in b + 1..count {
                     let known = |face: &Flat| [a, b, c].iter().all(|p| face.points.contains(p));
-                    if !faces.iter().any(known) {
-                        faces.extend(self.face_through([a, b, c], size));
+                    if let Some(normal) = self.outward([a, b, c], size, &mut split)
+                        && !faces.iter().any(known)
+                    {
+                        faces.push(self.flat(a, normal, size));
                     }
                 }
             }
@@ -117,30 +120,51 @@ impl Candidates {
         apart
     }
 
-    /// The plane through three points, if it has all others behind it.
-    fn face_through(&self, triple: [usize; 3], size: f64) -> Option<Flat> {
+    /// Outward unit normal of the plane through three points, if it has all others
+    /// behind it. Two points that `split`, lie to either side, are left for the next
+    /// triple: they often do it again.
+    fn outward(
+        &self,
+        triple: [usize; 3],
+        size: f64,
+        split: &mut [usize; 2],
+    ) -> Option<Vector3<f64>> {
         let [a, b, c] = triple.map(|point| self.points[point]);
-        let across = (b - a).cross(&(c - a));
-        let longest = (b - a).norm().max((c - a).norm()).max((c - b).norm());
-        if across.norm() <= SMALLEST * size * longest {
+        // Most triples fail: roots and quotients can wait.
+        let (to_b, to_c) = (b - a, c - a);
+        let across = to_b.cross(&to_c);
+        let longest = to_b.norm_squared().max(to_c.norm_squared());
+        let longest = longest.max((c - b).norm_squared());
+        if across.norm_squared() <= (SMALLEST * size).powi(2) * longest {
             return None;
         }
-        let normal = across.normalize();
-        let near = COPLANAR * size;
-        let (mut front, mut back) = (false, false);
-        for point in &self.points {
-            let height = normal.dot(&(point - a));
-            front |= height > near;
-            back |= height < -near;
-            if front && back {
+        let near = COPLANAR * size * across.norm();
+        let height = |point: usize| across.dot(&(self.points[point] - a));
+        if height(split[0]) > near && height(split[1]) < -near {
+            return None;
+        }
+        let (mut front, mut back) = (None, None);
+        for point in 0..self.points.len() {
+            let height = height(point);
+            front = front.or((height > near).then_some(point));
+            back = back.or((height < -near).then_some(point));
+            if let (Some(front), Some(back)) = (front, back) {
+                *split = [front, back];
                 return None;
             }
         }
-        let in_it = |&point: &usize| normal.dot(&(self.points[point] - a)).abs() <= near;
-        Some(Flat {
-            normal: if front { -normal } else { normal },
+        let normal = across.normalize();
+        Some(if front.is_some() { -normal } else { normal })
+    }
+
+    /// All points in the plane through one of them.
+    fn flat(&self, through: usize, normal: Vector3<f64>, size: f64) -> Flat {
+        let height = |point: usize| normal.dot(&(self.points[point] - self.points[through]));
+        let in_it = |point: &usize| height(*point).abs() <= COPLANAR * size;
+        Flat {
+            normal,
             points: (0..self.points.len()).filter(in_it).collect(),
-        })
+        }
     }
 }
 
