@@ -1,0 +1,144 @@
+//! Bodies of every shape: they lie still, have room in the flow, and balance it.
+
+use crate::scenes::{PRECISIONS, Scene, run, watch};
+use scree_solver::Simulation;
+use serde_json::{Value, json};
+
+/// A boulder that lies on a triangle, its weight unevenly shared.
+fn boulder() -> Value {
+    json!({"polyhedron": {"vertices_m": [
+        [0.0, 0.0, 0.0], [0.04, 0.0, 0.0], [0.01, 0.03, 0.0], [0.045, 0.012, 0.018],
+        [0.012, 0.035, 0.015], [-0.004, 0.004, 0.02], [0.02, 0.012, 0.032]]}})
+}
+
+fn regular(solid: &str, size_m: f64) -> Value {
+    json!({"regular": {"solid": solid, "size_m": size_m}})
+}
+
+/// All of them about 4 cm large.
+fn shapes() -> Vec<(&'static str, Value)> {
+    vec![
+        ("box", json!({"box": {"sides_m": [0.02, 0.05, 0.03]}})),
+        ("tetrahedron", regular("tetrahedron", 0.06)),
+        ("octahedron", regular("octahedron", 0.045)),
+        ("dodecahedron", regular("dodecahedron", 0.018)),
+        ("icosahedron", regular("icosahedron", 0.025)),
+        ("boulder", boulder()),
+    ]
+}
+
+// A body without an elevation starts at rest, however its weight is shared: it
+// neither falls nor rocks. Its overlap at rest is about 1 % of the sphero radius,
+// a few 1e-5 m; what it starts off by rings as far.
+#[test]
+fn a_body_of_any_shape_starts_at_rest() {
+    for (name, shape) in shapes() {
+        for inclination_deg in [0.0, 15.0] {
+            let scene = Scene::channel(inclination_deg, 1.0, 1.0, 0.2)
+                .body(json!({"shape": shape, "friction": 1.0, "yaw_deg": 30,
+                             "position": {"downstream_m": -0.5}}))
+                .lasting(0.3);
+            let mut simulation = scene.start();
+            let start = simulation.bodies()[0].state.clone();
+            let mut highest: f64 = 0.0;
+            watch(&mut simulation, f64::INFINITY, |simulation, _| {
+                let body = &simulation.bodies()[0];
+                highest = highest.max(body.kinetic_energy() / body.mass);
+            })
+            .expect("the scene runs");
+            let end = &simulation.bodies()[0].state;
+            let moved = (end.position - start.position).norm();
+            let turned = end.orientation.angle_to(&start.orientation);
+            println!(
+                "{name} on {inclination_deg}°: {moved:.1e} m, {turned:.1e} rad, {highest:.1e} J/kg"
+            );
+            let (far, fast) = if inclination_deg == 0.0 {
+                (1e-9, 1e-12)
+            } else {
+                (3e-5, 1e-4)
+            };
+            assert!(
+                moved < far && highest < fast,
+                "{name} on {inclination_deg}°"
+            );
+        }
+    }
+}
+
+// What is left out of a release round a body: the body and a point's radius round
+// it, to within half a cell's points on its surface.
+#[test]
+fn a_release_leaves_room_for_any_shape() {
+    for (name, shape) in shapes() {
+        let position = json!({"downstream_m": -0.2, "elevation_m": 0.1});
+        let scene = Scene::channel(0.0, 0.5, 1.0, 0.15)
+            .flow(json!({"volume_m3": 0.012, "release": {"height_m": 0.2, "toe_distance_m": 0.0}}))
+            .body(json!({"shape": shape, "position": position, "yaw_deg": 20}))
+            .set("numerics", "cell_size_m", 0.01)
+            .lasting(0.0);
+        let simulation = scene.start();
+        let body = &simulation.bodies()[0].shape;
+        // R_p of 8 points in a cell of 1 cm, and Steiner's volume of the body so
+        // much larger, from its volume and surface alone: a lower bound.
+        let radius = 0.01 / 2.0 * (3.0 / (4.0 * std::f64::consts::PI)).cbrt();
+        let left_out = simulation.volume_left_out_m3();
+        let ball = |r: f64| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3);
+        println!("{name}: {:.2} of its volume", left_out / body.volume());
+        assert!(left_out > body.volume(), "{name}");
+        assert!(left_out < ball(body.bounding_radius() + radius), "{name}");
+    }
+}
+
+// As in balances.rs, with its bounds: an imbalance is rounding.
+#[test]
+fn flow_and_any_shape_balance() {
+    for (name, shape) in shapes() {
+        for (precision, bound) in PRECISIONS.into_iter().zip([1e-12, 2e-7]) {
+            let scene = Scene::impact()
+                .first_body("shape", shape.clone())
+                .first_body("yaw_deg", 25)
+                .first_body("position", json!({"downstream_m": 0.06}))
+                .precision(precision)
+                .lasting(0.3);
+            let mut simulation = scene.start();
+            let start = simulation.bodies()[0].state.position;
+            let mut touched = 0;
+            watch(&mut simulation, f64::INFINITY, |simulation, report| {
+                touched = touched.max(simulation.flow_load(0).touching_points);
+                if report.step_ended {
+                    let audit = simulation.audit();
+                    let (linear, angular) =
+                        (audit.momentum_residual, audit.angular_momentum_residual);
+                    assert!(
+                        linear < bound && angular < bound,
+                        "{name}: {linear:e} {angular:e}"
+                    );
+                }
+            })
+            .expect("the scene runs");
+            let (audit, moved) = (
+                simulation.audit(),
+                (simulation.bodies()[0].state.position - start).norm(),
+            );
+            println!(
+                "{name}, {precision}: linear {:.1e}, angular {:.1e}, moved {moved:.3} m, {touched} points",
+                audit.momentum_residual, audit.angular_momentum_residual
+            );
+            assert!(moved > 1e-3 && touched > 0, "{name}");
+        }
+    }
+}
+
+// The same bits from a save as without.
+#[test]
+fn a_boulder_goes_on_from_a_save() {
+    let scene = Scene::impact().first_body("shape", boulder()).lasting(0.2);
+    let mut through = scene.start();
+    run(&mut through, 0.12);
+    let saved = through.save().expect("a step ended");
+    run(&mut through, f64::INFINITY);
+    let resumed = Simulation::restore(&scene.scenario(), 2, &saved);
+    let mut resumed = resumed.expect("it was just saved");
+    run(&mut resumed, f64::INFINITY);
+    assert_eq!(resumed.bodies()[0].state, through.bodies()[0].state);
+}
