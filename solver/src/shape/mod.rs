@@ -41,6 +41,7 @@ pub struct SpheroPolyhedron {
     nearest: Nearest,
     sphero_radius: f64,
     volume: f64,
+    surface: f64,
     unit_inertia: Matrix3<f64>,
     bounding_radius: f64,
 }
@@ -119,6 +120,7 @@ impl SpheroPolyhedron {
             .fold(0.0, f64::max);
         Self {
             volume: steiner_volume(&core, sphero_radius),
+            surface: steiner_surface(&core, sphero_radius),
             unit_inertia: Moments::of_dilated(&core, sphero_radius).inertia(),
             bounding_radius: farthest + sphero_radius,
             core,
@@ -163,6 +165,13 @@ impl SpheroPolyhedron {
     /// rounded solid [m].
     pub fn bounding_radius(&self) -> f64 {
         self.bounding_radius
+    }
+
+    /// Radius of a disc no smaller than the solid's shadow from any side [m]: that of
+    /// the bounding ball, or one with half the surface, which no shadow of a convex
+    /// solid exceeds.
+    pub fn shadow_radius(&self) -> f64 {
+        (self.surface / (2.0 * PI)).sqrt().min(self.bounding_radius)
     }
 
     /// How far the rounded solid reaches from the origin along a unit
@@ -219,6 +228,14 @@ fn steiner_volume(core: &ConvexPolyhedron, radius: f64) -> f64 {
         .map(|edge| edge.length * (PI - edge.interior_dihedral))
         .sum();
     inside + surface * radius + bend * radius.powi(2) / 2.0 + 4.0 / 3.0 * PI * radius.powi(3)
+}
+
+/// Its surface [m²], the volume's derivative by the radius.
+fn steiner_surface(core: &ConvexPolyhedron, radius: f64) -> f64 {
+    let flats: f64 = core.faces().iter().map(|face| face_area(core, face)).sum();
+    let bend = |edge: &Edge| edge.length * (PI - edge.interior_dihedral);
+    let bent: f64 = core.edges().iter().map(bend).sum();
+    flats + bent * radius + 4.0 * PI * radius.powi(2)
 }
 
 /// Area of a face [m²].

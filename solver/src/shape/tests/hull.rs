@@ -94,6 +94,36 @@ fn regular_solids_have_their_features_and_inradii() {
     }
 }
 
+// Least width of sharp regular solids with edges of 1, in closed form: of the
+// tetrahedron between two edges, of the others between two faces.
+#[test]
+fn least_widths() {
+    let [core, radius] = [0.7, 0.3];
+    for solid in RegularSolid::ALL {
+        let sharp = SharpPolyhedron::regular(solid, 1.0).unwrap();
+        let body = sharp.rounded(radius * sharp.inradius()).unwrap();
+        let sharp_width = match solid {
+            RegularSolid::Tetrahedron => 0.5_f64.sqrt(),
+            _ => 2.0 * sharp.inradius(),
+        };
+        let expected = core * sharp_width + 2.0 * radius * sharp.inradius();
+        assert!((body.least_width() - expected).abs() < 1e-12, "{solid:?}");
+    }
+    let plate = SpheroPolyhedron::cuboid([0.05, 0.01, 0.03], 0.001).unwrap();
+    assert!((plate.least_width() - 0.01).abs() < 1e-16);
+}
+
+#[test]
+fn shadows() {
+    // Of a cube the bounding ball's, of a needle half its surface.
+    let cube = SpheroPolyhedron::cube(0.04, 0.002).unwrap();
+    assert_eq!(cube.shadow_radius(), cube.bounding_radius());
+    let needle = SpheroPolyhedron::cuboid([0.5, 0.02, 0.02], 1e-9).unwrap();
+    let half_surface = 2.0 * 0.5 * 0.02 + 0.02 * 0.02;
+    let disc = std::f64::consts::PI * needle.shadow_radius().powi(2);
+    assert!((disc / half_surface - 1.0).abs() < 1e-6);
+}
+
 #[test]
 fn a_hulled_box_is_the_box() {
     let sides = [0.02, 0.03, 0.05];
