@@ -82,6 +82,9 @@ pub(super) const REGULAR_SOLIDS: [(&str, RegularSolid); 5] = [
     ("icosahedron", RegularSolid::Icosahedron),
 ];
 
+/// Reads what stands under a shape's name.
+type ShapeReader = fn(&Object<'_>) -> Option<Shape>;
+
 fn read_shape(parent: &Object<'_>) -> Option<Shape> {
     const SHAPES: &str = "exactly one of: cube, box, regular, polyhedron";
     let node = parent.required("shape", SHAPES)?;
@@ -91,8 +94,8 @@ fn read_shape(parent: &Object<'_>) -> Option<Shape> {
         object.report.refuse(&object.pointer, SHAPES, None, why);
         return None;
     }
-    let shapes: [(&str, fn(&Object<'_>) -> Option<Shape>); 4] = [
-        ("cube", read_cube),
+    let shapes = [
+        ("cube", read_cube as ShapeReader),
         ("box", read_box),
         ("regular", read_regular),
         ("polyhedron", read_polyhedron),

@@ -50,7 +50,7 @@ pub struct SpheroPolyhedron {
 #[derive(Debug, Clone, PartialEq)]
 enum Nearest {
     /// In closed form, the core being a box.
-    Cuboid(Cuboid),
+    Cuboid(Box<Cuboid>),
     /// By a walk over its surface.
     Walk(Walk),
 }
@@ -84,7 +84,7 @@ impl SpheroPolyhedron {
         let (core, cuboid) = Cuboid::new(half)?;
         Ok(Self::measured(
             core,
-            Nearest::Cuboid(cuboid),
+            Nearest::Cuboid(Box::new(cuboid)),
             sphero_radius_m,
         ))
     }
