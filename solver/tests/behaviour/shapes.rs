@@ -67,23 +67,34 @@ fn a_body_of_any_shape_starts_at_rest() {
     }
 }
 
-// Left out of a release is what would overlap a body: the body with a point's
-// radius more round it, counted in points of which some hundreds fit.
+// Left out of a release is what would overlap a body: no point is nearer than its
+// radius to the surface. The room so made is the body with that radius more round
+// it, counted in points of which some hundreds fit; it stands askew, lest whole
+// layers of them lie just in or out.
 #[test]
 fn a_release_leaves_room_for_any_shape() {
+    // R_p of 8 points in a cell of 1 cm.
+    let sphere = 0.005 * (3.0 / (4.0 * PI)).cbrt();
     for (name, shape) in shapes() {
         let position = json!({"downstream_m": -0.2, "elevation_m": 0.1});
+        let askew = json!([0.8, 0.2, 0.4, 0.4]);
         let scene = Scene::channel(0.0, 0.5, 1.0, 0.15)
             .flow(json!({"volume_m3": 0.012, "release": {"height_m": 0.2, "toe_distance_m": 0.0}}))
-            .body(json!({"shape": shape, "position": position, "yaw_deg": 20}))
+            .body(json!({"shape": shape, "position": position, "orientation": askew}))
             .set("numerics", "cell_size_m", 0.01)
             .lasting(0.0);
         let simulation = scene.start();
-        let body = &simulation.bodies()[0].shape;
-        let loops = body.faces().iter().map(|face| face.vertices.clone());
-        let core = ConvexPolyhedron::new(body.core_vertices().to_vec(), loops.collect());
-        // R_p of 8 points in a cell of 1 cm.
-        let radius = 0.005 * (3.0 / (4.0 * PI)).cbrt() + body.sphero_radius();
+        let body = &simulation.bodies()[0];
+        let gaps = simulation.points().into_iter();
+        let nearest = gaps
+            .map(|point| body.distance_to(&point.position))
+            .fold(f64::INFINITY, f64::min);
+        // Points are kept in single precision: 1e-7 of a cell and more.
+        assert!(nearest > sphere - 1e-7, "{name}: {nearest}");
+        let shape = &body.shape;
+        let loops = shape.faces().iter().map(|face| face.vertices.clone());
+        let core = ConvexPolyhedron::new(shape.core_vertices().to_vec(), loops.collect());
+        let radius = sphere + shape.sphero_radius();
         let room = SpheroPolyhedron::from_core(core.unwrap(), radius).unwrap();
         let share = simulation.volume_left_out_m3() / room.volume();
         println!("{name}: {share:.3} of its room");
