@@ -18,7 +18,7 @@ use scree_solver::material::{Material, Yielding};
 use scree_solver::math::{Mat3, Sym3, Vec3};
 use scree_solver::points::{self, Deformation, Point};
 use scree_solver::rigid::{Body, BodyState, Freedom, Load};
-use scree_solver::shape::SpheroPolyhedron;
+use scree_solver::shape::{RegularSolid, SharpPolyhedron, SpheroPolyhedron};
 use scree_solver::transfer;
 use scree_solver::walls::Plane;
 use std::hint::black_box;
@@ -213,9 +213,49 @@ fn cube() -> SpheroPolyhedron {
     SpheroPolyhedron::cube(0.04, 0.002).expect("a cube")
 }
 
-/// Places all round the cube, near enough to ask for, each once.
+/// Bodies of about 4 cm, from the simplest core to one with many features.
+fn shapes() -> Vec<(String, SpheroPolyhedron)> {
+    let rounded = |sharp: SharpPolyhedron| sharp.rounded(0.002).expect("it is thick enough");
+    let regular = |solid, size| rounded(SharpPolyhedron::regular(solid, size).expect("a solid"));
+    // Places spread over an ellipsoid by the golden angle.
+    let on_boulder = |k: i32| {
+        let (z, angle) = ((f64::from(k) + 0.5) / 12.0 - 1.0, f64::from(k) * 2.399_963);
+        let across = (1.0 - z * z).sqrt();
+        Vec3::new(
+            0.026 * across * angle.cos(),
+            0.02 * across * angle.sin(),
+            0.015 * z,
+        )
+    };
+    let boulder: Vec<Vec3> = (0..24).map(on_boulder).collect();
+    let boulder = rounded(SharpPolyhedron::hull_of(&boulder).expect("a boulder"));
+    vec![
+        ("cube".to_owned(), cube()),
+        (
+            "tetrahedron".to_owned(),
+            regular(RegularSolid::Tetrahedron, 0.06),
+        ),
+        (
+            "octahedron".to_owned(),
+            regular(RegularSolid::Octahedron, 0.045),
+        ),
+        (
+            "dodecahedron".to_owned(),
+            regular(RegularSolid::Dodecahedron, 0.018),
+        ),
+        (
+            "icosahedron".to_owned(),
+            regular(RegularSolid::Icosahedron, 0.025),
+        ),
+        (
+            format!("boulder of {} faces", boulder.faces().len()),
+            boulder,
+        ),
+    ]
+}
+
+/// Places all round a body, near enough to ask for, each once.
 fn closest_feature(criterion: &mut Criterion) {
-    let shape = cube();
     let along = |k: i32| f64::from(k) * 0.003;
     let places: Vec<Vec3> = (-8..=8)
         .flat_map(|i| (-8..=8).map(move |j| (i, j)))
@@ -223,14 +263,16 @@ fn closest_feature(criterion: &mut Criterion) {
         .collect();
     let mut group = criterion.benchmark_group("body");
     group.throughput(Throughput::Elements(places.len() as u64));
-    group.bench_function("closest feature of a cube", |bencher| {
-        bencher.iter(|| {
-            let distances = places
-                .iter()
-                .map(|x| shape.closest_feature(black_box(x)).distance);
-            distances.sum::<f64>()
+    for (name, shape) in shapes() {
+        group.bench_function(format!("closest feature of a {name}"), |bencher| {
+            bencher.iter(|| {
+                let distances = places
+                    .iter()
+                    .map(|x| shape.closest_feature(black_box(x)).distance);
+                distances.sum::<f64>()
+            });
         });
-    });
+    }
     group.finish();
 }
 

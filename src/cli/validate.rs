@@ -67,9 +67,7 @@ fn flow(scenario: &Scenario) -> String {
 
 fn body(scenario: &Scenario, index: usize) -> String {
     let body = &scenario.bodies[index];
-    let shape = match body.shape {
-        Shape::Cube { side_m } => format!("cube of {side_m} m"),
-    };
+    let shape = shape(&body.shape);
     let mass_kg = body.density_kg_m3 * scenario.shape_of(index).volume();
     let [x, y, z]: [f64; 3] = scenario.initial_pose(index).position.into();
     let support = match scenario.support_of(index) {
@@ -82,6 +80,20 @@ fn body(scenario: &Scenario, index: usize) -> String {
         "{shape}, rounded by {} m, {mass_kg:.4} kg, centre at {x:.4}, {y:.4}, {z:.4} m {support}{fixed}",
         body.sphero_radius_m
     )
+}
+
+fn shape(shape: &Shape) -> String {
+    match shape {
+        Shape::Cube { side_m } => format!("cube of {side_m} m"),
+        Shape::Box { sides_m: [x, y, z] } => format!("box of {x} by {y} by {z} m"),
+        Shape::Regular { solid, size_m } => {
+            let solid = format!("{solid:?}").to_lowercase();
+            format!("{solid} with edges of {size_m} m")
+        }
+        Shape::Polyhedron { vertices_m } => {
+            format!("polyhedron round {} points", vertices_m.len())
+        }
+    }
 }
 
 fn recorded(scenario: &Scenario) -> String {

@@ -82,10 +82,33 @@ fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
     use crate::pictures::fixtures::resting_at;
+    use scree_solver::shape::{RegularSolid, SharpPolyhedron};
 
     fn extent(outline: &[[f64; 2]], axis: usize) -> f64 {
         let coordinates = || outline.iter().map(|p| p[axis]);
         coordinates().fold(f64::MIN, f64::max) - coordinates().fold(f64::MAX, f64::min)
+    }
+
+    /// A tetrahedron that lies on a face is a rounded triangle from above.
+    #[test]
+    fn outline_of_a_tetrahedron_is_a_rounded_triangle() {
+        let sharp = SharpPolyhedron::regular(RegularSolid::Tetrahedron, 0.04).unwrap();
+        let body = sharp.rounded(0.002).unwrap();
+        let outline = from_above(&body, &resting_at([0.0; 3]));
+        // The core is the same solid, smaller by the radius over the inradius.
+        let core = 0.04 * (1.0 - 0.002 / sharp.inradius());
+        assert!((extent(&outline, 1) - (core + 0.004)).abs() < 1e-9);
+        let height = core * 0.75_f64.sqrt() + 0.004;
+        // The circle has points on the axes, and an edge runs along y.
+        assert!((extent(&outline, 0) - height).abs() < 1e-9);
+        let area: f64 = (0..outline.len())
+            .map(|k| (outline[k], outline[(k + 1) % outline.len()]))
+            .map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0]))
+            .sum();
+        let triangle = core * core * 0.75_f64.sqrt() / 2.0;
+        let expected = triangle + 3.0 * core * 0.002 + std::f64::consts::PI * 0.002_f64.powi(2);
+        // Thirty-two points on a circle have 0.6 % less than it.
+        assert!((area / expected - 1.0).abs() < 1e-3, "{area} {expected}");
     }
 
     /// A 4 cm cube is 4 cm across its flats, rounding included; turned by 45°

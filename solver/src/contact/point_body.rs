@@ -31,9 +31,9 @@ pub struct PointSphere {
 const LARGEST_BRAKING: f64 = 0.5;
 
 impl PointSphere {
-    /// Points that find room on a body's silhouette, at least one.
+    /// Points that find room on a body's largest shadow, at least one.
     pub fn most_touching(&self, body: &Body) -> f64 {
-        let radius = body.shape.bounding_radius();
+        let radius = body.shape.shadow_radius();
         (std::f64::consts::PI * (radius / self.spacing).powi(2)).max(1.0)
     }
 

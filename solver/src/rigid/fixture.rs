@@ -10,7 +10,12 @@ use nalgebra::UnitQuaternion;
 /// shortest side; its contacts are of E* = 1 MPa, e = 0.5, μ = 0.5.
 pub(crate) fn cuboid(sides_m: [f64; 3]) -> Body {
     let radius = 0.1 * sides_m.into_iter().fold(f64::INFINITY, f64::min);
-    let shape = SpheroPolyhedron::cuboid(sides_m, radius).expect("a box");
+    of_shape(SpheroPolyhedron::cuboid(sides_m, radius).expect("a box"))
+}
+
+/// The same of any shape.
+pub(crate) fn of_shape(shape: SpheroPolyhedron) -> Body {
+    let radius = shape.sphero_radius();
     let law = ContactLaw::hertz(1e6, radius, 0.5, 0.5);
     let inertia = shape.unit_inertia() * 1000.0;
     Body {

@@ -1,11 +1,12 @@
 //! Readers of the bodies.
 
 use super::node::Node;
-use super::range::short;
+use super::placement::Size;
+use super::range::{rounded_up, short};
 use super::reader::Object;
 use super::report::Report;
 use super::rules::*;
-use super::{Body, Position, Shape};
+use super::{Body, Position, RegularSolid, Shape};
 use crate::shape::ShapeError;
 
 /// The list of bodies; a refused body is `None`.
@@ -31,10 +32,11 @@ pub(super) fn read_bodies(parent: &Object<'_>) -> Option<Vec<Option<Body>>> {
 fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
     let object = Object::open(node, pointer, report)?;
     let shape = read_shape(&object);
-    let size = shape.as_ref().map(Shape::size_m);
+    // A shape without a size has been refused.
+    let size = shape.as_ref().and_then(|shape| shape.size().ok());
     let sphero_radius_m = object.number_or(
         &SPHERO_RADIUS,
-        size.map(|size| size / SIZE_PER_SPHERO_RADIUS),
+        size.map(|size| size.thickness_m / SIZE_PER_SPHERO_RADIUS),
     );
     let density_kg_m3 = object.number(&BODY_DENSITY);
     let position = object
@@ -49,7 +51,7 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
     let contact_modulus_pa = object.automatic(&CONTACT_MODULUS);
     let fixed = object.flag("fixed", false);
     object.refuse_unknown();
-    rounding_fits(&object, shape.as_ref(), sphero_radius_m);
+    let fits = rounding_fits(&object, shape.as_ref(), sphero_radius_m);
     let ((yaw_deg, orientation), (velocity_m_s, angular_velocity_rad_s)) = (turn?, velocities?);
     let body = Body {
         shape: shape?,
@@ -68,15 +70,23 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
         fixed: fixed?,
     };
     fixed_bodies_stand(&object, &body);
-    // A body whose shape can't be built has been refused above.
-    body.shape
-        .build(body.sphero_radius_m)
-        .is_ok()
-        .then_some(body)
+    fits.then_some(body)
 }
 
+/// Names of the regular solids.
+pub(super) const REGULAR_SOLIDS: [(&str, RegularSolid); 5] = [
+    ("tetrahedron", RegularSolid::Tetrahedron),
+    ("cube", RegularSolid::Cube),
+    ("octahedron", RegularSolid::Octahedron),
+    ("dodecahedron", RegularSolid::Dodecahedron),
+    ("icosahedron", RegularSolid::Icosahedron),
+];
+
+/// Reads what stands under a shape's name.
+type ShapeReader = fn(&Object<'_>) -> Option<Shape>;
+
 fn read_shape(parent: &Object<'_>) -> Option<Shape> {
-    const SHAPES: &str = "exactly one of: cube";
+    const SHAPES: &str = "exactly one of: cube, box, regular, polyhedron";
     let node = parent.required("shape", SHAPES)?;
     let object = parent.object(node, "shape")?;
     if object.members().len() != 1 {
@@ -84,16 +94,65 @@ fn read_shape(parent: &Object<'_>) -> Option<Shape> {
         object.report.refuse(&object.pointer, SHAPES, None, why);
         return None;
     }
-    let cube = object.member("cube");
+    let shapes = [
+        ("cube", read_cube as ShapeReader),
+        ("box", read_box),
+        ("regular", read_regular),
+        ("polyhedron", read_polyhedron),
+    ];
+    let given = shapes.map(|(key, read)| Some((key, read, object.member(key)?)));
     object.refuse_unknown();
-    let cube = object.object(cube?, "cube")?;
-    let side_m = cube.number(&CUBE_SIDE);
-    cube.refuse_unknown();
-    Some(Shape::Cube { side_m: side_m? })
+    let (key, read, node) = given.into_iter().flatten().next()?;
+    let object = object.object(node, key)?;
+    let shape = read(&object);
+    object.refuse_unknown();
+    shape
 }
 
-fn read_position(object: &Object<'_>, size: Option<f64>) -> Option<Position> {
-    let downstream_m = object.number_or(&DOWNSTREAM, size);
+fn read_cube(object: &Object<'_>) -> Option<Shape> {
+    let side_m = object.number(&CUBE_SIDE)?;
+    Some(Shape::Cube { side_m })
+}
+
+fn read_box(object: &Object<'_>) -> Option<Shape> {
+    let sides_m = object.vector(&BOX_SIDES)?;
+    Some(Shape::Box { sides_m })
+}
+
+fn read_regular(object: &Object<'_>) -> Option<Shape> {
+    let solid = object.choice("solid", &REGULAR_SOLIDS, None);
+    let size_m = object.number(&REGULAR_SIZE);
+    Some(Shape::Regular {
+        solid: solid?,
+        size_m: size_m?,
+    })
+}
+
+/// A polyhedron that encloses something.
+fn read_polyhedron(object: &Object<'_>) -> Option<Shape> {
+    let vertices_m = object.vectors(&VERTICES, &POLYHEDRON_VERTICES)?;
+    let shape = Shape::Polyhedron { vertices_m };
+    let why = match shape.size() {
+        Ok(size) if size.thickness_m >= LEAST_THICKNESS => return Some(shape),
+        Ok(size) => format!(
+            "enclose no more than a ball of {} m in diameter",
+            short(rounded_up(size.thickness_m))
+        ),
+        Err(_) => "enclose nothing: they lie in one plane, or nearly so".to_owned(),
+    };
+    let pointer = object.pointer_to(VERTICES.key);
+    let allowed = format!(
+        "points whose convex hull holds a ball of {} m in diameter",
+        short(LEAST_THICKNESS)
+    );
+    object
+        .report
+        .refuse(&pointer, &allowed, VERTICES.unit, &why);
+    None
+}
+
+fn read_position(object: &Object<'_>, size: Option<Size>) -> Option<Position> {
+    let downstream_m = object.number_or(&DOWNSTREAM, size.map(|size| size.length_m));
     let lateral_m = object.number(&LATERAL);
     let elevation_m = object.automatic(&ELEVATION);
     object.refuse_unknown();
@@ -168,12 +227,13 @@ fn fixed_bodies_stand(object: &Object<'_>, body: &Body) {
     }
 }
 
-fn rounding_fits(object: &Object<'_>, shape: Option<&Shape>, radius: Option<f64>) {
+/// Whether the shape can be rounded so; refused if it can't.
+fn rounding_fits(object: &Object<'_>, shape: Option<&Shape>, radius: Option<f64>) -> bool {
     let (Some(shape), Some(radius)) = (shape, radius) else {
-        return;
+        return false;
     };
     let Err(error) = shape.build(radius) else {
-        return;
+        return true;
     };
     let pointer = object.pointer_to(SPHERO_RADIUS.key);
     match error {
@@ -200,4 +260,5 @@ fn rounding_fits(object: &Object<'_>, shape: Option<&Shape>, radius: Option<f64>
             );
         }
     }
+    false
 }

@@ -102,13 +102,15 @@ fn placed<'a>(channel: &Channel, bodies: &'a [Option<Body>]) -> Vec<Placed<'a>> 
     bodies.iter().enumerate().filter_map(place).collect()
 }
 
-/// No body reaches into a wall, the bed, or out of the open end.
-pub(super) fn bodies_are_inside(report: &Report, channel: &Channel, bodies: &[Option<Body>]) {
-    for placed in placed(channel, bodies) {
-        is_between_the_sides(report, channel, &placed);
-        is_between_the_ends(report, channel, &placed);
-        is_above_the_bed(report, channel, &placed);
+/// No body reaches into a wall, the bed, out of the open end or into another.
+pub(super) fn bodies_fit(report: &Report, channel: &Channel, bodies: &[Option<Body>]) {
+    let placed = placed(channel, bodies);
+    for placed in &placed {
+        is_between_the_sides(report, channel, placed);
+        is_between_the_ends(report, channel, placed);
+        is_above_the_bed(report, channel, placed);
     }
+    bodies_are_apart(report, &placed);
 }
 
 fn is_between_the_sides(report: &Report, channel: &Channel, placed: &Placed<'_>) {
@@ -188,8 +190,7 @@ fn is_above_the_bed(report: &Report, channel: &Channel, placed: &Placed<'_>) {
 }
 
 /// No two rounded bodies overlap.
-pub(super) fn bodies_are_apart(report: &Report, channel: &Channel, bodies: &[Option<Body>]) {
-    let placed = placed(channel, bodies);
+fn bodies_are_apart(report: &Report, placed: &[Placed<'_>]) {
     for (index, second) in placed.iter().enumerate() {
         for first in &placed[..index] {
             let overlap = overlap(first, second);

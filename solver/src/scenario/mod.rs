@@ -17,6 +17,7 @@ mod sections;
 #[cfg(test)]
 mod tests;
 
+pub use crate::shape::RegularSolid;
 pub use placement::{Pose, ReleaseBox, Support};
 
 use serde::{Deserialize, Serialize};
@@ -139,7 +140,8 @@ pub struct Body {
     pub fixed: bool,
 }
 
-/// Shape of a body, as JSON `{"cube": {"side_m": 0.04}}`.
+/// Shape of a body before it is rounded, as JSON `{"cube": {"side_m": 0.04}}`.
+/// The flats stay where its faces are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
@@ -147,6 +149,23 @@ pub enum Shape {
     Cube {
         /// Distance between opposite flats, rounding included [m].
         side_m: f64,
+    },
+    /// A box, its faces along the axes.
+    Box {
+        /// Distances between opposite flats, rounding included [m].
+        sides_m: [f64; 3],
+    },
+    /// A regular solid, lying on a face of which an edge runs along y.
+    Regular {
+        /// Which one.
+        solid: RegularSolid,
+        /// Length of its edges before they are rounded [m].
+        size_m: f64,
+    },
+    /// The convex hull of some points.
+    Polyhedron {
+        /// The points, in axes of the body from anywhere [m].
+        vertices_m: Vec<[f64; 3]>,
     },
 }
 

@@ -104,8 +104,7 @@ impl Draft {
         if let Some(numerics) = &self.numerics {
             fit::cells_fit(report, channel, numerics);
         }
-        fit::bodies_are_inside(report, channel, bodies);
-        fit::bodies_are_apart(report, channel, bodies);
+        fit::bodies_fit(report, channel, bodies);
     }
 
     fn finish(self) -> Option<Scenario> {

@@ -6,6 +6,7 @@ use super::range::{Range, Rule, short};
 use super::report::Report;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 
 /// One JSON object in the reading.
 pub(super) struct Object<'a> {
@@ -169,10 +170,13 @@ impl<'a> Object<'a> {
         &self,
         key: &'static str,
         choices: &[(&str, T)],
-        default: T,
+        default: Option<T>,
     ) -> Option<T> {
         let Some(node) = self.member(key) else {
-            return Some(default);
+            if default.is_none() {
+                self.missing(key, &choice_words(choices), None);
+            }
+            return default;
         };
         let allowed = choice_words(choices);
         let why = match node {
@@ -190,7 +194,7 @@ impl<'a> Object<'a> {
     /// A list of N numbers, each under the rule.
     pub(super) fn vector<const N: usize>(&self, rule: &Rule) -> Option<[f64; N]> {
         match (self.member(rule.key), rule.default) {
-            (Some(node), _) => self.elements(node, rule),
+            (Some(node), _) => self.elements(node, &self.pointer_to(rule.key), rule),
             (None, Some(default)) => Some([default; N]),
             (None, None) => {
                 self.missing(rule.key, &list_words::<N>(&rule.range), rule.unit);
@@ -203,18 +207,53 @@ impl<'a> Object<'a> {
     pub(super) fn automatic_vector<const N: usize>(&self, rule: &Rule) -> Option<Option<[f64; N]>> {
         match self.member(rule.key) {
             None | Some(Node::Null) => Some(None),
-            Some(node) => self.elements(node, rule).map(Some),
+            Some(node) => {
+                let pointer = self.pointer_to(rule.key);
+                self.elements(node, &pointer, rule).map(Some)
+            }
         }
     }
 
-    fn elements<const N: usize>(&self, node: &Node, rule: &Rule) -> Option<[f64; N]> {
+    /// A list of so many lists of N numbers, each under the rule.
+    pub(super) fn vectors<const N: usize>(
+        &self,
+        rule: &Rule,
+        count: &RangeInclusive<usize>,
+    ) -> Option<Vec<[f64; N]>> {
+        let (least, most) = (count.start(), count.end());
+        let words = list_words::<N>(&rule.range);
+        let allowed = format!("{least} to {most} points, each {words}");
         let pointer = self.pointer_to(rule.key);
+        let why = match self.member(rule.key) {
+            Some(Node::List(items)) if count.contains(&items.len()) => {
+                let vector = |(index, item): (usize, &Node)| {
+                    self.elements(item, &format!("{pointer}/{index}"), rule)
+                };
+                let vectors: Vec<_> = items.iter().enumerate().map(vector).collect();
+                return vectors.into_iter().collect();
+            }
+            Some(Node::List(items)) => {
+                format!("has {} points, not {least} to {most}", items.len())
+            }
+            Some(_) => "must be a list of points".to_owned(),
+            None => "is missing, and has no default".to_owned(),
+        };
+        self.report.refuse(&pointer, &allowed, rule.unit, &why);
+        None
+    }
+
+    fn elements<const N: usize>(
+        &self,
+        node: &Node,
+        pointer: &str,
+        rule: &Rule,
+    ) -> Option<[f64; N]> {
         let items = match node {
             Node::List(items) if items.len() == N => items,
             _ => {
                 let allowed = list_words::<N>(&rule.range);
                 let why = format!("must be a list of {N} numbers");
-                self.report.refuse(&pointer, &allowed, rule.unit, &why);
+                self.report.refuse(pointer, &allowed, rule.unit, &why);
                 return None;
             }
         };

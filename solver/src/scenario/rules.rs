@@ -6,6 +6,7 @@
 //! scenes.
 
 use super::range::{Rule, closed, positive_up_to};
+use std::ops::RangeInclusive;
 
 /// Longest title [characters].
 pub(super) const TITLE_LENGTH: usize = 200;
@@ -23,7 +24,13 @@ pub(super) const QUATERNION_SLACK: f64 = 1e-3;
 /// sphero radius: coordinates typed with a few digits, and less than the
 /// overlap of a body at rest.
 pub(super) const TOUCHING: f64 = 1e-3;
-/// A body's size over its default sphero radius.
+/// Points a polyhedron may be given by: rounding may make twice as many faces of
+/// them, and four times as many vertices.
+pub(super) const POLYHEDRON_VERTICES: RangeInclusive<usize> = 4..=32;
+/// Diameter of the smallest ball a polyhedron must hold [m]: a default sphero
+/// radius is then not below the least allowed.
+pub(super) const LEAST_THICKNESS: f64 = 2e-5;
+/// A body's thickness over its default sphero radius.
 pub(super) const SIZE_PER_SPHERO_RADIUS: f64 = 20.0;
 
 const METRE: &str = "m";
@@ -87,6 +94,9 @@ pub(super) const POISSONS_RATIO: Rule = Rule::new("poissons_ratio", closed(0.0, 
 pub(super) const YOUNGS_MODULUS: Rule = modulus("youngs_modulus_pa");
 
 pub(super) const CUBE_SIDE: Rule = metres("side_m", 1e-4, 1e2);
+pub(super) const BOX_SIDES: Rule = metres("sides_m", 1e-4, 1e2);
+pub(super) const REGULAR_SIZE: Rule = metres("size_m", 1e-4, 1e2);
+pub(super) const VERTICES: Rule = metres("vertices_m", -1e2, 1e2);
 pub(super) const SPHERO_RADIUS: Rule = metres("sphero_radius_m", 1e-6, 50.0);
 pub(super) const BODY_DENSITY: Rule = Rule::new("density_kg_m3", closed(0.1, 1e6))
     .unit(DENSITY)

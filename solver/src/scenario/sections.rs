@@ -109,7 +109,7 @@ pub(super) fn read_numerics(parent: &Object<'_>) -> Option<Numerics> {
     let sound_speed_m_s = object.automatic(&SOUND_SPEED);
     let courant = object.automatic(&COURANT);
     let flow_courant = object.automatic(&FLOW_COURANT);
-    let precision = object.choice("precision", &PRECISIONS, Precision::default());
+    let precision = object.choice("precision", &PRECISIONS, Some(Precision::default()));
     let threads = object.automatic_count(&THREADS);
     object.refuse_unknown();
     Some(Numerics {

@@ -7,6 +7,10 @@ use nalgebra::Vector3;
 /// Distances below this fraction of the solid's size count as zero: far above
 /// the rounding of f64 coordinates (1e-16), far below any feature that matters.
 const FLATNESS: f64 = 1e-9;
+/// How far a vertex must lie behind a face it is not part of, as a fraction of
+/// the solid's size. Much less than the flatness, so that a vertex whose
+/// coordinates leave it in doubt may be taken into a face or not.
+const BEHIND: f64 = 1e-12;
 
 /// Indices exist and no loop repeats one; coordinates are numbers.
 pub(super) fn loops(vertices: &[Vector3<f64>], loops: &[Vec<usize>]) -> Result<(), ShapeError> {
@@ -57,7 +61,7 @@ pub(super) fn convex(vertices: &[Vector3<f64>], faces: &[Face]) -> Result<(), Sh
         if !is_flat_and_convex(vertices, face, FLATNESS * size) {
             return Err(ShapeError::BadFace { face: index });
         }
-        let in_front = |v: &usize| face.normal.dot(&vertices[*v]) - face.offset > -FLATNESS * size;
+        let in_front = |v: &usize| face.normal.dot(&vertices[*v]) - face.offset > -BEHIND * size;
         let stranger = (0..vertices.len())
             .filter(|v| !face.vertices.contains(v))
             .find(in_front);
@@ -72,7 +76,7 @@ pub(super) fn convex(vertices: &[Vector3<f64>], faces: &[Face]) -> Result<(), Sh
 }
 
 /// Largest distance of a vertex from the first one [m].
-fn extent(vertices: &[Vector3<f64>]) -> f64 {
+pub(super) fn extent(vertices: &[Vector3<f64>]) -> f64 {
     vertices
         .iter()
         .map(|v| (v - vertices[0]).norm())

@@ -21,6 +21,16 @@ pub enum ShapeError {
         /// Radius of the largest sphere inside the shape [m].
         inradius_m: f64,
     },
+    /// What the rounding leaves is too small or too thin to tell its faces apart.
+    #[error(
+        "the sphero radius {radius_m} m leaves no core worth the name of a shape with the inradius {inradius_m} m"
+    )]
+    NoCore {
+        /// Radius of the rounding sphere [m].
+        radius_m: f64,
+        /// Radius of the largest sphere inside the shape [m].
+        inradius_m: f64,
+    },
     /// A vertex has a coordinate that is no number.
     #[error("vertex {vertex} is not finite")]
     NotFinite {

@@ -10,32 +10,49 @@ mod check;
 mod closest;
 mod cuboid;
 mod error;
+mod half_spaces;
+mod hull;
 mod moments;
 mod polyhedron;
+mod regular;
 mod separation;
+mod sharp;
 #[cfg(test)]
 mod tests;
+mod walk;
 
 pub use closest::{Closest, Feature};
 pub use error::ShapeError;
 pub use polyhedron::{ConvexPolyhedron, Edge, Face};
+pub use regular::RegularSolid;
 pub use separation::separation;
+pub use sharp::SharpPolyhedron;
 
 use cuboid::Cuboid;
 use moments::Moments;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
+use walk::Walk;
 
 /// A convex polyhedron swept by a sphere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpheroPolyhedron {
     core: ConvexPolyhedron,
-    /// Closed form of the nearest feature, if the core is a box.
-    cuboid: Option<Cuboid>,
+    nearest: Nearest,
     sphero_radius: f64,
     volume: f64,
+    surface: f64,
     unit_inertia: Matrix3<f64>,
     bounding_radius: f64,
+}
+
+/// How the nearest feature of the core is found.
+#[derive(Debug, Clone, PartialEq)]
+enum Nearest {
+    /// In closed form, the core being a box.
+    Cuboid(Box<Cuboid>),
+    /// By a walk over its surface.
+    Walk(Walk),
 }
 
 impl SpheroPolyhedron {
@@ -65,7 +82,11 @@ impl SpheroPolyhedron {
             });
         }
         let (core, cuboid) = Cuboid::new(half)?;
-        Ok(Self::measured(core, Some(cuboid), sphero_radius_m))
+        Ok(Self::measured(
+            core,
+            Nearest::Cuboid(Box::new(cuboid)),
+            sphero_radius_m,
+        ))
     }
 
     /// Any convex core, swept by a sphere of `sphero_radius_m`. The core is
@@ -82,11 +103,16 @@ impl SpheroPolyhedron {
         let core = core.translated(&-first_vertex);
         let moments = Moments::of_dilated(&core, sphero_radius_m);
         let centred = core.translated(&-(moments.first / moments.volume));
-        Ok(Self::measured(centred, None, sphero_radius_m))
+        let walk = Walk::on(&centred);
+        Ok(Self::measured(
+            centred,
+            Nearest::Walk(walk),
+            sphero_radius_m,
+        ))
     }
 
     /// `core` is centred already.
-    fn measured(core: ConvexPolyhedron, cuboid: Option<Cuboid>, sphero_radius: f64) -> Self {
+    fn measured(core: ConvexPolyhedron, nearest: Nearest, sphero_radius: f64) -> Self {
         let farthest = core
             .vertices()
             .iter()
@@ -94,10 +120,11 @@ impl SpheroPolyhedron {
             .fold(0.0, f64::max);
         Self {
             volume: steiner_volume(&core, sphero_radius),
+            surface: steiner_surface(&core, sphero_radius),
             unit_inertia: Moments::of_dilated(&core, sphero_radius).inertia(),
             bounding_radius: farthest + sphero_radius,
             core,
-            cuboid,
+            nearest,
             sphero_radius,
         }
     }
@@ -140,6 +167,13 @@ impl SpheroPolyhedron {
         self.bounding_radius
     }
 
+    /// Radius of a disc no smaller than the solid's shadow from any side [m]: that of
+    /// the bounding ball, or one with half the surface, which no shadow of a convex
+    /// solid exceeds.
+    pub fn shadow_radius(&self) -> f64 {
+        (self.surface / (2.0 * PI)).sqrt().min(self.bounding_radius)
+    }
+
     /// How far the rounded solid reaches from the origin along a unit
     /// direction [m] (support function; for other lengths it scales with them).
     pub fn extent_along(&self, direction: &Vector3<f64>) -> f64 {
@@ -147,12 +181,28 @@ impl SpheroPolyhedron {
         reach.fold(f64::NEG_INFINITY, f64::max) + self.sphero_radius * direction.norm()
     }
 
+    /// Least distance of two parallel planes that hold the rounded solid between
+    /// them [m]: both touch it in faces, a face and a vertex, or two edges.
+    pub fn least_width(&self) -> f64 {
+        let edges = self.edges();
+        let crosses = edges
+            .iter()
+            .flat_map(|a| edges.iter().map(|b| a.direction.cross(&b.direction)));
+        let directions = crosses.filter_map(|cross| cross.try_normalize(separation::PARALLEL));
+        self.faces()
+            .iter()
+            .map(|face| face.normal)
+            .chain(directions)
+            .map(|direction| self.extent_along(&direction) + self.extent_along(&-direction))
+            .fold(f64::INFINITY, f64::min)
+    }
+
     /// The feature of the core nearest to `x` [m]. Distance and, outside the
     /// core, point and normal are continuous in `x`.
     pub fn closest_feature(&self, x: &Vector3<f64>) -> Closest {
-        match &self.cuboid {
-            Some(cuboid) => cuboid.closest(x),
-            None => closest::general(&self.core, x),
+        match &self.nearest {
+            Nearest::Cuboid(cuboid) => cuboid.closest(x),
+            Nearest::Walk(walk) => walk.closest(x),
         }
     }
 }
@@ -178,6 +228,14 @@ fn steiner_volume(core: &ConvexPolyhedron, radius: f64) -> f64 {
         .map(|edge| edge.length * (PI - edge.interior_dihedral))
         .sum();
     inside + surface * radius + bend * radius.powi(2) / 2.0 + 4.0 / 3.0 * PI * radius.powi(3)
+}
+
+/// Its surface [m²], the volume's derivative by the radius.
+fn steiner_surface(core: &ConvexPolyhedron, radius: f64) -> f64 {
+    let flats: f64 = core.faces().iter().map(|face| face_area(core, face)).sum();
+    let bend = |edge: &Edge| edge.length * (PI - edge.interior_dihedral);
+    let bent: f64 = core.edges().iter().map(bend).sum();
+    flats + bent * radius + 4.0 * PI * radius.powi(2)
 }
 
 /// Area of a face [m²].

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 /// Cross products of edges shorter than this (sine of their angle) are no
 /// direction: the edges are parallel, and face normals separate instead.
-const PARALLEL: f64 = 1e-12;
+pub(super) const PARALLEL: f64 = 1e-12;
 
 /// Distance between the cores of two bodies [m], each given in its own frame
 /// and placed by its pose; zero or negative (minus the depth) when they meet.

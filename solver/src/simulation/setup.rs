@@ -16,6 +16,7 @@ use crate::walls::{Ends, Plane, Upright, Walls};
 mod bodies;
 mod release;
 mod resolution;
+mod settle;
 
 pub(super) use bodies::bodies;
 use release::Columns;

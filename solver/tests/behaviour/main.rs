@@ -15,5 +15,6 @@ mod layers;
 mod limits;
 mod precisions;
 mod same_bits;
+mod shapes;
 mod sliding_block;
 mod symmetry;

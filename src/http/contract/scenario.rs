@@ -164,7 +164,7 @@ pub struct BodyDocument {
     pub fixed: bool,
 }
 
-/// Shape of a body.
+/// Shape of a body before it is rounded; its flats stay where they are.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Shape)]
@@ -174,6 +174,41 @@ pub enum ShapeDocument {
         /// Distance between opposite flats, rounding included [m].
         side_m: f64,
     },
+    /// A box, its faces along the axes.
+    Box {
+        /// Distances between opposite flats, rounding included [m].
+        sides_m: [f64; 3],
+    },
+    /// A regular solid, lying on a face of which an edge runs along y.
+    Regular {
+        /// Which one.
+        solid: RegularSolidDocument,
+        /// Length of its edges before they are rounded [m].
+        size_m: f64,
+    },
+    /// The convex hull of 4 to 32 points.
+    Polyhedron {
+        /// The points, in axes of the body from anywhere [m].
+        #[schema(min_items = 4, max_items = 32)]
+        vertices_m: Vec<[f64; 3]>,
+    },
+}
+
+/// A solid with equal regular faces.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = RegularSolid)]
+pub enum RegularSolidDocument {
+    /// Four triangles.
+    Tetrahedron,
+    /// Six squares.
+    Cube,
+    /// Eight triangles.
+    Octahedron,
+    /// Twelve pentagons.
+    Dodecahedron,
+    /// Twenty triangles.
+    Icosahedron,
 }
 
 /// Centre of a body.

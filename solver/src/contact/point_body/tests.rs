@@ -1,7 +1,8 @@
 use super::*;
 use crate::grid::block_of;
 use crate::kernel::Lattice;
-use crate::rigid::fixture::cuboid;
+use crate::rigid::fixture::{cuboid, of_shape};
+use crate::shape::{Feature, RegularSolid, SharpPolyhedron};
 use nalgebra::UnitQuaternion;
 
 const SPHERE: PointSphere = PointSphere {
@@ -228,5 +229,84 @@ fn points_are_looked_at_when_they_can_touch() {
     for (passed, touching) in [(0.4, 0), (0.6, 1)] {
         loads.evaluate(&cloud, std::slice::from_ref(&body), SPHERE, 1e-5, passed);
         assert_eq!(loads.on_points.len(), touching);
+    }
+}
+
+// A point goes round every shape, over faces, edges and vertices: its force never
+// jumps, and is at every place that of one contact. Along a path at a constant
+// distance from the core only the normal turns, by no more than the way over the
+// distance.
+#[test]
+fn the_force_is_continuous_over_faces_edges_and_vertices() {
+    let boulder = [
+        [0.0, 0.0, 0.0],
+        [0.04, 0.0, 0.0],
+        [0.01, 0.03, 0.0],
+        [0.045, 0.012, 0.018],
+        [0.012, 0.035, 0.015],
+        [-0.004, 0.004, 0.02],
+        [0.02, 0.012, 0.032],
+    ];
+    let mut sharp: Vec<_> = RegularSolid::ALL
+        .iter()
+        .map(|solid| SharpPolyhedron::regular(*solid, 0.04).unwrap())
+        .collect();
+    sharp.push(SharpPolyhedron::hull_of(&boulder.map(Vec3::from)).unwrap());
+    for sharp in sharp {
+        let shape = sharp.rounded(0.1 * sharp.inradius()).unwrap();
+        let mut body = of_shape(shape);
+        body.state.orientation = UnitQuaternion::from_euler_angles(0.3, -0.5, 0.8);
+        let reach = SPHERE.radius + body.shape.sphero_radius();
+        let away = reach - 0.5 * SPHERE.radius;
+        let expected = body.flow_law.elastic_force(0.5 * SPHERE.radius);
+        let meeting = Meeting {
+            body: &body,
+            radius: SPHERE.radius,
+            braking: 0.0,
+        };
+        // The foot of a ray's end, lifted off the core by the distance asked for.
+        let steps = 40_000;
+        let at = |step: i32| {
+            let angle = f64::from(step) * std::f64::consts::TAU / f64::from(steps);
+            let tilt = 7.0 * angle;
+            let ray = Vec3::new(
+                angle.cos() * tilt.cos(),
+                angle.sin() * tilt.cos(),
+                tilt.sin(),
+            );
+            let closest = body.shape.closest_feature(&(ray * 0.2));
+            (
+                body.to_world(&(closest.point + closest.normal * away)),
+                closest.feature,
+            )
+        };
+        let force = |position: Vec3| {
+            let point = Moving {
+                position,
+                velocity: Vec3::zeros(),
+                mass: 1e-3,
+            };
+            meeting.touch(&point).expect("it touches").force
+        };
+        let (mut place, _) = at(0);
+        let mut before = force(place);
+        let mut kinds = [false; 3];
+        for step in 1..=steps {
+            let (next, feature) = at(step);
+            let now = force(next);
+            assert!((now.norm() / expected - 1.0).abs() < 1e-9);
+            let most = expected * (next - place).norm() / away;
+            assert!(
+                (now - before).norm() <= 1.001 * most + 1e-9 * expected,
+                "{feature:?}"
+            );
+            (place, before) = (next, now);
+            match feature {
+                Feature::Vertex(_) => kinds[0] = true,
+                Feature::Edge(_) => kinds[1] = true,
+                Feature::Face(_) => kinds[2] = true,
+            }
+        }
+        assert_eq!(kinds, [true; 3]);
     }
 }

@@ -58,6 +58,39 @@ fn defaults_follow_the_size_of_the_body() {
 }
 
 #[test]
+fn defaults_of_every_shape_follow_its_size() {
+    let tetrahedron = [[0., 0., 0.], [0.03, 0., 0.], [0., 0.03, 0.], [0., 0., 0.03]];
+    // Inradius of a corner of a cube of side a: a/(3 + √3).
+    let of_corner = 0.03 / (3.0 + 3_f64.sqrt()) / 10.0;
+    for (shape, radius, downstream) in [
+        (json!({"box": {"sides_m": [0.02, 0.06, 0.04]}}), 0.001, 0.06),
+        (
+            json!({"regular": {"solid": "cube", "size_m": 0.04}}),
+            0.002,
+            0.04 * 3_f64.sqrt(),
+        ),
+        (
+            json!({"regular": {"solid": "tetrahedron", "size_m": 0.04}}),
+            0.04 * 6_f64.sqrt() / 120.0,
+            0.04,
+        ),
+        (
+            json!({"polyhedron": {"vertices_m": tetrahedron}}),
+            of_corner,
+            0.03 * 2_f64.sqrt(),
+        ),
+    ] {
+        let scenario = accepted(&with("/bodies/0/shape", shape));
+        let body = &scenario.bodies[0];
+        assert!((body.sphero_radius_m - radius).abs() < 1e-15, "{body:?}");
+        assert!(
+            (body.position.downstream_m - downstream).abs() < 1e-15,
+            "{body:?}"
+        );
+    }
+}
+
+#[test]
 fn hard_cases_are_legal() {
     let edges: &[(&str, Value)] = &[
         ("/flow", Value::Null),

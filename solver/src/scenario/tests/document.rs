@@ -1,6 +1,7 @@
 //! `docs/scenario.md` says what the code does.
 
-use super::{accepted, minimal};
+use super::{accepted, minimal, with};
+use crate::scenario::body::REGULAR_SOLIDS;
 use crate::scenario::range::Rule;
 use crate::scenario::reader::choice_words;
 use crate::scenario::rules::*;
@@ -84,8 +85,13 @@ fn row(field: &str) -> [&'static str; 5] {
 
 #[test]
 fn ranges_and_units_are_those_of_the_code() {
-    let cube_side = [("bodies[].shape.cube.", &[CUBE_SIDE][..])];
-    for (object, rules) in RULES.iter().chain(&cube_side) {
+    let of_shapes = [
+        ("bodies[].shape.cube.", &[CUBE_SIDE][..]),
+        ("bodies[].shape.box.", &[BOX_SIDES]),
+        ("bodies[].shape.regular.", &[REGULAR_SIZE]),
+        ("bodies[].shape.polyhedron.", &[VERTICES]),
+    ];
+    for (object, rules) in RULES.iter().chain(&of_shapes) {
         for rule in *rules {
             let [_, _, unit, _, allowed] = row(&format!("{object}{}", rule.key));
             assert_eq!(unit, rule.unit.unwrap_or("–"), "{object}{}", rule.key);
@@ -142,6 +148,9 @@ fn counts_are_those_of_the_code() {
     assert!(DOCUMENT.contains("Of more than 500,") && VIOLATIONS == 500);
     assert!(row("bodies[].orientation")[4].contains(&format!("within {QUATERNION_SLACK}")));
     assert!(DOCUMENT.contains("a thousandth of the sphero radius") && TOUCHING == 1e-3);
+    let (least, most) = (POLYHEDRON_VERTICES.start(), POLYHEDRON_VERTICES.end());
+    let points = format!("{least} to {most} points");
+    assert!(row("bodies[].shape.polyhedron.vertices_m")[4].contains(&points));
     assert!(row("bodies[].sphero_radius_m")[3].contains("1/20") && SIZE_PER_SPHERO_RADIUS == 20.0);
 }
 
@@ -150,6 +159,9 @@ fn words_are_those_of_the_code() {
     let [_, _, unit, _, allowed] = row("numerics.precision");
     assert_eq!(unit, "–");
     assert_eq!(allowed.replace('`', ""), choice_words(&PRECISIONS));
+    let [_, _, unit, _, allowed] = row("bodies[].shape.regular.solid");
+    assert_eq!(unit, "–");
+    assert_eq!(allowed.replace('`', ""), choice_words(&REGULAR_SOLIDS));
 }
 
 #[test]
@@ -158,4 +170,12 @@ fn the_example_is_legal() {
     let length = DOCUMENT[start..].find("```").expect("its end");
     let example = crate::scenario::Scenario::from_json(&DOCUMENT[start..start + length]);
     assert_eq!(example, Ok(accepted(&minimal())));
+}
+
+#[test]
+fn the_polyhedron_of_the_example_is_legal() {
+    let start = DOCUMENT.rfind("```json").expect("an example") + "```json".len();
+    let length = DOCUMENT[start..].find("```").expect("its end");
+    let body: Value = serde_json::from_str(&DOCUMENT[start..start + length]).unwrap();
+    accepted(&with("/bodies/0", body));
 }

@@ -115,6 +115,38 @@ fn the_bound_given_for_a_straddling_body_is_where_it_touches() {
     super::refused(&with("/bodies/0/position", place(bound - 2.1e-6)));
 }
 
+// Wherever its points are counted from, it is the centre of mass that is placed,
+// and the axes are those of the points.
+#[test]
+fn a_polyhedron_lies_as_its_points_say() {
+    let wedge = |shift: f64| {
+        let at = |x: f64, y: f64, z: f64| [x + shift, y - shift, z + shift];
+        let vertices = [
+            at(0.0, 0.0, 0.0),
+            at(0.06, 0.0, 0.0),
+            at(0.0, 0.03, 0.0),
+            at(0.06, 0.03, 0.0),
+            at(0.0, 0.0, 0.03),
+            at(0.0, 0.03, 0.03),
+        ];
+        cube_with("shape", json!({"polyhedron": {"vertices_m": vertices}}))
+    };
+    let scenario = wedge(0.0);
+    let (pose, shape) = (scenario.initial_pose(0), scenario.shape_of(0));
+    assert_eq!(pose.orientation.angle(), 0.0);
+    assert_eq!(pose.position.y, 0.0);
+    // The wedge's own centre is a third of the way up and from the steep end;
+    // rounding moves it by less than the radius.
+    assert!((shape.extent_along(&-Vector3::x()) - 0.02).abs() < shape.sphero_radius());
+    assert!((pose.position.z - 0.01).abs() < shape.sphero_radius());
+    assert!((pose.position.z - shape.extent_along(&-Vector3::z())).abs() < 1e-16);
+    let shifted = wedge(50.0).shape_of(0);
+    // Coordinates of 50 m are rounded to 7e-15.
+    assert!(
+        (shifted.extent_along(&Vector3::x()) - shape.extent_along(&Vector3::x())).abs() < 1e-13
+    );
+}
+
 #[test]
 fn a_flat_channel_has_no_foot() {
     let mut scenario = with("/channel/inclination_deg", json!(0));

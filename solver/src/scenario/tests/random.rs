@@ -1,7 +1,9 @@
 //! Whatever is thrown at the parser, it answers.
 
-use super::minimal;
+use super::{minimal, with};
+use crate::scenario::body::REGULAR_SOLIDS;
 use crate::scenario::{Scenario, ScenarioError};
+use nalgebra::Vector3;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -46,11 +48,33 @@ fn pointers(value: &Value, here: &str, found: &mut Vec<String>) {
     }
 }
 
-/// The scenario with all fields, some of them replaced by anything.
+/// Every kind of shape, about 4 cm large.
+fn shape() -> impl Strategy<Value = Value> {
+    let length = || 0.01..0.05_f64;
+    let solids = prop::sample::select(REGULAR_SOLIDS.map(|(name, _)| name).to_vec());
+    let place = prop::array::uniform3(-0.02..0.02_f64);
+    // A tetrahedron that always encloses something, and points round it.
+    let places = prop::collection::vec(place, 0..12).prop_map(|mut places| {
+        places.extend([[0.01; 3], [0.01, -0.01, -0.01]]);
+        places.extend([[-0.01, 0.01, -0.01], [-0.01, -0.01, 0.01]]);
+        places
+    });
+    prop_oneof![
+        length().prop_map(|side| json!({"cube": {"side_m": side}})),
+        prop::array::uniform3(length()).prop_map(|sides| json!({"box": {"sides_m": sides}})),
+        (solids, length()).prop_map(|(solid, size)| json!({
+            "regular": {"solid": solid, "size_m": 0.5 * size}
+        })),
+        places.prop_map(|places| json!({"polyhedron": {"vertices_m": places}})),
+    ]
+}
+
+/// The scenario with all fields and any shape, some of them replaced by anything.
 fn damaged() -> impl Strategy<Value = Value> {
     let damage = prop::collection::vec((any::<prop::sample::Index>(), any_json()), 1..4);
-    damage.prop_map(|damage| {
-        let scenario = Scenario::from_value(&minimal()).expect("the minimal scenario");
+    (shape(), damage).prop_map(|(shape, damage)| {
+        let scenario = with("/bodies/0/shape", shape);
+        let scenario = Scenario::from_value(&scenario).expect("the minimal scenario");
         let mut value = serde_json::to_value(scenario).expect("a scenario is JSON");
         for (place, replacement) in damage {
             let mut all = Vec::new();
@@ -105,6 +129,20 @@ proptest! {
     #[test]
     fn any_text_is_answered(text in ".{0,60}") {
         let _ = Scenario::from_json(&text);
+    }
+
+    #[test]
+    fn any_shape_is_taken_and_comes_back(shape in shape(), yaw in -180.0..180.0_f64) {
+        let mut value = with("/bodies/0/shape", shape);
+        value["bodies"][0]["yaw_deg"] = json!(yaw);
+        let scenario = Scenario::from_json(&value.to_string()).unwrap();
+        prop_assert_eq!(Scenario::from_json(&scenario.to_json()).unwrap(), scenario.clone());
+        // It lies on the floor, clear of the incline, and is rounded.
+        let (pose, solid) = (scenario.initial_pose(0), scenario.shape_of(0));
+        let down = pose.orientation.inverse_transform_vector(&-Vector3::z());
+        prop_assert!((pose.position.z - solid.extent_along(&down)).abs() < 1e-15);
+        prop_assert!(pose.position.x > solid.bounding_radius());
+        prop_assert!(solid.least_width() > 2.0 * solid.sphero_radius());
     }
 
     #[test]

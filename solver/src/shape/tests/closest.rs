@@ -1,7 +1,10 @@
 //! The nearest feature against brute force, and its continuity.
 
+use super::search::{by_search, deepest_face};
 use super::{SpheroPolyhedron, mapped, mesh};
-use crate::shape::{ConvexPolyhedron, Feature, closest};
+use crate::shape::hull::hull_of;
+use crate::shape::walk::Walk;
+use crate::shape::{ConvexPolyhedron, Feature};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 
@@ -48,7 +51,7 @@ fn on_feature(core: &ConvexPolyhedron, feature: Feature, point: &Vector3<f64>) -
 proptest! {
     #[test]
     fn distance_is_the_one_projections_find(core in core(), x in point(3.0)) {
-        let found = closest::general(&core, &x);
+        let found = Walk::on(&core).closest(&x);
         let expected = by_projections(&core, &x);
         // Dykstra converges slowly where x sits near an edge's region: 1e-4
         // after 4000 rounds; a wrong feature is wrong by far more.
@@ -57,8 +60,8 @@ proptest! {
 
     #[test]
     fn the_answer_is_consistent(core in core(), x in point(3.0)) {
-        let found = closest::general(&core, &x);
-        let (_, height) = closest::deepest_face(&core, &x);
+        let found = Walk::on(&core).closest(&x);
+        let (_, height) = deepest_face(&core, &x);
         prop_assert_eq!(found.distance <= 0.0, height <= 0.0);
         // Rounding of coordinates of order 1.
         prop_assert!((found.normal.norm() - 1.0).abs() < 1e-12);
@@ -74,7 +77,7 @@ proptest! {
 
     #[test]
     fn distance_point_and_normal_are_continuous(core in core(), x in point(2.0), step in point(1e-6)) {
-        let (a, b) = (closest::general(&core, &x), closest::general(&core, &(x + step)));
+        let (a, b) = (Walk::on(&core).closest(&x), Walk::on(&core).closest(&(x + step)));
         let moved = step.norm();
         // A distance and a projection onto a convex set are 1-Lipschitz; the
         // normal turns by no more than the step over the distance. 1e-12: rounding.
@@ -82,6 +85,28 @@ proptest! {
         if a.distance > 1e-3 && b.distance > 1e-3 {
             prop_assert!((a.point - b.point).norm() <= moved + 1e-12);
             prop_assert!((a.normal - b.normal).norm() <= 2.0 * moved / a.distance + 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_walk_ends_where_a_search_does(
+        places in prop::collection::vec(prop::array::uniform3(-1.0..1.0_f64), 4..24),
+        flatten in 0.05..1.0_f64,
+        x in point(2.0),
+    ) {
+        let squeezed = |p: &[f64; 3]| Vector3::new(p[0], flatten * p[1], flatten * flatten * p[2]);
+        let places: Vec<_> = places.iter().map(squeezed).collect();
+        let Ok(core) = hull_of(&places) else { return Ok(()) };
+        let walk = Walk::on(&core);
+        // Around the solid, and on the bisectors where features take over.
+        let centre = places.iter().sum::<Vector3<f64>>() / places.len() as f64;
+        let beside = core.vertices().iter().flat_map(|v| [v * 1.2, v + (x - v) * 1e-3, (v + x) / 2.0]);
+        for x in beside.chain([x, centre]) {
+            let (found, expected) = (walk.closest(&x), by_search(&core, &x));
+            prop_assert!((found.distance - expected.distance).abs() < 1e-14, "{found:?} {expected:?}");
+            if expected.distance > 0.0 {
+                prop_assert!((found.point - expected.point).norm() < 1e-7, "{found:?} {expected:?}");
+            }
         }
     }
 
@@ -99,7 +124,7 @@ proptest! {
             1 => -corner[axis],
             _ => x[axis],
         });
-        let (fast, general) = (body.closest_feature(&x), closest::general(&body.core, &x));
+        let (fast, general) = (body.closest_feature(&x), by_search(&body.core, &x));
         prop_assert!((fast.distance - general.distance).abs() < 1e-14);
         if fast.distance > 0.0 {
             prop_assert!((fast.point - general.point).norm() < 1e-14);
@@ -143,7 +168,7 @@ fn points_on_the_surface_and_at_the_centre_have_a_normal() {
         corner + Vector3::repeat(1e-200),
         Vector3::new(0.9, 0.0, 0.0),
     ] {
-        for found in [cube.closest_feature(&x), closest::general(&cube.core, &x)] {
+        for found in [cube.closest_feature(&x), by_search(&cube.core, &x)] {
             assert_eq!(found.normal.norm(), 1.0, "{x}");
             assert!(found.distance.is_finite());
         }

@@ -1,8 +1,8 @@
 //! Volume and inertia of rounded solids.
 
 use super::{SpheroPolyhedron, mapped, mesh, prism, pyramid, rounded, tetrahedron};
-use crate::shape::ConvexPolyhedron;
 use crate::shape::moments::Moments;
+use crate::shape::{ConvexPolyhedron, RegularSolid, SharpPolyhedron};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::f64::consts::PI;
 
@@ -168,4 +168,49 @@ fn reach_of_the_cube() {
     assert!((cube.bounding_radius() - corner).abs() < 1e-16);
     let diagonal = Vector3::repeat(1.0).normalize();
     assert!((cube.extent_along(&diagonal) - corner).abs() < 1e-16);
+}
+
+/// Textbook volume over a³, surface over a² and dihedral angle of regular solids.
+fn textbook(solid: RegularSolid) -> [f64; 3] {
+    let (root2, root3, root5) = (2_f64.sqrt(), 3_f64.sqrt(), 5_f64.sqrt());
+    match solid {
+        RegularSolid::Tetrahedron => [root2 / 12.0, root3, (1.0 / 3.0_f64).acos()],
+        RegularSolid::Cube => [1.0, 6.0, PI / 2.0],
+        RegularSolid::Octahedron => [root2 / 3.0, 2.0 * root3, (-1.0 / 3.0_f64).acos()],
+        RegularSolid::Dodecahedron => [
+            (15.0 + 7.0 * root5) / 4.0,
+            3.0 * (25.0 + 10.0 * root5).sqrt(),
+            (-1.0 / root5).acos(),
+        ],
+        RegularSolid::Icosahedron => [
+            5.0 / 12.0 * (3.0 + root5),
+            5.0 * root3,
+            (-root5 / 3.0).acos(),
+        ],
+    }
+}
+
+#[test]
+fn regular_solids_have_the_textbook_volume_and_are_isotropic() {
+    let (edge, share) = (0.04, 0.3);
+    for solid in RegularSolid::ALL {
+        let sharp = SharpPolyhedron::regular(solid, edge).unwrap();
+        let radius = share * sharp.inradius();
+        let body = sharp.rounded(radius).unwrap();
+        // The core is the same solid, smaller by the radius.
+        let a = edge * (1.0 - share);
+        let [volume, surface, angle] = textbook(solid);
+        let edges = body.edges().len() as f64;
+        let expected = volume * a.powi(3)
+            + surface * a.powi(2) * radius
+            + edges * a * (PI - angle) * radius.powi(2) / 2.0
+            + 4.0 / 3.0 * PI * radius.powi(3);
+        assert!((body.volume() / expected - 1.0).abs() < 1e-12, "{solid:?}");
+        let inertia = body.unit_inertia();
+        let isotropic = Matrix3::from_diagonal_element(inertia.m11);
+        assert!(
+            (inertia - isotropic).amax() < 1e-12 * inertia.m11,
+            "{solid:?}"
+        );
+    }
 }

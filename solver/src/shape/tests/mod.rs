@@ -1,7 +1,9 @@
 //! Tests of the geometry, and the solids they share.
 
 mod closest;
+mod hull;
 mod mass;
+mod search;
 mod separation;
 mod validity;
 

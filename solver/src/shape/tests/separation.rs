@@ -1,7 +1,8 @@
 //! Distances between two cores.
 
+use super::search::by_search;
 use super::{SpheroPolyhedron, mapped, mesh};
-use crate::shape::{closest, separation};
+use crate::shape::separation;
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_4;
@@ -109,7 +110,7 @@ fn by_projections(
     pose_b: &Isometry3<f64>,
 ) -> f64 {
     let project = |body: &SpheroPolyhedron, pose: &Isometry3<f64>, x: Vector3<f64>| {
-        let found = closest::general(&body.core, &pose.inverse_transform_point(&x.into()).coords);
+        let found = by_search(&body.core, &pose.inverse_transform_point(&x.into()).coords);
         if found.distance <= 0.0 {
             x
         } else {

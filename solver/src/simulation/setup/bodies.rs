@@ -1,12 +1,12 @@
 //! The bodies of a scenario at its start.
 
+use super::settle::settle;
 use super::{Setup, resolution};
 use crate::contact::body_wall::touch_walls;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
 use crate::rigid::{Body, BodyState, Freedom, Load};
 use crate::scenario::Scenario;
-use crate::walls::Plane;
 
 /// The bodies of a scenario, where they start.
 pub(in crate::simulation) fn bodies(scenario: &Scenario, given: &Setup) -> Vec<Body> {
@@ -63,28 +63,4 @@ fn body(scenario: &Scenario, given: &Setup, place: usize) -> Body {
     }
     touch_walls(&mut body, &given.planes, 0.0);
     body
-}
-
-/// Sinks a resting body to where its support carries its weight, so that it
-/// does not start with a small fall.
-fn settle(body: &mut Body, planes: &[Plane], gravity: &Vec3) {
-    let heights = |plane: &Plane| -> Vec<f64> {
-        body.shape
-            .core_vertices()
-            .iter()
-            .map(|v| plane.height(&(body.state.position + body.to_world(v))))
-            .collect()
-    };
-    let radius = body.shape.sphero_radius();
-    let touches = |height: &f64| *height < radius * (1.0 + 1e-6);
-    let Some(support) = planes
-        .iter()
-        .find(|plane| heights(plane).iter().any(touches))
-    else {
-        return;
-    };
-    let carriers = heights(support).iter().copied().filter(touches).count() as f64;
-    let pressed = -gravity.dot(&support.normal) * body.mass / carriers;
-    let overlap = (pressed.max(0.0) / body.wall_law.stiffness).powf(2.0 / 3.0);
-    body.state.position -= support.normal * overlap;
 }

@@ -37,12 +37,8 @@ pub(super) fn lattice(scenario: &Scenario) -> Lattice {
 /// Four cells across the thinnest body, eight across the release, the finer of
 /// both; coarser where that took more than 400,000 points.
 fn automatic_cell_size(scenario: &Scenario) -> f64 {
-    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
     let thinnest = (0..scenario.bodies.len())
-        .flat_map(|body| {
-            let shape = scenario.shape_of(body);
-            axes.map(|axis| shape.extent_along(&axis) + shape.extent_along(&-axis))
-        })
+        .map(|body| scenario.shape_of(body).least_width())
         .fold(f64::INFINITY, f64::min);
     let flow = scenario.flow.as_ref().filter(|flow| flow.volume_m3 > 0.0);
     let release = flow.map_or(f64::INFINITY, |flow| flow.release.height_m);

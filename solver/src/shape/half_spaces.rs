@@ -1,0 +1,151 @@
+//! A convex solid as what lies behind a set of planes: the largest ball in it,
+//! and the solid with every plane moved in.
+
+use super::error::ShapeError;
+use super::polyhedron::ConvexPolyhedron;
+use super::{check, hull};
+use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
+
+/// Angle between planes that are one face \[rad\]: coordinates typed with six
+/// digits turn parts of a face by less.
+const ONE_FACE: f64 = 1e-5;
+/// Planes whose normals span less than this (triple product) have no point in
+/// common worth the name; other planes meet there too.
+const NO_CROSSING: f64 = 1e-7;
+/// Distance in front of a plane that still counts as behind, over the size.
+const BEHIND: f64 = 1e-9;
+/// Rounding of lengths, over the size.
+const ROUNDING: f64 = 1e-12;
+/// More exchanges than any set of planes takes; there to end what rounding
+/// might make go round in circles.
+const MOST_EXCHANGES: usize = 10_000;
+
+/// All places x with n·x ≤ offset for every plane.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct HalfSpaces {
+    /// Outward unit normal n and offset [m].
+    planes: Vec<(Vector3<f64>, f64)>,
+    /// Largest distance of two places in it, or a little more [m].
+    size: f64,
+}
+
+impl HalfSpaces {
+    /// What lies behind all planes round some points [m]. Planes turned against
+    /// each other by less than [`ONE_FACE`] are one.
+    ///
+    /// # Errors
+    /// Points that enclose nothing.
+    pub(super) fn round(points: &[Vector3<f64>]) -> Result<Self, ShapeError> {
+        let mut faces: Vec<Vector3<f64>> = Vec::new();
+        for normal in hull::normals(points) {
+            let same = |other: &&mut Vector3<f64>| (other.normalize() - normal).norm() < ONE_FACE;
+            match faces.iter_mut().find(same) {
+                Some(face) => *face += normal,
+                None => faces.push(normal),
+            }
+        }
+        if faces.len() < 4 {
+            return Err(ShapeError::TooFew {
+                vertices: points.len(),
+                faces: faces.len(),
+            });
+        }
+        let plane = |face: Vector3<f64>| {
+            let normal = face.normalize();
+            let reach = points.iter().map(|point| normal.dot(point));
+            (normal, reach.fold(f64::NEG_INFINITY, f64::max))
+        };
+        Ok(Self {
+            planes: faces.into_iter().map(plane).collect(),
+            size: 2.0 * check::extent(points),
+        })
+    }
+
+    /// Radius ρ of the largest ball inside [m], by linear programming: with
+    /// centre c it is the largest ρ with n·c + ρ ≤ offset for all planes. Solved
+    /// is the dual (Chvátal 1983, Linear Programming, chapter 7): weights λ ≥ 0
+    /// on the planes with Σ λ n = 0, Σ λ = 1 and least Σ λ offset, four of them
+    /// positive at most. Bland's rule ends it.
+    pub(super) fn inradius(&self) -> f64 {
+        // A column per plane, after four that only serve to start: they cost more
+        // than any coordinate of the ball, so that none is in the answer.
+        let dear = 10.0 * self.size;
+        let column = |place: usize| match place.checked_sub(4) {
+            None => (Vector4::ith(place, 1.0), dear),
+            Some(plane) => {
+                let (normal, offset) = self.planes[plane];
+                (normal.push(1.0), offset)
+            }
+        };
+        let mut basis = [0, 1, 2, 3];
+        let mut radius = f64::INFINITY;
+        for _ in 0..MOST_EXCHANGES {
+            let columns = basis.map(|place| column(place).0);
+            let prices = Vector4::from(basis.map(|place| column(place).1));
+            let Some(inverse) = Matrix4::from_columns(&columns).try_inverse() else {
+                break;
+            };
+            let weights = inverse.column(3).into_owned();
+            radius = weights.dot(&prices);
+            let ball = inverse.transpose() * prices;
+            let cut = |place: &usize| {
+                let (plane, offset) = column(*place);
+                !basis.contains(place) && offset - ball.dot(&plane) < -ROUNDING * self.size
+            };
+            let Some(entering) = (4..4 + self.planes.len()).find(cut) else {
+                break;
+            };
+            let rates = inverse * column(entering).0;
+            let leaving = (0..4)
+                .filter(|&k| rates[k] > ROUNDING)
+                .map(|k| (weights[k].max(0.0) / rates[k], basis[k], k))
+                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let Some((_, _, leaving)) = leaving else {
+                break;
+            };
+            basis[leaving] = entering;
+        }
+        radius
+    }
+
+    /// What is left when every plane moves in by `depth` [m]. Faces, edges and
+    /// vertices may vanish, and vertices split in which more than three meet.
+    ///
+    /// # Errors
+    /// Nothing is left, or too little to tell its features apart.
+    pub(super) fn eroded(&self, depth: f64) -> Result<ConvexPolyhedron, ShapeError> {
+        let count = self.planes.len();
+        let mut crossings = Vec::new();
+        for a in 0..count {
+            for b in a + 1..count {
+                crossings.extend((b + 1..count).filter_map(|c| self.crossing([a, b, c], depth)));
+            }
+        }
+        // Of crossings at one place the sharpest first: that is the one kept.
+        crossings.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let places: Vec<_> = crossings.into_iter().map(|(_, place)| place).collect();
+        hull::hull_of(&places)
+    }
+
+    /// Where three planes moved in by `depth` meet [m], and how sharply, if that is
+    /// behind all others.
+    fn crossing(&self, triple: [usize; 3], depth: f64) -> Option<(f64, Vector3<f64>)> {
+        let [a, b, c] = triple.map(|plane| self.planes[plane].0);
+        let (b_by_c, c_by_a, a_by_b) = (b.cross(&c), c.cross(&a), a.cross(&b));
+        let spanned = a.dot(&b_by_c);
+        if spanned.abs() < NO_CROSSING {
+            return None;
+        }
+        let offsets = Vector3::from(triple.map(|plane| self.planes[plane].1 - depth));
+        let cofactors = Matrix3::from_columns(&[b_by_c, c_by_a, a_by_b]) / spanned;
+        let rough = cofactors * offsets;
+        // Once more for what rounding left off the planes.
+        let reached = Vector3::new(a.dot(&rough), b.dot(&rough), c.dot(&rough));
+        let place = rough + cofactors * (offsets - reached);
+        let near = BEHIND * self.size;
+        let behind =
+            |(normal, offset): &(Vector3<f64>, f64)| normal.dot(&place) - (offset - depth) <= near;
+        let meet = self.planes.iter().all(behind);
+        meet.then_some((spanned.abs(), place))
+    }
+}

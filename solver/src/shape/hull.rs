@@ -1,0 +1,223 @@
+//! Convex hulls of a few points.
+//!
+//! A face is a plane through three of the points that has none in front. Every
+//! triple is tried: with the few dozen points a body has that is quick, and it
+//! asks nothing of their order or position, which is where faster methods fail
+//! on rounded coordinates. Two faces of a convex solid share two vertices at
+//! most, so planes that share three are one face: what is coplanar is merged, and
+//! points whose coordinates leave that in doubt can't tear the surface.
+
+use super::check::extent;
+use super::error::ShapeError;
+use super::polyhedron::ConvexPolyhedron;
+use nalgebra::Vector3;
+use std::collections::BTreeSet;
+
+/// Distance from a plane that still counts as in it, over the solid's size: a
+/// tenth of what a face may be bent, and far above rounding.
+const COPLANAR: f64 = 1e-10;
+/// Smallest feature kept, over the solid's size. A triangle narrower than this
+/// has no normal good to [`COPLANAR`].
+const SMALLEST: f64 = 1e-5;
+
+/// The convex hull of some points, without points inside it, in a face or on an
+/// edge.
+///
+/// # Errors
+/// Points that enclose nothing.
+pub(super) fn hull_of(points: &[Vector3<f64>]) -> Result<ConvexPolyhedron, ShapeError> {
+    Candidates::of(points, extent(points)).hull()
+}
+
+/// Outward unit normals of the hull's faces. Unlike the hull itself they always
+/// make sense, though faces that are nearly flat may come in several pieces.
+pub(super) fn normals(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    let size = extent(points);
+    let faces = Candidates::of(points, size).faces(size);
+    faces.iter().map(|face| face.normal).collect()
+}
+
+/// Different points, of which the hull is to be taken.
+#[derive(Debug, Clone)]
+pub(super) struct Candidates {
+    points: Vec<Vector3<f64>>,
+}
+
+impl Candidates {
+    /// Points of a solid of this size [m]; those as near to an earlier one as the
+    /// smallest feature are the same.
+    pub(super) fn of(points: &[Vector3<f64>], size: f64) -> Self {
+        let mut different: Vec<Vector3<f64>> = Vec::new();
+        for point in points {
+            let near = |other: &Vector3<f64>| (other - point).norm() <= SMALLEST * size;
+            if !different.iter().any(near) {
+                different.push(*point);
+            }
+        }
+        Self { points: different }
+    }
+
+    /// Their convex hull, without points inside it, in a face or on an edge.
+    ///
+    /// # Errors
+    /// Points that enclose nothing.
+    pub(super) fn hull(mut self) -> Result<ConvexPolyhedron, ShapeError> {
+        loop {
+            let size = extent(&self.points);
+            let faces = self.faces(size);
+            let loops: Vec<Vec<usize>> = faces
+                .iter()
+                .map(|face| face.corners(&self.points, SMALLEST * size))
+                .collect();
+            let is_vertex = |point: &usize| {
+                let of_point = || {
+                    let both = faces.iter().zip(&loops);
+                    both.filter(|(face, _)| face.points.contains(point))
+                };
+                of_point().count() > 0 && of_point().all(|(_, corners)| corners.contains(point))
+            };
+            let kept: Vec<usize> = (0..self.points.len()).filter(is_vertex).collect();
+            if kept.len() == self.points.len() || faces.len() < 4 {
+                return ConvexPolyhedron::new(self.points, loops);
+            }
+            self.points = kept.iter().map(|&point| self.points[point]).collect();
+        }
+    }
+
+    /// The faces, each with all points that lie in it.
+    fn faces(&self, size: f64) -> Vec<Flat> {
+        let count = self.points.len();
+        let mut faces: Vec<Flat> = Vec::new();
+        let mut split = [0, 0];
+        for a in 0..count {
+            for b in a + 1..count {
+                for c in b + 1..count {
+                    let known = |face: &Flat| [a, b, c].iter().all(|p| face.points.contains(p));
+                    if let Some(normal) = self.outward([a, b, c], size, &mut split)
+                        && !faces.iter().any(known)
+                    {
+                        faces.push(self.flat(a, normal, size));
+                    }
+                }
+            }
+        }
+        self.merged(faces, SMALLEST * size)
+    }
+
+    /// Joins faces that share more than an edge.
+    fn merged(&self, faces: Vec<Flat>, near: f64) -> Vec<Flat> {
+        let are_one = |a: &Flat, b: &Flat| {
+            let shared = a.points.intersection(&b.points).map(|&p| self.points[p]);
+            !in_line(&shared.collect::<Vec<_>>(), near)
+        };
+        let mut apart: Vec<Flat> = Vec::new();
+        for mut face in faces {
+            while let Some(same) = apart.iter().position(|other| are_one(&face, other)) {
+                face.points.extend(apart.remove(same).points);
+            }
+            apart.push(face);
+        }
+        apart
+    }
+
+    /// Outward unit normal of the plane through three points, if it has all others
+    /// behind it. Two points that `split`, lie to either side, are left for the next
+    /// triple: they often do it again.
+    fn outward(
+        &self,
+        triple: [usize; 3],
+        size: f64,
+        split: &mut [usize; 2],
+    ) -> Option<Vector3<f64>> {
+        let [a, b, c] = triple.map(|point| self.points[point]);
+        // Most triples fail: roots and quotients can wait.
+        let (to_b, to_c) = (b - a, c - a);
+        let across = to_b.cross(&to_c);
+        let longest = to_b.norm_squared().max(to_c.norm_squared());
+        let longest = longest.max((c - b).norm_squared());
+        if across.norm_squared() <= (SMALLEST * size).powi(2) * longest {
+            return None;
+        }
+        let near = COPLANAR * size * across.norm();
+        let height = |point: usize| across.dot(&(self.points[point] - a));
+        if height(split[0]) > near && height(split[1]) < -near {
+            return None;
+        }
+        let (mut front, mut back) = (None, None);
+        for point in 0..self.points.len() {
+            let height = height(point);
+            front = front.or((height > near).then_some(point));
+            back = back.or((height < -near).then_some(point));
+            if let (Some(front), Some(back)) = (front, back) {
+                *split = [front, back];
+                return None;
+            }
+        }
+        let normal = across.normalize();
+        Some(if front.is_some() { -normal } else { normal })
+    }
+
+    /// All points in the plane through one of them.
+    fn flat(&self, through: usize, normal: Vector3<f64>, size: f64) -> Flat {
+        let height = |point: usize| normal.dot(&(self.points[point] - self.points[through]));
+        let in_it = |point: &usize| height(*point).abs() <= COPLANAR * size;
+        Flat {
+            normal,
+            points: (0..self.points.len()).filter(in_it).collect(),
+        }
+    }
+}
+
+/// Whether some points lie along one line, within `near` [m].
+fn in_line(points: &[Vector3<f64>], near: f64) -> bool {
+    let Some(first) = points.first() else {
+        return true;
+    };
+    let arms = || points.iter().map(|point| point - first);
+    let longest = arms().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+    let along = longest.and_then(|arm| arm.try_normalize(0.0));
+    along.is_none_or(|along| arms().all(|arm| arm.cross(&along).norm() <= near))
+}
+
+/// Points in one plane that has all others behind it.
+#[derive(Debug)]
+struct Flat {
+    /// Outward unit normal.
+    normal: Vector3<f64>,
+    points: BTreeSet<usize>,
+}
+
+impl Flat {
+    /// The points on its rim that stick out by more than `least` [m],
+    /// counter-clockwise seen from outside.
+    fn corners(&self, points: &[Vector3<f64>], least: f64) -> Vec<usize> {
+        let count = self.points.len() as f64;
+        let centre = self.points.iter().map(|&p| points[p]).sum::<Vector3<f64>>() / count;
+        let ahead = (self.points.iter())
+            .map(|&p| points[p] - centre)
+            .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
+            .unwrap_or_else(Vector3::zeros);
+        let left = self.normal.cross(&ahead);
+        let angle = |point: usize| {
+            let arm = points[point] - centre;
+            f64::atan2(arm.dot(&left), arm.dot(&ahead))
+        };
+        let mut rim: Vec<usize> = self.points.iter().copied().collect();
+        rim.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
+        // One at a time: whether a point is dull depends on its neighbours.
+        while let Some(dull) = (0..rim.len()).find(|&k| self.is_dull(points, &rim, k, least)) {
+            rim.remove(dull);
+        }
+        rim
+    }
+
+    /// Whether a point of the rim lies inside the line that joins its neighbours,
+    /// or is between them and sticks out by no more than `least` [m].
+    fn is_dull(&self, points: &[Vector3<f64>], rim: &[usize], k: usize, least: f64) -> bool {
+        let at = |k: usize| points[rim[k % rim.len()]];
+        let (before, after) = (at(k + rim.len() - 1) - at(k), at(k + 1) - at(k));
+        let sticks_out = after.cross(&before).dot(&self.normal);
+        let least = least * (after - before).norm();
+        sticks_out < -least || (sticks_out <= least && before.dot(&after) < 0.0)
+    }
+}

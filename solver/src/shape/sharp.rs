@@ -1,0 +1,85 @@
+//! Solids before they are rounded.
+
+use super::error::ShapeError;
+use super::half_spaces::HalfSpaces;
+use super::regular::RegularSolid;
+use super::{SpheroPolyhedron, positive};
+use nalgebra::Vector3;
+
+/// A convex polyhedron with sharp edges, to be rounded: the core is what lies at
+/// least the sphero radius behind every face, so the rounded solid's flats are
+/// where the faces were.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SharpPolyhedron {
+    within: HalfSpaces,
+    inradius: f64,
+    diameter: f64,
+}
+
+impl SharpPolyhedron {
+    /// A regular solid with edges of `edge_m`, lying on a face: its lowest face
+    /// is normal to z, and an edge of that runs along y.
+    ///
+    /// # Errors
+    /// A length that is not positive.
+    pub fn regular(solid: RegularSolid, edge_m: f64) -> Result<Self, ShapeError> {
+        positive("edge", edge_m)?;
+        Self::hull_of(&solid.lying(edge_m)?)
+    }
+
+    /// The convex hull of some points [m]. Points inside it or amid a face or an
+    /// edge don't matter, coplanar faces are one; so are features smaller than
+    /// 1e-5 of the solid.
+    ///
+    /// # Errors
+    /// A coordinate that is no number, or points that enclose nothing.
+    pub fn hull_of(points: &[Vector3<f64>]) -> Result<Self, ShapeError> {
+        let finite = |point: &Vector3<f64>| point.iter().all(|c| c.is_finite());
+        if let Some(vertex) = points.iter().position(|point| !finite(point)) {
+            return Err(ShapeError::NotFinite { vertex });
+        }
+        // From one of them: far from the origin offsets would lose their digits.
+        let first = points.first().copied().unwrap_or_default();
+        let near: Vec<_> = points.iter().map(|point| point - first).collect();
+        let within = HalfSpaces::round(&near)?;
+        let lengths = near
+            .iter()
+            .flat_map(|a| near.iter().map(move |b| (a - b).norm()));
+        Ok(Self {
+            inradius: within.inradius(),
+            diameter: lengths.fold(0.0, f64::max),
+            within,
+        })
+    }
+
+    /// Radius of the largest ball inside [m].
+    pub fn inradius(&self) -> f64 {
+        self.inradius
+    }
+
+    /// Largest distance of two of its places [m].
+    pub fn diameter(&self) -> f64 {
+        self.diameter
+    }
+
+    /// Rounded by a sphere; the centre of mass of the rounded solid is the
+    /// origin.
+    ///
+    /// # Errors
+    /// A radius that is not positive, or leaves no core.
+    pub fn rounded(&self, sphero_radius_m: f64) -> Result<SpheroPolyhedron, ShapeError> {
+        positive("sphero radius", sphero_radius_m)?;
+        if sphero_radius_m >= self.inradius {
+            return Err(ShapeError::RadiusNotBelowInradius {
+                radius_m: sphero_radius_m,
+                inradius_m: self.inradius,
+            });
+        }
+        let core = self.within.eroded(sphero_radius_m);
+        let core = core.map_err(|_| ShapeError::NoCore {
+            radius_m: sphero_radius_m,
+            inradius_m: self.inradius,
+        })?;
+        SpheroPolyhedron::from_core(core, sphero_radius_m)
+    }
+}
