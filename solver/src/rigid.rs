@@ -106,6 +106,21 @@ impl Body {
         closest.distance - self.shape.sphero_radius()
     }
 
+    /// Acceleration at `arm` that a load gives to a body that does not turn yet
+    /// [m/s²].
+    pub fn acceleration_at(&self, load: &Load, arm: &Vec3) -> Vec3 {
+        let turned = self.inverse_inertia_times(&self.state.orientation, &load.torque);
+        load.force / self.mass + turned.cross(arm)
+    }
+
+    /// 1/m [1/kg]; 0 for a fixed body.
+    pub fn inverse_mass(&self) -> f64 {
+        match self.freedom {
+            Freedom::Free => 1.0 / self.mass,
+            Freedom::Fixed => 0.0,
+        }
+    }
+
     /// Mass that resists a force along `direction` (unit) at `arm` [kg].
     pub fn effective_mass(&self, arm: &Vec3, direction: &Vec3) -> f64 {
         let lever = arm.cross(direction);

@@ -82,9 +82,36 @@ impl ContactLaw {
         force
     }
 
+    /// Law of the contacts of two bodies from those of each on a rigid wall, with
+    /// their sphero radii [m]: both yield, 1/E* = 1/E_a + 1/E_b; both are round,
+    /// 1/R* = 1/r_a + 1/r_b (equation 45). The friction is the geometric mean,
+    /// so that a smooth body is smooth on any other; the damping number the mean,
+    /// which is nearly the geometric mean of the restitutions.
+    pub fn of_pair([a, b]: [&Self; 2], radii: [f64; 2]) -> Self {
+        let modulus = |law: &Self, radius: f64| 0.75 * law.stiffness / radius.sqrt();
+        let moduli = [modulus(a, radii[0]), modulus(b, radii[1])];
+        let in_series = |[a, b]: [f64; 2]| a * b / (a + b);
+        Self {
+            stiffness: 4.0 / 3.0 * in_series(moduli) * in_series(radii).sqrt(),
+            damping: 0.5 * (a.damping + b.damping),
+            friction: (a.friction * b.friction).sqrt(),
+        }
+    }
+
     /// Time scale √(m/k') of a contact this deep [s].
     pub fn time_scale(&self, overlap: f64, mass: f64) -> f64 {
         (mass / self.tangent_stiffness(overlap)).sqrt()
+    }
+}
+
+/// Mass [kg] that the contact of an elastic `force` [N] has to stop when all the
+/// contacts of a pair part it there with `acceleration` [m/s²]: its own share of
+/// the mass, if others push along; at most all of the mass, `most` [kg].
+pub fn mass_seen(force: f64, acceleration: f64, most: f64) -> f64 {
+    if force < most * acceleration {
+        force / acceleration
+    } else {
+        most
     }
 }
 
