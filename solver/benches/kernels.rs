@@ -5,7 +5,7 @@ use criterion::{BatchSize, Bencher, Criterion, Throughput};
 use fearless_simd::dispatch;
 use nalgebra::UnitQuaternion;
 use scree_solver::Instructions;
-use scree_solver::contact::body_wall;
+use scree_solver::contact::island::{self, Surroundings};
 use scree_solver::contact::law::ContactLaw;
 use scree_solver::fast::blocks::{Block, Blocks};
 use scree_solver::fast::packing::Packing;
@@ -260,12 +260,21 @@ fn body_substep(criterion: &mut Criterion) {
             springs: vec![Vec3::zeros(); shape.core_vertices().len() * planes.len()],
             wall_load: Load::default(),
             wall_energy: 0.0,
+            body_load: Load::default(),
+            barrier_load: Load::default(),
+            touching_bodies: 0,
+            still_for: 0.0,
         },
         shape,
     };
-    let gravity = Vec3::new(0.0, 0.0, -GRAVITY);
-    let advance =
-        |body: &mut Body| body_wall::advance(body, &planes, &Load::default(), &gravity, DT);
+    let around = Surroundings {
+        planes: &planes,
+        gravity: Vec3::new(0.0, 0.0, -GRAVITY),
+    };
+    let advance = |body: &mut Body| {
+        let bodies = std::slice::from_mut(body);
+        island::advance(bodies, &mut Vec::new(), |_| Load::default(), &around, DT)[0]
+    };
     let substeps = advance(&mut body).substeps;
     let mut group = criterion.benchmark_group("body");
     group.throughput(Throughput::Elements(u64::from(substeps)));

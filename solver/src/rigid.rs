@@ -54,6 +54,14 @@ pub struct BodyState {
     pub wall_load: Load,
     /// Energy its wall contacts hold now [J].
     pub wall_energy: f64,
+    /// What other free bodies do to it now.
+    pub body_load: Load,
+    /// What fixed bodies do to it now.
+    pub barrier_load: Load,
+    /// How many bodies it touches now.
+    pub touching_bodies: u32,
+    /// How long it has hardly moved, without a flow on it [s].
+    pub still_for: f64,
 }
 
 /// Force and torque on a body.
@@ -66,6 +74,12 @@ pub struct Load {
 }
 
 impl Load {
+    /// Adds another load on the same body.
+    pub fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.torque += other.torque;
+    }
+
     /// Adds a force that acts at `arm` from the centre of mass.
     pub fn add_at(&mut self, arm: &Vec3, force: &Vec3) {
         self.force += force;
@@ -132,6 +146,11 @@ impl Body {
     pub fn kinetic_energy(&self) -> f64 {
         let spinning = self.state.angular_momentum.dot(&self.angular_velocity());
         0.5 * (self.state.momentum.norm_squared() / self.mass + spinning)
+    }
+
+    /// Whether a wall or another body touches it.
+    pub fn is_supported(&self) -> bool {
+        self.state.wall_energy > 0.0 || self.state.touching_bodies > 0
     }
 
     /// Largest speed of any of its places [m/s].

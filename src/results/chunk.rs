@@ -12,8 +12,8 @@ pub const CHUNK_SAMPLES: usize = 512;
 /// Name of the encoding, kept with each block so that a later one can differ.
 pub const ENCODING: &str = "planes-zstd-1";
 
-/// Bytes of one sample before compression: 27 f64, one u32, one byte.
-const BYTES_PER_SAMPLE: usize = 27 * 8 + 4 + 1;
+/// Bytes of one sample before compression: 33 f64, one u32, one byte.
+const BYTES_PER_SAMPLE: usize = 33 * 8 + 4 + 1;
 
 /// Speed over size: level 3 is zstd's own default.
 const ZSTD_LEVEL: i32 = 3;
@@ -79,6 +79,8 @@ pub fn encode(columns: &TrajectoryColumns) -> Result<Block, BlockError> {
     put_rows(&mut raw, &columns.flow_torque_nm);
     put_rows(&mut raw, &columns.wall_force_n);
     put_rows(&mut raw, &columns.wall_torque_nm);
+    put_rows(&mut raw, &columns.body_force_n);
+    put_rows(&mut raw, &columns.body_torque_nm);
     planes::put_f64(&mut raw, &columns.submerged_fraction.iter().copied());
     planes::put_u32(&mut raw, &columns.touching_points.iter().copied());
     raw.extend(columns.mode.iter().copied().map(mode_to_byte));
@@ -106,6 +108,8 @@ fn read_columns(raw: &[u8], samples: usize) -> Option<TrajectoryColumns> {
         flow_torque_nm: reader.f64_rows()?,
         wall_force_n: reader.f64_rows()?,
         wall_torque_nm: reader.f64_rows()?,
+        body_force_n: reader.f64_rows()?,
+        body_torque_nm: reader.f64_rows()?,
         submerged_fraction: reader.f64s()?,
         touching_points: reader.u32s()?,
         mode: reader

@@ -2,5 +2,7 @@
 
 pub mod body_body;
 pub mod body_wall;
+pub mod island;
 pub mod law;
+pub mod neighbours;
 pub mod point_body;

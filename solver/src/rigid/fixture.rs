@@ -46,6 +46,10 @@ fn of_shape(shape: SpheroPolyhedron) -> Body {
             springs: Vec::new(),
             wall_load: Load::default(),
             wall_energy: 0.0,
+            body_load: Load::default(),
+            barrier_load: Load::default(),
+            touching_bodies: 0,
+            still_for: 0.0,
         },
         shape,
     }

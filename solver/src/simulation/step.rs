@@ -4,14 +4,13 @@
 use super::flow::{Culprit, StepEnd, Substep};
 use super::laps::Verb;
 use super::{Simulation, StepInHand, SubstepReport};
-use crate::contact::body_wall;
+use crate::contact::island::{self, Surroundings};
 use crate::contact::point_body::impulse_on_flow;
 use crate::crowding::Tending;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
 use crate::rigid::{Freedom, Load};
 use crate::stability::{self, Pace};
-use rayon::prelude::*;
 
 /// Sub-steps between two audits. Sums over all points are not free, and what
 /// they would show at a step's end shows at a later one as well.
@@ -104,19 +103,16 @@ impl Simulation {
             state.moments.first_moment += state.moments.momentum * dt;
         }
         let on_bodies = state.flow.on_bodies();
-        state
-            .bodies
-            .par_iter_mut()
-            .zip(&mut scratch.body_reports)
-            .enumerate()
-            .for_each(|(place, (body, report))| {
-                let flow = on_bodies
-                    .get(place)
-                    .map_or_else(Load::default, |on| on.load);
-                *report = body_wall::advance(body, &given.planes, &flow, &given.gravity, dt);
-            });
+        let flow = |body: usize| on_bodies.get(body).map_or_else(Load::default, |on| on.load);
+        let around = Surroundings {
+            planes: &given.planes,
+            gravity: given.gravity,
+        };
+        let (bodies, meetings) = (&mut state.bodies, &mut state.meetings);
+        scratch.body_reports = island::advance(bodies, meetings, flow, &around, dt);
         for report in &scratch.body_reports {
             state.audit.exchange(&report.wall);
+            state.audit.exchange(&report.barrier);
             state.audit.exchange(&report.gravity);
         }
         for flow in on_bodies {
@@ -244,8 +240,10 @@ impl Simulation {
         let state = &mut self.state;
         let flow = state.flow.totals(&self.given);
         let bodies = Totals::of_bodies(&state.bodies, &self.given.gravity);
-        let held = state.flow.on_bodies().iter().map(|load| load.energy);
-        state.audit.check(&flow, &bodies, held.sum());
+        let at_points = state.flow.on_bodies().iter().map(|load| load.energy);
+        let at_bodies = state.meetings.iter().map(|meeting| meeting.energy);
+        let held = at_points.sum::<f64>() + at_bodies.sum::<f64>();
+        state.audit.check(&flow, &bodies, held);
         state.clock.last_audit = state.clock.substeps;
         self.state.moments = FlowMoments::of(&flow);
     }

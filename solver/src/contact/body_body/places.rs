@@ -13,7 +13,7 @@ const NO_DIRECTION: f64 = 1e-9;
 
 /// Two features that may touch, by their numbers in the cores.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Between {
+pub(super) enum Between {
     /// A vertex of the first body and the second's core.
     VertexOfFirst(usize),
     /// A vertex of the second body and the first's core.
@@ -24,40 +24,40 @@ pub enum Between {
 
 /// A pair of nearest places of two features whose roundings overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Near {
+pub(super) struct Near {
     /// Unit vector from the first body to the second.
-    pub normal: Vec3,
+    pub(super) normal: Vec3,
     /// Middle of the overlap, from the first body's centre [m].
-    pub place: Vec3,
+    pub(super) place: Vec3,
     /// Overlap δ [m].
-    pub overlap: f64,
+    pub(super) overlap: f64,
 }
 
 /// One place where two bodies touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact {
+pub(super) struct Contact {
     /// Which features.
-    pub between: Between,
+    pub(super) between: Between,
     /// How they overlap.
-    pub near: Near,
+    pub(super) near: Near,
     /// What is left of it when other contacts took their part, above 0, at most 1.
-    pub share: f64,
+    pub(super) share: f64,
 }
 
 /// Every contact of two bodies, and the elastic forces of them together.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Contacts {
+pub(super) struct Contacts {
     /// The places, in an order that follows from the bodies alone.
-    pub places: Vec<Contact>,
+    pub(super) places: Vec<Contact>,
     /// Elastic force on the second body, and its torque about the *first's*
     /// centre: minus the gradient of the potential.
-    pub push: Load,
+    pub(super) push: Load,
     /// The potential U [J].
-    pub energy: f64,
+    pub(super) energy: f64,
 }
 
 /// Finds every contact of two bodies.
-pub fn contacts(first: &Body, second: &Body, law: &ContactLaw) -> Contacts {
+pub(super) fn contacts(first: &Body, second: &Body, law: &ContactLaw) -> Contacts {
     let mut found = Contacts::default();
     let Some(pair) = Pair::near(first, second) else {
         return found;
