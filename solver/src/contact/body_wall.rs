@@ -1,7 +1,7 @@
 //! Bodies on walls: sphere-swept vertices of a convex body against planes
 //! (docs/method.md, equations 17–19).
 
-use crate::contact::law::TANGENTIAL_STIFFNESS_RATIO;
+use crate::contact::law::{TANGENTIAL_STIFFNESS_RATIO, mass_seen};
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
 use crate::walls::Plane;
@@ -36,26 +36,31 @@ fn overlaps<'a>(
 
 /// Renews the body's wall load and its springs after a drift of `dt`.
 pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
-    let mut load = Load::default();
-    let mut energy = 0.0;
     let mut springs = std::mem::take(&mut body.state.springs);
     springs.resize(
         body.shape.core_vertices().len() * planes.len(),
         Vec3::zeros(),
     );
+    let mut touches = Vec::new();
     for (place, arm, overlap) in overlaps(body, planes) {
         if overlap <= 0.0 {
             springs[place] = Vec3::zeros();
             continue;
         }
         let plane = &planes[place % planes.len()];
-        let contact = Touch {
+        touches.push(Touch {
+            spring: place,
             arm: arm - plane.normal * (body.shape.sphero_radius() - 0.5 * overlap),
             normal: plane.normal,
             overlap,
-        };
-        let (force, held) = wall_force(body, &contact, dt, &mut springs[place]);
-        load.add_at(&contact.arm, &force);
+        });
+    }
+    let mut load = Load::default();
+    let mut energy = 0.0;
+    for touch in &touches {
+        let mass = mass_on(body, &touches, touch, planes.len());
+        let (force, held) = wall_force(body, touch, mass, dt, &mut springs[touch.spring]);
+        load.add_at(&touch.arm, &force);
         energy += held;
     }
     body.state.springs = springs;
@@ -65,15 +70,31 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
 
 /// One vertex on one wall.
 struct Touch {
+    /// Place of its spring.
+    spring: usize,
     arm: Vec3,
     normal: Vec3,
     overlap: f64,
 }
 
-/// Force on the body [N] and the energy the contact holds [J].
-fn wall_force(body: &Body, touch: &Touch, dt: f64, spring: &mut Vec3) -> (Vec3, f64) {
+/// Mass that a contact has to stop, of what all contacts with its wall stop
+/// together (equation 46) [kg].
+fn mass_on(body: &Body, touches: &[Touch], touch: &Touch, planes: usize) -> f64 {
     let law = &body.wall_law;
-    let mass = body.effective_mass(&touch.arm, &touch.normal);
+    let mut push = Load::default();
+    for other in touches {
+        if other.spring % planes == touch.spring % planes {
+            let force = other.normal * law.elastic_force(other.overlap);
+            push.add_at(&other.arm, &force);
+        }
+    }
+    let acceleration = body.acceleration_at(&push, &touch.arm).dot(&touch.normal);
+    mass_seen(law.elastic_force(touch.overlap), acceleration, body.mass)
+}
+
+/// Force on the body [N] and the energy the contact holds [J].
+fn wall_force(body: &Body, touch: &Touch, mass: f64, dt: f64, spring: &mut Vec3) -> (Vec3, f64) {
+    let law = &body.wall_law;
     let velocity = body.velocity_at(&touch.arm);
     let along = velocity.dot(&touch.normal);
     let normal_force = law.normal_force(touch.overlap, -along, mass);
