@@ -16,6 +16,10 @@ use crate::stability::{self, Pace};
 /// they would show at a step's end shows at a later one as well.
 const AUDIT_INTERVAL: u64 = 64;
 
+/// Overlap of two bodies, as a share of both sphero radii, that is taken for a
+/// contact too soft.
+const DEEPEST_OVERLAP: f64 = 0.9;
+
 impl Simulation {
     /// Takes one sub-step, of the step in hand or of a new one.
     pub(super) fn advance(&mut self) -> Result<SubstepReport, StepError> {
@@ -185,6 +189,7 @@ impl Simulation {
             }
         }
         self.look_behind_walls()?;
+        self.look_for_merging_bodies()?;
         let tolerance = self.given.lattice.spacing.max();
         match self.state.flow.culprit(&self.given.planes, tolerance) {
             None => Ok(()),
@@ -222,6 +227,24 @@ impl Simulation {
                         depth_m: -core,
                     });
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// Two cores that come together were not held apart by their contacts, and
+    /// beyond that these would push the wrong way.
+    fn look_for_merging_bodies(&self) -> Result<(), StepError> {
+        for meeting in &self.state.meetings {
+            let [body, other] = meeting.bodies;
+            let radius = |place: usize| self.state.bodies[place].shape.sphero_radius();
+            if meeting.deepest > DEEPEST_OVERLAP * (radius(body) + radius(other)) {
+                return Err(StepError::BodiesMerge {
+                    time_s: self.state.clock.time,
+                    body,
+                    other,
+                    overlap_m: meeting.deepest,
+                });
             }
         }
         Ok(())

@@ -1,6 +1,7 @@
 //! The bodies of a scenario at its start.
 
-use super::{Setup, resolution};
+use super::Setup;
+use super::resolution::{Crowd, contact_modulus};
 use crate::contact::body_wall::touch_walls;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
@@ -10,12 +11,13 @@ use crate::walls::Plane;
 
 /// The bodies of a scenario, where they start.
 pub(in crate::simulation) fn bodies(scenario: &Scenario, given: &Setup) -> Vec<Body> {
+    let crowd = Crowd::of(scenario);
     (0..scenario.bodies.len())
-        .map(|place| body(scenario, given, place))
+        .map(|place| body(scenario, given, place, &crowd))
         .collect()
 }
 
-fn body(scenario: &Scenario, given: &Setup, place: usize) -> Body {
+fn body(scenario: &Scenario, given: &Setup, place: usize, crowd: &Crowd) -> Body {
     let spec = &scenario.bodies[place];
     let shape = scenario.shape_of(place);
     let pose = scenario.initial_pose(place);
@@ -23,7 +25,7 @@ fn body(scenario: &Scenario, given: &Setup, place: usize) -> Body {
     let inertia = shape.unit_inertia() * spec.density_kg_m3;
     let modulus = spec
         .contact_modulus_pa
-        .unwrap_or_else(|| resolution::contact_modulus(scenario, place, mass, &pose.position));
+        .unwrap_or_else(|| contact_modulus(scenario, place, crowd));
     let wall_law = ContactLaw::hertz(
         modulus,
         shape.sphero_radius(),
