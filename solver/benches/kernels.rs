@@ -251,6 +251,7 @@ fn body_substep(criterion: &mut Criterion) {
         inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
         wall_law: law,
         flow_law: law,
+        rolling_friction: 0.0,
         freedom: Freedom::Free,
         state: BodyState {
             position: Vec3::new(0.0, 0.0, 0.019_99),
@@ -258,6 +259,7 @@ fn body_substep(criterion: &mut Criterion) {
             momentum: Vec3::zeros(),
             angular_momentum: Vec3::zeros(),
             springs: vec![Vec3::zeros(); shape.core_vertices().len() * planes.len()],
+            rolling: Vec::new(),
             wall_load: Load::default(),
             wall_energy: 0.0,
             body_load: Load::default(),

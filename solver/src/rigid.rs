@@ -30,6 +30,9 @@ pub struct Body {
     pub wall_law: ContactLaw,
     /// Law of its contacts with material points.
     pub flow_law: ContactLaw,
+    /// Rolling resistance: the torque of a contact is at most this × its
+    /// equivalent radius × its normal force.
+    pub rolling_friction: f64,
     /// Whether it moves.
     pub freedom: Freedom,
     /// How it stands.
@@ -50,6 +53,8 @@ pub struct BodyState {
     /// Stretch of the tangential spring of every pair of core vertex and wall
     /// [m], vertex by vertex; zero where they are apart.
     pub springs: Vec<Vec3>,
+    /// The same of their rolling springs; empty without rolling resistance.
+    pub rolling: Vec<Vec3>,
     /// What the walls do to it now.
     pub wall_load: Load,
     /// Energy its wall contacts hold now [J].

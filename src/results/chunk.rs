@@ -79,11 +79,11 @@ pub fn encode(columns: &TrajectoryColumns) -> Result<Block, BlockError> {
     put_rows(&mut raw, &columns.flow_torque_nm);
     put_rows(&mut raw, &columns.wall_force_n);
     put_rows(&mut raw, &columns.wall_torque_nm);
-    put_rows(&mut raw, &columns.body_force_n);
-    put_rows(&mut raw, &columns.body_torque_nm);
     planes::put_f64(&mut raw, &columns.submerged_fraction.iter().copied());
     planes::put_u32(&mut raw, &columns.touching_points.iter().copied());
     raw.extend(columns.mode.iter().copied().map(mode_to_byte));
+    put_rows(&mut raw, &columns.body_force_n);
+    put_rows(&mut raw, &columns.body_torque_nm);
     Block::seal(&raw)
 }
 
@@ -108,8 +108,6 @@ fn read_columns(raw: &[u8], samples: usize) -> Option<TrajectoryColumns> {
         flow_torque_nm: reader.f64_rows()?,
         wall_force_n: reader.f64_rows()?,
         wall_torque_nm: reader.f64_rows()?,
-        body_force_n: reader.f64_rows()?,
-        body_torque_nm: reader.f64_rows()?,
         submerged_fraction: reader.f64s()?,
         touching_points: reader.u32s()?,
         mode: reader
@@ -117,8 +115,19 @@ fn read_columns(raw: &[u8], samples: usize) -> Option<TrajectoryColumns> {
             .iter()
             .map(|&byte| mode_from_byte(byte))
             .collect::<Option<_>>()?,
+        body_force_n: rows_since(&mut reader, samples)?,
+        body_torque_nm: rows_since(&mut reader, samples)?,
     };
     reader.is_done().then_some(columns)
+}
+
+/// A column that blocks did not have when bodies did not touch each other: then it
+/// was zero.
+fn rows_since(reader: &mut PlaneReader, samples: usize) -> Option<Vec<[f64; 3]>> {
+    if reader.is_done() {
+        return Some(vec![[0.0; 3]; samples]);
+    }
+    reader.f64_rows()
 }
 
 fn put_rows<const N: usize>(raw: &mut Vec<u8>, rows: &[[f64; N]]) {
@@ -167,6 +176,19 @@ mod tests {
             };
             assert_eq!(bits(&back), bits(&columns));
         }
+    }
+
+    #[test]
+    fn a_chunk_from_before_bodies_touched_has_no_force_of_theirs() {
+        let mut columns = numbered_columns(5);
+        let raw = encode(&columns)
+            .unwrap()
+            .open(5 * BYTES_PER_SAMPLE)
+            .unwrap();
+        let older = Block::seal(&raw[..5 * (BYTES_PER_SAMPLE - 6 * 8)]).unwrap();
+        columns.body_force_n = vec![[0.0; 3]; 5];
+        columns.body_torque_nm = vec![[0.0; 3]; 5];
+        assert_eq!(decode(&older, 5).unwrap(), columns);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Bodies on bodies: what two of them do to each other, and what their
-//! contacts remember (docs/method.md, equations 43–46).
+//! contacts remember (docs/method.md, equations 43–47).
 
-use crate::contact::law::{ContactLaw, TANGENTIAL_STIFFNESS_RATIO, mass_seen};
+use crate::contact::law::{ContactLaw, mass_seen};
 use crate::math::Vec3;
 use crate::rigid::{Body, Freedom, Load};
 use serde::{Deserialize, Serialize};
@@ -32,6 +32,8 @@ struct Spring {
     place: Vec3,
     /// How far the second body slid on the first [m].
     stretch: Vec3,
+    /// How far it rolled on it, as an angle × the equivalent radius [m].
+    rolling: Vec3,
 }
 
 /// What two bodies do to each other.
@@ -68,15 +70,16 @@ impl Meeting {
         self.energy = found.energy;
         self.deepest = 0.0;
         for contact in &found.places {
-            let mut spring = Spring {
-                between: contact.between,
-                place: contact.near.place,
-                stretch: remembered(&before, contact, pair.radii),
-            };
+            let mut spring = remembered(&before, contact, pair.radii);
             let felt = pair.felt(&found, contact, law);
             let (force, held) = felt.resist(&mut spring.stretch, dt);
             push.add_at(&contact.near.place, &force);
             self.energy += held;
+            if pair.rolling > 0.0 {
+                let (couple, held) = felt.resist_rolling(&mut spring.rolling, dt);
+                push.torque += couple;
+                self.energy += held;
+            }
             self.deepest = self.deepest.max(contact.near.overlap);
             self.springs.push(spring);
         }
@@ -84,19 +87,24 @@ impl Meeting {
     }
 }
 
-/// Stretch of a contact's spring so far. One that comes up where another was,
-/// as when a vertex slides over a rim, takes that one's over.
-fn remembered(before: &[Spring], contact: &Contact, reach: f64) -> Vec3 {
+/// A contact's spring so far. One that comes up where another was, as when a
+/// vertex slides over a rim, takes that one's stretch over.
+fn remembered(before: &[Spring], contact: &Contact, reach: f64) -> Spring {
+    let distance = |spring: &Spring| (spring.place - contact.near.place).norm();
     let own = before
         .iter()
         .find(|spring| spring.between == contact.between);
-    if let Some(spring) = own {
-        return spring.stretch;
+    let nearest = || {
+        let near = before.iter().filter(|spring| distance(spring) < reach);
+        near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    let heir_of = own.or_else(nearest);
+    Spring {
+        between: contact.between,
+        place: contact.near.place,
+        stretch: heir_of.map_or_else(Vec3::zeros, |spring| spring.stretch),
+        rolling: heir_of.map_or_else(Vec3::zeros, |spring| spring.rolling),
     }
-    let distance = |spring: &Spring| (spring.place - contact.near.place).norm();
-    let near = before.iter().filter(|spring| distance(spring) < reach);
-    let nearest = near.min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    nearest.map_or_else(Vec3::zeros, |spring| spring.stretch)
 }
 
 /// Two bodies, and what does not depend on the contact.
@@ -108,6 +116,10 @@ struct Pair<'a> {
     radii: f64,
     /// Mean angular velocity, with which the springs turn.
     turning: Vec3,
+    /// Angular velocity of the second body relative to the first's.
+    spin: Vec3,
+    /// Rolling resistance: that of the body that resists more.
+    rolling: f64,
 }
 
 /// One contact with the motion in it.
@@ -118,7 +130,7 @@ struct Felt<'a> {
     velocity: Vec3,
     /// Mass that it has to stop [kg].
     mass: f64,
-    turning: Vec3,
+    pair: &'a Pair<'a>,
 }
 
 impl<'a> Pair<'a> {
@@ -128,7 +140,15 @@ impl<'a> Pair<'a> {
             apart: second.state.position - first.state.position,
             radii: first.shape.sphero_radius() + second.shape.sphero_radius(),
             turning: 0.5 * (spin(first) + spin(second)),
+            spin: spin(second) - spin(first),
+            rolling: first.rolling_friction.max(second.rolling_friction),
         }
+    }
+
+    /// R* of 1/R* = 1/r_a + 1/r_b [m].
+    fn equivalent_radius(&self) -> f64 {
+        let [a, b] = self.bodies.map(|body| body.shape.sphero_radius());
+        a * b / (a + b)
     }
 
     /// Arms of a place given from the first's centre.
@@ -136,7 +156,7 @@ impl<'a> Pair<'a> {
         [*place, place - self.apart]
     }
 
-    fn felt(&self, found: &Contacts, contact: &'a Contact, law: &'a ContactLaw) -> Felt<'a> {
+    fn felt(&'a self, found: &Contacts, contact: &'a Contact, law: &'a ContactLaw) -> Felt<'a> {
         let near = &contact.near;
         let [on_first, on_second] = self.arms(&near.place);
         let [first, second] = self.bodies;
@@ -152,7 +172,7 @@ impl<'a> Pair<'a> {
                 parting.dot(&near.normal),
                 reduced_mass(first, second),
             ),
-            turning: self.turning,
+            pair: self,
         }
     }
 
@@ -180,22 +200,42 @@ impl Felt<'_> {
         let normal_force = self.law.normal_force(near.overlap, -along, self.mass);
         let damping = normal_force - self.law.elastic_force(near.overlap);
         let sliding = self.velocity - near.normal * along;
-        // The spring turns with the bodies, and stays in the contact's plane.
-        *stretch += self.turning.cross(stretch) * dt;
-        *stretch -= near.normal * stretch.dot(&near.normal);
+        self.turn(stretch, dt);
         *stretch += sliding * dt;
         let tangential =
             self.law
                 .tangential_force(stretch, &sliding, (near.overlap, normal_force, self.mass));
-        let stretched = 0.5
-            * TANGENTIAL_STIFFNESS_RATIO
-            * self.law.tangent_stiffness(near.overlap)
-            * stretch.norm_squared();
+        let stretched = self.law.stretched_energy(stretch, near.overlap);
         let share = self.contact.share;
         (
             (near.normal * damping + tangential) * share,
             stretched * share,
         )
+    }
+}
+
+impl Felt<'_> {
+    /// A spring turns with the bodies, and stays in the contact's plane.
+    fn turn(&self, stretch: &mut Vec3, dt: f64) {
+        let normal = &self.contact.near.normal;
+        *stretch += self.pair.turning.cross(stretch) * dt;
+        *stretch -= normal * stretch.dot(normal);
+    }
+
+    /// Couple against rolling on the second body [N m], and the energy its spring
+    /// holds [J].
+    fn resist_rolling(&self, stretch: &mut Vec3, dt: f64) -> (Vec3, f64) {
+        let near = &self.contact.near;
+        let along = self.velocity.dot(&near.normal);
+        let pressed = self.law.normal_force(near.overlap, -along, self.mass);
+        let spin = self.pair.spin - near.normal * self.pair.spin.dot(&near.normal);
+        self.turn(stretch, dt);
+        let resistance = (self.pair.rolling, self.pair.equivalent_radius());
+        let state = (near.overlap, pressed, self.mass);
+        let (couple, held) = self
+            .law
+            .rolling_couple(resistance, stretch, &spin, dt, state);
+        (couple * self.contact.share, held * self.contact.share)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Bodies on walls: sphere-swept vertices of a convex body against planes
 //! (docs/method.md, equations 17–19).
 
-use crate::contact::law::{TANGENTIAL_STIFFNESS_RATIO, mass_seen};
+use crate::contact::law::mass_seen;
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
 use crate::walls::Plane;
@@ -57,15 +57,54 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
     }
     let mut load = Load::default();
     let mut energy = 0.0;
+    let mut rolling = std::mem::take(&mut body.state.rolling);
+    if body.rolling_friction > 0.0 {
+        rolling = rolled(rolling, &touches, springs.len());
+    }
     for touch in &touches {
         let mass = mass_on(body, &touches, touch, planes.len());
         let (force, held) = wall_force(body, touch, mass, dt, &mut springs[touch.spring]);
         load.add_at(&touch.arm, &force);
         energy += held;
+        if body.rolling_friction > 0.0 {
+            let pressed = force.dot(&touch.normal);
+            let stretch = &mut rolling[touch.spring];
+            let (couple, held) = wall_couple(body, touch, (pressed, mass), dt, stretch);
+            load.torque += couple;
+            energy += held;
+        }
     }
     body.state.springs = springs;
+    body.state.rolling = rolling;
     body.state.wall_load = load;
     body.state.wall_energy = energy;
+}
+
+/// Rolling springs of those contacts that there still are.
+fn rolled(before: Vec<Vec3>, touches: &[Touch], count: usize) -> Vec<Vec3> {
+    let mut rolling = vec![Vec3::zeros(); count];
+    for touch in touches {
+        if let Some(stretch) = before.get(touch.spring) {
+            rolling[touch.spring] = *stretch;
+        }
+    }
+    rolling
+}
+
+/// Couple against rolling on a wall, and the energy its spring holds.
+fn wall_couple(
+    body: &Body,
+    touch: &Touch,
+    (pressed, mass): (f64, f64),
+    dt: f64,
+    stretch: &mut Vec3,
+) -> (Vec3, f64) {
+    let spin = body.angular_velocity();
+    let rolling = spin - touch.normal * spin.dot(&touch.normal);
+    let resistance = (body.rolling_friction, body.shape.sphero_radius());
+    let state = (touch.overlap, pressed, mass);
+    body.wall_law
+        .rolling_couple(resistance, stretch, &rolling, dt, state)
 }
 
 /// One vertex on one wall.
@@ -102,10 +141,7 @@ fn wall_force(body: &Body, touch: &Touch, mass: f64, dt: f64, spring: &mut Vec3)
     *spring += sliding * dt;
     let tangential = law.tangential_force(spring, &sliding, (touch.overlap, normal_force, mass));
     let elastic = law.elastic_energy(touch.overlap);
-    let stretched = 0.5
-        * TANGENTIAL_STIFFNESS_RATIO
-        * law.tangent_stiffness(touch.overlap)
-        * spring.norm_squared();
+    let stretched = law.stretched_energy(spring, touch.overlap);
     (
         touch.normal * normal_force + tangential,
         elastic + stretched,

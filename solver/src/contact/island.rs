@@ -1,5 +1,5 @@
 //! The bodies' own sub-steps: bodies that may meet within a sub-step of the flow
-//! form an island and move together (docs/method.md, equations 15, 20 and 47).
+//! form an island and move together (docs/method.md, equations 15, 20 and 48).
 
 use crate::contact::body_body::{Meeting, least_gap, pair_law, reduced_mass};
 use crate::contact::body_wall::{deepest_overlap, touch_walls};

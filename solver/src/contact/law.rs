@@ -82,6 +82,32 @@ impl ContactLaw {
         force
     }
 
+    /// Couple [N m] on a body that rolls at `spin` [rad/s] on a contact of this
+    /// equivalent radius [m], and the energy its spring holds [J]: friction (18) of
+    /// the speed radius × spin, capped at `rolling` × radius × normal force.
+    pub fn rolling_couple(
+        &self,
+        (rolling, radius): (f64, f64),
+        stretch: &mut Vec3,
+        spin: &Vec3,
+        dt: f64,
+        state: (f64, f64, f64),
+    ) -> (Vec3, f64) {
+        let law = Self {
+            friction: rolling,
+            ..*self
+        };
+        let speed = spin * radius;
+        *stretch += speed * dt;
+        let force = law.tangential_force(stretch, &speed, state);
+        (force * radius, law.stretched_energy(stretch, state.0))
+    }
+
+    /// Energy of a tangential spring [J].
+    pub fn stretched_energy(&self, stretch: &Vec3, overlap: f64) -> f64 {
+        0.5 * TANGENTIAL_STIFFNESS_RATIO * self.tangent_stiffness(overlap) * stretch.norm_squared()
+    }
+
     /// Law of the contacts of two bodies from those of each on a rigid wall, with
     /// their sphero radii [m]: both yield, 1/E* = 1/E_a + 1/E_b; both are round,
     /// 1/R* = 1/r_a + 1/r_b (equation 45). The friction is the geometric mean,

@@ -37,6 +37,7 @@ fn of_shape(shape: SpheroPolyhedron) -> Body {
         inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
         wall_law: law,
         flow_law: law,
+        rolling_friction: 0.0,
         freedom: Freedom::Free,
         state: BodyState {
             position: Vec3::zeros(),
@@ -44,6 +45,7 @@ fn of_shape(shape: SpheroPolyhedron) -> Body {
             momentum: Vec3::zeros(),
             angular_momentum: Vec3::zeros(),
             springs: Vec::new(),
+            rolling: Vec::new(),
             wall_load: Load::default(),
             wall_energy: 0.0,
             body_load: Load::default(),

@@ -204,3 +204,51 @@ fn a_vertex_slides_from_face_to_edge_to_vertex_without_a_jump() {
         );
     }
 }
+
+// The lower edge of a cube is dragged over a rim, one end first: the contact at that
+// end hands its place and its spring over to the crossing of the two edges. Normal
+// force and friction go on without a jump, and friction stays at μ F_n.
+#[test]
+fn friction_goes_on_while_a_contact_changes_its_features() {
+    let below = undamped(cuboid([0.04; 3]));
+    let mut above = undamped(cuboid([0.04; 3]));
+    let law = ContactLaw {
+        friction: 0.5,
+        ..law([&below, &above])
+    };
+    let about_x = UnitQuaternion::from_scaled_axis(Vec3::x() * 0.7);
+    // The leading end a little lower.
+    let about_y = UnitQuaternion::from_scaled_axis(Vec3::y() * 0.01);
+    above.state.orientation = about_y * about_x;
+    let reach = above.shape.extent_along(&above.to_body(&-Vec3::z()));
+    above.state.momentum = Vec3::x() * above.mass;
+    let mut meeting = Meeting::new([0, 1]);
+    let mut forces: Vec<Vec3> = Vec::new();
+    let mut kinds = Vec::new();
+    let (steps, step) = (8_000, 1e-6);
+    for n in 0..steps {
+        let x = -0.004 + step * f64::from(n);
+        above.state.position = Vec3::new(x, 0.0, 0.02 + reach - 2e-4);
+        let exchange = meeting.touch(&below, &above, &law, step);
+        forces.push(exchange.on_second.force);
+        kinds.push(
+            meeting
+                .springs
+                .iter()
+                .map(|s| s.between)
+                .collect::<Vec<_>>(),
+        );
+    }
+    let has_crossing =
+        |kinds: &Vec<Between>| kinds.iter().any(|kind| matches!(kind, Between::Edges(..)));
+    assert!(!has_crossing(&kinds[0]) && has_crossing(&kinds[steps as usize - 1]));
+    let size = forces[0].norm();
+    for pair in forces.windows(2).skip(200) {
+        let jump = (pair[1] - pair[0]).norm() / size;
+        assert!(jump < 5e-3, "{jump}: {pair:?}");
+    }
+    // The rounded rim leans the normal, by far less than this.
+    for force in &forces[200..] {
+        assert!((-force.x / force.z / 0.5 - 1.0).abs() < 0.2, "{force}");
+    }
+}

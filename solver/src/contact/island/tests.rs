@@ -432,3 +432,44 @@ fn vertex_edge_and_face_rebound_as_asked() {
         }
     }
 }
+
+// A nearly round body (a cube rounded with almost half its side) rolls down 10°;
+// with a rolling resistance above tan 10° = 0.18 it stands, and does not creep.
+#[test]
+fn rolling_resistance_holds_a_round_body_on_a_slope() {
+    let shape = crate::shape::SpheroPolyhedron::cube(0.04, 0.0199).expect("a solid");
+    let mut round = cuboid([0.04; 3]);
+    round.mass = 1000.0 * shape.volume();
+    round.inertia = shape.unit_inertia() * 1000.0;
+    round.inverse_inertia = round.inertia.try_inverse().expect("a solid has inertia");
+    round.shape = shape;
+    round.wall_law = ContactLaw::hertz(1e5, 0.0199, 0.3, 2.0);
+    // Standing on one vertex of its tiny core.
+    let on_vertex = UnitQuaternion::rotation_between(&Vec3::new(1.0, 1.0, 1.0), &-Vec3::z());
+    round.state.orientation = on_vertex.expect("not opposite");
+    round.state.position.z = round.shape.extent_along(&round.to_body(&-Vec3::z()));
+    let way = |rolling: f64| {
+        let mut body = round.clone();
+        body.rolling_friction = rolling;
+        let around = Surroundings {
+            planes: &[floor()],
+            // 10° of slope.
+            gravity: 9.81 * Vec3::new(0.173_648, 0.0, -0.984_808),
+        };
+        let mut step = |count: usize| {
+            for _ in 0..count {
+                let bodies = std::slice::from_mut(&mut body);
+                advance(bodies, &mut Vec::new(), |_| Load::default(), &around, 1e-3);
+            }
+            body.state.position.x
+        };
+        let settled = step(400);
+        (settled, step(400) - settled)
+    };
+    let (free, _) = way(0.0);
+    let (held, creep) = way(0.25);
+    println!("{free} {held} {creep}");
+    assert!(free > 0.05, "it rolls without resistance: {free}");
+    assert!(held.abs() < 1e-3, "and stands with it: {held}");
+    assert!(creep.abs() < 1e-7, "without creeping: {creep}");
+}

@@ -44,6 +44,7 @@ fn body(scenario: &Scenario, given: &Setup, place: usize, crowd: &Crowd) -> Body
             momentum: Vec3::from(spec.velocity_m_s) * mass,
             angular_momentum: Vec3::zeros(),
             springs: Vec::new(),
+            rolling: Vec::new(),
             wall_load: Load::default(),
             wall_energy: 0.0,
             body_load: Load::default(),
@@ -56,6 +57,7 @@ fn body(scenario: &Scenario, given: &Setup, place: usize, crowd: &Crowd) -> Body
         inertia,
         wall_law,
         flow_law,
+        rolling_friction: 0.0,
         freedom: if spec.fixed {
             Freedom::Fixed
         } else {
