@@ -59,7 +59,7 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
     let mut energy = 0.0;
     let mut rolling = std::mem::take(&mut body.state.rolling);
     if body.rolling_friction > 0.0 {
-        rolling = rolled(rolling, &touches, springs.len());
+        rolling = rolled(&rolling, &touches, springs.len());
     }
     for touch in &touches {
         let mass = mass_on(body, &touches, touch, planes.len());
@@ -81,7 +81,7 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
 }
 
 /// Rolling springs of those contacts that there still are.
-fn rolled(before: Vec<Vec3>, touches: &[Touch], count: usize) -> Vec<Vec3> {
+fn rolled(before: &[Vec3], touches: &[Touch], count: usize) -> Vec<Vec3> {
     let mut rolling = vec![Vec3::zeros(); count];
     for touch in touches {
         if let Some(stretch) = before.get(touch.spring) {

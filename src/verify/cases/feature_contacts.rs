@@ -21,6 +21,7 @@ use crate::verify::run::{Answer, Cost, Run, Trouble};
 use crate::verify::scenes::{body, on_vertex, thrown_down};
 use crate::verify::{Case, Effort, How};
 use scree_solver::contact::body_body::{Meeting, pair_law};
+use scree_solver::contact::law::ContactLaw;
 use scree_solver::math::Vec3;
 use scree_solver::rigid::Body;
 use scree_solver::shape::{ConvexPolyhedron, SpheroPolyhedron};
@@ -95,24 +96,61 @@ fn cube(orientation: [f64; 4]) -> Result<Body, Trouble> {
     Ok(body)
 }
 
-/// Energy and force over those of one contact, `beyond` a rim of the top or, along
-/// it, beyond its end.
+/// A cube on a vertex over one that lies flat.
+struct Slide {
+    below: Body,
+    above: Body,
+    law: ContactLaw,
+    /// Height of the upper centre [m].
+    height: f64,
+}
+
+impl Slide {
+    fn new() -> Result<Self, Trouble> {
+        let (below, above) = (cube([1.0, 0.0, 0.0, 0.0])?, cube(on_vertex())?);
+        let reach = above.shape.extent_along(&above.to_body(&-Vec3::z()));
+        Ok(Self {
+            law: pair_law(&below, &above),
+            height: 0.5 * SIDE + reach - OVERLAP,
+            below,
+            above,
+        })
+    }
+
+    /// Energy and force on the upper cube over those of one contact, `beyond` a rim
+    /// of the top or, along it, beyond its end.
+    fn at(&mut self, beyond: f64, along_rim: bool) -> (f64, Vec3) {
+        let across = if along_rim { RIM } else { 0.3 * RIM };
+        self.above.state.position = Vec3::new(RIM + beyond, across, self.height);
+        let mut meeting = Meeting::new([0, 1]);
+        let exchange = meeting.touch(&self.below, &self.above, &self.law, 0.0);
+        (
+            meeting.energy / self.law.elastic_energy(OVERLAP),
+            exchange.on_second.force / self.law.elastic_force(OVERLAP),
+        )
+    }
+}
+
+/// For a picture: way from 1 mm before a rim on [mm]; energy, upward force and
+/// outward force over energy and force of one contact on the face.
+///
+/// # Errors
+/// The scene is refused.
+pub fn slide_over_a_rim() -> Result<Vec<(f64, [f64; 3])>, Trouble> {
+    let mut slide = Slide::new()?;
+    let place = |n: i32| {
+        let beyond = 2e-5 * f64::from(n);
+        let (energy, force) = slide.at(beyond, false);
+        (beyond * 1e3 + 1.0, [energy, force.z, force.x])
+    };
+    Ok((-50..=100).map(place).collect())
+}
+
 fn slid(beyond: f64, along_rim: bool) -> Result<Answer<2>, Trouble> {
     let started = Instant::now();
-    let below = cube([1.0, 0.0, 0.0, 0.0])?;
-    let mut above = cube(on_vertex())?;
-    let reach = above.shape.extent_along(&above.to_body(&-Vec3::z()));
-    let across = if along_rim { RIM } else { 0.3 * RIM };
-    above.state.position = Vec3::new(RIM + beyond, across, 0.5 * SIDE + reach - OVERLAP);
-    let law = pair_law(&below, &above);
-    let mut meeting = Meeting::new([0, 1]);
-    let exchange = meeting.touch(&below, &above, &law, 0.0);
-    let force = exchange.on_second.force.norm();
+    let (energy, force) = Slide::new()?.at(beyond, along_rim);
     Ok(Answer {
-        values: [
-            meeting.energy / law.elastic_energy(OVERLAP),
-            force / law.elastic_force(OVERLAP),
-        ],
+        values: [energy, force.norm()],
         cost: Cost {
             wall_s: started.elapsed().as_secs_f64(),
             point_steps_per_s: None,

@@ -25,6 +25,8 @@ mod two_clocks;
 
 use super::{Case, How};
 
+pub use feature_contacts::slide_over_a_rim;
+
 /// Every case, by its number.
 pub const ALL: &[Case] = &[
     free_fall::CASE,

@@ -109,6 +109,40 @@ fn the_order_of_the_bodies_does_not_matter() {
     }
 }
 
+// Bodies that meet any which way touch in one place, the nearest: the potential is
+// that of one contact there, whichever features it is between. Where a second place
+// is almost as near, it is more, never less.
+#[test]
+fn bodies_that_meet_at_random_touch_once() {
+    let pairs = touching_pairs(90);
+    let pose = |body: &Body| {
+        let translation = nalgebra::Translation3::from(body.state.position);
+        nalgebra::Isometry3::from_parts(translation, body.state.orientation)
+    };
+    let mut once = [0; 3];
+    for [first, second] in &pairs {
+        let found = contacts(first, second, &law([first, second]));
+        let (a, b) = (&first.shape, &second.shape);
+        let distance = crate::shape::separation(a, &pose(first), b, &pose(second));
+        let overlap = a.sphero_radius() + b.sphero_radius() - distance;
+        let count = found.energy / of_one(first, second, overlap);
+        assert!(count > 1.0 - 1e-9 && count < 2.5, "{count}");
+        if count < 1.0 + 1e-9 {
+            let kind = found
+                .places
+                .iter()
+                .max_by(|a, b| a.share.total_cmp(&b.share));
+            match kind.expect("they touch").between {
+                Between::VertexOfFirst(_) => once[0] += 1,
+                Between::VertexOfSecond(_) => once[1] += 1,
+                Between::Edges(..) => once[2] += 1,
+            }
+        }
+    }
+    println!("{once:?} of {} once", pairs.len());
+    assert!(once.iter().all(|kind| *kind >= 8) && once.iter().sum::<i32>() > 70);
+}
+
 /// Energy of one contact with this overlap [J].
 fn of_one(first: &Body, second: &Body, overlap: f64) -> f64 {
     law([first, second]).elastic_energy(overlap)
