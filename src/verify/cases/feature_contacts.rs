@@ -12,9 +12,10 @@
 //!
 //! **Colliding.** A cube and a tetrahedron fly at each other at 1 m/s, turned and
 //! turning at random, without damping and friction. Energy, momentum and angular
-//! momentum are what they were (Newton 1687). Bars: 1e-6 of the energy at the finest
-//! steps, and 1e-12 of the momenta at every one. As the solver chooses its steps the
-//! energy is reported.
+//! momentum are what they were (Newton 1687). Bars: 1e-6 of the energy in steps of
+//! 10 µs and less (an impact takes some 3 ms), and 1e-12 of the momenta at every one. As the
+//! solver chooses its steps the energy is reported. No order is asked for: which contacts
+//! come and go in a tumbling collision depends on the step.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Cost, Run, Trouble};
@@ -63,13 +64,15 @@ fn run(effort: Effort, findings: &mut Findings) {
     let collisions = *effort.take(&[10, 100], 1).last().unwrap_or(&10);
     for step in [2e-5, 1e-5, 5e-6] {
         let resolution = Resolution::sized(format!("{:.0} µs", step * 1e6), step);
-        let energy = question("energy").within(1e-6);
+        let mut energy = question("energy");
+        if step < 2e-5 {
+            energy = energy.within(1e-6);
+        }
         let momenta = ["momentum", "angular momentum"].map(|what| question(what).within(1e-12));
         let [linear, angular] = momenta;
         let answer = collided(collisions, step);
         findings.take(&resolution, [energy, linear, angular], answer);
     }
-    findings.take_order("largest change of energy", 1e-12, None);
     let energy = question("energy, own steps");
     let answer = collided(collisions, 1.0).map(|answer| Answer {
         values: [answer.values[0]],

@@ -32,7 +32,7 @@ fn run(effort: Effort, findings: &mut Findings) {
         ("face", UPRIGHT),
     ] {
         for &restitution in effort.take(&asked, 6) {
-            let quantity = format!("rebound on a {word}, e {restitution}");
+            let quantity = format!("rebound on {word}, e {restitution}");
             let question = Question::new(quantity, "", restitution).within(0.02);
             let answer = rebound(orientation, restitution);
             findings.take(&Resolution::named("own steps"), [question], answer);

@@ -197,7 +197,6 @@ fn an_undamped_collision_keeps_energy_and_momenta() {
             *worst = worst.max(got);
         }
     }
-    println!("{struck} of 40 struck: {worst:?}");
     assert!(struck > 30);
     assert!(
         worst[0] < 1e-6 && worst[1] < 1e-13 && worst[2] < 1e-12,
@@ -295,12 +294,8 @@ fn a_heap_comes_to_rest_and_sleeps_until_touched() {
         at_impact = at_impact.max(deepest(&bodies, &meetings, &planes));
     }
     let at_rest = deepest(&bodies, &meetings, &planes);
-    println!(
-        "rise {:.1e}, overlap {at_impact:.3} and {at_rest:.4} r",
-        rise / start
-    );
-    assert!(rise < 1e-4 * start);
-    assert!(at_impact < 0.2 && at_rest < 0.02);
+    assert!(rise < 1e-4 * start, "{rise:e}");
+    assert!(at_impact < 0.2 && at_rest < 0.02, "{at_impact} {at_rest}");
     assert!(
         bodies
             .iter()
@@ -426,7 +421,6 @@ fn vertex_edge_and_face_rebound_as_asked() {
         for restitution in [0.2, 0.5, 0.9, 1.0] {
             for at_a_body in [false, true] {
                 let got = rebound(&turn, restitution, at_a_body);
-                println!("{turn:?} {restitution} {at_a_body}: {got}");
                 assert!((got / restitution - 1.0).abs() < 0.02, "{got}");
             }
         }
@@ -468,7 +462,6 @@ fn rolling_resistance_holds_a_round_body_on_a_slope() {
     };
     let (free, _) = way(0.0);
     let (held, creep) = way(0.25);
-    println!("{free} {held} {creep}");
     assert!(free > 0.05, "it rolls without resistance: {free}");
     assert!(held.abs() < 1e-3, "and stands with it: {held}");
     assert!(creep.abs() < 1e-7, "without creeping: {creep}");
