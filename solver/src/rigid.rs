@@ -128,8 +128,13 @@ impl Body {
     /// Acceleration at `arm` that a load gives to a body that does not turn yet
     /// [m/s²].
     pub fn acceleration_at(&self, load: &Load, arm: &Vec3) -> Vec3 {
-        let turned = self.inverse_inertia_times(&self.state.orientation, &load.torque);
-        load.force / self.mass + turned.cross(arm)
+        load.force / self.mass + self.angular_acceleration(&load.torque).cross(arm)
+    }
+
+    /// Angular acceleration that a torque gives to a body that does not turn yet
+    /// [rad/s²].
+    pub fn angular_acceleration(&self, torque: &Vec3) -> Vec3 {
+        self.inverse_inertia_times(&self.state.orientation, torque)
     }
 
     /// 1/m [1/kg]; 0 for a fixed body.

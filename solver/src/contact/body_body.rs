@@ -64,14 +64,14 @@ impl Meeting {
     /// Renews springs and forces after a drift of `dt`.
     pub fn touch(&mut self, first: &Body, second: &Body, law: &ContactLaw, dt: f64) -> Exchange {
         let found = contacts(first, second, law);
-        let pair = Pair::new(first, second);
+        let pair = Pair::new(first, second, &found.push);
         let before = std::mem::take(&mut self.springs);
         let mut push = found.push;
         self.energy = found.energy;
         self.deepest = 0.0;
         for contact in &found.places {
             let mut spring = remembered(&before, contact, pair.radii);
-            let felt = pair.felt(&found, contact, law);
+            let felt = pair.felt(contact, law);
             let (force, held) = felt.resist(&mut spring.stretch, dt);
             push.add_at(&contact.near.place, &force);
             self.energy += held;
@@ -83,7 +83,7 @@ impl Meeting {
             self.deepest = self.deepest.max(contact.near.overlap);
             self.springs.push(spring);
         }
-        pair.exchange(&push)
+        Exchange::of(&push, &pair.apart)
     }
 }
 
@@ -114,10 +114,10 @@ struct Pair<'a> {
     apart: Vec3,
     /// Sum of the sphero radii.
     radii: f64,
-    /// Mean angular velocity, with which the springs turn.
-    turning: Vec3,
-    /// Angular velocity of the second body relative to the first's.
-    spin: Vec3,
+    velocities: [Motion; 2],
+    /// What the elastic forces of all contacts give.
+    accelerations: [Motion; 2],
+    reduced_mass: f64,
     /// Rolling resistance: that of the body that resists more.
     rolling: f64,
 }
@@ -134,15 +134,37 @@ struct Felt<'a> {
 }
 
 impl<'a> Pair<'a> {
-    fn new(first: &'a Body, second: &'a Body) -> Self {
+    fn new(first: &'a Body, second: &'a Body, push: &Load) -> Self {
+        let apart = second.state.position - first.state.position;
+        let exchange = Exchange::of(push, &apart);
         Self {
             bodies: [first, second],
-            apart: second.state.position - first.state.position,
+            apart,
             radii: first.shape.sphero_radius() + second.shape.sphero_radius(),
-            turning: 0.5 * (spin(first) + spin(second)),
-            spin: spin(second) - spin(first),
+            velocities: [first, second].map(Motion::velocity),
+            accelerations: [
+                Motion::acceleration(first, &exchange.on_first),
+                Motion::acceleration(second, &exchange.on_second),
+            ],
+            reduced_mass: reduced_mass(first, second),
             rolling: first.rolling_friction.max(second.rolling_friction),
         }
+    }
+
+    /// Angular velocity of the second body relative to the first's.
+    fn spin(&self) -> Vec3 {
+        self.velocities[1].angular - self.velocities[0].angular
+    }
+
+    /// Mean angular velocity, with which the springs turn.
+    fn turning(&self) -> Vec3 {
+        0.5 * (self.velocities[0].angular + self.velocities[1].angular)
+    }
+
+    /// Motion of the second body relative to the first's at a place given from the
+    /// first's centre.
+    fn relative(&self, [first, second]: &[Motion; 2], place: &Vec3) -> Vec3 {
+        second.at(&(place - self.apart)) - first.at(place)
     }
 
     /// R* of 1/R* = 1/r_a + 1/r_b [m].
@@ -151,41 +173,35 @@ impl<'a> Pair<'a> {
         a * b / (a + b)
     }
 
-    /// Arms of a place given from the first's centre.
-    fn arms(&self, place: &Vec3) -> [Vec3; 2] {
-        [*place, place - self.apart]
-    }
-
-    fn felt(&'a self, found: &Contacts, contact: &'a Contact, law: &'a ContactLaw) -> Felt<'a> {
+    fn felt(&'a self, contact: &'a Contact, law: &'a ContactLaw) -> Felt<'a> {
         let near = &contact.near;
-        let [on_first, on_second] = self.arms(&near.place);
-        let [first, second] = self.bodies;
-        let exchange = self.exchange(&found.push);
-        let parting = acceleration_at(second, &exchange.on_second, &on_second)
-            - acceleration_at(first, &exchange.on_first, &on_first);
+        let parting = self.relative(&self.accelerations, &near.place);
         Felt {
             contact,
             law,
-            velocity: velocity_at(second, &on_second) - velocity_at(first, &on_first),
+            velocity: self.relative(&self.velocities, &near.place),
             mass: mass_seen(
                 law.elastic_force(near.overlap),
                 parting.dot(&near.normal),
-                reduced_mass(first, second),
+                self.reduced_mass,
             ),
             pair: self,
         }
     }
+}
 
-    /// What both feel when the second is pushed, torque about the first's centre.
-    fn exchange(&self, push: &Load) -> Exchange {
-        Exchange {
+impl Exchange {
+    /// When the second body is pushed, the torque being about the first's centre;
+    /// `apart` is the way from there to the second's.
+    fn of(push: &Load, apart: &Vec3) -> Self {
+        Self {
             on_first: Load {
                 force: -push.force,
                 torque: -push.torque,
             },
             on_second: Load {
                 force: push.force,
-                torque: push.torque - self.apart.cross(&push.force),
+                torque: push.torque - apart.cross(&push.force),
             },
         }
     }
@@ -218,7 +234,7 @@ impl Felt<'_> {
     /// A spring turns with the bodies, and stays in the contact's plane.
     fn turn(&self, stretch: &mut Vec3, dt: f64) {
         let normal = &self.contact.near.normal;
-        *stretch += self.pair.turning.cross(stretch) * dt;
+        *stretch += self.pair.turning().cross(stretch) * dt;
         *stretch -= normal * stretch.dot(normal);
     }
 
@@ -228,7 +244,8 @@ impl Felt<'_> {
         let near = &self.contact.near;
         let along = self.velocity.dot(&near.normal);
         let pressed = self.law.normal_force(near.overlap, -along, self.mass);
-        let spin = self.pair.spin - near.normal * self.pair.spin.dot(&near.normal);
+        let spin = self.pair.spin();
+        let spin = spin - near.normal * spin.dot(&near.normal);
         self.turn(stretch, dt);
         let resistance = (self.pair.rolling, self.pair.equivalent_radius());
         let state = (near.overlap, pressed, self.mass);
@@ -239,26 +256,42 @@ impl Felt<'_> {
     }
 }
 
-/// A fixed body does not turn.
-fn spin(body: &Body) -> Vec3 {
-    match body.freedom {
-        Freedom::Free => body.angular_velocity(),
-        Freedom::Fixed => Vec3::zeros(),
-    }
+/// How a body moves, or begins to: at its centre, and turning.
+struct Motion {
+    linear: Vec3,
+    angular: Vec3,
 }
 
-fn velocity_at(body: &Body, arm: &Vec3) -> Vec3 {
-    match body.freedom {
-        Freedom::Free => body.velocity_at(arm),
-        Freedom::Fixed => Vec3::zeros(),
-    }
-}
+impl Motion {
+    const NONE: Self = Self {
+        linear: Vec3::new(0.0, 0.0, 0.0),
+        angular: Vec3::new(0.0, 0.0, 0.0),
+    };
 
-/// Acceleration at `arm` that a load gives a body from rest [m/s²].
-fn acceleration_at(body: &Body, load: &Load, arm: &Vec3) -> Vec3 {
-    match body.freedom {
-        Freedom::Free => body.acceleration_at(load, arm),
-        Freedom::Fixed => Vec3::zeros(),
+    /// A fixed body has none.
+    fn velocity(body: &Body) -> Self {
+        match body.freedom {
+            Freedom::Fixed => Self::NONE,
+            Freedom::Free => Self {
+                linear: body.velocity(),
+                angular: body.angular_velocity(),
+            },
+        }
+    }
+
+    /// What a load gives a body that does not turn yet.
+    fn acceleration(body: &Body, load: &Load) -> Self {
+        match body.freedom {
+            Freedom::Fixed => Self::NONE,
+            Freedom::Free => Self {
+                linear: load.force / body.mass,
+                angular: body.angular_acceleration(&load.torque),
+            },
+        }
+    }
+
+    fn at(&self, arm: &Vec3) -> Vec3 {
+        self.linear + self.angular.cross(arm)
     }
 }
 

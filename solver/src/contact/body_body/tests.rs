@@ -80,7 +80,8 @@ fn forces_are_the_gradient_of_the_potential() {
     for [first, second] in &touching_pairs(60) {
         let found = contacts(first, second, &law([first, second]));
         assert!(!found.places.is_empty());
-        let on_second = Pair::new(first, second).exchange(&found.push).on_second;
+        let on_second =
+            Exchange::of(&found.push, &(second.state.position - first.state.position)).on_second;
         let step = 1e-8;
         let slope = |along: Vec3, turn: Vec3| {
             let ahead = potential(first, &moved(second, &(along * step), &(turn * step)));
