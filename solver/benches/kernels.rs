@@ -6,7 +6,7 @@ use fearless_simd::dispatch;
 use nalgebra::UnitQuaternion;
 use scree_solver::Instructions;
 use scree_solver::contact::body_body::Meeting;
-use scree_solver::contact::island::{self, Surroundings};
+use scree_solver::contact::island::{self, BodyReport, Surroundings};
 use scree_solver::contact::law::ContactLaw;
 use scree_solver::fast::blocks::{Block, Blocks};
 use scree_solver::fast::packing::Packing;
@@ -269,6 +269,9 @@ fn resting_cube(place: Vec3) -> Body {
         shape,
     }
 }
+
+/// Bodies, what their contacts remember, and what was done to them.
+type Crowd = (Vec<Body>, Vec<Meeting>, Vec<BodyReport>);
 
 /// Cubes on the floor under their weight, per body sub-step of one of them: scattered,
 /// so that none is near another, and walled up, so that each touches its neighbours.

@@ -36,40 +36,32 @@ fn overlaps<'a>(
 
 /// Renews the body's wall load and its springs after a drift of `dt`.
 pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
+    let count = body.shape.core_vertices().len() * planes.len();
     let mut springs = std::mem::take(&mut body.state.springs);
-    springs.resize(
-        body.shape.core_vertices().len() * planes.len(),
-        Vec3::zeros(),
-    );
-    let mut touches = Vec::new();
+    let mut rolling = std::mem::take(&mut body.state.rolling);
+    springs.resize(count, Vec3::zeros());
+    if body.rolling_friction > 0.0 {
+        rolling.resize(count, Vec3::zeros());
+    }
+    let push = elastic_push(body, planes);
+    let mut load = Load::default();
+    let mut energy = 0.0;
     for (place, arm, overlap) in overlaps(body, planes) {
         if overlap <= 0.0 {
             springs[place] = Vec3::zeros();
+            if let Some(stretch) = rolling.get_mut(place) {
+                *stretch = Vec3::zeros();
+            }
             continue;
         }
-        let plane = &planes[place % planes.len()];
-        touches.push(Touch {
-            spring: place,
-            arm: arm - plane.normal * (body.shape.sphero_radius() - 0.5 * overlap),
-            normal: plane.normal,
-            overlap,
-        });
-    }
-    let mut load = Load::default();
-    let mut energy = 0.0;
-    let mut rolling = std::mem::take(&mut body.state.rolling);
-    if body.rolling_friction > 0.0 {
-        rolling = rolled(&rolling, &touches, springs.len());
-    }
-    for touch in &touches {
-        let mass = mass_on(body, &touches, touch, planes.len());
-        let (force, held) = wall_force(body, touch, mass, dt, &mut springs[touch.spring]);
+        let touch = Touch::of(body, &planes[place % planes.len()], &arm, overlap);
+        let mass = mass_on(body, &push, &touch);
+        let (force, held) = wall_force(body, &touch, mass, dt, &mut springs[place]);
         load.add_at(&touch.arm, &force);
         energy += held;
-        if body.rolling_friction > 0.0 {
+        if let Some(stretch) = rolling.get_mut(place) {
             let pressed = force.dot(&touch.normal);
-            let stretch = &mut rolling[touch.spring];
-            let (couple, held) = wall_couple(body, touch, (pressed, mass), dt, stretch);
+            let (couple, held) = wall_couple(body, &touch, (pressed, mass), dt, stretch);
             load.torque += couple;
             energy += held;
         }
@@ -80,15 +72,17 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
     body.state.wall_energy = energy;
 }
 
-/// Rolling springs of those contacts that there still are.
-fn rolled(before: &[Vec3], touches: &[Touch], count: usize) -> Vec<Vec3> {
-    let mut rolling = vec![Vec3::zeros(); count];
-    for touch in touches {
-        if let Some(stretch) = before.get(touch.spring) {
-            rolling[touch.spring] = *stretch;
+/// The elastic forces of all walls together.
+fn elastic_push(body: &Body, planes: &[Plane]) -> Load {
+    let mut push = Load::default();
+    for (place, arm, overlap) in overlaps(body, planes) {
+        if overlap > 0.0 {
+            let touch = Touch::of(body, &planes[place % planes.len()], &arm, overlap);
+            let force = touch.normal * body.wall_law.elastic_force(overlap);
+            push.add_at(&touch.arm, &force);
         }
     }
-    rolling
+    push
 }
 
 /// Couple against rolling on a wall, and the energy its spring holds.
@@ -109,26 +103,27 @@ fn wall_couple(
 
 /// One vertex on one wall.
 struct Touch {
-    /// Place of its spring.
-    spring: usize,
     arm: Vec3,
     normal: Vec3,
     overlap: f64,
 }
 
-/// Mass that a contact has to stop, of what all contacts with its wall stop
-/// together (equation 46) [kg].
-fn mass_on(body: &Body, touches: &[Touch], touch: &Touch, planes: usize) -> f64 {
-    let law = &body.wall_law;
-    let mut push = Load::default();
-    for other in touches {
-        if other.spring % planes == touch.spring % planes {
-            let force = other.normal * law.elastic_force(other.overlap);
-            push.add_at(&other.arm, &force);
+impl Touch {
+    /// In the middle of the overlap.
+    fn of(body: &Body, plane: &Plane, vertex: &Vec3, overlap: f64) -> Self {
+        Self {
+            arm: vertex - plane.normal * (body.shape.sphero_radius() - 0.5 * overlap),
+            normal: plane.normal,
+            overlap,
         }
     }
-    let acceleration = body.acceleration_at(&push, &touch.arm).dot(&touch.normal);
-    mass_seen(law.elastic_force(touch.overlap), acceleration, body.mass)
+}
+
+/// Mass that a contact has to stop, of what all walls stop together (equation 46) [kg].
+fn mass_on(body: &Body, push: &Load, touch: &Touch) -> f64 {
+    let force = body.wall_law.elastic_force(touch.overlap);
+    let acceleration = body.acceleration_at(push, &touch.arm).dot(&touch.normal);
+    mass_seen(force, acceleration, body.mass)
 }
 
 /// Force on the body [N] and the energy the contact holds [J].

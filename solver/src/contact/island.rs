@@ -56,20 +56,42 @@ pub struct Surroundings<'a> {
 pub fn advance(
     bodies: &mut [Body],
     meetings: &mut Vec<Meeting>,
-    flow: impl Fn(usize) -> Load,
+    reports: &mut [BodyReport],
+    flow: impl Fn(usize) -> Load + Sync,
     around: &Surroundings,
     dt: f64,
-) -> Vec<BodyReport> {
+) {
     renew(meetings, &near_pairs(bodies, dt));
-    let mut reports = vec![BodyReport::default(); bodies.len()];
-    let mut islands = islands(bodies, &mut reports, std::mem::take(meetings), flow);
+    if meetings.is_empty() {
+        advance_apart(bodies, reports, flow, around, dt);
+        return;
+    }
+    let mut islands = islands(bodies, reports, std::mem::take(meetings), flow);
     islands
         .par_iter_mut()
         .for_each(|island| island.advance(around, dt));
     let parted = islands.into_iter().flat_map(|island| island.meetings);
     meetings.extend(parted.map(|met| met.meeting));
     meetings.sort_unstable_by_key(|meeting| meeting.bodies);
-    reports
+}
+
+/// Advances bodies of which none is near another: as many islands, with nothing
+/// allocated for them.
+fn advance_apart(
+    bodies: &mut [Body],
+    reports: &mut [BodyReport],
+    flow: impl Fn(usize) -> Load + Sync,
+    around: &Surroundings,
+    dt: f64,
+) {
+    let pairs = bodies.par_iter_mut().zip(reports).enumerate();
+    pairs.for_each(|(place, (body, report))| {
+        *report = BodyReport::default();
+        if is_free(body) {
+            let mut alone = Member::new(body, report, flow(place));
+            advance_together(std::slice::from_mut(&mut alone), &mut [], around, dt);
+        }
+    });
 }
 
 /// Finds who touches whom at the start, before anything moved.
@@ -79,7 +101,7 @@ pub fn meet(bodies: &mut [Body]) -> Vec<Meeting> {
     let mut reports = vec![BodyReport::default(); bodies.len()];
     let at_rest = |_| Load::default();
     for mut island in islands(bodies, &mut reports, std::mem::take(&mut meetings), at_rest) {
-        island.touch_bodies(0.0);
+        touch_bodies(&mut island.members, &mut island.meetings, 0.0);
         meetings.extend(island.meetings.into_iter().map(|met| met.meeting));
     }
     meetings.sort_unstable_by_key(|meeting| meeting.bodies);
@@ -175,6 +197,7 @@ fn islands<'a>(
     // Per body: its island and place there, or the barrier that it is.
     let mut seats: Vec<(usize, Side)> = Vec::with_capacity(bodies.len());
     for (place, (body, report)) in bodies.iter_mut().zip(reports).enumerate() {
+        *report = BodyReport::default();
         if body.freedom == Freedom::Fixed {
             seats.push((0, Side::Barrier(body)));
             continue;
@@ -190,12 +213,7 @@ fn islands<'a>(
         };
         let members = &mut islands[island].members;
         seats.push((island, Side::Member(members.len())));
-        members.push(Member {
-            start: body.state.position,
-            flow: flow(place),
-            body,
-            report,
-        });
+        members.push(Member::new(body, report, flow(place)));
     }
     for (meeting, law) in meetings.into_iter().zip(laws) {
         let sides = meeting.bodies.map(|place| seats[place]);
@@ -239,30 +257,8 @@ impl Island<'_> {
             for member in &mut self.members {
                 member.lie();
             }
-            return;
-        }
-        let count = self.substeps(around.planes, dt);
-        let h = dt / count;
-        for _ in 0..count as u32 {
-            for member in &mut self.members {
-                member.half_kick(&around.gravity, 0.5 * h);
-                member.body.drift(h);
-                touch_walls(member.body, around.planes, h);
-            }
-            self.touch_bodies(h);
-            for member in &mut self.members {
-                member.half_kick(&around.gravity, 0.5 * h);
-                member.report.substeps += 1;
-                member.report.substeps_supported += u32::from(member.body.is_supported());
-            }
-        }
-        for member in &mut self.members {
-            let report = &mut *member.report;
-            for load in [&mut report.wall_load, &mut report.body_load] {
-                load.force /= dt;
-                load.torque /= dt;
-            }
-            member.watch_rest(dt);
+        } else {
+            advance_together(&mut self.members, &mut self.meetings, around, dt);
         }
     }
 
@@ -275,79 +271,106 @@ impl Island<'_> {
                 member.flow == Load::default() && member.body.state.still_for >= FALLS_ASLEEP_AFTER
             })
     }
+}
 
-    /// Number of body sub-steps in `dt`, whole but kept as a float.
-    fn substeps(&self, planes: &[Plane], dt: f64) -> f64 {
-        let alone = self.members.iter();
-        let alone = alone.map(|member| substeps_alone(member.body, planes, dt));
-        let met = self.meetings.iter().map(|met| self.substeps_met(met, dt));
-        let count = alone.chain(met).fold(0.0, f64::max);
-        count.ceil().clamp(1.0, MOST_SUBSTEPS)
-    }
-
-    fn substeps_met(&self, met: &Met, dt: f64) -> f64 {
-        let [first, second] = met.sides.map(|side| self.body(side));
-        let speed = [first, second]
-            .iter()
-            .filter(|body| is_free(body))
-            .map(|body| body.largest_speed())
-            .sum();
-        let impact = impact_overlap(&met.law, reduced_mass(first, second), speed);
-        let lightest = [first, second]
-            .iter()
-            .filter(|body| is_free(body))
-            .map(|body| 1.0 / lightest_effective_mass(body))
-            .sum::<f64>();
-        let deepest = met.meeting.deepest.max(impact);
-        if deepest > 0.0 {
-            dt / (CONTACT_SHARE * met.law.time_scale(deepest, 1.0 / lightest))
-        } else {
-            0.0
+/// Velocity Verlet in as many sub-steps as the member that needs most asks for.
+fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surroundings, dt: f64) {
+    let count = substeps(members, meetings, around.planes, dt);
+    let h = dt / count;
+    for _ in 0..count as u32 {
+        for member in members.iter_mut() {
+            member.half_kick(&around.gravity, 0.5 * h);
+            member.body.drift(h);
+            touch_walls(member.body, around.planes, h);
+        }
+        touch_bodies(members, meetings, h);
+        for member in members.iter_mut() {
+            member.half_kick(&around.gravity, 0.5 * h);
+            member.report.substeps += 1;
+            member.report.substeps_supported += u32::from(member.body.is_supported());
         }
     }
-
-    fn body<'b>(&'b self, side: Side<'b>) -> &'b Body {
-        match side {
-            Side::Member(place) => self.members[place].body,
-            Side::Barrier(body) => body,
+    for member in members {
+        let report = &mut *member.report;
+        for load in [&mut report.wall_load, &mut report.body_load] {
+            load.force /= dt;
+            load.torque /= dt;
         }
+        member.watch_rest(dt);
     }
+}
 
-    /// Renews what bodies do to each other after a drift of `dt`.
-    fn touch_bodies(&mut self, dt: f64) {
-        for member in &mut self.members {
-            let state = &mut member.body.state;
-            state.body_load = Load::default();
-            state.barrier_load = Load::default();
-            state.touching_bodies = 0;
-        }
-        let mut meetings = std::mem::take(&mut self.meetings);
-        for met in &mut meetings {
-            let [first, second] = met.sides.map(|side| self.body(side));
-            let exchange = met.meeting.touch(first, second, &met.law, dt);
-            if met.meeting.touches() {
-                self.take(met.sides, &exchange.on_first);
-                self.take([met.sides[1], met.sides[0]], &exchange.on_second);
-            }
-        }
-        self.meetings = meetings;
+/// Number of body sub-steps in `dt`, whole but kept as a float.
+fn substeps(members: &[Member], meetings: &[Met], planes: &[Plane], dt: f64) -> f64 {
+    let alone = members.iter();
+    let alone = alone.map(|member| substeps_alone(member.body, planes, dt));
+    let met = meetings.iter().map(|met| substeps_met(members, met, dt));
+    let count = alone.chain(met).fold(0.0, f64::max);
+    count.ceil().clamp(1.0, MOST_SUBSTEPS)
+}
+
+fn substeps_met(members: &[Member], met: &Met, dt: f64) -> f64 {
+    let [first, second] = met.sides.map(|side| body_of(members, side));
+    let free = || [first, second].into_iter().filter(|body| is_free(body));
+    let speed = free().map(Body::largest_speed).sum();
+    let impact = impact_overlap(&met.law, reduced_mass(first, second), speed);
+    let inverse: f64 = free().map(|body| 1.0 / lightest_effective_mass(body)).sum();
+    let deepest = met.meeting.deepest.max(impact);
+    if deepest > 0.0 {
+        dt / (CONTACT_SHARE * met.law.time_scale(deepest, 1.0 / inverse))
+    } else {
+        0.0
     }
+}
 
-    /// Takes in what the second side does to the first.
-    fn take(&mut self, [to, from]: [Side; 2], load: &Load) {
-        let Side::Member(place) = to else {
-            return;
-        };
-        let state = &mut self.members[place].body.state;
-        state.touching_bodies += 1;
-        match from {
-            Side::Member(_) => state.body_load.add(load),
-            Side::Barrier(_) => state.barrier_load.add(load),
+fn body_of<'a>(members: &'a [Member], side: Side<'a>) -> &'a Body {
+    match side {
+        Side::Member(place) => members[place].body,
+        Side::Barrier(body) => body,
+    }
+}
+
+/// Renews what bodies do to each other after a drift of `dt`.
+fn touch_bodies(members: &mut [Member], meetings: &mut [Met], dt: f64) {
+    for member in members.iter_mut() {
+        let state = &mut member.body.state;
+        state.body_load = Load::default();
+        state.barrier_load = Load::default();
+        state.touching_bodies = 0;
+    }
+    for met in meetings {
+        let [first, second] = met.sides.map(|side| body_of(members, side));
+        let exchange = met.meeting.touch(first, second, &met.law, dt);
+        if met.meeting.touches() {
+            take(members, met.sides, &exchange.on_first);
+            take(members, [met.sides[1], met.sides[0]], &exchange.on_second);
         }
     }
 }
 
-impl Member<'_> {
+/// Takes in what the second side does to the first.
+fn take(members: &mut [Member], [to, from]: [Side; 2], load: &Load) {
+    let Side::Member(place) = to else {
+        return;
+    };
+    let state = &mut members[place].body.state;
+    state.touching_bodies += 1;
+    match from {
+        Side::Member(_) => state.body_load.add(load),
+        Side::Barrier(_) => state.barrier_load.add(load),
+    }
+}
+
+impl<'a> Member<'a> {
+    fn new(body: &'a mut Body, report: &'a mut BodyReport, flow: Load) -> Self {
+        Self {
+            start: body.state.position,
+            flow,
+            body,
+            report,
+        }
+    }
+
     fn half_kick(&mut self, gravity: &Vec3, dt: f64) {
         let weight = gravity * self.body.mass;
         let state = &self.body.state;

@@ -113,7 +113,8 @@ impl Simulation {
             gravity: given.gravity,
         };
         let (bodies, meetings) = (&mut state.bodies, &mut state.meetings);
-        scratch.body_reports = island::advance(bodies, meetings, flow, &around, dt);
+        let reports = &mut scratch.body_reports;
+        island::advance(bodies, meetings, reports, flow, &around, dt);
         for report in &scratch.body_reports {
             state.audit.exchange(&report.wall);
             state.audit.exchange(&report.barrier);

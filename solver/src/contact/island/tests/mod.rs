@@ -24,6 +24,19 @@ fn cube_at(height: f64) -> Body {
     body
 }
 
+/// Advances bodies; what it did to them.
+fn advance(
+    bodies: &mut [Body],
+    meetings: &mut Vec<Meeting>,
+    flow: impl Fn(usize) -> Load + Sync,
+    around: &Surroundings,
+    dt: f64,
+) -> Vec<BodyReport> {
+    let mut reports = vec![BodyReport::default(); bodies.len()];
+    super::advance(bodies, meetings, &mut reports, flow, around, dt);
+    reports
+}
+
 /// Advances a body on its own.
 fn alone(body: &mut Body, flow: &Load, dt: f64) -> BodyReport {
     let around = Surroundings {
