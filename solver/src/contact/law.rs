@@ -116,7 +116,8 @@ impl ContactLaw {
     pub fn of_pair([a, b]: [&Self; 2], radii: [f64; 2]) -> Self {
         let modulus = |law: &Self, radius: f64| 0.75 * law.stiffness / radius.sqrt();
         let moduli = [modulus(a, radii[0]), modulus(b, radii[1])];
-        let in_series = |[a, b]: [f64; 2]| a * b / (a + b);
+        // Nothing at all where nothing presses: no gravity and no speed.
+        let in_series = |[a, b]: [f64; 2]| if a > 0.0 { a * b / (a + b) } else { 0.0 };
         Self {
             stiffness: 4.0 / 3.0 * in_series(moduli) * in_series(radii).sqrt(),
             damping: 0.5 * (a.damping + b.damping),
@@ -234,6 +235,26 @@ mod tests {
         assert!((deepest / 0.514_99e-3 - 1.0).abs() < 1e-3, "{deepest}");
         assert!((strongest / 155.83 - 1.0).abs() < 1e-3, "{strongest}");
         assert!((rate + 1.0).abs() < 1e-3, "{rate}");
+    }
+
+    // Two equal bodies: E*/2 and r/2; friction and damping those of each.
+    #[test]
+    fn two_equal_bodies_are_softer_than_one_on_a_wall() {
+        let law = ContactLaw::hertz(1e6, 0.01, 0.5, 0.4);
+        let pair = ContactLaw::of_pair([&law, &law], [0.01, 0.01]);
+        assert!((pair.stiffness * 8f64.sqrt() / law.stiffness - 1.0).abs() < 1e-14);
+        assert_eq!(pair.damping, law.damping);
+        assert!((pair.friction - 0.4).abs() < 1e-15);
+        let smooth = ContactLaw {
+            friction: 0.0,
+            ..law
+        };
+        let on_smooth = ContactLaw::of_pair([&law, &smooth], [0.01, 0.01]);
+        assert_eq!(on_smooth.friction, 0.0);
+        assert!(
+            on_smooth.stiffness > pair.stiffness,
+            "a flatter one is stiffer"
+        );
     }
 
     #[test]
