@@ -10,7 +10,7 @@ mod places;
 mod segments;
 
 pub use places::least_gap;
-use places::{Between, Contact, Contacts, contacts};
+use places::{Between, Contact, contacts};
 
 /// What the contacts of two bodies remember from one body sub-step to the next.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
