@@ -297,12 +297,13 @@ fn bodies_substep(criterion: &mut Criterion) {
             let count = columns * rows * layers;
             let mut bodies: Vec<Body> = (0..count).map(|n| resting_cube(place(n))).collect();
             let meetings = island::meet(&mut bodies);
-            let advance = |(bodies, meetings): &mut (Vec<Body>, Vec<Meeting>)| {
-                island::advance(bodies, meetings, |_| Load::default(), &around, DT)
+            let advance = |(bodies, meetings, reports): &mut Crowd| {
+                island::advance(bodies, meetings, reports, |_| Load::default(), &around, DT);
             };
-            let mut start = (bodies, meetings);
-            let reports = advance(&mut start);
-            let substeps: u64 = reports
+            let mut start: Crowd = (bodies, meetings, vec![BodyReport::default(); count]);
+            advance(&mut start);
+            let substeps = start
+                .2
                 .iter()
                 .map(|report| u64::from(report.substeps))
                 .sum();
