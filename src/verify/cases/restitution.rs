@@ -27,9 +27,9 @@ const ON_EDGE: [f64; 4] = [0.923_879_532_511_286_7, 0.0, 0.382_683_432_365_089_8
 fn run(effort: Effort, findings: &mut Findings) {
     let asked = [0.1, 0.3, 0.5, 0.7, 0.9, 1.0, 0.2, 0.4, 0.6, 0.8];
     for (word, orientation) in [
-        ("vertex", on_vertex()),
-        ("edge", ON_EDGE),
-        ("face", UPRIGHT),
+        ("a vertex", on_vertex()),
+        ("an edge", ON_EDGE),
+        ("a face", UPRIGHT),
     ] {
         for &restitution in effort.take(&asked, 6) {
             let quantity = format!("rebound on {word}, e {restitution}");
