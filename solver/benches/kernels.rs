@@ -5,7 +5,8 @@ use criterion::{BatchSize, Bencher, Criterion, Throughput};
 use fearless_simd::dispatch;
 use nalgebra::UnitQuaternion;
 use scree_solver::Instructions;
-use scree_solver::contact::body_wall;
+use scree_solver::contact::body_body::Meeting;
+use scree_solver::contact::island::{self, BodyReport, Surroundings};
 use scree_solver::contact::law::ContactLaw;
 use scree_solver::fast::blocks::{Block, Blocks};
 use scree_solver::fast::packing::Packing;
@@ -55,7 +56,7 @@ fn main() {
     fast_block(&mut criterion);
     plain_block(&mut criterion);
     closest_feature(&mut criterion);
-    body_substep(&mut criterion);
+    bodies_substep(&mut criterion);
     criterion.final_summary();
 }
 
@@ -276,43 +277,83 @@ fn closest_feature(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A cube that lies on the floor, under its weight.
-fn body_substep(criterion: &mut Criterion) {
+/// A cube of 40 mm at a place, at rest.
+fn resting_cube(place: Vec3) -> Body {
     let shape = cube();
-    let law = ContactLaw::hertz(1e7, shape.sphero_radius(), 0.3, 0.4);
+    let law = ContactLaw {
+        stiffness: 1e7 * 4.0 / 3.0 * shape.sphero_radius().sqrt(),
+        damping: 0.7,
+        friction: 0.4,
+    };
     let inertia = shape.unit_inertia() * 2000.0;
+    Body {
+        mass: 2000.0 * shape.volume(),
+        inertia,
+        inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
+        wall_law: law,
+        flow_law: law,
+        rolling_friction: 0.0,
+        freedom: Freedom::Free,
+        state: BodyState {
+            position: place,
+            orientation: UnitQuaternion::identity(),
+            momentum: Vec3::zeros(),
+            angular_momentum: Vec3::zeros(),
+            springs: Vec::new(),
+            rolling: Vec::new(),
+            wall_load: Load::default(),
+            wall_energy: 0.0,
+            body_load: Load::default(),
+            barrier_load: Load::default(),
+            touching_bodies: 0,
+            still_for: 0.0,
+        },
+        shape,
+    }
+}
+
+/// Bodies, what their contacts remember, and what was done to them.
+type Crowd = (Vec<Body>, Vec<Meeting>, Vec<BodyReport>);
+
+/// Cubes on the floor under their weight, per body sub-step of one of them: scattered,
+/// so that none is near another, and walled up, so that each touches its neighbours.
+fn bodies_substep(criterion: &mut Criterion) {
     let planes = [Plane {
         name: "floor",
         normal: Vec3::z(),
         offset: 0.0,
         flow_friction: 0.4,
     }];
-    let mut body = Body {
-        mass: 2000.0 * shape.volume(),
-        inertia,
-        inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
-        wall_law: law,
-        flow_law: law,
-        freedom: Freedom::Free,
-        state: BodyState {
-            position: Vec3::new(0.0, 0.0, 0.019_99),
-            orientation: UnitQuaternion::identity(),
-            momentum: Vec3::zeros(),
-            angular_momentum: Vec3::zeros(),
-            springs: vec![Vec3::zeros(); shape.core_vertices().len() * planes.len()],
-            wall_load: Load::default(),
-            wall_energy: 0.0,
-        },
-        shape,
+    let around = Surroundings {
+        planes: &planes,
+        gravity: Vec3::new(0.0, 0.0, -GRAVITY),
     };
-    let gravity = Vec3::new(0.0, 0.0, -GRAVITY);
-    let advance =
-        |body: &mut Body| body_wall::advance(body, &planes, &Load::default(), &gravity, DT);
-    let substeps = advance(&mut body).substeps;
-    let mut group = criterion.benchmark_group("body");
-    group.throughput(Throughput::Elements(u64::from(substeps)));
-    group.bench_function("sub-steps on the floor", |bencher| {
-        on_a_copy(bencher, &body, advance);
-    });
+    let mut group = criterion.benchmark_group("bodies");
+    for (word, distance) in [("scattered", 0.08), ("walled up", 0.039_99)] {
+        for [columns, rows, layers] in [[1, 1, 1], [5, 2, 1], [5, 5, 4]] {
+            let place = |n: usize| {
+                let (column, row, layer) = (n % columns, n / columns % rows, n / columns / rows);
+                let across = Vec3::new(column as f64, row as f64, 0.0) * distance;
+                across + Vec3::z() * (0.019_99 + distance * layer as f64)
+            };
+            let count = columns * rows * layers;
+            let mut bodies: Vec<Body> = (0..count).map(|n| resting_cube(place(n))).collect();
+            let meetings = island::meet(&mut bodies);
+            let advance = |(bodies, meetings, reports): &mut Crowd| {
+                island::advance(bodies, meetings, reports, |_| Load::default(), &around, DT);
+            };
+            let mut start: Crowd = (bodies, meetings, vec![BodyReport::default(); count]);
+            advance(&mut start);
+            let substeps = start
+                .2
+                .iter()
+                .map(|report| u64::from(report.substeps))
+                .sum();
+            group.throughput(Throughput::Elements(substeps));
+            group.bench_function(format!("sub-steps of {count}, {word}"), |bencher| {
+                on_a_copy(bencher, &start, advance);
+            });
+        }
+    }
     group.finish();
 }

@@ -92,6 +92,21 @@ pub enum StepError {
         /// Distance behind the wall [m].
         depth_m: f64,
     },
+    /// The cores of two bodies all but meet: their contact is too soft for what
+    /// presses on it.
+    #[error(
+        "t = {time_s:.6} s: bodies {body} and {other} overlap by {overlap_m:.6} m, almost to their cores: their contact is too soft (contact_modulus_pa)"
+    )]
+    BodiesMerge {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Index of one body in the scenario.
+        body: usize,
+        /// Index of the other.
+        other: usize,
+        /// Their overlap [m].
+        overlap_m: f64,
+    },
 }
 
 impl StepError {
@@ -102,6 +117,7 @@ impl StepError {
             | Self::NonFiniteBody { time_s, .. }
             | Self::TimeStepCollapse { time_s, .. }
             | Self::BodyBehindWall { time_s, .. }
+            | Self::BodiesMerge { time_s, .. }
             | Self::PointBehindWall { time_s, .. } => time_s,
         }
     }

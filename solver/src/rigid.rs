@@ -30,6 +30,9 @@ pub struct Body {
     pub wall_law: ContactLaw,
     /// Law of its contacts with material points.
     pub flow_law: ContactLaw,
+    /// Rolling resistance: the torque of a contact is at most this × its
+    /// equivalent radius × its normal force.
+    pub rolling_friction: f64,
     /// Whether it moves.
     pub freedom: Freedom,
     /// How it stands.
@@ -50,10 +53,20 @@ pub struct BodyState {
     /// Stretch of the tangential spring of every pair of core vertex and wall
     /// [m], vertex by vertex; zero where they are apart.
     pub springs: Vec<Vec3>,
+    /// The same of their rolling springs; empty without rolling resistance.
+    pub rolling: Vec<Vec3>,
     /// What the walls do to it now.
     pub wall_load: Load,
     /// Energy its wall contacts hold now [J].
     pub wall_energy: f64,
+    /// What other free bodies do to it now.
+    pub body_load: Load,
+    /// What fixed bodies do to it now.
+    pub barrier_load: Load,
+    /// How many bodies it touches now.
+    pub touching_bodies: u32,
+    /// How long it has hardly moved, without a flow on it [s].
+    pub still_for: f64,
 }
 
 /// Force and torque on a body.
@@ -66,6 +79,12 @@ pub struct Load {
 }
 
 impl Load {
+    /// Adds another load on the same body.
+    pub fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.torque += other.torque;
+    }
+
     /// Adds a force that acts at `arm` from the centre of mass.
     pub fn add_at(&mut self, arm: &Vec3, force: &Vec3) {
         self.force += force;
@@ -106,6 +125,26 @@ impl Body {
         closest.distance - self.shape.sphero_radius()
     }
 
+    /// Acceleration at `arm` that a load gives to a body that does not turn yet
+    /// [m/s²].
+    pub fn acceleration_at(&self, load: &Load, arm: &Vec3) -> Vec3 {
+        load.force / self.mass + self.angular_acceleration(&load.torque).cross(arm)
+    }
+
+    /// Angular acceleration that a torque gives to a body that does not turn yet
+    /// [rad/s²].
+    pub fn angular_acceleration(&self, torque: &Vec3) -> Vec3 {
+        self.inverse_inertia_times(&self.state.orientation, torque)
+    }
+
+    /// 1/m [1/kg]; 0 for a fixed body.
+    pub fn inverse_mass(&self) -> f64 {
+        match self.freedom {
+            Freedom::Free => 1.0 / self.mass,
+            Freedom::Fixed => 0.0,
+        }
+    }
+
     /// Mass that resists a force along `direction` (unit) at `arm` [kg].
     pub fn effective_mass(&self, arm: &Vec3, direction: &Vec3) -> f64 {
         let lever = arm.cross(direction);
@@ -117,6 +156,11 @@ impl Body {
     pub fn kinetic_energy(&self) -> f64 {
         let spinning = self.state.angular_momentum.dot(&self.angular_velocity());
         0.5 * (self.state.momentum.norm_squared() / self.mass + spinning)
+    }
+
+    /// Whether a wall or another body touches it.
+    pub fn is_supported(&self) -> bool {
+        self.state.wall_energy > 0.0 || self.state.touching_bodies > 0
     }
 
     /// Largest speed of any of its places [m/s].

@@ -128,6 +128,14 @@ fn step_numbers(error: &StepError) -> Value {
         } => {
             json!({"time_s": time_s, "body": body, "wall": wall, "depth_m": depth_m})
         }
+        StepError::BodiesMerge {
+            time_s,
+            body,
+            other,
+            overlap_m,
+        } => {
+            json!({"time_s": time_s, "body": body, "other": other, "overlap_m": overlap_m})
+        }
     }
 }
 

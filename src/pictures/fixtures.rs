@@ -41,6 +41,8 @@ pub(super) fn resting_at(position_m: [f64; 3]) -> BodySample {
         flow_torque_nm: [0.0; 3],
         wall_force_n: [0.0; 3],
         wall_torque_nm: [0.0; 3],
+        body_force_n: [0.0; 3],
+        body_torque_nm: [0.0; 3],
         touching_points: 0,
         submerged_fraction: 0.0,
         mode: Mode::Resting,

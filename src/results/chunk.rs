@@ -12,8 +12,8 @@ pub const CHUNK_SAMPLES: usize = 512;
 /// Name of the encoding, kept with each block so that a later one can differ.
 pub const ENCODING: &str = "planes-zstd-1";
 
-/// Bytes of one sample before compression: 27 f64, one u32, one byte.
-const BYTES_PER_SAMPLE: usize = 27 * 8 + 4 + 1;
+/// Bytes of one sample before compression: 33 f64, one u32, one byte.
+const BYTES_PER_SAMPLE: usize = 33 * 8 + 4 + 1;
 
 /// Speed over size: level 3 is zstd's own default.
 const ZSTD_LEVEL: i32 = 3;
@@ -82,6 +82,8 @@ pub fn encode(columns: &TrajectoryColumns) -> Result<Block, BlockError> {
     planes::put_f64(&mut raw, &columns.submerged_fraction.iter().copied());
     planes::put_u32(&mut raw, &columns.touching_points.iter().copied());
     raw.extend(columns.mode.iter().copied().map(mode_to_byte));
+    put_rows(&mut raw, &columns.body_force_n);
+    put_rows(&mut raw, &columns.body_torque_nm);
     Block::seal(&raw)
 }
 
@@ -113,8 +115,19 @@ fn read_columns(raw: &[u8], samples: usize) -> Option<TrajectoryColumns> {
             .iter()
             .map(|&byte| mode_from_byte(byte))
             .collect::<Option<_>>()?,
+        body_force_n: rows_since(&mut reader, samples)?,
+        body_torque_nm: rows_since(&mut reader, samples)?,
     };
     reader.is_done().then_some(columns)
+}
+
+/// A column that blocks did not have when bodies did not touch each other: then it
+/// was zero.
+fn rows_since(reader: &mut PlaneReader, samples: usize) -> Option<Vec<[f64; 3]>> {
+    if reader.is_done() {
+        return Some(vec![[0.0; 3]; samples]);
+    }
+    reader.f64_rows()
 }
 
 fn put_rows<const N: usize>(raw: &mut Vec<u8>, rows: &[[f64; N]]) {
@@ -163,6 +176,19 @@ mod tests {
             };
             assert_eq!(bits(&back), bits(&columns));
         }
+    }
+
+    #[test]
+    fn a_chunk_from_before_bodies_touched_has_no_force_of_theirs() {
+        let mut columns = numbered_columns(5);
+        let raw = encode(&columns)
+            .unwrap()
+            .open(5 * BYTES_PER_SAMPLE)
+            .unwrap();
+        let older = Block::seal(&raw[..5 * (BYTES_PER_SAMPLE - 6 * 8)]).unwrap();
+        columns.body_force_n = vec![[0.0; 3]; 5];
+        columns.body_torque_nm = vec![[0.0; 3]; 5];
+        assert_eq!(decode(&older, 5).unwrap(), columns);
     }
 
     #[test]

@@ -25,6 +25,10 @@ pub struct TrajectoryColumns {
     pub wall_force_n: Vec<[f64; 3]>,
     /// Torque of the walls [N m].
     pub wall_torque_nm: Vec<[f64; 3]>,
+    /// Force of other bodies [N].
+    pub body_force_n: Vec<[f64; 3]>,
+    /// Torque of other bodies [N m].
+    pub body_torque_nm: Vec<[f64; 3]>,
     /// Material points in contact.
     pub touching_points: Vec<u32>,
     /// Share of the height below the surface of the flow, 0..1.
@@ -68,6 +72,8 @@ impl TrajectoryColumns {
         self.flow_torque_nm.push(sample.flow_torque_nm);
         self.wall_force_n.push(sample.wall_force_n);
         self.wall_torque_nm.push(sample.wall_torque_nm);
+        self.body_force_n.push(sample.body_force_n);
+        self.body_torque_nm.push(sample.body_torque_nm);
         self.touching_points.push(sample.touching_points);
         self.submerged_fraction.push(sample.submerged_fraction);
         self.mode.push(sample.mode);
@@ -87,6 +93,8 @@ impl TrajectoryColumns {
             flow_torque_nm: self.flow_torque_nm[index],
             wall_force_n: self.wall_force_n[index],
             wall_torque_nm: self.wall_torque_nm[index],
+            body_force_n: self.body_force_n[index],
+            body_torque_nm: self.body_torque_nm[index],
             touching_points: self.touching_points[index],
             submerged_fraction: self.submerged_fraction[index],
             mode: self.mode[index],
@@ -192,6 +200,8 @@ pub(crate) mod tests {
             flow_torque_nm: triple(6.0),
             wall_force_n: triple(7.0),
             wall_torque_nm: triple(8.0),
+            body_force_n: triple(10.0),
+            body_torque_nm: triple(11.0),
             touching_points: index * 10 + 9,
             submerged_fraction: 1.0 / (1.0 + f64::from(index)),
             mode: [Mode::Resting, Mode::Sliding, Mode::Rolling, Mode::Saltating]

@@ -28,7 +28,7 @@ pub struct TrajectoryPieces<Columns> {
     row: usize,
 }
 
-const COLUMN_NAMES: [&str; 12] = [
+const COLUMN_NAMES: [&str; 14] = [
     "time_s",
     "position_m",
     "orientation",
@@ -38,6 +38,8 @@ const COLUMN_NAMES: [&str; 12] = [
     "flow_torque_nm",
     "wall_force_n",
     "wall_torque_nm",
+    "body_force_n",
+    "body_torque_nm",
     "touching_points",
     "submerged_fraction",
     "mode",
@@ -111,8 +113,10 @@ fn rows(
         6 => joined(&columns.flow_torque_nm[range]),
         7 => joined(&columns.wall_force_n[range]),
         8 => joined(&columns.wall_torque_nm[range]),
-        9 => joined(&columns.touching_points[range]),
-        10 => joined(&columns.submerged_fraction[range]),
+        9 => joined(&columns.body_force_n[range]),
+        10 => joined(&columns.body_torque_nm[range]),
+        11 => joined(&columns.touching_points[range]),
+        12 => joined(&columns.submerged_fraction[range]),
         _ => joined(&columns.mode[range]),
     }
 }
@@ -143,6 +147,8 @@ mod tests {
             "flow_torque_nm": [[6.0, 6.25, -6.5], [106.0, 106.25, -106.5]],
             "wall_force_n": [[7.0, 7.25, -7.5], [107.0, 107.25, -107.5]],
             "wall_torque_nm": [[8.0, 8.25, -8.5], [108.0, 108.25, -108.5]],
+            "body_force_n": [[10.0, 10.25, -10.5], [110.0, 110.25, -110.5]],
+            "body_torque_nm": [[11.0, 11.25, -11.5], [111.0, 111.25, -111.5]],
             "touching_points": [9, 19],
             "submerged_fraction": [1.0, 0.5],
             "mode": ["resting", "sliding"],

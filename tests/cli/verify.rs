@@ -21,10 +21,11 @@ fn a_case_that_holds_is_no_failure() {
     }
 }
 
-// Restitution on a face is a known miss.
+// The shallow theory of the dam break is not exact for a flow of three dimensions: a
+// known miss.
 #[test]
 fn a_case_that_misses_is_shown_and_told_by_the_exit_code() {
-    let answer = ask(&[&"verify", &"--case", &"restitution"]);
+    let answer = ask(&[&"verify", &"--case", &"dam-break"]);
     assert_eq!(answer.code, Some(4));
     assert!(answer.stderr.contains("missed"), "{}", answer.stderr);
     for words in ["oracle", "verdict", "pass", "MISS", "reported only"] {
@@ -34,9 +35,9 @@ fn a_case_that_misses_is_shown_and_told_by_the_exit_code() {
 
 #[test]
 fn a_case_that_cannot_be_run_yet_says_why() {
-    let answer = ask(&[&"verify", &"--case", &"feature-contacts"]);
+    let answer = ask(&[&"verify", &"--case", &"cubes-and-column"]);
     assert_eq!(answer.code, Some(0));
-    assert!(answer.stdout.contains("not yet expressible"));
+    assert!(answer.stdout.contains("not yet expressible: 1"));
 }
 
 #[test]

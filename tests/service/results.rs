@@ -4,8 +4,10 @@ use crate::app::{TestApp, endless_scene, is_running, tiny_scene};
 use reqwest::StatusCode;
 use serde_json::{Value, json};
 
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 14] = [
     "angular_velocity_rad_s",
+    "body_force_n",
+    "body_torque_nm",
     "flow_force_n",
     "flow_torque_nm",
     "mode",

@@ -86,17 +86,14 @@ fn momentum_audit() {
     holds("momentum-audit");
 }
 
-// Known miss: on a face a cube rebounds too low. It never rebounds too high.
 #[test]
 fn restitution() {
-    for finding in verified("restitution").found.values {
-        let (got, asked) = (finding.measured.unwrap(), finding.question.oracle);
-        if finding.question.quantity.contains("vertex") {
-            assert_eq!(finding.verdict, Verdict::Pass, "{finding:#?}");
-        } else {
-            assert!(got < 1.001 * asked && got > 0.85 * asked, "{finding:#?}");
-        }
-    }
+    holds("restitution");
+}
+
+#[test]
+fn feature_contacts() {
+    holds("feature-contacts");
 }
 
 // Known miss: the uppermost cell holds the order of the whole profile down.

@@ -82,9 +82,63 @@ impl ContactLaw {
         force
     }
 
+    /// Couple [N m] on a body that rolls at `spin` [rad/s] on a contact of this
+    /// equivalent radius [m], and the energy its spring holds [J]: friction (18) of
+    /// the speed radius × spin, capped at `rolling` × radius × normal force.
+    pub fn rolling_couple(
+        &self,
+        (rolling, radius): (f64, f64),
+        stretch: &mut Vec3,
+        spin: &Vec3,
+        dt: f64,
+        state: (f64, f64, f64),
+    ) -> (Vec3, f64) {
+        let law = Self {
+            friction: rolling,
+            ..*self
+        };
+        let speed = spin * radius;
+        *stretch += speed * dt;
+        let force = law.tangential_force(stretch, &speed, state);
+        (force * radius, law.stretched_energy(stretch, state.0))
+    }
+
+    /// Energy of a tangential spring [J].
+    pub fn stretched_energy(&self, stretch: &Vec3, overlap: f64) -> f64 {
+        0.5 * TANGENTIAL_STIFFNESS_RATIO * self.tangent_stiffness(overlap) * stretch.norm_squared()
+    }
+
+    /// Law of the contacts of two bodies from those of each on a rigid wall, with
+    /// their sphero radii [m]: both yield, 1/E* = 1/E_a + 1/E_b; both are round,
+    /// 1/R* = 1/r_a + 1/r_b (equation 45). The friction is the geometric mean,
+    /// so that a smooth body is smooth on any other; the damping number the mean,
+    /// which is nearly the geometric mean of the restitutions.
+    pub fn of_pair([a, b]: [&Self; 2], radii: [f64; 2]) -> Self {
+        let modulus = |law: &Self, radius: f64| 0.75 * law.stiffness / radius.sqrt();
+        let moduli = [modulus(a, radii[0]), modulus(b, radii[1])];
+        // Nothing at all where nothing presses: no gravity and no speed.
+        let in_series = |[a, b]: [f64; 2]| if a > 0.0 { a * b / (a + b) } else { 0.0 };
+        Self {
+            stiffness: 4.0 / 3.0 * in_series(moduli) * in_series(radii).sqrt(),
+            damping: 0.5 * (a.damping + b.damping),
+            friction: (a.friction * b.friction).sqrt(),
+        }
+    }
+
     /// Time scale √(m/k') of a contact this deep [s].
     pub fn time_scale(&self, overlap: f64, mass: f64) -> f64 {
         (mass / self.tangent_stiffness(overlap)).sqrt()
+    }
+}
+
+/// Mass [kg] that the contact of an elastic `force` [N] has to stop when all the
+/// contacts of a pair part it there with `acceleration` [m/s²]: its own share of
+/// the mass, if others push along; at most all of the mass, `most` [kg].
+pub fn mass_seen(force: f64, acceleration: f64, most: f64) -> f64 {
+    if force < most * acceleration {
+        force / acceleration
+    } else {
+        most
     }
 }
 
@@ -181,6 +235,22 @@ mod tests {
         assert!((deepest / 0.514_99e-3 - 1.0).abs() < 1e-3, "{deepest}");
         assert!((strongest / 155.83 - 1.0).abs() < 1e-3, "{strongest}");
         assert!((rate + 1.0).abs() < 1e-3, "{rate}");
+    }
+
+    // Two equal bodies: E*/2 and r/2; friction and damping those of each.
+    #[test]
+    fn two_equal_bodies_are_softer_than_one_on_a_wall() {
+        let law = ContactLaw::hertz(1e6, 0.01, 0.5, 0.4);
+        let pair = ContactLaw::of_pair([&law, &law], [0.01, 0.01]);
+        assert!((pair.stiffness * 8f64.sqrt() / law.stiffness - 1.0).abs() < 1e-14);
+        assert_eq!(pair.damping, law.damping);
+        assert!((pair.friction - 0.4).abs() < 1e-15);
+        let smooth = ContactLaw {
+            friction: 0.0,
+            ..law
+        };
+        let on_smooth = ContactLaw::of_pair([&law, &smooth], [0.01, 0.01]);
+        assert_eq!(on_smooth.friction, 0.0);
     }
 
     #[test]

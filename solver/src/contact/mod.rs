@@ -1,5 +1,8 @@
 //! Contact: the law, and who meets whom.
 
+pub mod body_body;
 pub mod body_wall;
+pub mod island;
 pub mod law;
+pub mod neighbours;
 pub mod point_body;

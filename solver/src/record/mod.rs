@@ -15,11 +15,11 @@ use serde::{Deserialize, Serialize};
 pub enum Mode {
     /// Slower than 1 mm/s, rotation included.
     Resting,
-    /// On a wall, mostly translating.
+    /// On a wall or another body, mostly translating.
     Sliding,
-    /// On a wall, turning about as fast as it travels.
+    /// On a wall or another body, turning about as fast as it travels.
     Rolling,
-    /// Off the walls most of the time since the last sample.
+    /// Off walls and other bodies most of the time since the last sample.
     Saltating,
 }
 
@@ -42,6 +42,10 @@ pub struct BodySample {
     pub wall_force_n: [f64; 3],
     /// Torque of the walls about the centre, mean since the last sample [N m].
     pub wall_torque_nm: [f64; 3],
+    /// Force of other bodies, fixed ones included, mean since the last sample [N].
+    pub body_force_n: [f64; 3],
+    /// Torque of other bodies about the centre, mean since the last sample [N m].
+    pub body_torque_nm: [f64; 3],
     /// Material points in contact at the sample time.
     pub touching_points: u32,
     /// Share of the body's height below the surface of the flow round it, 0..1.

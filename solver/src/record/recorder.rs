@@ -5,7 +5,7 @@ use super::submergence::submerged_fraction;
 use super::{
     Audit, BodySample, Cost, FlowSnapshot, Mode, Outcome, Record, SNAPSHOT_POINTS, Sample,
 };
-use crate::contact::body_wall::BodyReport;
+use crate::contact::island::BodyReport;
 use crate::math::Vec3;
 use crate::rigid::{Body, Freedom, Load};
 use crate::scenario::Scenario;
@@ -14,8 +14,8 @@ use serde::{Deserialize, Serialize};
 
 /// Slower than this is at rest [m/s].
 pub(super) const REST_SPEED: f64 = 1e-3;
-/// A body on a wall for less of the time than this saltates.
-const ON_WALL_SHARE: f64 = 0.5;
+/// A body on walls and other bodies for less of the time than this saltates.
+const SUPPORTED_SHARE: f64 = 0.5;
 /// A surface speed from turning above this share of the centre's speed is rolling.
 const ROLLING_SHARE: f64 = 0.5;
 
@@ -38,8 +38,9 @@ struct Means {
     duration: f64,
     flow: Load,
     wall: Load,
+    bodies: Load,
     substeps: u64,
-    substeps_on_wall: u64,
+    substeps_supported: u64,
 }
 
 impl Means {
@@ -49,8 +50,10 @@ impl Means {
         self.flow.torque += flow.torque * dt;
         self.wall.force += report.wall_load.force * dt;
         self.wall.torque += report.wall_load.torque * dt;
+        self.bodies.force += report.body_load.force * dt;
+        self.bodies.torque += report.body_load.torque * dt;
         self.substeps += u64::from(report.substeps);
-        self.substeps_on_wall += u64::from(report.substeps_on_wall);
+        self.substeps_supported += u64::from(report.substeps_supported);
     }
 
     fn mean(&self, impulse: &Vec3) -> [f64; 3] {
@@ -61,11 +64,11 @@ impl Means {
         }
     }
 
-    fn on_wall(&self, body: &Body) -> bool {
+    fn supported(&self, body: &Body) -> bool {
         if self.substeps == 0 {
-            return body.state.wall_energy > 0.0;
+            return body.is_supported();
         }
-        self.substeps_on_wall as f64 >= ON_WALL_SHARE * self.substeps as f64
+        self.substeps_supported as f64 >= SUPPORTED_SHARE * self.substeps as f64
     }
 }
 
@@ -179,6 +182,8 @@ fn body_sample(simulation: &Simulation, place: usize, body: &Body, means: &Means
         flow_torque_nm: means.mean(&means.flow.torque),
         wall_force_n: means.mean(&means.wall.force),
         wall_torque_nm: means.mean(&means.wall.torque),
+        body_force_n: means.mean(&means.bodies.force),
+        body_torque_nm: means.mean(&means.bodies.torque),
         touching_points: simulation.flow_load(place).touching_points,
         submerged_fraction: submerged_fraction(simulation, body),
         mode: mode(body, means),
@@ -190,7 +195,7 @@ fn mode(body: &Body, means: &Means) -> Mode {
     let turning = body.angular_velocity().norm() * body.shape.bounding_radius();
     if body.freedom == Freedom::Fixed || speed.max(turning) < REST_SPEED {
         Mode::Resting
-    } else if !means.on_wall(body) {
+    } else if !means.supported(body) {
         Mode::Saltating
     } else if turning > ROLLING_SHARE * speed {
         Mode::Rolling

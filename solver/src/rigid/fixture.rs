@@ -3,7 +3,7 @@
 use super::{Body, BodyState, Freedom, Load};
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
-use crate::shape::SpheroPolyhedron;
+use crate::shape::{ConvexPolyhedron, SpheroPolyhedron};
 use nalgebra::UnitQuaternion;
 
 /// A free box of 1000 kg/m³ at rest at the origin, rounded with a tenth of its
@@ -13,10 +13,23 @@ pub(crate) fn cuboid(sides_m: [f64; 3]) -> Body {
     of_shape(SpheroPolyhedron::cuboid(sides_m, radius).expect("a box"))
 }
 
+/// The same of a regular tetrahedron whose core has edges of `edge_m`, rounded
+/// with a tenth of that.
+pub(crate) fn tetrahedron(edge_m: f64) -> Body {
+    let corner = edge_m / 8f64.sqrt();
+    let vertices = [[1., 1., 1.], [1., -1., -1.], [-1., 1., -1.], [-1., -1., 1.]];
+    let loops = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
+    let core = ConvexPolyhedron::new(
+        vertices.map(|v| Vec3::from(v) * corner).to_vec(),
+        loops.map(Vec::from).to_vec(),
+    );
+    let shape = SpheroPolyhedron::from_core(core.expect("a solid"), 0.1 * edge_m);
+    of_shape(shape.expect("a positive radius"))
+}
+
 /// The same of any shape.
 pub(crate) fn of_shape(shape: SpheroPolyhedron) -> Body {
-    let radius = shape.sphero_radius();
-    let law = ContactLaw::hertz(1e6, radius, 0.5, 0.5);
+    let law = ContactLaw::hertz(1e6, shape.sphero_radius(), 0.5, 0.5);
     let inertia = shape.unit_inertia() * 1000.0;
     Body {
         mass: 1000.0 * shape.volume(),
@@ -24,6 +37,7 @@ pub(crate) fn of_shape(shape: SpheroPolyhedron) -> Body {
         inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
         wall_law: law,
         flow_law: law,
+        rolling_friction: 0.0,
         freedom: Freedom::Free,
         state: BodyState {
             position: Vec3::zeros(),
@@ -31,8 +45,13 @@ pub(crate) fn of_shape(shape: SpheroPolyhedron) -> Body {
             momentum: Vec3::zeros(),
             angular_momentum: Vec3::zeros(),
             springs: Vec::new(),
+            rolling: Vec::new(),
             wall_load: Load::default(),
             wall_energy: 0.0,
+            body_load: Load::default(),
+            barrier_load: Load::default(),
+            touching_bodies: 0,
+            still_for: 0.0,
         },
         shape,
     }

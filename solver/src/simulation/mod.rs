@@ -8,7 +8,8 @@ mod saved;
 mod setup;
 mod step;
 
-use crate::contact::body_wall::BodyReport;
+use crate::contact::body_body::Meeting;
+use crate::contact::island::{self, BodyReport};
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::{RestoreError, SaveError, SetupError, StepError};
@@ -46,6 +47,8 @@ struct State {
     clock: Clock,
     flow: Box<dyn Flow>,
     bodies: Vec<Body>,
+    /// What the contacts between bodies remember.
+    meetings: Vec<Meeting>,
     audit: Audit,
     /// Sums of the flow, followed from audit to audit for gravity's torque.
     moments: FlowMoments,
@@ -131,9 +134,10 @@ impl Simulation {
     fn assemble(
         given: Setup,
         flow: Box<dyn Flow>,
-        bodies: Vec<Body>,
+        mut bodies: Vec<Body>,
         pool: Arc<ThreadPool>,
     ) -> Self {
+        let meetings = island::meet(&mut bodies);
         let scratch = Scratch {
             body_reports: vec![BodyReport::default(); bodies.len()],
             in_hand: None,
@@ -143,6 +147,7 @@ impl Simulation {
             clock: Clock::start(flow.count() as u64),
             flow,
             bodies,
+            meetings,
             audit: Audit::default(),
             moments: FlowMoments::default(),
         };
@@ -246,6 +251,11 @@ impl Simulation {
     /// What the present sub-step did to a body.
     pub fn body_report(&self, body: usize) -> BodyReport {
         self.scratch.body_reports[body]
+    }
+
+    /// What the contacts between bodies remember: which touch, and how deep.
+    pub fn meetings(&self) -> &[Meeting] {
+        &self.state.meetings
     }
 
     /// The audit so far.

@@ -4,6 +4,7 @@ use super::clock::Clock;
 use super::flow::SavedFlow;
 use super::setup::{self, Setup};
 use super::{Simulation, start_threads};
+use crate::contact::body_body::Meeting;
 use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::RestoreError;
 use crate::rigid::BodyState;
@@ -19,6 +20,7 @@ struct Saved {
     flow: SavedFlow,
     moments: FlowMoments,
     bodies: Vec<BodyState>,
+    meetings: Vec<Meeting>,
     audit: Audit,
 }
 
@@ -32,6 +34,7 @@ pub(super) fn save(simulation: &Simulation) -> Vec<u8> {
         flow: state.flow.saved(),
         moments: state.moments,
         bodies: bodies.collect(),
+        meetings: state.meetings.clone(),
         audit: state.audit.clone(),
     };
     postcard::to_allocvec(&saved).expect("plain numbers always serialise")
@@ -55,17 +58,18 @@ pub(super) fn restore(
     }
     let pool = start_threads(threads).map_err(|error| unreadable(error.to_string()))?;
     let (given, _) = Setup::of(scenario).map_err(|error| unreadable(error.to_string()))?;
-    let mut bodies = setup::bodies(scenario, &given);
+    let bodies = setup::bodies(scenario, &given);
     if bodies.len() != saved.bodies.len() {
         return Err(RestoreError::OtherScenario {
             what: "the number of bodies",
         });
     }
-    for (body, state) in bodies.iter_mut().zip(saved.bodies) {
-        body.state = state;
-    }
     let flow = saved.flow.restored(&given);
     let mut simulation = Simulation::assemble(given, flow, bodies, pool);
+    for (body, state) in simulation.state.bodies.iter_mut().zip(saved.bodies) {
+        body.state = state;
+    }
+    simulation.state.meetings = saved.meetings;
     simulation.state.clock = saved.clock;
     simulation.state.audit = saved.audit;
     simulation.state.moments = saved.moments;

@@ -4,18 +4,21 @@
 use super::flow::{Culprit, StepEnd, Substep};
 use super::laps::Verb;
 use super::{Simulation, StepInHand, SubstepReport};
-use crate::contact::body_wall;
+use crate::contact::island::{self, Surroundings};
 use crate::contact::point_body::impulse_on_flow;
 use crate::crowding::Tending;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
 use crate::rigid::{Freedom, Load};
 use crate::stability::{self, Pace};
-use rayon::prelude::*;
 
 /// Sub-steps between two audits. Sums over all points are not free, and what
 /// they would show at a step's end shows at a later one as well.
 const AUDIT_INTERVAL: u64 = 64;
+
+/// Overlap of two bodies, as a share of both sphero radii, that is taken for a
+/// contact too soft.
+const DEEPEST_OVERLAP: f64 = 0.9;
 
 impl Simulation {
     /// Takes one sub-step, of the step in hand or of a new one.
@@ -104,19 +107,17 @@ impl Simulation {
             state.moments.first_moment += state.moments.momentum * dt;
         }
         let on_bodies = state.flow.on_bodies();
-        state
-            .bodies
-            .par_iter_mut()
-            .zip(&mut scratch.body_reports)
-            .enumerate()
-            .for_each(|(place, (body, report))| {
-                let flow = on_bodies
-                    .get(place)
-                    .map_or_else(Load::default, |on| on.load);
-                *report = body_wall::advance(body, &given.planes, &flow, &given.gravity, dt);
-            });
+        let flow = |body: usize| on_bodies.get(body).map_or_else(Load::default, |on| on.load);
+        let around = Surroundings {
+            planes: &given.planes,
+            gravity: given.gravity,
+        };
+        let (bodies, meetings) = (&mut state.bodies, &mut state.meetings);
+        let reports = &mut scratch.body_reports;
+        island::advance(bodies, meetings, reports, flow, &around, dt);
         for report in &scratch.body_reports {
             state.audit.exchange(&report.wall);
+            state.audit.exchange(&report.barrier);
             state.audit.exchange(&report.gravity);
         }
         for flow in on_bodies {
@@ -189,6 +190,7 @@ impl Simulation {
             }
         }
         self.look_behind_walls()?;
+        self.look_for_merging_bodies()?;
         let tolerance = self.given.lattice.spacing.max();
         match self.state.flow.culprit(&self.given.planes, tolerance) {
             None => Ok(()),
@@ -231,6 +233,24 @@ impl Simulation {
         Ok(())
     }
 
+    /// Two cores that come together were not held apart by their contacts, and
+    /// beyond that these would push the wrong way.
+    fn look_for_merging_bodies(&self) -> Result<(), StepError> {
+        for meeting in &self.state.meetings {
+            let [body, other] = meeting.bodies;
+            let radius = |place: usize| self.state.bodies[place].shape.sphero_radius();
+            if meeting.deepest > DEEPEST_OVERLAP * (radius(body) + radius(other)) {
+                return Err(StepError::BodiesMerge {
+                    time_s: self.state.clock.time,
+                    body,
+                    other,
+                    overlap_m: meeting.deepest,
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// Takes points beyond the open end out, and counts them.
     fn remove_what_left(&mut self) {
         let (state, end) = (&mut self.state, self.given.open_end);
@@ -244,8 +264,10 @@ impl Simulation {
         let state = &mut self.state;
         let flow = state.flow.totals(&self.given);
         let bodies = Totals::of_bodies(&state.bodies, &self.given.gravity);
-        let held = state.flow.on_bodies().iter().map(|load| load.energy);
-        state.audit.check(&flow, &bodies, held.sum());
+        let at_points = state.flow.on_bodies().iter().map(|load| load.energy);
+        let at_bodies = state.meetings.iter().map(|meeting| meeting.energy);
+        let held = at_points.sum::<f64>() + at_bodies.sum::<f64>();
+        state.audit.check(&flow, &bodies, held);
         state.clock.last_audit = state.clock.substeps;
         self.state.moments = FlowMoments::of(&flow);
     }

@@ -6,17 +6,25 @@ use std::path::{Path, PathBuf};
 
 /// Layers, lowest first. The scenario is a description that knows of shapes
 /// alone; the simulation reads it.
-const LAYERS: [&[&str]; 7] = [
+const LAYERS: [&[&str]; 8] = [
     &["math", "error", "stability"],
-    &["kernel", "material", "shape", "contact::law"],
+    &[
+        "kernel",
+        "material",
+        "shape",
+        "contact::law",
+        "contact::neighbours",
+    ],
     &["grid", "scenario"],
     &["points", "rigid", "walls"],
     &[
+        "contact::body_body",
         "contact::body_wall",
         "contact::point_body",
         "crowding",
         "diagnostics",
     ],
+    &["contact::island"],
     &["transfer"],
     &["fast"],
 ];

@@ -10,6 +10,7 @@ mod scenes;
 
 mod balances;
 mod bodies_alone;
+mod bodies_together;
 mod column_at_rest;
 mod layers;
 mod limits;

@@ -5,6 +5,7 @@ use crate::scenes::{PRECISIONS, Scene, points_by_id, run};
 use scree_solver::record::{Record, Recorder};
 use scree_solver::scenario::Scenario;
 use scree_solver::{Ending, SaveError, Simulation};
+use serde_json::json;
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
@@ -71,9 +72,12 @@ fn assert_same(one: &Recorded, other: &Recorded) {
     assert_eq!(outcome(one), outcome(other));
 }
 
-/// The same scene in every precision.
+/// The same scene in every precision, with a second cube on the first.
 fn scenarios() -> [Scenario; 2] {
-    let scene = Scene::impact().set("channel", "runout_length_m", 0.2);
+    let scene = Scene::impact()
+        .set("channel", "runout_length_m", 0.2)
+        .body(json!({"shape": {"cube": {"side_m": 0.04}},
+            "position": {"downstream_m": 0.045, "lateral_m": 0.01, "elevation_m": 0.0601}}));
     PRECISIONS.map(|precision| scene.clone().precision(precision).scenario())
 }
 

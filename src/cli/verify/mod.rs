@@ -63,6 +63,8 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     };
     if let Some(folder) = &options.figures {
         let machine = report.machine.in_words();
+        let way = cases::slide_over_a_rim().map_err(|error| Failure::Other(error.to_string()))?;
+        figures::write_slide(&way, folder)?;
         figures::write(&work::diagrams(effort), &machine, folder)?;
     }
     console::answer(&answer)?;

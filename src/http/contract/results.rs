@@ -39,6 +39,10 @@ pub struct TrajectoryColumnsSchema {
     pub wall_force_n: Vec<[f64; 3]>,
     /// Torque of the walls about the centre [N m].
     pub wall_torque_nm: Vec<[f64; 3]>,
+    /// Force of other bodies, fixed ones included [N].
+    pub body_force_n: Vec<[f64; 3]>,
+    /// Torque of other bodies about the centre [N m].
+    pub body_torque_nm: Vec<[f64; 3]>,
     /// Material points in contact.
     pub touching_points: Vec<u32>,
     /// Share of the body's height below the surface of the flow, 0..1.

@@ -7,6 +7,7 @@ mod column_collapse;
 mod dam_break;
 mod dust_stream;
 mod elastic_bar;
+mod feature_contacts;
 mod free_fall;
 mod hertz;
 mod hydrostatic;
@@ -24,6 +25,8 @@ mod two_clocks;
 
 use super::{Case, How};
 
+pub use feature_contacts::slide_over_a_rim;
+
 /// Every case, by its number.
 pub const ALL: &[Case] = &[
     free_fall::CASE,
@@ -33,7 +36,7 @@ pub const ALL: &[Case] = &[
     restitution::CASE,
     torque_free::CASE,
     incline::CASE,
-    FEATURE_CONTACTS,
+    feature_contacts::CASE,
     elastic_bar::CASE,
     hydrostatic::CASE,
     sliding_block::CASE,
@@ -51,19 +54,11 @@ pub const ALL: &[Case] = &[
     CUBES_AND_COLUMN,
 ];
 
-const FEATURE_CONTACTS: Case = Case {
-    name: "feature-contacts",
-    number: "7",
-    title: "contacts of vertices, edges and faces between bodies",
-    source: "continuity of force and energy; conservation in an undamped collision",
-    how: How::NotYet("bodies don't touch each other yet, only walls and points"),
-};
-
 // One cube alone would leave out what the scene is about: the heap coming apart.
 const CUBES_AND_COLUMN: Case = Case {
     name: "cubes-and-column",
     number: "17",
     title: "a sand column strikes six cubes stacked 3-2-1",
     source: "GeoTaichi's granular-impact scene, code to code",
-    how: How::NotYet("bodies don't touch each other yet, so the stack can't stand"),
+    how: How::NotYet("its scene is still to be written"),
 };

@@ -2,12 +2,8 @@
 //!
 //! A body that falls on one vertex below its centre leaves with e times the speed
 //! it came with: that is what the damping number of the contact law is solved
-//! for. The same is asked of a fall on a face, where four vertices touch at a
-//! time. Bar: 2 % of e.
-//!
-//! Known weakness: on a face each vertex is damped as if it carried its own
-//! effective mass, M/3.46 for this cube, where its share is M/4: 7.5 % too much
-//! damping, and a rebound too low.
+//! for. The same is asked of a fall on an edge and on a face, where two and four
+//! vertices touch at a time and share the mass they stop. Bar: 2 % of e.
 
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble};
@@ -19,18 +15,24 @@ use std::ops::ControlFlow;
 pub(super) const CASE: Case = Case {
     name: "restitution",
     number: "4",
-    title: "rebound of a cube that falls on a vertex, and on a face",
+    title: "rebound of a cube that falls on a vertex, an edge, a face",
     source: "definition: speed of leaving over speed of arriving is the e asked for",
     how: How::Runs(run),
 };
 
 const UPRIGHT: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
+/// An edge along y below, by a turn of 45° about it.
+const ON_EDGE: [f64; 4] = [0.923_879_532_511_286_7, 0.0, 0.382_683_432_365_089_8, 0.0];
 
 fn run(effort: Effort, findings: &mut Findings) {
     let asked = [0.1, 0.3, 0.5, 0.7, 0.9, 1.0, 0.2, 0.4, 0.6, 0.8];
-    for (word, orientation) in [("vertex", on_vertex()), ("face", UPRIGHT)] {
+    for (word, orientation) in [
+        ("a vertex", on_vertex()),
+        ("an edge", ON_EDGE),
+        ("a face", UPRIGHT),
+    ] {
         for &restitution in effort.take(&asked, 6) {
-            let quantity = format!("rebound on a {word}, e {restitution}");
+            let quantity = format!("rebound on {word}, e {restitution}");
             let question = Question::new(quantity, "", restitution).within(0.02);
             let answer = rebound(orientation, restitution);
             findings.take(&Resolution::named("own steps"), [question], answer);

@@ -1,8 +1,5 @@
 use super::*;
 use crate::rigid::fixture::cuboid;
-use nalgebra::UnitQuaternion;
-
-const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
 
 fn floor() -> Plane {
     Plane {
@@ -17,73 +14,6 @@ fn cube_at(height: f64) -> Body {
     let mut body = cuboid([0.04; 3]);
     body.state.position.z = height;
     body
-}
-
-fn angular_about_origin(body: &Body) -> Vec3 {
-    body.state.position.cross(&body.state.momentum) + body.state.angular_momentum
-}
-
-#[test]
-fn a_barrier_stands() {
-    let mut body = cube_at(0.02);
-    body.freedom = Freedom::Fixed;
-    let before = body.state.clone();
-    let push = Load {
-        force: Vec3::new(1e3, 0.0, 0.0),
-        torque: Vec3::y(),
-    };
-    let report = advance(&mut body, &[floor()], &push, &GRAVITY, 0.1);
-    assert_eq!(body.state, before);
-    assert_eq!(report, BodyReport::default());
-}
-
-// Whatever happens on the wall: the body's momentum changes by what the report
-// says the walls and gravity gave, and by the flow's force on its line of
-// action. A tumbling cube that strikes the floor; rounding of sums of order 1.
-#[test]
-fn the_report_accounts_for_every_impulse() {
-    let mut body = cube_at(0.03);
-    body.state.position.x = 0.7;
-    body.state.orientation = UnitQuaternion::from_euler_angles(0.4, 0.3, 0.2);
-    body.state.momentum = Vec3::new(0.1, 0.02, -0.15);
-    body.state.angular_momentum = body.inertia * Vec3::new(20.0, -30.0, 10.0);
-    let (linear, angular) = (body.state.momentum, angular_about_origin(&body));
-    let flow = Load {
-        force: Vec3::new(0.5, -0.2, 0.1),
-        torque: Vec3::new(0.01, 0.0, -0.02),
-    };
-    let about_origin = body.state.position.cross(&flow.force) + flow.torque;
-    let dt = 0.01;
-    let report = advance(&mut body, &[floor()], &flow, &GRAVITY, dt);
-    assert!(report.substeps_on_wall > 0, "it never struck");
-    assert!(report.wall.linear.z > 0.0);
-    let given = report.wall.linear + report.gravity.linear + flow.force * dt;
-    assert!((body.state.momentum - linear - given).norm() < 1e-14);
-    let turned = report.wall.angular + report.gravity.angular + about_origin * dt;
-    assert!((angular_about_origin(&body) - angular - turned).norm() < 1e-14);
-    let mean = report.wall.linear / dt;
-    assert!((report.wall_load.force - mean).norm() < 1e-11);
-}
-
-// A cube at rest on the floor: the wall carries its weight, on four vertices
-// whose springs pull nothing, and sinks where 4 k δ^1.5 = m g.
-#[test]
-fn a_resting_cube_is_carried() {
-    let mut body = cube_at(0.02);
-    body.wall_law.damping = 2.0;
-    for _ in 0..400 {
-        advance(&mut body, &[floor()], &Load::default(), &GRAVITY, 1e-3);
-    }
-    let weight = body.mass * 9.81;
-    let sunk = (weight / (4.0 * body.wall_law.stiffness)).powf(2.0 / 3.0);
-    assert!((body.state.wall_load.force.z / weight - 1.0).abs() < 1e-9);
-    assert!(((0.02 - body.state.position.z) / sunk - 1.0).abs() < 1e-6);
-    assert!(body.state.wall_load.torque.norm() < 1e-12);
-    assert!(body.velocity().norm() < 1e-9);
-    assert_eq!(body.state.springs.len(), 8);
-    // ∫ k δ^1.5 for four vertices.
-    let held = 4.0 * 0.4 * body.wall_law.stiffness * sunk.powf(2.5);
-    assert!((body.state.wall_energy / held - 1.0).abs() < 1e-5);
 }
 
 #[test]
@@ -106,21 +36,4 @@ fn springs_forget_once_apart() {
     );
     assert_eq!(body.state.wall_load, Load::default());
     assert_eq!(body.state.wall_energy, 0.0);
-}
-
-// Far from walls one sub-step does; a spin asks for more, near a wall the
-// contact's own time scale.
-#[test]
-fn substeps_follow_what_happens() {
-    let count = |body: &Body| substeps(body, &[floor()], 1e-3);
-    assert_eq!(count(&cube_at(1.0)), 1.0);
-    let mut spinning = cube_at(1.0);
-    spinning.state.angular_momentum = spinning.inertia * Vec3::new(0.0, 0.0, 500.0);
-    assert!((count(&spinning) - 10.0).abs() <= 1.0);
-    // √(m/k') is 3 ms this deep, and a tenth of it is taken.
-    assert!(count(&cube_at(0.0199)) > 2.0);
-    // About to strike within the step.
-    let mut falling = cube_at(0.0205);
-    falling.state.momentum.z = -falling.mass;
-    assert!(count(&falling) > 5.0);
 }

@@ -138,15 +138,15 @@ fn the_outcome_adds_up() {
     assert_eq!(outcome.bodies[0].final_position_m, [x.x, x.y, x.z]);
 }
 
-/// Mode of a body that was on a wall for so many of ten sub-steps.
-fn mode_of(speed: f64, turning: f64, on_wall: u64) -> Mode {
+/// Mode of a body that was on something for so many of ten sub-steps.
+fn mode_of(speed: f64, turning: f64, supported: u64) -> Mode {
     let mut body = cuboid([0.04; 3]);
     body.state.momentum.x = body.mass * speed;
     let spin = turning / body.shape.bounding_radius();
     body.state.angular_momentum = body.inertia * Vec3::new(0.0, spin, 0.0);
     let means = Means {
         substeps: 10,
-        substeps_on_wall: on_wall,
+        substeps_supported: supported,
         ..Means::default()
     };
     mode(&body, &means)

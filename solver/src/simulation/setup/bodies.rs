@@ -1,7 +1,8 @@
 //! The bodies of a scenario at its start.
 
+use super::Setup;
+use super::resolution::{Crowd, contact_modulus};
 use super::settle::settle;
-use super::{Setup, resolution};
 use crate::contact::body_wall::touch_walls;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
@@ -10,12 +11,13 @@ use crate::scenario::Scenario;
 
 /// The bodies of a scenario, where they start.
 pub(in crate::simulation) fn bodies(scenario: &Scenario, given: &Setup) -> Vec<Body> {
+    let crowd = Crowd::of(scenario);
     (0..scenario.bodies.len())
-        .map(|place| body(scenario, given, place))
+        .map(|place| body(scenario, given, place, &crowd))
         .collect()
 }
 
-fn body(scenario: &Scenario, given: &Setup, place: usize) -> Body {
+fn body(scenario: &Scenario, given: &Setup, place: usize, crowd: &Crowd) -> Body {
     let spec = &scenario.bodies[place];
     let shape = scenario.shape_of(place);
     let pose = scenario.initial_pose(place);
@@ -23,7 +25,7 @@ fn body(scenario: &Scenario, given: &Setup, place: usize) -> Body {
     let inertia = shape.unit_inertia() * spec.density_kg_m3;
     let modulus = spec
         .contact_modulus_pa
-        .unwrap_or_else(|| resolution::contact_modulus(scenario, place, mass, &pose.position));
+        .unwrap_or_else(|| contact_modulus(scenario, place, crowd));
     let wall_law = ContactLaw::hertz(
         modulus,
         shape.sphero_radius(),
@@ -42,14 +44,20 @@ fn body(scenario: &Scenario, given: &Setup, place: usize) -> Body {
             momentum: Vec3::from(spec.velocity_m_s) * mass,
             angular_momentum: Vec3::zeros(),
             springs: Vec::new(),
+            rolling: Vec::new(),
             wall_load: Load::default(),
             wall_energy: 0.0,
+            body_load: Load::default(),
+            barrier_load: Load::default(),
+            touching_bodies: 0,
+            still_for: 0.0,
         },
         shape,
         mass,
         inertia,
         wall_law,
         flow_law,
+        rolling_friction: 0.0,
         freedom: if spec.fixed {
             Freedom::Fixed
         } else {

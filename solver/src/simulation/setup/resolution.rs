@@ -18,6 +18,8 @@ const OVERLAP_AT_REST: f64 = 0.01;
 /// Overlap of an impact on one vertex at the expected speed, over the sphero
 /// radius.
 const OVERLAP_AT_IMPACT: f64 = 0.2;
+/// How much stiffer a body is on a rigid wall than on its like: E*/2 and r/2.
+const TWO_LIKE_ONE: f64 = 2.0 * std::f64::consts::SQRT_2;
 
 /// The lattice of a scenario: its cells divide the width evenly, so that both
 /// side walls lie on nodes.
@@ -74,17 +76,66 @@ pub(super) fn expected_speed(scenario: &Scenario) -> f64 {
     (sliding + collapsing).max(thrown).sqrt()
 }
 
-/// Contact modulus E* of a body with the walls [Pa]: stiff enough that resting
+/// What a body brings to its contacts.
+struct Weighty {
+    mass: f64,
+    /// Where its centre starts [m].
+    height: f64,
+    /// Of its start, and of a fall to the floor [m²/s²].
+    speed_squared: f64,
+    free: bool,
+}
+
+/// All bodies of a scenario, for how stiff their contacts have to be.
+pub(super) struct Crowd(Vec<Weighty>);
+
+impl Crowd {
+    pub(super) fn of(scenario: &Scenario) -> Self {
+        let weighty = |place: usize| {
+            let body = &scenario.bodies[place];
+            let height = scenario.initial_pose(place).position.z;
+            let falling = 2.0 * scenario.gravity_m_s2 * height.max(0.0);
+            Weighty {
+                mass: body.density_kg_m3 * scenario.shape_of(place).volume(),
+                height,
+                speed_squared: falling + Vec3::from(body.velocity_m_s).norm_squared(),
+                free: !body.fixed,
+            }
+        };
+        Self((0..scenario.bodies.len()).map(weighty).collect())
+    }
+
+    /// Mass that may come to rest on a body, its own included [kg].
+    fn carried_by(&self, place: usize) -> f64 {
+        let own = &self.0[place];
+        let above = self
+            .0
+            .iter()
+            .filter(|other| other.free && other.height > own.height);
+        own.mass + above.map(|other| other.mass).sum::<f64>()
+    }
+
+    /// Largest mass and squared speed of what may strike a body, or it strike.
+    fn striking(&self, place: usize) -> (f64, f64) {
+        let own = &self.0[place];
+        let others = self.0.iter().filter(|other| other.free);
+        others.fold((own.mass, own.speed_squared), |(mass, speed), other| {
+            (mass.max(other.mass), speed.max(other.speed_squared))
+        })
+    }
+}
+
+/// Contact modulus E* of a body on a rigid wall [Pa]: stiff enough that resting
 /// on one vertex overlaps 1 % of the sphero radius, and an impact on one vertex
-/// at the largest speed expected 20 %.
-pub(super) fn contact_modulus(scenario: &Scenario, place: usize, mass: f64, at: &Vec3) -> f64 {
-    let body = &scenario.bodies[place];
-    let radius = body.sphero_radius_m;
-    let gravity = scenario.gravity_m_s2;
-    let falling = 2.0 * gravity * at.z.max(0.0);
-    let thrown = Vec3::from(body.velocity_m_s).norm_squared();
-    let speed_squared = (falling + thrown).max(expected_speed(scenario).powi(2));
-    let at_rest = mass * gravity / (OVERLAP_AT_REST * radius).powf(1.5);
-    let at_impact = 1.25 * mass * speed_squared / (OVERLAP_AT_IMPACT * radius).powf(2.5);
-    0.75 * at_rest.max(at_impact) / radius.sqrt()
+/// at the largest speed expected 20 %; among other bodies, where both yield and
+/// both are round, for what may lie on it and what may strike it.
+pub(super) fn contact_modulus(scenario: &Scenario, place: usize, crowd: &Crowd) -> f64 {
+    let radius = scenario.bodies[place].sphero_radius_m;
+    let (striking, speed_squared) = crowd.striking(place);
+    let speed_squared = speed_squared.max(expected_speed(scenario).powi(2));
+    let pressed = crowd.carried_by(place) * scenario.gravity_m_s2;
+    let at_rest = pressed / (OVERLAP_AT_REST * radius).powf(1.5);
+    let at_impact = 1.25 * striking * speed_squared / (OVERLAP_AT_IMPACT * radius).powf(2.5);
+    let softer = if crowd.0.len() > 1 { TWO_LIKE_ONE } else { 1.0 };
+    0.75 * softer * at_rest.max(at_impact) / radius.sqrt()
 }

@@ -1,0 +1,350 @@
+//! Where two cores are near each other, each place once: the terms of the
+//! contact potential of two bodies and its gradient (docs/method.md, equations
+//! 43 and 44; docs/decisions/0010).
+
+use super::segments::{crossing, nearest_on};
+use crate::contact::law::ContactLaw;
+use crate::math::Vec3;
+use crate::rigid::{Body, Load};
+use serde::{Deserialize, Serialize};
+
+/// Nearer than this share of R two places have no direction to speak of.
+const NO_DIRECTION: f64 = 1e-9;
+
+/// Two features that may touch, by their numbers in the cores.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Between {
+    /// A vertex of the first body and the second's core.
+    VertexOfFirst(usize),
+    /// A vertex of the second body and the first's core.
+    VertexOfSecond(usize),
+    /// An edge of the first and one of the second that cross.
+    Edges(usize, usize),
+}
+
+/// A pair of nearest places of two features whose roundings overlap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Near {
+    /// Unit vector from the first body to the second.
+    pub(super) normal: Vec3,
+    /// Middle of the overlap, from the first body's centre [m].
+    pub(super) place: Vec3,
+    /// Overlap δ [m].
+    pub(super) overlap: f64,
+}
+
+/// One place where two bodies touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Contact {
+    /// Which features.
+    pub(super) between: Between,
+    /// How they overlap.
+    pub(super) near: Near,
+    /// What is left of it when other contacts took their part, above 0, at most 1.
+    pub(super) share: f64,
+}
+
+/// Every contact of two bodies, and the elastic forces of them together.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Contacts {
+    /// The places, in an order that follows from the bodies alone.
+    pub(super) places: Vec<Contact>,
+    /// Elastic force on the second body, and its torque about the *first's*
+    /// centre: minus the gradient of the potential.
+    pub(super) push: Load,
+    /// The potential U [J].
+    pub(super) energy: f64,
+}
+
+/// Finds every contact of two bodies.
+pub(super) fn contacts(first: &Body, second: &Body, law: &ContactLaw) -> Contacts {
+    let mut found = Contacts::default();
+    let Some(pair) = Pair::near(first, second) else {
+        return found;
+    };
+    for &(vertex, place) in &pair.first.vertices {
+        if let Some(near) = pair.of_first(&place) {
+            found.take(law, Between::VertexOfFirst(vertex), near, &[]);
+        }
+    }
+    for &(vertex, place) in &pair.second.vertices {
+        if let Some(near) = pair.of_second(&place) {
+            let twins = pair.first.vertices.iter();
+            let twins = twins.filter_map(|(_, other)| pair.between(other, &place));
+            found.take(
+                law,
+                Between::VertexOfSecond(vertex),
+                near,
+                &twins.collect::<Vec<_>>(),
+            );
+        }
+    }
+    for &(e, on_first) in &pair.first.edges {
+        for &(f, on_second) in &pair.second.edges {
+            let Some((p, q)) = crossing(&on_first, &on_second) else {
+                continue;
+            };
+            if let Some(near) = pair.between(&p, &q) {
+                let ends = pair.ends(&on_first, &on_second);
+                found.take(law, Between::Edges(e, f), near, &ends);
+            }
+        }
+    }
+    found
+}
+
+impl Contacts {
+    /// Takes in what a contact holds that the `booked` ones nearby do not.
+    fn take(&mut self, law: &ContactLaw, between: Between, near: Near, booked: &[Near]) {
+        let energy = law.elastic_energy(near.overlap);
+        if energy <= 0.0 {
+            return;
+        }
+        // Rounding can make a booked distance the smaller one.
+        let ratio = |other: &Near| (law.elastic_energy(other.overlap) / energy).min(1.0);
+        let ratios: Vec<f64> = booked.iter().map(ratio).collect();
+        let without = |left_out: usize| -> f64 {
+            let others = ratios.iter().enumerate();
+            let others = others.filter(|(place, _)| *place != left_out);
+            others.map(|(_, ratio)| 1.0 - ratio).product()
+        };
+        let share = without(ratios.len());
+        let mut coefficient = share;
+        for (place, (other, ratio)) in booked.iter().zip(&ratios).enumerate() {
+            let rest = without(place);
+            coefficient += ratio * rest;
+            self.pushed(other, -rest * law.elastic_force(other.overlap));
+        }
+        self.pushed(&near, coefficient * law.elastic_force(near.overlap));
+        self.energy += share * energy;
+        if share > 0.0 {
+            self.places.push(Contact {
+                between,
+                near,
+                share,
+            });
+        }
+    }
+
+    fn pushed(&mut self, at: &Near, force: f64) {
+        self.push.add_at(&at.place, &(at.normal * force));
+    }
+}
+
+/// What of a core can be in touch with the other, in world axes, from the first
+/// body's centre [m].
+#[derive(Debug, Default)]
+struct Nearby {
+    vertices: Vec<(usize, Vec3)>,
+    edges: Vec<(usize, [Vec3; 2])>,
+}
+
+/// Two bodies whose face normals do not keep them apart.
+struct Pair<'a> {
+    bodies: [&'a Body; 2],
+    /// From the first's centre to the second's.
+    apart: Vec3,
+    /// Sphero radii.
+    radii: [f64; 2],
+    first: Nearby,
+    second: Nearby,
+}
+
+impl<'a> Pair<'a> {
+    fn near(first: &'a Body, second: &'a Body) -> Option<Self> {
+        let bodies = [first, second];
+        let apart = second.state.position - first.state.position;
+        let radii = bodies.map(|body| body.shape.sphero_radius());
+        let corners = [corners(first, &Vec3::zeros()), corners(second, &apart)];
+        let widest = widest_gap(bodies, &apart, &corners);
+        let reach = radii[0] + radii[1];
+        if widest.width >= reach {
+            return None;
+        }
+        let [of_first, of_second] = &corners;
+        // Features farther than `reach` from where the other core begins, in the
+        // direction of the widest gap or along an axis, can't touch.
+        let on_first = |x: &Vec3| widest.second_from - widest.direction.dot(x) < reach;
+        let on_second = |x: &Vec3| widest.direction.dot(x) - widest.first_to < reach;
+        Some(Self {
+            first: nearby(
+                first,
+                of_first,
+                &Bounds::of(of_second).grown(reach),
+                on_first,
+            ),
+            second: nearby(
+                second,
+                of_second,
+                &Bounds::of(of_first).grown(reach),
+                on_second,
+            ),
+            bodies,
+            apart,
+            radii,
+        })
+    }
+
+    /// Nearest places of a vertex of the first body and the second's core.
+    fn of_first(&self, vertex: &Vec3) -> Option<Near> {
+        let second = self.bodies[1];
+        let closest = second
+            .shape
+            .closest_feature(&second.to_body(&(vertex - self.apart)));
+        let normal = -second.to_world(&closest.normal);
+        self.overlapping(vertex, &normal, closest.distance)
+    }
+
+    /// Nearest places of a vertex of the second body and the first's core.
+    fn of_second(&self, vertex: &Vec3) -> Option<Near> {
+        let first = self.bodies[0];
+        let closest = first.shape.closest_feature(&first.to_body(vertex));
+        let normal = first.to_world(&closest.normal);
+        let on_first = vertex - normal * closest.distance;
+        self.overlapping(&on_first, &normal, closest.distance)
+    }
+
+    /// A place of the first core and one of the second.
+    fn between(&self, on_first: &Vec3, on_second: &Vec3) -> Option<Near> {
+        let gap = on_second - on_first;
+        let distance = gap.norm();
+        if distance <= NO_DIRECTION * (self.radii[0] + self.radii[1]) {
+            return None;
+        }
+        self.overlapping(on_first, &(gap / distance), distance)
+    }
+
+    fn overlapping(&self, on_first: &Vec3, normal: &Vec3, distance: f64) -> Option<Near> {
+        let overlap = self.radii[0] + self.radii[1] - distance;
+        (overlap > 0.0).then(|| Near {
+            normal: *normal,
+            place: on_first + normal * (self.radii[0] - 0.5 * overlap),
+            overlap,
+        })
+    }
+
+    /// The ends of two edges against the other edge, those in touch.
+    fn ends(&self, on_first: &[Vec3; 2], on_second: &[Vec3; 2]) -> Vec<Near> {
+        let of_first = on_first
+            .iter()
+            .filter_map(|end| self.between(end, &nearest_on(on_second, end)));
+        let of_second = on_second
+            .iter()
+            .filter_map(|end| self.between(&nearest_on(on_first, end), end));
+        of_first.chain(of_second).collect()
+    }
+}
+
+/// Core vertices in world axes, the body's centre being at `centre`.
+fn corners(body: &Body, centre: &Vec3) -> Vec<Vec3> {
+    let turn = body.state.orientation.to_rotation_matrix();
+    let vertices = body.shape.core_vertices().iter();
+    vertices.map(|vertex| centre + turn * vertex).collect()
+}
+
+fn nearby(
+    body: &Body,
+    corners: &[Vec3],
+    reached: &Bounds,
+    in_reach: impl Fn(&Vec3) -> bool,
+) -> Nearby {
+    let vertices = corners.iter().copied().enumerate();
+    let vertices = vertices.filter(|(_, place)| in_reach(place) && reached.meets(&[*place]));
+    let edges = body.shape.edges().iter().enumerate();
+    let edges = edges.filter_map(|(number, edge)| {
+        let ends = edge.vertices.map(|vertex| corners[vertex]);
+        let near = ends.iter().any(&in_reach) && reached.meets(&ends);
+        near.then_some((number, ends))
+    });
+    Nearby {
+        vertices: vertices.collect(),
+        edges: edges.collect(),
+    }
+}
+
+/// A box along the axes.
+struct Bounds {
+    low: Vec3,
+    high: Vec3,
+}
+
+impl Bounds {
+    fn of(places: &[Vec3]) -> Self {
+        let start = Vec3::repeat(f64::INFINITY);
+        Self {
+            low: places.iter().fold(start, |low, x| low.inf(x)),
+            high: places.iter().fold(-start, |high, x| high.sup(x)),
+        }
+    }
+
+    fn grown(mut self, by: f64) -> Self {
+        self.low -= Vec3::repeat(by);
+        self.high += Vec3::repeat(by);
+        self
+    }
+
+    /// Whether the box round `places` meets this one.
+    fn meets(&self, places: &[Vec3]) -> bool {
+        let other = Self::of(places);
+        (0..3).all(|axis| other.low[axis] < self.high[axis] && other.high[axis] > self.low[axis])
+    }
+}
+
+/// The widest gap that a face normal of either core shows between them: a lower
+/// bound of their distance if positive.
+struct Gap {
+    width: f64,
+    /// From the first to the second.
+    direction: Vec3,
+    /// Where along it the first core ends, and the second begins.
+    first_to: f64,
+    second_from: f64,
+}
+
+fn widest_gap(bodies: [&Body; 2], apart: &Vec3, corners: &[Vec<Vec3>; 2]) -> Gap {
+    let mut widest = Gap {
+        width: f64::NEG_INFINITY,
+        direction: Vec3::zeros(),
+        first_to: 0.0,
+        second_from: 0.0,
+    };
+    let mut try_gap = |direction: Vec3, first_to: f64, second_from: f64| {
+        if second_from - first_to > widest.width {
+            widest = Gap {
+                width: second_from - first_to,
+                direction,
+                first_to,
+                second_from,
+            };
+        }
+    };
+    for face in bodies[0].shape.faces() {
+        let direction = bodies[0].to_world(&face.normal);
+        let heights = corners[1].iter().map(|x| direction.dot(x));
+        try_gap(
+            direction,
+            face.offset,
+            heights.fold(f64::INFINITY, f64::min),
+        );
+    }
+    for face in bodies[1].shape.faces() {
+        let direction = -bodies[1].to_world(&face.normal);
+        let heights = corners[0].iter().map(|x| direction.dot(x));
+        let second_from = direction.dot(apart) - face.offset;
+        try_gap(
+            direction,
+            heights.fold(f64::NEG_INFINITY, f64::max),
+            second_from,
+        );
+    }
+    widest
+}
+
+/// A lower bound of the distance of two rounded bodies [m], from their face
+/// normals; of no use below 0.
+pub fn least_gap(first: &Body, second: &Body) -> f64 {
+    let apart = second.state.position - first.state.position;
+    let corners = [corners(first, &Vec3::zeros()), corners(second, &apart)];
+    let reach = first.shape.sphero_radius() + second.shape.sphero_radius();
+    widest_gap([first, second], &apart, &corners).width - reach
+}

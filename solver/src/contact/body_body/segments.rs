@@ -1,0 +1,58 @@
+//! Nearest places of two segments, and of a segment and a point.
+
+use crate::math::Vec3;
+
+/// Segments whose sine is smaller than this have no crossing to speak of.
+const PARALLEL: f64 = 1e-9;
+
+/// The nearest places of the lines through two segments, if both lie inside the
+/// segments; none for parallel ones.
+pub(super) fn crossing(a: &[Vec3; 2], b: &[Vec3; 2]) -> Option<(Vec3, Vec3)> {
+    let (along_a, along_b, apart) = (a[1] - a[0], b[1] - b[0], b[0] - a[0]);
+    let normal = along_a.cross(&along_b);
+    let squared = normal.norm_squared();
+    let scale = along_a.norm_squared() * along_b.norm_squared();
+    if squared <= PARALLEL * PARALLEL * scale {
+        return None;
+    }
+    let inside = |place: f64| place > 0.0 && place < 1.0;
+    let on_a = apart.cross(&along_b).dot(&normal) / squared;
+    let on_b = apart.cross(&along_a).dot(&normal) / squared;
+    (inside(on_a) && inside(on_b)).then(|| (a[0] + along_a * on_a, b[0] + along_b * on_b))
+}
+
+/// The place of a segment nearest to `x`.
+pub(super) fn nearest_on(segment: &[Vec3; 2], x: &Vec3) -> Vec3 {
+    let along = segment[1] - segment[0];
+    let place = (x - segment[0]).dot(&along) / along.norm_squared();
+    segment[0] + along * place.clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn crossing_segments_are_nearest_where_they_cross() {
+        let along_x = [Vec3::new(-1.0, 0.0, 0.0), Vec3::new(3.0, 0.0, 0.0)];
+        let above = [Vec3::new(0.5, -1.0, 0.2), Vec3::new(0.5, 1.0, 0.2)];
+        let (p, q) = crossing(&along_x, &above).expect("they cross");
+        assert!((p - Vec3::new(0.5, 0.0, 0.0)).norm() < 1e-15);
+        assert!((q - Vec3::new(0.5, 0.0, 0.2)).norm() < 1e-15);
+        let beside = above.map(|end| end + Vec3::new(3.0, 0.0, 0.0));
+        assert_eq!(crossing(&along_x, &beside), None);
+        let parallel = along_x.map(|end| end + Vec3::z());
+        assert_eq!(crossing(&along_x, &parallel), None);
+    }
+
+    #[test]
+    fn beyond_an_end_the_end_is_nearest() {
+        let segment = [Vec3::zeros(), Vec3::x()];
+        assert_eq!(nearest_on(&segment, &Vec3::new(2.0, 1.0, 0.0)), Vec3::x());
+        assert_eq!(nearest_on(&segment, &-Vec3::x()), Vec3::zeros());
+        assert_eq!(
+            nearest_on(&segment, &Vec3::new(0.25, 1.0, 0.0)),
+            Vec3::new(0.25, 0.0, 0.0)
+        );
+    }
+}

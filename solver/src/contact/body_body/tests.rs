@@ -1,0 +1,288 @@
+use super::*;
+use crate::math::Mat3;
+use crate::rigid::fixture::{cuboid, tetrahedron};
+use nalgebra::UnitQuaternion;
+
+/// Numbers in −1 … 1 that look random (Weyl's sequence).
+struct Numbers(f64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = (self.0 + 0.754_877_666_246_692_7).fract();
+        (self.0 * 12.345).fract() * 2.0 - 1.0
+    }
+
+    fn vector(&mut self) -> Vec3 {
+        Vec3::new(self.next(), self.next(), self.next())
+    }
+}
+
+fn law(pair: [&Body; 2]) -> ContactLaw {
+    pair_law(pair[0], pair[1])
+}
+
+fn undamped(mut body: Body) -> Body {
+    body.wall_law.damping = 0.0;
+    body.wall_law.friction = 0.0;
+    body
+}
+
+fn moved(body: &Body, along: &Vec3, turn: &Vec3) -> Body {
+    let mut body = body.clone();
+    body.state.position += along;
+    body.state.orientation = UnitQuaternion::from_scaled_axis(*turn) * body.state.orientation;
+    body
+}
+
+fn potential(first: &Body, second: &Body) -> f64 {
+    contacts(first, second, &law([first, second])).energy
+}
+
+/// Brings the second body along `direction` until it overlaps by `depth`.
+fn brought_together(first: &Body, second: &mut Body, direction: &Vec3, depth: f64) {
+    let (mut near, mut far) = (0.0, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (near + far);
+        second.state.position = first.state.position + direction * middle;
+        if contacts(first, second, &law([first, second]))
+            .places
+            .is_empty()
+        {
+            far = middle;
+        } else {
+            near = middle;
+        }
+    }
+    second.state.position = first.state.position + direction * (far - depth);
+}
+
+/// Pairs of many kinds that touch, at random.
+fn touching_pairs(count: usize) -> Vec<[Body; 2]> {
+    let mut numbers = Numbers(0.1);
+    let kinds = [
+        cuboid([0.04; 3]),
+        tetrahedron(0.05),
+        cuboid([0.03, 0.05, 0.07]),
+    ];
+    let mut pair = |n: usize| {
+        let first = moved(&kinds[n % 3], &numbers.vector(), &(numbers.vector() * 3.0));
+        let mut second = moved(&kinds[n / 3 % 3], &Vec3::zeros(), &(numbers.vector() * 3.0));
+        let direction = numbers.vector().normalize();
+        brought_together(&first, &mut second, &direction, 4e-4);
+        [first, second]
+    };
+    (0..count).map(&mut pair).collect()
+}
+
+// The force is minus the gradient of the potential, against central differences.
+#[test]
+fn forces_are_the_gradient_of_the_potential() {
+    for [first, second] in &touching_pairs(60) {
+        let found = contacts(first, second, &law([first, second]));
+        assert!(!found.places.is_empty());
+        let on_second =
+            Exchange::of(&found.push, &(second.state.position - first.state.position)).on_second;
+        let step = 1e-8;
+        let slope = |along: Vec3, turn: Vec3| {
+            let ahead = potential(first, &moved(second, &(along * step), &(turn * step)));
+            let behind = potential(first, &moved(second, &(along * -step), &(turn * -step)));
+            (ahead - behind) / (2.0 * step)
+        };
+        let axes = Mat3::identity();
+        let force = Vec3::from_fn(|k, _| -slope(axes.column(k).into(), Vec3::zeros()));
+        let torque = Vec3::from_fn(|k, _| -slope(Vec3::zeros(), axes.column(k).into()));
+        let size = on_second.force.norm();
+        // Differences over 1e-8 m of energies known to 1e-16 of themselves.
+        assert!(
+            (force - on_second.force).norm() < 1e-4 * size,
+            "{force} {on_second:?}"
+        );
+        assert!((torque - on_second.torque).norm() < 1e-4 * size * 0.04);
+    }
+}
+
+// Which body is first does not matter where features are not tiny.
+#[test]
+fn the_order_of_the_bodies_does_not_matter() {
+    for [first, second] in &touching_pairs(60) {
+        let (one, other) = (potential(first, second), potential(second, first));
+        assert!((one / other - 1.0).abs() < 1e-9, "{one} {other}");
+    }
+}
+
+// Bodies that meet any which way touch in one place, the nearest: the potential is
+// that of one contact there, whichever features it is between. Where a second place
+// is almost as near, it is more, never less.
+#[test]
+fn bodies_that_meet_at_random_touch_once() {
+    let pairs = touching_pairs(90);
+    let pose = |body: &Body| {
+        let translation = nalgebra::Translation3::from(body.state.position);
+        nalgebra::Isometry3::from_parts(translation, body.state.orientation)
+    };
+    let mut once = [0; 3];
+    for [first, second] in &pairs {
+        let found = contacts(first, second, &law([first, second]));
+        let (a, b) = (&first.shape, &second.shape);
+        let distance = crate::shape::separation(a, &pose(first), b, &pose(second));
+        let overlap = a.sphero_radius() + b.sphero_radius() - distance;
+        let count = found.energy / of_one(first, second, overlap);
+        assert!(count > 1.0 - 1e-9 && count < 2.5, "{count}");
+        if count < 1.0 + 1e-9 {
+            let kind = found
+                .places
+                .iter()
+                .max_by(|a, b| a.share.total_cmp(&b.share));
+            match kind.expect("they touch").between {
+                Between::VertexOfFirst(_) => once[0] += 1,
+                Between::VertexOfSecond(_) => once[1] += 1,
+                Between::Edges(..) => once[2] += 1,
+            }
+        }
+    }
+    assert!(once.iter().all(|kind| *kind >= 8), "{once:?}");
+    assert!(once.iter().sum::<i32>() > 70, "{once:?}");
+}
+
+/// Energy of one contact with this overlap [J].
+fn of_one(first: &Body, second: &Body, overlap: f64) -> f64 {
+    law([first, second]).elastic_energy(overlap)
+}
+
+/// The second cube on top of the first, overlapping by `overlap`, shifted and yawed.
+fn stacked(sides: [f64; 2], shift: [f64; 2], yaw: f64, overlap: f64) -> [Body; 2] {
+    let [below, mut above] = sides.map(|side| cuboid([side; 3]));
+    let height = 0.5 * (sides[0] + sides[1]) - overlap;
+    above.state.position = Vec3::new(shift[0], shift[1], height);
+    above.state.orientation = UnitQuaternion::from_scaled_axis(Vec3::z() * yaw);
+    [below, above]
+}
+
+// Every corner of the common area once: four for a small cube on a large one, for
+// equal cubes in line, for equal cubes shifted along one side or both; eight where
+// the sides cross at 45°.
+#[test]
+fn faces_on_each_other_are_carried_at_the_corners_of_their_common_area() {
+    let overlap = 1e-5;
+    let count = |sides, shift, yaw| {
+        let [below, above] = stacked(sides, shift, yaw, overlap);
+        potential(&below, &above) / of_one(&below, &above, overlap)
+    };
+    for (sides, shift, yaw, corners) in [
+        ([0.08, 0.04], [0.01, 0.005], 0.3, 4.0),
+        ([0.04, 0.04], [0.0, 0.0], 0.0, 4.0),
+        ([0.04, 0.04], [0.013, 0.0], 0.0, 4.0),
+        ([0.04, 0.04], [0.013, 0.021], 0.0, 4.0),
+        ([0.04, 0.04], [0.0, 0.0], std::f64::consts::FRAC_PI_4, 8.0),
+    ] {
+        let got = count(sides, shift, yaw);
+        assert!(
+            (got - corners).abs() < 1e-9,
+            "{sides:?} {shift:?} {yaw}: {got}"
+        );
+    }
+}
+
+// A cube that stands on a vertex, slid off another at a constant height above its
+// top: over the face, past the edge and the vertex. The energy of one contact
+// all the way, falling only as the vertex goes over the rim; and force and energy
+// change by no more than their slope allows, with steps halved they change by half.
+#[test]
+fn a_vertex_slides_from_face_to_edge_to_vertex_without_a_jump() {
+    let diagonal = UnitQuaternion::rotation_between(&Vec3::new(1.0, 1.0, 1.0), &-Vec3::z());
+    let overlap = 2e-4;
+    let below = undamped(cuboid([0.04; 3]));
+    let mut standing = below.clone();
+    standing.state.orientation = diagonal.expect("not opposite");
+    let at = |x: f64, y: f64| {
+        let mut above = standing.clone();
+        let reach = above.shape.extent_along(&above.to_body(&-Vec3::z()));
+        above.state.position = Vec3::new(x, y, 0.02 + reach - overlap);
+        let found = contacts(&below, &above, &law([&below, &above]));
+        (found.energy, found.push.force)
+    };
+    let one = of_one(&below, &standing, overlap);
+    let largest = law([&below, &standing]).elastic_force(overlap);
+    // Along a line that meets the rim, and along the rim past its end.
+    for way in [
+        [[0.0, 0.005], [0.022, 0.005]],
+        [[0.0, 0.016], [0.022, 0.016]],
+        [[0.0, 0.0], [0.022, 0.022]],
+    ] {
+        let jump = |steps: usize| {
+            let place = |n: usize| {
+                let share = n as f64 / steps as f64;
+                let along = |axis: usize| way[0][axis] + share * (way[1][axis] - way[0][axis]);
+                at(along(0), along(1))
+            };
+            let mut jump: (f64, f64) = (0.0, 0.0);
+            let mut last = place(0);
+            assert!(
+                (last.0 / one - 1.0).abs() < 1e-9,
+                "it starts on the face, once"
+            );
+            for n in 1..=steps {
+                let now = place(n);
+                assert!(now.0 < one * (1.0 + 1e-9), "counted twice: {}", now.0 / one);
+                jump.0 = jump.0.max((now.0 - last.0).abs() / one);
+                jump.1 = jump.1.max((now.1 - last.1).norm() / largest);
+                last = now;
+            }
+            assert_eq!(last.0, 0.0, "it ends beside");
+            jump
+        };
+        let (coarse, fine) = (jump(2_000), jump(8_000));
+        assert!(
+            fine.0 < 0.3 * coarse.0 && fine.1 < 0.35 * coarse.1,
+            "{coarse:?} {fine:?}"
+        );
+    }
+}
+
+// The lower edge of a cube is dragged over a rim, one end first: the contact at that
+// end hands its place and its spring over to the crossing of the two edges. Normal
+// force and friction go on without a jump, and friction stays at μ F_n.
+#[test]
+fn friction_goes_on_while_a_contact_changes_its_features() {
+    let below = undamped(cuboid([0.04; 3]));
+    let mut above = undamped(cuboid([0.04; 3]));
+    let law = ContactLaw {
+        friction: 0.5,
+        ..law([&below, &above])
+    };
+    let about_x = UnitQuaternion::from_scaled_axis(Vec3::x() * 0.7);
+    // The leading end a little lower.
+    let about_y = UnitQuaternion::from_scaled_axis(Vec3::y() * 0.01);
+    above.state.orientation = about_y * about_x;
+    let reach = above.shape.extent_along(&above.to_body(&-Vec3::z()));
+    above.state.momentum = Vec3::x() * above.mass;
+    let mut meeting = Meeting::new([0, 1]);
+    let mut forces: Vec<Vec3> = Vec::new();
+    let mut kinds = Vec::new();
+    let (steps, step) = (8_000, 1e-6);
+    for n in 0..steps {
+        let x = -0.004 + step * f64::from(n);
+        above.state.position = Vec3::new(x, 0.0, 0.02 + reach - 2e-4);
+        let exchange = meeting.touch(&below, &above, &law, step);
+        forces.push(exchange.on_second.force);
+        kinds.push(
+            meeting
+                .springs
+                .iter()
+                .map(|s| s.between)
+                .collect::<Vec<_>>(),
+        );
+    }
+    let has_crossing =
+        |kinds: &Vec<Between>| kinds.iter().any(|kind| matches!(kind, Between::Edges(..)));
+    assert!(!has_crossing(&kinds[0]) && has_crossing(&kinds[steps as usize - 1]));
+    let size = forces[0].norm();
+    for pair in forces.windows(2).skip(200) {
+        let jump = (pair[1] - pair[0]).norm() / size;
+        assert!(jump < 5e-3, "{jump}: {pair:?}");
+    }
+    // The rounded rim leans the normal, by far less than this.
+    for force in &forces[200..] {
+        assert!((-force.x / force.z / 0.5 - 1.0).abs() < 0.2, "{force}");
+    }
+}

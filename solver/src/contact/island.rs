@@ -1,0 +1,452 @@
+//! The bodies' own sub-steps: bodies that may meet within a sub-step of the flow
+//! form an island and move together (docs/method.md, equations 15, 20 and 48).
+
+use crate::contact::body_body::{Meeting, least_gap, pair_law, reduced_mass};
+use crate::contact::body_wall::{deepest_overlap, touch_walls};
+use crate::contact::law::ContactLaw;
+use crate::contact::neighbours::{Ball, overlapping};
+use crate::math::Vec3;
+use crate::rigid::{Body, Freedom, Load};
+use crate::walls::{Impulse, Plane};
+use rayon::prelude::*;
+
+/// Share of a contact's time scale √(m/k'), k' where it is deepest, taken per
+/// body sub-step: an undamped impact lasts about four of them, so it gets forty.
+const CONTACT_SHARE: f64 = 0.1;
+/// Largest turn per body sub-step [rad].
+const LARGEST_TURN: f64 = 0.05;
+/// More body sub-steps than this never pay.
+const MOST_SUBSTEPS: f64 = 10_000.0;
+/// A body none of whose places is faster is still [m/s].
+const STILL: f64 = 1e-5;
+/// An island all of whose bodies were still for so long sleeps [s].
+const FALLS_ASLEEP_AFTER: f64 = 0.1;
+
+/// What one flow sub-step did to a body.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BodyReport {
+    /// Impulse of the walls, about the origin.
+    pub wall: Impulse,
+    /// Impulse of fixed bodies, about the origin.
+    pub barrier: Impulse,
+    /// Impulse of gravity, about the origin.
+    pub gravity: Impulse,
+    /// Mean force and torque of the walls.
+    pub wall_load: Load,
+    /// Mean force and torque of all other bodies.
+    pub body_load: Load,
+    /// Body sub-steps.
+    pub substeps: u32,
+    /// Body sub-steps that ended in touch with a wall or another body.
+    pub substeps_supported: u32,
+}
+
+/// What bodies move under besides each other.
+#[derive(Debug, Clone, Copy)]
+pub struct Surroundings<'a> {
+    /// The walls.
+    pub planes: &'a [Plane],
+    /// [m/s²].
+    pub gravity: Vec3,
+}
+
+/// Advances all bodies by `dt` under a constant load of the flow each (force, and
+/// torque about the centre at the start), gravity, walls and each other. `meetings`
+/// is what contacts remember; it holds the pairs that may meet, in order.
+pub fn advance(
+    bodies: &mut [Body],
+    meetings: &mut Vec<Meeting>,
+    reports: &mut [BodyReport],
+    flow: impl Fn(usize) -> Load + Sync,
+    around: &Surroundings,
+    dt: f64,
+) {
+    renew(meetings, &near_pairs(bodies, dt));
+    if meetings.is_empty() {
+        advance_apart(bodies, reports, flow, around, dt);
+        return;
+    }
+    let mut islands = islands(bodies, reports, std::mem::take(meetings), flow);
+    islands
+        .par_iter_mut()
+        .for_each(|island| island.advance(around, dt));
+    let parted = islands.into_iter().flat_map(|island| island.meetings);
+    meetings.extend(parted.map(|met| met.meeting));
+    meetings.sort_unstable_by_key(|meeting| meeting.bodies);
+}
+
+/// Advances bodies of which none is near another: as many islands, with nothing
+/// allocated for them.
+fn advance_apart(
+    bodies: &mut [Body],
+    reports: &mut [BodyReport],
+    flow: impl Fn(usize) -> Load + Sync,
+    around: &Surroundings,
+    dt: f64,
+) {
+    let pairs = bodies.par_iter_mut().zip(reports).enumerate();
+    pairs.for_each(|(place, (body, report))| {
+        *report = BodyReport::default();
+        if is_free(body) {
+            let mut alone = Member::new(body, report, flow(place));
+            advance_together(std::slice::from_mut(&mut alone), &mut [], around, dt);
+        }
+    });
+}
+
+/// Finds who touches whom at the start, before anything moved.
+pub fn meet(bodies: &mut [Body]) -> Vec<Meeting> {
+    let pairs = near_pairs(bodies, 0.0);
+    let mut meetings: Vec<Meeting> = pairs.iter().map(|pair| Meeting::new(*pair)).collect();
+    let mut reports = vec![BodyReport::default(); bodies.len()];
+    let at_rest = |_| Load::default();
+    for mut island in islands(bodies, &mut reports, std::mem::take(&mut meetings), at_rest) {
+        touch_bodies(&mut island.members, &mut island.meetings, 0.0);
+        meetings.extend(island.meetings.into_iter().map(|met| met.meeting));
+    }
+    meetings.sort_unstable_by_key(|meeting| meeting.bodies);
+    meetings
+}
+
+/// Pairs of bodies, one of them free, that may touch within `dt`, in order.
+fn near_pairs(bodies: &[Body], dt: f64) -> Vec<[usize; 2]> {
+    if bodies.len() < 2 {
+        return Vec::new();
+    }
+    let ball = |body: &Body| Ball {
+        centre: body.state.position,
+        radius: body.shape.bounding_radius() + reach(body, dt),
+    };
+    let mut pairs = overlapping(&bodies.iter().map(ball).collect::<Vec<_>>());
+    pairs.retain(|pair| {
+        let [first, second] = pair.map(|place| &bodies[place]);
+        let free = [first, second].iter().any(|body| is_free(body));
+        free && least_gap(first, second) < reach(first, dt) + reach(second, dt)
+    });
+    pairs
+}
+
+fn is_free(body: &Body) -> bool {
+    body.freedom == Freedom::Free
+}
+
+/// What a body can travel in `dt`, with room for what accelerates it [m].
+fn reach(body: &Body, dt: f64) -> f64 {
+    let margin = 0.01 * body.shape.sphero_radius();
+    match body.freedom {
+        Freedom::Free => 2.0 * body.largest_speed() * dt + margin,
+        Freedom::Fixed => margin,
+    }
+}
+
+/// Takes over what those that are still near remember, and begins the others.
+/// Both are in order.
+fn renew(meetings: &mut Vec<Meeting>, pairs: &[[usize; 2]]) {
+    let mut before = std::mem::take(meetings).into_iter().peekable();
+    meetings.extend(pairs.iter().map(|&pair| {
+        while before.next_if(|meeting| meeting.bodies < pair).is_some() {}
+        before
+            .next_if(|meeting| meeting.bodies == pair)
+            .unwrap_or_else(|| Meeting::new(pair))
+    }));
+}
+
+/// Free bodies that have to move together.
+struct Island<'a> {
+    members: Vec<Member<'a>>,
+    meetings: Vec<Met<'a>>,
+}
+
+/// A free body of an island.
+struct Member<'a> {
+    body: &'a mut Body,
+    report: &'a mut BodyReport,
+    flow: Load,
+    /// Where its centre is at the start of the flow's sub-step [m].
+    start: Vec3,
+}
+
+/// Two bodies of which one at least is a member.
+struct Met<'a> {
+    meeting: Meeting,
+    law: ContactLaw,
+    sides: [Side<'a>; 2],
+}
+
+#[derive(Clone, Copy)]
+enum Side<'a> {
+    /// A member, by its place in the island.
+    Member(usize),
+    /// A fixed body.
+    Barrier(&'a Body),
+}
+
+/// Divides the bodies into islands; the order follows from the bodies alone.
+fn islands<'a>(
+    bodies: &'a mut [Body],
+    reports: &'a mut [BodyReport],
+    meetings: Vec<Meeting>,
+    flow: impl Fn(usize) -> Load,
+) -> Vec<Island<'a>> {
+    let laws: Vec<ContactLaw> = meetings
+        .iter()
+        .map(|meeting| pair_law(&bodies[meeting.bodies[0]], &bodies[meeting.bodies[1]]))
+        .collect();
+    let heads = heads(bodies, &meetings);
+    let mut islands: Vec<Island> = Vec::new();
+    // Per body: its island and place there, or the barrier that it is.
+    let mut seats: Vec<(usize, Side)> = Vec::with_capacity(bodies.len());
+    for (place, (body, report)) in bodies.iter_mut().zip(reports).enumerate() {
+        *report = BodyReport::default();
+        if body.freedom == Freedom::Fixed {
+            seats.push((0, Side::Barrier(body)));
+            continue;
+        }
+        let island = if heads[place] == place {
+            islands.push(Island {
+                members: Vec::new(),
+                meetings: Vec::new(),
+            });
+            islands.len() - 1
+        } else {
+            seats[heads[place]].0
+        };
+        let members = &mut islands[island].members;
+        seats.push((island, Side::Member(members.len())));
+        members.push(Member::new(body, report, flow(place)));
+    }
+    for (meeting, law) in meetings.into_iter().zip(laws) {
+        let sides = meeting.bodies.map(|place| seats[place]);
+        let member = sides
+            .iter()
+            .find(|(_, side)| matches!(side, Side::Member(_)));
+        if let Some(&(island, _)) = member {
+            islands[island].meetings.push(Met {
+                meeting,
+                law,
+                sides: sides.map(|(_, side)| side),
+            });
+        }
+    }
+    islands
+}
+
+/// Per body the first of those it hangs together with.
+fn heads(bodies: &[Body], meetings: &[Meeting]) -> Vec<usize> {
+    fn head_of(heads: &[usize], mut place: usize) -> usize {
+        while heads[place] != place {
+            place = heads[place];
+        }
+        place
+    }
+    let mut heads: Vec<usize> = (0..bodies.len()).collect();
+    for meeting in meetings {
+        if meeting.bodies.iter().all(|&place| is_free(&bodies[place])) {
+            let [a, b] = meeting.bodies.map(|place| head_of(&heads, place));
+            heads[a.max(b)] = a.min(b);
+        }
+    }
+    (0..bodies.len())
+        .map(|place| head_of(&heads, place))
+        .collect()
+}
+
+impl Island<'_> {
+    fn advance(&mut self, around: &Surroundings, dt: f64) {
+        if self.sleeps() {
+            for member in &mut self.members {
+                member.lie();
+            }
+        } else {
+            advance_together(&mut self.members, &mut self.meetings, around, dt);
+        }
+    }
+
+    /// Time stands still on an island where nothing has moved for a while and
+    /// nothing from outside is near: contacts, momentum and all stay as they
+    /// are until another body comes near or a point touches.
+    fn sleeps(&self) -> bool {
+        self.members.len() > 1
+            && self.members.iter().all(|member| {
+                member.flow == Load::default() && member.body.state.still_for >= FALLS_ASLEEP_AFTER
+            })
+    }
+}
+
+/// Velocity Verlet in as many sub-steps as the member that needs most asks for.
+fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surroundings, dt: f64) {
+    let count = substeps(members, meetings, around.planes, dt);
+    let h = dt / count;
+    for _ in 0..count as u32 {
+        for member in members.iter_mut() {
+            member.half_kick(&around.gravity, 0.5 * h);
+            member.body.drift(h);
+            touch_walls(member.body, around.planes, h);
+        }
+        touch_bodies(members, meetings, h);
+        for member in members.iter_mut() {
+            member.half_kick(&around.gravity, 0.5 * h);
+            member.report.substeps += 1;
+            member.report.substeps_supported += u32::from(member.body.is_supported());
+        }
+    }
+    for member in members {
+        let report = &mut *member.report;
+        for load in [&mut report.wall_load, &mut report.body_load] {
+            load.force /= dt;
+            load.torque /= dt;
+        }
+        member.watch_rest(dt);
+    }
+}
+
+/// Number of body sub-steps in `dt`, whole but kept as a float.
+fn substeps(members: &[Member], meetings: &[Met], planes: &[Plane], dt: f64) -> f64 {
+    let alone = members.iter();
+    let alone = alone.map(|member| substeps_alone(member.body, planes, dt));
+    let met = meetings.iter().map(|met| substeps_met(members, met, dt));
+    let count = alone.chain(met).fold(0.0, f64::max);
+    count.ceil().clamp(1.0, MOST_SUBSTEPS)
+}
+
+fn substeps_met(members: &[Member], met: &Met, dt: f64) -> f64 {
+    let [first, second] = met.sides.map(|side| body_of(members, side));
+    let free = || [first, second].into_iter().filter(|body| is_free(body));
+    let speed = free().map(Body::largest_speed).sum();
+    let impact = impact_overlap(&met.law, reduced_mass(first, second), speed);
+    let inverse: f64 = free().map(|body| 1.0 / lightest_effective_mass(body)).sum();
+    let deepest = met.meeting.deepest.max(impact);
+    if deepest > 0.0 {
+        dt / (CONTACT_SHARE * met.law.time_scale(deepest, 1.0 / inverse))
+    } else {
+        0.0
+    }
+}
+
+fn body_of<'a>(members: &'a [Member], side: Side<'a>) -> &'a Body {
+    match side {
+        Side::Member(place) => members[place].body,
+        Side::Barrier(body) => body,
+    }
+}
+
+/// Renews what bodies do to each other after a drift of `dt`.
+fn touch_bodies(members: &mut [Member], meetings: &mut [Met], dt: f64) {
+    for member in members.iter_mut() {
+        let state = &mut member.body.state;
+        state.body_load = Load::default();
+        state.barrier_load = Load::default();
+        state.touching_bodies = 0;
+    }
+    for met in meetings {
+        let [first, second] = met.sides.map(|side| body_of(members, side));
+        let exchange = met.meeting.touch(first, second, &met.law, dt);
+        if met.meeting.touches() {
+            take(members, met.sides, &exchange.on_first);
+            take(members, [met.sides[1], met.sides[0]], &exchange.on_second);
+        }
+    }
+}
+
+/// Takes in what the second side does to the first.
+fn take(members: &mut [Member], [to, from]: [Side; 2], load: &Load) {
+    let Side::Member(place) = to else {
+        return;
+    };
+    let state = &mut members[place].body.state;
+    state.touching_bodies += 1;
+    match from {
+        Side::Member(_) => state.body_load.add(load),
+        Side::Barrier(_) => state.barrier_load.add(load),
+    }
+}
+
+impl<'a> Member<'a> {
+    fn new(body: &'a mut Body, report: &'a mut BodyReport, flow: Load) -> Self {
+        Self {
+            start: body.state.position,
+            flow,
+            body,
+            report,
+        }
+    }
+
+    fn half_kick(&mut self, gravity: &Vec3, dt: f64) {
+        let weight = gravity * self.body.mass;
+        let state = &self.body.state;
+        let position = state.position;
+        let (wall, barrier, others) = (state.wall_load, state.barrier_load, state.body_load);
+        // The flow's force keeps its line of action, so that points and body
+        // exchange equal and opposite angular momentum.
+        let shifted = self.flow.torque - (position - self.start).cross(&self.flow.force);
+        let mut total = Load {
+            force: wall.force + self.flow.force + weight,
+            torque: wall.torque + shifted,
+        };
+        let mut bodies = others;
+        bodies.add(&barrier);
+        total.add(&bodies);
+        self.body.kick(&total, dt);
+        let report = &mut *self.report;
+        report.wall.add_at(&position, &(wall.force * dt));
+        report.wall.angular += wall.torque * dt;
+        report.barrier.add_at(&position, &(barrier.force * dt));
+        report.barrier.angular += barrier.torque * dt;
+        report.gravity.add_at(&position, &(weight * dt));
+        for (sum, load) in [
+            (&mut report.wall_load, &wall),
+            (&mut report.body_load, &bodies),
+        ] {
+            sum.force += load.force * dt;
+            sum.torque += load.torque * dt;
+        }
+    }
+
+    /// What it reports asleep: the loads that hold it.
+    fn lie(&mut self) {
+        let state = &self.body.state;
+        self.report.wall_load = state.wall_load;
+        self.report.body_load = state.body_load;
+        self.report.body_load.add(&state.barrier_load);
+        self.report.substeps = 1;
+        self.report.substeps_supported = u32::from(self.body.is_supported());
+    }
+
+    fn watch_rest(&mut self, dt: f64) {
+        if self.body.largest_speed() < STILL && self.flow == Load::default() {
+            self.body.state.still_for += dt;
+        } else {
+            self.body.state.still_for = 0.0;
+        }
+    }
+}
+
+/// Sub-steps that a body asks for by its spin and the walls.
+fn substeps_alone(body: &Body, planes: &[Plane], dt: f64) -> f64 {
+    let turns = body.angular_velocity().norm() * dt / LARGEST_TURN;
+    let speed = body.largest_speed();
+    let deepest = deepest_overlap(body, planes);
+    let contacts = if deepest + reach(body, dt) > 0.0 {
+        let law = &body.wall_law;
+        let impact = impact_overlap(law, body.mass, speed);
+        dt / (CONTACT_SHARE * law.time_scale(deepest.max(impact), lightest_effective_mass(body)))
+    } else {
+        0.0
+    };
+    turns.max(contacts)
+}
+
+/// Depth of a Hertz impact [m].
+fn impact_overlap(law: &ContactLaw, mass: f64, speed: f64) -> f64 {
+    (1.25 * mass * speed * speed / law.stiffness).powf(0.4)
+}
+
+/// A lower bound of the effective mass at any place of the body [kg].
+fn lightest_effective_mass(body: &Body) -> f64 {
+    let radius = body.shape.bounding_radius();
+    let turning = body.inverse_inertia.norm() * radius * radius;
+    1.0 / (1.0 / body.mass + turning)
+}
+
+#[cfg(test)]
+mod tests;
