@@ -24,6 +24,7 @@ pub(super) fn cube(side_m: f64, sphero_radius_m: f64) -> Body {
         angular_velocity_rad_s: [0.0; 3],
         friction: 0.4,
         restitution: 0.3,
+        rolling_friction: 0.0,
         flow_friction: 0.4,
         flow_restitution: 0.0,
         contact_modulus_pa: None,

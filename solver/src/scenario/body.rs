@@ -46,6 +46,7 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
     let velocities = read_velocities(&object);
     let friction = object.number(&FRICTION);
     let restitution = object.number(&RESTITUTION);
+    let rolling_friction = object.number(&ROLLING_FRICTION);
     let flow_friction = object.number(&FLOW_FRICTION);
     let flow_restitution = object.number(&FLOW_RESTITUTION);
     let contact_modulus_pa = object.automatic(&CONTACT_MODULUS);
@@ -64,6 +65,7 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
         angular_velocity_rad_s,
         friction: friction?,
         restitution: restitution?,
+        rolling_friction: rolling_friction?,
         flow_friction: flow_friction?,
         flow_restitution: flow_restitution?,
         contact_modulus_pa: contact_modulus_pa?,

@@ -125,10 +125,13 @@ pub struct Body {
     pub velocity_m_s: [f64; 3],
     /// Initial angular velocity, world axes [rad/s].
     pub angular_velocity_rad_s: [f64; 3],
-    /// Coulomb friction with walls.
+    /// Coulomb friction with walls and other bodies.
     pub friction: f64,
-    /// Restitution with walls.
+    /// Restitution with walls and other bodies.
     pub restitution: f64,
+    /// Rolling resistance on walls and other bodies: the couple of a contact is
+    /// at most this × its equivalent radius × its normal force.
+    pub rolling_friction: f64,
     /// Coulomb friction with the flow.
     pub flow_friction: f64,
     /// Restitution with the flow.

@@ -116,6 +116,7 @@ pub(super) const ANGULAR_VELOCITY: Rule = Rule::new("angular_velocity_rad_s", cl
     .default(0.0);
 pub(super) const FRICTION: Rule = friction("friction", 0.4);
 pub(super) const RESTITUTION: Rule = restitution("restitution", 0.3);
+pub(super) const ROLLING_FRICTION: Rule = friction("rolling_friction", 0.0);
 pub(super) const FLOW_FRICTION: Rule = friction("flow_friction", 0.4);
 pub(super) const FLOW_RESTITUTION: Rule = restitution("flow_restitution", 0.0);
 pub(super) const CONTACT_MODULUS: Rule = modulus("contact_modulus_pa");

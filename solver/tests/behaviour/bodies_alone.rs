@@ -158,3 +158,30 @@ fn a_cube_tips_over_its_lowest_edge() {
     assert!(!tips(41.99 - 0.3));
     assert!(tips(41.99 + 0.3));
 }
+
+// A cube rounded almost to a ball, which stands on one vertex of what core is left,
+// is pushed along. It rolls on and on; a resistance of 0.1 with the lever r takes
+// 0.1 m g of force from it, and it stops within v²/(2 · 0.1 g · 5/7) = 0.18 m.
+#[test]
+fn rolling_friction_stops_a_round_body() {
+    let half = 0.5 * (1.0f64 / 3.0).sqrt().acos();
+    let part = half.sin() / 2f64.sqrt();
+    let travelled = |rolling_friction: f64| {
+        let ball = json!({
+            "shape": {"cube": {"side_m": 0.04}}, "sphero_radius_m": 0.0199,
+            "position": {"downstream_m": 0.1}, "velocity_m_s": [0.5, 0.0, 0.0],
+            "angular_velocity_rad_s": [0.0, 25.0, 0.0],
+            "orientation": [half.cos(), part, -part, 0.0],
+            "rolling_friction": rolling_friction
+        });
+        let scene = Scene::channel(0.0, 0.5, 2.0, 0.2).body(ball).lasting(2.0);
+        let simulation = scene.finished();
+        let body = &simulation.bodies()[0];
+        (body.state.position.x - 0.1, body.velocity().norm())
+    };
+    let (free, speed) = travelled(0.0);
+    assert!(free > 0.5 && speed > 0.2, "{free} {speed}");
+    let (held, speed) = travelled(0.1);
+    println!("{held} m, then {speed:e} m/s");
+    assert!(held > 0.09 && held < 0.2 && speed < 1e-3, "{held} {speed}");
+}

@@ -145,12 +145,16 @@ pub struct BodyDocument {
     /// Initial angular velocity, world axes [rad/s].
     #[schema(required = false)]
     pub angular_velocity_rad_s: [f64; 3],
-    /// Coulomb friction with walls.
+    /// Coulomb friction with walls and other bodies.
     #[schema(required = false)]
     pub friction: f64,
-    /// Restitution with walls.
+    /// Restitution with walls and other bodies.
     #[schema(required = false)]
     pub restitution: f64,
+    /// Rolling resistance on walls and other bodies: the couple of a contact is
+    /// at most this × its equivalent radius × its normal force.
+    #[schema(required = false)]
+    pub rolling_friction: f64,
     /// Coulomb friction with the flow.
     #[schema(required = false)]
     pub flow_friction: f64,

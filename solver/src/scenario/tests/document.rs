@@ -50,6 +50,7 @@ const RULES: [(&str, &[Rule]); 8] = [
             ANGULAR_VELOCITY,
             FRICTION,
             RESTITUTION,
+            ROLLING_FRICTION,
             FLOW_FRICTION,
             FLOW_RESTITUTION,
             CONTACT_MODULUS,

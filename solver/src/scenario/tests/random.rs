@@ -152,6 +152,7 @@ proptest! {
         volume in 0.0..0.03_f64,
         side in 0.001..0.1_f64,
         yaw in -180.0..180.0_f64,
+        rolling in 0.0..10.0_f64,
     ) {
         let mut value = minimal();
         value["channel"]["inclination_deg"] = json!(inclination);
@@ -159,7 +160,9 @@ proptest! {
         value["flow"]["volume_m3"] = json!(volume.min(0.028));
         value["bodies"][0]["shape"]["cube"]["side_m"] = json!(side);
         value["bodies"][0]["yaw_deg"] = json!(yaw);
+        value["bodies"][0]["rolling_friction"] = json!(rolling);
         let scenario = Scenario::from_json(&value.to_string()).unwrap();
+        prop_assert_eq!(scenario.bodies[0].rolling_friction.to_bits(), rolling.to_bits());
         prop_assert_eq!(scenario.channel.inclination_deg.to_bits(), inclination.to_bits());
         let text = serde_json::to_string_pretty(&scenario).unwrap();
         prop_assert_eq!(Scenario::from_json(&text).unwrap(), scenario);

@@ -57,7 +57,7 @@ fn body(scenario: &Scenario, given: &Setup, place: usize, crowd: &Crowd) -> Body
         inertia,
         wall_law,
         flow_law,
-        rolling_friction: 0.0,
+        rolling_friction: spec.rolling_friction,
         freedom: if spec.fixed {
             Freedom::Fixed
         } else {
