@@ -303,6 +303,7 @@ fn resting_cube(place: Vec3) -> Body {
             rolling: Vec::new(),
             wall_load: Load::default(),
             wall_energy: 0.0,
+            wall_overlap: 0.0,
             body_load: Load::default(),
             barrier_load: Load::default(),
             touching_bodies: 0,

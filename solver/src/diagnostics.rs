@@ -163,6 +163,8 @@ pub struct Audit {
     pub angular_momentum_residual: f64,
     /// Largest overlap δ/(R_p + r).
     pub deepest_overlap_ratio: f64,
+    /// Largest overlap of a body with a wall or another body, δ/r.
+    pub deepest_body_overlap_ratio: f64,
     spread: Vec3,
     /// Angular momentum that spreading the points made, relative as the residual.
     pub angular_momentum_spread: f64,
@@ -200,6 +202,11 @@ impl Audit {
     /// Takes in how deep a point and a body overlapped, δ/(R_p + r).
     pub fn meet(&mut self, overlap_ratio: f64) {
         self.deepest_overlap_ratio = self.deepest_overlap_ratio.max(overlap_ratio);
+    }
+
+    /// Takes in how deep a body and a wall or another body overlapped, δ/r.
+    pub fn meet_solid(&mut self, overlap_ratio: f64) {
+        self.deepest_body_overlap_ratio = self.deepest_body_overlap_ratio.max(overlap_ratio);
     }
 
     /// Takes in points that left by the open end.

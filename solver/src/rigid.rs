@@ -59,6 +59,8 @@ pub struct BodyState {
     pub wall_load: Load,
     /// Energy its wall contacts hold now [J].
     pub wall_energy: f64,
+    /// Its deepest overlap with a wall now [m]; 0 off all walls.
+    pub wall_overlap: f64,
     /// What other free bodies do to it now.
     pub body_load: Load,
     /// What fixed bodies do to it now.

@@ -38,19 +38,24 @@ fn flow(flow: &FlowOutcome) -> [Entry; 3] {
     ]
 }
 
-fn audit(audit: &Audit) -> [[Entry; 4]; 2] {
+fn audit(audit: &Audit) -> [Vec<Entry>; 2] {
     let small = |value: f64| format!("{value:.1e}");
     [
-        [
+        vec![
             ("mass error", small(audit.mass_error), ""),
             ("momentum residual", small(audit.momentum_residual), ""),
             ("angular", small(audit.angular_momentum_residual), ""),
             ("energy residual", small(audit.energy_residual), ""),
         ],
-        [
+        vec![
             (
                 "largest overlap",
                 format!("{:.3}", audit.max_overlap_ratio),
+                "",
+            ),
+            (
+                "of bodies",
+                format!("{:.3}", audit.max_body_overlap_ratio),
                 "",
             ),
             ("points put back", audit.points_put_back.to_string(), ""),

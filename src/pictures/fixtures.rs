@@ -188,6 +188,7 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
             angular_momentum_spread: 0.0,
             energy_residual: 0.0,
             max_overlap_ratio: 0.0,
+            max_body_overlap_ratio: 0.0,
             points_put_back: 0,
             points_left: 0,
             points_lost: 0,

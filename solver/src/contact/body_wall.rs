@@ -46,7 +46,9 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
     let push = elastic_push(body, planes);
     let mut load = Load::default();
     let mut energy = 0.0;
+    let mut deepest: f64 = 0.0;
     for (place, arm, overlap) in overlaps(body, planes) {
+        deepest = deepest.max(overlap);
         if overlap <= 0.0 {
             springs[place] = Vec3::zeros();
             if let Some(stretch) = rolling.get_mut(place) {
@@ -70,6 +72,7 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
     body.state.rolling = rolling;
     body.state.wall_load = load;
     body.state.wall_energy = energy;
+    body.state.wall_overlap = deepest;
 }
 
 /// The elastic forces of all walls together.

@@ -39,6 +39,16 @@ pub struct BodyReport {
     pub substeps: u32,
     /// Body sub-steps that ended in touch with a wall or another body.
     pub substeps_supported: u32,
+    /// Its deepest overlap with a wall or another body, over its sphero radius
+    /// or that of the other if smaller.
+    pub deepest_overlap_ratio: f64,
+}
+
+impl BodyReport {
+    /// Takes in an overlap over a sphero radius.
+    fn overlap(&mut self, ratio: f64) {
+        self.deepest_overlap_ratio = self.deepest_overlap_ratio.max(ratio);
+    }
 }
 
 /// What bodies move under besides each other.
@@ -288,6 +298,9 @@ fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surro
             member.half_kick(&around.gravity, 0.5 * h);
             member.report.substeps += 1;
             member.report.substeps_supported += u32::from(member.body.is_supported());
+            let state = &member.body.state;
+            let radius = member.body.shape.sphero_radius();
+            member.report.overlap(state.wall_overlap / radius);
         }
     }
     for member in members {
@@ -342,6 +355,13 @@ fn touch_bodies(members: &mut [Member], meetings: &mut [Met], dt: f64) {
         let [first, second] = met.sides.map(|side| body_of(members, side));
         let exchange = met.meeting.touch(first, second, &met.law, dt);
         if met.meeting.touches() {
+            let smaller = f64::min(first.shape.sphero_radius(), second.shape.sphero_radius());
+            let ratio = met.meeting.deepest / smaller;
+            for side in met.sides {
+                if let Side::Member(place) = side {
+                    members[place].report.overlap(ratio);
+                }
+            }
             take(members, met.sides, &exchange.on_first);
             take(members, [met.sides[1], met.sides[0]], &exchange.on_second);
         }

@@ -145,6 +145,9 @@ pub struct Audit {
     pub energy_residual: f64,
     /// Largest overlap of a point with a body, δ/(R_p + r).
     pub max_overlap_ratio: f64,
+    /// Largest overlap of a body with a wall or another body, δ/r, r the smaller
+    /// sphero radius of two bodies.
+    pub max_body_overlap_ratio: f64,
     /// Points that ended a step inside a body's core and were put back.
     pub points_put_back: u64,
     /// Points that left by the open end.

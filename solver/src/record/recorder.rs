@@ -119,6 +119,7 @@ impl Recorder {
                 angular_momentum_spread: audit.angular_momentum_spread,
                 energy_residual: audit.energy_residual(),
                 max_overlap_ratio: audit.deepest_overlap_ratio,
+                max_body_overlap_ratio: audit.deepest_body_overlap_ratio,
                 points_put_back: audit.points_put_back,
                 points_left: audit.points_left,
                 points_lost: simulation.released_points()

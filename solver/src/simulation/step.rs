@@ -119,6 +119,7 @@ impl Simulation {
             state.audit.exchange(&report.wall);
             state.audit.exchange(&report.barrier);
             state.audit.exchange(&report.gravity);
+            state.audit.meet_solid(report.deepest_overlap_ratio);
         }
         for flow in on_bodies {
             state.audit.meet(flow.deepest_overlap_ratio);

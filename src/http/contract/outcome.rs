@@ -75,6 +75,9 @@ pub struct AuditDocument {
     pub energy_residual: f64,
     /// Largest overlap of a point with a body.
     pub max_overlap_ratio: f64,
+    /// Largest overlap of a body with a wall or another body, over its sphero
+    /// radius (the smaller of two).
+    pub max_body_overlap_ratio: f64,
     /// Points put back out of a body.
     pub points_put_back: u64,
     /// Points that left by the open end.
