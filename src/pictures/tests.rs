@@ -52,6 +52,7 @@ fn motion_names_its_axes_and_values() {
         "Cube <hit> by \"sand\" & gravel",
         "displacement [m]",
         "speed [m/s]",
+        "submerged share",
         "time [s]",
         "onset 0.0289 s",
         "peak 0.600 m/s at 0.510 s",

@@ -4,7 +4,7 @@ use super::instants::Instant;
 use super::layout::{AXIS, LEFT, Layout};
 use super::{HAIRLINE, stroke};
 use crate::pictures::canvas::{Area, FAINT_INK, INK, PictureError, Plane, bold, px, text};
-use crate::pictures::format::significant;
+use crate::pictures::format::{plain, significant};
 use crate::pictures::palette::{SpeedScale, body_color};
 use crate::pictures::{outline, surface};
 use plotters::element::DashedPathElement;
@@ -230,6 +230,8 @@ fn axes<'a>(sheet: &Area<'a>, layout: &Layout, index: usize) -> Result<Plane<'a>
         .x_labels(numbers_along)
         .y_labels(numbers_across)
         .set_all_tick_mark_size(px(3.0))
+        // No minus sign before a zero.
+        .y_label_formatter(&|y: &f64| plain((y * 1e6).round() * 1e-6 + 0.0))
         .label_style(text(10.5, &INK))
         .draw()?;
     Ok(panel.plotting_area().clone())

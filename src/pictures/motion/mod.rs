@@ -1,5 +1,5 @@
-//! Displacement and speed of the bodies against time (the source paper's
-//! figure 7).
+//! Displacement, speed and submergence of the bodies against time (the first two are
+//! the source paper's figure 7).
 
 mod track;
 
@@ -25,9 +25,10 @@ const LINE: f64 = 17.0;
 /// Bodies described in words above the panels; more are only drawn.
 const LISTED: usize = 8;
 
-/// Net horizontal displacement [m] and speed [m/s] of every free body's centre
-/// against time [s], in two panels over one time axis, with onset, peak and
-/// rest marked and their values written out. Returns an SVG document.
+/// Net horizontal displacement [m] and speed [m/s] of every free body's centre, and
+/// where there is a flow the share of its height that is submerged, against time [s],
+/// in panels over one time axis, with onset, peak and rest marked and their values
+/// written out. Returns an SVG document.
 ///
 /// Values come from `outcome`, curves from `samples`; either may be empty.
 ///
@@ -45,12 +46,10 @@ pub fn motion(
     // An axis has a length, even if a run of duration 0 has none.
     let ends = [last, scenario.duration_s, 1.0];
     let end_s = ends.into_iter().find(|end| *end > 0.0).unwrap_or(1.0);
-    paint((WIDTH, top + 2.0 * PANEL), |sheet| {
+    let shown = Quantity::of(scenario);
+    paint((WIDTH, top + PANEL * shown.len() as f64), |sheet| {
         draw_header(sheet, scenario, &listed)?;
-        for (row, quantity) in [Quantity::Displacement, Quantity::Speed]
-            .into_iter()
-            .enumerate()
-        {
+        for (row, quantity) in shown.into_iter().enumerate() {
             let upper = px(top + PANEL * row as f64);
             let area = sheet.clone().shrink((0, upper), (px(WIDTH), px(PANEL)));
             draw_panel(&area, quantity, &tracks, end_s)?;
@@ -80,7 +79,11 @@ fn draw_header(
     let left = px(16.0);
     let headline = title(&scenario.title, "Untitled scenario");
     sheet.draw_text(&headline, &bold(15.0, &INK), (left, px(12.0)))?;
-    let subtitle = "Net horizontal displacement and speed of each body's centre";
+    let subtitle = if scenario.flow.is_some() {
+        "Net horizontal displacement and speed of each body's centre, and how deep it is in the flow"
+    } else {
+        "Net horizontal displacement and speed of each body's centre"
+    };
     sheet.draw_text(subtitle, &text(12.0, &FAINT_INK), (left, px(33.0)))?;
     for (row, (line, color)) in listed.iter().enumerate() {
         let y = HEADER + LINE * row as f64;
@@ -98,8 +101,11 @@ fn draw_panel(
     end_s: f64,
 ) -> Result<(), PictureError> {
     let largest = (tracks.iter().map(|t| t.largest(quantity))).fold(0.0, f64::max);
-    // Head room for the texts above the curves.
-    let top = round_up(largest * 1.12);
+    let top = match quantity {
+        // Head room for the texts above the curves.
+        Quantity::Displacement | Quantity::Speed => round_up(largest * 1.12),
+        Quantity::Submergence => 1.0,
+    };
     let mut panel = ChartBuilder::on(area)
         .margin_top(px(8.0))
         .margin_right(px(22.0))
@@ -160,7 +166,7 @@ fn draw_note_text(
     (end_s, top): (f64, f64),
 ) -> Result<(), PictureError> {
     let (aside, above, vertical) = match note.placement {
-        Placement::Above => (0.0, 9.0, VPos::Bottom),
+        Placement::Above | Placement::Beyond => (0.0, 9.0, VPos::Bottom),
         Placement::Head => (7.0, 0.0, VPos::Top),
     };
     let mut anchor = note.at;
@@ -170,8 +176,12 @@ fn draw_note_text(
         let style = FAINT_INK.stroke_width(stroke(0.9));
         plane.draw(&DashedPathElement::new(line, px(4.0), px(3.0), style))?;
     }
-    // Towards the side with more room.
-    let rightwards = note.at.0 < 0.62 * end_s;
+    // Towards the side with more room, or where the curve is not.
+    let room = match note.placement {
+        Placement::Above | Placement::Head => 0.62,
+        Placement::Beyond => 0.8,
+    };
+    let rightwards = note.at.0 < room * end_s;
     let (side, aside) = if rightwards {
         (HPos::Left, aside)
     } else {

@@ -16,14 +16,26 @@ pub(super) enum Quantity {
     Displacement,
     /// Speed of the centre [m/s].
     Speed,
+    /// Share of the height below the surface of the flow.
+    Submergence,
 }
 
 impl Quantity {
+    /// What there is to show, from above.
+    pub(super) fn of(scenario: &Scenario) -> Vec<Self> {
+        let mut shown = vec![Self::Displacement, Self::Speed];
+        if scenario.flow.is_some() {
+            shown.push(Self::Submergence);
+        }
+        shown
+    }
+
     /// Title of its axis, with the unit.
     pub(super) fn axis_title(self) -> &'static str {
         match self {
             Self::Displacement => "displacement [m]",
             Self::Speed => "speed [m/s]",
+            Self::Submergence => "submerged share",
         }
     }
 }
@@ -35,6 +47,8 @@ pub(super) enum Placement {
     Above,
     /// At the head of a dashed line: the curve rises from there.
     Head,
+    /// Beyond the mark, if there is room: the curve comes down to it.
+    Beyond,
 }
 
 /// A marked point of a curve.
@@ -55,7 +69,8 @@ pub(super) struct Track<'a> {
     outcome: Option<&'a BodyOutcome>,
     displacement: Vec<(f64, f64)>,
     speed: Vec<(f64, f64)>,
-    /// Its colour in both panels.
+    submergence: Vec<(f64, f64)>,
+    /// Its colour in all panels.
     pub color: RGBColor,
 }
 
@@ -88,6 +103,7 @@ impl<'a> Track<'a> {
             outcome,
             displacement: thinned(displacement.collect()),
             speed: thinned(states().map(|(t, s)| (t, speed(s))).collect()),
+            submergence: thinned(states().map(|(t, s)| (t, s.submerged_fraction)).collect()),
             color: body_color(body),
         }
     }
@@ -96,6 +112,7 @@ impl<'a> Track<'a> {
         match quantity {
             Quantity::Displacement => &self.displacement,
             Quantity::Speed => &self.speed,
+            Quantity::Submergence => &self.submergence,
         }
     }
 
@@ -114,6 +131,7 @@ impl<'a> Track<'a> {
         match quantity {
             Quantity::Displacement => self.displacement_notes(outcome),
             Quantity::Speed => self.speed_notes(outcome),
+            Quantity::Submergence => Vec::new(),
         }
     }
 
@@ -148,7 +166,7 @@ impl<'a> Track<'a> {
         let rest = outcome.stop_time_s.map(|time| Note {
             at: (time, interpolate(&self.speed, time)),
             text: format!("at rest from {} s", significant(time, 3)),
-            placement: Placement::Above,
+            placement: Placement::Beyond,
         });
         peak.into_iter().chain(rest).collect()
     }
