@@ -172,6 +172,19 @@ fn sphere_into_bed() {
     }
 }
 
+// All six are driven on.
+#[test]
+fn cubes_and_column() {
+    let found = verified("cubes-and-column").found;
+    let missed = |finding: &Finding| finding.verdict == Verdict::Miss;
+    assert!(!found.values.iter().any(missed), "{:#?}", found.values);
+    let driven: Vec<_> = found
+        .of("cubes driven on by a tenth of a side")
+        .map(|finding| finding.measured)
+        .collect();
+    assert_eq!(driven, [Some(6.0); 2]);
+}
+
 // Known misses: what the step of the flow does to the peak.
 #[test]
 fn source_paper() {

@@ -246,3 +246,34 @@ fn limit_in_words(limit: &Limit) -> String {
     };
     format!("limit of {}: {found} over {over}", limit.quantity)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // Every case of the list can be run; one that is listed before it can be must not
+    // look as if it had been.
+    #[test]
+    fn a_case_that_cannot_be_run_yet_says_why() {
+        let case = Case {
+            name: "perpetual-motion",
+            number: "0",
+            title: "a wheel that turns for ever",
+            source: "none",
+            how: How::NotYet("friction is not negative"),
+        };
+        let verified = run_case(&case, Effort::Quick);
+        assert_eq!(verified.found.count(), Count::default());
+        let report = Report {
+            solver_version: VERSION,
+            machine: Machine::here(),
+            effort: Effort::Quick,
+            count: Count::default(),
+            cases: vec![verified],
+        };
+        let text = report.tables();
+        assert!(text.contains("not yet expressible: friction is not negative"));
+        assert!(text.ends_with("cases not yet expressible: 1"), "{text}");
+        assert!(!text.contains("verdict"), "{text}");
+    }
+}

@@ -4,6 +4,7 @@ mod axisymmetric_collapse;
 mod bagnold;
 mod buried_body;
 mod column_collapse;
+mod cubes_and_column;
 mod dam_break;
 mod dust_stream;
 mod elastic_bar;
@@ -23,7 +24,7 @@ mod sphere_into_bed;
 mod torque_free;
 mod two_clocks;
 
-use super::{Case, How};
+use super::Case;
 
 pub use feature_contacts::slide_over_a_rim;
 
@@ -51,14 +52,5 @@ pub const ALL: &[Case] = &[
     momentum_audit::CASE,
     sphere_into_bed::CASE,
     source_paper::CASE,
-    CUBES_AND_COLUMN,
+    cubes_and_column::CASE,
 ];
-
-// One cube alone would leave out what the scene is about: the heap coming apart.
-const CUBES_AND_COLUMN: Case = Case {
-    name: "cubes-and-column",
-    number: "17",
-    title: "a sand column strikes six cubes stacked 3-2-1",
-    source: "GeoTaichi's granular-impact scene, code to code",
-    how: How::NotYet("its scene is still to be written"),
-};
