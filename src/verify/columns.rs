@@ -21,15 +21,38 @@ const LONGEST: f64 = 10.0;
 /// The front leaves this share of the mass beyond it.
 const FRONT_SHARE: f64 = 1e-3;
 
+/// What a column is made of. Densities and grain size are those of the beads: a
+/// run-out is free of the first, and friction without a rate of the second.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grains {
+    /// What they are.
+    pub(super) name: &'static str,
+    /// Static and limiting friction. Grains yield before they slip on the floor:
+    /// its friction is the limiting one.
+    pub(super) friction: (f64, f64),
+}
+
+impl Grains {
+    /// Glass beads.
+    pub(super) const BEADS: Self = Self {
+        name: "beads",
+        friction: FRICTION,
+    };
+    /// Sand that rests at 32°, whatever its rate.
+    pub(super) const SAND: Self = Self {
+        name: "sand",
+        friction: (0.625, 0.625),
+    };
+}
+
 /// A column, half of a plane one or a quarter of a round one, between the walls
 /// that mirror the rest of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
     /// Height over half width or radius.
     pub(super) aspect: f64,
-    /// Friction of the grains, static and limiting. Grains yield before they slip
-    /// on the floor: its friction is the limiting one.
-    pub(super) friction: (f64, f64),
+    /// What it is made of.
+    pub(super) grains: Grains,
     /// Cells over half width or radius.
     pub(super) cells: u32,
     /// Points per cell.
@@ -39,9 +62,9 @@ pub(super) struct Column {
     pub(super) round: Option<f64>,
 }
 
-/// The run-out at this aspect, as a quantity.
-pub(super) fn runout(aspect: f64) -> String {
-    format!("run-out, a = {aspect}")
+/// The run-out of these grains at this aspect, as a quantity.
+pub(super) fn runout(grains: Grains, aspect: f64) -> String {
+    format!("run-out, {}, a = {aspect}", grains.name)
 }
 
 /// How a column came to rest.
@@ -58,11 +81,11 @@ pub(super) struct Deposit {
 }
 
 impl Column {
-    /// Half of a plane column of beads.
-    pub(super) fn plane(aspect: f64, cells: u32) -> Self {
+    /// Half of a plane column.
+    pub(super) fn plane(grains: Grains, aspect: f64, cells: u32) -> Self {
         Self {
             aspect,
-            friction: FRICTION,
+            grains,
             cells,
             per_cell: 8,
             round: None,
@@ -72,13 +95,13 @@ impl Column {
     /// What is asked of [`Column::answer`], an `oracle` standing beside every
     /// run-out.
     pub(super) fn questions(&self, oracle: f64) -> [Question; 4] {
-        let aspect = self.aspect;
-        let about = |words: &str| Question::new(format!("{words}, a = {aspect}"), "", oracle);
+        let of = format!("{}, a = {}", self.grains.name, self.aspect);
+        let about = |words: &str| Question::new(format!("{words}, {of}"), "", oracle);
         [
-            Question::new(runout(aspect), "", oracle),
+            Question::new(runout(self.grains, self.aspect), "", oracle),
             about("run-out at 1 % of the mass"),
             about("run-out, one grain thick"),
-            Question::new(format!("mass still moving, a = {aspect}"), "", 0.0).by(Error::Absolute),
+            Question::new(format!("mass still moving, {of}"), "", 0.0).by(Error::Absolute),
         ]
     }
 
@@ -102,7 +125,7 @@ impl Column {
         let (width, height) = (self.width(), self.height());
         // Far enough for the front of the tallest.
         let mut document = channel(0.0, BASE, 12.0 * BASE, width);
-        document["channel"]["base_friction"] = json!(self.friction.1);
+        document["channel"]["base_friction"] = json!(self.grains.friction.1);
         document["flow"] = json!({
             "volume_m3": BASE * height * width,
             "release": {"height_m": height, "toe_distance_m": 0.0},
@@ -110,8 +133,8 @@ impl Column {
                 "bulk_density_kg_m3": BULK_DENSITY,
                 "grain_density_kg_m3": GRAIN_DENSITY,
                 "grain_diameter_m": GRAIN_DIAMETER,
-                "static_friction": self.friction.0,
-                "limiting_friction": self.friction.1,
+                "static_friction": self.grains.friction.0,
+                "limiting_friction": self.grains.friction.1,
                 "reference_inertial_number": REFERENCE_INERTIAL_NUMBER,
             },
         });

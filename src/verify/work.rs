@@ -1,7 +1,7 @@
 //! Error against wall time: what a choice of resolution, points or stiffness buys.
 
 use super::cases::ALL;
-use super::columns::Column;
+use super::columns::{Column, Grains};
 use super::findings::Findings;
 use super::limit::extrapolated;
 use super::run::{Answer, Trouble};
@@ -63,14 +63,14 @@ fn known(effort: Effort) -> Diagram {
     }
 }
 
-/// The plane collapse at a = 1, against the finest.
+/// The plane collapse of sand at a = 1, against the finest.
 fn collapse(effort: Effort) -> Diagram {
     let cells = effort.take(&[4, 8, 16, 32], 3);
     let finest = 2 * cells[cells.len() - 1];
     let runout = |cells: u32, per_cell: u32| {
         let column = Column {
             per_cell,
-            ..Column::plane(1.0, cells)
+            ..Column::plane(Grains::SAND, 1.0, cells)
         };
         let Answer { values, cost } = column.answer().ok()?;
         Some((cost.wall_s, values[0]))
@@ -86,7 +86,7 @@ fn collapse(effort: Effort) -> Diagram {
     };
     Diagram {
         name: "work-collapse",
-        title: "Run-out of a plane column, a = 1".to_owned(),
+        title: "Run-out of a plane column of sand, a = 1".to_owned(),
         against: format!(
             "off {finest} cells over L0, 8 points per cell: {reference:.3}; dots: {} cells",
             listed(cells)
