@@ -5,7 +5,7 @@
 //! parallel without locks and gives the same bits for any number of threads.
 
 use crate::kernel::{Lattice, Stencil, WIDTH};
-use crate::math::Vec3;
+use crate::math::{Sym3, Vec3};
 use layout::{Layout, OCTANTS, there, within};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -42,6 +42,8 @@ pub struct Node {
     pub fullness: f64,
     /// Mean dilation of its points at the transfer.
     pub dilation: f64,
+    /// Mean strain rate of its points at the transfer [1/s].
+    pub strain_rate: Sym3,
 }
 
 impl Node {
@@ -53,6 +55,14 @@ impl Node {
         force: Vec3::new(0.0, 0.0, 0.0),
         fullness: 0.0,
         dilation: 0.0,
+        strain_rate: Sym3 {
+            xx: 0.0,
+            yy: 0.0,
+            zz: 0.0,
+            xy: 0.0,
+            xz: 0.0,
+            yz: 0.0,
+        },
     };
 }
 

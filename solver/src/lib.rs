@@ -22,6 +22,7 @@ pub mod record;
 pub mod rigid;
 pub mod scenario;
 pub mod shape;
+pub mod sharing;
 pub mod simulation;
 pub mod stability;
 pub mod transfer;

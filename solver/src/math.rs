@@ -122,6 +122,16 @@ impl Sym3 {
         )
     }
 
+    /// Mirrored along x and y where the sign is −1.
+    pub fn mirrored(&self, [x, y]: [f64; 2]) -> Self {
+        Self {
+            xy: x * y * self.xy,
+            xz: x * self.xz,
+            yz: y * self.yz,
+            ..*self
+        }
+    }
+
     /// False if any component is NaN or infinite.
     pub fn is_finite(&self) -> bool {
         (self.xx + self.yy + self.zz + self.xy + self.xz + self.yz).is_finite()

@@ -90,6 +90,8 @@ pub struct Deformation {
     pub velocity_gradient: Mat3,
     /// Volume at the transfer [m³].
     pub transfer_volume: f64,
+    /// What it feels besides its own strain rate [1/s], a deviator.
+    pub shared: Sym3,
 }
 
 impl Deformation {
@@ -101,6 +103,7 @@ impl Deformation {
             volume_ratio: 1.0,
             velocity_gradient: Mat3::zeros(),
             transfer_volume: point.volume,
+            shared: Sym3::default(),
         }
     }
 
@@ -136,7 +139,7 @@ pub fn update_stress(
             point.volume = deformation.transfer_volume * deformation.volume_ratio;
             point.stress = material.stress(
                 &point.stress,
-                &deformation.velocity_gradient,
+                &(deformation.velocity_gradient + deformation.shared.matrix()),
                 point.density(),
                 bulk_viscosity,
                 dt,

@@ -44,10 +44,14 @@ impl Limits {
         self.courant * crossing.min(lone_point)
     }
 
-    /// Cells that a point at the speed of the fastest [m/s], or at the expected
-    /// one if that is larger, travels in `duration` [s].
+    /// The speed of the fastest point [m/s], or the expected one if that is larger.
+    pub fn governing_speed(&self, fastest: f64) -> f64 {
+        fastest.max(self.slow)
+    }
+
+    /// Cells that a point at that speed travels in `duration` [s].
     pub fn travel(&self, duration: f64, fastest: f64) -> f64 {
-        fastest.max(self.slow) * duration / self.cell_size
+        self.governing_speed(fastest) * duration / self.cell_size
     }
 
     /// Shortest sub-step accepted [s]; below it the run has blown up.
@@ -58,7 +62,7 @@ impl Limits {
     /// The next step: equal sub-steps, none longer than `longest` [s], the
     /// fastest at `speed` [m/s], and none beyond `remaining` [s].
     pub fn pace(&self, longest: f64, speed: f64, remaining: f64) -> Pace {
-        let travel = speed.max(self.slow) * longest;
+        let travel = self.governing_speed(speed) * longest;
         let allowed = (self.flow_courant * self.cell_size / travel).floor();
         divide(remaining, longest, allowed.max(1.0))
     }

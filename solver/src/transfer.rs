@@ -10,8 +10,9 @@ use crate::crowding::{Seen, Spread, Tending, crowding, not_into_wall};
 use crate::grid::{Grid, Node, PointBlock, TILE, Tile, in_tile};
 use crate::kernel::{Stencil, WIDTH};
 use crate::material::Material;
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Sym3, Vec3};
 use crate::points::{Deformation, Point};
+use crate::sharing::Sharing;
 use crate::walls::Plane;
 use rayon::prelude::*;
 
@@ -92,6 +93,90 @@ pub fn hand_over_rest(points: &[Point], bulk_density: f64, grid: &mut Grid) {
             node.fullness = (node.mass + dilation) / room;
         },
     );
+}
+
+/// Mean strain rate of the points of every node, Σ w m D / m_i (equation 42a).
+pub fn scatter_strain_rates(points: &[Point], grid: &mut Grid) {
+    scatter_means(
+        points,
+        grid,
+        |d| [d.xx, d.yy, d.zz, d.xy],
+        |d, [xx, yy, zz, xy]| {
+            *d = Sym3 {
+                xx,
+                yy,
+                zz,
+                xy,
+                ..Sym3::default()
+            };
+        },
+    );
+    scatter_means(
+        points,
+        grid,
+        |d| [d.xz, d.yz, 0.0, 0.0],
+        |d, [xz, yz, ..]| (d.xz, d.yz) = (xz, yz),
+    );
+}
+
+fn scatter_means(
+    points: &[Point],
+    grid: &mut Grid,
+    give: impl Fn(&Sym3) -> [f64; 4] + Sync,
+    take: impl Fn(&mut Sym3, [f64; 4]) + Sync,
+) {
+    let lattice = *grid.lattice();
+    grid.scatter(
+        |block, tile| {
+            for point in &points[block.points.clone()] {
+                let stencil = lattice.stencil(&point.position);
+                let given = Carried {
+                    constant: give(&Sym3::of(&point.affine)).map(|part| point.mass * part),
+                    slope: [[0.0; 4]; 3],
+                };
+                scatter_affine(block, &stencil, &given, tile);
+            }
+        },
+        |node, sum| {
+            if node.mass > 0.0 {
+                take(&mut node.strain_rate, sum.map(|part| part / node.mass));
+            }
+        },
+    );
+}
+
+/// What every point feels besides its own strain rate (equation 42a).
+pub fn share_strain_rates(
+    grid: &Grid,
+    points: &[Point],
+    sharing: &Sharing,
+    deformations: &mut [Deformation],
+) {
+    let lattice = *grid.lattice();
+    for_each_block(grid, deformations, |block, deformations| {
+        let first = grid.tile_of(block, |node| {
+            let d = &node.strain_rate;
+            [d.xx, d.yy, d.zz, d.xy]
+        });
+        let second = grid.tile_of(block, |node| {
+            [node.strain_rate.xz, node.strain_rate.yz, 0.0, 0.0]
+        });
+        for (point, deformation) in points[block.points.clone()].iter().zip(deformations) {
+            let stencil = lattice.stencil(&point.position);
+            let upper = gather_moments(block, &stencil, &first);
+            let lower = gather_moments(block, &stencil, &second);
+            let mean = Sym3 {
+                xx: upper.zeroth.x,
+                yy: upper.zeroth.y,
+                zz: upper.zeroth.z,
+                xy: upper.last,
+                xz: lower.zeroth.x,
+                yz: lower.zeroth.y,
+            };
+            let own = Sym3::of(&point.affine);
+            deformation.shared = sharing.of(&own, &mean, point.velocity.norm());
+        }
+    });
 }
 
 /// Node forces of stress and contact (equation 9):

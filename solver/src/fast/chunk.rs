@@ -30,6 +30,10 @@ pub struct Chunk {
     pub mass: Lanes,
     /// Identity, kept for life.
     pub id: [u32; LANES],
+    /// What a point feels besides its own strain rate within a step, as the
+    /// deviator [1/s].
+    #[serde(skip)]
+    pub shared: [Lanes; 6],
 }
 
 /// One point of a chunk, as it travels between blocks; fields as in [`Chunk`].
@@ -74,6 +78,7 @@ impl Chunk {
         dilation: [0.0; LANES],
         mass: [0.0; LANES],
         id: [0; LANES],
+        shared: [[0.0; LANES]; 6],
     };
 
     /// The point in a lane.

@@ -1,12 +1,13 @@
 //! The nodes of the fast path: blocks of 4³, only where points are, in single
 //! precision (docs/method.md, equations 8–10).
 
+use super::passes::Part;
 use super::rows::Tile;
 use super::stencil::weights;
 use crate::grid::layout::{Layout, OCTANTS, there, within};
 use crate::grid::{BLOCK, BLOCK_NODES, BlockKey, TILE, in_block, in_tile};
 use crate::kernel::{Lattice, WIDTH};
-use crate::math::Vec3;
+use crate::math::{Sym3, Vec3};
 use crate::walls::NodeAccess;
 use fearless_simd::{Level, dispatch, f32x4, f32x8, f32x16, prelude::*};
 use rayon::prelude::*;
@@ -49,6 +50,8 @@ pub struct Nodes {
     remainder: Vec<NodeBlock>,
     /// Mean dilation at the transfer, and displacement since then [m].
     displacement: Vec<NodeBlock>,
+    /// Mean strain rate at the transfer [1/s], part by part.
+    strain_rate: [Vec<NodeBlock>; 2],
 }
 
 impl Nodes {
@@ -60,6 +63,7 @@ impl Nodes {
             motion: Vec::new(),
             remainder: Vec::new(),
             displacement: Vec::new(),
+            strain_rate: [Vec::new(), Vec::new()],
         }
     }
 
@@ -71,6 +75,9 @@ impl Nodes {
         self.motion.resize(count, NodeBlock::EMPTY);
         self.remainder.resize(count, NodeBlock::EMPTY);
         self.displacement.resize(count, NodeBlock::EMPTY);
+        for part in &mut self.strain_rate {
+            part.resize(count, NodeBlock::EMPTY);
+        }
     }
 
     /// Takes mass and momentum from the tiles of the points: v = Σ p / Σ m.
@@ -92,6 +99,21 @@ impl Nodes {
                 take_rest(simd, &rest, room, block);
             });
         });
+    }
+
+    /// Takes the mean of a part of the strain rates from the tiles: Σ m D / Σ m.
+    pub fn take_strain_rates(&mut self, part: Part, tiles: &[Tile], level: Level) {
+        self.strain_rate[part as usize]
+            .par_iter_mut()
+            .zip(&self.motion)
+            .zip(self.layout.sources())
+            .with_min_len(TASK)
+            .for_each(|((strain_rate, motion), sources)| {
+                dispatch!(level, simd => {
+                    add_up(simd, sources, tiles, strain_rate);
+                    per_mass(simd, motion, strain_rate);
+                });
+            });
     }
 
     /// v ← v + Δt (f/m + g) with the forces in the tiles; u ← u + Δt v.
@@ -141,6 +163,13 @@ impl Nodes {
         fill(simd, self.layout.reach(block), &self.remainder, tile);
     }
 
+    /// Part of the mean strain rate of the nodes that a block of points touches.
+    #[inline(always)]
+    pub fn strain_rate_tile<S: Simd>(&self, simd: S, block: usize, part: Part, tile: &mut Tile) {
+        let strain_rate = &self.strain_rate[part as usize];
+        fill(simd, self.layout.reach(block), strain_rate, tile);
+    }
+
     /// Mean dilation and displacement of the nodes that a block of points touches.
     #[inline(always)]
     pub fn displacement_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
@@ -171,7 +200,7 @@ impl Nodes {
 
     /// Bytes held for nodes.
     pub fn bytes(&self) -> usize {
-        self.motion.capacity() * 3 * size_of::<NodeBlock>() + self.layout.bytes()
+        self.motion.capacity() * 5 * size_of::<NodeBlock>() + self.layout.bytes()
     }
 }
 
@@ -209,6 +238,31 @@ impl NodeAccess for Nodes {
 
     fn set_fullness(&mut self, place: usize, fullness: f64) {
         self.remainder[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)] = fullness as f32;
+    }
+
+    fn strain_rate(&self, place: usize) -> Sym3 {
+        let part = |part: &[NodeBlock]| {
+            let node = part[place / BLOCK_NODES].node(place % BLOCK_NODES);
+            [0, 1, 2, 3].map(|k| f64::from(node[k]))
+        };
+        let [[xx, yy, zz, xy], [xz, yz, ..]] = self.strain_rate.each_ref().map(|of| part(of));
+        Sym3 {
+            xx,
+            yy,
+            zz,
+            xy,
+            xz,
+            yz,
+        }
+    }
+
+    fn set_strain_rate(&mut self, place: usize, strain_rate: &Sym3) {
+        let d = strain_rate;
+        let parts = [[d.xx, d.yy, d.zz, d.xy], [d.xz, d.yz, 0.0, 0.0]];
+        for (of, part) in self.strain_rate.iter_mut().zip(parts) {
+            let node = &mut of[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)..][..4];
+            node.copy_from_slice(&part.map(|value| value as f32));
+        }
     }
 
     fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64) {
@@ -324,6 +378,17 @@ fn take<S: Simd>(simd: S, sources: &[u32; 8], tiles: &[Tile], motion: &mut NodeB
         } else {
             f32x4::splat(simd, 0.0).store_slice(node);
         }
+    }
+}
+
+/// Sums over nodes with mass, over their masses; nothing elsewhere.
+#[inline(always)]
+fn per_mass<S: Simd>(simd: S, motion: &NodeBlock, sums: &mut NodeBlock) {
+    for (sum, moving) in sums.0.chunks_exact_mut(4).zip(motion.0.chunks_exact(4)) {
+        let mass = moving[0];
+        let per_mass = if mass > 0.0 { 1.0 / mass } else { 0.0 };
+        let mean = f32x4::from_slice(simd, sum) * f32x4::splat(simd, per_mass);
+        mean.store_slice(sum);
     }
 }
 

@@ -3,13 +3,14 @@
 
 use super::blocks::Block;
 use super::chunk::{Chunk, LANES, Lanes};
-use super::rows::{Given, Moments, Quads, Tile, gather_mean};
+use super::rows::{Given, Moments, Quads, Tile, gather_mean, scatter_mean};
 use super::stencil::Stencils;
 use super::stress::{self, Law, Matrix, Strained};
 use super::tend::{Seen, Shelter, SpreadSums, tend};
 use super::totals::EndSums;
 use crate::crowding::{Tending, crowding};
 use crate::math::Vec3;
+use crate::sharing::Sharing;
 use fearless_simd::{f32x16, prelude::*};
 
 /// The nodes' state as a block of points sees it at the end of a step.
@@ -75,6 +76,101 @@ pub fn transfer<S: Simd>(simd: S, block: &mut Block, law: &Law, momentum: &mut T
         given.scatter::<S, true>(simd, &stencils, count, momentum);
     }
     block.note_runs(runs);
+}
+
+/// Which numbers of a strain rate go to the nodes together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// xx, yy, zz and xy.
+    First,
+    /// xz and yz.
+    Second,
+}
+
+/// Both of them.
+pub const PARTS: [Part; 2] = [Part::First, Part::Second];
+
+/// What nodes show a block of points at a transfer.
+pub struct Shown {
+    /// Mass and velocity.
+    pub motion: Tile,
+    /// Mean strain rate, part by part.
+    pub strain_rate: [Tile; 2],
+}
+
+impl Shown {
+    /// All zero.
+    pub const NOTHING: Self = Self {
+        motion: Tile::EMPTY,
+        strain_rate: [Tile::EMPTY; 2],
+    };
+}
+
+/// D = sym C of a chunk: xx yy zz xy xz yz.
+#[inline(always)]
+fn strain_rate<S: Simd>(simd: S, chunk: &Chunk) -> [f32x16<S>; 6] {
+    // Column by column.
+    let c = |row: usize, column: usize| f32x16::simd_from(simd, chunk.gradient[column][row]);
+    let half = f32x16::splat(simd, 0.5);
+    [
+        c(0, 0),
+        c(1, 1),
+        c(2, 2),
+        half * (c(0, 1) + c(1, 0)),
+        half * (c(0, 2) + c(2, 0)),
+        half * (c(1, 2) + c(2, 1)),
+    ]
+}
+
+/// Gives part of the points' strain rates times their masses to a tile (equation
+/// 49).
+#[inline(always)]
+pub fn give_strain_rates<S: Simd>(simd: S, block: &mut Block, part: Part, tile: &mut Tile) {
+    *tile = Tile::EMPTY;
+    let none = f32x16::splat(simd, 0.0);
+    let mut given = Quads::EMPTY;
+    for (chunk, count) in block.chunks_mut() {
+        let stencils = Stencils::of(simd, &chunk.position);
+        let mass = f32x16::simd_from(simd, chunk.mass);
+        let [xx, yy, zz, xy, xz, yz] = strain_rate(simd, chunk);
+        given.gathered(match part {
+            Part::First => [mass * xx, mass * yy, mass * zz, mass * xy],
+            Part::Second => [mass * xz, mass * yz, none, none],
+        });
+        scatter_mean(simd, &stencils, count, &given, tile);
+    }
+}
+
+/// What the points feel besides their own strain rates (equation 42a;
+/// `sharing.rs`).
+#[inline(always)]
+pub fn share_strain_rates<S: Simd>(simd: S, block: &mut Block, shown: &Shown, sharing: &Sharing) {
+    let (mut first, mut second) = (Quads::EMPTY, Quads::EMPTY);
+    let full = sharing.full_speed * sharing.full_speed;
+    let per_full = splat(simd, full.max(f64::from(f32::MIN_POSITIVE)).recip());
+    for (chunk, count) in block.chunks_mut() {
+        let stencils = Stencils::of(simd, &chunk.position);
+        gather_mean(simd, &stencils, count, &shown.strain_rate[0], &mut first);
+        gather_mean(simd, &stencils, count, &shown.strain_rate[1], &mut second);
+        let [xx, yy, zz, xy] = first.spread(simd);
+        let [xz, yz, ..] = second.spread(simd);
+        let own = strain_rate(simd, chunk);
+        let mut lacking = [xx, yy, zz, xy, xz, yz];
+        for (part, own) in lacking.iter_mut().zip(own) {
+            *part -= own;
+        }
+        let third = (lacking[0] + lacking[1] + lacking[2]) * splat(simd, 1.0 / 3.0);
+        for part in &mut lacking[..3] {
+            *part -= third;
+        }
+        let [x, y, z] = times(simd, &chunk.velocity, splat(simd, 1.0));
+        let speed = x.mul_add(x, y.mul_add(y, z * z));
+        let degree = (speed * per_full).min(splat(simd, 1.0));
+        let share = splat(simd, sharing.share) * degree;
+        for (kept, part) in chunk.shared.iter_mut().zip(lacking) {
+            *kept = (share * part).into();
+        }
+    }
 }
 
 /// Gives a tile the dilations and what the nodes' `motion` is short of the

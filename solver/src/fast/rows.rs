@@ -273,6 +273,48 @@ pub fn gather_mean<S: Simd>(
     }
 }
 
+/// Adds w q of a quantity of four numbers of the first `count` points to a tile.
+#[inline(always)]
+pub fn scatter_mean<S: Simd>(
+    simd: S,
+    stencils: &Stencils,
+    count: usize,
+    given: &Quads,
+    tile: &mut Tile,
+) {
+    let along_z = AlongZ::new(simd);
+    let mut lane = 0;
+    while lane < count {
+        let end = lane + stencils.run(lane, count);
+        let mut rows = [[f32x16::splat(simd, 0.0); WIDTH]; WIDTH];
+        for lane in lane..end {
+            let weight = along_z.spread(simd, &stencils.weight[2], lane);
+            let row = given.of_lane(simd, lane) * weight;
+            let wx = each(simd, &stencils.weight[0], lane);
+            let wy = each(simd, &stencils.weight[1], lane);
+            for b in 0..WIDTH {
+                let column = row * wy[b];
+                for a in 0..WIDTH {
+                    rows[a][b] = column.mul_add(wx[a], rows[a][b]);
+                }
+            }
+        }
+        add_rows(simd, &rows, tile.reach_mut(stencils.base[lane]));
+        lane = end;
+    }
+}
+
+#[inline(always)]
+fn add_rows<S: Simd>(simd: S, rows: &Rows<S>, reach: &mut [f32]) {
+    for a in 0..WIDTH {
+        for b in 0..WIDTH {
+            let row = &mut reach[row_at(a, b)..][..ROW];
+            let sum = f32x16::from_slice(simd, row) + rows[a][b];
+            sum.store_slice(row);
+        }
+    }
+}
+
 #[inline(always)]
 fn loaded<S: Simd>(simd: S, tile: &Tile, base: u32) -> Rows<S> {
     let reach = tile.reach(base);
@@ -318,14 +360,7 @@ impl Given {
             for lane in lane..end {
                 self.scatter_point::<S, CONSTANT>(simd, stencils, lane, &mut rows, &along_z);
             }
-            let reach = tile.reach_mut(stencils.base[lane]);
-            for a in 0..WIDTH {
-                for b in 0..WIDTH {
-                    let row = &mut reach[row_at(a, b)..][..ROW];
-                    let sum = f32x16::from_slice(simd, row) + rows[a][b];
-                    sum.store_slice(row);
-                }
-            }
+            add_rows(simd, &rows, tile.reach_mut(stencils.base[lane]));
             lane = end;
         }
     }

@@ -254,7 +254,8 @@ pub fn strain<S: Simd>(
     let dilation = total_dilation(simd, chunk, &deformed);
     let pressure = law.pressure(simd, dilation);
     let before = loaded(simd, &chunk.deviator);
-    let mut deviator = law.deviator(simd, before, &gradient, pressure, dt);
+    let felt = felt(simd, &gradient, chunk);
+    let mut deviator = law.deviator(simd, before, &felt, pressure, dt);
     let pressure = law.resisting(simd, pressure, &gradient);
     // A point turned inside out becomes no number, which ends the run.
     let inside_out = deformed.volume_change.simd_le(splat(simd, -1.0));
@@ -268,6 +269,19 @@ pub fn strain<S: Simd>(
         pressure,
         deviator,
     }
+}
+
+/// The velocity gradient with what the points feel besides.
+#[inline(always)]
+fn felt<S: Simd>(simd: S, gradient: &Matrix<S>, chunk: &Chunk) -> Matrix<S> {
+    let [xx, yy, zz, xy, xz, yz] = loaded(simd, &chunk.shared);
+    let mut felt = *gradient;
+    for (row, shared) in felt.iter_mut().zip([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) {
+        for (part, shared) in row.iter_mut().zip(shared) {
+            *part += shared;
+        }
+    }
+    felt
 }
 
 /// The state of a chunk at a transfer, F̂ = 1.

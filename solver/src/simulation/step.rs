@@ -1,7 +1,7 @@
 //! One step: a transfer at the speed of the flow, sub-steps at the speed of
 //! sound, one gather.
 
-use super::flow::{Culprit, StepEnd, Substep};
+use super::flow::{Culprit, StepEnd, StepStart, Substep};
 use super::laps::Verb;
 use super::{Simulation, StepInHand, SubstepReport};
 use crate::contact::island::{self, Surroundings};
@@ -10,6 +10,7 @@ use crate::crowding::Tending;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
 use crate::rigid::{Freedom, Load};
+use crate::sharing::Sharing;
 use crate::stability::{self, Pace};
 
 /// Sub-steps between two audits. Sums over all points are not free, and what
@@ -46,9 +47,18 @@ impl Simulation {
 
     fn begin_step(&mut self) -> Result<StepInHand, StepError> {
         let pace = self.pace()?;
-        let reach = self.given.contact_reach(&self.state.bodies, &pace);
+        let start = StepStart {
+            reach: self.given.contact_reach(&self.state.bodies, &pace),
+            sharing: match &self.given.flow {
+                Some(flow) if flow.material.is_granular() => {
+                    let fastest = self.state.flow.fastest();
+                    Sharing::at(flow.limits.governing_speed(fastest))
+                }
+                _ => Sharing::NONE,
+            },
+        };
         let (state, laps) = (&mut self.state, &mut self.scratch.laps);
-        state.flow.transfer(&self.given, &state.bodies, reach, laps);
+        state.flow.transfer(&self.given, &state.bodies, &start, laps);
         Ok(StepInHand {
             pace,
             start: self.state.clock.time,

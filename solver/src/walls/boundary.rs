@@ -8,7 +8,7 @@ use super::nodes::NodeAccess;
 use super::upright::{Ends, Meets};
 use crate::grid::{BLOCK, BLOCK_NODES};
 use crate::kernel::{Lattice, REACH, share_above};
-use crate::math::Vec3;
+use crate::math::{Sym3, Vec3};
 use std::ops::Range;
 
 /// A node with less than this share of its kernel in the channel does not say
@@ -78,6 +78,31 @@ impl Boundary {
             let fullness = filled(sum / inside, group.room);
             for member in members {
                 nodes.set_fullness(member.place as usize, fullness);
+            }
+        }
+    }
+
+    /// The mean strain rate of a node's points takes in those of its images; on a
+    /// wall, the mirror of itself.
+    pub fn share_strain_rates(&self, nodes: &mut impl NodeAccess) {
+        let mirrors = |group: &&Group| group.is_upright() || group.members.len() > 1;
+        for group in self.groups.iter().filter(mirrors) {
+            let members = &self.members[group.members.clone()];
+            let of_member = |member: &Member| {
+                let place = member.place as usize;
+                let seen = nodes.strain_rate(place).mirrored(member.sign);
+                seen.times(nodes.mass(place) / group.mass)
+            };
+            let sum = |sum: Sym3, part: Sym3| sum.plus(&part);
+            let mut mean = members.iter().map(of_member).fold(Sym3::default(), sum);
+            if matches!(group.back, Meets::On { .. }) {
+                (mean.xy, mean.xz) = (0.0, 0.0);
+            }
+            if matches!(group.side, Meets::On { .. }) {
+                (mean.xy, mean.yz) = (0.0, 0.0);
+            }
+            for member in members {
+                nodes.set_strain_rate(member.place as usize, &mean.mirrored(member.sign));
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::grid::{BlockKey, Grid};
 use crate::kernel::Lattice;
-use crate::math::Vec3;
+use crate::math::{Sym3, Vec3};
 
 /// The nodes of a grid, by their places: block by block, within a block along z
 /// first.
@@ -25,6 +25,10 @@ pub trait NodeAccess: Sync {
     fn fullness(&self, place: usize) -> f64;
     /// Changes it.
     fn set_fullness(&mut self, place: usize, fullness: f64);
+    /// Mean strain rate of its points at the transfer [1/s].
+    fn strain_rate(&self, place: usize) -> Sym3;
+    /// Changes it.
+    fn set_strain_rate(&mut self, place: usize, strain_rate: &Sym3);
 }
 
 impl NodeAccess for Grid {
@@ -62,5 +66,13 @@ impl NodeAccess for Grid {
 
     fn set_fullness(&mut self, place: usize, fullness: f64) {
         self.node_mut(place).fullness = fullness;
+    }
+
+    fn strain_rate(&self, place: usize) -> Sym3 {
+        self.nodes()[place].strain_rate
+    }
+
+    fn set_strain_rate(&mut self, place: usize, strain_rate: &Sym3) {
+        self.node_mut(place).strain_rate = *strain_rate;
     }
 }

@@ -15,7 +15,7 @@ const LAYERS: [&[&str]; 8] = [
         "contact::law",
         "contact::neighbours",
     ],
-    &["grid", "scenario"],
+    &["grid", "scenario", "sharing"],
     &["points", "rigid", "walls"],
     &[
         "contact::body_body",

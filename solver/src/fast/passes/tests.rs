@@ -28,6 +28,11 @@ fn tending() -> Tending {
     Tending::after(0.2)
 }
 
+/// The slower ones of the cloud share in part.
+fn sharing() -> Sharing {
+    Sharing::at(20.0)
+}
+
 fn packing() -> Packing {
     Packing {
         lattice: lattice(),
@@ -66,12 +71,22 @@ fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (
         dispatch!(level, simd => transfer(simd, block, &law, momentum));
     }
     nodes.take_momentum(&momentum, level);
+    for part in PARTS {
+        for (block, tile) in blocks.occupied_mut().iter_mut().zip(&mut forces) {
+            dispatch!(level, simd => give_strain_rates(simd, block, part, tile));
+        }
+        nodes.take_strain_rates(part, &forces, level);
+    }
     let of_blocks = blocks.occupied_mut().iter_mut().zip(&mut momentum);
     for (place, ((block, rest), force)) in of_blocks.zip(&mut forces).enumerate() {
         dispatch!(level, simd => {
-            let mut motion = Tile::EMPTY;
-            nodes.motion_tile(simd, place, &mut motion);
-            hand_over_rest(simd, block, &law, &motion, rest, force);
+            let mut shown = Shown::NOTHING;
+            nodes.motion_tile(simd, place, &mut shown.motion);
+            for (part, tile) in PARTS.into_iter().zip(&mut shown.strain_rate) {
+                nodes.strain_rate_tile(simd, place, part, tile);
+            }
+            share_strain_rates(simd, block, &shown, &sharing());
+            hand_over_rest(simd, block, &law, &shown.motion, rest, force);
         });
     }
     let room = beads().bulk_density * spacing.product();
@@ -121,8 +136,10 @@ fn plainly_stepped(mut points: Vec<Point>, substeps: u32, gravity: &Vec3) -> Vec
     let mut grid = Grid::new(lattice());
     grid.reset_around(&occupied);
     transfer::scatter_momentum(&points, &mut grid);
+    transfer::scatter_strain_rates(&points, &mut grid);
     transfer::hand_over_rest(&points, beads().bulk_density, &mut grid);
     let mut deformations: Vec<_> = points.iter().map(Deformation::start).collect();
+    transfer::share_strain_rates(&grid, &points, &sharing(), &mut deformations);
     let no_contact = vec![Vec3::zeros(); points.len()];
     for _ in 0..substeps {
         transfer::scatter_forces(&points, &deformations, &no_contact, &mut grid);

@@ -1,15 +1,15 @@
 //! The fast path: blocks of points in single precision, a whole sub-step in one
 //! pass over them.
 
-use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, Substep};
-use crate::contact::point_body::{self, Around, FlowLoad, Loads, Reach};
+use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
+use crate::contact::point_body::{self, Around, FlowLoad, Loads};
 use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::{Block, Blocks};
 use crate::fast::instructions::Instructions;
 use crate::fast::nodes::Nodes;
 use crate::fast::packing::Packing;
-use crate::fast::passes::{self, EndTiles, Ending};
+use crate::fast::passes::{self, EndTiles, Ending, PARTS, Shown};
 use crate::fast::rows::Tile;
 use crate::fast::stress::Law;
 use crate::fast::tend::Shelter;
@@ -17,6 +17,7 @@ use crate::fast::totals;
 use crate::grid::{BLOCK, BlockKey};
 use crate::points::Point;
 use crate::rigid::Body;
+use crate::sharing::Sharing;
 use crate::simulation::laps::{Laps, Verb};
 use crate::simulation::setup::Setup;
 use crate::walls::{Boundary, Impulse, Plane};
@@ -147,9 +148,25 @@ impl FastFlow {
         }
     }
 
+    /// Gives the nodes the mean strain rates of their points. The tiles of forces
+    /// are free until there are some.
+    fn give_strain_rates(&mut self) {
+        for part in PARTS {
+            let level = self.level;
+            self.blocks
+                .occupied_mut()
+                .par_iter_mut()
+                .zip(&mut self.forces)
+                .for_each(|(block, tile)| {
+                    dispatch!(level, simd => passes::give_strain_rates(simd, block, part, tile));
+                });
+            self.nodes.take_strain_rates(part, &self.forces, level);
+        }
+    }
+
     /// Hands over what the nodes do not show of the points' motion, the dilations
-    /// and the first forces.
-    fn hand_over_rest(&mut self, given: &Setup) {
+    /// and the first forces, and shares strain rates.
+    fn hand_over_rest(&mut self, given: &Setup, sharing: &Sharing) {
         let room = self.packing.material.bulk_density * given.lattice.spacing.product();
         let (nodes, law, level) = (&self.nodes, &self.law, self.level);
         self.blocks
@@ -160,9 +177,13 @@ impl FastFlow {
             .enumerate()
             .for_each(|(place, ((block, rest), force))| {
                 dispatch!(level, simd => {
-                    let mut motion = Tile::EMPTY;
-                    nodes.motion_tile(simd, place, &mut motion);
-                    passes::hand_over_rest(simd, block, law, &motion, rest, force);
+                    let mut shown = Shown::NOTHING;
+                    nodes.motion_tile(simd, place, &mut shown.motion);
+                    for (part, tile) in PARTS.into_iter().zip(&mut shown.strain_rate) {
+                        nodes.strain_rate_tile(simd, place, part, tile);
+                    }
+                    passes::share_strain_rates(simd, block, &shown, sharing);
+                    passes::hand_over_rest(simd, block, law, &shown.motion, rest, force);
                 });
             });
         self.nodes.take_rest(&self.momentum, room as f32, level);
@@ -203,7 +224,7 @@ impl Flow for FastFlow {
         self.fastest
     }
 
-    fn transfer(&mut self, given: &Setup, bodies: &[Body], reach: Reach, laps: &mut Laps) {
+    fn transfer(&mut self, given: &Setup, bodies: &[Body], start: &StepStart, laps: &mut Laps) {
         let keys = self.blocks.occupied().iter().map(|block| block.key);
         self.nodes.lay_around(keys);
         let count = self.blocks.occupied().len();
@@ -218,11 +239,13 @@ impl Flow for FastFlow {
                 dispatch!(level, simd => passes::transfer(simd, block, law, momentum));
             });
         self.nodes.take_momentum(&self.momentum, level);
+        self.give_strain_rates();
         laps.done(Verb::Transfer);
         given.walls.find_boundary(&self.nodes, &mut self.boundary);
         given.walls.reflect(&mut self.boundary, &mut self.nodes);
+        self.boundary.share_strain_rates(&mut self.nodes);
         laps.done(Verb::Search);
-        self.hand_over_rest(given);
+        self.hand_over_rest(given, &start.sharing);
         laps.done(Verb::Transfer);
         crowding::leave_less_room(&self.boundary, bodies, &mut self.nodes);
         let access = Access {
@@ -230,7 +253,7 @@ impl Flow for FastFlow {
             nodes: &self.nodes,
             packing: &self.packing,
         };
-        self.loads.find_candidates(&access, bodies, reach);
+        self.loads.find_candidates(&access, bodies, start.reach);
         laps.done(Verb::Search);
     }
 

@@ -14,6 +14,7 @@ use crate::fast::instructions::Instructions;
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::Precision;
+use crate::sharing::Sharing;
 use crate::walls::{Impulse, Plane};
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
@@ -29,9 +30,9 @@ pub(super) trait Flow: Debug + Send + Sync {
     /// Speed of the fastest point after the last step [m/s].
     fn fastest(&self) -> f64;
 
-    /// Begins a step: hands mass and momentum to a new grid, and finds the nodes
-    /// at walls and the points within reach of bodies.
-    fn transfer(&mut self, given: &Setup, bodies: &[Body], reach: Reach, laps: &mut Laps);
+    /// Begins a step: hands mass and momentum to a new grid, finds the nodes at
+    /// walls and the points within reach of bodies, and shares strain rates.
+    fn transfer(&mut self, given: &Setup, bodies: &[Body], start: &StepStart, laps: &mut Laps);
 
     /// One sub-step: forces of bodies and stress, momentum, walls, strain (the
     /// last strain of a step may wait for [`Flow::finish`]). Returns the impulse
@@ -79,6 +80,15 @@ pub(super) trait Flow: Debug + Send + Sync {
 
     /// Bytes held for points and for the grid.
     fn bytes(&self) -> (usize, usize);
+}
+
+/// The start of a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StepStart {
+    /// How far from bodies points are looked at.
+    pub reach: Reach,
+    /// How points share their strain rates in it.
+    pub sharing: Sharing,
 }
 
 /// A sub-step of a flow.

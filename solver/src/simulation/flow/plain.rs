@@ -1,7 +1,7 @@
 //! The plain path: every verb on its own, in double precision.
 
-use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, Substep};
-use crate::contact::point_body::{self, Around, FlowLoad, Loads, Moving, PointAccess, Reach};
+use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
+use crate::contact::point_body::{self, Around, FlowLoad, Loads, Moving, PointAccess};
 use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::instructions::Instructions;
@@ -117,13 +117,15 @@ impl Flow for PlainFlow {
         speeds.fold(0.0, f64::max)
     }
 
-    fn transfer(&mut self, given: &Setup, bodies: &[Body], reach: Reach, laps: &mut Laps) {
+    fn transfer(&mut self, given: &Setup, bodies: &[Body], start: &StepStart, laps: &mut Laps) {
         let occupied = points::sort_by_block(&mut self.points, &given.lattice);
         self.grid.reset_around(&occupied);
         transfer::scatter_momentum(&self.points, &mut self.grid);
+        transfer::scatter_strain_rates(&self.points, &mut self.grid);
         laps.done(Verb::Transfer);
         given.walls.find_boundary(&self.grid, &mut self.boundary);
         given.walls.reflect(&mut self.boundary, &mut self.grid);
+        self.boundary.share_strain_rates(&mut self.grid);
         laps.done(Verb::Search);
         if let Some(flow) = &given.flow {
             let density = flow.material.bulk_density;
@@ -134,11 +136,17 @@ impl Flow for PlainFlow {
         self.deformations.clear();
         self.deformations
             .extend(self.points.iter().map(Deformation::start));
+        transfer::share_strain_rates(
+            &self.grid,
+            &self.points,
+            &start.sharing,
+            &mut self.deformations,
+        );
         let access = Access {
             points: &self.points,
             grid: &self.grid,
         };
-        self.loads.find_candidates(&access, bodies, reach);
+        self.loads.find_candidates(&access, bodies, start.reach);
         self.contact_forces.clear();
         self.contact_forces.resize(self.points.len(), Vec3::zeros());
         laps.done(Verb::Search);

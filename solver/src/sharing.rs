@@ -1,0 +1,89 @@
+//! Strain rates shared with the points around (docs/method.md, equation 42a).
+//!
+//! Where points lie unevenly, the velocity gradient that each of them sees is off,
+//! by 3 % in steady shear with eight points a cell. Shear stress follows the
+//! direction of the strain rate, so part of it does not point against the flow, and
+//! friction comes out too weak. What the points around see is off another way: so a
+//! point feels a mixture of its own strain rate and their mean.
+
+use crate::math::Sym3;
+
+/// Share of the mean in the strain rate that a point feels.
+const SHARE: f64 = 2.0 / 3.0;
+/// A point slower than this share of the fastest shares less, by the square: what
+/// only trembles is left alone.
+const SLOW: f64 = 0.2;
+
+/// How strain rates are shared in a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sharing {
+    /// Share of the mean.
+    pub share: f64,
+    /// Speed from which on a point shares fully [m/s].
+    pub full_speed: f64,
+}
+
+impl Sharing {
+    /// None at all: an elastic body keeps its own.
+    pub const NONE: Self = Self {
+        share: 0.0,
+        full_speed: f64::MIN_POSITIVE,
+    };
+
+    /// In a flow that governs its steps by this speed [m/s].
+    pub fn at(speed: f64) -> Self {
+        Self {
+            share: SHARE,
+            full_speed: SLOW * speed,
+        }
+    }
+
+    /// What a point of this speed [m/s] feels besides its own strain rate [1/s], a
+    /// deviator, where its nodes say that of the points around is `mean`.
+    pub fn of(&self, own: &Sym3, mean: &Sym3, speed: f64) -> Sym3 {
+        let degree = (speed / self.full_speed).min(1.0).powi(2);
+        let lacking = mean.plus(&own.times(-1.0)).deviator();
+        lacking.times(self.share * degree)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OWN: Sym3 = Sym3 {
+        xx: 3.0,
+        yy: 0.0,
+        zz: 0.0,
+        xy: 0.0,
+        xz: 10.0,
+        yz: 1.0,
+    };
+    const MEAN: Sym3 = Sym3 {
+        xx: 0.0,
+        yy: 0.0,
+        zz: 0.0,
+        xy: 0.0,
+        xz: 9.0,
+        yz: 0.0,
+    };
+
+    // By hand: of −3 in xx a third is volume and stays, so −2, +1, +1.
+    #[test]
+    fn a_moving_point_feels_the_mean_but_keeps_its_change_of_volume() {
+        let felt = Sharing::at(1.0).of(&OWN, &MEAN, 0.3);
+        let expected = [-2.0, 1.0, 1.0, 0.0, -1.0, -1.0].map(|part| SHARE * part);
+        let found = [felt.xx, felt.yy, felt.zz, felt.xy, felt.xz, felt.yz];
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-15, "{felt:?}");
+        }
+    }
+
+    #[test]
+    fn a_point_that_hardly_moves_is_left_alone() {
+        let felt = Sharing::at(1.0).of(&OWN, &MEAN, 0.02);
+        assert!((felt.xz + SHARE * 0.01).abs() < 1e-15, "{felt:?}");
+        assert_eq!(Sharing::at(1.0).of(&OWN, &MEAN, 0.0).xz, 0.0);
+        assert_eq!(Sharing::NONE.of(&OWN, &MEAN, 1.0).xz, 0.0);
+    }
+}
