@@ -28,7 +28,7 @@ use std::sync::Arc;
 
 pub use clock::Timing;
 pub use laps::{LapWatch, Verb};
-pub use setup::{GivenFlow, Scene, Setup};
+pub use setup::{Columns, GivenFlow, Outline, Scene, Setup};
 
 /// A run in progress: what is given, what changes, and scratch.
 #[derive(Debug)]
@@ -128,7 +128,7 @@ impl Simulation {
     /// # Errors
     /// Too many points for one run.
     pub fn check(scenario: &Scenario) -> Result<(), SetupError> {
-        Setup::of(scenario).map(drop)
+        Outline::of(scenario).map(drop)
     }
 
     fn assemble(

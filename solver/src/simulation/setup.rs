@@ -18,8 +18,8 @@ mod release;
 mod resolution;
 mod settle;
 
-pub(super) use bodies::bodies;
-use release::Columns;
+use bodies::bodies;
+pub use release::Columns;
 
 /// Default Courant number of the sub-step.
 const COURANT: f64 = 0.4;
@@ -85,15 +85,41 @@ pub struct GivenFlow {
     pub sphere: PointSphere,
 }
 
+/// A scene without its points: what can be known of a run before it is set up.
+#[derive(Debug)]
+pub struct Outline {
+    /// What does not change.
+    pub given: Setup,
+    /// The bodies at the start.
+    pub bodies: Vec<Body>,
+    /// How the release is divided into points; `None` without a flow.
+    pub columns: Option<Columns>,
+}
+
+impl Outline {
+    /// The outline of a scenario's scene.
+    ///
+    /// # Errors
+    /// Too many points for one run.
+    pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
+        let (given, columns) = Setup::of(scenario)?;
+        Ok(Self {
+            bodies: bodies(scenario, &given),
+            given,
+            columns,
+        })
+    }
+}
+
 impl Scene {
     /// The scene of a scenario.
     ///
     /// # Errors
     /// Too many points for one run.
     pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
-        let (given, columns) = Setup::of(scenario)?;
-        let bodies = bodies(scenario, &given);
-        let (points, volume_left_out) = match columns {
+        let outline = Outline::of(scenario)?;
+        let (given, bodies) = (outline.given, outline.bodies);
+        let (points, volume_left_out) = match outline.columns {
             Some(columns) => columns.release(scenario, &given, &bodies),
             None => (Vec::new(), 0.0),
         };
@@ -109,7 +135,7 @@ impl Scene {
 
 impl Setup {
     /// What the run of a scenario is given, and how its release is divided.
-    pub(super) fn of(scenario: &Scenario) -> Result<(Self, Option<Columns>), SetupError> {
+    fn of(scenario: &Scenario) -> Result<(Self, Option<Columns>), SetupError> {
         let channel = &scenario.channel;
         let lattice = resolution::lattice(scenario);
         let walls = walls(channel, &lattice);
@@ -208,7 +234,7 @@ impl GivenFlow {
 
     /// Longest sub-step at which a free body covered with points does not ring
     /// against them unstably [s] (docs/method.md, equation 26).
-    pub(super) fn contact_substep(&self, bodies: &[Body]) -> f64 {
+    pub fn contact_substep(&self, bodies: &[Body]) -> f64 {
         let modulus = self.material.p_wave_modulus();
         let of_body = |body: &Body| {
             let stiffness = modulus * self.sphere.spacing * self.sphere.most_touching(body);

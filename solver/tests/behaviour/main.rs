@@ -15,6 +15,7 @@ mod column_at_rest;
 mod heap;
 mod layers;
 mod limits;
+mod plan;
 mod precisions;
 mod same_bits;
 mod shapes;

@@ -14,15 +14,22 @@ use crate::scenario::{ReleaseBox, Scenario};
 const MOST_POINTS: u64 = 20_000_000;
 
 /// Counts and distances of the release's points.
-#[derive(Debug)]
-pub(in crate::simulation) struct Columns {
-    count: [u32; 3],
-    spacing: Vec3,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Columns {
+    /// Points along, across and up.
+    pub count: [u32; 3],
+    /// Their distances [m].
+    pub spacing: Vec3,
     /// Volume of one point [m³].
-    pub(super) volume: f64,
+    pub volume: f64,
 }
 
 impl Columns {
+    /// Points, those that a body keeps out included.
+    pub fn points(&self) -> u64 {
+        self.count.iter().map(|count| u64::from(*count)).product()
+    }
+
     /// Points of the release that overlap no body, and the volume left out.
     pub(in crate::simulation) fn release(
         &self,
