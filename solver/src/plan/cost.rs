@@ -1,12 +1,13 @@
 //! Points, steps and memory of a run.
 
+use super::course::Course;
 use crate::fast::chunk::{Chunk, LANES};
 use crate::fast::nodes::NodeBlock;
 use crate::fast::rows::Tile as FastTile;
 use crate::grid::{BLOCK, BLOCK_NODES, Node, Tile};
 use crate::points::{Deformation, Point};
-use crate::scenario::{Precision, Scenario};
-use crate::simulation::{Outline, Timing};
+use crate::scenario::{Ending, Precision, Scenario};
+use crate::simulation::{Columns, Outline, Share, Timing};
 use crate::stability::{self, Limits};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -15,18 +16,39 @@ use std::collections::BTreeMap;
 const SPREADING: f64 = 2.0;
 
 /// What a run will cost.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
+    /// Cell size [m].
+    pub cell_size_m: f64,
     /// Material points of the flow at the start.
     pub points: u64,
-    /// Acoustic sub-steps to the end of the duration.
+    /// Acoustic sub-steps, if the run goes on for its whole duration.
     pub substeps: u64,
-    /// Transfers between points and grid.
+    /// Transfers between points and grid of as long a run.
     pub steps: u64,
-    /// Sub-steps summed over the points computed, if none leaves.
+    /// Sub-steps summed over the points that are computed, if none leaves, of as
+    /// long a run.
     pub point_steps: u64,
     /// Memory for points and grid once the flow has spread [bytes].
     pub memory_bytes: u64,
+    /// When the run is expected to end [s]: what slides down, stopped by friction, or
+    /// the duration.
+    pub expected_end_s: f64,
+    /// Shares of the flow that are computed, one after the other.
+    pub stages: Vec<Stage>,
+}
+
+/// A stretch of a run in which the same share of the flow is computed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Stage {
+    /// Which share.
+    pub share: Share,
+    /// Points of it.
+    pub points: u64,
+    /// Sub-steps, as far as can be expected.
+    pub substeps: u64,
+    /// Those of them before the expected end.
+    pub expected_substeps: u64,
 }
 
 impl Cost {
@@ -34,12 +56,56 @@ impl Cost {
     pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Self {
         let points = outline.columns.map_or(0, |columns| columns.points());
         let (substeps, steps) = steps(outline, points);
+        let course = Course::of(scenario, outline);
+        let expected_end_s = match scenario.numerics.ending {
+            Ending::Auto => course.rests.min(scenario.duration_s),
+            Ending::Full => scenario.duration_s,
+        };
+        let stages = stages(outline, &course, substeps, expected_end_s);
+        let last = stages.last().map_or(points, |stage| stage.points);
         Self {
+            cell_size_m: outline.given.lattice.spacing.x,
             points,
             substeps,
             steps,
-            point_steps: points * substeps,
-            memory_bytes: memory(scenario, outline, points),
+            point_steps: stages.iter().map(|of| of.points * of.substeps).sum(),
+            memory_bytes: memory(scenario, outline, points, last),
+            expected_end_s,
+            stages,
+        }
+    }
+}
+
+/// Shares, with their parts of so many sub-steps.
+fn stages(outline: &Outline, course: &Course, substeps: u64, end: f64) -> Vec<Stage> {
+    let duration = outline.given.timing.duration;
+    let within = |from: f64, to: f64| {
+        let share = (to - from).max(0.0) / duration.max(f64::MIN_POSITIVE);
+        (substeps as f64 * share).round() as u64
+    };
+    let stage = |share: Share, from: f64, to: f64| {
+        let cells = outline.given.walls.upright.cells_across;
+        let rows = |columns: &Columns| u64::from(share.rows_across(columns, cells));
+        let of_row = |columns: &Columns| columns.points() / u64::from(columns.count[1]);
+        Stage {
+            share,
+            points: outline
+                .columns
+                .map_or(0, |columns| of_row(&columns) * rows(&columns)),
+            substeps: within(from, to),
+            expected_substeps: within(from.min(end), to.min(end)),
+        }
+    };
+    match &outline.reductions.shares {
+        None => vec![stage(Share::Whole, 0.0, duration)],
+        Some(shares) if shares.first == shares.last => vec![stage(shares.last, 0.0, duration)],
+        Some(shares) => {
+            let met = course.meets_body.min(duration);
+            let mut both = vec![stage(shares.first, 0.0, met)];
+            if met < duration {
+                both.push(stage(shares.last, met, duration));
+            }
+            both
         }
     }
 }
@@ -76,8 +142,12 @@ fn over_samples(timing: &Timing, longest: f64, per_step: f64) -> (u64, u64) {
     (whole * substeps + last_substeps, whole * steps + last_steps)
 }
 
-fn memory(scenario: &Scenario, outline: &Outline, points: u64) -> u64 {
-    let blocks = Blocks::of_release(scenario, outline);
+/// Of so many points, of which so many are computed.
+fn memory(scenario: &Scenario, outline: &Outline, points: u64, computed: u64) -> u64 {
+    let cells = outline.given.walls.upright.cells_across;
+    let share = computed as f64 / points.max(1) as f64;
+    let blocks = Blocks::of_release(scenario, outline, share * f64::from(cells));
+    let points = computed;
     let (points, spread) = (points as f64, |blocks: f64| SPREADING * blocks);
     let (of_points, of_grid) = match scenario.numerics.precision {
         Precision::Single => {
@@ -104,8 +174,9 @@ struct Blocks {
 }
 
 impl Blocks {
-    /// Those that the release lies in, and those its kernels reach.
-    fn of_release(scenario: &Scenario, outline: &Outline) -> Self {
+    /// Those that so many cells across of the release lie in, and those its kernels
+    /// reach.
+    fn of_release(scenario: &Scenario, outline: &Outline, cells_across: f64) -> Self {
         let (Some(release), Some(columns)) = (scenario.release(), outline.columns) else {
             return Self {
                 of_points: 0.0,
@@ -126,8 +197,7 @@ impl Blocks {
             let known = heights.entry(block(x, 0)).or_insert((low, high));
             *known = (known.0.min(low), known.1.max(high));
         }
-        let across = (f64::from(outline.given.walls.upright.cells_across) - 0.5) / BLOCK as f64;
-        let across = across.ceil() + 1.0;
+        let across = ((cells_across - 0.5) / BLOCK as f64).ceil() + 1.0;
         let rows = |more: i64| {
             let of_column = |(low, high): &(i64, i64)| (high - low + 1 + more) as f64;
             heights.values().map(of_column).sum::<f64>()

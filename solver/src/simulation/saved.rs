@@ -64,7 +64,7 @@ pub(super) fn restore(
             what: "the number of bodies",
         });
     }
-    let flow = saved.flow.restored(&given);
+    let flow = saved.flow.restored(&given, outline.reductions.shares);
     let mut simulation = Simulation::assemble(given, flow, bodies, pool);
     for (body, state) in simulation.state.bodies.iter_mut().zip(saved.bodies) {
         body.state = state;

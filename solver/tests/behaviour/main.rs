@@ -17,6 +17,7 @@ mod layers;
 mod limits;
 mod plan;
 mod precisions;
+mod reductions;
 mod same_bits;
 mod shapes;
 mod sliding_block;
