@@ -16,7 +16,7 @@ const COLLAPSE: &str = r#"{
              "material": {"bulk_density_kg_m3": 1550, "youngs_modulus_pa": 1e6,
                           "static_friction": 0.5774, "limiting_friction": 0.5774}},
     "bodies": [], "duration_s": 10, "sample_interval_s": 10, "flow_snapshots": 0,
-    "numerics": {"cell_size_m": 0.03, "points_per_cell": 8}
+    "numerics": {"cell_size_m": 0.03, "symmetry": "full", "approach": "full"}
 }"#;
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -10,7 +10,7 @@
 use crate::kernel::{Lattice, REACH, share_above};
 use crate::math::Vec3;
 use crate::rigid::Body;
-use crate::walls::{Boundary, NodeAccess, Plane, filled};
+use crate::walls::{Boundary, NodeAccess, Plane, filled, in_plane};
 
 /// Points move by this share of −h² ∇crowding per cell of travel.
 const SHIFT: f64 = 1.0;
@@ -142,6 +142,14 @@ impl Spread {
         Self {
             first_moment: self.first_moment + other.first_moment,
             angular: self.angular + other.angular,
+        }
+    }
+
+    /// Of so many images, which lie symmetrically about the plane y = 0.
+    pub fn of_images(&self, count: f64) -> Self {
+        Self {
+            first_moment: in_plane(&self.first_moment) * count,
+            angular: Vec3::new(0.0, self.angular.y * count, 0.0),
         }
     }
 

@@ -4,8 +4,8 @@
 use crate::material::Material;
 use crate::math::Vec3;
 use crate::points::Point;
-use crate::rigid::{Body, Freedom};
-use crate::walls::Impulse;
+use crate::rigid::Body;
+use crate::walls::{Impulse, in_plane};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -40,6 +40,18 @@ impl Totals {
         self.kinetic_energy += other.kinetic_energy;
         self.energy += other.energy;
         self
+    }
+
+    /// Sums over so many images, which lie symmetrically about the plane y = 0.
+    pub fn of_images(&self, count: f64) -> Self {
+        Self {
+            mass: self.mass * count,
+            first_moment: in_plane(&self.first_moment) * count,
+            momentum: self.momentum.of_images(count),
+            momentum_scale: self.momentum_scale * count,
+            kinetic_energy: self.kinetic_energy * count,
+            energy: self.energy * count,
+        }
     }
 
     /// Sums over the points of a flow.
@@ -80,7 +92,7 @@ impl Totals {
     pub fn of_bodies(bodies: &[Body], gravity: &Vec3) -> Self {
         bodies
             .iter()
-            .filter(|body| body.freedom == Freedom::Free)
+            .filter(|body| body.is_free())
             .map(|body| Self::of_body(body, gravity))
             .fold(Self::default(), |sum, one| sum.plus(&one))
     }

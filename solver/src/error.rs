@@ -17,6 +17,16 @@ pub enum SetupError {
         /// Cell size in use [m].
         cell_size_m: f64,
     },
+    /// A reduction asked for that the scene does not allow.
+    #[error("numerics.{key} can't be \"{word}\" in this scene: {why}")]
+    NotReducible {
+        /// Which of the numerics.
+        key: &'static str,
+        /// What it was asked to be.
+        word: &'static str,
+        /// Why it can't.
+        why: String,
+    },
     /// The worker threads could not be started.
     #[error("cannot start {threads} solver threads: {reason}")]
     Threads {

@@ -17,6 +17,7 @@ pub mod grid;
 pub mod kernel;
 pub mod material;
 pub mod math;
+pub mod plan;
 pub mod points;
 pub mod record;
 pub mod rigid;

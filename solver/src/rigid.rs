@@ -11,6 +11,9 @@ use serde::{Deserialize, Serialize};
 pub enum Freedom {
     /// It does.
     Free,
+    /// It does, but never leaves the plane y = 0 nor turns out of it: loads that
+    /// would do that are rounding.
+    InPlane,
     /// It is a barrier.
     Fixed,
 }
@@ -67,7 +70,8 @@ pub struct BodyState {
     pub barrier_load: Load,
     /// How many bodies it touches now.
     pub touching_bodies: u32,
-    /// How long it has hardly moved, without a flow on it [s].
+    /// How long it has hardly moved, without a flow on it [s]; infinite while it
+    /// stands as it did at the start, held by the walls.
     pub still_for: f64,
 }
 
@@ -141,10 +145,12 @@ impl Body {
 
     /// 1/m [1/kg]; 0 for a fixed body.
     pub fn inverse_mass(&self) -> f64 {
-        match self.freedom {
-            Freedom::Free => 1.0 / self.mass,
-            Freedom::Fixed => 0.0,
-        }
+        if self.is_free() { 1.0 / self.mass } else { 0.0 }
+    }
+
+    /// Whether it moves.
+    pub fn is_free(&self) -> bool {
+        self.freedom != Freedom::Fixed
     }
 
     /// Mass that resists a force along `direction` (unit) at `arm` [kg].
@@ -158,6 +164,11 @@ impl Body {
     pub fn kinetic_energy(&self) -> f64 {
         let spinning = self.state.angular_momentum.dot(&self.angular_velocity());
         0.5 * (self.state.momentum.norm_squared() / self.mass + spinning)
+    }
+
+    /// Whether it stands as it did at the start, held by the walls alone.
+    pub fn is_held(&self) -> bool {
+        self.state.still_for == f64::INFINITY
     }
 
     /// Whether a wall or another body touches it.
@@ -174,6 +185,11 @@ impl Body {
     pub fn kick(&mut self, load: &Load, dt: f64) {
         self.state.momentum += load.force * dt;
         self.state.angular_momentum += load.torque * dt;
+        if self.freedom == Freedom::InPlane {
+            self.state.momentum.y = 0.0;
+            self.state.angular_momentum.x = 0.0;
+            self.state.angular_momentum.z = 0.0;
+        }
     }
 
     /// Moves and turns freely for `dt`: the midpoint rule for the orientation,

@@ -1,7 +1,7 @@
 //! How far one sub-step and one step may go (docs/method.md, equations 25 and 27).
 
 /// Sub-step without a flow, where bodies choose their own [s].
-const SUBSTEP_WITHOUT_FLOW: f64 = 1e-3;
+pub const SUBSTEP_WITHOUT_FLOW: f64 = 1e-3;
 /// A flow this many times faster than its own sound has blown up.
 const LARGEST_MACH_NUMBER: f64 = 20.0;
 
@@ -62,9 +62,16 @@ impl Limits {
     /// The next step: equal sub-steps, none longer than `longest` [s], the
     /// fastest at `speed` [m/s], and none beyond `remaining` [s].
     pub fn pace(&self, longest: f64, speed: f64, remaining: f64) -> Pace {
-        let travel = self.governing_speed(speed) * longest;
-        let allowed = (self.flow_courant * self.cell_size / travel).floor();
-        divide(remaining, longest, allowed.max(1.0))
+        divide(remaining, longest, self.substeps_per_step(longest, speed))
+    }
+
+    /// Most sub-steps of this length [s] in a step, the fastest at `speed` [m/s];
+    /// whole, but kept as a float.
+    pub fn substeps_per_step(&self, substep: f64, speed: f64) -> f64 {
+        let travel = self.governing_speed(speed) * substep;
+        (self.flow_courant * self.cell_size / travel)
+            .floor()
+            .max(1.0)
     }
 }
 

@@ -63,6 +63,20 @@ impl Impulse {
         self.linear += linear;
         self.angular += x.cross(linear);
     }
+
+    /// What so many images together give, which lie symmetrically about the plane
+    /// y = 0: twice as much of two, and nothing across.
+    pub fn of_images(&self, count: f64) -> Self {
+        Self {
+            linear: in_plane(&self.linear) * count,
+            angular: Vec3::new(0.0, self.angular.y * count, 0.0),
+        }
+    }
+}
+
+/// What is left of a vector and its mirror images in the plane y = 0.
+pub fn in_plane(v: &Vec3) -> Vec3 {
+    Vec3::new(v.x, 0.0, v.z)
 }
 
 impl Walls {

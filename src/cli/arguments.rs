@@ -21,6 +21,8 @@ pub(super) enum Command {
     Serve(ServeOptions),
     /// Compute one scenario here, without the service
     Run(RunOptions),
+    /// Say what a run of a scenario would compute, leave out and cost
+    Plan(PlanOptions),
     /// Check a scenario and list everything that is wrong with it
     Validate(ValidateOptions),
     /// Send the source paper's scene through a service of its own
@@ -59,6 +61,19 @@ pub(super) struct RunOptions {
     pub(super) json: bool,
     /// Solver threads [default: the scenario's, else all cores]; results do not
     /// depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct PlanOptions {
+    /// The scenario, a JSON file; - reads standard input
+    #[arg(value_name = "SCENARIO.json")]
+    pub(super) scenario: PathBuf,
+    /// Print the plan as JSON, and nothing else, on standard output
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Solver threads [default: the scenario's, else all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
 }
@@ -144,6 +159,11 @@ pub(super) enum Measurement {
     Threads,
     /// The machine's own limits, and how close the collapse comes
     Roofline,
+    /// The source paper's scene with and without what need not be computed (full:
+    /// on finer grids too)
+    Plan,
+    /// Ten scenes, with their wall time as foretold and as taken
+    Forecast,
 }
 
 impl Measurement {

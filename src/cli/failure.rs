@@ -75,7 +75,9 @@ impl From<PictureError> for Failure {
 /// A legal scenario that can't be set up: too large a one is the input's fault.
 pub(super) fn not_set_up(error: &SetupError) -> Failure {
     match error {
-        SetupError::TooManyPoints { .. } => Failure::Input(error.to_string()),
+        SetupError::TooManyPoints { .. } | SetupError::NotReducible { .. } => {
+            Failure::Input(error.to_string())
+        }
         SetupError::Threads { .. } => Failure::Other(error.to_string()),
     }
 }

@@ -15,6 +15,7 @@ mod local_run;
 mod machine;
 mod meter;
 mod output;
+mod plan;
 mod scenario_file;
 mod serve;
 mod table;
@@ -35,6 +36,7 @@ pub(crate) fn run() -> ExitCode {
     let result = match &arguments.command {
         Command::Serve(options) => serve::serve(options),
         Command::Run(options) => local_run::run(options),
+        Command::Plan(options) => plan::plan(options),
         Command::Validate(options) => validate::validate(options),
         Command::Demo(options) => demo::demo(options),
         Command::Bench(options) => bench::bench(options),

@@ -174,13 +174,17 @@ fn read_page(query: Option<&str>) -> Result<Page, Problem> {
 impl From<SubmitError> for Problem {
     fn from(error: SubmitError) -> Self {
         match error {
-            SubmitError::Scenario(ScenarioError::Invalid(violations)) => {
-                Self::invalid_scenario(violations)
-            }
-            SubmitError::Scenario(error @ ScenarioError::Malformed { .. }) => {
-                malformed(&error.to_string())
-            }
+            SubmitError::Scenario(error) => error.into(),
             SubmitError::Store(error) => error.into(),
+        }
+    }
+}
+
+impl From<ScenarioError> for Problem {
+    fn from(error: ScenarioError) -> Self {
+        match error {
+            ScenarioError::Invalid(violations) => Self::invalid_scenario(violations),
+            error @ ScenarioError::Malformed { .. } => malformed(&error.to_string()),
         }
     }
 }

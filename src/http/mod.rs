@@ -6,6 +6,7 @@ pub mod contract;
 mod documents;
 mod jobs;
 mod named_job;
+mod plans;
 mod problem;
 mod query;
 mod results;

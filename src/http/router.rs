@@ -1,7 +1,7 @@
 //! Which request goes where, and what goes round all of them.
 
 use super::problem::Problem;
-use super::{jobs, results, system};
+use super::{jobs, plans, results, system};
 use crate::config::Limits;
 use crate::jobs::Jobs;
 use axum::Router;
@@ -50,6 +50,7 @@ fn documented() -> OpenApiRouter<Jobs> {
     OpenApiRouter::with_openapi(description())
         .routes(routes!(jobs::submit, jobs::list))
         .routes(routes!(jobs::show, jobs::dismiss))
+        .routes(routes!(plans::plan))
         .routes(routes!(results::trajectory))
         .routes(routes!(results::flow))
         .routes(routes!(system::health))

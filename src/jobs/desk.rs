@@ -1,5 +1,6 @@
 //! The door to the jobs: what a client may ask for, in the service's own words.
 
+use super::forecast::{ForecastError, Planned, forecast};
 use super::job::{Job, JobId, JobStatus, JobSummary};
 use super::pool::Bench;
 use super::store::{Dismissal, Page, Store, StoreError};
@@ -10,6 +11,8 @@ use crate::results::columns::{Selection, Selector, TrajectoryColumns};
 use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
+use tokio::sync::Mutex;
+use tokio::task::spawn_blocking;
 use tokio::time::timeout;
 
 /// How long a dismissal waits for the run to end, so that its answer shows the
@@ -22,6 +25,7 @@ pub struct Jobs {
     store: Store,
     bench: Arc<Bench>,
     threads_per_worker: usize,
+    planning: Arc<Mutex<()>>,
 }
 
 /// Why a job is not let in.
@@ -33,6 +37,20 @@ pub enum SubmitError {
     /// It can't be kept.
     #[error(transparent)]
     Store(#[from] StoreError),
+}
+
+/// Why there is no plan.
+#[derive(Debug, Error)]
+pub enum PlanError {
+    /// The scenario is none.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// Its first steps can't be taken.
+    #[error(transparent)]
+    Forecast(#[from] ForecastError),
+    /// Planning broke off.
+    #[error("planning broke off: {0}")]
+    BrokenOff(String),
 }
 
 /// What became of a wish to dismiss a job.
@@ -53,6 +71,7 @@ impl Jobs {
             store,
             bench,
             threads_per_worker,
+            planning: Arc::default(),
         }
     }
 
@@ -73,6 +92,22 @@ impl Jobs {
             }
             .into()
         })
+    }
+
+    /// What a job of this scenario would compute and how long it would take.
+    ///
+    /// # Errors
+    /// It is no scenario, or its first steps can't be taken.
+    pub async fn plan(&self, scenario: &str) -> Result<Planned, PlanError> {
+        let threads = self.threads_per_worker;
+        let scenario = submit::read(scenario, threads)?;
+        let threads = scenario.numerics.threads.unwrap_or(threads);
+        // One after the other: what is timed side by side is slow.
+        let _alone = self.planning.lock().await;
+        let planned = spawn_blocking(move || forecast(&scenario, threads)).await;
+        planned
+            .map_err(|error| PlanError::BrokenOff(error.to_string()))?
+            .map_err(Into::into)
     }
 
     /// The job, if there is one.

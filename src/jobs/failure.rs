@@ -56,6 +56,7 @@ impl Failure {
             } => {
                 json!({"points": points, "limit": limit, "cell_size_m": cell_size_m})
             }
+            SetupError::NotReducible { key, word, .. } => json!({*key: word}),
             SetupError::Threads { threads, .. } => json!({"threads": threads}),
         };
         Self::new(

@@ -1,9 +1,10 @@
 //! Jobs: what they are ([`job`]), which are let in ([`submit`]), where they are
 //! kept ([`store`]), who runs them ([`pool`], [`runner`]) and how one that can't
-//! be finished says so ([`failure`]). [`Jobs`] is the door for HTTP.
+//! be finished says so ([`failure`]), how long one will take ([`forecast`]). [`Jobs`] is the door for HTTP.
 
 mod desk;
 pub mod failure;
+pub mod forecast;
 pub mod job;
 pub mod pool;
 pub mod progress;
@@ -13,4 +14,4 @@ pub mod store;
 pub mod submit;
 mod worker;
 
-pub use desk::{Dismissed, Jobs, SubmitError};
+pub use desk::{Dismissed, Jobs, PlanError, SubmitError};

@@ -90,7 +90,7 @@ pub fn run<S: Sink>(
             watch.observe(simulation, report)
         });
         watch.end().map_err(RunError::Sink)?;
-        if ending? == Ending::Interrupted {
+        if ending? == Ending::Interrupted && !watch.ended_early {
             return Ok(RunEnd::Stopped);
         }
     }
@@ -105,6 +105,8 @@ struct Watch<'a, S: Sink> {
     stop: &'a StopFlag,
     sink: &'a mut S,
     refused: Option<S::Error>,
+    /// Whether nothing can move any more.
+    ended_early: bool,
 }
 
 impl<'a, S: Sink> Watch<'a, S> {
@@ -115,6 +117,7 @@ impl<'a, S: Sink> Watch<'a, S> {
             stop,
             sink,
             refused: None,
+            ended_early: false,
         }
     }
 
@@ -130,15 +133,28 @@ impl<'a, S: Sink> Watch<'a, S> {
             return ControlFlow::Break(());
         }
         self.pace.count(report);
-        let records = self.recorder.observe(simulation, report);
+        let mut records = self.recorder.observe(simulation, report);
+        if report.sample.is_some() && report.time_s < self.pace.duration_s {
+            records.extend(self.end_early(simulation));
+        }
         let taken = self.hand_on(records).and_then(|()| self.tell_progress());
         if let Err(error) = taken {
             self.refused = Some(error);
         }
-        if self.refused.is_some() || self.stop.is_raised() {
+        if self.refused.is_some() || self.stop.is_raised() || self.ended_early {
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
+    }
+
+    /// The last records, if nothing can move any more.
+    fn end_early(&mut self, simulation: &Simulation) -> Vec<Record> {
+        let last = self.recorder.end_early(simulation);
+        if last.is_some() {
+            self.ended_early = true;
+            self.pace.duration_s = simulation.time_s();
+        }
+        last.unwrap_or_default()
     }
 
     fn hand_on(&mut self, records: Vec<Record>) -> Result<(), S::Error> {

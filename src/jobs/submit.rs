@@ -27,7 +27,7 @@ pub struct NewJob {
 /// # Errors
 /// All the rules that it breaks.
 pub fn admit(text: &str, threads_per_worker: usize) -> Result<NewJob, ScenarioError> {
-    let scenario = parse(text, threads_per_worker)?;
+    let scenario = read(text, threads_per_worker)?;
     let json = serde_json::to_string(&scenario).map_err(|error| ScenarioError::Malformed {
         message: error.to_string(),
         line: 0,
@@ -42,11 +42,16 @@ pub fn admit(text: &str, threads_per_worker: usize) -> Result<NewJob, ScenarioEr
     })
 }
 
-fn parse(text: &str, threads_per_worker: usize) -> Result<Scenario, ScenarioError> {
+/// Reads a scenario for a service whose workers have `threads_per_worker` solver
+/// threads.
+///
+/// # Errors
+/// All the rules that it breaks.
+pub fn read(text: &str, threads_per_worker: usize) -> Result<Scenario, ScenarioError> {
     match Scenario::from_json(text) {
         Ok(scenario) => {
             let mut violations = Vec::new();
-            violations.extend(too_many_points(&scenario));
+            violations.extend(not_set_up(&scenario));
             violations.extend(too_many_threads(
                 scenario.numerics.threads,
                 threads_per_worker,
@@ -68,22 +73,29 @@ fn parse(text: &str, threads_per_worker: usize) -> Result<Scenario, ScenarioErro
     }
 }
 
-/// A flow that no run can hold is refused where it is submitted, not when its
-/// turn has come.
-fn too_many_points(scenario: &Scenario) -> Option<Violation> {
-    match Simulation::check(scenario) {
-        Err(
-            error @ SetupError::TooManyPoints {
-                limit, cell_size_m, ..
-            },
-        ) => Some(Violation {
+/// A flow that no run can hold, or a reduction that the scene does not allow, is
+/// refused where it is submitted, not when its turn has come.
+fn not_set_up(scenario: &Scenario) -> Option<Violation> {
+    let error = Simulation::check(scenario).err()?;
+    let detail = error.to_string();
+    match error {
+        SetupError::TooManyPoints {
+            limit, cell_size_m, ..
+        } => Some(Violation {
             pointer: "/numerics/cell_size_m".to_owned(),
             value: json!(cell_size_m),
             allowed: format!("cells that lead to at most {limit} material points"),
             unit: Some("m".to_owned()),
-            detail: error.to_string(),
+            detail,
         }),
-        Err(SetupError::Threads { .. }) | Ok(()) => None,
+        SetupError::NotReducible { key, word, .. } => Some(Violation {
+            pointer: format!("/numerics/{key}"),
+            value: json!(word),
+            allowed: "\"auto\" or \"full\" in this scene".to_owned(),
+            unit: None,
+            detail,
+        }),
+        SetupError::Threads { .. } => None,
     }
 }
 

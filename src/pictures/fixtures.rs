@@ -4,9 +4,9 @@ use scree_solver::record::{
     Audit, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, Mode, Outcome, Sample,
 };
 use scree_solver::scenario::{
-    Body, Channel, Flow, Material, Numerics, Position, Precision, Release,
+    Approach, Body, Channel, Ending, Flow, Material, Numerics, Position, Precision, Release,
 };
-use scree_solver::scenario::{Scenario, Shape};
+use scree_solver::scenario::{Scenario, Shape, Symmetry};
 
 pub(super) fn cube(side_m: f64, sphero_radius_m: f64) -> Body {
     Body {
@@ -141,6 +141,9 @@ pub(super) fn scenario(bodies: Vec<Body>) -> Scenario {
             courant: None,
             flow_courant: None,
             precision: Precision::Single,
+            symmetry: Symmetry::Auto,
+            approach: Approach::Auto,
+            ending: Ending::Auto,
             threads: None,
         },
     }
@@ -203,5 +206,7 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
             cell_size_m: 0.01,
             sound_speed_m_s: None,
         },
+        ended_early: None,
+        plan: None,
     }
 }

@@ -59,6 +59,7 @@ impl Block {
             points,
             precision: self.precision,
             volume_left_out: 0.0,
+            shares: None,
         }
     }
 

@@ -42,7 +42,7 @@ pub(super) fn limits_of(scene: &Value) -> Result<Limits, Trouble> {
 /// The scene is refused or can't be computed, or the flow doesn't move the cube.
 pub(super) fn motion(scene: &Value) -> Result<Answer<4>, Trouble> {
     let scenario = scenario_of(scene)?;
-    let mut run = Run::start(Scene::of(&scenario)?)?;
+    let mut run = Run::start(Scene::whole(&scenario)?)?;
     let mut recorder = Recorder::new(&scenario);
     recorder.start(&run.simulation);
     run.watch(f64::INFINITY, |simulation, report| {

@@ -131,7 +131,7 @@ impl Run {
 /// # Errors
 /// The scenario is refused.
 pub fn scene_of(document: &serde_json::Value) -> Result<Scene, Trouble> {
-    Ok(Scene::of(&scenario_of(document)?)?)
+    Ok(Scene::whole(&scenario_of(document)?)?)
 }
 
 /// A scenario in JSON.

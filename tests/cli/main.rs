@@ -4,6 +4,7 @@
 mod bench;
 mod command;
 mod demo;
+mod plan;
 mod run;
 mod serve;
 mod usage;

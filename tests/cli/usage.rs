@@ -10,6 +10,7 @@ fn help_and_version_are_answers() {
     for command in [
         "serve",
         "run",
+        "plan",
         "validate",
         "demo",
         "bench",

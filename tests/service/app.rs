@@ -90,7 +90,16 @@ impl TestApp {
     }
 
     pub(crate) async fn post(&self, content_type: &str, body: impl Into<reqwest::Body>) -> Answer {
-        let request = self.client.post(self.url("/v1/jobs"));
+        self.post_to("/v1/jobs", content_type, body).await
+    }
+
+    pub(crate) async fn post_to(
+        &self,
+        path: &str,
+        content_type: &str,
+        body: impl Into<reqwest::Body>,
+    ) -> Answer {
+        let request = self.client.post(self.url(path));
         let request = request.header("content-type", content_type).body(body);
         Answer::read(request.send().await.unwrap()).await
     }
@@ -237,5 +246,6 @@ pub(crate) fn endless_scene() -> Value {
     let mut scene = tiny_scene();
     scene["title"] = json!("endless");
     scene["duration_s"] = json!(600.0);
+    scene["numerics"]["ending"] = json!("full");
     scene
 }

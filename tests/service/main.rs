@@ -9,6 +9,7 @@ mod dismissal;
 mod http_basics;
 mod jobs;
 mod layers;
+mod plans;
 mod restart;
 mod results;
 mod runner;

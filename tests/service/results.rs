@@ -77,6 +77,7 @@ async fn ranges_include_both_ends_and_strides_count_from_the_first() {
     scene["flow"] = Value::Null;
     // More samples than one stored chunk takes (512).
     scene["duration_s"] = json!(1.2);
+    scene["numerics"]["ending"] = json!("full");
     let job = app.submit(&scene).await;
     app.wait_for_success(&job).await;
     let ask = async |query: &str| {

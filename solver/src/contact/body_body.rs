@@ -272,7 +272,7 @@ impl Motion {
     fn velocity(body: &Body) -> Self {
         match body.freedom {
             Freedom::Fixed => Self::NONE,
-            Freedom::Free => Self {
+            Freedom::Free | Freedom::InPlane => Self {
                 linear: body.velocity(),
                 angular: body.angular_velocity(),
             },
@@ -283,7 +283,7 @@ impl Motion {
     fn acceleration(body: &Body, load: &Load) -> Self {
         match body.freedom {
             Freedom::Fixed => Self::NONE,
-            Freedom::Free => Self {
+            Freedom::Free | Freedom::InPlane => Self {
                 linear: load.force / body.mass,
                 angular: body.angular_acceleration(&load.torque),
             },

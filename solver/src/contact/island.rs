@@ -99,7 +99,11 @@ fn advance_apart(
         *report = BodyReport::default();
         if is_free(body) {
             let mut alone = Member::new(body, report, flow(place));
-            advance_together(std::slice::from_mut(&mut alone), &mut [], around, dt);
+            if alone.waits() {
+                alone.lie();
+            } else {
+                advance_together(std::slice::from_mut(&mut alone), &mut [], around, dt);
+            }
         }
     });
 }
@@ -116,6 +120,22 @@ pub fn meet(bodies: &mut [Body]) -> Vec<Meeting> {
     }
     meetings.sort_unstable_by_key(|meeting| meeting.bodies);
     meetings
+}
+
+/// Notes at the start which bodies the walls alone hold: at rest, with loads that
+/// balance but for this share of their weight.
+pub fn hold(bodies: &mut [Body], gravity: &Vec3) {
+    const BALANCED: f64 = 1e-6;
+    for body in bodies.iter_mut().filter(|body| is_free(body)) {
+        let weight = body.mass * gravity.norm();
+        let (force, torque) = (body.state.wall_load.force, body.state.wall_load.torque);
+        let off = (force + gravity * body.mass).norm();
+        let turned = torque.norm() / body.shape.bounding_radius();
+        let touched = body.state.touching_bodies > 0;
+        if body.largest_speed() == 0.0 && off.max(turned) <= BALANCED * weight && !touched {
+            body.state.still_for = f64::INFINITY;
+        }
+    }
 }
 
 /// Pairs of bodies, one of them free, that may touch within `dt`, in order.
@@ -137,14 +157,14 @@ fn near_pairs(bodies: &[Body], dt: f64) -> Vec<[usize; 2]> {
 }
 
 fn is_free(body: &Body) -> bool {
-    body.freedom == Freedom::Free
+    body.is_free()
 }
 
 /// What a body can travel in `dt`, with room for what accelerates it [m].
 fn reach(body: &Body, dt: f64) -> f64 {
     let margin = 0.01 * body.shape.sphero_radius();
     match body.freedom {
-        Freedom::Free => 2.0 * body.largest_speed() * dt + margin,
+        Freedom::Free | Freedom::InPlane => 2.0 * body.largest_speed() * dt + margin,
         Freedom::Fixed => margin,
     }
 }
@@ -276,10 +296,12 @@ impl Island<'_> {
     /// nothing from outside is near: contacts, momentum and all stay as they
     /// are until another body comes near or a point touches.
     fn sleeps(&self) -> bool {
-        self.members.len() > 1
-            && self.members.iter().all(|member| {
+        match &self.members[..] {
+            [alone] => self.meetings.is_empty() && alone.waits(),
+            many => many.iter().all(|member| {
                 member.flow == Load::default() && member.body.state.still_for >= FALLS_ASLEEP_AFTER
-            })
+            }),
+        }
     }
 }
 
@@ -422,6 +444,12 @@ impl<'a> Member<'a> {
         }
     }
 
+    /// Whether it has stood since the start, held by the walls, and nothing touches
+    /// it: steps would change nothing but its rounding.
+    fn waits(&self) -> bool {
+        self.body.is_held() && self.flow == Load::default()
+    }
+
     /// What it reports asleep: the loads that hold it.
     fn lie(&mut self) {
         let state = &self.body.state;
@@ -430,6 +458,8 @@ impl<'a> Member<'a> {
         self.report.body_load.add(&state.barrier_load);
         self.report.substeps = 1;
         self.report.substeps_supported = u32::from(self.body.is_supported());
+        let overlap = state.wall_overlap / self.body.shape.sphero_radius();
+        self.report.overlap(overlap);
     }
 
     fn watch_rest(&mut self, dt: f64) {

@@ -41,7 +41,7 @@ impl PointSphere {
     fn braking(&self, body: &Body, dt: f64) -> f64 {
         match body.freedom {
             Freedom::Fixed => self.impedance,
-            Freedom::Free => {
+            Freedom::Free | Freedom::InPlane => {
                 let share = LARGEST_BRAKING * body.mass / (self.most_touching(body) * dt);
                 self.impedance.min(share)
             }
@@ -212,17 +212,17 @@ impl<P: Copy + Send + Sync> Loads<P> {
     }
 }
 
-/// Impulse the bodies of one freedom give the flow in `dt`, by what the flow does
-/// to all of them.
+/// Impulse that the bodies picked give the flow in `dt`, by what
+/// the flow does to all of them.
 pub fn impulse_on_flow(
     on_bodies: &[FlowLoad],
     bodies: &[Body],
     dt: f64,
-    freedom: Freedom,
+    picks: impl Fn(&Body) -> bool,
 ) -> Impulse {
     let mut impulse = Impulse::default();
     for (body, flow) in bodies.iter().zip(on_bodies) {
-        if body.freedom == freedom {
+        if picks(body) {
             impulse.add_at(&body.state.position, &(flow.load.force * -dt));
             impulse.angular -= flow.load.torque * dt;
         }
@@ -303,6 +303,7 @@ pub fn put_back(position: &Vec3, body: &Body) -> Option<Vec3> {
 }
 
 /// A box of world axes round a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Around {
     low: Vec3,
     high: Vec3,
@@ -329,6 +330,25 @@ impl Around {
             low: centre - half,
             high: centre + half,
         }
+    }
+
+    /// As long, as high, and without end across.
+    pub fn all_across(mut self) -> Self {
+        (self.low.y, self.high.y) = (f64::NEG_INFINITY, f64::INFINITY);
+        self
+    }
+
+    /// Its mirror image in the plane y = 0.
+    pub fn mirrored(mut self) -> Self {
+        (self.low.y, self.high.y) = (-self.high.y, -self.low.y);
+        self
+    }
+
+    /// The same so much further across [m].
+    pub fn shifted(mut self, across: f64) -> Self {
+        self.low.y += across;
+        self.high.y += across;
+        self
     }
 
     /// Whether a place is in it.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::rigid::Freedom;
 use crate::rigid::fixture::cuboid;
 
 fn flow(mass: f64, linear: Vec3, energy: f64) -> Totals {

@@ -4,9 +4,12 @@
 
 mod outcome;
 mod recorder;
+mod rest;
 mod submergence;
 
+use crate::plan::Plan;
 pub use recorder::Recorder;
+pub use rest::EndedEarly;
 use serde::{Deserialize, Serialize};
 
 /// How a body moves.
@@ -188,4 +191,8 @@ pub struct Outcome {
     pub audit: Audit,
     /// What it cost.
     pub cost: Cost,
+    /// That the run ended before its duration; null if it did not.
+    pub ended_early: Option<EndedEarly>,
+    /// What was computed, what was left out and why, as planned before the run.
+    pub plan: Option<Plan>,
 }

@@ -61,6 +61,12 @@ impl BodyHistory {
         }
     }
 
+    /// Whether it has been at rest for so long without a break [s].
+    pub(super) fn rests_for(&self, duration: f64, time_s: f64) -> bool {
+        self.rest_since
+            .is_some_and(|since| time_s - since >= duration)
+    }
+
     /// Beyond the trembling of a body at rest.
     fn moved(&self) -> bool {
         self.onset_time.is_some() || self.peak_speed >= REST_SPEED
@@ -103,7 +109,18 @@ pub(super) fn flow_outcome(
 
 /// The x beyond which [`FRONT_SHARE`] of the released mass lies; the open end
 /// once that much has left.
-fn front(simulation: &Simulation, open_end: f64) -> Option<f64> {
+pub(super) fn front(simulation: &Simulation, open_end: f64) -> Option<f64> {
+    let mut places = Vec::with_capacity(simulation.point_count());
+    simulation.visit_points(None, |point| places.push((point.position.x, point.mass)));
+    front_of(simulation, places, open_end)
+}
+
+/// The same if each point (mass in kg) were at another x [m].
+pub(super) fn front_of(
+    simulation: &Simulation,
+    mut ahead: Vec<(f64, f64)>,
+    open_end: f64,
+) -> Option<f64> {
     let audit = simulation.audit();
     let mut beyond = audit.mass_left();
     let wanted = FRONT_SHARE * audit.released_mass;
@@ -113,8 +130,6 @@ fn front(simulation: &Simulation, open_end: f64) -> Option<f64> {
     if beyond >= wanted {
         return Some(open_end);
     }
-    let mut ahead = Vec::with_capacity(simulation.point_count());
-    simulation.visit_points(None, |point| ahead.push((point.position.x, point.mass)));
     ahead.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
     for (x, mass) in ahead {
         beyond += mass;

@@ -1,19 +1,23 @@
 //! Turns what a run shows into records and an outcome.
 
-use super::outcome::{BodyHistory, flow_outcome};
+use super::outcome::{BodyHistory, flow_outcome, front, front_of};
+use super::rest::{Base, EndedEarly, Remaining, body_bound, front_rests};
 use super::submergence::submerged_fraction;
 use super::{
     Audit, BodySample, Cost, FlowSnapshot, Mode, Outcome, Record, SNAPSHOT_POINTS, Sample,
 };
 use crate::contact::island::BodyReport;
 use crate::math::Vec3;
-use crate::rigid::{Body, Freedom, Load};
-use crate::scenario::Scenario;
+use crate::plan::{self, Plan};
+use crate::rigid::{Body, Load};
+use crate::scenario::{Ending, Scenario};
 use crate::simulation::{Simulation, SubstepReport};
 use serde::{Deserialize, Serialize};
 
 /// Slower than this is at rest [m/s].
 pub(super) const REST_SPEED: f64 = 1e-3;
+/// A body at rest for so long without a break has come to rest [s].
+const RESTS_FOR: f64 = 0.1;
 /// A body on walls and other bodies for less of the time than this saltates.
 const SUPPORTED_SHARE: f64 = 0.5;
 /// A surface speed from turning above this share of the centre's speed is rolling.
@@ -30,6 +34,10 @@ pub struct Recorder {
     snapshot_times: Vec<f64>,
     initial_toe: Option<f64>,
     open_end: f64,
+    base: Base,
+    ending: Ending,
+    plan: Option<Plan>,
+    ended_early: Option<EndedEarly>,
 }
 
 /// Impulses and counts of one body since the last sample.
@@ -81,6 +89,11 @@ impl Recorder {
             snapshot_times: snapshot_times(scenario),
             initial_toe: scenario.release().map(|release| release.front_m),
             open_end: scenario.channel.runout_length_m,
+            base: Base::of(scenario),
+            ending: scenario.numerics.ending,
+            // What has no plan can't be set up either.
+            plan: plan::of(scenario).ok(),
+            ended_early: None,
         }
     }
 
@@ -103,6 +116,49 @@ impl Recorder {
         } else {
             Vec::new()
         }
+    }
+
+    /// Ends the run at this sample time if nothing can move a body or the front any
+    /// more and the scenario does not forbid it: then returns the last records, and
+    /// the outcome says so.
+    pub fn end_early(&mut self, simulation: &Simulation) -> Option<Vec<Record>> {
+        let ended = self.nothing_moves(simulation)?;
+        self.ended_early = Some(ended);
+        let due = !self.snapshot_times.is_empty();
+        self.snapshot_times.clear();
+        Some(
+            due.then(|| Record::Snapshot(snapshot(simulation)))
+                .into_iter()
+                .collect(),
+        )
+    }
+
+    fn nothing_moves(&self, simulation: &Simulation) -> Option<EndedEarly> {
+        let time_s = simulation.time_s();
+        let rests = |(body, history): (&Body, &BodyHistory)| {
+            let turning = body.angular_velocity().norm() * body.shape.bounding_radius();
+            !body.is_free() || (turning < REST_SPEED && history.rests_for(RESTS_FOR, time_s))
+        };
+        let mut bodies = simulation.bodies().iter().zip(&self.histories);
+        if self.ending == Ending::Full || time_s < RESTS_FOR || !bodies.all(rests) {
+            return None;
+        }
+        let remaining = Remaining::of(simulation, &self.base);
+        let body_bound_m = body_bound(simulation, &remaining)?;
+        let front = front(simulation, self.open_end);
+        let farthest = front_of(simulation, remaining.reaches, self.open_end);
+        let front_bound_m = front
+            .zip(farthest)
+            .map(|(front, farthest)| farthest - front);
+        if front_bound_m.is_some_and(|bound| !front_rests(simulation, bound)) {
+            return None;
+        }
+        Some(EndedEarly {
+            time_s,
+            reason: "nothing can move a body or the front any more".to_owned(),
+            body_bound_m,
+            front_bound_m,
+        })
     }
 
     /// The outcome so far, with the wall time the caller measured [s].
@@ -140,6 +196,8 @@ impl Recorder {
                 cell_size_m: simulation.cell_size_m(),
                 sound_speed_m_s: simulation.sound_speed_m_s(),
             },
+            ended_early: self.ended_early.clone(),
+            plan: self.plan.clone(),
         }
     }
 
@@ -194,7 +252,7 @@ fn body_sample(simulation: &Simulation, place: usize, body: &Body, means: &Means
 fn mode(body: &Body, means: &Means) -> Mode {
     let speed = body.velocity().norm();
     let turning = body.angular_velocity().norm() * body.shape.bounding_radius();
-    if body.freedom == Freedom::Fixed || speed.max(turning) < REST_SPEED {
+    if !body.is_free() || speed.max(turning) < REST_SPEED {
         Mode::Resting
     } else if !means.supported(body) {
         Mode::Saltating

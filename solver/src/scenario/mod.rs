@@ -11,6 +11,7 @@ mod parse;
 mod placement;
 mod range;
 mod reader;
+mod reduction;
 mod report;
 mod rules;
 mod sections;
@@ -19,6 +20,7 @@ mod tests;
 
 pub use crate::shape::RegularSolid;
 pub use placement::{Pose, ReleaseBox, Support};
+pub use reduction::{Approach, Ending, Symmetry};
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -198,6 +200,12 @@ pub struct Numerics {
     pub flow_courant: Option<f64>,
     /// Arithmetic of points and grid.
     pub precision: Precision,
+    /// Whether a symmetric scene is computed by halves.
+    pub symmetry: Symmetry,
+    /// How a flow is computed before it varies across the channel.
+    pub approach: Approach,
+    /// When the run ends.
+    pub ending: Ending,
     /// Solver threads.
     pub threads: Option<usize>,
 }

@@ -4,11 +4,28 @@ use super::agreement::ascend;
 use super::node::Node;
 use super::reader::Object;
 use super::rules::*;
-use super::{Channel, Flow, Material, Numerics, Precision, Release};
+use super::{Approach, Channel, Ending, Flow, Material, Numerics, Precision, Release, Symmetry};
 
 /// Words for the precision.
 pub(super) const PRECISIONS: [(&str, Precision); 2] =
     [("single", Precision::Single), ("double", Precision::Double)];
+
+/// Words for the symmetry.
+pub(super) const SYMMETRIES: [(&str, Symmetry); 3] = [
+    ("auto", Symmetry::Auto),
+    ("full", Symmetry::Full),
+    ("mirror", Symmetry::Mirror),
+];
+
+/// Words for the approach.
+pub(super) const APPROACHES: [(&str, Approach); 3] = [
+    ("auto", Approach::Auto),
+    ("full", Approach::Full),
+    ("slab", Approach::Slab),
+];
+
+/// Words for the ending.
+pub(super) const ENDINGS: [(&str, Ending); 2] = [("auto", Ending::Auto), ("full", Ending::Full)];
 
 pub(super) fn read_title(object: &Object<'_>) -> Option<String> {
     match object.member("title") {
@@ -110,6 +127,9 @@ pub(super) fn read_numerics(parent: &Object<'_>) -> Option<Numerics> {
     let courant = object.automatic(&COURANT);
     let flow_courant = object.automatic(&FLOW_COURANT);
     let precision = object.choice("precision", &PRECISIONS, Some(Precision::default()));
+    let symmetry = object.choice("symmetry", &SYMMETRIES, Some(Symmetry::default()));
+    let approach = object.choice("approach", &APPROACHES, Some(Approach::default()));
+    let ending = object.choice("ending", &ENDINGS, Some(Ending::default()));
     let threads = object.automatic_count(&THREADS);
     object.refuse_unknown();
     Some(Numerics {
@@ -119,6 +139,9 @@ pub(super) fn read_numerics(parent: &Object<'_>) -> Option<Numerics> {
         courant: courant?,
         flow_courant: flow_courant?,
         precision: precision?,
+        symmetry: symmetry?,
+        approach: approach?,
+        ending: ending?,
         threads: threads?.map(|threads| threads as usize),
     })
 }

@@ -19,6 +19,7 @@ use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::Scenario;
 use crate::stability::Pace;
+use crate::walls::Plane;
 use clock::Clock;
 use flow::Flow;
 use laps::Laps;
@@ -28,7 +29,7 @@ use std::sync::Arc;
 
 pub use clock::Timing;
 pub use laps::{LapWatch, Verb};
-pub use setup::{GivenFlow, Scene, Setup};
+pub use setup::{Columns, GivenFlow, Outline, Reductions, Scene, Setup, Share, Shares};
 
 /// A run in progress: what is given, what changes, and scratch.
 #[derive(Debug)]
@@ -83,7 +84,7 @@ pub struct SubstepReport {
     pub substeps: u64,
     /// Steps (transfers) finished so far.
     pub steps: u64,
-    /// Points in the flow at its end.
+    /// Points computed in it.
     pub points: u64,
     /// Whether this sub-step ended a step: the points' own state is up to date.
     pub step_ended: bool,
@@ -116,7 +117,7 @@ impl Simulation {
     /// Threads that can't be started.
     pub fn of_scene(scene: Scene, threads: usize) -> Result<Self, SetupError> {
         let pool = start_threads(threads)?;
-        let flow = flow::start(scene.points, &scene.given, scene.precision);
+        let flow = flow::start(scene.points, &scene.given, scene.precision, scene.shares);
         let mut simulation = Self::assemble(scene.given, flow, scene.bodies, pool);
         simulation.state.clock.volume_left_out = scene.volume_left_out;
         simulation.start_audit();
@@ -128,7 +129,7 @@ impl Simulation {
     /// # Errors
     /// Too many points for one run.
     pub fn check(scenario: &Scenario) -> Result<(), SetupError> {
-        Setup::of(scenario).map(drop)
+        Outline::of(scenario).map(drop)
     }
 
     fn assemble(
@@ -138,6 +139,7 @@ impl Simulation {
         pool: Arc<ThreadPool>,
     ) -> Self {
         let meetings = island::meet(&mut bodies);
+        island::hold(&mut bodies, &given.gravity);
         let scratch = Scratch {
             body_reports: vec![BodyReport::default(); bodies.len()],
             in_hand: None,
@@ -222,10 +224,20 @@ impl Simulation {
         self.state.flow.count()
     }
 
+    /// How many of them are computed; the others are their images.
+    pub fn computed_points(&self) -> usize {
+        self.state.flow.computed()
+    }
+
     /// Visits the material points, those within a box if one is given; amid a
     /// step as [`Simulation::points`] gives them.
     pub fn visit_points(&self, within: Option<&Around>, mut visit: impl FnMut(&Point)) {
         self.state.flow.visit(within, &mut visit);
+    }
+
+    /// Which share of the flow is computed now.
+    pub fn share(&self) -> Share {
+        self.state.flow.share()
     }
 
     /// Bytes held for points and for the grid.
@@ -261,6 +273,16 @@ impl Simulation {
     /// The audit so far.
     pub fn audit(&self) -> &Audit {
         &self.state.audit
+    }
+
+    /// Gravity [m/s²].
+    pub fn gravity(&self) -> Vec3 {
+        self.given.gravity
+    }
+
+    /// The walls as bodies meet them.
+    pub fn planes(&self) -> &[Plane] {
+        &self.given.planes
     }
 
     /// Node distances [m].

@@ -2,7 +2,7 @@
 
 use super::clock::Clock;
 use super::flow::SavedFlow;
-use super::setup::{self, Setup};
+use super::setup::Outline;
 use super::{Simulation, start_threads};
 use crate::contact::body_body::Meeting;
 use crate::diagnostics::{Audit, FlowMoments};
@@ -57,14 +57,14 @@ pub(super) fn restore(
         });
     }
     let pool = start_threads(threads).map_err(|error| unreadable(error.to_string()))?;
-    let (given, _) = Setup::of(scenario).map_err(|error| unreadable(error.to_string()))?;
-    let bodies = setup::bodies(scenario, &given);
+    let outline = Outline::of(scenario).map_err(|error| unreadable(error.to_string()))?;
+    let (given, bodies) = (outline.given, outline.bodies);
     if bodies.len() != saved.bodies.len() {
         return Err(RestoreError::OtherScenario {
             what: "the number of bodies",
         });
     }
-    let flow = saved.flow.restored(&given);
+    let flow = saved.flow.restored(&given, outline.reductions.shares);
     let mut simulation = Simulation::assemble(given, flow, bodies, pool);
     for (body, state) in simulation.state.bodies.iter_mut().zip(saved.bodies) {
         body.state = state;

@@ -8,18 +8,24 @@ use crate::kernel::Lattice;
 use crate::material::{Material, Yielding};
 use crate::math::Vec3;
 use crate::points::Point;
-use crate::rigid::{Body, Freedom};
+use crate::rigid::Body;
 use crate::scenario::{self, Precision, Scenario};
 use crate::stability::{Limits, Pace};
 use crate::walls::{Ends, Plane, Upright, Walls};
 
 mod bodies;
+mod reductions;
 mod release;
 mod resolution;
 mod settle;
+mod share;
+mod symmetry;
 
-pub(super) use bodies::bodies;
-use release::Columns;
+use bodies::bodies;
+pub use reductions::Reductions;
+pub use release::Columns;
+pub use share::{Share, Shares};
+pub(super) use symmetry::near_body;
 
 /// Default Courant number of the sub-step.
 const COURANT: f64 = 0.4;
@@ -51,10 +57,13 @@ pub struct Scene {
     pub precision: Precision,
     /// Volume not released because a body stands there [m³].
     pub volume_left_out: f64,
+    /// Which shares of the flow are computed, its points being those of the first;
+    /// `None`: all of it.
+    pub shares: Option<Shares>,
 }
 
 /// What a run is given; it does not change.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Setup {
     /// Identity of the scene: a scenario's JSON.
     pub identity: String,
@@ -75,7 +84,7 @@ pub struct Setup {
 }
 
 /// What a run with a flow is given besides.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct GivenFlow {
     /// What it is made of.
     pub material: Material,
@@ -85,31 +94,91 @@ pub struct GivenFlow {
     pub sphere: PointSphere,
 }
 
-impl Scene {
-    /// The scene of a scenario.
+/// A scene without its points: what can be known of a run before it is set up.
+#[derive(Debug)]
+pub struct Outline {
+    /// What does not change.
+    pub given: Setup,
+    /// The bodies at the start.
+    pub bodies: Vec<Body>,
+    /// How the release is divided into points; `None` without a flow.
+    pub columns: Option<Columns>,
+    /// What of it need not be computed.
+    pub reductions: Reductions,
+}
+
+impl Outline {
+    /// The outline of a scenario's scene.
+    ///
+    /// # Errors
+    /// Too many points for one run, or a reduction that the scene does not allow.
+    pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
+        let (given, columns) = Setup::of(scenario)?;
+        let mut bodies = bodies(scenario, &given);
+        let reductions = Reductions::of(scenario, &given, columns.as_ref(), &bodies)?;
+        reductions.confine(&mut bodies);
+        Ok(Self {
+            given,
+            bodies,
+            columns,
+            reductions,
+        })
+    }
+
+    /// The same with all of it computed, whatever the scenario says.
     ///
     /// # Errors
     /// Too many points for one run.
-    pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
+    pub fn whole(scenario: &Scenario) -> Result<Self, SetupError> {
         let (given, columns) = Setup::of(scenario)?;
-        let bodies = bodies(scenario, &given);
-        let (points, volume_left_out) = match columns {
-            Some(columns) => columns.release(scenario, &given, &bodies),
+        Ok(Self {
+            bodies: bodies(scenario, &given),
+            given,
+            columns,
+            reductions: Reductions::none(),
+        })
+    }
+}
+
+impl Scene {
+    /// The scene of a scenario, with what its numerics leave out left out.
+    ///
+    /// # Errors
+    /// Too many points for one run, or a reduction that the scene does not allow.
+    pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
+        Ok(Self::within(scenario, Outline::of(scenario)?))
+    }
+
+    /// The scene of a scenario, all of it computed: one that can be changed by hand
+    /// without its reductions becoming wrong.
+    ///
+    /// # Errors
+    /// Too many points for one run.
+    pub fn whole(scenario: &Scenario) -> Result<Self, SetupError> {
+        Ok(Self::within(scenario, Outline::whole(scenario)?))
+    }
+
+    fn within(scenario: &Scenario, outline: Outline) -> Self {
+        let share = outline.reductions.first_share();
+        let (given, bodies) = (outline.given, outline.bodies);
+        let (points, volume_left_out) = match outline.columns {
+            Some(columns) => columns.release(scenario, &given, &bodies, share),
             None => (Vec::new(), 0.0),
         };
-        Ok(Self {
+        Self {
             given,
             bodies,
             points,
             precision: scenario.numerics.precision,
             volume_left_out,
-        })
+            shares: outline.reductions.shares,
+        }
     }
 }
 
 impl Setup {
     /// What the run of a scenario is given, and how its release is divided.
-    pub(super) fn of(scenario: &Scenario) -> Result<(Self, Option<Columns>), SetupError> {
+    fn of(scenario: &Scenario) -> Result<(Self, Option<Columns>), SetupError> {
         let channel = &scenario.channel;
         let lattice = resolution::lattice(scenario);
         let walls = walls(channel, &lattice);
@@ -140,6 +209,14 @@ impl Setup {
             flow,
         };
         Ok((given, columns))
+    }
+
+    /// The same between other walls.
+    pub(super) fn between(&self, walls: Walls) -> Self {
+        Self {
+            walls,
+            ..self.clone()
+        }
     }
 
     /// How far from a body a point can be at a transfer and still touch it
@@ -208,7 +285,7 @@ impl GivenFlow {
 
     /// Longest sub-step at which a free body covered with points does not ring
     /// against them unstably [s] (docs/method.md, equation 26).
-    pub(super) fn contact_substep(&self, bodies: &[Body]) -> f64 {
+    pub fn contact_substep(&self, bodies: &[Body]) -> f64 {
         let modulus = self.material.p_wave_modulus();
         let of_body = |body: &Body| {
             let stiffness = modulus * self.sphere.spacing * self.sphere.most_touching(body);
@@ -216,7 +293,7 @@ impl GivenFlow {
         };
         bodies
             .iter()
-            .filter(|body| body.freedom == Freedom::Free)
+            .filter(|body| body.is_free())
             .map(of_body)
             .fold(f64::INFINITY, f64::min)
     }

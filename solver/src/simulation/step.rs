@@ -9,7 +9,7 @@ use crate::contact::point_body::impulse_on_flow;
 use crate::crowding::Tending;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
-use crate::rigid::{Freedom, Load};
+use crate::rigid::{Body, Load};
 use crate::sharing::Sharing;
 use crate::stability::{self, Pace};
 
@@ -36,7 +36,7 @@ impl Simulation {
         let clock = &mut self.state.clock;
         clock.time = step.start + f64::from(step.done) * dt;
         clock.substeps += 1;
-        clock.point_steps += self.state.flow.count() as u64;
+        clock.point_steps += self.state.flow.computed() as u64;
         if step.done < step.pace.count {
             self.scratch.in_hand = Some(step);
             return Ok(self.report(dt, None));
@@ -105,9 +105,9 @@ impl Simulation {
             let from_walls = state
                 .flow
                 .substep(given, &state.bodies, substep, &mut scratch.laps);
-            let impulse =
-                |freedom| impulse_on_flow(state.flow.on_bodies(), &state.bodies, dt, freedom);
-            let (from_bodies, from_barriers) = (impulse(Freedom::Free), impulse(Freedom::Fixed));
+            let (on_bodies, bodies) = (state.flow.on_bodies(), &state.bodies);
+            let from_bodies = impulse_on_flow(on_bodies, bodies, dt, Body::is_free);
+            let from_barriers = impulse_on_flow(on_bodies, bodies, dt, |body| !body.is_free());
             let weight = state.moments.weight(&given.gravity, dt);
             for from_outside in [&from_walls, &from_barriers, &weight] {
                 state.audit.exchange(from_outside);
@@ -183,7 +183,7 @@ impl Simulation {
             substep_s,
             substeps: clock.substeps,
             steps: clock.steps,
-            points: self.state.flow.count() as u64,
+            points: self.state.flow.computed() as u64,
             step_ended: self.scratch.in_hand.is_none(),
             sample,
         }
@@ -231,7 +231,7 @@ impl Simulation {
                 let deepest = body.shape.extent_along(&body.to_body(&-plane.normal));
                 let core =
                     plane.height(&body.state.position) - deepest + body.shape.sphero_radius();
-                if body.freedom == Freedom::Free && core < 0.0 {
+                if body.is_free() && core < 0.0 {
                     return Err(StepError::BodyBehindWall {
                         time_s,
                         body: place,

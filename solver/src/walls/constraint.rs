@@ -133,7 +133,7 @@ impl Walls {
                     inward
                 }
             };
-            let friction = self.upright.friction(axis);
+            let friction = self.upright.friction(axis, inward);
             let after = velocity[axis] * folded.signed_mass[axis];
             let pressed = (after - folded.unfolded[axis]) * inward;
             if friction > 0.0 && pressed > 0.0 {

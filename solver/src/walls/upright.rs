@@ -142,12 +142,13 @@ impl Upright {
         (outside != 0.0).then_some(-(outside as i32) * cells)
     }
 
-    /// Friction of the walls across an axis.
-    pub(super) fn friction(&self, axis: usize) -> f64 {
+    /// Friction of the wall across an axis whose normal has this sign.
+    pub(super) fn friction(&self, axis: usize, inward: f64) -> f64 {
         match (&self.ends, axis) {
             (Ends::BackWall(plane), 0) => plane.flow_friction,
             (Ends::Seam { .. }, 0) => 0.0,
-            _ => self.sides[0].flow_friction,
+            _ if inward > 0.0 => self.sides[0].flow_friction,
+            _ => self.sides[1].flow_friction,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::scenes::{Scene, run, watch};
 use scree_solver::Simulation;
-use scree_solver::rigid::{Body, Freedom};
+use scree_solver::rigid::Body;
 use serde_json::{Value, json};
 
 const GRAVITY: f64 = 9.81;
@@ -54,7 +54,7 @@ fn heap() -> Scene {
 
 fn free(simulation: &Simulation) -> impl Iterator<Item = &Body> {
     let bodies = simulation.bodies().iter();
-    bodies.filter(|body| body.freedom == Freedom::Free)
+    bodies.filter(|body| body.is_free())
 }
 
 /// Kinetic and potential energy and what contacts hold [J].

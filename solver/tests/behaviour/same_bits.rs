@@ -3,7 +3,8 @@
 
 use crate::scenes::{PRECISIONS, Scene, points_by_id, run};
 use scree_solver::record::{Record, Recorder};
-use scree_solver::scenario::Scenario;
+use scree_solver::scenario::{Approach, Scenario};
+use scree_solver::simulation::Share;
 use scree_solver::{Ending, SaveError, Simulation};
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -72,17 +73,30 @@ fn assert_same(one: &Recorded, other: &Recorded) {
     assert_eq!(outcome(one), outcome(other));
 }
 
-/// The same scene in every precision, with a second cube on the first.
-fn scenarios() -> [Scenario; 2] {
-    let scene = Scene::impact()
+/// Two scenes in every precision: one with a second cube on the first, and one that
+/// is computed in a slab and then by halves.
+fn scenarios() -> [Scenario; 4] {
+    let pile = Scene::impact()
         .set("channel", "runout_length_m", 0.2)
         .body(json!({"shape": {"cube": {"side_m": 0.04}},
             "position": {"downstream_m": 0.045, "lateral_m": 0.01, "elevation_m": 0.0601}}));
-    PRECISIONS.map(|precision| scene.clone().precision(precision).scenario())
+    let release = json!({"height_m": 0.1, "toe_distance_m": 0.06});
+    let reduced = Scene::impact()
+        .flow(json!({"volume_m3": 0.002, "release": release}))
+        .first_body("position", json!({"downstream_m": 0.06}))
+        .set("numerics", "symmetry", "mirror")
+        .set("numerics", "approach", "slab");
+    let [double, single] = PRECISIONS;
+    [
+        pile.clone().precision(double).scenario(),
+        pile.precision(single).scenario(),
+        reduced.clone().precision(double).scenario(),
+        reduced.precision(single).scenario(),
+    ]
 }
 
 /// The runs of these scenarios in one go.
-static UNINTERRUPTED: LazyLock<[Recorded; 2]> = LazyLock::new(|| {
+static UNINTERRUPTED: LazyLock<[Recorded; 4]> = LazyLock::new(|| {
     scenarios().map(|scenario| {
         let mut whole = Recorded::start(&scenario, 1);
         whole.run(0.3);
@@ -123,9 +137,15 @@ fn a_run_in_parts_gives_the_same_bits() {
 fn a_saved_run_goes_on_with_the_same_bits() {
     for (scenario, whole) in each() {
         let mut moved = Recorded::start(&scenario, 1);
+        let mut shares = Vec::new();
         for (until_s, threads) in [(0.0, 2), (0.037, 3), (0.12, 1), (0.2, 2), (0.281, 1)] {
             moved.run(until_s);
             moved = moved.moved(&scenario, threads);
+            shares.push(moved.simulation.share());
+        }
+        if scenario.numerics.approach == Approach::Slab {
+            shares.dedup();
+            assert_eq!(shares, [Share::Slab, Share::Half]);
         }
         moved.run(0.3);
         assert_same(whole, &moved);
@@ -168,7 +188,7 @@ fn a_run_broken_off_amid_steps_goes_on_with_the_same_bits() {
 
 #[test]
 fn only_its_own_saved_state_is_taken_up() {
-    let [scenario, in_single] = scenarios();
+    let [scenario, in_single, ..] = scenarios();
     let mut simulation = Simulation::new(&scenario, 1).expect("the scene fits");
     run(&mut simulation, 0.01);
     let saved = simulation.save().expect("a step ended");

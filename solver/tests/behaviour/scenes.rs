@@ -69,6 +69,12 @@ impl Scene {
         self.set("numerics", "precision", word)
     }
 
+    /// With all of the flow computed.
+    pub(crate) fn full(self) -> Self {
+        self.set("numerics", "symmetry", "full")
+            .set("numerics", "approach", "full")
+    }
+
     /// One more body.
     pub(crate) fn body(mut self, body: Value) -> Self {
         if let Some(bodies) = self.0["bodies"].as_array_mut() {

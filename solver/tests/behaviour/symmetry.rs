@@ -59,6 +59,7 @@ fn bare_flow(width_m: f64) -> Scene {
         .flow(serde_json::json!({"volume_m3": 0.1 * 0.16 * width_m,
             "release": {"height_m": 0.1, "toe_distance_m": 0.0}}))
         .set("numerics", "cell_size_m", 0.02)
+        .full()
         .lasting(0.2)
 }
 
@@ -183,7 +184,7 @@ fn a_centred_cube_stays_on_the_centre_line() {
         ..
     } in EACH
     {
-        let simulation = Scene::impact().precision(precision).finished();
+        let simulation = Scene::impact().full().precision(precision).finished();
         let body = &simulation.bodies()[0];
         let (y, v) = (body.state.position.y.abs(), body.velocity().y.abs());
         let spin = body.angular_velocity();

@@ -1,6 +1,7 @@
 //! What was measured, as pictures.
 
 use super::Report;
+use super::plan::{Saving, Savings};
 use super::size::Size;
 use crate::cli::charts::write_charts;
 use crate::cli::failure::Failure;
@@ -23,7 +24,15 @@ pub(super) fn write(report: &Report, folder: &Path) -> Result<(), Failure> {
         .roofline
         .as_ref()
         .map(|rooflines| of_roofline(rooflines.each(), &machine));
-    let charts = [("speed-size", size), ("roofline", roofline)];
+    let plan = report
+        .plan
+        .as_ref()
+        .map(|savings| of_plan(savings, &machine));
+    let charts = [
+        ("speed-size", size),
+        ("roofline", roofline),
+        ("work-plan", plan),
+    ];
     let drawn = charts.into_iter();
     write_charts(
         drawn.filter_map(|(name, chart)| Some((name, chart?))),
@@ -78,6 +87,30 @@ fn of_roofline(rooflines: &[super::roofline::Roofline], machine: &str) -> Chart 
         x: axis("operations per byte from memory", Scale::Logarithmic),
         y: axis("billion operations per second", Scale::Logarithmic),
         curves,
+    }
+}
+
+/// Displacement of the cube off the finest full run, against wall time.
+fn of_plan(savings: &Savings, machine: &str) -> Chart {
+    let ways = ["full", "mirror", "all of them"];
+    let of = |way: &'static str| savings.runs.iter().filter(move |run| run.way == way);
+    let displaced = |run: &Saving| run.outcome.bodies[0].displacement_m;
+    let finest = of("full").last().map_or(f64::NAN, displaced);
+    let off = |run: &Saving| (displaced(run) / finest - 1.0).abs();
+    let curve = |way: &'static str| Curve {
+        name: way.to_owned(),
+        // The finest is what errors are counted from.
+        points: of(way)
+            .map(|run| (run.wall_s, off(run)))
+            .filter(|place| place.1 > 1e-4)
+            .collect(),
+    };
+    Chart {
+        title: "Displacement of the source paper's cube: full model and plan".to_owned(),
+        subtitle: format!("off the finest full run, {finest:.4} m; {machine}"),
+        x: axis("wall time [s]", Scale::Logarithmic),
+        y: axis("relative error", Scale::Logarithmic),
+        curves: ways.map(curve).to_vec(),
     }
 }
 

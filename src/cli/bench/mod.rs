@@ -3,6 +3,8 @@
 mod bodies;
 mod collapse;
 mod figures;
+mod forecasts;
+mod plan;
 mod roofline;
 mod scenes;
 mod size;
@@ -52,6 +54,10 @@ struct Report {
     threads: Option<threads::Scaling>,
     #[serde(skip_serializing_if = "Option::is_none")]
     roofline: Option<roofline::Rooflines>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plan: Option<plan::Savings>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    forecast: Option<forecasts::Forecasts>,
 }
 
 /// Measures what is asked for and prints it.
@@ -93,7 +99,7 @@ fn if_asked<T>(
 
 impl Report {
     fn measured(effort: Effort, only: &[Measurement]) -> Result<Self, Failure> {
-        use Measurement::{Bodies, Channel, Roofline, S200k, Size, Threads, Verbs};
+        use Measurement::{Bodies, Channel, Forecast, Plan, Roofline, S200k, Size, Threads, Verbs};
         Ok(Self {
             solver_version: VERSION,
             machine: Machine::here(),
@@ -104,6 +110,8 @@ impl Report {
             verbs: if_asked(only, Verbs, || verbs::measure(&effort))?,
             threads: if_asked(only, Threads, || threads::measure(&effort))?,
             roofline: if_asked(only, Roofline, || roofline::measure(&effort))?,
+            plan: if_asked(only, Plan, || plan::measure(&effort))?,
+            forecast: if_asked(only, Forecast, || forecasts::measure(&effort))?,
             effort,
         })
     }
@@ -121,6 +129,8 @@ impl Report {
             self.verbs.as_ref().map(verbs::Shares::table),
             self.threads.as_ref().map(threads::Scaling::table),
             self.roofline.as_ref().map(roofline::Rooflines::table),
+            self.plan.as_ref().map(plan::Savings::table),
+            self.forecast.as_ref().map(forecasts::Forecasts::table),
         ];
         let how = format!(
             "Scree {}; {}\n{}\n",

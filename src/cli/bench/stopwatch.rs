@@ -2,6 +2,7 @@
 
 use crate::cli::failure::{Failure, not_set_up};
 use scree_solver::scenario::Scenario;
+use scree_solver::simulation::Scene;
 use scree_solver::{Instructions, Simulation};
 use serde::Serialize;
 use std::ops::ControlFlow;
@@ -54,9 +55,11 @@ pub(super) struct Runner {
 }
 
 impl Runner {
-    /// Sets a scenario up.
+    /// Sets a scenario up, all of it computed.
     pub(super) fn new(scenario: &Scenario, threads: usize) -> Result<Self, Failure> {
-        let simulation = Simulation::new(scenario, threads).map_err(|error| not_set_up(&error))?;
+        let scene = Scene::whole(scenario).map_err(|error| not_set_up(&error))?;
+        let simulation =
+            Simulation::of_scene(scene, threads).map_err(|error| not_set_up(&error))?;
         let laps = Vec::new();
         Ok(Self { simulation, laps })
     }

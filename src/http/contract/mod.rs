@@ -4,9 +4,11 @@
 //! and writes.
 
 mod outcome;
+mod plan;
 mod results;
 mod scenario;
 
 pub use outcome::*;
+pub use plan::*;
 pub use results::*;
 pub use scenario::*;

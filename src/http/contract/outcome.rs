@@ -1,5 +1,6 @@
 //! The outcome.
 
+use super::plan::PlanDocument;
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -15,6 +16,27 @@ pub struct OutcomeDocument {
     pub audit: AuditDocument,
     /// What it cost.
     pub cost: CostDocument,
+    /// That the run ended before its duration; null if it did not.
+    #[schema(required = true)]
+    pub ended_early: Option<EndedEarlyDocument>,
+    /// What was computed and what was left out, as planned before the run.
+    #[schema(required = true)]
+    pub plan: Option<PlanDocument>,
+}
+
+/// That a run ended before its duration, and what the rest could have changed.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = EndedEarly)]
+pub struct EndedEarlyDocument {
+    /// When [s].
+    pub time_s: f64,
+    /// Why.
+    pub reason: String,
+    /// How far a body could still have been moved [m].
+    pub body_bound_m: f64,
+    /// How far the front could still have gone [m]; null without a flow.
+    #[schema(required = true)]
+    pub front_bound_m: Option<f64>,
 }
 
 /// Outcome of one body.

@@ -249,6 +249,16 @@ pub struct NumericsDocument {
     /// Arithmetic of points and grid.
     #[schema(required = false)]
     pub precision: PrecisionDocument,
+    /// Whether a scene that is symmetric about the centre plane is computed by
+    /// halves.
+    #[schema(required = false)]
+    pub symmetry: SymmetryDocument,
+    /// How a flow is computed before it varies across the channel.
+    #[schema(required = false)]
+    pub approach: ApproachDocument,
+    /// When the run ends.
+    #[schema(required = false)]
+    pub ending: EndingDocument,
     /// Solver threads; at most those of a worker.
     pub threads: Option<u32>,
 }
@@ -262,4 +272,41 @@ pub enum PrecisionDocument {
     Single,
     /// 64 bits, the reference.
     Double,
+}
+
+/// How a scene is computed that is symmetric about the centre plane.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = Symmetry)]
+pub enum SymmetryDocument {
+    /// By halves where it is exact.
+    Auto,
+    /// All of it.
+    Full,
+    /// By halves; a scene that is not symmetric is refused.
+    Mirror,
+}
+
+/// How a flow is computed in which nothing varies across the channel yet.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = Approach)]
+pub enum ApproachDocument {
+    /// In a slab of one cell where it is exact.
+    Auto,
+    /// All across.
+    Full,
+    /// In a slab; a scene that varies across from the start is refused.
+    Slab,
+}
+
+/// When a run ends.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = Ending)]
+pub enum EndingDocument {
+    /// Once nothing can move a body or the front any more, or with its duration.
+    Auto,
+    /// With its duration.
+    Full,
 }

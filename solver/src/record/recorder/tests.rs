@@ -8,7 +8,7 @@ fn scenario(change: impl FnOnce(&mut Value)) -> Scenario {
         "channel": {"inclination_deg": 40, "incline_length_m": 0.5, "runout_length_m": 0.3, "width_m": 0.04},
         "flow": {"volume_m3": 0.0003, "release": {"height_m": 0.05, "toe_distance_m": 0.0}},
         "bodies": [{"shape": {"cube": {"side_m": 0.04}}, "position": {"downstream_m": 0.03}}],
-        "numerics": {"cell_size_m": 0.02}, "duration_s": 0.1, "sample_interval_s": 0.03, "flow_snapshots": 3
+        "numerics": {"cell_size_m": 0.02, "symmetry": "full"}, "duration_s": 0.1, "sample_interval_s": 0.03, "flow_snapshots": 3
     });
     change(&mut scenario);
     Scenario::from_value(&scenario).expect("a scenario")

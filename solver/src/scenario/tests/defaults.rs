@@ -25,7 +25,8 @@ fn the_minimal_scenario_has_the_documented_defaults() {
                     "contact_modulus_pa": null, "fixed": false}],
         "gravity_m_s2": 9.81, "duration_s": 3.0, "sample_interval_s": 0.01, "flow_snapshots": 6,
         "numerics": {"cell_size_m": null, "points_per_cell": 8, "sound_speed_m_s": null,
-                     "courant": null, "flow_courant": null, "precision": "single", "threads": null}
+                     "courant": null, "flow_courant": null, "precision": "single",
+                     "symmetry": "auto", "approach": "auto", "ending": "auto", "threads": null}
     });
     let filled = serde_json::to_value(accepted(&minimal())).unwrap();
     assert_eq!(filled, expected);

@@ -5,7 +5,7 @@ use crate::scenario::body::REGULAR_SOLIDS;
 use crate::scenario::range::Rule;
 use crate::scenario::reader::choice_words;
 use crate::scenario::rules::*;
-use crate::scenario::sections::PRECISIONS;
+use crate::scenario::sections::{APPROACHES, ENDINGS, PRECISIONS, SYMMETRIES};
 use serde_json::Value;
 
 const DOCUMENT: &str = include_str!("../../../../docs/scenario.md");
@@ -160,6 +160,10 @@ fn words_are_those_of_the_code() {
     let [_, _, unit, _, allowed] = row("numerics.precision");
     assert_eq!(unit, "–");
     assert_eq!(allowed.replace('`', ""), choice_words(&PRECISIONS));
+    let allowed = |field| row(field)[4].replace('`', "");
+    assert_eq!(allowed("numerics.symmetry"), choice_words(&SYMMETRIES));
+    assert_eq!(allowed("numerics.approach"), choice_words(&APPROACHES));
+    assert_eq!(allowed("numerics.ending"), choice_words(&ENDINGS));
     let [_, _, unit, _, allowed] = row("bodies[].shape.regular.solid");
     assert_eq!(unit, "–");
     assert_eq!(allowed.replace('`', ""), choice_words(&REGULAR_SOLIDS));

@@ -2,10 +2,12 @@
 //! one in double precision, the reference, and the fast one in single.
 
 mod fast;
+mod images;
 mod plain;
+mod shared;
 
 use super::laps::Laps;
-use super::setup::{GivenFlow, Setup};
+use super::setup::{GivenFlow, Setup, Share, Shares};
 use crate::contact::point_body::{Around, FlowLoad, Reach};
 use crate::crowding::{Spread, Tending};
 use crate::diagnostics::Totals;
@@ -21,11 +23,22 @@ use std::fmt::Debug;
 
 pub(super) use fast::FastFlow;
 pub(super) use plain::PlainFlow;
+use shared::SharedFlow;
 
 /// A granular flow: its points, its grid, and what bodies do to it.
 pub(super) trait Flow: Debug + Send + Sync {
     /// Points in the flow.
     fn count(&self) -> usize;
+
+    /// Points of it that are computed; the others are their images.
+    fn computed(&self) -> usize {
+        self.count()
+    }
+
+    /// Which share of it is computed.
+    fn share(&self) -> Share {
+        Share::Whole
+    }
 
     /// Speed of the fastest point after the last step [m/s].
     fn fastest(&self) -> f64;
@@ -166,20 +179,48 @@ pub(super) enum SavedFlow {
     Plain(Vec<Point>),
     /// On the fast path.
     Fast(Blocks),
+    /// A share of it.
+    Share(Share, Box<SavedFlow>),
 }
 
 impl SavedFlow {
-    /// The flow it was.
-    pub(super) fn restored(self, given: &Setup) -> Box<dyn Flow> {
+    /// The flow it was, of a run that computes such shares of it.
+    pub(super) fn restored(self, given: &Setup, shares: Option<Shares>) -> Box<dyn Flow> {
+        match (self, shares) {
+            (Self::Plain(points), _) => Box::new(PlainFlow::new(points, given)),
+            (Self::Fast(blocks), _) => Box::new(FastFlow::restored(blocks, given)),
+            (Self::Share(share, flow), Some(shares)) => {
+                Box::new(SharedFlow::restored(*flow, share, shares, given))
+            }
+            (Self::Share(_, flow), None) => flow.restored(given, None),
+        }
+    }
+
+    fn precision(&self) -> Precision {
         match self {
-            Self::Plain(points) => Box::new(PlainFlow::new(points, given)),
-            Self::Fast(blocks) => Box::new(FastFlow::restored(blocks, given)),
+            Self::Plain(_) => Precision::Double,
+            Self::Fast(_) => Precision::Single,
+            Self::Share(_, flow) => flow.precision(),
         }
     }
 }
 
-/// A flow of these points in the precision asked for.
-pub(super) fn start(points: Vec<Point>, given: &Setup, precision: Precision) -> Box<dyn Flow> {
+/// A flow of these points in the precision asked for, of which such shares are
+/// computed.
+pub(super) fn start(
+    points: Vec<Point>,
+    given: &Setup,
+    precision: Precision,
+    shares: Option<Shares>,
+) -> Box<dyn Flow> {
+    match shares {
+        Some(shares) => Box::new(SharedFlow::start(points, shares, given, precision)),
+        None => plainly(points, given, precision),
+    }
+}
+
+/// A flow of which all is computed.
+fn plainly(points: Vec<Point>, given: &Setup, precision: Precision) -> Box<dyn Flow> {
     // The fast path knows granular materials only.
     let granular = |flow: &GivenFlow| flow.material.is_granular();
     match precision {

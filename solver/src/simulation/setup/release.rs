@@ -1,34 +1,43 @@
 //! The release: points on a lattice that follows the slope, near equilibrium
 //! (docs/method.md, equation 34).
 
-use super::{Setup, resting_point};
+use super::{Setup, Share, resting_point};
 use crate::error::SetupError;
 use crate::kernel::Lattice;
 use crate::material::Material;
 use crate::math::{Mat3, Sym3, Vec3};
 use crate::points::Point;
 use crate::rigid::Body;
-use crate::scenario::{ReleaseBox, Scenario};
+use crate::scenario::{Channel, ReleaseBox, Scenario};
 
 /// Largest number of points of one run.
 const MOST_POINTS: u64 = 20_000_000;
 
 /// Counts and distances of the release's points.
-#[derive(Debug)]
-pub(in crate::simulation) struct Columns {
-    count: [u32; 3],
-    spacing: Vec3,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Columns {
+    /// Points along, across and up.
+    pub count: [u32; 3],
+    /// Their distances [m].
+    pub spacing: Vec3,
     /// Volume of one point [m³].
-    pub(super) volume: f64,
+    pub volume: f64,
 }
 
 impl Columns {
-    /// Points of the release that overlap no body, and the volume left out.
+    /// Points, those that a body keeps out included.
+    pub fn points(&self) -> u64 {
+        self.count.iter().map(|count| u64::from(*count)).product()
+    }
+
+    /// Points of a share of the release that overlap no body, and the volume left out
+    /// of all of it.
     pub(in crate::simulation) fn release(
         &self,
         scenario: &Scenario,
         given: &Setup,
         bodies: &[Body],
+        share: Share,
     ) -> (Vec<Point>, f64) {
         let (Some(release), Some(flow)) = (scenario.release(), &given.flow) else {
             return (Vec::new(), 0.0);
@@ -42,27 +51,45 @@ impl Columns {
         let mut points = Vec::new();
         let mut left_out = 0.0;
         let [along, across, up] = self.count;
+        let rows = share.rows_across(self, given.walls.upright.cells_across);
+        let images = f64::from(across) / f64::from(rows);
         for i in 0..along {
-            for j in 0..across {
+            for j in 0..rows {
                 for k in 0..up {
-                    let place = |n: u32, axis: usize| (f64::from(n) + 0.5) * self.spacing[axis];
-                    let x = release.back_m + place(i, 0);
-                    let height = place(k, 2);
-                    let base = scenario.channel.bed_elevation_m(x);
-                    let y = place(j, 1) - 0.5 * release.width_m;
-                    let position = Vec3::new(x, y, base + height);
+                    let position = self.place([i, j, k], &scenario.channel, &release);
                     if !given.is_free(&position, bodies) {
-                        left_out += self.volume;
+                        left_out += self.volume * images;
                         continue;
                     }
-                    let id = points.len() as u32;
+                    let id = (i * across + j) * up + k;
+                    let depth = release.vertical_thickness_m - self.along(k, 2);
                     let mut point = resting_point(id, position, mass, self.volume);
-                    start.press(&mut point, release.vertical_thickness_m - height);
+                    start.press(&mut point, depth);
                     points.push(point);
                 }
             }
         }
         (points, left_out)
+    }
+
+    fn along(&self, n: u32, axis: usize) -> f64 {
+        (f64::from(n) + 0.5) * self.spacing[axis]
+    }
+
+    fn place(&self, [i, j, k]: [u32; 3], channel: &Channel, release: &ReleaseBox) -> Vec3 {
+        let x = release.back_m + self.along(i, 0);
+        let y = self.along(j, 1) - 0.5 * release.width_m;
+        Vec3::new(x, y, channel.bed_elevation_m(x) + self.along(k, 2))
+    }
+
+    /// Whether a place of the release is among those, its place across aside.
+    pub(super) fn any_place(&self, scenario: &Scenario, among: impl Fn(&Vec3) -> bool) -> bool {
+        let Some(release) = scenario.release() else {
+            return false;
+        };
+        let [along, _, up] = self.count;
+        let mut places = (0..along).flat_map(|i| (0..up).map(move |k| [i, 0, k]));
+        places.any(|place| among(&self.place(place, &scenario.channel, &release)))
     }
 
     /// As close to the points per cell asked for as whole numbers allow, the

@@ -1,0 +1,145 @@
+//! What of a scene could be left out, and whether it is.
+
+use crate::contact::island;
+use crate::scenario::{Ending, Scenario};
+use crate::simulation::Outline;
+use serde::{Deserialize, Serialize};
+
+/// Exact but for the order in which sums are rounded.
+const ROUNDING: &str = "exact but for rounding";
+
+/// Something that could be left out of a computation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Choice {
+    /// What would be done.
+    pub what: String,
+    /// Whether it is.
+    pub taken: bool,
+    /// Why, or why not.
+    pub why: String,
+    /// What error it makes.
+    pub error: String,
+    /// The field that decides otherwise, as a JSON pointer; null: there is none.
+    pub decided_by: Option<String>,
+}
+
+/// All of them.
+pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Vec<Choice> {
+    vec![
+        mirror(outline),
+        slab(outline),
+        no_bodies(outline),
+        asleep(outline),
+        stiffness(scenario, outline),
+        blocks(),
+        ending(scenario),
+    ]
+}
+
+fn choice(
+    what: &str,
+    error: &str,
+    decided_by: Option<&str>,
+    found: Result<String, String>,
+) -> Choice {
+    Choice {
+        what: what.to_owned(),
+        taken: found.is_ok(),
+        why: found.unwrap_or_else(|why| why),
+        error: error.to_owned(),
+        decided_by: decided_by.map(|key| format!("/numerics/{key}")),
+    }
+}
+
+fn mirror(outline: &Outline) -> Choice {
+    let found = outline.reductions.mirror.clone();
+    let why = "flow and bodies are symmetric about the centre plane";
+    choice(
+        "half of the flow is computed, the other half is its mirror image",
+        ROUNDING,
+        Some("symmetry"),
+        found.map(|()| why.to_owned()),
+    )
+}
+
+fn slab(outline: &Outline) -> Choice {
+    let found = outline.reductions.slab.clone();
+    let why = "the side walls are smooth, and nothing varies across until the flow nears a body";
+    choice(
+        "the flow begins as a slab of one cell",
+        ROUNDING,
+        Some("approach"),
+        found.map(|()| why.to_owned()),
+    )
+}
+
+fn no_bodies(outline: &Outline) -> Choice {
+    let found = match outline.bodies.len() {
+        0 => Ok("there are no bodies".to_owned()),
+        1 => Err("there is a body".to_owned()),
+        more => Err(format!("there are {more} bodies")),
+    };
+    choice("no contacts are looked for", "exact", None, found)
+}
+
+fn asleep(outline: &Outline) -> Choice {
+    let mut bodies = outline.bodies.clone();
+    island::hold(&mut bodies, &outline.given.gravity);
+    let held = bodies.iter().filter(|body| body.is_held()).count();
+    let found = match held {
+        0 => Err("no free body is held by the walls alone".to_owned()),
+        1 => Ok("1 body is held by the walls".to_owned()),
+        more => Ok(format!("{more} bodies are held by the walls")),
+    };
+    choice(
+        "bodies that stand wait without steps until something touches them",
+        "a body stands within 1e-6 of its weight; exact but for that",
+        None,
+        found,
+    )
+}
+
+fn stiffness(scenario: &Scenario, outline: &Outline) -> Choice {
+    let given = scenario.numerics.sound_speed_m_s.is_some();
+    let modulus = scenario
+        .flow
+        .as_ref()
+        .and_then(|flow| flow.material.youngs_modulus_pa);
+    let found = match &outline.given.flow {
+        None => Err("there is no flow".to_owned()),
+        Some(_) if given || modulus.is_some() => Err("the stiffness is given".to_owned()),
+        Some(flow) => Ok(format!(
+            "sound at {:.2} m/s is ten times faster than the flow is expected to be",
+            flow.limits.sound_speed
+        )),
+    };
+    choice(
+        "grains are softer than they are",
+        "density varies by about 1/100 (equation 32)",
+        Some("sound_speed_m_s"),
+        found,
+    )
+}
+
+fn blocks() -> Choice {
+    let why = "a node without points near it does nothing";
+    choice(
+        "nodes are kept only where points are",
+        "exact",
+        None,
+        Ok(why.to_owned()),
+    )
+}
+
+fn ending(scenario: &Scenario) -> Choice {
+    let found = match scenario.numerics.ending {
+        Ending::Auto => Ok("what it changes is bounded before it is done".to_owned()),
+        Ending::Full => Err("numerics.ending is \"full\"".to_owned()),
+    };
+    choice(
+        "the run ends once nothing can move a body or the front any more",
+        "bounds of body and front are in the outcome (section 12)",
+        Some("ending"),
+        found,
+    )
+}

@@ -1,0 +1,211 @@
+//! Points, steps and memory of a run.
+
+use super::course::Course;
+use crate::fast::chunk::{Chunk, LANES};
+use crate::fast::nodes::NodeBlock;
+use crate::fast::rows::Tile as FastTile;
+use crate::grid::{BLOCK, BLOCK_NODES, Node, Tile};
+use crate::points::{Deformation, Point};
+use crate::scenario::{Ending, Precision, Scenario};
+use crate::simulation::{Columns, Outline, Share, Timing};
+use crate::stability::{self, Limits};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Blocks a flow comes to occupy while it spreads, over those of its release.
+const SPREADING: f64 = 2.0;
+
+/// What a run will cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    /// Cell size [m].
+    pub cell_size_m: f64,
+    /// Material points of the flow at the start.
+    pub points: u64,
+    /// Acoustic sub-steps, if the run goes on for its whole duration.
+    pub substeps: u64,
+    /// Transfers between points and grid of as long a run.
+    pub steps: u64,
+    /// Sub-steps summed over the points that are computed, if none leaves, of as
+    /// long a run.
+    pub point_steps: u64,
+    /// Memory for points and grid once the flow has spread [bytes].
+    pub memory_bytes: u64,
+    /// When the run is expected to end [s]: what slides down, stopped by friction, or
+    /// the duration.
+    pub expected_end_s: f64,
+    /// Shares of the flow that are computed, one after the other.
+    pub stages: Vec<Stage>,
+}
+
+/// A stretch of a run in which the same share of the flow is computed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Stage {
+    /// Which share.
+    pub share: Share,
+    /// Points of it.
+    pub points: u64,
+    /// Sub-steps, as far as can be expected.
+    pub substeps: u64,
+    /// Those of them before the expected end.
+    pub expected_substeps: u64,
+}
+
+impl Cost {
+    /// The cost of a scene: equations 25–27 at the expected speed (31).
+    pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Self {
+        let points = outline.columns.map_or(0, |columns| columns.points());
+        let (substeps, steps) = steps(outline, points);
+        let course = Course::of(scenario, outline);
+        let expected_end_s = match scenario.numerics.ending {
+            Ending::Auto => course.rests.min(scenario.duration_s),
+            Ending::Full => scenario.duration_s,
+        };
+        let stages = stages(outline, &course, substeps, expected_end_s);
+        let last = stages.last().map_or(points, |stage| stage.points);
+        Self {
+            cell_size_m: outline.given.lattice.spacing.x,
+            points,
+            substeps,
+            steps,
+            point_steps: stages.iter().map(|of| of.points * of.substeps).sum(),
+            memory_bytes: memory(scenario, outline, points, last),
+            expected_end_s,
+            stages,
+        }
+    }
+}
+
+/// Shares, with their parts of so many sub-steps.
+fn stages(outline: &Outline, course: &Course, substeps: u64, end: f64) -> Vec<Stage> {
+    let duration = outline.given.timing.duration;
+    let within = |from: f64, to: f64| {
+        let share = (to - from).max(0.0) / duration.max(f64::MIN_POSITIVE);
+        (substeps as f64 * share).round() as u64
+    };
+    let stage = |share: Share, from: f64, to: f64| {
+        let cells = outline.given.walls.upright.cells_across;
+        let rows = |columns: &Columns| u64::from(share.rows_across(columns, cells));
+        let of_row = |columns: &Columns| columns.points() / u64::from(columns.count[1]);
+        Stage {
+            share,
+            points: outline
+                .columns
+                .map_or(0, |columns| of_row(&columns) * rows(&columns)),
+            substeps: within(from, to),
+            expected_substeps: within(from.min(end), to.min(end)),
+        }
+    };
+    match &outline.reductions.shares {
+        None => vec![stage(Share::Whole, 0.0, duration)],
+        Some(shares) if shares.first == shares.last => vec![stage(shares.last, 0.0, duration)],
+        Some(shares) => {
+            let met = course.meets_body.min(duration);
+            let mut both = vec![stage(shares.first, 0.0, met)];
+            if met < duration {
+                both.push(stage(shares.last, met, duration));
+            }
+            both
+        }
+    }
+}
+
+/// Sub-steps and steps of the whole duration.
+fn steps(outline: &Outline, points: u64) -> (u64, u64) {
+    let timing = &outline.given.timing;
+    let flow = outline.given.flow.as_ref().filter(|_| points > 0);
+    let Some(flow) = flow else {
+        let substeps = over_samples(timing, stability::SUBSTEP_WITHOUT_FLOW, 1.0);
+        return (substeps.0, substeps.0);
+    };
+    let longest = longest_substep(&flow.limits).min(flow.contact_substep(&outline.bodies));
+    let allowed = flow.limits.substeps_per_step(longest, flow.limits.slow);
+    over_samples(timing, longest, allowed)
+}
+
+fn longest_substep(limits: &Limits) -> f64 {
+    limits.substep(limits.slow)
+}
+
+/// Sub-steps and steps from sample to sample, none longer than `longest` [s], so
+/// many in a step.
+fn over_samples(timing: &Timing, longest: f64, per_step: f64) -> (u64, u64) {
+    let between = |interval: f64| {
+        let substeps = (interval / longest - 1e-9).ceil().max(0.0);
+        (substeps as u64, (substeps / per_step).ceil() as u64)
+    };
+    let whole = (timing.duration / timing.sample_interval + 1e-9).floor();
+    let (substeps, steps) = between(timing.sample_interval);
+    let rest = timing.duration - whole * timing.sample_interval;
+    let (last_substeps, last_steps) = between(rest.max(0.0));
+    let whole = whole as u64;
+    (whole * substeps + last_substeps, whole * steps + last_steps)
+}
+
+/// Of so many points, of which so many are computed.
+fn memory(scenario: &Scenario, outline: &Outline, points: u64, computed: u64) -> u64 {
+    let cells = outline.given.walls.upright.cells_across;
+    let share = computed as f64 / points.max(1) as f64;
+    let blocks = Blocks::of_release(scenario, outline, share * f64::from(cells));
+    let points = computed;
+    let (points, spread) = (points as f64, |blocks: f64| SPREADING * blocks);
+    let (of_points, of_grid) = match scenario.numerics.precision {
+        Precision::Single => {
+            // Every block's last chunk is half full, on average.
+            let chunks = points / LANES as f64 + 0.5 * spread(blocks.of_points);
+            let tiles = 2.0 * spread(blocks.of_points) * size_of::<FastTile>() as f64;
+            let nodes = 3.0 * spread(blocks.of_nodes) * size_of::<NodeBlock>() as f64;
+            (chunks * size_of::<Chunk>() as f64, tiles + nodes)
+        }
+        Precision::Double => {
+            let point = size_of::<Point>() + size_of::<Deformation>() + 3 * size_of::<f64>();
+            let tiles = spread(blocks.of_points) * size_of::<Tile>() as f64;
+            let nodes = spread(blocks.of_nodes) * (BLOCK_NODES * size_of::<Node>()) as f64;
+            (points * point as f64, tiles + nodes)
+        }
+    };
+    (of_points + of_grid) as u64
+}
+
+/// Blocks at the start.
+struct Blocks {
+    of_points: f64,
+    of_nodes: f64,
+}
+
+impl Blocks {
+    /// Those that so many cells across of the release lie in, and those its kernels
+    /// reach.
+    fn of_release(scenario: &Scenario, outline: &Outline, cells_across: f64) -> Self {
+        let (Some(release), Some(columns)) = (scenario.release(), outline.columns) else {
+            return Self {
+                of_points: 0.0,
+                of_nodes: 0.0,
+            };
+        };
+        let lattice = &outline.given.lattice;
+        // A block's points lie from half a cell on to half a cell beyond it.
+        let block = |place: f64, axis: usize| {
+            let cells = (place - lattice.origin[axis]) / lattice.spacing[axis];
+            ((cells - 0.5) / BLOCK as f64).floor() as i64
+        };
+        let mut heights: BTreeMap<i64, (i64, i64)> = BTreeMap::new();
+        for i in 0..columns.count[0] {
+            let x = release.back_m + (f64::from(i) + 0.5) * columns.spacing.x;
+            let bed = scenario.channel.bed_elevation_m(x);
+            let (low, high) = (block(bed, 2), block(bed + release.vertical_thickness_m, 2));
+            let known = heights.entry(block(x, 0)).or_insert((low, high));
+            *known = (known.0.min(low), known.1.max(high));
+        }
+        let across = ((cells_across - 0.5) / BLOCK as f64).ceil() + 1.0;
+        let rows = |more: i64| {
+            let of_column = |(low, high): &(i64, i64)| (high - low + 1 + more) as f64;
+            heights.values().map(of_column).sum::<f64>()
+        };
+        let longer = (heights.len() + 1) as f64 / heights.len().max(1) as f64;
+        Self {
+            of_points: rows(0) * across,
+            of_nodes: rows(1) * longer * (across + 1.0),
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! How a flow is expected to go: roughly, for what a run will cost.
+
+use crate::scenario::Scenario;
+use crate::simulation::Outline;
+
+/// Acceleration of a front that collapses, over gravity.
+const COLLAPSE: f64 = 0.25;
+
+/// What is expected of a flow: a block that slides on the incline and is stopped by
+/// friction on the floor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Course {
+    /// When it comes near a body [s]; infinite without one.
+    pub(super) meets_body: f64,
+    /// When its last part has come to rest [s].
+    pub(super) rests: f64,
+}
+
+impl Course {
+    /// Of a scenario's flow.
+    pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Self {
+        let Some(release) = scenario.release() else {
+            return Self {
+                meets_body: f64::INFINITY,
+                rests: f64::INFINITY,
+            };
+        };
+        let slide = Slide::of(scenario);
+        let front = outline.bodies.iter().map(|body| {
+            let back = body.state.position.x - body.shape.bounding_radius();
+            back - 3.5 * outline.given.lattice.spacing.x - release.front_m
+        });
+        let way = front.fold(f64::INFINITY, f64::min).max(0.0);
+        Self {
+            meets_body: slide.front_takes(way),
+            rests: slide.rests_after(-release.back_m),
+        }
+    }
+}
+
+/// A block on the incline and the floor.
+struct Slide {
+    /// Level acceleration on the incline [m/s²].
+    down: f64,
+    /// Slowing on the floor [m/s²].
+    braking: f64,
+    gravity: f64,
+    /// Height of the release [m].
+    height: f64,
+}
+
+impl Slide {
+    fn of(scenario: &Scenario) -> Self {
+        let channel = &scenario.channel;
+        let (sin, cos) = channel.inclination_rad().sin_cos();
+        let gravity = scenario.gravity_m_s2;
+        let flow = scenario.flow.as_ref();
+        Self {
+            down: gravity * (sin - channel.base_friction * cos).max(0.0) * cos,
+            braking: gravity * channel.base_friction,
+            gravity,
+            height: flow.map_or(0.0, |flow| flow.release.height_m),
+        }
+    }
+
+    /// Time in which the front, which collapses besides, goes so far [s].
+    fn front_takes(&self, way: f64) -> f64 {
+        (2.0 * way / (self.down + COLLAPSE * self.gravity)).sqrt()
+    }
+
+    /// Time after which what slides so far to the foot has been stopped [s].
+    fn rests_after(&self, way: f64) -> f64 {
+        let sliding = if self.down > 0.0 {
+            (2.0 * way / self.down).sqrt()
+        } else {
+            0.0
+        };
+        let speed = (2.0 * self.down * way + self.gravity * self.height).sqrt();
+        sliding + speed / self.braking
+    }
+}

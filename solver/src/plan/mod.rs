@@ -1,0 +1,44 @@
+//! What a run will cost, and what of its scene it computes, found out before
+//! anything runs (docs/method.md, section 12; docs/plan.md).
+
+mod choices;
+mod cost;
+mod course;
+
+pub use choices::Choice;
+pub use cost::{Cost, Stage};
+
+use crate::error::SetupError;
+use crate::scenario::Scenario;
+use crate::simulation::Outline;
+use serde::{Deserialize, Serialize};
+
+/// What a run will compute, what it will leave out and why, and what it will cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    /// Each thing that could be left out.
+    pub choices: Vec<Choice>,
+    /// What the run will cost.
+    pub cost: Cost,
+}
+
+/// The plan of a scenario's run.
+///
+/// # Errors
+/// Too many points for one run, or a reduction asked for that the scene does not
+/// allow.
+pub fn of(scenario: &Scenario) -> Result<Plan, SetupError> {
+    let outline = Outline::of(scenario)?;
+    Ok(Plan {
+        choices: choices::of(scenario, &outline),
+        cost: Cost::of(scenario, &outline),
+    })
+}
+
+/// What a scenario's run will cost.
+///
+/// # Errors
+/// As for [`of`].
+pub fn cost(scenario: &Scenario) -> Result<Cost, SetupError> {
+    Ok(Cost::of(scenario, &Outline::of(scenario)?))
+}

@@ -1,0 +1,205 @@
+//! Whether nothing can move a body or the front any more (docs/method.md,
+//! equations 61–63).
+
+use crate::math::Vec3;
+use crate::points::Point;
+use crate::rigid::Body;
+use crate::scenario::Scenario;
+use crate::simulation::Simulation;
+use crate::walls::Plane;
+use serde::{Deserialize, Serialize};
+
+/// Points slower than this are taken to stay [m/s].
+const STILL: f64 = 1e-3;
+/// How far a body may still be moved [m].
+const BODY_BOUND: f64 = 1e-3;
+/// How far the front may still go [cells].
+const FRONT_BOUND: f64 = 0.1;
+/// The energy that reaches a body must stay below this share of what tips it over.
+const TIPPING_SHARE: f64 = 0.5;
+
+/// That a run ended before its duration, and what the rest could have changed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EndedEarly {
+    /// When [s].
+    pub time_s: f64,
+    /// Why.
+    pub reason: String,
+    /// How far a body could still have been moved [m].
+    pub body_bound_m: f64,
+    /// How far the front could still have gone [m]; null without a flow.
+    pub front_bound_m: Option<f64>,
+}
+
+/// What the flow slides on.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Base {
+    /// Friction of the flow.
+    friction: f64,
+    /// Rise of the incline per length.
+    slope: f64,
+    /// Whether friction at rest holds a flow on the incline.
+    holds: bool,
+}
+
+impl Base {
+    pub(super) fn of(scenario: &Scenario) -> Self {
+        let channel = &scenario.channel;
+        let slope = channel.inclination_rad().tan();
+        let flow = scenario.flow.as_ref();
+        let within = flow.map_or(f64::INFINITY, |flow| flow.material.static_friction);
+        Self {
+            friction: channel.base_friction,
+            slope,
+            holds: slope < channel.base_friction.min(within),
+        }
+    }
+
+    /// Height of the bed [m].
+    fn bed_under(&self, x: f64) -> f64 {
+        (-x).max(0.0) * self.slope
+    }
+}
+
+/// What the moving part of a flow could still do.
+pub(super) struct Remaining {
+    /// Of what moves, and of its height on the incline [J].
+    energy: f64,
+    /// Where each point comes to rest at the farthest [m], with its mass [kg].
+    pub(super) reaches: Vec<(f64, f64)>,
+}
+
+impl Remaining {
+    pub(super) fn of(simulation: &Simulation, base: &Base) -> Self {
+        let gravity = simulation.gravity().norm();
+        let mut remaining = Self {
+            energy: 0.0,
+            reaches: Vec::with_capacity(simulation.point_count()),
+        };
+        simulation.visit_points(None, |point| {
+            let specific = specific_energy(point, simulation, base);
+            let way = if specific > 0.0 {
+                specific / (base.friction * gravity)
+            } else {
+                0.0
+            };
+            remaining.energy += point.mass * specific;
+            remaining.reaches.push((point.position.x + way, point.mass));
+        });
+        remaining
+    }
+}
+
+/// What a point that moves could still spend [J/kg]: its speed, and the height of the
+/// bed under it (equation 61).
+fn specific_energy(point: &Point, simulation: &Simulation, base: &Base) -> f64 {
+    let (x, speed) = (point.position.x, point.velocity.norm());
+    if speed < STILL && (base.holds || x >= 0.0) {
+        return 0.0;
+    }
+    0.5 * speed * speed + simulation.gravity().norm() * base.bed_under(x)
+}
+
+/// How far a flow with this much left could push any of these bodies [m] (equation
+/// 62); `None` if nothing says so.
+pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining) -> Option<f64> {
+    let free = simulation.bodies().iter().filter(|body| body.is_free());
+    let mut largest = 0.0f64;
+    for body in free {
+        if remaining.energy == 0.0 {
+            continue;
+        }
+        let footing = Footing::of(body, simulation)?;
+        let pushed = remaining.energy / footing.holding;
+        let stands = remaining.energy < TIPPING_SHARE * footing.tipping;
+        if !stands || pushed > BODY_BOUND {
+            return None;
+        }
+        largest = largest.max(pushed);
+    }
+    Some(largest)
+}
+
+/// Whether a front that could still go so far [m] counts as one at rest.
+pub(super) fn front_rests(simulation: &Simulation, bound: f64) -> bool {
+    bound <= FRONT_BOUND * simulation.cell_size_m()
+}
+
+/// How a body stands on a wall.
+struct Footing {
+    /// Force along the wall that friction leaves over [N].
+    holding: f64,
+    /// Energy to tip it over an edge [J].
+    tipping: f64,
+}
+
+impl Footing {
+    /// Of a body on three vertices or more of one plane, where friction holds it.
+    fn of(body: &Body, simulation: &Simulation) -> Option<Self> {
+        let planes = simulation.planes().iter();
+        planes
+            .filter_map(|plane| Self::on(plane, body, simulation.gravity()))
+            .next()
+    }
+
+    fn on(plane: &Plane, body: &Body, gravity: Vec3) -> Option<Self> {
+        let centre = body.state.position;
+        let height = plane.height(&centre);
+        let reach = body.shape.sphero_radius();
+        let vertices = body.shape.core_vertices().iter();
+        let places = vertices.map(|vertex| centre + body.to_world(vertex));
+        let feet: Vec<Vec3> = places.filter(|place| plane.height(place) < reach).collect();
+        let pressed = -gravity.dot(&plane.normal) * body.mass;
+        if feet.len() < 3 || pressed <= 0.0 {
+            return None;
+        }
+        // Where the weight's line of action meets the plane.
+        let foot = centre + gravity * (body.mass * height / pressed);
+        let margin = inside_by(&feet, &foot, &plane.normal)?;
+        let pull = (gravity * body.mass + plane.normal * pressed).norm();
+        let holding = body.wall_law.friction * pressed - pull;
+        let rise = margin.hypot(height) - height;
+        (holding > 0.0).then_some(Self {
+            holding,
+            tipping: pressed * rise,
+        })
+    }
+}
+
+/// How far inside the hull of some places a place is, seen along `normal` [m];
+/// `None` outside.
+fn inside_by(places: &[Vec3], place: &Vec3, normal: &Vec3) -> Option<f64> {
+    let mut least = f64::INFINITY;
+    for a in places {
+        for b in places {
+            let Some(inward) = normal.cross(&(b - a)).try_normalize(f64::EPSILON) else {
+                continue;
+            };
+            let left = |x: &Vec3| inward.dot(&(x - a));
+            // An edge has no place on its other side.
+            if places.iter().all(|x| left(x) >= -1e-9) {
+                least = least.min(left(place));
+            }
+        }
+    }
+    (least > 0.0 && least.is_finite()).then_some(least)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_as_far_inside_as_the_nearest_edge() {
+        let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        let places = square.map(|[x, y]| Vec3::new(x, y, 0.0));
+        let inside = |x, y| inside_by(&places, &Vec3::new(x, y, 0.3), &Vec3::z());
+        assert_eq!(inside(1.0, 0.25), Some(0.25));
+        assert_eq!(
+            inside(1.9, 1.0).map(|by| (by * 1e9).round() / 1e9),
+            Some(0.1)
+        );
+        assert_eq!(inside(2.1, 1.0), None);
+        assert_eq!(inside_by(&places[..2], &places[0], &Vec3::z()), None);
+    }
+}

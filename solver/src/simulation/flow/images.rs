@@ -1,0 +1,123 @@
+//! Where the images of a computed share of the flow lie.
+
+use crate::contact::point_body::{Around, FlowLoad};
+use crate::math::{Mat3, Vec3};
+use crate::points::Point;
+use crate::rigid::Load;
+use crate::simulation::setup::{Columns, Setup, Share};
+
+/// How the whole flow follows from a share of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Images {
+    share: Share,
+    /// Cells across that the images fill, the share's own included.
+    cells_across: u32,
+    /// Width of a cell across [m].
+    cell_width: f64,
+    /// Rows of points across the whole channel.
+    rows: u32,
+    /// Points of a row up.
+    up: u32,
+    /// Rows of points in a cell.
+    rows_per_cell: u32,
+}
+
+impl Images {
+    /// The images that make up the whole channel.
+    pub(super) fn of_share(share: Share, columns: &Columns, whole: &Setup) -> Self {
+        let cells = whole.walls.upright.cells_across.unsigned_abs();
+        let [_, rows, up] = columns.count;
+        Self {
+            share,
+            cells_across: cells,
+            cell_width: whole.lattice.spacing.y,
+            rows,
+            up,
+            rows_per_cell: rows / cells,
+        }
+    }
+
+    /// Those that make up so many cells.
+    pub(super) fn across(self, cells: i32) -> Self {
+        Self {
+            cells_across: cells.unsigned_abs(),
+            ..self
+        }
+    }
+
+    /// How many of them, the share itself included.
+    pub(super) fn count(&self) -> u32 {
+        match self.share {
+            Share::Whole => 1,
+            Share::Half => 2,
+            Share::Slab => self.cells_across,
+        }
+    }
+
+    /// Image number `which` of a point; number 0 is the point itself.
+    pub(super) fn of(&self, which: u32, point: &Point) -> Point {
+        match (which, self.share) {
+            (0, _) | (_, Share::Whole) => *point,
+            (_, Share::Half) => self.mirrored(point),
+            (_, Share::Slab) => self.shifted(which, point),
+        }
+    }
+
+    /// Where to look for the points whose images `which` lie there.
+    pub(super) fn around(&self, which: u32, around: &Around) -> Around {
+        match (which, self.share) {
+            (0, _) | (_, Share::Whole) => *around,
+            (_, Share::Half) => around.mirrored(),
+            (_, Share::Slab) => around.shifted(-self.shift(which)),
+        }
+    }
+
+    fn shift(&self, which: u32) -> f64 {
+        f64::from(which) * self.cell_width
+    }
+
+    /// Identities count up, then across, then along.
+    fn shifted(&self, which: u32, point: &Point) -> Point {
+        let mut image = *point;
+        image.position.y += self.shift(which);
+        image.id += which * self.rows_per_cell * self.up;
+        image
+    }
+
+    fn mirrored(&self, point: &Point) -> Point {
+        let mut image = *point;
+        let row = point.id / self.up % self.rows;
+        image.id = image.id - row * self.up + (self.rows - 1 - row) * self.up;
+        image.position.y = -image.position.y;
+        image.velocity.y = -image.velocity.y;
+        let turn = Mat3::from_diagonal(&Vec3::new(1.0, -1.0, 1.0));
+        image.affine = turn * image.affine * turn;
+        image.stress.xy = -image.stress.xy;
+        image.stress.yz = -image.stress.yz;
+        image
+    }
+}
+
+/// What a half flow and its image do to a body, by what the half does to it and to
+/// the body's own image.
+pub(super) fn load_of_both(own: &FlowLoad, of_image: &FlowLoad) -> FlowLoad {
+    let mirrored = Load {
+        force: of_image
+            .load
+            .force
+            .component_mul(&Vec3::new(1.0, -1.0, 1.0)),
+        // A torque is mirrored as a pseudo-vector.
+        torque: of_image
+            .load
+            .torque
+            .component_mul(&Vec3::new(-1.0, 1.0, -1.0)),
+    };
+    let mut both = *own;
+    both.load.add(&mirrored);
+    both.touching_points += of_image.touching_points;
+    both.deepest_overlap_ratio = own
+        .deepest_overlap_ratio
+        .max(of_image.deepest_overlap_ratio);
+    both.energy += of_image.energy;
+    both
+}

@@ -1,0 +1,213 @@
+//! A flow of which a share is computed: every verb is that share's, and every
+//! answer that of the whole flow (docs/method.md, section 12).
+
+use super::images::{Images, load_of_both};
+use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep, plainly};
+use crate::contact::point_body::{Around, FlowLoad};
+use crate::diagnostics::Totals;
+use crate::fast::instructions::Instructions;
+use crate::points::Point;
+use crate::rigid::Body;
+use crate::scenario::Precision;
+use crate::simulation::laps::Laps;
+use crate::simulation::setup::{Setup, Share, Shares, near_body};
+use crate::walls::{Impulse, Plane};
+
+/// A flow of which a share is computed, and later a larger one.
+#[derive(Debug)]
+pub(in crate::simulation) struct SharedFlow {
+    flow: Box<dyn Flow>,
+    shares: Shares,
+    share: Share,
+    /// What the share is given: narrower walls.
+    given: Setup,
+    /// All that bound it, its own mirror included.
+    planes: Vec<Plane>,
+    images: Images,
+    precision: Precision,
+    instructions: Option<Instructions>,
+    on_bodies: Vec<FlowLoad>,
+}
+
+impl SharedFlow {
+    /// A flow of the points of the first share.
+    pub(super) fn start(
+        points: Vec<Point>,
+        shares: Shares,
+        whole: &Setup,
+        precision: Precision,
+    ) -> Self {
+        let mut shared = Self::of(shares.first, shares, whole, precision);
+        shared.flow = plainly(points, &shared.given, precision);
+        shared
+    }
+
+    /// A share as it was between two steps.
+    pub(super) fn restored(saved: SavedFlow, share: Share, shares: Shares, whole: &Setup) -> Self {
+        let precision = saved.precision();
+        let mut shared = Self::of(share, shares, whole, precision);
+        shared.flow = saved.restored(&shared.given, None);
+        shared
+    }
+
+    /// Without points yet.
+    fn of(share: Share, shares: Shares, whole: &Setup, precision: Precision) -> Self {
+        let given = whole.between(share.walls(whole));
+        let mut planes = whole.planes.clone();
+        planes.push(given.walls.upright.sides[1]);
+        Self {
+            planes,
+            flow: plainly(Vec::new(), &given, precision),
+            images: Images::of_share(share, &shares.columns, whole),
+            share,
+            shares,
+            given,
+            precision,
+            instructions: None,
+            on_bodies: Vec::new(),
+        }
+    }
+
+    /// Whether the flow has come so near to a body that it begins to vary across.
+    fn meets_a_body(&self, bodies: &[Body]) -> bool {
+        bodies.iter().any(|body| {
+            let mut any = false;
+            let near = near_body(body, &self.given.lattice);
+            self.flow.visit(Some(&near), &mut |_| any = true);
+            any
+        })
+    }
+
+    /// Goes on with the last share: its points are images of the present ones.
+    fn widen(&mut self, whole: &Setup) {
+        let wider = self.shares.last;
+        let images = self
+            .images
+            .across(wider.cells_across(whole.walls.upright.cells_across));
+        let mut points = Vec::with_capacity(self.flow.count() * images.count() as usize);
+        for which in 0..images.count() {
+            let mut take = |point: &Point| points.push(images.of(which, point));
+            self.flow.visit(None, &mut take);
+        }
+        let on_bodies = std::mem::take(&mut self.on_bodies);
+        let instructions = self.instructions;
+        let shares = self.shares.clone();
+        *self = Self::of(wider, shares, whole, self.precision);
+        self.on_bodies = on_bodies;
+        self.flow = plainly(points, &self.given, self.precision);
+        instructions
+            .into_iter()
+            .for_each(|best| self.limit_instructions(best));
+    }
+
+    /// What the whole flow does to the bodies.
+    fn sum_up_loads(&mut self) {
+        let own = self.flow.on_bodies();
+        self.on_bodies.clear();
+        self.on_bodies.extend_from_slice(own);
+        if self.share != Share::Half {
+            return;
+        }
+        let partners = self.shares.partners.iter();
+        for ((both, own), partner) in self.on_bodies.iter_mut().zip(own).zip(partners) {
+            *both = load_of_both(own, &self.flow.on_bodies()[*partner]);
+        }
+    }
+
+    fn count_of_images(&self) -> f64 {
+        f64::from(self.images.count())
+    }
+}
+
+impl Flow for SharedFlow {
+    fn count(&self) -> usize {
+        self.flow.count() * self.images.count() as usize
+    }
+
+    fn computed(&self) -> usize {
+        self.flow.count()
+    }
+
+    fn share(&self) -> Share {
+        self.share
+    }
+
+    fn fastest(&self) -> f64 {
+        self.flow.fastest()
+    }
+
+    fn transfer(&mut self, _: &Setup, bodies: &[Body], start: &StepStart, laps: &mut Laps) {
+        self.flow.transfer(&self.given, bodies, start, laps);
+        self.sum_up_loads();
+    }
+
+    fn substep(
+        &mut self,
+        _: &Setup,
+        bodies: &[Body],
+        substep: Substep,
+        laps: &mut Laps,
+    ) -> Impulse {
+        let from_walls = self.flow.substep(&self.given, bodies, substep, laps);
+        self.sum_up_loads();
+        from_walls.of_images(self.count_of_images())
+    }
+
+    fn on_bodies(&self) -> &[FlowLoad] {
+        &self.on_bodies
+    }
+
+    fn finish(
+        &mut self,
+        whole: &Setup,
+        bodies: &[Body],
+        end: &StepEnd,
+        laps: &mut Laps,
+    ) -> Finished {
+        let finished = self.flow.finish(&self.given, bodies, end, laps);
+        let count = self.images.count();
+        if self.share != self.shares.last && self.meets_a_body(bodies) {
+            self.widen(whole);
+        }
+        Finished {
+            put_back: finished.put_back * u64::from(count),
+            spread: finished.spread.of_images(f64::from(count)),
+        }
+    }
+
+    fn culprit(&self, _: &[Plane], tolerance: f64) -> Option<Culprit> {
+        self.flow.culprit(&self.planes, tolerance)
+    }
+
+    fn take_out_beyond(&mut self, end: f64, _: &Setup) -> Option<(u64, Totals)> {
+        let (count, totals) = self.flow.take_out_beyond(end, &self.given)?;
+        let count = count * u64::from(self.images.count());
+        Some((count, totals.of_images(self.count_of_images())))
+    }
+
+    fn totals(&self, _: &Setup) -> Totals {
+        let totals = self.flow.totals(&self.given);
+        totals.of_images(self.count_of_images())
+    }
+
+    fn visit(&self, within: Option<&Around>, visit: &mut dyn FnMut(&Point)) {
+        for which in 0..self.images.count() {
+            let around = within.map(|around| self.images.around(which, around));
+            let mut show = |point: &Point| visit(&self.images.of(which, point));
+            self.flow.visit(around.as_ref(), &mut show);
+        }
+    }
+
+    fn saved(&self) -> SavedFlow {
+        SavedFlow::Share(self.share, Box::new(self.flow.saved()))
+    }
+
+    fn limit_instructions(&mut self, instructions: Instructions) {
+        self.instructions = Some(instructions);
+        self.flow.limit_instructions(instructions);
+    }
+
+    fn bytes(&self) -> (usize, usize) {
+        self.flow.bytes()
+    }
+}

@@ -1,0 +1,153 @@
+//! What of a scene is left out of the computation, and why or why not.
+
+use super::symmetry::{Why, partners, uniform_across};
+use super::{Columns, Setup, Share, Shares};
+use crate::error::SetupError;
+use crate::rigid::{Body, Freedom};
+use crate::scenario::{Approach, Scenario, Symmetry};
+
+/// What of a scene is left out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reductions {
+    /// Whether half of it is computed, or why not.
+    pub mirror: Result<(), String>,
+    /// Whether it begins with a slab, or why not.
+    pub slab: Result<(), String>,
+    /// What follows for the flow; `None`: all of it is computed.
+    pub shares: Option<Shares>,
+}
+
+impl Reductions {
+    /// What can be left out of a scene, and is not forbidden to be.
+    ///
+    /// # Errors
+    /// Something asked for that this scene does not allow.
+    pub(super) fn of(
+        scenario: &Scenario,
+        given: &Setup,
+        columns: Option<&Columns>,
+        bodies: &[Body],
+    ) -> Result<Self, SetupError> {
+        let scene = Seen {
+            scenario,
+            given,
+            columns,
+            bodies,
+        };
+        let partners = scene.mirror()?;
+        let last = match partners {
+            Ok(_) => Share::Half,
+            Err(_) => Share::Whole,
+        };
+        let slab = scene.slab(last)?;
+        let first = match slab {
+            Ok(()) => Share::Slab,
+            Err(_) => last,
+        };
+        let (mirror, partners) = match partners {
+            Ok(partners) => (Ok(()), partners),
+            Err(why) => (Err(why), Vec::new()),
+        };
+        let shares = columns.filter(|_| first != Share::Whole);
+        let shares = shares.map(|columns| Shares {
+            first,
+            last,
+            columns: *columns,
+            partners,
+        });
+        Ok(Self {
+            mirror,
+            slab,
+            shares,
+        })
+    }
+
+    /// None at all.
+    pub fn none() -> Self {
+        let not_asked = || "not asked for".to_owned();
+        Self {
+            mirror: Err(not_asked()),
+            slab: Err(not_asked()),
+            shares: None,
+        }
+    }
+
+    /// Which share of the release is set up.
+    pub(super) fn first_share(&self) -> Share {
+        let first = |shares: &Shares| shares.first;
+        self.shares.as_ref().map_or(Share::Whole, first)
+    }
+
+    /// Bodies of a scene computed by halves stay in the centre plane.
+    pub(super) fn confine(&self, bodies: &mut [Body]) {
+        if self.mirror.is_err() {
+            return;
+        }
+        for body in bodies.iter_mut().filter(|body| body.is_free()) {
+            body.freedom = Freedom::InPlane;
+            body.state.position.y = 0.0;
+        }
+    }
+}
+
+/// A scene looked at for what can be left out.
+struct Seen<'a> {
+    scenario: &'a Scenario,
+    given: &'a Setup,
+    columns: Option<&'a Columns>,
+    bodies: &'a [Body],
+}
+
+impl Seen<'_> {
+    fn cells_across(&self) -> i32 {
+        self.given.walls.upright.cells_across
+    }
+
+    /// Which body is the image of each, or why it is not computed by halves.
+    fn mirror(&self) -> Result<Result<Vec<usize>, Why>, SetupError> {
+        let asked = self.scenario.numerics.symmetry;
+        let found = match (asked, self.columns) {
+            (Symmetry::Full, _) => Err(forbidden("symmetry")),
+            (_, None) => Err(without_flow()),
+            _ => partners(self.scenario, self.cells_across(), self.bodies),
+        };
+        insist(found, asked == Symmetry::Mirror, "symmetry", "mirror")
+    }
+
+    /// That it begins with a slab before this share is computed, or why it does not.
+    fn slab(&self, last: Share) -> Result<Result<(), Why>, SetupError> {
+        let asked = self.scenario.numerics.approach;
+        let found = match (asked, self.columns) {
+            (Approach::Full, _) => Err(forbidden("approach")),
+            (_, None) => Err(without_flow()),
+            _ if last.cells_across(self.cells_across()) == 1 => {
+                Err("what is computed is one cell wide anyway".to_owned())
+            }
+            (_, Some(columns)) => {
+                uniform_across(self.scenario, columns, &self.given.lattice, self.bodies)
+            }
+        };
+        insist(found, asked == Approach::Slab, "approach", "slab")
+    }
+}
+
+fn forbidden(key: &str) -> Why {
+    format!("numerics.{key} is \"full\"")
+}
+
+fn without_flow() -> Why {
+    "there is no flow".to_owned()
+}
+
+/// What was found; an error if more was asked for.
+fn insist<T>(
+    found: Result<T, Why>,
+    asked: bool,
+    key: &'static str,
+    word: &'static str,
+) -> Result<Result<T, Why>, SetupError> {
+    match found {
+        Err(why) if asked => Err(SetupError::NotReducible { key, word, why }),
+        found => Ok(found),
+    }
+}

@@ -1,0 +1,65 @@
+//! Which share of the flow is computed (docs/method.md, section 12).
+
+use super::{Columns, Setup};
+use crate::math::Vec3;
+use crate::walls::{Plane, Walls};
+use serde::{Deserialize, Serialize};
+
+/// Share of the flow that is computed; the rest are its images.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Share {
+    /// All of it.
+    Whole,
+    /// The right half, y ≤ 0, before a mirror in the centre plane.
+    Half,
+    /// One cell next to the right wall, before a mirror of its own.
+    Slab,
+}
+
+impl Share {
+    /// Cells across that are computed, of so many between the side walls.
+    pub fn cells_across(self, whole: i32) -> i32 {
+        match self {
+            Self::Whole => whole,
+            Self::Half => whole / 2,
+            Self::Slab => 1,
+        }
+    }
+
+    /// Rows of points across that are computed, of all in the release.
+    pub fn rows_across(self, columns: &Columns, whole: i32) -> u32 {
+        let rows_per_cell = columns.count[1] / whole.unsigned_abs().max(1);
+        rows_per_cell * self.cells_across(whole).unsigned_abs()
+    }
+
+    /// The walls of this share of a channel.
+    pub(in crate::simulation) fn walls(self, whole: &Setup) -> Walls {
+        let mut walls = whole.walls.clone();
+        let cells = self.cells_across(walls.upright.cells_across);
+        if cells < walls.upright.cells_across {
+            let lattice = &whole.lattice;
+            walls.upright.cells_across = cells;
+            walls.upright.sides[1] = Plane {
+                name: "mirror",
+                normal: -Vec3::y(),
+                offset: -(lattice.origin.y + f64::from(cells) * lattice.spacing.y),
+                flow_friction: 0.0,
+            };
+        }
+        walls
+    }
+}
+
+/// Which shares of a flow are computed, one after the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shares {
+    /// At the start.
+    pub first: Share,
+    /// Once the flow has come near a body.
+    pub last: Share,
+    /// How the whole release is divided into points.
+    pub columns: Columns,
+    /// Which body is the mirror image of each, where half of the flow is computed.
+    pub partners: Vec<usize>,
+}

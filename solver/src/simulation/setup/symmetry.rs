@@ -1,0 +1,115 @@
+//! What of a scene need not be computed, because something else tells it.
+
+use super::Columns;
+use crate::contact::point_body::Around;
+use crate::kernel::Lattice;
+use crate::math::Vec3;
+use crate::rigid::{Body, Freedom};
+use crate::scenario::Scenario;
+
+/// Rounding of a place, over the size of the body it is on.
+const ROUNDING: f64 = 1e-9;
+/// So far off a body does nothing to a flow for a step: a node sees the room that it
+/// takes 1.5 cells away, a point sees that node 1.5 cells away, and goes less than half a
+/// cell. Its contacts reach less far.
+const CLEAR_CELLS: f64 = 3.5;
+
+/// Why something is computed although it might not have to be.
+pub(super) type Why = String;
+
+/// Which body is the mirror image of each, if flow and bodies are symmetric about
+/// the centre plane.
+pub(super) fn partners(
+    scenario: &Scenario,
+    cells_across: i32,
+    bodies: &[Body],
+) -> Result<Vec<usize>, Why> {
+    if cells_across % 2 != 0 {
+        return Err(format!(
+            "{cells_across} cells lie across the channel: an odd number, so that no nodes lie in the centre plane"
+        ));
+    }
+    (0..bodies.len())
+        .map(|place| partner(scenario, bodies, place))
+        .collect()
+}
+
+fn partner(scenario: &Scenario, bodies: &[Body], place: usize) -> Result<usize, Why> {
+    let body = &bodies[place];
+    if mirrored_onto(body, body) {
+        return if moves_in_plane(body) {
+            Ok(place)
+        } else {
+            Err(format!(
+                "body {place} starts with a motion out of the centre plane"
+            ))
+        };
+    }
+    if body.freedom == Freedom::Free {
+        return Err(format!(
+            "body {place} is not symmetric about the centre plane"
+        ));
+    }
+    let alike = |other: &usize| {
+        let laws = bodies[*other].flow_law == body.flow_law;
+        laws && scenario.bodies[*other].fixed && mirrored_onto(body, &bodies[*other])
+    };
+    (0..bodies.len())
+        .find(alike)
+        .ok_or_else(|| format!("the fixed body {place} has no mirror image"))
+}
+
+/// Whether one body stands where the mirror image of the other would.
+fn mirrored_onto(body: &Body, other: &Body) -> bool {
+    let size = body.shape.bounding_radius();
+    let near = |a: &Vec3, b: &Vec3| (a - b).norm() <= ROUNDING * size;
+    let place = |body: &Body, vertex: &Vec3| body.state.position + body.to_world(vertex);
+    let others: Vec<Vec3> = other
+        .shape
+        .core_vertices()
+        .iter()
+        .map(|v| place(other, v))
+        .collect();
+    let vertices = body.shape.core_vertices();
+    let found = |vertex: &Vec3| {
+        let image = mirrored(&place(body, vertex));
+        others.iter().any(|other| near(&image, other))
+    };
+    let radii = body.shape.sphero_radius() - other.shape.sphero_radius();
+    vertices.len() == others.len() && radii.abs() <= ROUNDING * size && vertices.iter().all(found)
+}
+
+fn moves_in_plane(body: &Body) -> bool {
+    let (linear, turning) = (body.velocity(), body.angular_velocity());
+    linear.y == 0.0 && turning.x == 0.0 && turning.z == 0.0
+}
+
+/// The mirror image of a place.
+fn mirrored(x: &Vec3) -> Vec3 {
+    Vec3::new(x.x, -x.y, x.z)
+}
+
+/// Whether nothing of a flow varies across the channel at the start.
+pub(super) fn uniform_across(
+    scenario: &Scenario,
+    columns: &Columns,
+    lattice: &Lattice,
+    bodies: &[Body],
+) -> Result<(), Why> {
+    let friction = scenario.channel.side_friction;
+    if friction > 0.0 {
+        return Err(format!("the side walls rub, with a friction of {friction}"));
+    }
+    let near = |body: &&Body| columns.any_place(scenario, |x| near_body(body, lattice).holds(x));
+    match bodies.iter().position(|body| near(&body)) {
+        Some(place) => Err(format!(
+            "body {place} stands within {CLEAR_CELLS} cells of the release"
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Where a flow that knows of no body must not be, at any place across.
+pub(in crate::simulation) fn near_body(body: &Body, lattice: &Lattice) -> Around {
+    Around::body(body, CLEAR_CELLS * lattice.spacing.max()).all_across()
+}

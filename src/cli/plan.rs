@@ -1,0 +1,77 @@
+//! `scree plan`: what a run will compute, what it leaves out, and what it costs.
+
+use super::arguments::PlanOptions;
+use super::failure::{Failure, not_set_up};
+use super::machine::cores;
+use super::{console, scenario_file};
+use scree::jobs::forecast::{ForecastError, Planned, WallTime, forecast};
+use scree_solver::plan::{Choice, Cost, Stage};
+
+/// Prints the plan of a scenario's run.
+///
+/// # Errors
+/// A scenario that breaks rules or can't be set up.
+pub(super) fn plan(options: &PlanOptions) -> Result<(), Failure> {
+    let scenario = scenario_file::read(&options.scenario)?;
+    let asked = options.threads.map(usize::from);
+    let threads = asked.or(scenario.numerics.threads).unwrap_or_else(cores);
+    let planned = forecast(&scenario, threads).map_err(|error| match error {
+        ForecastError::Setup(error) => not_set_up(&error),
+        ForecastError::Step(error) => Failure::Numerical(error.to_string()),
+    })?;
+    let answer = if options.json {
+        serde_json::to_string_pretty(&planned)?
+    } else {
+        in_words(&planned)
+    };
+    Ok(console::answer(&answer)?)
+}
+
+fn in_words(planned: &Planned) -> String {
+    let choices = planned.plan.choices.iter().map(choice);
+    let mut lines: Vec<String> = choices.collect();
+    lines.push(cost(&planned.plan.cost));
+    lines.extend(planned.plan.cost.stages.iter().map(stage));
+    lines.push(wall_time(&planned.wall_time));
+    lines.join("\n")
+}
+
+fn choice(choice: &Choice) -> String {
+    let taken = if choice.taken { "yes" } else { "no " };
+    let mut text = format!("{taken}  {}\n       {}", choice.what, choice.why);
+    if choice.taken {
+        text.push_str(&format!("; error: {}", choice.error));
+    }
+    text
+}
+
+fn cost(cost: &Cost) -> String {
+    format!(
+        "cost {} points in cells of {:.4} m, {} steps, {} sub-steps, {:.3e} point-steps, {:.0} MB; \
+         expected to end at {:.2} s",
+        cost.points,
+        cost.cell_size_m,
+        cost.steps,
+        cost.substeps,
+        cost.point_steps as f64,
+        cost.memory_bytes as f64 / 1e6,
+        cost.expected_end_s
+    )
+}
+
+fn stage(stage: &Stage) -> String {
+    format!(
+        "     {}: {} points computed in {} sub-steps, about {} of them before that",
+        format!("{:?}", stage.share).to_lowercase(),
+        stage.points,
+        stage.substeps,
+        stage.expected_substeps
+    )
+}
+
+fn wall_time(wall_time: &WallTime) -> String {
+    format!(
+        "time {:.1} s here on {} threads, most likely {:.1} to {:.1} s",
+        wall_time.expected_s, wall_time.threads, wall_time.low_s, wall_time.high_s
+    )
+}

@@ -1,0 +1,62 @@
+//! Plans: what a run would compute and cost.
+
+use super::contract::{PlanDocument, ScenarioDocument};
+use super::problem::Problem;
+use super::scenario_body::ScenarioText;
+use crate::jobs::forecast::WallTime;
+use crate::jobs::{Jobs, PlanError};
+use axum::Json;
+use axum::extract::State;
+use serde::Serialize;
+use serde_json::Value;
+use utoipa::ToSchema;
+
+/// A plan, and how long the run would take.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Planned)]
+pub(super) struct PlannedDocument {
+    /// What would be computed and left out, and what it would cost.
+    #[schema(value_type = PlanDocument)]
+    pub plan: Value,
+    /// How long it would take on a worker of this service.
+    pub wall_time: WallTime,
+}
+
+/// Plan a run
+///
+/// The body is the bare scenario, which is planned as a job of it would be; its first
+/// steps are timed, for about a second. Nothing is kept.
+#[utoipa::path(
+    post,
+    path = "/v1/plans",
+    tag = "plans",
+    request_body = ScenarioDocument,
+    responses(
+        (status = 200, description = "The plan", body = PlannedDocument),
+        (status = 400, description = "The body is not JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large", body = Problem, content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The scenario breaks rules; `errors` has them all", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn plan(
+    State(jobs): State<Jobs>,
+    ScenarioText(text): ScenarioText,
+) -> Result<Json<PlannedDocument>, Problem> {
+    let planned = jobs.plan(&text).await?;
+    let plan = serde_json::to_value(&planned.plan).map_err(|error| Problem::internal(&error))?;
+    Ok(Json(PlannedDocument {
+        plan,
+        wall_time: planned.wall_time,
+    }))
+}
+
+impl From<PlanError> for Problem {
+    fn from(error: PlanError) -> Self {
+        match error {
+            PlanError::Scenario(error) => error.into(),
+            PlanError::Forecast(error) => Self::internal(&error),
+            PlanError::BrokenOff(error) => Self::internal(&error),
+        }
+    }
+}

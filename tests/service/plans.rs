@@ -1,0 +1,47 @@
+//! Plans of runs.
+
+use crate::app::{TestApp, tiny_scene};
+use reqwest::StatusCode;
+use serde_json::json;
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_plan_is_what_the_job_then_does() {
+    let app = TestApp::start().await;
+    let scene = tiny_scene().to_string();
+    let planned = app.post_to("/v1/plans", "application/json", scene).await;
+    assert_eq!(planned.status, StatusCode::OK, "{:#}", planned.body);
+    let cost = &planned.body["plan"]["cost"];
+    assert!(planned.body["wall_time"]["expected_s"].as_f64().unwrap() > 0.0);
+    let path = app.submit(&tiny_scene()).await;
+    let outcome = app.wait_for_success(&path).await["outcome"].clone();
+    assert_eq!(outcome["plan"], planned.body["plan"]);
+    assert_eq!(outcome["cost"]["points"], cost["points"]);
+    assert_eq!(outcome["cost"]["substeps"], cost["substeps"]);
+    assert_eq!(
+        app.get("/v1/jobs").await.body["jobs"]
+            .as_array()
+            .unwrap()
+            .len(),
+        1
+    );
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_a_scene_does_not_allow_is_refused_by_its_pointer() {
+    let app = TestApp::start().await;
+    let mut askew = tiny_scene();
+    askew["bodies"][0]["yaw_deg"] = json!(20);
+    for (key, word) in [("symmetry", "mirror"), ("approach", "sideways")] {
+        let mut scene = askew.clone();
+        scene["numerics"][key] = json!(word);
+        for path in ["/v1/plans", "/v1/jobs"] {
+            let answer = app
+                .post_to(path, "application/json", scene.to_string())
+                .await;
+            answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-scenario");
+            assert_eq!(answer.wrong_fields(), [format!("/numerics/{key}")]);
+        }
+    }
+    app.stop().await;
+}
