@@ -4,7 +4,7 @@ use scree_solver::record::{
     Audit, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, Mode, Outcome, Sample,
 };
 use scree_solver::scenario::{
-    Body, Channel, Flow, Material, Numerics, Position, Precision, Release,
+    Accuracy, Body, Channel, Flow, Material, Numerics, Position, Precision, Release,
 };
 use scree_solver::scenario::{Scenario, Shape};
 
@@ -143,6 +143,13 @@ pub(super) fn scenario(bodies: Vec<Body>) -> Scenario {
             precision: Precision::Single,
             threads: None,
         },
+        accuracy: Accuracy {
+            error_bars: false,
+            target: None,
+            quantity: None,
+            body: 0,
+            budget_point_steps: 2e10,
+        },
     }
 }
 
@@ -157,6 +164,7 @@ pub(super) fn slid() -> BodyOutcome {
         path_length_m: 0.4005,
         final_position_m: [0.44, 0.02, 0.02],
         final_orientation: [1.0, 0.0, 0.0, 0.0],
+        error_bars: None,
     }
 }
 
@@ -180,6 +188,7 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
             runout_m: None,
             mass_left_kg: 0.0,
             volume_left_out_m3: 0.0,
+            error_bars: None,
         },
         audit: Audit {
             mass_error: 0.0,
@@ -197,11 +206,13 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
             points: 0,
             steps: 0,
             substeps: 0,
+            point_steps: 0,
             wall_s: 0.0,
             point_steps_per_s: 0.0,
             threads: 1,
             cell_size_m: 0.01,
             sound_speed_m_s: None,
         },
+        accuracy: None,
     }
 }

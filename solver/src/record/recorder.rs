@@ -130,6 +130,7 @@ impl Recorder {
                 points: simulation.released_points(),
                 steps,
                 substeps,
+                point_steps,
                 wall_s,
                 point_steps_per_s: if wall_s > 0.0 {
                     point_steps as f64 / wall_s
@@ -140,6 +141,7 @@ impl Recorder {
                 cell_size_m: simulation.cell_size_m(),
                 sound_speed_m_s: simulation.sound_speed_m_s(),
             },
+            accuracy: None,
         }
     }
 

@@ -3,6 +3,7 @@
 //! Every field with its meaning, unit, default and range is in
 //! `docs/scenario.md`.
 
+mod accuracy;
 mod agreement;
 mod body;
 mod fit;
@@ -18,6 +19,7 @@ mod sections;
 mod tests;
 
 pub use crate::shape::RegularSolid;
+pub use accuracy::{Accuracy, Quantity};
 pub use placement::{Pose, ReleaseBox, Support};
 
 use serde::{Deserialize, Serialize};
@@ -45,6 +47,8 @@ pub struct Scenario {
     pub flow_snapshots: u32,
     /// Numerical choices.
     pub numerics: Numerics,
+    /// How good the answer has to be.
+    pub accuracy: Accuracy,
 }
 
 /// Incline and floor between two side walls.

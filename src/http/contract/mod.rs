@@ -3,10 +3,12 @@
 //! can't describe themselves. A test holds these against what the solver reads
 //! and writes.
 
+mod accuracy;
 mod outcome;
 mod results;
 mod scenario;
 
+pub use accuracy::*;
 pub use outcome::*;
 pub use results::*;
 pub use scenario::*;
