@@ -4,9 +4,10 @@ use super::arguments::RunOptions;
 use super::failure::{Failure, not_set_up};
 use super::meter::Meter;
 use super::output::OutputDirectory;
-use super::{console, scenario_file, table};
+use super::{bands, console, scenario_file, table};
+use scree::jobs::campaign;
 use scree::jobs::progress::Progress;
-use scree::jobs::runner::{self, RunEnd, RunError, Sink, StopFlag};
+use scree::jobs::runner::{RunEnd, RunError, Sink, StopFlag};
 use scree::results::{TrajectoryColumns, trajectory_json};
 use scree_solver::record::{FlowSnapshot, Outcome, Record, Sample};
 use scree_solver::scenario::Scenario;
@@ -27,7 +28,7 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     let threads = threads(options, &scenario);
 
     let mut recording = Recording::new(Meter::bar_or_silence());
-    let ended = runner::run(&scenario, threads, &StopFlag::default(), &mut recording);
+    let ended = campaign::run(&scenario, threads, &StopFlag::default(), &mut recording);
     recording.meter.finish();
 
     if let Some(directory) = &mut directory {
@@ -47,6 +48,9 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
         return Ok(console::answer(&serde_json::to_string_pretty(&outcome)?)?);
     }
     let mut answer = table::outcome(&outcome);
+    if let Some(bands) = bands::bands(&outcome) {
+        answer = format!("{answer}\n{bands}");
+    }
     if let Some(directory) = &directory {
         answer = format!("{answer}\n\n{}", directory.summary());
     }

@@ -5,6 +5,7 @@
 //! 1: anything else (a full disk, a busy port).
 
 mod arguments;
+mod bands;
 mod bench;
 mod charts;
 mod columns;

@@ -165,6 +165,7 @@ mod tests {
             path_length_m: 0.5,
             final_position_m: [0.45, -1e-9, 0.02],
             final_orientation: [1.0, 0.0, 0.0, 0.0],
+            error_bars: None,
         }
     }
 

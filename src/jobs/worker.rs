@@ -1,9 +1,10 @@
 //! One worker: claims jobs, runs them, and says how they ended.
 
+use super::campaign;
 use super::failure::Failure;
 use super::pool::Equipment;
 use super::recording::{KeepError, StoreSink};
-use super::runner::{self, RunEnd, RunError, StopFlag};
+use super::runner::{RunEnd, RunError, StopFlag};
 use super::store::{Claim, Hold, StoreError};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
@@ -84,7 +85,7 @@ fn run(equipment: &Equipment, claim: &Claim, stop: &StopFlag) -> Verdict {
         claim.hold,
         equipment.flush_interval,
     );
-    let ended = runner::run(&scenario, threads, stop, &mut sink);
+    let ended = campaign::run(&scenario, threads, stop, &mut sink);
     // What was recorded is kept however the run ended.
     let ended = match (ended, sink.flush()) {
         (Ok(_), Err(error)) => Err(RunError::Sink(error)),

@@ -4,7 +4,8 @@ use scree_solver::record::{
     Audit, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, Mode, Outcome, Sample,
 };
 use scree_solver::scenario::{
-    Approach, Body, Channel, Ending, Flow, Material, Numerics, Position, Precision, Release,
+    Accuracy, Approach, Body, Channel, Ending, Flow, Material, Numerics, Position, Precision,
+    Release,
 };
 use scree_solver::scenario::{Scenario, Shape, Symmetry};
 
@@ -146,6 +147,13 @@ pub(super) fn scenario(bodies: Vec<Body>) -> Scenario {
             ending: Ending::Auto,
             threads: None,
         },
+        accuracy: Accuracy {
+            error_bars: false,
+            target: None,
+            quantity: None,
+            body: 0,
+            budget_point_steps: 2e10,
+        },
     }
 }
 
@@ -160,6 +168,7 @@ pub(super) fn slid() -> BodyOutcome {
         path_length_m: 0.4005,
         final_position_m: [0.44, 0.02, 0.02],
         final_orientation: [1.0, 0.0, 0.0, 0.0],
+        error_bars: None,
     }
 }
 
@@ -183,6 +192,7 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
             runout_m: None,
             mass_left_kg: 0.0,
             volume_left_out_m3: 0.0,
+            error_bars: None,
         },
         audit: Audit {
             mass_error: 0.0,
@@ -200,6 +210,7 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
             points: 0,
             steps: 0,
             substeps: 0,
+            point_steps: 0,
             wall_s: 0.0,
             point_steps_per_s: 0.0,
             threads: 1,
@@ -208,5 +219,6 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
         },
         ended_early: None,
         plan: None,
+        accuracy: None,
     }
 }

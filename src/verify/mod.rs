@@ -11,9 +11,11 @@ pub mod order;
 pub mod run;
 pub mod work;
 
+mod banded;
 mod beads;
 mod blocks;
 mod columns;
+mod drawn;
 mod paper;
 mod scenes;
 mod slope;

@@ -33,7 +33,9 @@ async fn the_service_serves_its_contract_and_keeps_to_it() {
     let written: Value = serde_json::from_str(&scree::http::openapi().to_json().unwrap()).unwrap();
     assert_eq!(contract.0, written);
 
-    let path = app.submit(&tiny_scene()).await;
+    let mut scene = tiny_scene();
+    scene["accuracy"] = serde_json::json!({"error_bars": true});
+    let path = app.submit(&scene).await;
     let mut job = app.wait_for_success(&path).await;
     // Only a failed job has one.
     job["problem"] = serde_json::json!({"type": "", "title": "", "detail": ""});

@@ -4,6 +4,7 @@
 
 mod app;
 mod bad_input;
+mod campaign;
 mod contract;
 mod dismissal;
 mod http_basics;

@@ -276,7 +276,10 @@ pub fn strain<S: Simd>(
 fn felt<S: Simd>(simd: S, gradient: &Matrix<S>, chunk: &Chunk) -> Matrix<S> {
     let [xx, yy, zz, xy, xz, yz] = loaded(simd, &chunk.shared);
     let mut felt = *gradient;
-    for (row, shared) in felt.iter_mut().zip([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) {
+    for (row, shared) in felt
+        .iter_mut()
+        .zip([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    {
         for (part, shared) in row.iter_mut().zip(shared) {
             *part += shared;
         }

@@ -2,12 +2,14 @@
 //! the outcome. Serialised, these are the JSON of the service. Definitions:
 //! docs/method.md, section 9.
 
+mod bars;
 mod outcome;
 mod recorder;
 mod rest;
 mod submergence;
 
 use crate::plan::Plan;
+pub use bars::{AccuracyReport, Band, Basis, BodyBars, FlowBars, Role, RunCost, TargetReport};
 pub use recorder::Recorder;
 pub use rest::EndedEarly;
 use serde::{Deserialize, Serialize};
@@ -113,6 +115,8 @@ pub struct BodyOutcome {
     pub final_position_m: [f64; 3],
     /// Orientation at the end [w, x, y, z].
     pub final_orientation: [f64; 4],
+    /// Bands of all but the orientation; `None` unless asked for.
+    pub error_bars: Option<BodyBars>,
 }
 
 /// Outcome of the flow.
@@ -127,6 +131,8 @@ pub struct FlowOutcome {
     pub mass_left_kg: f64,
     /// Volume of the release not placed because a body stands there [m³].
     pub volume_left_out_m3: f64,
+    /// Bands of all but the volume left out; `None` unless asked for.
+    pub error_bars: Option<FlowBars>,
 }
 
 /// Whether the run can be trusted.
@@ -168,6 +174,8 @@ pub struct Cost {
     pub steps: u64,
     /// Acoustic sub-steps.
     pub substeps: u64,
+    /// Sub-steps summed over the points that took part.
+    pub point_steps: u64,
     /// Wall time, measured by the caller [s].
     pub wall_s: f64,
     /// Sub-steps of one point, per second of wall time.
@@ -189,10 +197,12 @@ pub struct Outcome {
     pub flow: FlowOutcome,
     /// Whether to trust it.
     pub audit: Audit,
-    /// What it cost.
+    /// What it cost, runs behind bands apart.
     pub cost: Cost,
     /// That the run ended before its duration; null if it did not.
     pub ended_early: Option<EndedEarly>,
     /// What was computed, what was left out and why, as planned before the run.
     pub plan: Option<Plan>,
+    /// What the bands rest on; `None` unless asked for.
+    pub accuracy: Option<AccuracyReport>,
 }

@@ -84,6 +84,7 @@ impl BodyHistory {
             path_length_m: self.path_length,
             final_position_m: self.last.into(),
             final_orientation: self.orientation,
+            error_bars: None,
         }
     }
 }
@@ -104,6 +105,7 @@ pub(super) fn flow_outcome(
         runout_m: front.zip(initial_toe).map(|(front, toe)| front - toe),
         mass_left_kg: simulation.audit().mass_left(),
         volume_left_out_m3: simulation.volume_left_out_m3(),
+        error_bars: None,
     }
 }
 

@@ -186,6 +186,7 @@ impl Recorder {
                 points: simulation.released_points(),
                 steps,
                 substeps,
+                point_steps,
                 wall_s,
                 point_steps_per_s: if wall_s > 0.0 {
                     point_steps as f64 / wall_s
@@ -198,6 +199,7 @@ impl Recorder {
             },
             ended_early: self.ended_early.clone(),
             plan: self.plan.clone(),
+            accuracy: None,
         }
     }
 

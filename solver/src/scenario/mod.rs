@@ -3,6 +3,7 @@
 //! Every field with its meaning, unit, default and range is in
 //! `docs/scenario.md`.
 
+mod accuracy;
 mod agreement;
 mod body;
 mod fit;
@@ -19,6 +20,7 @@ mod sections;
 mod tests;
 
 pub use crate::shape::RegularSolid;
+pub use accuracy::{Accuracy, Quantity};
 pub use placement::{Pose, ReleaseBox, Support};
 pub use reduction::{Approach, Ending, Symmetry};
 
@@ -47,6 +49,8 @@ pub struct Scenario {
     pub flow_snapshots: u32,
     /// Numerical choices.
     pub numerics: Numerics,
+    /// How good the answer has to be.
+    pub accuracy: Accuracy,
 }
 
 /// Incline and floor between two side walls.

@@ -1,5 +1,9 @@
 //! From JSON to a validated scenario, all violations at once.
 
+use super::accuracy::{
+    bands_can_be_made, body_is_there, cells_are_chosen_once, read_accuracy,
+    target_is_about_something,
+};
 use super::agreement::{samples_are_bounded, stiffness_is_given_once};
 use super::body::read_bodies;
 use super::fit;
@@ -8,7 +12,7 @@ use super::reader::Object;
 use super::report::Report;
 use super::rules::{DURATION, FLOW_SNAPSHOTS, GRAVITY, SAMPLE_INTERVAL, VALUES};
 use super::sections::{read_channel, read_flow, read_numerics, read_title};
-use super::{Body, Channel, Flow, Numerics, Scenario, ScenarioError};
+use super::{Accuracy, Body, Channel, Flow, Numerics, Scenario, ScenarioError};
 use serde_json::Value;
 
 impl Scenario {
@@ -68,6 +72,7 @@ struct Draft {
     sample_interval_s: Option<f64>,
     flow_snapshots: Option<u32>,
     numerics: Option<Numerics>,
+    accuracy: Option<Accuracy>,
 }
 
 impl Draft {
@@ -82,6 +87,7 @@ impl Draft {
             sample_interval_s: object.number(&SAMPLE_INTERVAL),
             flow_snapshots: object.count(&FLOW_SNAPSHOTS),
             numerics: read_numerics(object),
+            accuracy: read_accuracy(object),
         };
         object.refuse_unknown();
         draft
@@ -97,6 +103,7 @@ impl Draft {
         if let (Some(flow), Some(numerics)) = (flow, &self.numerics) {
             stiffness_is_given_once(report, flow, numerics);
         }
+        self.check_accuracy(report);
         let Some(channel) = &self.channel else { return };
         if let Some(flow) = flow {
             fit::release_fits(report, channel, flow);
@@ -105,6 +112,22 @@ impl Draft {
             fit::cells_fit(report, channel, numerics);
         }
         fit::bodies_fit(report, channel, bodies);
+    }
+
+    fn check_accuracy(&self, report: &Report) {
+        let Some(accuracy) = &self.accuracy else {
+            return;
+        };
+        target_is_about_something(report, accuracy);
+        if let Some(flow) = &self.flow {
+            bands_can_be_made(report, accuracy, flow.as_ref());
+        }
+        if let Some(bodies) = &self.bodies {
+            body_is_there(report, accuracy, bodies.len());
+        }
+        if let Some(numerics) = &self.numerics {
+            cells_are_chosen_once(report, accuracy, numerics);
+        }
     }
 
     fn finish(self) -> Option<Scenario> {
@@ -118,6 +141,7 @@ impl Draft {
             sample_interval_s: self.sample_interval_s?,
             flow_snapshots: self.flow_snapshots?,
             numerics: self.numerics?,
+            accuracy: self.accuracy?,
         })
     }
 }

@@ -178,6 +178,22 @@ impl<'a> Object<'a> {
             }
             return default;
         };
+        self.chosen(node, key, choices)
+    }
+
+    /// One of a few words, or null (also if left out).
+    pub(super) fn choice_or_null<T: Copy>(
+        &self,
+        key: &'static str,
+        choices: &[(&str, T)],
+    ) -> Option<Option<T>> {
+        match self.member(key) {
+            None | Some(Node::Null) => Some(None),
+            Some(node) => self.chosen(node, key, choices).map(Some),
+        }
+    }
+
+    fn chosen<T: Copy>(&self, node: &Node, key: &str, choices: &[(&str, T)]) -> Option<T> {
         let allowed = choice_words(choices);
         let why = match node {
             Node::Text(text) => match choices.iter().find(|(word, _)| word == text) {

@@ -128,3 +128,7 @@ pub(super) const SOUND_SPEED: Rule = Rule::new("sound_speed_m_s", closed(0.1, 1e
 pub(super) const COURANT: Rule = Rule::new("courant", positive_up_to(0.9));
 pub(super) const FLOW_COURANT: Rule = Rule::new("flow_courant", positive_up_to(1.0));
 pub(super) const THREADS: Rule = Rule::new("threads", closed(1.0, 1024.0));
+
+pub(super) const TARGET: Rule = Rule::new("target", closed(1e-3, 1.0));
+pub(super) const TARGET_BODY: Rule = Rule::new("body", closed(0.0, 255.0)).default(0.0);
+pub(super) const BUDGET: Rule = Rule::new("budget_point_steps", closed(1e3, 1e15)).default(2e10);

@@ -132,6 +132,17 @@ impl Simulation {
         Outline::of(scenario).map(drop)
     }
 
+    /// Cell size [m] and √(K/ρ) [m/s] that a scenario is computed with, automatic
+    /// choices made; no sound without a flow.
+    ///
+    /// # Errors
+    /// Too many points for one run.
+    pub fn resolution(scenario: &Scenario) -> Result<(f64, Option<f64>), SetupError> {
+        let given = Outline::of(scenario)?.given;
+        let sound_speed_m_s = given.flow.map(|flow| flow.limits.sound_speed);
+        Ok((given.lattice.spacing.x, sound_speed_m_s))
+    }
+
     fn assemble(
         given: Setup,
         flow: Box<dyn Flow>,

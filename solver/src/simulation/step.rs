@@ -58,7 +58,9 @@ impl Simulation {
             },
         };
         let (state, laps) = (&mut self.state, &mut self.scratch.laps);
-        state.flow.transfer(&self.given, &state.bodies, &start, laps);
+        state
+            .flow
+            .transfer(&self.given, &state.bodies, &start, laps);
         Ok(StepInHand {
             pace,
             start: self.state.clock.time,

@@ -30,7 +30,7 @@ const LAYERS: [&[&str]; 8] = [
 ];
 
 /// Above the layers, in this order: they bring them together.
-const ON_TOP: [&str; 3] = ["simulation", "plan", "record"];
+const ON_TOP: [&str; 4] = ["simulation", "plan", "record", "accuracy"];
 
 fn rank(module: &str) -> Option<usize> {
     let on_top = || {

@@ -3,11 +3,13 @@
 //! can't describe themselves. A test holds these against what the solver reads
 //! and writes.
 
+mod accuracy;
 mod outcome;
 mod plan;
 mod results;
 mod scenario;
 
+pub use accuracy::*;
 pub use outcome::*;
 pub use plan::*;
 pub use results::*;

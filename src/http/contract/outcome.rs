@@ -1,6 +1,7 @@
 //! The outcome.
 
 use super::plan::PlanDocument;
+use super::{AccuracyReportDocument, BodyBarsDocument, FlowBarsDocument};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -14,7 +15,7 @@ pub struct OutcomeDocument {
     pub flow: FlowOutcomeDocument,
     /// Whether to trust it.
     pub audit: AuditDocument,
-    /// What it cost.
+    /// What it cost, runs behind bands apart.
     pub cost: CostDocument,
     /// That the run ended before its duration; null if it did not.
     #[schema(required = true)]
@@ -22,6 +23,9 @@ pub struct OutcomeDocument {
     /// What was computed and what was left out, as planned before the run.
     #[schema(required = true)]
     pub plan: Option<PlanDocument>,
+    /// What the bands rest on; null unless asked for.
+    #[schema(required = true)]
+    pub accuracy: Option<AccuracyReportDocument>,
 }
 
 /// That a run ended before its duration, and what the rest could have changed.
@@ -62,6 +66,9 @@ pub struct BodyOutcomeDocument {
     pub final_position_m: [f64; 3],
     /// Orientation at the end [w, x, y, z].
     pub final_orientation: [f64; 4],
+    /// Bands of all but the orientation; null unless asked for.
+    #[schema(required = true)]
+    pub error_bars: Option<BodyBarsDocument>,
 }
 
 /// Outcome of the flow.
@@ -78,6 +85,9 @@ pub struct FlowOutcomeDocument {
     pub mass_left_kg: f64,
     /// Volume of the release not placed because a body stands there [m³].
     pub volume_left_out_m3: f64,
+    /// Bands of all but the volume left out; null unless asked for.
+    #[schema(required = true)]
+    pub error_bars: Option<FlowBarsDocument>,
 }
 
 /// Whether the run can be trusted.
@@ -118,6 +128,8 @@ pub struct CostDocument {
     pub steps: u64,
     /// Acoustic sub-steps.
     pub substeps: u64,
+    /// Sub-steps summed over the points that took part.
+    pub point_steps: u64,
     /// Wall time [s].
     pub wall_s: f64,
     /// Sub-steps of one point, per second of wall time [1/s].

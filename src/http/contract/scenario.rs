@@ -1,5 +1,6 @@
 //! The scenario.
 
+use super::AccuracyDocument;
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -34,6 +35,9 @@ pub struct ScenarioDocument {
     /// Numerical choices.
     #[schema(required = false)]
     pub numerics: NumericsDocument,
+    /// How good the answer has to be.
+    #[schema(required = false)]
+    pub accuracy: AccuracyDocument,
 }
 
 /// Incline and floor between two side walls. x downstream, 0 at the foot of the

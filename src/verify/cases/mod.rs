@@ -8,6 +8,7 @@ mod cubes_and_column;
 mod dam_break;
 mod dust_stream;
 mod elastic_bar;
+mod error_bars;
 mod feature_contacts;
 mod free_fall;
 mod hertz;
@@ -53,4 +54,5 @@ pub const ALL: &[Case] = &[
     sphere_into_bed::CASE,
     source_paper::CASE,
     cubes_and_column::CASE,
+    error_bars::CASE,
 ];

@@ -145,6 +145,74 @@ fn one_stiffness_is_enough() {
 }
 
 #[test]
+fn what_accuracy_asks_for_has_to_make_sense() {
+    let goal = |quantity: &str| json!({"target": 0.05, "quantity": quantity});
+    check(&[
+        (
+            "a target of nothing",
+            "/accuracy",
+            json!({"target": 0.05}),
+            "/accuracy/quantity",
+            "\"onset_time_s\" or",
+        ),
+        (
+            "a quantity without a target",
+            "/accuracy",
+            json!({"quantity": "front_m"}),
+            "/accuracy/quantity",
+            "null without accuracy.target",
+        ),
+        (
+            "a target beyond a body's reach",
+            "/accuracy",
+            json!({"target": 0.0, "quantity": "front_m"}),
+            "/accuracy/target",
+            "0.001 <= x <= 1",
+        ),
+        (
+            "the second of one body",
+            "/accuracy",
+            json!({"target": 0.05, "quantity": "stop_time_s", "body": 1}),
+            "/accuracy/body",
+            "0 <= x <= 0, whole",
+        ),
+        (
+            "bars of a word",
+            "/accuracy/error_bars",
+            json!("yes"),
+            "/accuracy/error_bars",
+            "true or false",
+        ),
+    ]);
+    let mut scenario = with("/accuracy", goal("displacement_m"));
+    set(&mut scenario, "/numerics/cell_size_m", json!(0.01));
+    assert_eq!(refused(&scenario)[0].pointer, "/numerics/cell_size_m");
+    let mut scenario = with("/accuracy", goal("displacement_m"));
+    set(&mut scenario, "/bodies", json!([]));
+    assert_eq!(refused(&scenario)[0].pointer, "/accuracy/body");
+    set(&mut scenario, "/accuracy/quantity", json!("front_m"));
+    accepted(&scenario);
+}
+
+#[test]
+fn bands_need_a_flow() {
+    for (accuracy, blamed) in [
+        (json!({"error_bars": true}), "/accuracy/error_bars"),
+        (
+            json!({"target": 0.05, "quantity": "displacement_m"}),
+            "/accuracy/target",
+        ),
+    ] {
+        for flow in [json!(null), json!({"volume_m3": 0})] {
+            let mut scenario = with("/accuracy", accuracy.clone());
+            set(&mut scenario, "/flow", flow);
+            let found = refused(&scenario);
+            assert_eq!((found.len(), found[0].pointer.as_str()), (1, blamed));
+        }
+    }
+}
+
+#[test]
 fn trajectories_are_bounded() {
     let mut scenario = with("/duration_s", json!(60));
     set(&mut scenario, "/sample_interval_s", json!(0.0001));

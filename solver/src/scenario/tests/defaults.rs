@@ -1,6 +1,7 @@
 //! Defaults, and what is legal at the edges.
 
 use super::{accepted, minimal, set, with};
+use crate::scenario::accuracy::QUANTITIES;
 use crate::scenario::{Precision, Scenario};
 use serde_json::{Value, json};
 
@@ -26,7 +27,9 @@ fn the_minimal_scenario_has_the_documented_defaults() {
         "gravity_m_s2": 9.81, "duration_s": 3.0, "sample_interval_s": 0.01, "flow_snapshots": 6,
         "numerics": {"cell_size_m": null, "points_per_cell": 8, "sound_speed_m_s": null,
                      "courant": null, "flow_courant": null, "precision": "single",
-                     "symmetry": "auto", "approach": "auto", "ending": "auto", "threads": null}
+                     "symmetry": "auto", "approach": "auto", "ending": "auto", "threads": null},
+        "accuracy": {"error_bars": false, "target": null, "quantity": null, "body": 0,
+                     "budget_point_steps": 2e10}
     });
     let filled = serde_json::to_value(accepted(&minimal())).unwrap();
     assert_eq!(filled, expected);
@@ -50,6 +53,19 @@ fn precision_is_read_and_written_by_its_word() {
     }
     let unsaid = accepted(&minimal()).numerics.precision;
     assert_eq!(unsaid, Precision::Single);
+}
+
+#[test]
+fn quantities_are_read_and_written_by_their_keys() {
+    for (word, quantity) in QUANTITIES {
+        let accuracy = json!({"target": 0.05, "quantity": word});
+        let scenario = accepted(&with("/accuracy", accuracy));
+        assert_eq!(scenario.accuracy.goal(), Some((0.05, quantity)));
+        assert_eq!(quantity.key(), word);
+        let text = scenario.to_json();
+        assert!(text.contains(&format!(r#""quantity":"{word}""#)), "{text}");
+        assert_eq!(Scenario::from_json(&text), Ok(scenario));
+    }
 }
 
 #[test]
@@ -125,6 +141,11 @@ fn hard_cases_are_legal() {
         ("/numerics/precision", json!("double")),
         ("/numerics/threads", json!(3)),
         ("/numerics/flow_courant", json!(1)),
+        (
+            "/accuracy",
+            json!({"error_bars": true, "target": null, "quantity": null}),
+        ),
+        ("/accuracy", json!({"target": 1, "quantity": "runout_m"})),
         ("/title", json!("Größe ✓")),
     ];
     for (pointer, value) in edges {

@@ -1,6 +1,7 @@
 //! `docs/scenario.md` says what the code does.
 
 use super::{accepted, minimal, with};
+use crate::scenario::accuracy::QUANTITIES;
 use crate::scenario::body::REGULAR_SOLIDS;
 use crate::scenario::range::Rule;
 use crate::scenario::reader::choice_words;
@@ -11,7 +12,7 @@ use serde_json::Value;
 const DOCUMENT: &str = include_str!("../../../../docs/scenario.md");
 
 /// Every rule and the object it is read from.
-const RULES: [(&str, &[Rule]); 8] = [
+const RULES: [(&str, &[Rule]); 9] = [
     ("", &[GRAVITY, DURATION, SAMPLE_INTERVAL, FLOW_SNAPSHOTS]),
     (
         "channel.",
@@ -68,6 +69,7 @@ const RULES: [(&str, &[Rule]); 8] = [
             THREADS,
         ],
     ),
+    ("accuracy.", &[TARGET, TARGET_BODY, BUDGET]),
 ];
 
 /// Cells of the document's row about a field.
@@ -167,6 +169,9 @@ fn words_are_those_of_the_code() {
     let [_, _, unit, _, allowed] = row("bodies[].shape.regular.solid");
     assert_eq!(unit, "–");
     assert_eq!(allowed.replace('`', ""), choice_words(&REGULAR_SOLIDS));
+    let [_, _, unit, _, allowed] = row("accuracy.quantity");
+    assert_eq!(unit, "–");
+    assert_eq!(allowed.replace('`', ""), choice_words(&QUANTITIES));
 }
 
 #[test]

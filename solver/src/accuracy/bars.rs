@@ -1,0 +1,104 @@
+//! Bands of everything in an outcome, from the outcomes of its companions.
+
+use super::series::{Kind, Series};
+use crate::record::{Band, BodyBars, BodyOutcome, FlowBars, Outcome};
+use crate::scenario::Quantity;
+
+/// The outcomes a band is made of.
+#[derive(Debug)]
+pub(super) struct Runs<'a> {
+    /// What the bands are about.
+    pub(super) answer: &'a Outcome,
+    /// With larger cells, finer ones first.
+    pub(super) coarser: Vec<&'a Outcome>,
+    /// With a softer material, and the one among the coarser of the same cells.
+    pub(super) softer: Option<[&'a Outcome; 2]>,
+}
+
+impl Runs<'_> {
+    /// Bands of a body's quantities.
+    pub(super) fn body(&self, index: usize) -> BodyBars {
+        let band = |kind: Kind, of: fn(&BodyOutcome) -> Option<f64>| {
+            self.band(kind, |outcome| of(&outcome.bodies[index]))
+        };
+        let place = |axis: usize| {
+            self.band(Kind::Place, |outcome| {
+                Some(outcome.bodies[index].final_position_m[axis])
+            })
+        };
+        BodyBars {
+            onset_time_s: band(Kind::Amount, |body| body.onset_time_s),
+            peak_speed_m_s: band(Kind::Amount, |body| Some(body.peak_speed_m_s)),
+            peak_speed_time_s: band(Kind::Amount, |body| body.peak_speed_time_s),
+            stop_time_s: band(Kind::Amount, |body| body.stop_time_s),
+            displacement_m: band(Kind::Length, |body| Some(body.displacement_m)),
+            path_length_m: band(Kind::Length, |body| Some(body.path_length_m)),
+            final_position_m: [0, 1, 2].map(place),
+        }
+    }
+
+    /// Bands of the flow's quantities.
+    pub(super) fn flow(&self) -> FlowBars {
+        FlowBars {
+            front_m: self.band(Kind::Place, |outcome| outcome.flow.front_m),
+            runout_m: self.band(Kind::Place, |outcome| outcome.flow.runout_m),
+            mass_left_kg: self.band(Kind::Amount, |outcome| Some(outcome.flow.mass_left_kg)),
+        }
+    }
+
+    fn band(&self, kind: Kind, of: impl Fn(&Outcome) -> Option<f64>) -> Band {
+        let place = |outcome: &Outcome| (outcome.cost.cell_size_m, of(outcome));
+        let mut places = vec![place(self.answer)];
+        places.extend(self.coarser.iter().map(|outcome| place(outcome)));
+        let softer = self.softer.map(|pair| pair.map(&of));
+        Series {
+            kind,
+            places,
+            softer,
+        }
+        .band()
+    }
+}
+
+/// The band of a quantity in an outcome that has bands.
+pub(super) fn band_of(outcome: &Outcome, quantity: Quantity, body: u32) -> Option<Band> {
+    if !quantity.is_of_a_body() {
+        let bars = outcome.flow.error_bars.as_ref()?;
+        return Some(match quantity {
+            Quantity::Front => bars.front_m,
+            _ => bars.runout_m,
+        });
+    }
+    let bars = outcome.bodies.get(body as usize)?.error_bars.as_ref()?;
+    Some(match quantity {
+        Quantity::Onset => bars.onset_time_s,
+        Quantity::PeakSpeed => bars.peak_speed_m_s,
+        Quantity::PeakTime => bars.peak_speed_time_s,
+        Quantity::Stop => bars.stop_time_s,
+        Quantity::PathLength => bars.path_length_m,
+        _ => bars.displacement_m,
+    })
+}
+
+/// A quantity of an outcome; `None` if it did not happen.
+pub(super) fn value_of(outcome: &Outcome, quantity: Quantity, body: u32) -> Option<f64> {
+    let of_body = outcome.bodies.get(body as usize);
+    match quantity {
+        Quantity::Front => outcome.flow.front_m,
+        Quantity::Runout => outcome.flow.runout_m,
+        Quantity::Onset => of_body?.onset_time_s,
+        Quantity::PeakSpeed => Some(of_body?.peak_speed_m_s),
+        Quantity::PeakTime => of_body?.peak_speed_time_s,
+        Quantity::Stop => of_body?.stop_time_s,
+        Quantity::Displacement => Some(of_body?.displacement_m),
+        Quantity::PathLength => Some(of_body?.path_length_m),
+    }
+}
+
+/// Half the width of a band over its value; `None` if an end is open or the value
+/// is 0.
+pub(super) fn relative(band: &Band) -> Option<f64> {
+    let width = band.high? - band.low?;
+    let value = band.value.filter(|value| *value != 0.0)?;
+    Some(0.5 * width / value.abs())
+}

@@ -1,0 +1,257 @@
+//! The runs that an answer needs, one after the other, and the answer they make.
+
+use super::bars::{Runs, band_of, relative, value_of};
+use super::companions::{Extent, Rung, SOFTER, companions, scenario_of};
+use super::target::{self, Next, Progress};
+use crate::error::SetupError;
+use crate::record::{AccuracyReport, Outcome, Role, RunCost, TargetReport};
+use crate::scenario::Scenario;
+use std::collections::VecDeque;
+
+/// Everything to be computed for one scenario: the answer alone, or companions
+/// before it, or as many runs as a target takes. Whoever runs it takes the
+/// [`next`](Self::next) run, computes [its scenario](Self::scenario_of) and hands in
+/// what came [out](Self::take), until there is no next.
+#[derive(Debug)]
+pub struct Campaign {
+    given: Scenario,
+    extent: Extent,
+    to_do: VecDeque<Rung>,
+    done: Vec<Done>,
+    /// Why a target won't be met; `None` while it may.
+    given_up: Option<String>,
+}
+
+#[derive(Debug)]
+struct Done {
+    rung: Rung,
+    outcome: Result<Outcome, String>,
+}
+
+impl Done {
+    /// A run that may be an answer or a companion of one.
+    fn grid(&self) -> Option<&Outcome> {
+        let counts = self.rung.role != Role::Softer;
+        self.outcome.as_ref().ok().filter(|_| counts)
+    }
+}
+
+impl Campaign {
+    /// What a scenario asks for.
+    ///
+    /// # Errors
+    /// Too many points for one run.
+    pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
+        let extent = Extent::of(scenario)?;
+        let accuracy = &scenario.accuracy;
+        let plain = Rung {
+            role: Role::Answer,
+            cell_size_m: extent.cell_size_m,
+        };
+        let to_do = match (accuracy.target, accuracy.error_bars) {
+            (Some(_), _) => target::pilots(&extent),
+            (None, true) => [companions(&extent), vec![plain]].concat(),
+            (None, false) => vec![plain],
+        };
+        Ok(Self {
+            given: scenario.clone(),
+            extent,
+            to_do: to_do.into(),
+            done: Vec::new(),
+            given_up: None,
+        })
+    }
+
+    /// The run to be made now; `None` if all are done.
+    pub fn next(&self) -> Option<Rung> {
+        self.to_do.front().copied()
+    }
+
+    /// The scenario of a run. That of an answer whose cells are not chosen here is
+    /// the one given, word for word, so its answer has the same bits.
+    pub fn scenario_of(&self, rung: Rung) -> Scenario {
+        scenario_of(&self.given, &self.extent, rung)
+    }
+
+    /// Whether a target chooses the cells.
+    pub fn has_a_target(&self) -> bool {
+        self.given.accuracy.target.is_some()
+    }
+
+    /// Whether a run's records may be those of the answer.
+    pub fn may_be_the_answer(&self, rung: Rung) -> bool {
+        match rung.role {
+            Role::Answer => true,
+            Role::Coarser => self.has_a_target(),
+            Role::Softer => false,
+        }
+    }
+
+    /// Whether there may be an answer without this run.
+    pub fn can_do_without(&self, rung: Rung) -> bool {
+        self.has_a_target() || rung.role != Role::Answer
+    }
+
+    /// Takes what came of the run in hand; a companion that could not be computed is
+    /// left out of the bands.
+    pub fn take(&mut self, outcome: Result<Outcome, String>) {
+        let Some(rung) = self.to_do.pop_front() else {
+            return;
+        };
+        self.done.push(Done { rung, outcome });
+        if self.to_do.is_empty() && self.has_a_target() {
+            self.go_on();
+        }
+    }
+
+    /// Share of the work that is done when this share of the run in hand is.
+    pub fn share_done(&self, of_this_run: f64) -> f64 {
+        let cost = |rung: &Rung| rung.cost_over(self.extent.cell_size_m);
+        let before: f64 = self.done.iter().map(|done| cost(&done.rung)).sum();
+        let ahead: f64 = self.to_do.iter().map(cost).sum();
+        let now = self.to_do.front().map_or(0.0, cost);
+        (before + now * of_this_run) / (before + ahead)
+    }
+
+    /// The answer with its bands; `None` if no run was one.
+    pub fn finish(self) -> Option<Outcome> {
+        let mut answer = self.banded()?;
+        if self.given.accuracy.is_asked_for() {
+            answer.accuracy = Some(self.report(&answer));
+        }
+        Some(answer)
+    }
+
+    /// The finest outcome so far, with bands if they are asked for.
+    fn banded(&self) -> Option<Outcome> {
+        let mut grids: Vec<&Outcome> = self.done.iter().filter_map(Done::grid).collect();
+        grids.sort_by(|a, b| a.cost.cell_size_m.total_cmp(&b.cost.cell_size_m));
+        let (answer, coarser) = grids.split_first()?;
+        let mut banded = (*answer).clone();
+        if self.given.accuracy.is_asked_for() {
+            let runs = Runs {
+                answer,
+                coarser: coarser.to_vec(),
+                softer: self.softer(),
+            };
+            for (index, body) in banded.bodies.iter_mut().enumerate() {
+                body.error_bars = Some(runs.body(index));
+            }
+            banded.flow.error_bars = Some(runs.flow());
+        }
+        Some(banded)
+    }
+
+    /// The softer run and the one it is to be compared with.
+    fn softer(&self) -> Option<[&Outcome; 2]> {
+        let is_softer = |done: &&Done| done.rung.role == Role::Softer;
+        let softer = self.done.iter().find(is_softer)?;
+        let beside = self.done.iter().find(|done| {
+            done.rung.role != Role::Softer && done.rung.cell_size_m == softer.rung.cell_size_m
+        })?;
+        Some([softer.outcome.as_ref().ok()?, beside.outcome.as_ref().ok()?])
+    }
+
+    /// What half the sound speed changes of the quantity that a target is about, over
+    /// its value.
+    fn softness(&self, answer: &Outcome) -> f64 {
+        let accuracy = &self.given.accuracy;
+        let share = || {
+            let (_, quantity) = accuracy.goal()?;
+            let value = |outcome: &Outcome| value_of(outcome, quantity, accuracy.body);
+            let [softer, beside] = self.softer()?.map(value);
+            Some(((softer? - beside?) / value(answer)?).abs())
+        };
+        share().filter(|share| share.is_finite()).unwrap_or(0.0)
+    }
+
+    fn report(&self, answer: &Outcome) -> AccuracyReport {
+        let point_steps = |done: &Done| done.outcome.as_ref().map_or(0, |o| o.cost.point_steps);
+        let all: u64 = self.done.iter().map(point_steps).sum();
+        let own = answer.cost.point_steps;
+        AccuracyReport {
+            runs: self
+                .done
+                .iter()
+                .map(|done| self.cost_of(done, answer))
+                .collect(),
+            extra_cost: (all - own) as f64 / own.max(1) as f64,
+            target: self.verdict(answer),
+        }
+    }
+
+    fn cost_of(&self, done: &Done, answer: &Outcome) -> RunCost {
+        let Rung { role, cell_size_m } = done.rung;
+        let is_answer = done
+            .grid()
+            .is_some_and(|grid| grid.cost.cell_size_m == answer.cost.cell_size_m);
+        let softer = role == Role::Softer;
+        let cost = done.outcome.as_ref().ok().map(|outcome| &outcome.cost);
+        RunCost {
+            role: match (softer, is_answer) {
+                (true, _) => Role::Softer,
+                (false, true) => Role::Answer,
+                (false, false) => Role::Coarser,
+            },
+            cell_size_m,
+            cells_per_body: self.extent.cells_per_body(cell_size_m),
+            sound_speed_m_s: self.extent.sound_speed_m_s * if softer { SOFTER } else { 1.0 },
+            point_steps: cost.map(|cost| cost.point_steps),
+            wall_s: cost.map(|cost| cost.wall_s),
+            failure: done.outcome.as_ref().err().cloned(),
+        }
+    }
+
+    fn verdict(&self, answer: &Outcome) -> Option<TargetReport> {
+        let accuracy = &self.given.accuracy;
+        let (asked, quantity) = accuracy.goal()?;
+        let band = band_of(answer, quantity, accuracy.body);
+        let reached = band.as_ref().and_then(relative);
+        let met = reached.is_some_and(|reached| reached <= asked);
+        Some(TargetReport {
+            quantity,
+            body: quantity.is_of_a_body().then_some(accuracy.body),
+            asked,
+            reached,
+            met,
+            reason: self.given_up.clone().filter(|_| !met),
+        })
+    }
+
+    /// Decides whether a finer run has to follow.
+    fn go_on(&mut self) {
+        let Some(answer) = self.banded() else {
+            self.given_up = Some("no run could be computed".to_owned());
+            return;
+        };
+        let accuracy = &self.given.accuracy;
+        let Some((asked, quantity)) = accuracy.goal() else {
+            return;
+        };
+        let failed = self
+            .done
+            .last()
+            .and_then(|last| last.outcome.as_ref().err());
+        let spent = |done: &Done| done.outcome.as_ref().map_or(0, |o| o.cost.point_steps);
+        let progress = Progress {
+            asked,
+            band: band_of(&answer, quantity, accuracy.body),
+            softness: self.softness(&answer),
+            cell_size_m: answer.cost.cell_size_m,
+            cost: answer.cost.point_steps as f64,
+            left: accuracy.budget_point_steps - self.done.iter().map(spent).sum::<u64>() as f64,
+            failed: failed.cloned(),
+        };
+        match target::next(&progress, &self.given) {
+            Next::Met => {}
+            Next::Finer(cell_size_m) => self.to_do.push_back(Rung {
+                role: Role::Answer,
+                cell_size_m,
+            }),
+            Next::GiveUp(reason) => self.given_up = Some(reason),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

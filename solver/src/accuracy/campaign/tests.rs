@@ -1,0 +1,222 @@
+//! Campaigns with outcomes made up, so that what should come of them is known.
+
+use super::*;
+use crate::record::Basis;
+use serde_json::{Value, json};
+
+/// A cube of 40 mm, cells of 10 mm, with this in its accuracy.
+fn scenario(accuracy: &Value) -> Scenario {
+    let mut document = json!({
+        "channel": {"inclination_deg": 40, "incline_length_m": 1, "runout_length_m": 2},
+        "flow": {"volume_m3": 0.004},
+        "bodies": [{"shape": {"cube": {"side_m": 0.04}}}],
+        "accuracy": accuracy
+    });
+    if accuracy["target"].is_null() {
+        document["numerics"] = json!({"cell_size_m": 0.01});
+    }
+    Scenario::from_value(&document).unwrap()
+}
+
+/// What a run of such cells comes to: a displacement of this many metres.
+fn outcome(scenario: &Scenario, displacement_m: f64) -> Outcome {
+    let cell_size_m = scenario.numerics.cell_size_m.unwrap();
+    let document = json!({
+        "bodies": [{"onset_time_s": 0.2, "peak_speed_m_s": 1.0, "peak_speed_time_s": 0.3,
+                    "stop_time_s": null, "displacement_m": displacement_m,
+                    "path_length_m": displacement_m, "final_position_m": [0.4, 0.0, 0.02],
+                    "final_orientation": [1.0, 0.0, 0.0, 0.0], "error_bars": null}],
+        "flow": {"front_m": 1.0, "runout_m": 1.0, "mass_left_kg": 0.0,
+                 "volume_left_out_m3": 0.0, "error_bars": null},
+        "audit": {"mass_error": 0.0, "momentum_residual": 0.0, "angular_momentum_residual": 0.0,
+                  "angular_momentum_spread": 0.0, "energy_residual": 0.0,
+                  "max_overlap_ratio": 0.0, "max_body_overlap_ratio": 0.0,
+                  "points_put_back": 0, "points_left": 0, "points_lost": 0},
+        "cost": {"points": 1, "steps": 1, "substeps": 1, "wall_s": 1.0, "point_steps_per_s": 1.0,
+                 "point_steps": (1e9 * (0.01 / cell_size_m).powi(4)) as u64, "threads": 1,
+                 "cell_size_m": cell_size_m, "sound_speed_m_s": 20.0},
+        "accuracy": null
+    });
+    serde_json::from_value(document).unwrap()
+}
+
+/// Goes through a campaign whose displacement follows the cell size like this.
+fn carried_out(accuracy: &Value, displacement_m: fn(f64) -> f64) -> Outcome {
+    let mut campaign = Campaign::of(&scenario(accuracy)).unwrap();
+    let mut runs = 0;
+    while let Some(rung) = campaign.next() {
+        let scenario = campaign.scenario_of(rung);
+        campaign.take(Ok(outcome(&scenario, displacement_m(rung.cell_size_m))));
+        runs += 1;
+        assert!(runs < 20, "it ends");
+    }
+    campaign.finish().unwrap()
+}
+
+fn linear(cell_size_m: f64) -> f64 {
+    0.4 + 4.0 * cell_size_m
+}
+
+#[test]
+fn a_plain_answer_is_one_run_of_the_scenario_as_it_stands() {
+    let given = scenario(&json!({}));
+    let campaign = Campaign::of(&given).unwrap();
+    let rung = campaign.next().unwrap();
+    assert_eq!(campaign.scenario_of(rung), given);
+    assert!(campaign.may_be_the_answer(rung) && !campaign.can_do_without(rung));
+    assert_eq!(campaign.share_done(0.3), 0.3);
+    let answer = carried_out(&json!({}), linear);
+    assert_eq!(answer, outcome(&given, linear(0.01)));
+}
+
+#[test]
+fn companions_are_coarser_and_cost_a_third_at_most() {
+    let given = scenario(&json!({"error_bars": true}));
+    let mut campaign = Campaign::of(&given).unwrap();
+    let (mut roles, mut shares) = (Vec::new(), vec![0.0]);
+    while let Some(rung) = campaign.next() {
+        let scenario = campaign.scenario_of(rung);
+        let sound_speed = scenario.numerics.sound_speed_m_s;
+        match rung.role {
+            Role::Answer => assert_eq!(scenario, given),
+            role => {
+                assert!(rung.cell_size_m > 0.0149, "{rung:?}");
+                assert_eq!(scenario.flow_snapshots, 0);
+                assert!(!scenario.accuracy.is_asked_for());
+                assert_eq!(sound_speed.is_some(), role == Role::Softer);
+            }
+        }
+        roles.push(rung.role);
+        shares.extend([campaign.share_done(0.5), campaign.share_done(1.0)]);
+        campaign.take(Ok(outcome(&scenario, linear(rung.cell_size_m))));
+    }
+    assert_eq!(roles.last(), Some(&Role::Answer));
+    assert!(roles.contains(&Role::Softer));
+    assert!(
+        shares.is_sorted() && shares.last() == Some(&1.0),
+        "{shares:?}"
+    );
+    let report = campaign.finish().unwrap().accuracy.unwrap();
+    assert!(report.extra_cost < 0.35, "{report:?}");
+    assert_eq!(report.runs.len(), roles.len());
+    let cells = report.runs.last().unwrap().cells_per_body.unwrap();
+    assert!((cells - 4.0).abs() < 1e-9, "{cells}");
+}
+
+#[test]
+fn the_answer_keeps_its_values_and_gets_bands_round_them() {
+    let answer = carried_out(&json!({"error_bars": true}), linear);
+    let body = &answer.bodies[0];
+    let bars = body.error_bars.as_ref().unwrap();
+    assert_eq!(bars.displacement_m.value, Some(body.displacement_m));
+    assert_eq!(body.displacement_m, linear(0.01));
+    assert_eq!(bars.displacement_m.basis, Basis::Converging);
+    assert!(bars.displacement_m.low.unwrap() <= linear(0.0));
+    assert_eq!(bars.stop_time_s.basis, Basis::NeverHappened);
+    assert_eq!(bars.final_position_m[2].value, Some(0.02));
+    assert!(answer.flow.error_bars.is_some());
+}
+
+#[test]
+fn a_stiffness_that_is_given_is_not_varied() {
+    let mut given = scenario(&json!({"error_bars": true}));
+    given.flow.as_mut().unwrap().material.youngs_modulus_pa = Some(1e6);
+    let campaign = Campaign::of(&given).unwrap();
+    assert!(campaign.to_do.iter().all(|rung| rung.role != Role::Softer));
+}
+
+#[test]
+fn cells_much_larger_than_a_body_are_not_run() {
+    let mut given = scenario(&json!({"error_bars": true}));
+    // 1.33 cells across the cube, and 0.67 twice as coarse.
+    given.numerics.cell_size_m = Some(0.03);
+    let campaign = Campaign::of(&given).unwrap();
+    let sizes: Vec<f64> = campaign.to_do.iter().map(|rung| rung.cell_size_m).collect();
+    assert!(sizes.iter().all(|size| *size <= 0.04 / 0.75), "{sizes:?}");
+    assert!(sizes.len() >= 2, "an answer is never alone: {sizes:?}");
+}
+
+#[test]
+fn a_companion_that_fails_is_left_out_and_named() {
+    let given = scenario(&json!({"error_bars": true}));
+    let mut campaign = Campaign::of(&given).unwrap();
+    let first = campaign.next().unwrap();
+    assert!(campaign.can_do_without(first));
+    campaign.take(Err("it blew up".to_owned()));
+    while let Some(rung) = campaign.next() {
+        let scenario = campaign.scenario_of(rung);
+        campaign.take(Ok(outcome(&scenario, linear(rung.cell_size_m))));
+    }
+    let report = campaign.finish().unwrap().accuracy.unwrap();
+    assert_eq!(report.runs[0].failure.as_deref(), Some("it blew up"));
+    assert_eq!(
+        (report.runs[0].point_steps, report.runs[0].wall_s),
+        (None, None)
+    );
+}
+
+#[test]
+fn a_target_is_met_by_cells_no_finer_than_it_takes() {
+    let reach = |target: f64| {
+        let answer = carried_out(
+            &json!({"target": target, "quantity": "displacement_m"}),
+            linear,
+        );
+        let report = answer.accuracy.clone().unwrap();
+        let verdict = report.target.unwrap();
+        assert!(verdict.met && verdict.reason.is_none(), "{verdict:?}");
+        assert!(verdict.reached.unwrap() <= target, "{verdict:?}");
+        // The value without cells is within the target, too.
+        assert!((answer.bodies[0].displacement_m - 0.4).abs() <= target * 0.45);
+        assert_eq!(verdict.body, Some(0));
+        answer.cost.cell_size_m
+    };
+    let (rough, fine) = (reach(0.5), reach(0.1));
+    assert!(fine < 0.5 * rough, "{fine} {rough}");
+    assert!(fine > 0.003, "{fine}");
+}
+
+#[test]
+fn a_target_beyond_the_budget_says_so_and_answers_all_the_same() {
+    let accuracy = json!({"target": 0.01, "quantity": "displacement_m",
+                          "budget_point_steps": 3e9});
+    let answer = carried_out(&accuracy, linear);
+    let report = answer.accuracy.as_ref().unwrap();
+    let spent: u64 = report.runs.iter().filter_map(|run| run.point_steps).sum();
+    assert!(spent as f64 <= 3e9 && spent > 1_000_000_000, "{spent}");
+    let verdict = report.target.as_ref().unwrap();
+    assert!(!verdict.met && verdict.reached > Some(0.01));
+    let reason = verdict.reason.as_ref().unwrap();
+    assert!(reason.contains("budget_point_steps"), "{reason}");
+    assert_eq!(report.runs.last().unwrap().role, Role::Answer);
+}
+
+#[test]
+fn a_target_about_what_never_happens_is_given_up() {
+    let accuracy = json!({"target": 0.05, "quantity": "stop_time_s"});
+    let verdict = carried_out(&accuracy, linear)
+        .accuracy
+        .unwrap()
+        .target
+        .unwrap();
+    assert!(!verdict.met);
+    assert!(verdict.reason.unwrap().contains("did not happen"));
+}
+
+#[test]
+fn softness_beyond_the_target_is_not_met_by_finer_cells() {
+    let accuracy = json!({"target": 0.05, "quantity": "displacement_m"});
+    let mut campaign = Campaign::of(&scenario(&accuracy)).unwrap();
+    let mut runs = 0;
+    while let Some(rung) = campaign.next() {
+        let softer = if rung.role == Role::Softer { 0.1 } else { 0.0 };
+        let scenario = campaign.scenario_of(rung);
+        campaign.take(Ok(outcome(&scenario, linear(rung.cell_size_m) + softer)));
+        runs += 1;
+    }
+    assert!(runs < 6, "{runs} runs");
+    let verdict = campaign.finish().unwrap().accuracy.unwrap().target.unwrap();
+    assert!(!verdict.met);
+    let reason = verdict.reason.unwrap();
+    assert!(reason.contains("sound_speed_m_s"), "{reason}");
+}

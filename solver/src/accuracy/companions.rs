@@ -1,0 +1,142 @@
+//! Which runs stand behind a band (docs/method.md, section 13).
+
+use crate::error::SetupError;
+use crate::record::Role;
+use crate::scenario::{Accuracy, Scenario};
+use crate::simulation::Simulation;
+
+/// Cell sizes of the companions over the answer's, largest first: with the softer run
+/// together 0.23 of the answer's cost. Close together, because what has to be seen is
+/// how much values scatter, not only how they tend.
+const FACTORS: [f64; 3] = [2.5, 2.0, 1.75];
+/// Which of them is also run with a softer material.
+const SOFTER_AT: f64 = 2.0;
+/// Sound speed of the softer run over the answer's: it costs half as much.
+pub(super) const SOFTER: f64 = 0.5;
+/// Cells across the thinnest body, at least.
+const FEWEST_PER_BODY: f64 = 0.75;
+/// Cells across the release, at least.
+const FEWEST_PER_RELEASE: f64 = 1.0;
+
+/// A run to be made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rung {
+    /// What it is for.
+    pub role: Role,
+    /// Cell size [m].
+    pub cell_size_m: f64,
+}
+
+impl Rung {
+    /// Expected point-steps over those of another cell size: points go with the
+    /// inverse cube of the cells, sub-steps with the inverse, and with the speed of
+    /// sound.
+    pub(super) fn cost_over(&self, cell_size_m: f64) -> f64 {
+        let softer = match self.role {
+            Role::Softer => SOFTER,
+            Role::Coarser | Role::Answer => 1.0,
+        };
+        softer * (cell_size_m / self.cell_size_m).powi(4)
+    }
+}
+
+/// What of a scene bounds its cells, and what they are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Extent {
+    /// Least width of the thinnest body [m]; `None` without bodies.
+    pub(super) thinnest_m: Option<f64>,
+    /// Thickness of the release, or 0 without a flow [m].
+    pub(super) release_m: f64,
+    /// Width of the channel [m].
+    pub(super) width_m: f64,
+    /// Cells of the plain answer [m].
+    pub(super) cell_size_m: f64,
+    /// √(K/ρ) of the plain answer [m/s], or 0 without a flow.
+    pub(super) sound_speed_m_s: f64,
+    /// Whether the scenario names the stiffness of its material.
+    pub(super) stiffness_is_given: bool,
+}
+
+impl Extent {
+    pub(super) fn of(scenario: &Scenario) -> Result<Self, SetupError> {
+        let (cell_size_m, sound_speed_m_s) = Simulation::resolution(scenario)?;
+        let bodies = 0..scenario.bodies.len();
+        let flow = scenario.flow.as_ref();
+        Ok(Self {
+            thinnest_m: bodies
+                .map(|body| scenario.shape_of(body).least_width())
+                .reduce(f64::min),
+            release_m: flow.map_or(0.0, |flow| flow.release.height_m),
+            width_m: scenario.channel.width_m,
+            cell_size_m,
+            sound_speed_m_s: sound_speed_m_s.unwrap_or(0.0),
+            stiffness_is_given: flow.is_some_and(|flow| flow.material.youngs_modulus_pa.is_some()),
+        })
+    }
+
+    /// The largest cells that tell anything [m].
+    pub(super) fn coarsest(&self) -> f64 {
+        let of_body = self.thinnest_m.unwrap_or(f64::INFINITY) / FEWEST_PER_BODY;
+        of_body
+            .min(self.release_m / FEWEST_PER_RELEASE)
+            .min(self.width_m)
+    }
+
+    /// Cells across the thinnest body.
+    pub(super) fn cells_per_body(&self, cell_size_m: f64) -> Option<f64> {
+        self.thinnest_m.map(|thinnest| thinnest / cell_size_m)
+    }
+}
+
+/// The companions of an answer, cheap ones first. Those with too large cells are
+/// left out, but the finest never is.
+pub(super) fn companions(extent: &Extent) -> Vec<Rung> {
+    let coarser = |factor: &f64| Rung {
+        role: Role::Coarser,
+        cell_size_m: factor * extent.cell_size_m,
+    };
+    let coarsest = extent.coarsest();
+    let (last, others) = (&FACTORS[FACTORS.len() - 1], &FACTORS[..FACTORS.len() - 1]);
+    let mut rungs: Vec<Rung> = others
+        .iter()
+        .map(coarser)
+        .filter(|rung| rung.cell_size_m <= coarsest)
+        .collect();
+    rungs.push(coarser(last));
+    if !extent.stiffness_is_given {
+        let mut softer = rungs
+            .iter()
+            .copied()
+            .filter(|rung| rung.cell_size_m <= (SOFTER_AT + 1e-9) * extent.cell_size_m);
+        if let Some(beside) = softer.next() {
+            rungs.push(Rung {
+                role: Role::Softer,
+                ..beside
+            });
+        }
+    }
+    rungs
+}
+
+/// The scenario of a run. That of an answer which keeps its cells is the one given,
+/// word for word.
+pub(super) fn scenario_of(given: &Scenario, extent: &Extent, rung: Rung) -> Scenario {
+    let mut scenario = given.clone();
+    if rung.role == Role::Answer && given.accuracy.target.is_none() {
+        return scenario;
+    }
+    scenario.numerics.cell_size_m = Some(rung.cell_size_m);
+    if rung.role == Role::Softer {
+        scenario.numerics.sound_speed_m_s = Some(SOFTER * extent.sound_speed_m_s);
+    }
+    if rung.role != Role::Answer {
+        scenario.flow_snapshots = 0;
+        scenario.accuracy = Accuracy {
+            error_bars: false,
+            target: None,
+            quantity: None,
+            ..given.accuracy.clone()
+        };
+    }
+    scenario
+}

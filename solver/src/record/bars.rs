@@ -1,0 +1,129 @@
+//! Bands of an outcome's quantities, and what they cost: types alone. How they are
+//! made: `accuracy`, and docs/method.md, section 12.
+
+use crate::scenario::Quantity;
+use serde::{Deserialize, Serialize};
+
+/// A quantity with the band in which its value without cells is expected.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Band {
+    /// The value of the answer, as it stands beside; null if it did not happen.
+    pub value: Option<f64>,
+    /// Lower end; null if there is none.
+    pub low: Option<f64>,
+    /// Upper end; null if there is none: it may also not happen at all.
+    pub high: Option<f64>,
+    /// Order at which the values were seen to converge; null if they don't.
+    pub order: Option<f64>,
+    /// What the band rests on.
+    pub basis: Basis,
+}
+
+/// What a band rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Basis {
+    /// Values that converge at a plausible order.
+    Converging,
+    /// Values that turn, scatter, or change more with finer cells: a wide band.
+    Scattered,
+    /// The same value in all runs.
+    Same,
+    /// One coarser run alone, so no order: a wide band.
+    OneCompanion,
+    /// It happened in none of the runs.
+    NeverHappened,
+    /// It happened in some of the runs only: there is no upper end.
+    SometimesHappened,
+    /// There is no other run to compare with.
+    Nothing,
+}
+
+/// Bands of a body's quantities, under the keys of its outcome.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BodyBars {
+    /// Of `onset_time_s`.
+    pub onset_time_s: Band,
+    /// Of `peak_speed_m_s`.
+    pub peak_speed_m_s: Band,
+    /// Of `peak_speed_time_s`.
+    pub peak_speed_time_s: Band,
+    /// Of `stop_time_s`.
+    pub stop_time_s: Band,
+    /// Of `displacement_m`.
+    pub displacement_m: Band,
+    /// Of `path_length_m`.
+    pub path_length_m: Band,
+    /// Of each component of `final_position_m`.
+    pub final_position_m: [Band; 3],
+}
+
+/// Bands of the flow's quantities, under the keys of its outcome.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FlowBars {
+    /// Of `front_m`.
+    pub front_m: Band,
+    /// Of `runout_m`.
+    pub runout_m: Band,
+    /// Of `mass_left_kg`.
+    pub mass_left_kg: Band,
+}
+
+/// The runs behind the bands, and whether a target was met.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AccuracyReport {
+    /// All runs in the order they were made.
+    pub runs: Vec<RunCost>,
+    /// Point-steps of all runs but the answer's, over those of the answer's.
+    pub extra_cost: f64,
+    /// What came of the target; null if none was given.
+    pub target: Option<TargetReport>,
+}
+
+/// One of the runs behind a band.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunCost {
+    /// What it was for.
+    pub role: Role,
+    /// Cell size [m].
+    pub cell_size_m: f64,
+    /// Cells across the thinnest body; null without bodies.
+    pub cells_per_body: Option<f64>,
+    /// √(K/ρ) of the bulk [m/s].
+    pub sound_speed_m_s: f64,
+    /// Sub-steps summed over the points that took part; null if it failed.
+    pub point_steps: Option<u64>,
+    /// Wall time, measured by the caller [s]; null if it failed.
+    pub wall_s: Option<f64>,
+    /// Why it could not be computed; null if it was.
+    pub failure: Option<String>,
+}
+
+/// What a run is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// Larger cells than the answer's.
+    Coarser,
+    /// A softer material, at the cell size of a coarser run.
+    Softer,
+    /// The answer.
+    Answer,
+}
+
+/// Whether the target was met.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TargetReport {
+    /// The quantity it is about.
+    pub quantity: Quantity,
+    /// Index of the body whose quantity that is; null for the flow's.
+    pub body: Option<u32>,
+    /// Half the width of the band over the value, as asked.
+    pub asked: f64,
+    /// The same, as reached; null if the band has an open end or the value is 0.
+    pub reached: Option<f64>,
+    /// Whether it is no more than asked.
+    pub met: bool,
+    /// Why it was not met; null if it was.
+    pub reason: Option<String>,
+}

@@ -1,0 +1,165 @@
+//! How good an answer has to be, and whether it shows how good it is.
+
+use super::reader::{Object, choice_words};
+use super::report::Report;
+use super::rules::{BUDGET, CELL_SIZE, TARGET, TARGET_BODY};
+use super::{Flow, Numerics};
+use serde::{Deserialize, Serialize};
+
+/// What is asked of the answer's accuracy.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Accuracy {
+    /// Every quantity of the outcome gets a band (docs/error-bars.md).
+    pub error_bars: bool,
+    /// Half the width of the band of `quantity` over its value, to be reached by
+    /// the choice of cells; `None`: the cells are those of `numerics`.
+    pub target: Option<f64>,
+    /// The quantity that `target` is about.
+    pub quantity: Option<Quantity>,
+    /// Index of the body whose quantity that is.
+    pub body: u32,
+    /// Point-steps that may be spent on `target`, those of all runs together.
+    pub budget_point_steps: f64,
+}
+
+/// A quantity of the outcome, as JSON by its key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Quantity {
+    /// First time a body's centre is 1 mm from its start.
+    #[serde(rename = "onset_time_s")]
+    Onset,
+    /// Largest speed of a body's centre.
+    #[serde(rename = "peak_speed_m_s")]
+    PeakSpeed,
+    /// When that was.
+    #[serde(rename = "peak_speed_time_s")]
+    PeakTime,
+    /// Since when a body has been at rest.
+    #[serde(rename = "stop_time_s")]
+    Stop,
+    /// Net horizontal displacement of a body.
+    #[serde(rename = "displacement_m")]
+    Displacement,
+    /// Length of a body's path.
+    #[serde(rename = "path_length_m")]
+    PathLength,
+    /// Front of the flow.
+    #[serde(rename = "front_m")]
+    Front,
+    /// Front of the flow less that of the release.
+    #[serde(rename = "runout_m")]
+    Runout,
+}
+
+/// Words for the quantities.
+pub(super) const QUANTITIES: [(&str, Quantity); 8] = [
+    ("onset_time_s", Quantity::Onset),
+    ("peak_speed_m_s", Quantity::PeakSpeed),
+    ("peak_speed_time_s", Quantity::PeakTime),
+    ("stop_time_s", Quantity::Stop),
+    ("displacement_m", Quantity::Displacement),
+    ("path_length_m", Quantity::PathLength),
+    ("front_m", Quantity::Front),
+    ("runout_m", Quantity::Runout),
+];
+
+impl Quantity {
+    /// Whether it is a body's; else it is the flow's.
+    pub fn is_of_a_body(self) -> bool {
+        !matches!(self, Self::Front | Self::Runout)
+    }
+
+    /// Its key in the outcome.
+    pub fn key(self) -> &'static str {
+        let found = QUANTITIES.iter().find(|(_, quantity)| *quantity == self);
+        found.map_or("", |(key, _)| key)
+    }
+}
+
+impl Accuracy {
+    /// Whether more than the plain answer is asked for.
+    pub fn is_asked_for(&self) -> bool {
+        self.error_bars || self.target.is_some()
+    }
+
+    /// The share to be reached, and of which quantity.
+    pub fn goal(&self) -> Option<(f64, Quantity)> {
+        self.target.zip(self.quantity)
+    }
+}
+
+pub(super) fn read_accuracy(parent: &Object<'_>) -> Option<Accuracy> {
+    let object = parent.defaulted("accuracy")?;
+    let error_bars = object.flag("error_bars", false);
+    let target = object.automatic(&TARGET);
+    let quantity = object.choice_or_null("quantity", &QUANTITIES);
+    let body = object.count(&TARGET_BODY);
+    let budget_point_steps = object.number(&BUDGET);
+    object.refuse_unknown();
+    Some(Accuracy {
+        error_bars: error_bars?,
+        target: target?,
+        quantity: quantity?,
+        body: body?,
+        budget_point_steps: budget_point_steps?,
+    })
+}
+
+/// Bands come from coarser runs of a flow.
+pub(super) fn bands_can_be_made(report: &Report, accuracy: &Accuracy, flow: Option<&Flow>) {
+    if flow.is_some_and(|flow| flow.volume_m3 > 0.0) {
+        return;
+    }
+    if accuracy.error_bars {
+        let why = "is true, but without a flow there are no cells to be coarser";
+        report.refuse("/accuracy/error_bars", "false without a flow", None, why);
+    }
+    if accuracy.target.is_some() {
+        let why = "is given, but without a flow there are no cells to be chosen";
+        report.refuse("/accuracy/target", "null without a flow", None, why);
+    }
+}
+
+/// A target is about a quantity, and a quantity is there for a target.
+pub(super) fn target_is_about_something(report: &Report, accuracy: &Accuracy) {
+    let (allowed, why) = match (accuracy.target, accuracy.quantity) {
+        (Some(_), None) => (
+            choice_words(&QUANTITIES),
+            "is null, but accuracy.target is about one of them",
+        ),
+        (None, Some(_)) => (
+            "null without accuracy.target".to_owned(),
+            "is given, but accuracy.target is not",
+        ),
+        _ => return,
+    };
+    report.refuse("/accuracy/quantity", &allowed, None, why);
+}
+
+/// The body that a target is about is there.
+pub(super) fn body_is_there(report: &Report, accuracy: &Accuracy, bodies: usize) {
+    let of_a_body = accuracy.quantity.is_some_and(Quantity::is_of_a_body);
+    if of_a_body && accuracy.body as usize >= bodies {
+        let (allowed, why) = match bodies.checked_sub(1) {
+            Some(last) => (
+                format!("0 <= x <= {last}, whole"),
+                format!("is {}, beyond the last of {bodies} bodies", accuracy.body),
+            ),
+            None => (
+                "nothing: there is no body".to_owned(),
+                "is the index of a body, but there is none".to_owned(),
+            ),
+        };
+        report.refuse("/accuracy/body", &allowed, None, &why);
+    }
+}
+
+/// Either the scenario chooses the cells or its target does.
+pub(super) fn cells_are_chosen_once(report: &Report, accuracy: &Accuracy, numerics: &Numerics) {
+    if accuracy.target.is_some() && numerics.cell_size_m.is_some() {
+        let pointer = format!("/numerics/{}", CELL_SIZE.key);
+        let allowed = "null while accuracy.target is given";
+        let why = "is given, but accuracy.target chooses the cells: give one of the two";
+        report.refuse(&pointer, allowed, CELL_SIZE.unit, why);
+    }
+}

@@ -1,0 +1,152 @@
+//! Error bars as a table for people.
+
+use super::columns::table;
+use scree_solver::record::{AccuracyReport, Band, Basis, Outcome, Role};
+use std::fmt::Write as _;
+
+/// What stands for an end that is open, or an order there is none of.
+const NOTHING: &str = "–";
+
+/// The bands of an outcome and what they rest on; nothing if none were asked for.
+pub(super) fn bands(outcome: &Outcome) -> Option<String> {
+    let report = outcome.accuracy.as_ref()?;
+    let headings = ["of", "quantity", "value", "low", "high", "order", "basis"];
+    let mut text = table("error bars", headings, rows(outcome));
+    let _ = write!(text, "\n{}", runs(report));
+    if let Some(target) = target(report) {
+        let _ = write!(text, "\n{target}");
+    }
+    Some(text)
+}
+
+fn rows(outcome: &Outcome) -> Vec<[String; 7]> {
+    let mut rows = Vec::new();
+    for (index, body) in outcome.bodies.iter().enumerate() {
+        let Some(bars) = &body.error_bars else {
+            continue;
+        };
+        let [x, y, z] = &bars.final_position_m;
+        for (name, band) in [
+            ("onset [s]", &bars.onset_time_s),
+            ("peak [m/s]", &bars.peak_speed_m_s),
+            ("peak at [s]", &bars.peak_speed_time_s),
+            ("rest from [s]", &bars.stop_time_s),
+            ("displaced [m]", &bars.displacement_m),
+            ("path [m]", &bars.path_length_m),
+            ("final x [m]", x),
+            ("final y [m]", y),
+            ("final z [m]", z),
+        ] {
+            rows.push(row(&format!("body {index}"), name, band));
+        }
+    }
+    if let Some(bars) = &outcome.flow.error_bars {
+        rows.push(row("flow", "front [m]", &bars.front_m));
+        rows.push(row("flow", "run-out [m]", &bars.runout_m));
+        rows.push(row("flow", "left [kg]", &bars.mass_left_kg));
+    }
+    rows
+}
+
+fn row(of: &str, name: &str, band: &Band) -> [String; 7] {
+    let number = |value: Option<f64>, decimals: usize| {
+        value.map_or_else(|| NOTHING.to_owned(), |value| format!("{value:.decimals$}"))
+    };
+    [
+        of.to_owned(),
+        name.to_owned(),
+        number(band.value, 4),
+        number(band.low, 4),
+        number(band.high, 4),
+        number(band.order, 1),
+        basis(band.basis).to_owned(),
+    ]
+}
+
+fn basis(basis: Basis) -> &'static str {
+    match basis {
+        Basis::Converging => "converging",
+        Basis::Scattered => "scattered",
+        Basis::Same => "the same in all runs",
+        Basis::OneCompanion => "one companion",
+        Basis::NeverHappened => "never happened",
+        Basis::SometimesHappened => "happened in some runs",
+        Basis::Nothing => "nothing to compare with",
+    }
+}
+
+fn runs(report: &AccuracyReport) -> String {
+    let cells: Vec<String> = report
+        .runs
+        .iter()
+        .map(|run| {
+            let softer = if run.role == Role::Softer {
+                " softer"
+            } else {
+                ""
+            };
+            let failed = if run.failure.is_some() { " failed" } else { "" };
+            format!("{:.4} m{softer}{failed}", run.cell_size_m)
+        })
+        .collect();
+    format!(
+        "runs  cells of {}; {:.0} % on top of the answer's cost",
+        cells.join(", "),
+        100.0 * report.extra_cost
+    )
+}
+
+fn target(report: &AccuracyReport) -> Option<String> {
+    let target = report.target.as_ref()?;
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let reached = target.reached.map_or_else(|| NOTHING.to_owned(), percent);
+    let reason = target.reason.as_deref();
+    Some(format!(
+        "target {} within {}: {reached}, {}{}",
+        target.quantity.key(),
+        percent(target.asked),
+        if target.met { "met" } else { "not met" },
+        reason.map_or_else(String::new, |reason| format!(": {reason}"))
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_open_end_is_a_dash_and_the_basis_stands_in_words() {
+        let band = Band {
+            value: Some(1.25),
+            low: Some(1.0),
+            high: None,
+            order: None,
+            basis: Basis::SometimesHappened,
+        };
+        let cells = row("body 0", "rest from [s]", &band);
+        assert_eq!(
+            cells.join("|"),
+            "body 0|rest from [s]|1.2500|1.0000|–|–|happened in some runs"
+        );
+    }
+
+    #[test]
+    fn a_missed_target_tells_why() {
+        let report = AccuracyReport {
+            runs: Vec::new(),
+            extra_cost: 0.0,
+            target: Some(scree_solver::record::TargetReport {
+                quantity: scree_solver::scenario::Quantity::Displacement,
+                body: Some(0),
+                asked: 0.05,
+                reached: Some(0.081),
+                met: false,
+                reason: Some("no money".to_owned()),
+            }),
+        };
+        assert_eq!(
+            target(&report).unwrap(),
+            "target displacement_m within 5.0 %: 8.1 %, not met: no money"
+        );
+    }
+}

@@ -1,0 +1,200 @@
+//! Accuracy: what is asked of an answer, and the bands that come with it.
+
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// How good the answer has to be, and whether it shows how good it is.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+#[schema(as = Accuracy)]
+pub struct AccuracyDocument {
+    /// Every quantity of the outcome gets a band.
+    #[schema(required = false)]
+    pub error_bars: bool,
+    /// Half the width of the band of `quantity` over its value, to be reached by
+    /// the choice of cells; null: the cells are those of `numerics`.
+    pub target: Option<f64>,
+    /// The quantity that `target` is about.
+    pub quantity: Option<QuantityDocument>,
+    /// Index of the body whose quantity that is.
+    #[schema(required = false)]
+    pub body: u32,
+    /// Point-steps that may be spent on `target`, those of all runs together.
+    #[schema(required = false)]
+    pub budget_point_steps: f64,
+}
+
+/// A quantity of the outcome, by its key.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Quantity)]
+pub enum QuantityDocument {
+    /// First time a body's centre is 1 mm from its start.
+    #[serde(rename = "onset_time_s")]
+    Onset,
+    /// Largest speed of a body's centre.
+    #[serde(rename = "peak_speed_m_s")]
+    PeakSpeed,
+    /// When that was.
+    #[serde(rename = "peak_speed_time_s")]
+    PeakTime,
+    /// Since when a body has been at rest.
+    #[serde(rename = "stop_time_s")]
+    Stop,
+    /// Net horizontal displacement of a body.
+    #[serde(rename = "displacement_m")]
+    Displacement,
+    /// Length of a body's path.
+    #[serde(rename = "path_length_m")]
+    PathLength,
+    /// Front of the flow.
+    #[serde(rename = "front_m")]
+    Front,
+    /// Front of the flow less that of the release.
+    #[serde(rename = "runout_m")]
+    Runout,
+}
+
+/// A quantity with the band in which its value without cells is expected.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Band)]
+pub struct BandDocument {
+    /// The value of the answer, as it stands beside; null if it did not happen.
+    #[schema(required = true)]
+    pub value: Option<f64>,
+    /// Lower end; null if there is none.
+    #[schema(required = true)]
+    pub low: Option<f64>,
+    /// Upper end; null if there is none: it may also not happen at all.
+    #[schema(required = true)]
+    pub high: Option<f64>,
+    /// Order at which the values were seen to converge; null if they don't.
+    #[schema(required = true)]
+    pub order: Option<f64>,
+    /// What the band rests on.
+    pub basis: BasisDocument,
+}
+
+/// What a band rests on.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = Basis)]
+pub enum BasisDocument {
+    /// Values that converge at a plausible order.
+    Converging,
+    /// Values that turn, scatter, or change more with finer cells: a wide band.
+    Scattered,
+    /// The same value in all runs.
+    Same,
+    /// One coarser run alone, so no order: a wide band.
+    OneCompanion,
+    /// It happened in none of the runs.
+    NeverHappened,
+    /// It happened in some of the runs only: there is no upper end.
+    SometimesHappened,
+    /// There is no other run to compare with.
+    Nothing,
+}
+
+/// Bands of a body's quantities, under the keys of its outcome.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = BodyBars)]
+pub struct BodyBarsDocument {
+    /// Of `onset_time_s`.
+    pub onset_time_s: BandDocument,
+    /// Of `peak_speed_m_s`.
+    pub peak_speed_m_s: BandDocument,
+    /// Of `peak_speed_time_s`.
+    pub peak_speed_time_s: BandDocument,
+    /// Of `stop_time_s`.
+    pub stop_time_s: BandDocument,
+    /// Of `displacement_m`.
+    pub displacement_m: BandDocument,
+    /// Of `path_length_m`.
+    pub path_length_m: BandDocument,
+    /// Of each component of `final_position_m`.
+    #[schema(min_items = 3, max_items = 3)]
+    pub final_position_m: Vec<BandDocument>,
+}
+
+/// Bands of the flow's quantities, under the keys of its outcome.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = FlowBars)]
+pub struct FlowBarsDocument {
+    /// Of `front_m`.
+    pub front_m: BandDocument,
+    /// Of `runout_m`.
+    pub runout_m: BandDocument,
+    /// Of `mass_left_kg`.
+    pub mass_left_kg: BandDocument,
+}
+
+/// The runs behind the bands, and whether a target was met.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = AccuracyReport)]
+pub struct AccuracyReportDocument {
+    /// All runs in the order they were made.
+    pub runs: Vec<RunCostDocument>,
+    /// Point-steps of all runs but the answer's, over those of the answer's.
+    pub extra_cost: f64,
+    /// What came of the target; null if none was given.
+    #[schema(required = true)]
+    pub target: Option<TargetReportDocument>,
+}
+
+/// One of the runs behind a band.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = RunCost)]
+pub struct RunCostDocument {
+    /// What it was for.
+    pub role: RoleDocument,
+    /// Cell size [m].
+    pub cell_size_m: f64,
+    /// Cells across the thinnest body; null without bodies.
+    #[schema(required = true)]
+    pub cells_per_body: Option<f64>,
+    /// Speed of sound in the bulk [m/s].
+    pub sound_speed_m_s: f64,
+    /// Sub-steps summed over the points that took part; null if it failed.
+    #[schema(required = true)]
+    pub point_steps: Option<u64>,
+    /// Wall time [s]; null if it failed.
+    #[schema(required = true)]
+    pub wall_s: Option<f64>,
+    /// Why it could not be computed; null if it was.
+    #[schema(required = true)]
+    pub failure: Option<String>,
+}
+
+/// What a run is for.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = Role)]
+pub enum RoleDocument {
+    /// Larger cells than the answer's.
+    Coarser,
+    /// A softer material, at the cell size of a coarser run.
+    Softer,
+    /// The answer.
+    Answer,
+}
+
+/// Whether the target was met.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = TargetReport)]
+pub struct TargetReportDocument {
+    /// The quantity it is about.
+    pub quantity: QuantityDocument,
+    /// Index of the body whose quantity that is; null for the flow's.
+    #[schema(required = true)]
+    pub body: Option<u32>,
+    /// Half the width of the band over the value, as asked.
+    pub asked: f64,
+    /// The same, as reached; null if the band has an open end or the value is 0.
+    #[schema(required = true)]
+    pub reached: Option<f64>,
+    /// Whether it is no more than asked.
+    pub met: bool,
+    /// Why it was not met; null if it was.
+    #[schema(required = true)]
+    pub reason: Option<String>,
+}

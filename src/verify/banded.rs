@@ -1,0 +1,38 @@
+//! Answers with bands, computed here.
+
+use super::run::{Run, Trouble, scenario_of};
+use scree_solver::accuracy::Campaign;
+use scree_solver::record::{Outcome, Recorder};
+use scree_solver::scenario::Scenario;
+use scree_solver::simulation::Scene;
+use serde_json::Value;
+use std::ops::ControlFlow;
+
+/// The answer to a scenario, with the bands it asks for.
+///
+/// # Errors
+/// The scenario is refused, or its answer can't be computed.
+pub(super) fn answer(document: &Value) -> Result<Outcome, Trouble> {
+    let scenario = scenario_of(document)?;
+    let mut campaign = Campaign::of(&scenario)?;
+    while let Some(rung) = campaign.next() {
+        match outcome(&campaign.scenario_of(rung)) {
+            Err(error) if !campaign.can_do_without(rung) => return Err(error),
+            outcome => campaign.take(outcome.map_err(|error| error.to_string())),
+        }
+    }
+    let answer = campaign.finish();
+    answer.ok_or(Trouble::Never("none of the runs could be computed"))
+}
+
+/// What one run of a scenario comes to.
+fn outcome(scenario: &Scenario) -> Result<Outcome, Trouble> {
+    let mut run = Run::start(Scene::of(scenario)?)?;
+    let mut recorder = Recorder::new(scenario);
+    recorder.start(&run.simulation);
+    run.watch(f64::INFINITY, |simulation, report| {
+        recorder.observe(simulation, report);
+        ControlFlow::Continue(())
+    })?;
+    Ok(recorder.outcome(&run.simulation, run.answer([]).cost.wall_s))
+}

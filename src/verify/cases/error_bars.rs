@@ -1,0 +1,355 @@
+//! Case 18: whether bands hold what they promise.
+//!
+//! Scenes drawn at random (`drawn.rs`): a channel, a release, one or two bodies of some
+//! shape, with everything about them thrown by dice. Each is answered with error bars,
+//! at 2.2 to 3 cells across its body, and computed once more with cells half as large.
+//! Oracle: that finer run. Bar: nine in ten of its values lie inside the bands, quantity
+//! by quantity. Twenty scenes served to choose the estimator's numbers; they are not
+//! among those that are judged here. A quantity counts where it happened in the finer
+//! run or in one of those behind the band, and not of bodies that never moved. How wide
+//! the bands are and what they cost is reported beside: wide enough is easy.
+
+use crate::verify::banded::answer;
+use crate::verify::drawn::{self, Drawn};
+use crate::verify::findings::{Error, Findings, Question, Resolution};
+use crate::verify::run::{Answer, Cost, Trouble};
+use crate::verify::{Case, Effort, How};
+use scree_solver::record::{Band, Basis, BodyBars, BodyOutcome, Outcome};
+use serde_json::{Value, json};
+use std::sync::Mutex;
+use std::thread;
+
+pub(super) const CASE: Case = Case {
+    name: "error-bars",
+    number: "18",
+    title: "values of finer runs lie inside the bands of error bars",
+    source: "the same scenes with cells half as large",
+    how: How::Runs(run),
+};
+
+/// Scenes that are judged; those before the first served to choose the estimator.
+const SCENES: [u64; 20] = [
+    20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39,
+];
+/// Those of the small version, and its cells over the full ones'.
+const QUICK: (usize, f64) = (4, 1.6);
+/// Cells of the finer run over the answer's.
+const FINER: f64 = 0.5;
+/// Share of values that may lie outside.
+const OUTSIDE: f64 = 0.1;
+/// Extra cost of error bars.
+const EXTRA_COST: f64 = 0.35;
+/// Quantile of the normal distribution for an interval of 95 %.
+const TWO_SIDED_95: f64 = 1.96;
+
+/// A quantity of one outcome.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    value: Option<f64>,
+    band: Option<Band>,
+    /// What the width of its band is to be compared with.
+    scale: Option<f64>,
+}
+
+type OfABody = fn(&BodyOutcome) -> Seen;
+
+const OF_BODIES: [(&str, OfABody); 9] = [
+    ("onset_time_s", |body| {
+        plain(body, body.onset_time_s, |bars| bars.onset_time_s)
+    }),
+    ("peak_speed_m_s", |body| {
+        plain(body, Some(body.peak_speed_m_s), |bars| bars.peak_speed_m_s)
+    }),
+    ("peak_speed_time_s", |body| {
+        plain(body, body.peak_speed_time_s, |bars| bars.peak_speed_time_s)
+    }),
+    ("stop_time_s", |body| {
+        plain(body, body.stop_time_s, |bars| bars.stop_time_s)
+    }),
+    ("displacement_m", |body| {
+        plain(body, Some(body.displacement_m), |bars| bars.displacement_m)
+    }),
+    ("path_length_m", |body| {
+        plain(body, Some(body.path_length_m), |bars| bars.path_length_m)
+    }),
+    ("final_position_m, x", |body| place(body, 0)),
+    ("final_position_m, y", |body| place(body, 1)),
+    ("final_position_m, z", |body| place(body, 2)),
+];
+
+fn plain(body: &BodyOutcome, value: Option<f64>, band: fn(&BodyBars) -> Band) -> Seen {
+    Seen {
+        value,
+        band: body.error_bars.as_ref().map(band),
+        scale: value,
+    }
+}
+
+/// A component of the place where a body ends up, compared with its way.
+fn place(body: &BodyOutcome, axis: usize) -> Seen {
+    let band = |bars: &BodyBars| bars.final_position_m[axis];
+    Seen {
+        value: Some(body.final_position_m[axis]),
+        band: body.error_bars.as_ref().map(band),
+        scale: Some(body.displacement_m),
+    }
+}
+
+fn run(effort: Effort, findings: &mut Findings) {
+    let (scenes, coarser) = match effort {
+        Effort::Quick => (&SCENES[..QUICK.0], QUICK.1),
+        Effort::Full => (&SCENES[..], 1.0),
+    };
+    let drawn: Vec<Drawn> = scenes.iter().copied().map(drawn::scene).collect();
+    let pairs = side_by_side(&drawn, |scene| pair(scene, coarser));
+    let mut trials = Vec::new();
+    for (scene, pair) in drawn.iter().zip(pairs) {
+        match pair {
+            Ok(pair) => trials.push(pair),
+            Err(trouble) => {
+                let question = Question::new(format!("scene {}", scene.label), "", 1.0);
+                let failed: Result<Answer<1>, Trouble> = Err(trouble);
+                findings.take(&Resolution::named("both runs"), [question], failed);
+            }
+        }
+    }
+    let mut all = of_flows(&trials);
+    judge("runout_m", &all, findings);
+    for (name, of) in OF_BODIES {
+        let of_bodies = of_bodies(&trials, of);
+        judge(name, &of_bodies, findings);
+        all.extend(of_bodies);
+    }
+    judge("all together", &all, findings);
+    converging(&all, findings);
+    extra_cost(&trials, findings);
+}
+
+/// An answer with bands, and the finer one.
+#[derive(Debug)]
+struct Pair {
+    answer: Outcome,
+    finer: Outcome,
+}
+
+fn pair(drawn: &Drawn, coarser: f64) -> Result<Pair, Trouble> {
+    let with = |cell_size_m: f64, error_bars: bool| {
+        let mut scenario: Value = drawn.scenario.clone();
+        scenario["numerics"] = json!({"cell_size_m": cell_size_m});
+        scenario["accuracy"] = json!({"error_bars": error_bars});
+        answer(&scenario)
+    };
+    let cell_size_m = coarser * drawn.cell_size_m;
+    Ok(Pair {
+        answer: with(cell_size_m, true)?,
+        finer: with(FINER * cell_size_m, false)?,
+    })
+}
+
+/// Does the same for all, on all cores, in any order.
+fn side_by_side<T: Sync, R: Send>(all: &[T], each: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let cores = thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let to_do = Mutex::new(all.iter().enumerate());
+    let done = Mutex::new(Vec::new());
+    thread::scope(|scope| {
+        for _ in 0..cores {
+            scope.spawn(|| {
+                while let Some((place, one)) = to_do.lock().ok().and_then(|mut all| all.next()) {
+                    let result = each(one);
+                    if let Ok(mut done) = done.lock() {
+                        done.push((place, result));
+                    }
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().unwrap_or_default();
+    done.sort_by_key(|(place, _)| *place);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+/// One value of a finer run and the band it should be in.
+#[derive(Debug, Clone, Copy)]
+struct Trial {
+    band: Band,
+    finer: Option<f64>,
+    /// What the width is to be compared with.
+    scale: f64,
+}
+
+impl Trial {
+    fn is_inside(&self) -> bool {
+        let Some(finer) = self.finer else {
+            return self.band.high.is_none();
+        };
+        let Some(low) = self.band.low else {
+            return false;
+        };
+        finer >= low && self.band.high.is_none_or(|high| finer <= high)
+    }
+
+    /// Half the width over the scale; infinite where an end is open.
+    fn half_width(&self) -> f64 {
+        let width = self
+            .band
+            .high
+            .zip(self.band.low)
+            .map(|(high, low)| high - low);
+        width.map_or(f64::INFINITY, |width| 0.5 * width / self.scale)
+    }
+}
+
+fn of_bodies(pairs: &[Pair], of: OfABody) -> Vec<Trial> {
+    let bodies = pairs.iter().flat_map(|Pair { answer, finer }| {
+        let both = answer.bodies.iter().zip(&finer.bodies);
+        both.filter(|both| both.0.onset_time_s.is_some() || both.1.onset_time_s.is_some())
+    });
+    let trial = |(body, finer): (&BodyOutcome, &BodyOutcome)| trial(of(body), of(finer).value);
+    bodies.filter_map(trial).collect()
+}
+
+fn of_flows(pairs: &[Pair]) -> Vec<Trial> {
+    let of_flow = |pair: &Pair| {
+        let flow = &pair.answer.flow;
+        let seen = Seen {
+            value: flow.runout_m,
+            band: flow.error_bars.as_ref().map(|bars| bars.runout_m),
+            scale: flow.runout_m,
+        };
+        trial(seen, pair.finer.flow.runout_m)
+    };
+    pairs.iter().filter_map(of_flow).collect()
+}
+
+/// Nothing where nothing happened in any of the runs.
+fn trial(seen: Seen, finer: Option<f64>) -> Option<Trial> {
+    let band = seen.band?;
+    let happened = finer.is_some() || band.basis != Basis::NeverHappened;
+    happened.then(|| Trial {
+        band,
+        finer,
+        scale: seen.scale.map_or(f64::NAN, f64::abs),
+    })
+}
+
+/// Whether enough of the values lie inside, and how wide the bands are.
+fn judge(name: &str, trials: &[Trial], findings: &mut Findings) {
+    let count = trials.len();
+    let inside = trials.iter().filter(|trial| trial.is_inside()).count();
+    let (low, high) = interval(inside, count);
+    let coverage = Question::new(format!("inside, {name}"), "", 1.0);
+    let width = Question::new(format!("median half width, {name}"), "of it", 0.0);
+    let resolution = Resolution::named(format!("{inside} of {count}; 95 %: {low:.2} to {high:.2}"));
+    let share = inside as f64 / count as f64;
+    let questions = [
+        coverage.by(Error::Absolute).within(OUTSIDE),
+        width.by(Error::Absolute),
+    ];
+    let answer = Answer {
+        values: [share, median(trials.iter().map(Trial::half_width))],
+        cost: Cost::default(),
+    };
+    findings.take(&resolution, questions, Ok(answer));
+}
+
+/// How many bands rest on values that converge.
+fn converging(trials: &[Trial], findings: &mut Findings) {
+    let converge = trials
+        .iter()
+        .filter(|trial| trial.band.basis == Basis::Converging);
+    let answer = Answer {
+        values: [converge.count() as f64 / trials.len() as f64],
+        cost: Cost::default(),
+    };
+    let question = Question::new("share of converging values", "", 1.0);
+    let resolution = Resolution::named(format!("{} bands", trials.len()));
+    findings.take(&resolution, [question.by(Error::Absolute)], Ok(answer));
+}
+
+fn extra_cost(pairs: &[Pair], findings: &mut Findings) {
+    let cost = |pair: &Pair| {
+        pair.answer
+            .accuracy
+            .as_ref()
+            .map_or(f64::NAN, |all| all.extra_cost)
+    };
+    let question = Question::new("extra cost, median", "of the answer's", 0.0);
+    let answer = Answer {
+        values: [median(pairs.iter().map(cost))],
+        cost: Cost::default(),
+    };
+    let resolution = Resolution::named(format!("{} scenes", pairs.len()));
+    let question = question.by(Error::Absolute).within(EXTRA_COST);
+    findings.take(&resolution, [question], Ok(answer));
+}
+
+/// Wilson's interval of 95 % for a share of which so many of so many were seen.
+fn interval(inside: usize, count: usize) -> (f64, f64) {
+    let (n, z) = (count as f64, TWO_SIDED_95);
+    let share = inside as f64 / n;
+    let middle = share + z * z / (2.0 * n);
+    let half = z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
+    let whole = 1.0 + z * z / n;
+    ((middle - half) / whole, (middle + half) / whole)
+}
+
+/// The middle one of these, the upper of two; not a number of none.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_interval_is_wilsons() {
+        // Wilson 1927, as tabulated for 18 of 20 and 20 of 20.
+        for (inside, low, high) in [(18, 0.699, 0.972), (20, 0.839, 1.0)] {
+            let found = interval(inside, 20);
+            assert!((found.0 - low).abs() < 5e-4, "{found:?}");
+            assert!((found.1 - high).abs() < 5e-4, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn what_did_not_happen_is_inside_only_where_the_band_says_so() {
+        let band = |low, high| Band {
+            value: Some(1.0),
+            low,
+            high,
+            order: None,
+            basis: Basis::Scattered,
+        };
+        let inside = |low, high, finer| {
+            let trial = Trial {
+                band: band(low, high),
+                finer,
+                scale: 1.0,
+            };
+            trial.is_inside()
+        };
+        assert!(inside(Some(0.9), Some(1.1), Some(1.1)));
+        assert!(!inside(Some(0.9), Some(1.1), Some(1.2)));
+        assert!(!inside(Some(0.9), Some(1.1), None));
+        assert!(inside(Some(0.9), None, None));
+        assert!(inside(Some(0.9), None, Some(7.0)));
+        assert!(!inside(Some(0.9), None, Some(0.8)));
+        assert!(!inside(None, None, Some(1.0)), "no band holds nothing");
+    }
+
+    #[test]
+    fn all_is_done_and_stays_in_order() {
+        let numbers: Vec<u64> = (0..100).collect();
+        let squares = side_by_side(&numbers, |number| number * number);
+        assert!(
+            squares
+                .iter()
+                .zip(&numbers)
+                .all(|(square, number)| *square == number * number)
+        );
+        assert_eq!(squares.len(), 100);
+    }
+}
