@@ -23,6 +23,8 @@ pub struct ServiceConfig {
     pub database: PathBuf,
     /// Who computes.
     pub workers: Workers,
+    /// Who may have a job for how long.
+    pub queue: Queue,
     /// What a client may ask of the service.
     pub limits: Limits,
     /// How results reach the database while a job runs.
@@ -37,6 +39,19 @@ pub struct Workers {
     pub count: usize,
     /// Solver threads of one job; `None`: the cores shared evenly.
     pub threads_per_worker: Option<usize>,
+}
+
+/// Leases of jobs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Queue {
+    /// Name of this service among those that share a database. Its next start
+    /// takes back at once what it left running.
+    pub name: String,
+    /// How long a claimed job stays a worker's without a sign of life [s].
+    pub lease_s: f64,
+    /// Between two signs of life [s].
+    pub heartbeat_interval_s: f64,
 }
 
 /// Limits on clients.
@@ -61,6 +76,9 @@ pub struct Limits {
 pub struct Recording {
     /// Longest wall time for which new samples and progress stay unwritten [s].
     pub flush_interval_s: f64,
+    /// Wall time between two saved states of a running job [s]; longer where
+    /// saving one takes more than a fiftieth of that.
+    pub state_interval_s: f64,
 }
 
 /// Why a configuration is refused.
@@ -102,6 +120,11 @@ impl Default for ServiceConfig {
                 count: 1,
                 threads_per_worker: None,
             },
+            queue: Queue {
+                name: "scree".to_owned(),
+                lease_s: 30.0,
+                heartbeat_interval_s: 2.0,
+            },
             limits: Limits {
                 request_body_bytes: 1024 * 1024,
                 header_read_timeout_s: 10.0,
@@ -111,6 +134,7 @@ impl Default for ServiceConfig {
             },
             recording: Recording {
                 flush_interval_s: 0.5,
+                state_interval_s: 5.0,
             },
         }
     }
@@ -145,6 +169,7 @@ impl ServiceConfig {
     pub fn check(&self, cores: usize) -> Result<PoolSize, ConfigError> {
         self.check_listen()?;
         self.check_limits()?;
+        self.queue.check()?;
         self.workers.check(cores)
     }
 
@@ -169,6 +194,15 @@ impl ServiceConfig {
             (
                 "recording.flush_interval_s",
                 self.recording.flush_interval_s,
+            ),
+            (
+                "recording.state_interval_s",
+                self.recording.state_interval_s,
+            ),
+            ("queue.lease_s", self.queue.lease_s),
+            (
+                "queue.heartbeat_interval_s",
+                self.queue.heartbeat_interval_s,
             ),
         ] {
             // A comparison is false for NaN, so NaN is refused too.
@@ -210,6 +244,36 @@ impl Workers {
     }
 }
 
+impl Queue {
+    fn check(&self) -> Result<(), ConfigError> {
+        if self.name.is_empty() || self.name.len() > 100 {
+            let reason = "allowed are 1 to 100 bytes";
+            return Err(not_allowed("queue.name", &self.name, reason));
+        }
+        // Two heartbeats may fail before a lease runs out.
+        let most = self.lease_s / 3.0;
+        if self.heartbeat_interval_s > most {
+            let reason = format!(
+                "with leases of {} s, allowed is 0 < x <= {most} s",
+                self.lease_s
+            );
+            let beat = self.heartbeat_interval_s;
+            return Err(not_allowed("queue.heartbeat_interval_s", beat, reason));
+        }
+        Ok(())
+    }
+
+    /// How long a claimed job stays a worker's without a sign of life.
+    pub fn lease(&self) -> Duration {
+        Duration::from_secs_f64(self.lease_s)
+    }
+
+    /// Between two signs of life.
+    pub fn heartbeat_interval(&self) -> Duration {
+        Duration::from_secs_f64(self.heartbeat_interval_s)
+    }
+}
+
 impl Limits {
     /// Longest wait for the head of a request.
     pub fn header_read_timeout(&self) -> Duration {
@@ -231,6 +295,11 @@ impl Recording {
     /// Longest wall time for which results stay unwritten.
     pub fn flush_interval(&self) -> Duration {
         Duration::from_secs_f64(self.flush_interval_s)
+    }
+
+    /// Wall time between two saved states.
+    pub fn state_interval(&self) -> Duration {
+        Duration::from_secs_f64(self.state_interval_s)
     }
 }
 

@@ -49,8 +49,8 @@ impl RunningService {
         self.address
     }
 
-    /// Takes no more requests, lets those in hand finish, puts running jobs
-    /// back into the queue, and returns when all is written.
+    /// Takes no more requests, lets those in hand finish, saves running jobs and
+    /// hands them back into the queue, and returns when all is written.
     pub async fn stop(self) {
         self.stop.send_replace(true);
         let pool = self.pool;
@@ -100,15 +100,12 @@ async fn serve(
     store: &Store,
     listener: TcpListener,
 ) -> Result<(Pool, JoinHandle<()>, watch::Sender<bool>), StartError> {
-    let left_running = store.recover().await?;
+    let left_running = store.take_back_own(&config.queue.name).await?;
     if left_running > 0 {
-        tracing::warn!(
-            left_running,
-            "the last service died under jobs: they start over"
-        );
+        tracing::warn!(left_running, "the last service died under jobs: they go on");
     }
     let pool =
-        Pool::start(store, size, config.recording.flush_interval()).map_err(StartError::Workers)?;
+        Pool::start(store, size, &config.queue, &config.recording).map_err(StartError::Workers)?;
     let jobs = Jobs::new(store.clone(), pool.bench(), size.threads_per_worker);
     let router = http::router(jobs, &config.limits);
     let (stop, stopped) = watch::channel(false);

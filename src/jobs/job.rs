@@ -104,6 +104,26 @@ pub struct JobSummary {
     pub progress: Progress,
 }
 
+/// One time that a worker took a job up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Attempt {
+    /// The how manieth, from 1.
+    pub attempt: u32,
+    /// Service whose worker it was.
+    pub owner: String,
+    /// When it began.
+    pub started: Timestamp,
+    /// Simulated time of the saved state it went on from [s]; none: from the
+    /// start.
+    pub resumed_from_s: Option<f64>,
+    /// When it ended; none while it goes on.
+    pub ended: Option<Timestamp>,
+    /// How it ended, in a word.
+    pub ending: Option<String>,
+    /// More about that.
+    pub detail: Option<String>,
+}
+
 /// A whole job.
 #[derive(Debug, Clone)]
 pub struct Job {
@@ -113,12 +133,17 @@ pub struct Job {
     pub bodies: usize,
     /// How often a worker took it up.
     pub attempt: u32,
+    /// Those times, the first first.
+    pub attempts: Vec<Attempt>,
     /// Version of the solver that runs it, or checked it if it has not started.
     pub solver_version: String,
     /// The scenario's JSON with every default filled in.
     pub scenario: Box<RawValue>,
     /// The outcome's JSON, once successful.
     pub outcome: Option<Box<RawValue>>,
+    /// Fingerprint of all that the run recorded, in hexadecimal digits; once
+    /// successful.
+    pub fingerprint: Option<String>,
     /// The failure's JSON, once failed.
     pub problem: Option<Box<RawValue>>,
 }

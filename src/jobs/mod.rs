@@ -2,15 +2,20 @@
 //! kept ([`store`]), who runs them ([`pool`], [`runner`]) and how one that can't
 //! be finished says so ([`failure`]). [`Jobs`] is the door for HTTP.
 
+pub mod clock;
 mod desk;
 pub mod failure;
 pub mod job;
+mod keeper;
+mod open_chunk;
 pub mod pool;
 pub mod progress;
 pub mod recording;
 pub mod runner;
+pub mod saved_run;
 pub mod store;
 pub mod submit;
+mod watch;
 mod worker;
 
 pub use desk::{Dismissed, Jobs, SubmitError};

@@ -1,5 +1,5 @@
 //! Where jobs and results are kept: one SQLite file. All SQL of the project is
-//! in this folder, and nothing here knows HTTP or the solver.
+//! in this folder, behind [`JobStore`], and nothing here knows HTTP or the solver.
 //!
 //! One connection writes, in transactions that take the write lock at once; a
 //! few read-only ones read beside it (write-ahead log). Every commit reaches
@@ -7,18 +7,26 @@
 //! database keeps a second service off it.
 
 mod ending;
+mod history;
+mod lease;
 mod queue;
 mod read;
 mod results;
 mod rows;
+mod seam;
+mod states;
 #[cfg(test)]
 mod tests;
 
-pub use ending::TOLERATED_CUT_OFFS;
-pub use queue::{Claim, Dismissal};
+pub use ending::{Returned, Setback, TOLERATED_SETBACKS};
+pub use lease::Renewal;
+pub use queue::{Claim, Claimant, Dismissal};
 pub use read::Page;
 pub use results::{NewChunk, NewResults, StoredChunk};
+pub use seam::JobStore;
+pub use states::{Beginning, Mark, StoredState};
 
+use super::clock::{Clock, SystemClock};
 use super::job::JobId;
 use crate::results::chunk::BlockError;
 use sqlx::sqlite::{
@@ -43,6 +51,7 @@ const BUSY_TIMEOUT: Duration = Duration::from_secs(5);
 pub struct Store {
     writer: SqlitePool,
     readers: SqlitePool,
+    clock: Arc<dyn Clock>,
     _lock: Arc<File>,
 }
 
@@ -53,6 +62,8 @@ pub struct Hold {
     pub job: JobId,
     /// Which attempt at it.
     pub attempt: u32,
+    /// The fencing token: good until the job changes hands.
+    pub token: i64,
 }
 
 /// Why the store can't do what it was asked.
@@ -75,6 +86,9 @@ pub enum StoreError {
     /// The database's own error.
     #[error("database: {0}")]
     Database(#[from] sqlx::Error),
+    /// The database has refused for so long that there is no time left.
+    #[error("the database refuses what is to be written")]
+    Refused,
     /// A row holds what it never should.
     #[error("job {job}: {what} can't be read")]
     Row {
@@ -100,6 +114,14 @@ impl Store {
     /// # Errors
     /// Another service has it, or it can't be opened.
     pub async fn open(path: &Path) -> Result<Self, StoreError> {
+        Self::open_with(path, Arc::new(SystemClock)).await
+    }
+
+    /// The same by another clock than the system's.
+    ///
+    /// # Errors
+    /// Another service has it, or it can't be opened.
+    pub async fn open_with(path: &Path, clock: Arc<dyn Clock>) -> Result<Self, StoreError> {
         let lock = lock(path)?;
         let options = SqliteConnectOptions::new()
             .filename(path)
@@ -119,6 +141,7 @@ impl Store {
         Ok(Self {
             writer,
             readers,
+            clock,
             _lock: Arc::new(lock),
         })
     }
@@ -141,8 +164,13 @@ impl Store {
 
     /// A transaction that has the write lock from its beginning, so that it
     /// can't fail half-way for want of it.
-    async fn begin(&self) -> Result<Transaction<'static, Sqlite>, StoreError> {
+    async fn begin_write(&self) -> Result<Transaction<'static, Sqlite>, StoreError> {
         Ok(self.writer.begin_with("BEGIN IMMEDIATE").await?)
+    }
+
+    /// The time of day, as rows have it [ms].
+    fn now_ms(&self) -> i64 {
+        self.clock.now().as_millisecond()
     }
 }
 

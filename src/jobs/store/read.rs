@@ -1,5 +1,6 @@
 //! Reading jobs.
 
+use super::history::attempts_of;
 use super::rows::{JobRow, SummaryRow};
 use super::{Store, StoreError};
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
@@ -21,11 +22,15 @@ impl Store {
     /// # Errors
     /// The database's own, or an unreadable row.
     pub async fn job(&self, id: JobId) -> Result<Option<Job>, StoreError> {
+        // One transaction, so that the attempts are those of the row.
+        let mut transaction = self.readers.begin().await?;
         let row: Option<JobRow> = sqlx::query_as("SELECT * FROM jobs WHERE id = ?1")
             .bind(id.to_string())
-            .fetch_optional(&self.readers)
+            .fetch_optional(&mut *transaction)
             .await?;
-        row.map(JobRow::read).transpose()
+        let Some(row) = row else { return Ok(None) };
+        let attempts = attempts_of(&mut transaction, id).await?;
+        row.read(attempts).map(Some)
     }
 
     /// A page of jobs.

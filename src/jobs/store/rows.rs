@@ -1,7 +1,7 @@
 //! Rows of the `jobs` table, and what they say.
 
 use super::StoreError;
-use crate::jobs::job::{Job, JobStatus, JobSummary};
+use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary};
 use crate::jobs::progress::Progress;
 use jiff::Timestamp;
 use serde_json::value::RawValue;
@@ -35,6 +35,7 @@ pub(super) struct JobRow {
     solver_version: String,
     scenario: String,
     outcome: Option<String>,
+    fingerprint: Option<String>,
     problem: Option<String>,
 }
 
@@ -71,7 +72,7 @@ impl SummaryRow {
 }
 
 impl JobRow {
-    pub(super) fn read(self) -> Result<Job, StoreError> {
+    pub(super) fn read(self, attempts: Vec<Attempt>) -> Result<Job, StoreError> {
         let id = self.summary.id.clone();
         let broken = |what| StoreError::Row {
             job: id.clone(),
@@ -81,10 +82,12 @@ impl JobRow {
         Ok(Job {
             summary: self.summary.read()?,
             bodies: usize::try_from(self.bodies).map_err(|_| broken("bodies"))?,
+            attempts,
             attempt: u32::try_from(self.attempt).map_err(|_| broken("attempt"))?,
             solver_version: self.solver_version,
             scenario: json(self.scenario, "scenario")?,
             outcome: self.outcome.map(|text| json(text, "outcome")).transpose()?,
+            fingerprint: self.fingerprint,
             problem: self.problem.map(|text| json(text, "problem")).transpose()?,
         })
     }
