@@ -10,7 +10,8 @@ fn main() {
     }
     // Built from an archive there is no commit to name.
     let commit = git(&["rev-parse", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
-    println!("cargo:rustc-env=SCREE_COMMIT={commit}");
+    // Not SCREE_…: cargo hands it to what it runs, and there that is configuration.
+    println!("cargo:rustc-env=BUILD_COMMIT={commit}");
 }
 
 fn git(arguments: &[&str]) -> Option<String> {

@@ -10,14 +10,22 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use thiserror::Error;
 
+mod queue;
 #[cfg(test)]
 mod tests;
+mod tokens;
+mod upkeep;
+
+pub use queue::Queue;
+pub use tokens::{Scope, Token};
+pub use upkeep::{Log, LogFormat, Retention};
 
 /// Configuration of the service.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ServiceConfig {
-    /// Address and port; port 0 takes a free one. Loopback only.
+    /// Address and port; port 0 takes a free one. Beyond the loopback interface
+    /// only with access tokens.
     pub listen: SocketAddr,
     /// The SQLite file; made if it is not there.
     pub database: PathBuf,
@@ -29,6 +37,12 @@ pub struct ServiceConfig {
     pub limits: Limits,
     /// How results reach the database while a job runs.
     pub recording: Recording,
+    /// What is kept for how long.
+    pub retention: Retention,
+    /// How the log is written.
+    pub log: Log,
+    /// Access tokens; without any, nobody is asked for one.
+    pub tokens: Vec<Token>,
 }
 
 /// The worker pool.
@@ -41,19 +55,6 @@ pub struct Workers {
     pub threads_per_worker: Option<usize>,
 }
 
-/// Leases of jobs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Queue {
-    /// Name of this service among those that share a database. Its next start
-    /// takes back at once what it left running.
-    pub name: String,
-    /// How long a claimed job stays a worker's without a sign of life [s].
-    pub lease_s: f64,
-    /// Between two signs of life [s].
-    pub heartbeat_interval_s: f64,
-}
-
 /// Limits on clients.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -62,12 +63,20 @@ pub struct Limits {
     pub request_body_bytes: usize,
     /// Longest wait for the head of a request [s].
     pub header_read_timeout_s: f64,
+    /// Longest wait for the body of a request [s].
+    pub body_read_timeout_s: f64,
+    /// Longest time for which a client may take nothing of its answer [s].
+    pub write_timeout_s: f64,
     /// Longest time from the head of a request to the head of its answer [s].
     pub request_timeout_s: f64,
     /// Connections served at the same time; more wait in the listen queue.
     pub connections: usize,
     /// How long requests in hand may go on once the service stops [s].
     pub drain_timeout_s: f64,
+    /// Most jobs that may wait; more are refused with 429.
+    pub queued_jobs: u32,
+    /// Largest size of the database [bytes]; `None`: as the disk has room.
+    pub database_bytes: Option<u64>,
 }
 
 /// Recording of results.
@@ -128,14 +137,21 @@ impl Default for ServiceConfig {
             limits: Limits {
                 request_body_bytes: 1024 * 1024,
                 header_read_timeout_s: 10.0,
+                body_read_timeout_s: 10.0,
+                write_timeout_s: 10.0,
                 request_timeout_s: 30.0,
                 connections: 256,
                 drain_timeout_s: 5.0,
+                queued_jobs: 10_000,
+                database_bytes: None,
             },
             recording: Recording {
                 flush_interval_s: 0.5,
                 state_interval_s: 5.0,
             },
+            retention: Retention::default(),
+            log: Log::default(),
+            tokens: Vec::new(),
         }
     }
 }
@@ -167,6 +183,7 @@ impl ServiceConfig {
     /// # Errors
     /// The first key that is not allowed.
     pub fn check(&self, cores: usize) -> Result<PoolSize, ConfigError> {
+        tokens::check(&self.tokens)?;
         self.check_listen()?;
         self.check_limits()?;
         self.queue.check()?;
@@ -174,14 +191,14 @@ impl ServiceConfig {
     }
 
     fn check_listen(&self) -> Result<(), ConfigError> {
-        if self.listen.ip().is_loopback() {
+        if self.listen.ip().is_loopback() || !self.tokens.is_empty() {
             return Ok(());
         }
         Err(not_allowed(
             "listen",
             self.listen,
-            "the service has no access tokens yet, so it only listens on the loopback interface \
-             (127.0.0.1 or [::1])",
+            "without access tokens (\"scree token\" makes one) the service only listens on the \
+             loopback interface (127.0.0.1 or [::1])",
         ))
     }
 
@@ -189,6 +206,8 @@ impl ServiceConfig {
         let limits = &self.limits;
         for (key, value) in [
             ("limits.header_read_timeout_s", limits.header_read_timeout_s),
+            ("limits.body_read_timeout_s", limits.body_read_timeout_s),
+            ("limits.write_timeout_s", limits.write_timeout_s),
             ("limits.request_timeout_s", limits.request_timeout_s),
             ("limits.drain_timeout_s", limits.drain_timeout_s),
             (
@@ -213,12 +232,13 @@ impl ServiceConfig {
         for (key, value) in [
             ("limits.request_body_bytes", limits.request_body_bytes),
             ("limits.connections", limits.connections),
+            ("limits.queued_jobs", limits.queued_jobs as usize),
         ] {
             if value == 0 {
                 return Err(not_allowed(key, value, "allowed is x >= 1"));
             }
         }
-        Ok(())
+        self.retention.check()
     }
 }
 
@@ -244,40 +264,20 @@ impl Workers {
     }
 }
 
-impl Queue {
-    fn check(&self) -> Result<(), ConfigError> {
-        if self.name.is_empty() || self.name.len() > 100 {
-            let reason = "allowed are 1 to 100 bytes";
-            return Err(not_allowed("queue.name", &self.name, reason));
-        }
-        // Two heartbeats may fail before a lease runs out.
-        let most = self.lease_s / 3.0;
-        if self.heartbeat_interval_s > most {
-            let reason = format!(
-                "with leases of {} s, allowed is 0 < x <= {most} s",
-                self.lease_s
-            );
-            let beat = self.heartbeat_interval_s;
-            return Err(not_allowed("queue.heartbeat_interval_s", beat, reason));
-        }
-        Ok(())
-    }
-
-    /// How long a claimed job stays a worker's without a sign of life.
-    pub fn lease(&self) -> Duration {
-        Duration::from_secs_f64(self.lease_s)
-    }
-
-    /// Between two signs of life.
-    pub fn heartbeat_interval(&self) -> Duration {
-        Duration::from_secs_f64(self.heartbeat_interval_s)
-    }
-}
-
 impl Limits {
     /// Longest wait for the head of a request.
     pub fn header_read_timeout(&self) -> Duration {
         Duration::from_secs_f64(self.header_read_timeout_s)
+    }
+
+    /// Longest wait for the body of a request.
+    pub fn body_read_timeout(&self) -> Duration {
+        Duration::from_secs_f64(self.body_read_timeout_s)
+    }
+
+    /// Longest time for which a client may take nothing of its answer.
+    pub fn write_timeout(&self) -> Duration {
+        Duration::from_secs_f64(self.write_timeout_s)
     }
 
     /// Longest time to the head of an answer.

@@ -18,6 +18,7 @@ mod output;
 mod scenario_file;
 mod serve;
 mod table;
+mod token;
 mod validate;
 mod verify;
 
@@ -34,6 +35,7 @@ pub(crate) fn run() -> ExitCode {
     };
     let result = match &arguments.command {
         Command::Serve(options) => serve::serve(options),
+        Command::Token(options) => token::token(options),
         Command::Run(options) => local_run::run(options),
         Command::Validate(options) => validate::validate(options),
         Command::Demo(options) => demo::demo(options),

@@ -2,7 +2,7 @@
 
 use super::contract::{OutcomeDocument, ScenarioDocument};
 use crate::jobs::failure::Failure;
-use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary};
+use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
 use crate::jobs::progress::Progress;
 use jiff::Timestamp;
 use serde::Serialize;
@@ -31,8 +31,13 @@ pub(super) struct JobDocument {
     pub attempt: u32,
     /// Those times, the first first.
     pub attempts: Vec<AttemptDocument>,
-    /// Version of the solver that runs it, or checked it if it has not started.
-    pub solver_version: String,
+    /// Its labels, in order.
+    pub labels: Vec<String>,
+    /// Name of the access token it came with; null where no token is asked for.
+    #[schema(required = true)]
+    pub submitter: Option<String>,
+    /// What the answer comes from.
+    pub provenance: Provenance,
     /// The scenario with every default filled in.
     #[schema(value_type = ScenarioDocument)]
     pub scenario: Box<RawValue>,
@@ -41,10 +46,6 @@ pub(super) struct JobDocument {
     /// The answer; null unless successful.
     #[schema(required = true, value_type = Option<OutcomeDocument>)]
     pub outcome: Option<Box<RawValue>>,
-    /// Fingerprint of all that the run recorded, 64 hexadecimal digits: equal
-    /// fingerprints, equal bits. Null unless successful.
-    #[schema(required = true)]
-    pub fingerprint: Option<String>,
     /// Why it failed; null unless failed.
     #[schema(required = true, value_type = Option<Failure>)]
     pub problem: Option<Box<RawValue>>,
@@ -100,6 +101,8 @@ pub(super) struct JobSummaryDocument {
     pub finished: Option<String>,
     /// How far it is.
     pub progress: Progress,
+    /// Its labels, in order.
+    pub labels: Vec<String>,
 }
 
 /// A page of jobs, newest first.
@@ -134,11 +137,12 @@ impl From<Job> for JobDocument {
             finished: summary.finished,
             attempt: job.attempt,
             attempts: job.attempts.into_iter().map(Into::into).collect(),
-            solver_version: job.solver_version,
+            labels: summary.labels,
+            submitter: job.submitter,
+            provenance: job.provenance,
             scenario: job.scenario,
             progress: summary.progress,
             outcome: job.outcome,
-            fingerprint: job.fingerprint,
             problem: job.problem,
         }
     }
@@ -168,6 +172,7 @@ impl From<JobSummary> for JobSummaryDocument {
             started: job.started.map(rfc3339),
             finished: job.finished.map(rfc3339),
             progress: job.progress,
+            labels: job.labels,
         }
     }
 }

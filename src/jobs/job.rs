@@ -77,6 +77,11 @@ impl JobStatus {
         }
     }
 
+    /// Whether a job never leaves it.
+    pub fn is_final(self) -> bool {
+        matches!(self, Self::Successful | Self::Failed | Self::Dismissed)
+    }
+
     /// The state of this word.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|status| status.word() == word)
@@ -102,6 +107,8 @@ pub struct JobSummary {
     pub finished: Option<Timestamp>,
     /// How far it is.
     pub progress: Progress,
+    /// Its labels, in order.
+    pub labels: Vec<String>,
 }
 
 /// One time that a worker took a job up.
@@ -124,6 +131,30 @@ pub struct Attempt {
     pub detail: Option<String>,
 }
 
+/// What has to be the same for the same answer, and how to tell.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct Provenance {
+    /// BLAKE3 of the scenario's JSON with every default filled in, as the job
+    /// shows it, 64 hexadecimal digits.
+    pub scenario_hash: String,
+    /// Version of the solver that runs it, or checked it if it has not started.
+    pub solver_version: String,
+    /// Commit of the program that runs it; null before the start.
+    #[schema(required = true)]
+    pub solver_commit: Option<String>,
+    /// Instructions of its fast path (baseline, AVX2, AVX-512); null before the
+    /// start.
+    #[schema(required = true)]
+    pub instructions: Option<String>,
+    /// Solver threads; null before the start. Results do not depend on it.
+    #[schema(required = true)]
+    pub threads: Option<u32>,
+    /// Fingerprint of all that the run recorded, 64 hexadecimal digits: equal
+    /// fingerprints, equal bits. Null unless successful.
+    #[schema(required = true)]
+    pub fingerprint: Option<String>,
+}
+
 /// A whole job.
 #[derive(Debug, Clone)]
 pub struct Job {
@@ -135,15 +166,14 @@ pub struct Job {
     pub attempt: u32,
     /// Those times, the first first.
     pub attempts: Vec<Attempt>,
-    /// Version of the solver that runs it, or checked it if it has not started.
-    pub solver_version: String,
+    /// Name of the access token it came with; none where no token is asked for.
+    pub submitter: Option<String>,
+    /// What the answer comes from.
+    pub provenance: Provenance,
     /// The scenario's JSON with every default filled in.
     pub scenario: Box<RawValue>,
     /// The outcome's JSON, once successful.
     pub outcome: Option<Box<RawValue>>,
-    /// Fingerprint of all that the run recorded, in hexadecimal digits; once
-    /// successful.
-    pub fingerprint: Option<String>,
     /// The failure's JSON, once failed.
     pub problem: Option<Box<RawValue>>,
 }

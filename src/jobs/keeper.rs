@@ -1,13 +1,18 @@
 //! Keeps the leases of running jobs, on a thread of its own: however busy the
 //! workers are, their jobs stay theirs. Also takes back jobs whose lease, with
-//! another service, has run out.
+//! another service, has run out, and removes what has been kept long enough.
 
 use super::pool::Equipment;
 use super::store::{Renewal, StoreError};
+use jiff::Timestamp;
 use std::io;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
+use std::time::Instant;
 use tracing::{error, info, warn};
+
+/// A clock that is this far off the time that passed has jumped [s].
+const TRUSTED_S: f64 = 60.0;
 
 /// The keeper's thread; it ends once this is dropped.
 #[derive(Debug)]
@@ -27,9 +32,11 @@ impl Keeper {
         let thread = std::thread::Builder::new()
             .name("keeper".to_owned())
             .spawn(move || {
+                let tidy = Tidy::new();
                 // Nothing is ever sent: the end is a closed channel.
                 while ended.recv_timeout(beat) == Err(RecvTimeoutError::Timeout) {
                     beat_once(&equipment);
+                    tidy.remove_old(&equipment);
                 }
             })?;
         Ok(Self {
@@ -74,6 +81,46 @@ fn beat_once(equipment: &Equipment) {
             equipment.bench.announce();
         }
         Err(error) => warn!(%error, "leases that ran out can't be looked for now"),
+    }
+}
+
+/// Removes what has been kept for long enough, by a clock that can be trusted.
+struct Tidy {
+    began: Instant,
+    wall: Timestamp,
+}
+
+impl Tidy {
+    fn new() -> Self {
+        Self {
+            began: Instant::now(),
+            wall: Timestamp::now(),
+        }
+    }
+
+    /// A clock that jumped must not remove anything: nobody knows which of its
+    /// two times was right.
+    fn clock_jumped(&self) -> bool {
+        let passed = Timestamp::now().duration_since(self.wall).as_secs_f64();
+        (passed - self.began.elapsed().as_secs_f64()).abs() > TRUSTED_S
+    }
+
+    fn remove_old(&self, equipment: &Equipment) {
+        let Some(age) = equipment.retention.ended_jobs() else {
+            return;
+        };
+        if self.clock_jumped() {
+            return;
+        }
+        let age_ms = i64::try_from(age.as_millis()).unwrap_or(i64::MAX);
+        match equipment
+            .runtime
+            .block_on(equipment.store.remove_ended(age_ms))
+        {
+            Ok(0) => {}
+            Ok(count) => info!(count, "removed jobs that ended long ago"),
+            Err(error) => warn!(%error, "old jobs can't be removed now"),
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 pub mod clock;
 mod desk;
 pub mod failure;
+mod intake;
 pub mod job;
 mod keeper;
 mod open_chunk;
@@ -18,4 +19,5 @@ pub mod submit;
 mod watch;
 mod worker;
 
-pub use desk::{Dismissed, Jobs, SubmitError};
+pub use desk::{Dismissed, Jobs};
+pub use intake::{Intake, SubmitError};

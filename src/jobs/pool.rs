@@ -7,7 +7,7 @@ use super::progress::ProgressBoard;
 use super::runner::{Stop, StopFlag};
 use super::store::{Hold, Store};
 use super::worker;
-use crate::config::{PoolSize, Queue, Recording};
+use crate::config::{PoolSize, Queue, Recording, Retention, ServiceConfig};
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -38,6 +38,7 @@ pub(super) struct Equipment {
     pub(super) threads: usize,
     pub(super) queue: Queue,
     pub(super) recording: Recording,
+    pub(super) retention: Retention,
 }
 
 /// Where workers wait for work, and where running jobs can be stopped.
@@ -82,19 +83,15 @@ impl Pool {
     ///
     /// # Errors
     /// The system refuses a thread.
-    pub fn start(
-        store: &Store,
-        size: PoolSize,
-        queue: &Queue,
-        recording: &Recording,
-    ) -> io::Result<Self> {
+    pub fn start(store: &Store, size: PoolSize, config: &ServiceConfig) -> io::Result<Self> {
         let equipment = Equipment {
             store: store.clone(),
             runtime: Handle::current(),
             bench: Arc::default(),
             threads: size.threads_per_worker,
-            queue: queue.clone(),
-            recording: recording.clone(),
+            queue: config.queue.clone(),
+            recording: config.recording.clone(),
+            retention: config.retention.clone(),
         };
         let mut pool = Self {
             bench: Arc::clone(&equipment.bench),
@@ -182,7 +179,7 @@ impl Bench {
     }
 
     /// Submissions so far; `None` once the bench is closed.
-    pub(super) fn submissions(&self) -> Option<u64> {
+    pub fn submissions(&self) -> Option<u64> {
         let state = self.state();
         (!state.closing).then_some(state.submissions)
     }

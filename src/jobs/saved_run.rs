@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Commit this program was built from.
-pub const COMMIT: &str = env!("SCREE_COMMIT");
+pub const COMMIT: &str = env!("BUILD_COMMIT");
 
 /// What a run has cost so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

@@ -4,10 +4,11 @@ use super::failure::Failure;
 use super::pool::{Equipment, Place};
 use super::recording::{KeepError, StoreSink};
 use super::runner::{Run, RunEnd, RunError, Stop, StopFlag};
-use super::store::{Beginning, Claim, Claimant, Hold, Mark, Setback, StoreError};
-use scree_solver::SetupError;
+use super::saved_run::COMMIT;
+use super::store::{Beginning, Claim, Claimant, Hold, Mark, Setback, Solver, StoreError};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
+use scree_solver::{Instructions, SetupError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 use tracing::{error, info, info_span, warn};
@@ -33,7 +34,11 @@ pub(super) fn work(equipment: &Equipment) {
     let claimant = Claimant {
         owner: equipment.queue.name.clone(),
         lease: equipment.queue.lease(),
-        solver_version: scree_solver::VERSION,
+        solver: Solver {
+            version: scree_solver::VERSION,
+            commit: COMMIT,
+            instructions: instructions(),
+        },
     };
     while let Some(seen) = equipment.bench.submissions() {
         match equipment.runtime.block_on(equipment.store.claim(&claimant)) {
@@ -44,6 +49,14 @@ pub(super) fn work(equipment: &Equipment) {
                 equipment.bench.wait(seen);
             }
         }
+    }
+}
+
+fn instructions() -> &'static str {
+    match Instructions::detected() {
+        Instructions::Baseline => "baseline",
+        Instructions::Avx2 => "AVX2",
+        Instructions::Avx512 => "AVX-512",
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::app::{
     TestApp, config, database, endless_scene, has_ended, is_running, long_scene, tiny_scene,
 };
-use scree::jobs::store::{Claimant, Hold, Store, TOLERATED_SETBACKS};
+use scree::jobs::store::{Claimant, Hold, Room, Solver, Store, Submission, TOLERATED_SETBACKS};
 use scree::jobs::submit;
 use scree::service::{self, StartError};
 use serde_json::{Value, json};
@@ -64,7 +64,8 @@ async fn a_stopped_job_goes_on_where_it_was_with_the_same_bits() {
     }
     let app = TestApp::start_in(directory.take().unwrap(), |_| {}).await;
     let job = app.wait_for_success(&cut).await;
-    assert_eq!(job["fingerprint"], whole_job["fingerprint"]);
+    let fingerprint = |job: &Value| job["provenance"]["fingerprint"].clone();
+    assert_eq!(fingerprint(&job), fingerprint(&whole_job));
     assert_eq!(job["outcome"]["bodies"], whole_job["outcome"]["bodies"]);
     assert_eq!(job["outcome"]["audit"], whole_job["outcome"]["audit"]);
     let again = app.get(&format!("{cut}/trajectory")).await.body["columns"].take();
@@ -100,12 +101,25 @@ async fn a_job_that_keeps_taking_the_service_down_fails() {
 /// Leaves a database as services leave it that died `times` times under a job.
 async fn cut_off(directory: &TempDir, times: u32) -> Hold {
     let store = Store::open(&database(directory)).await.unwrap();
-    let new = submit::admit(&tiny_scene().to_string(), 1).unwrap();
-    store.submit(&new).await.unwrap();
+    let new = submit::admit(&tiny_scene().to_string(), 1, Vec::new()).unwrap();
+    let submission = Submission {
+        jobs: &[new],
+        submitter: None,
+        key: None,
+        room: Room {
+            queue: 1,
+            submitter: None,
+        },
+    };
+    store.submit(&submission).await.unwrap();
     let claimant = Claimant {
         owner: config(directory).queue.name,
         lease: Duration::from_secs(30),
-        solver_version: "0",
+        solver: Solver {
+            version: "0",
+            commit: "",
+            instructions: "",
+        },
     };
     for _ in 1..times {
         store.claim(&claimant).await.unwrap().unwrap();

@@ -7,24 +7,32 @@
 //! database keeps a second service off it.
 
 mod ending;
+mod events;
+mod health;
 mod history;
 mod lease;
 mod queue;
 mod read;
+mod removal;
 mod results;
 mod rows;
 mod seam;
 mod states;
+mod submission;
 #[cfg(test)]
 mod tests;
 
 pub use ending::{Returned, Setback, TOLERATED_SETBACKS};
+pub use events::Event;
+pub use health::{Census, Trouble};
 pub use lease::Renewal;
-pub use queue::{Claim, Claimant, Dismissal};
+pub use queue::{Claim, Claimant, Dismissal, Solver};
 pub use read::Page;
+pub use removal::Removal;
 pub use results::{NewChunk, NewResults, StoredChunk};
 pub use seam::JobStore;
 pub use states::{Beginning, Mark, StoredState};
+pub use submission::{Key, Room, Submission, Submitted};
 
 use super::clock::{Clock, SystemClock};
 use super::job::JobId;
@@ -45,6 +53,9 @@ const READERS: u32 = 4;
 /// How long a connection waits for a lock that another holds. Only a backup
 /// tool could hold one for long.
 const BUSY_TIMEOUT: Duration = Duration::from_secs(5);
+
+/// Length to which the write-ahead log is cut back [bytes].
+const LOG_BYTES: u32 = 16 << 20;
 
 /// The database of one service. Clones share it.
 #[derive(Debug, Clone)]
@@ -114,24 +125,31 @@ impl Store {
     /// # Errors
     /// Another service has it, or it can't be opened.
     pub async fn open(path: &Path) -> Result<Self, StoreError> {
-        Self::open_with(path, Arc::new(SystemClock)).await
+        Self::open_with(path, None, Arc::new(SystemClock)).await
     }
 
-    /// The same by another clock than the system's.
+    /// The same, with a largest size of the database [bytes] and by a clock that
+    /// may be another than the system's.
     ///
     /// # Errors
     /// Another service has it, or it can't be opened.
-    pub async fn open_with(path: &Path, clock: Arc<dyn Clock>) -> Result<Self, StoreError> {
+    pub async fn open_with(
+        path: &Path,
+        largest_bytes: Option<u64>,
+        clock: Arc<dyn Clock>,
+    ) -> Result<Self, StoreError> {
         let lock = lock(path)?;
         let options = SqliteConnectOptions::new()
             .filename(path)
             .journal_mode(SqliteJournalMode::Wal)
             .synchronous(SqliteSynchronous::Full)
             .foreign_keys(true)
-            .busy_timeout(BUSY_TIMEOUT);
+            .busy_timeout(BUSY_TIMEOUT)
+            // A log that grew under a saved state shrinks again.
+            .pragma("journal_size_limit", LOG_BYTES.to_string());
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
-            .connect_with(options.clone().create_if_missing(true))
+            .connect_with(limited(options.clone(), largest_bytes).create_if_missing(true))
             .await?;
         sqlx::migrate!().run(&writer).await?;
         let readers = SqlitePoolOptions::new()
@@ -153,15 +171,6 @@ impl Store {
         self.writer.close().await;
     }
 
-    /// Whether the database answers.
-    ///
-    /// # Errors
-    /// It does not.
-    pub async fn ping(&self) -> Result<(), StoreError> {
-        sqlx::query("SELECT 1").execute(&self.readers).await?;
-        Ok(())
-    }
-
     /// A transaction that has the write lock from its beginning, so that it
     /// can't fail half-way for want of it.
     async fn begin_write(&self) -> Result<Transaction<'static, Sqlite>, StoreError> {
@@ -171,6 +180,18 @@ impl Store {
     /// The time of day, as rows have it [ms].
     fn now_ms(&self) -> i64 {
         self.clock.now().as_millisecond()
+    }
+}
+
+/// SQLite's page size [bytes].
+const PAGE_BYTES: u64 = 4096;
+
+fn limited(options: SqliteConnectOptions, largest_bytes: Option<u64>) -> SqliteConnectOptions {
+    match largest_bytes {
+        None => options,
+        Some(bytes) => options
+            .page_size(PAGE_BYTES as u32)
+            .pragma("max_page_count", (bytes / PAGE_BYTES).max(1).to_string()),
     }
 }
 

@@ -3,10 +3,8 @@
 use super::ending::LONGEST_BACK_OFF_MS;
 use super::history::{begin_attempt, end_attempt};
 use super::lease::milliseconds;
-use super::rows::integer;
 use super::{Hold, Store, StoreError};
 use crate::jobs::job::{JobId, JobStatus};
-use crate::jobs::submit::NewJob;
 use sqlx::FromRow;
 use std::time::Duration;
 
@@ -17,8 +15,19 @@ pub struct Claimant {
     pub owner: String,
     /// How long a claim holds unless it is renewed.
     pub lease: Duration,
-    /// Solver that runs the jobs.
-    pub solver_version: &'static str,
+    /// Program that runs the jobs.
+    pub solver: Solver,
+}
+
+/// The program that runs a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Solver {
+    /// Version of the solver.
+    pub version: &'static str,
+    /// Commit the program was built from.
+    pub commit: &'static str,
+    /// The instructions its fast path uses.
+    pub instructions: &'static str,
 }
 
 /// A job that a worker just took up.
@@ -50,28 +59,6 @@ struct ClaimedRow {
 }
 
 impl Store {
-    /// Puts a job into the queue; it is on disk when this returns.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn submit(&self, job: &NewJob) -> Result<(), StoreError> {
-        let mut transaction = self.begin_write().await?;
-        sqlx::query(
-            "INSERT INTO jobs (id, created_ms, scenario, title, bodies, solver_version)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
-        )
-        .bind(job.id.to_string())
-        .bind(self.now_ms())
-        .bind(&job.scenario)
-        .bind(&job.title)
-        .bind(integer(job.bodies as u64))
-        .bind(job.solver_version)
-        .execute(&mut *transaction)
-        .await?;
-        transaction.commit().await?;
-        Ok(())
-    }
-
     /// Takes up the oldest accepted job that has not to wait after a setback.
     ///
     /// # Errors
@@ -82,16 +69,19 @@ impl Store {
         let row: Option<ClaimedRow> = sqlx::query_as(
             "UPDATE jobs
              SET status = 'running', started_ms = ?1, solver_version = ?2, attempt = attempt + 1,
+                 solver_commit = ?6, instructions = ?7,
                  lease_owner = ?3, lease_expires_ms = ?4, lease_token = lease_token + 1
              WHERE sequence = (SELECT min(sequence) FROM jobs WHERE status = 'accepted'
                                AND (not_before_ms <= ?1 OR not_before_ms > ?5))
              RETURNING id, attempt, lease_token, scenario",
         )
         .bind(now_ms)
-        .bind(claimant.solver_version)
+        .bind(claimant.solver.version)
         .bind(&claimant.owner)
         .bind(now_ms + milliseconds(claimant.lease))
         .bind(now_ms + LONGEST_BACK_OFF_MS)
+        .bind(claimant.solver.commit)
+        .bind(claimant.solver.instructions)
         .fetch_optional(&mut *transaction)
         .await?;
         let Some(claim) = row.map(ClaimedRow::read).transpose()? else {

@@ -2,13 +2,12 @@
 //! what `tests/conformance.rs` holds every one of them to.
 
 use super::{
-    Beginning, Claim, Claimant, Dismissal, Hold, NewResults, Page, Renewal, Returned, Setback,
-    Store, StoreError, StoredChunk, StoredState,
+    Beginning, Census, Claim, Claimant, Dismissal, Event, Hold, NewResults, Page, Removal, Renewal,
+    Returned, Setback, Store, StoreError, StoredChunk, StoredState, Submission, Submitted,
 };
 use crate::jobs::failure::Failure;
-use crate::jobs::job::{Job, JobId, JobSummary};
+use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
 use crate::jobs::progress::Progress;
-use crate::jobs::submit::NewJob;
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
 use std::time::Duration;
@@ -32,8 +31,10 @@ macro_rules! seam {
 }
 
 seam! {
-    /// Puts a job into the queue.
-    fn submit(job: &NewJob) -> ();
+    /// Puts the jobs of a request into the queue, all or none.
+    fn submit(submission: &Submission<'_>) -> Submitted;
+    /// The newest successful job with a scenario, by version and commit.
+    fn finished_like(scenario_hash: &str, solver: (&str, &str)) -> Option<JobId>;
     /// Takes up the oldest accepted job that has not to wait.
     fn claim(claimant: &Claimant) -> Option<Claim>;
     /// Says where an attempt begins.
@@ -56,10 +57,22 @@ seam! {
     fn take_back_expired(owner: &str, longest: Duration) -> usize;
     /// Dismisses a job.
     fn dismiss(id: JobId) -> Dismissal;
+    /// Removes a job that has ended.
+    fn remove(id: JobId) -> Removal;
+    /// Removes some of the jobs that ended so long ago [ms].
+    fn remove_ended(age_ms: i64) -> u64;
+    /// The state of a job, if there is one.
+    fn status(id: JobId) -> Option<JobStatus>;
+    /// The next events after a number.
+    fn events(after: i64, job: Option<JobId>) -> Vec<Event>;
+    /// Number of the last event.
+    fn last_event() -> i64;
+    /// Counts jobs.
+    fn census() -> Census;
     /// The job, if there is one.
     fn job(id: JobId) -> Option<Job>;
     /// A page of jobs.
-    fn page(page: Page) -> Vec<JobSummary>;
+    fn page(page: &Page) -> Vec<JobSummary>;
     /// The saved state of a job.
     fn state(job: JobId) -> Option<StoredState>;
     /// The first chunk from a sample on that reaches into a range.

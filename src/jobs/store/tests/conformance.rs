@@ -46,7 +46,10 @@ async fn jobs_are_claimed_in_the_order_of_submission_and_once<S: JobStore>(fixtu
     assert_eq!(fixture.try_claim("a").await, None);
     let job = fixture.job(jobs[0]).await;
     assert_eq!(job.summary.status, JobStatus::Running);
-    assert_eq!(job.solver_version, "2", "the solver that runs it");
+    assert_eq!(
+        job.provenance.solver_version, "2",
+        "the solver that runs it"
+    );
     assert!(job.summary.started.unwrap() >= job.summary.created);
 }
 
@@ -71,7 +74,7 @@ async fn a_job_ends_once_and_says_how<S: JobStore>(fixture: &Fixture<S>) {
     assert!(!fixture.store.fail(hold, &failure).await.unwrap());
     let job = fixture.job(id).await;
     assert_eq!(job.outcome.unwrap().get(), "{}");
-    assert_eq!(job.fingerprint.as_deref(), Some(FINGERPRINT));
+    assert_eq!(job.provenance.fingerprint.as_deref(), Some(FINGERPRINT));
     assert_eq!(job.summary.progress.fraction, 1.0);
     assert_eq!(fixture.endings(id).await, ["successful"]);
 

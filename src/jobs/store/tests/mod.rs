@@ -51,7 +51,7 @@ impl Fixture<Store> {
         let now = Timestamp::from_second(1_700_000_000).unwrap();
         let clock = Arc::new(SetClock(Mutex::new(now)));
         let path = directory.path().join("test.db");
-        let store = Store::open_with(&path, clock.clone()).await.unwrap();
+        let store = Store::open_with(&path, None, clock.clone()).await.unwrap();
         Self {
             store,
             clock,
@@ -67,10 +67,14 @@ impl<S: JobStore> Fixture<S> {
             title: "a title".to_owned(),
             bodies: 1,
             scenario: "{}".to_owned(),
+            scenario_hash: "0".repeat(64),
+            labels: Vec::new(),
             solver_version: "1",
         };
-        self.store.submit(&job).await.unwrap();
-        job.id
+        let jobs = [job];
+        let submitted = self.store.submit(&submission(&jobs)).await.unwrap();
+        assert_eq!(submitted, Submitted::Accepted);
+        jobs[0].id
     }
 
     async fn try_claim(&self, owner: &str) -> Option<Hold> {
@@ -104,11 +108,27 @@ impl<S: JobStore> Fixture<S> {
     }
 }
 
+fn submission(jobs: &[NewJob]) -> Submission<'_> {
+    Submission {
+        jobs,
+        submitter: None,
+        key: None,
+        room: Room {
+            queue: 1_000,
+            submitter: None,
+        },
+    }
+}
+
 fn claimant(owner: &str) -> Claimant {
     Claimant {
         owner: owner.to_owned(),
         lease: LEASE,
-        solver_version: "2",
+        solver: Solver {
+            version: "2",
+            commit: "c",
+            instructions: "none",
+        },
     }
 }
 
