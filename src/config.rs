@@ -10,23 +10,39 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use thiserror::Error;
 
+mod queue;
 #[cfg(test)]
 mod tests;
+mod tokens;
+mod upkeep;
+
+pub use queue::Queue;
+pub use tokens::{Scope, Token};
+pub use upkeep::{Log, LogFormat, Retention};
 
 /// Configuration of the service.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ServiceConfig {
-    /// Address and port; port 0 takes a free one. Loopback only.
+    /// Address and port; port 0 takes a free one. Beyond the loopback interface
+    /// only with access tokens.
     pub listen: SocketAddr,
     /// The SQLite file; made if it is not there.
     pub database: PathBuf,
     /// Who computes.
     pub workers: Workers,
+    /// Who may have a job for how long.
+    pub queue: Queue,
     /// What a client may ask of the service.
     pub limits: Limits,
     /// How results reach the database while a job runs.
     pub recording: Recording,
+    /// What is kept for how long.
+    pub retention: Retention,
+    /// How the log is written.
+    pub log: Log,
+    /// Access tokens; without any, nobody is asked for one.
+    pub tokens: Vec<Token>,
 }
 
 /// The worker pool.
@@ -47,12 +63,20 @@ pub struct Limits {
     pub request_body_bytes: usize,
     /// Longest wait for the head of a request [s].
     pub header_read_timeout_s: f64,
+    /// Longest wait for the body of a request [s].
+    pub body_read_timeout_s: f64,
+    /// Longest time for which a client may take nothing of its answer [s].
+    pub write_timeout_s: f64,
     /// Longest time from the head of a request to the head of its answer [s].
     pub request_timeout_s: f64,
     /// Connections served at the same time; more wait in the listen queue.
     pub connections: usize,
     /// How long requests in hand may go on once the service stops [s].
     pub drain_timeout_s: f64,
+    /// Most jobs that may wait; more are refused with 429.
+    pub queued_jobs: u32,
+    /// Largest size of the database [bytes]; `None`: as the disk has room.
+    pub database_bytes: Option<u64>,
 }
 
 /// Recording of results.
@@ -61,6 +85,9 @@ pub struct Limits {
 pub struct Recording {
     /// Longest wall time for which new samples and progress stay unwritten [s].
     pub flush_interval_s: f64,
+    /// Wall time between two saved states of a running job [s]; longer where
+    /// saving one takes more than a fiftieth of that.
+    pub state_interval_s: f64,
 }
 
 /// Why a configuration is refused.
@@ -102,16 +129,29 @@ impl Default for ServiceConfig {
                 count: 1,
                 threads_per_worker: None,
             },
+            queue: Queue {
+                name: "scree".to_owned(),
+                lease_s: 30.0,
+                heartbeat_interval_s: 2.0,
+            },
             limits: Limits {
                 request_body_bytes: 1024 * 1024,
                 header_read_timeout_s: 10.0,
+                body_read_timeout_s: 10.0,
+                write_timeout_s: 10.0,
                 request_timeout_s: 30.0,
                 connections: 256,
                 drain_timeout_s: 5.0,
+                queued_jobs: 10_000,
+                database_bytes: None,
             },
             recording: Recording {
                 flush_interval_s: 0.5,
+                state_interval_s: 5.0,
             },
+            retention: Retention::default(),
+            log: Log::default(),
+            tokens: Vec::new(),
         }
     }
 }
@@ -143,20 +183,22 @@ impl ServiceConfig {
     /// # Errors
     /// The first key that is not allowed.
     pub fn check(&self, cores: usize) -> Result<PoolSize, ConfigError> {
+        tokens::check(&self.tokens)?;
         self.check_listen()?;
         self.check_limits()?;
+        self.queue.check()?;
         self.workers.check(cores)
     }
 
     fn check_listen(&self) -> Result<(), ConfigError> {
-        if self.listen.ip().is_loopback() {
+        if self.listen.ip().is_loopback() || !self.tokens.is_empty() {
             return Ok(());
         }
         Err(not_allowed(
             "listen",
             self.listen,
-            "the service has no access tokens yet, so it only listens on the loopback interface \
-             (127.0.0.1 or [::1])",
+            "without access tokens (\"scree token\" makes one) the service only listens on the \
+             loopback interface (127.0.0.1 or [::1])",
         ))
     }
 
@@ -164,11 +206,22 @@ impl ServiceConfig {
         let limits = &self.limits;
         for (key, value) in [
             ("limits.header_read_timeout_s", limits.header_read_timeout_s),
+            ("limits.body_read_timeout_s", limits.body_read_timeout_s),
+            ("limits.write_timeout_s", limits.write_timeout_s),
             ("limits.request_timeout_s", limits.request_timeout_s),
             ("limits.drain_timeout_s", limits.drain_timeout_s),
             (
                 "recording.flush_interval_s",
                 self.recording.flush_interval_s,
+            ),
+            (
+                "recording.state_interval_s",
+                self.recording.state_interval_s,
+            ),
+            ("queue.lease_s", self.queue.lease_s),
+            (
+                "queue.heartbeat_interval_s",
+                self.queue.heartbeat_interval_s,
             ),
         ] {
             // A comparison is false for NaN, so NaN is refused too.
@@ -179,12 +232,13 @@ impl ServiceConfig {
         for (key, value) in [
             ("limits.request_body_bytes", limits.request_body_bytes),
             ("limits.connections", limits.connections),
+            ("limits.queued_jobs", limits.queued_jobs as usize),
         ] {
             if value == 0 {
                 return Err(not_allowed(key, value, "allowed is x >= 1"));
             }
         }
-        Ok(())
+        self.retention.check()
     }
 }
 
@@ -216,6 +270,16 @@ impl Limits {
         Duration::from_secs_f64(self.header_read_timeout_s)
     }
 
+    /// Longest wait for the body of a request.
+    pub fn body_read_timeout(&self) -> Duration {
+        Duration::from_secs_f64(self.body_read_timeout_s)
+    }
+
+    /// Longest time for which a client may take nothing of its answer.
+    pub fn write_timeout(&self) -> Duration {
+        Duration::from_secs_f64(self.write_timeout_s)
+    }
+
     /// Longest time to the head of an answer.
     pub fn request_timeout(&self) -> Duration {
         Duration::from_secs_f64(self.request_timeout_s)
@@ -231,6 +295,11 @@ impl Recording {
     /// Longest wall time for which results stay unwritten.
     pub fn flush_interval(&self) -> Duration {
         Duration::from_secs_f64(self.flush_interval_s)
+    }
+
+    /// Wall time between two saved states.
+    pub fn state_interval(&self) -> Duration {
+        Duration::from_secs_f64(self.state_interval_s)
     }
 }
 

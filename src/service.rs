@@ -3,9 +3,11 @@
 use crate::config::{ConfigError, PoolSize, ServiceConfig};
 use crate::http;
 use crate::jobs::Jobs;
+use crate::jobs::clock::SystemClock;
 use crate::jobs::pool::Pool;
 use crate::jobs::store::{Store, StoreError};
 use std::net::SocketAddr;
+use std::sync::Arc;
 use thiserror::Error;
 use tokio::net::TcpListener;
 use tokio::sync::watch;
@@ -49,8 +51,8 @@ impl RunningService {
         self.address
     }
 
-    /// Takes no more requests, lets those in hand finish, puts running jobs
-    /// back into the queue, and returns when all is written.
+    /// Takes no more requests, lets those in hand finish, saves running jobs and
+    /// hands them back into the queue, and returns when all is written.
     pub async fn stop(self) {
         self.stop.send_replace(true);
         let pool = self.pool;
@@ -75,7 +77,8 @@ pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> 
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let size = config.check(cores)?;
     let (listener, address) = listen(config.listen).await?;
-    let store = Store::open(&config.database).await?;
+    let largest = config.limits.database_bytes;
+    let store = Store::open_with(&config.database, largest, Arc::new(SystemClock)).await?;
     match serve(&config, size, &store, listener).await {
         Ok((pool, server, stop)) => {
             tracing::info!(%address, ?size, database = %config.database.display(), "serving");
@@ -100,17 +103,14 @@ async fn serve(
     store: &Store,
     listener: TcpListener,
 ) -> Result<(Pool, JoinHandle<()>, watch::Sender<bool>), StartError> {
-    let left_running = store.recover().await?;
+    let left_running = store.take_back_own(&config.queue.name).await?;
     if left_running > 0 {
-        tracing::warn!(
-            left_running,
-            "the last service died under jobs: they start over"
-        );
+        tracing::warn!(left_running, "the last service died under jobs: they go on");
     }
-    let pool =
-        Pool::start(store, size, config.recording.flush_interval()).map_err(StartError::Workers)?;
-    let jobs = Jobs::new(store.clone(), pool.bench(), size.threads_per_worker);
-    let router = http::router(jobs, &config.limits);
+    let pool = Pool::start(store, size, config).map_err(StartError::Workers)?;
+    let limits = config.limits.clone();
+    let jobs = Jobs::new(store.clone(), pool.bench(), limits, size.threads_per_worker);
+    let router = http::router(jobs, config);
     let (stop, stopped) = watch::channel(false);
     let server = http::server::serve(listener, router, config.limits.clone(), stopped);
     Ok((pool, tokio::spawn(server), stop))

@@ -19,6 +19,8 @@ const EXIT_CODES: &str =
 pub(super) enum Command {
     /// Start the HTTP service
     Serve(ServeOptions),
+    /// Make an access token for the service
+    Token(TokenOptions),
     /// Compute one scenario here, without the service
     Run(RunOptions),
     /// Say what a run of a scenario would compute, leave out and cost
@@ -35,7 +37,8 @@ pub(super) enum Command {
 
 #[derive(Debug, Args)]
 pub(super) struct ServeOptions {
-    /// Address and port to listen on, loopback only; port 0 takes a free one
+    /// Address and port to listen on, beyond loopback only with access tokens;
+    /// port 0 takes a free one
     /// [default: 127.0.0.1:8080]
     #[arg(long, value_name = "ADDRESS")]
     pub(super) listen: Option<SocketAddr>,
@@ -46,6 +49,29 @@ pub(super) struct ServeOptions {
     /// [default: configs/service.toml, if there is one]
     #[arg(long, value_name = "FILE")]
     pub(super) config: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct TokenOptions {
+    /// Whose it is; jobs are kept under this name
+    pub(super) name: String,
+    /// What it is good for; may be given several times
+    #[arg(long, value_name = "SCOPE", value_enum, required = true)]
+    pub(super) scope: Vec<ScopeWord>,
+    /// Most of its jobs that may wait or run [default: as the queue takes]
+    #[arg(long, value_name = "N")]
+    pub(super) active_jobs: Option<u32>,
+}
+
+/// What a token can be good for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ScopeWord {
+    /// Submit jobs; dismiss and remove one's own
+    Submit,
+    /// Look at jobs and results
+    Read,
+    /// Dismiss and remove anyone's
+    Admin,
 }
 
 #[derive(Debug, Args)]

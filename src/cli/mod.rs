@@ -20,6 +20,7 @@ mod plan;
 mod scenario_file;
 mod serve;
 mod table;
+mod token;
 mod validate;
 mod verify;
 
@@ -36,6 +37,7 @@ pub(crate) fn run() -> ExitCode {
     };
     let result = match &arguments.command {
         Command::Serve(options) => serve::serve(options),
+        Command::Token(options) => token::token(options),
         Command::Run(options) => local_run::run(options),
         Command::Plan(options) => plan::plan(options),
         Command::Validate(options) => validate::validate(options),

@@ -3,7 +3,7 @@
 use super::arguments::ServeOptions;
 use super::console;
 use super::failure::Failure;
-use scree::config::ServiceConfig;
+use scree::config::{LogFormat, ServiceConfig};
 use scree::service::{self, StartError};
 use std::path::Path;
 use tracing::level_filters::LevelFilter;
@@ -17,7 +17,10 @@ const USUAL_CONFIG: &str = "configs/service.toml";
 /// The configuration is refused, or the service can't start.
 pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
     let config = configuration(options)?;
-    log_to_standard_error(LevelFilter::INFO);
+    match config.log.format {
+        LogFormat::Text => log_to_standard_error(LevelFilter::INFO),
+        LogFormat::Json => log_as_json(),
+    }
     let runtime = tokio::runtime::Runtime::new()?;
     runtime.block_on(async {
         // Before anyone knows the address: what is asked while nobody listens is lost.
@@ -59,6 +62,15 @@ pub(super) fn log_to_standard_error(level: LevelFilter) {
     tracing_subscriber::fmt()
         .with_writer(std::io::stderr)
         .with_max_level(level)
+        .init();
+}
+
+/// The same, an object a line, with the spans it stands in: request, job.
+fn log_as_json() {
+    tracing_subscriber::fmt()
+        .json()
+        .with_writer(std::io::stderr)
+        .with_max_level(LevelFilter::INFO)
         .init();
 }
 

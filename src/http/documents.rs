@@ -2,7 +2,7 @@
 
 use super::contract::{OutcomeDocument, ScenarioDocument};
 use crate::jobs::failure::Failure;
-use crate::jobs::job::{Job, JobStatus, JobSummary};
+use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
 use crate::jobs::progress::Progress;
 use jiff::Timestamp;
 use serde::Serialize;
@@ -21,7 +21,7 @@ pub(super) struct JobDocument {
     /// When it was accepted (RFC 3339).
     #[schema(format = "date-time")]
     pub created: String,
-    /// When a worker took it up; null before.
+    /// When a worker last took it up; null while it waits.
     #[schema(required = true, format = "date-time")]
     pub started: Option<String>,
     /// When it ended; null before.
@@ -29,8 +29,15 @@ pub(super) struct JobDocument {
     pub finished: Option<String>,
     /// How often a worker took it up.
     pub attempt: u32,
-    /// Version of the solver that runs it, or checked it if it has not started.
-    pub solver_version: String,
+    /// Those times, the first first.
+    pub attempts: Vec<AttemptDocument>,
+    /// Its labels, in order.
+    pub labels: Vec<String>,
+    /// Name of the access token it came with; null where no token is asked for.
+    #[schema(required = true)]
+    pub submitter: Option<String>,
+    /// What the answer comes from.
+    pub provenance: Provenance,
     /// The scenario with every default filled in.
     #[schema(value_type = ScenarioDocument)]
     pub scenario: Box<RawValue>,
@@ -42,6 +49,34 @@ pub(super) struct JobDocument {
     /// Why it failed; null unless failed.
     #[schema(required = true, value_type = Option<Failure>)]
     pub problem: Option<Box<RawValue>>,
+}
+
+/// One time that a worker took a job up.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Attempt)]
+pub(super) struct AttemptDocument {
+    /// The how manieth, from 1.
+    pub attempt: u32,
+    /// Service whose worker it was.
+    pub owner: String,
+    /// When it began (RFC 3339).
+    #[schema(format = "date-time")]
+    pub started: String,
+    /// Simulated time of the saved state it went on from [s]; null: from the
+    /// start.
+    #[schema(required = true)]
+    pub resumed_from_s: Option<f64>,
+    /// When it ended; null while it goes on.
+    #[schema(required = true, format = "date-time")]
+    pub ended: Option<String>,
+    /// How it ended: successful, failed, dismissed, handed-back (the service
+    /// stopped), cut-off (it died), expired (it gave no sign of life),
+    /// infrastructure (it could not run the job); null while it goes on.
+    #[schema(required = true)]
+    pub ending: Option<String>,
+    /// More about that; null where there is no more.
+    #[schema(required = true)]
+    pub detail: Option<String>,
 }
 
 /// A job, without its scenario and its answer.
@@ -66,6 +101,8 @@ pub(super) struct JobSummaryDocument {
     pub finished: Option<String>,
     /// How far it is.
     pub progress: Progress,
+    /// Its labels, in order.
+    pub labels: Vec<String>,
 }
 
 /// A page of jobs, newest first.
@@ -99,11 +136,28 @@ impl From<Job> for JobDocument {
             started: summary.started,
             finished: summary.finished,
             attempt: job.attempt,
-            solver_version: job.solver_version,
+            attempts: job.attempts.into_iter().map(Into::into).collect(),
+            labels: summary.labels,
+            submitter: job.submitter,
+            provenance: job.provenance,
             scenario: job.scenario,
             progress: summary.progress,
             outcome: job.outcome,
             problem: job.problem,
+        }
+    }
+}
+
+impl From<Attempt> for AttemptDocument {
+    fn from(attempt: Attempt) -> Self {
+        Self {
+            attempt: attempt.attempt,
+            owner: attempt.owner,
+            started: rfc3339(attempt.started),
+            resumed_from_s: attempt.resumed_from_s,
+            ended: attempt.ended.map(rfc3339),
+            ending: attempt.ending,
+            detail: attempt.detail,
         }
     }
 }
@@ -118,6 +172,7 @@ impl From<JobSummary> for JobSummaryDocument {
             started: job.started.map(rfc3339),
             finished: job.finished.map(rfc3339),
             progress: job.progress,
+            labels: job.labels,
         }
     }
 }

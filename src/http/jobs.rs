@@ -1,19 +1,20 @@
-//! Jobs: submit, list, look at, dismiss.
+//! Jobs: list, look at, dismiss, remove.
 
-use super::contract::ScenarioDocument;
+use super::access::Caller;
 use super::documents::{JobDocument, JobPageDocument};
 use super::named_job::NamedJob;
 use super::problem::Problem;
 use super::query::Query;
-use super::scenario_body::{ScenarioText, malformed};
+use super::tagged;
 use crate::jobs::job::{Job, JobId, JobStatus};
-use crate::jobs::store::Page;
-use crate::jobs::submit::ScenarioError;
-use crate::jobs::{Dismissed, Jobs, SubmitError};
+use crate::jobs::store::{Page, Removal};
+use crate::jobs::submit::label;
+use crate::jobs::{Dismissed, Jobs};
 use axum::Json;
 use axum::extract::{RawQuery, State};
-use axum::http::{StatusCode, header};
+use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
+use std::time::Duration;
 
 /// Jobs of one page, unless the client says otherwise.
 const DEFAULT_LIMIT: u32 = 20;
@@ -21,37 +22,8 @@ const DEFAULT_LIMIT: u32 = 20;
 /// Most jobs of one page.
 const LARGEST_LIMIT: u32 = 100;
 
-/// Submit a scenario
-///
-/// The body is the bare scenario. The job is on disk when the answer comes.
-#[utoipa::path(
-    post,
-    path = "/v1/jobs",
-    tag = "jobs",
-    request_body = ScenarioDocument,
-    responses(
-        (status = 202, description = "The job was accepted", body = JobDocument,
-         headers(("Location" = String, description = "Where the job is"))),
-        (status = 400, description = "The body is not JSON", body = Problem, content_type = "application/problem+json"),
-        (status = 413, description = "The body is too large", body = Problem, content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as JSON", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The scenario breaks rules; `errors` has them all", body = Problem, content_type = "application/problem+json"),
-    )
-)]
-pub(super) async fn submit(
-    State(jobs): State<Jobs>,
-    ScenarioText(text): ScenarioText,
-) -> Result<Response, Problem> {
-    let job = jobs.submit(&text).await?;
-    let location = format!("/v1/jobs/{}", job.summary.id);
-    let document = Json(JobDocument::from(job));
-    Ok((
-        StatusCode::ACCEPTED,
-        [(header::LOCATION, location)],
-        document,
-    )
-        .into_response())
-}
+/// Longest time that a look at a job may wait for its end [s].
+const LONGEST_WAIT_S: u32 = 60;
 
 /// List jobs, newest first
 #[utoipa::path(
@@ -60,75 +32,117 @@ pub(super) async fn submit(
     tag = "jobs",
     params(
         ("status" = Option<JobStatus>, Query, description = "Only jobs of this state"),
+        ("label" = Option<String>, Query, description = "Only jobs with this label"),
         ("limit" = Option<u32>, Query, minimum = 1, maximum = 100, description = "Most jobs of the page; 20 unless given"),
         ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
     ),
     responses(
         (status = 200, description = "A page of jobs", body = JobPageDocument),
+        (status = 304, description = "It is what `If-None-Match` names"),
         (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn list(
     State(jobs): State<Jobs>,
+    headers: HeaderMap,
     RawQuery(query): RawQuery,
-) -> Result<Json<JobPageDocument>, Problem> {
+) -> Result<Response, Problem> {
     let page = read_page(query.as_deref())?;
     // One more than asked for tells whether there is a next page.
     let mut found = jobs
-        .page(Page {
+        .page(&Page {
             limit: page.limit + 1,
-            ..page
+            ..page.clone()
         })
         .await?;
     let more = found.len() > page.limit as usize;
     found.truncate(page.limit as usize);
     let last = found.last().filter(|_| more);
     let next_cursor = last.map(|job| cursor::write(job.sequence));
-    Ok(Json(JobPageDocument {
+    let document = JobPageDocument {
         jobs: found.into_iter().map(Into::into).collect(),
         next_cursor,
-    }))
+    };
+    tagged::json(&headers, &document)
 }
 
 /// Look at a job
+///
+/// With `wait` the answer comes once the job has ended, or the time is over.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}",
     tag = "jobs",
-    params(("id" = String, Path, description = "Identity of the job")),
+    params(
+        ("id" = String, Path, description = "Identity of the job"),
+        ("wait" = Option<String>, Query, description = "Seconds to wait for the job's end, as `30s`; at most `60s`"),
+        ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
+    ),
     responses(
-        (status = 200, description = "The job", body = JobDocument),
+        (status = 200, description = "The job", body = JobDocument,
+         headers(("ETag" = String, description = "Name of exactly this answer"))),
+        (status = 304, description = "It is what `If-None-Match` names"),
         (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn show(
     State(jobs): State<Jobs>,
     NamedJob(id): NamedJob,
-) -> Result<Json<JobDocument>, Problem> {
-    Ok(Json(find(&jobs, &id).await?.into()))
+    headers: HeaderMap,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let mut query = Query::new(query.as_deref());
+    let rule = format!("0s <= x <= {LONGEST_WAIT_S}s");
+    let wait_s = query.word("wait", &rule, |text| {
+        let seconds: u32 = text.strip_suffix('s')?.parse().ok()?;
+        (seconds <= LONGEST_WAIT_S).then_some(seconds)
+    });
+    query.finish()?;
+    if let Some(seconds) = wait_s {
+        let longest = Duration::from_secs(u64::from(seconds));
+        jobs.wait_for_end(parse_id(&id)?, longest).await?;
+    }
+    tagged::json(&headers, &JobDocument::from(find(&jobs, &id).await?))
 }
 
-/// Dismiss a job
+/// Dismiss or remove a job
 ///
-/// A waiting job never starts; a running one stops within half a second and
-/// keeps what it recorded. Dismissing it again changes nothing.
+/// Dismissed, a waiting job never starts; a running one stops within half a
+/// second and keeps what it recorded. Dismissing it again changes nothing. With
+/// `remove=ended` a job that has ended is removed with all its results.
 #[utoipa::path(
     delete,
     path = "/v1/jobs/{id}",
     tag = "jobs",
-    params(("id" = String, Path, description = "Identity of the job")),
+    params(
+        ("id" = String, Path, description = "Identity of the job"),
+        ("remove" = Option<String>, Query, description = "\"ended\": remove the job, which must have ended"),
+    ),
     responses(
         (status = 200, description = "The job, dismissed", body = JobDocument),
+        (status = 204, description = "The job is removed"),
+        (status = 403, description = "The job is another's", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "The job had ended otherwise", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "The job had ended otherwise; or is to be removed and has not ended", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn dismiss(
     State(jobs): State<Jobs>,
+    caller: Caller,
     NamedJob(id): NamedJob,
-) -> Result<Json<JobDocument>, Problem> {
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let mut query = Query::new(query.as_deref());
+    let remove = query.word("remove", "ended", |word| (word == "ended").then_some(()));
+    query.finish()?;
+    caller.may_change(find(&jobs, &id).await?.submitter.as_deref())?;
+    if remove.is_some() {
+        return removed(&jobs, &id).await;
+    }
     match jobs.dismiss(parse_id(&id)?).await? {
-        Dismissed::Done(job) => Ok(Json((*job).into())),
+        Dismissed::Done(job) => Ok(Json(JobDocument::from(*job)).into_response()),
         Dismissed::Unknown => Err(unknown_job(&id)),
         Dismissed::TooLate(status) => Err(Problem::new(
             StatusCode::CONFLICT,
@@ -138,6 +152,19 @@ pub(super) async fn dismiss(
                 "job {id} is {}: it can't be dismissed any more",
                 status.word()
             ),
+        )),
+    }
+}
+
+async fn removed(jobs: &Jobs, id: &str) -> Result<Response, Problem> {
+    match jobs.remove(parse_id(id)?).await? {
+        Removal::Removed => Ok(StatusCode::NO_CONTENT.into_response()),
+        Removal::Unknown => Err(unknown_job(id)),
+        Removal::Active => Err(Problem::new(
+            StatusCode::CONFLICT,
+            "job-active",
+            "The job has not ended",
+            format!("job {id} has not ended: dismiss it first"),
         )),
     }
 }
@@ -162,6 +189,7 @@ fn read_page(query: Option<&str>) -> Result<Page, Problem> {
     let words = JobStatus::ALL.map(JobStatus::word).join(", ");
     let page = Page {
         status: query.word("status", &format!("one of {words}"), JobStatus::from_word),
+        label: query.word("label", "a label", label),
         limit: query
             .whole("limit", 1..=LARGEST_LIMIT)
             .unwrap_or(DEFAULT_LIMIT),
@@ -169,24 +197,6 @@ fn read_page(query: Option<&str>) -> Result<Page, Problem> {
     };
     query.finish()?;
     Ok(page)
-}
-
-impl From<SubmitError> for Problem {
-    fn from(error: SubmitError) -> Self {
-        match error {
-            SubmitError::Scenario(error) => error.into(),
-            SubmitError::Store(error) => error.into(),
-        }
-    }
-}
-
-impl From<ScenarioError> for Problem {
-    fn from(error: ScenarioError) -> Self {
-        match error {
-            ScenarioError::Invalid(violations) => Self::invalid_scenario(violations),
-            error @ ScenarioError::Malformed { .. } => malformed(&error.to_string()),
-        }
-    }
 }
 
 /// The place in the list after which a page begins; opaque to clients.

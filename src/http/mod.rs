@@ -2,9 +2,13 @@
 //! computes nothing; every answer that is not the wanted one is an RFC 9457
 //! problem document.
 
+mod access;
+mod batch;
 pub mod contract;
 mod documents;
+mod events;
 mod jobs;
+mod metrics;
 mod named_job;
 mod plans;
 mod problem;
@@ -13,6 +17,9 @@ mod results;
 mod router;
 mod scenario_body;
 pub mod server;
+mod stall;
+mod submission;
 mod system;
+mod tagged;
 
 pub use router::{openapi, router};

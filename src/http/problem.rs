@@ -1,5 +1,6 @@
 //! Problem documents (RFC 9457).
 
+use crate::jobs::store::Trouble;
 use crate::jobs::submit::Violation;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -11,6 +12,9 @@ use uuid::Uuid;
 
 /// Media type of a problem document.
 const MEDIA_TYPE: HeaderValue = HeaderValue::from_static("application/problem+json");
+
+/// After so many seconds a database may be there again.
+const RETRY_AFTER_S: u8 = 5;
 
 /// Why a request did not get what it asked for (RFC 9457).
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
@@ -28,6 +32,9 @@ pub(super) struct Problem {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schema(required = false)]
     pub errors: Vec<FieldError>,
+    /// After so many seconds it may be worth trying again.
+    #[serde(skip)]
+    pub retry_after_s: Option<u8>,
     /// Under which the service's log has the details of an internal error.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_id: Option<String>,
@@ -67,6 +74,7 @@ impl Problem {
             status: status.as_u16(),
             detail: detail.into(),
             errors: Vec::new(),
+            retry_after_s: None,
             error_id: None,
         }
     }
@@ -77,8 +85,7 @@ impl Problem {
     }
 
     /// A body that is JSON, but no legal scenario.
-    pub(super) fn invalid_scenario(violations: Vec<Violation>) -> Self {
-        let errors: Vec<_> = violations.into_iter().map(FieldError::from).collect();
+    pub(super) fn invalid_scenario(errors: Vec<FieldError>) -> Self {
         let detail = match errors.as_slice() {
             [only] => only.detail.clone(),
             errors => format!("{} fields break the rules; see errors", errors.len()),
@@ -120,7 +127,47 @@ impl Problem {
 
 impl From<crate::jobs::store::StoreError> for Problem {
     fn from(error: crate::jobs::store::StoreError) -> Self {
-        Self::internal(&error)
+        match error.trouble() {
+            Trouble::Defect => Self::internal(&error),
+            Trouble::Full => {
+                tracing::error!(%error, "no room");
+                let detail = "there is no room for it on the disk; what is stored is safe";
+                let status = StatusCode::INSUFFICIENT_STORAGE;
+                Self::new(status, "storage-full", "No room", detail)
+            }
+            Trouble::Unavailable => {
+                tracing::error!(%error, "the database can't be used");
+                let detail = "the database can't be used now; what was acknowledged is safe";
+                let status = StatusCode::SERVICE_UNAVAILABLE;
+                Self {
+                    retry_after_s: Some(RETRY_AFTER_S),
+                    ..Self::new(status, "storage-unavailable", "No database", detail)
+                }
+            }
+        }
+    }
+}
+
+impl FieldError {
+    /// A place in the body that breaks a rule; its value is not repeated.
+    pub(super) fn of_body(pointer: &str, allowed: &str) -> Self {
+        Self {
+            pointer: Some(pointer.to_owned()),
+            parameter: None,
+            value: Value::Null,
+            allowed: allowed.to_owned(),
+            unit: None,
+            detail: format!("{pointer} is not allowed: {allowed}"),
+        }
+    }
+
+    /// The same in a document that holds this one at `pointer`.
+    pub(super) fn under(self, pointer: &str) -> Self {
+        let own = self.pointer.unwrap_or_default();
+        Self {
+            pointer: Some(format!("{pointer}{own}")),
+            ..self
+        }
     }
 }
 
@@ -140,10 +187,16 @@ impl From<Violation> for FieldError {
 impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let retry_after_s = self.retry_after_s;
         let mut response = (status, axum::Json(self)).into_response();
         response
             .headers_mut()
             .insert(header::CONTENT_TYPE, MEDIA_TYPE);
+        if let Some(seconds) = retry_after_s {
+            response
+                .headers_mut()
+                .insert(header::RETRY_AFTER, u16::from(seconds).into());
+        }
         response
     }
 }

@@ -62,6 +62,28 @@ impl Query {
         word
     }
 
+    /// All texts of a parameter that may be given several times.
+    pub(super) fn all<T>(
+        &mut self,
+        name: &str,
+        allowed: &str,
+        read: impl Fn(&str) -> Option<T>,
+    ) -> Vec<T> {
+        let texts: Vec<String> = self
+            .pairs
+            .extract_if(.., |pair| pair.0 == name)
+            .map(|pair| pair.1)
+            .collect();
+        let mut words = Vec::new();
+        for text in texts {
+            match read(&text) {
+                Some(word) => words.push(word),
+                None => self.refuse(name, &text, allowed, None),
+            }
+        }
+        words
+    }
+
     /// Refuses a parameter for a reason of the caller's.
     pub(super) fn refuse(&mut self, name: &str, value: &str, allowed: &str, unit: Option<&str>) {
         self.errors.push(FieldError {

@@ -5,14 +5,14 @@ use super::jobs::find;
 use super::named_job::NamedJob;
 use super::problem::Problem;
 use super::query::Query;
+use super::tagged;
 use crate::jobs::Jobs;
 use crate::results::columns::Selection;
 use crate::results::flow::FlowDocument;
 use crate::results::json::TrajectoryPieces;
-use axum::Json;
 use axum::body::{Body, Bytes};
 use axum::extract::{RawQuery, State};
-use axum::http::header;
+use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
 
@@ -68,6 +68,7 @@ pub(super) async fn trajectory(
     ),
     responses(
         (status = 200, description = "The snapshot", body = FlowSchema),
+        (status = 304, description = "It is what `If-None-Match` names"),
         (status = 404, description = "There is no such job, or no snapshot yet", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
@@ -75,8 +76,9 @@ pub(super) async fn trajectory(
 pub(super) async fn flow(
     State(jobs): State<Jobs>,
     NamedJob(id): NamedJob,
+    headers: HeaderMap,
     RawQuery(query): RawQuery,
-) -> Result<Json<FlowDocument>, Problem> {
+) -> Result<Response, Problem> {
     let mut query = Query::new(query.as_deref());
     let time_s = query.number("time_s", "s");
     query.finish()?;
@@ -88,10 +90,11 @@ pub(super) async fn flow(
             format!("job {id} has no snapshot of the flow yet"),
         )
     })?;
-    Ok(Json(FlowDocument {
+    let document = FlowDocument {
         job_id: Some(job_id.to_string()),
         snapshot,
-    }))
+    };
+    tagged::json(&headers, &document)
 }
 
 fn read_selection(query: Option<&str>) -> Result<(usize, Selection), Problem> {

@@ -1,59 +1,107 @@
 //! Which request goes where, and what goes round all of them.
 
+use super::access::{self, Gate};
+use super::metrics::{self, RequestCounts};
 use super::problem::Problem;
-use super::{jobs, plans, results, system};
-use crate::config::Limits;
+use super::scenario_body::BodyDeadline;
+use super::{batch, events, jobs, plans, results, submission, system};
+use crate::config::ServiceConfig;
 use crate::jobs::Jobs;
-use axum::Router;
 use axum::extract::{DefaultBodyLimit, Request};
-use axum::http::{StatusCode, header};
-use axum::middleware::{Next, from_fn};
-use axum::response::{IntoResponse, Response};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::middleware::{Next, from_fn, from_fn_with_state};
+use axum::response::{Html, IntoResponse, Response};
 use axum::routing::get;
+use axum::{Extension, Router};
 use std::any::Any;
+use std::sync::Arc;
 use std::time::Duration;
+use tokio::time::Instant;
 use tower_http::catch_panic::CatchPanicLayer;
-use tower_http::trace::{DefaultMakeSpan, DefaultOnResponse, TraceLayer};
-use tracing::Level;
+use tower_http::trace::{DefaultOnResponse, TraceLayer};
+use tracing::{Level, Span};
 use utoipa::openapi::{InfoBuilder, OpenApi, OpenApiBuilder};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
+use uuid::Uuid;
 
-/// All routes, with the limits round them.
-pub fn router(jobs: Jobs, limits: &Limits) -> Router {
-    let (router, contract) = documented().split_for_parts();
+/// All routes, with what goes round them.
+pub fn router(jobs: Jobs, config: &ServiceConfig) -> Router {
+    let limits = &config.limits;
+    let (router, contract) = documented(limits.request_timeout()).split_for_parts();
     let contract = contract_text(&contract);
-    let timeout = limits.request_timeout();
+    let body_timeout = limits.body_read_timeout();
     router
         .route("/openapi.json", get(|| serve_contract(contract)))
+        .route("/", get(|| async { Html(include_str!("page.html")) }))
         .fallback(system::no_such_route)
         .method_not_allowed_fallback(system::wrong_method)
         .with_state(jobs)
         .layer(DefaultBodyLimit::max(limits.request_body_bytes))
         .layer(from_fn(move |request, next| {
-            in_time(timeout, request, next)
+            set_deadline(body_timeout, request, next)
         }))
+        .layer(from_fn_with_state(Gate::new(&config.tokens), access::check))
         .layer(CatchPanicLayer::custom(after_panic))
+        .layer(from_fn(metrics::count))
+        .layer(Extension(Arc::new(RequestCounts::default())))
         .layer(
             TraceLayer::new_for_http()
-                .make_span_with(DefaultMakeSpan::new().level(Level::INFO))
+                .make_span_with(span)
                 .on_response(DefaultOnResponse::new().level(Level::INFO)),
         )
+        .layer(from_fn(with_id))
 }
 
 /// The contract, made from the code.
 pub fn openapi() -> OpenApi {
-    documented().into_openapi()
+    documented(Duration::MAX).into_openapi()
 }
 
-fn documented() -> OpenApiRouter<Jobs> {
-    OpenApiRouter::with_openapi(description())
-        .routes(routes!(jobs::submit, jobs::list))
-        .routes(routes!(jobs::show, jobs::dismiss))
-        .routes(routes!(plans::plan))
+/// The routes; those that wait for something by nature have no time limit.
+fn documented(limit: Duration) -> OpenApiRouter<Jobs> {
+    let quick = OpenApiRouter::new()
+        .routes(routes!(submission::submit, jobs::list))
+        .routes(routes!(batch::submit_batch))
         .routes(routes!(results::trajectory))
         .routes(routes!(results::flow))
         .routes(routes!(system::health))
+        .routes(routes!(system::ready))
+        .routes(routes!(metrics::metrics))
+        .layer(from_fn(move |request, next| in_time(limit, request, next)));
+    OpenApiRouter::with_openapi(description())
+        .routes(routes!(jobs::show, jobs::dismiss))
+        .routes(routes!(events::events))
+        .routes(routes!(plans::plan))
+        .merge(quick)
+}
+
+/// The name of a request in the log and in its answer.
+#[derive(Debug, Clone)]
+struct RequestId(String);
+
+async fn with_id(mut request: Request, next: Next) -> Response {
+    let id = Uuid::now_v7().to_string();
+    // Hexadecimal digits and dashes make a header.
+    let header = HeaderValue::from_str(&id).ok();
+    request.extensions_mut().insert(RequestId(id));
+    let mut response = next.run(request).await;
+    if let Some(header) = header {
+        response.headers_mut().insert("x-request-id", header);
+    }
+    response
+}
+
+fn span<B>(request: &axum::http::Request<B>) -> Span {
+    let id = request.extensions().get::<RequestId>();
+    let id = id.map_or("", |id| id.0.as_str());
+    tracing::info_span!("request", id, method = %request.method(), uri = %request.uri())
+}
+
+async fn set_deadline(limit: Duration, mut request: Request, next: Next) -> Response {
+    let deadline = BodyDeadline(Instant::now() + limit);
+    request.extensions_mut().insert(deadline);
+    next.run(request).await
 }
 
 fn description() -> OpenApi {
@@ -78,8 +126,7 @@ async fn serve_contract(contract: String) -> Response {
     ([(header::CONTENT_TYPE, "application/json")], contract).into_response()
 }
 
-/// The answer, or a problem if its head is not there in time. A client that
-/// sends its body slowly runs into this too.
+/// The answer, or a problem if its head is not there in time.
 async fn in_time(limit: Duration, request: Request, next: Next) -> Response {
     match tokio::time::timeout(limit, next.run(request)).await {
         Ok(response) => response,

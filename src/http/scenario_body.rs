@@ -4,6 +4,11 @@ use super::problem::Problem;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Request};
 use axum::http::{HeaderMap, StatusCode, header};
+use tokio::time::{Instant, timeout_at};
+
+/// When the body of a request has to be there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BodyDeadline(pub(super) Instant);
 
 /// The text of a JSON body.
 pub(super) struct ScenarioText(pub(super) String);
@@ -20,22 +25,36 @@ impl<S: Send + Sync> FromRequest<S> for ScenarioText {
                 "a scenario is sent as Content-Type: application/json",
             ));
         }
-        let bytes =
-            Bytes::from_request(request, state)
-                .await
-                .map_err(|rejection| match rejection.status() {
-                    StatusCode::PAYLOAD_TOO_LARGE => Problem::new(
-                        StatusCode::PAYLOAD_TOO_LARGE,
-                        "too-large",
-                        "Body too large",
-                        "the body is larger than limits.request_body_bytes of this service",
-                    ),
-                    _ => malformed(&rejection.body_text()),
-                })?;
+        let deadline = request.extensions().get().copied();
+        let body = Bytes::from_request(request, state);
+        let body = match deadline {
+            Some(BodyDeadline(deadline)) => {
+                timeout_at(deadline, body).await.map_err(|_| too_slow())?
+            }
+            None => body.await,
+        };
+        let bytes = body.map_err(|rejection| match rejection.status() {
+            StatusCode::PAYLOAD_TOO_LARGE => Problem::new(
+                StatusCode::PAYLOAD_TOO_LARGE,
+                "too-large",
+                "Body too large",
+                "the body is larger than limits.request_body_bytes of this service",
+            ),
+            _ => malformed(&rejection.body_text()),
+        })?;
         let text = String::from_utf8(bytes.into());
         text.map(Self)
             .map_err(|error| malformed(&format!("the body is not UTF-8: {error}")))
     }
+}
+
+fn too_slow() -> Problem {
+    Problem::new(
+        StatusCode::REQUEST_TIMEOUT,
+        "too-slow",
+        "Body too slow",
+        "the body took longer than limits.body_read_timeout_s of this service",
+    )
 }
 
 /// A body that is no JSON at all.

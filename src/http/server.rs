@@ -2,6 +2,7 @@
 //! head of a request: clients that send half of one are held for ever, and
 //! keep the service from stopping.
 
+use super::stall::Impatient;
 use crate::config::Limits;
 use axum::Router;
 use axum::body::Body;
@@ -84,7 +85,10 @@ fn connection(
     let connection = http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(limits.header_read_timeout())
-        .serve_connection(TokioIo::new(stream), TowerToHyperService::new(service));
+        .serve_connection(
+            TokioIo::new(Impatient::new(stream, limits.write_timeout())),
+            TowerToHyperService::new(service),
+        );
     let connection = graceful.watch(connection);
     async move {
         if let Err(error) = connection.await {

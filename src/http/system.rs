@@ -3,6 +3,7 @@
 use super::documents::HealthDocument;
 use super::problem::Problem;
 use crate::jobs::Jobs;
+use crate::jobs::store::StoreError;
 use axum::Json;
 use axum::extract::State;
 use axum::http::{Method, StatusCode, Uri};
@@ -23,10 +24,36 @@ pub(super) async fn health(State(jobs): State<Jobs>) -> Result<Json<HealthDocume
             status: "ok",
             version: env!("CARGO_PKG_VERSION"),
         })),
-        Err(error) => Err(Problem {
-            status: StatusCode::SERVICE_UNAVAILABLE.as_u16(),
-            ..Problem::internal(&error)
-        }),
+        Err(error) => Err(unavailable(error)),
+    }
+}
+
+/// Ask whether the service can take jobs in
+///
+/// Really writes to the database, and takes the room of a job for that.
+#[utoipa::path(
+    get,
+    path = "/readyz",
+    tag = "service",
+    responses(
+        (status = 200, description = "It can", body = HealthDocument),
+        (status = 503, description = "It can't", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn ready(State(jobs): State<Jobs>) -> Result<Json<HealthDocument>, Problem> {
+    match jobs.probe().await {
+        Ok(()) => Ok(Json(HealthDocument {
+            status: "ok",
+            version: env!("CARGO_PKG_VERSION"),
+        })),
+        Err(error) => Err(unavailable(error)),
+    }
+}
+
+fn unavailable(error: StoreError) -> Problem {
+    Problem {
+        status: StatusCode::SERVICE_UNAVAILABLE.as_u16(),
+        ..error.into()
     }
 }
 

@@ -1,11 +1,12 @@
 //! The door to the jobs: what a client may ask for, in the service's own words.
 
 use super::forecast::{ForecastError, Planned, forecast};
+use super::intake::InFlight;
 use super::job::{Job, JobId, JobStatus, JobSummary};
 use super::pool::Bench;
-use super::store::{Dismissal, Page, Store, StoreError};
-use super::submit;
-use super::submit::ScenarioError;
+use super::store::{Census, Dismissal, Event, Page, Removal, Store, StoreError};
+use super::submit::{self, NewJob, ScenarioError};
+use crate::config::Limits;
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, Selector, TrajectoryColumns};
 use std::sync::Arc;
@@ -13,30 +14,24 @@ use std::time::Duration;
 use thiserror::Error;
 use tokio::sync::Mutex;
 use tokio::task::spawn_blocking;
-use tokio::time::timeout;
+use tokio::time::{Instant, sleep, timeout};
 
 /// How long a dismissal waits for the run to end, so that its answer shows the
 /// job as it stays. A run stops after the sub-step in hand, well within this.
 const STOP_WAIT: Duration = Duration::from_millis(450);
 
+/// Between two looks whether a job has ended.
+const LOOK_PAUSE: Duration = Duration::from_millis(50);
+
 /// Jobs, as a client deals with them.
 #[derive(Debug, Clone)]
 pub struct Jobs {
-    store: Store,
-    bench: Arc<Bench>,
+    pub(super) store: Store,
+    pub(super) bench: Arc<Bench>,
+    pub(super) limits: Limits,
+    pub(super) in_flight: InFlight,
     threads_per_worker: usize,
     planning: Arc<Mutex<()>>,
-}
-
-/// Why a job is not let in.
-#[derive(Debug, Error)]
-pub enum SubmitError {
-    /// The scenario is none.
-    #[error(transparent)]
-    Scenario(#[from] ScenarioError),
-    /// It can't be kept.
-    #[error(transparent)]
-    Store(#[from] StoreError),
 }
 
 /// Why there is no plan.
@@ -66,32 +61,23 @@ pub enum Dismissed {
 
 impl Jobs {
     /// Jobs in this store, run by the workers of this bench.
-    pub fn new(store: Store, bench: Arc<Bench>, threads_per_worker: usize) -> Self {
+    pub fn new(store: Store, bench: Arc<Bench>, limits: Limits, threads_per_worker: usize) -> Self {
         Self {
             store,
             bench,
+            limits,
+            in_flight: InFlight::default(),
             threads_per_worker,
             planning: Arc::default(),
         }
     }
 
-    /// Checks a scenario and puts it into the queue; it is on disk when this
-    /// returns.
+    /// Checks a scenario.
     ///
     /// # Errors
-    /// It is no scenario, or it can't be kept.
-    pub async fn submit(&self, scenario: &str) -> Result<Job, SubmitError> {
-        let new = submit::admit(scenario, self.threads_per_worker)?;
-        self.store.submit(&new).await?;
-        self.bench.announce();
-        let job = self.store.job(new.id).await?;
-        job.ok_or_else(|| {
-            StoreError::Row {
-                job: new.id.to_string(),
-                what: "new row",
-            }
-            .into()
-        })
+    /// All the rules that it breaks.
+    pub fn admit(&self, scenario: &str, labels: Vec<String>) -> Result<NewJob, ScenarioError> {
+        submit::admit(scenario, self.threads_per_worker, labels)
     }
 
     /// What a job of this scenario would compute and how long it would take.
@@ -122,7 +108,7 @@ impl Jobs {
     ///
     /// # Errors
     /// The store's own.
-    pub async fn page(&self, page: Page) -> Result<Vec<JobSummary>, StoreError> {
+    pub async fn page(&self, page: &Page) -> Result<Vec<JobSummary>, StoreError> {
         self.store.page(page).await
     }
 
@@ -174,6 +160,78 @@ impl Jobs {
         time_s: Option<f64>,
     ) -> Result<Option<FlowSnapshot>, StoreError> {
         self.store.snapshot(job, time_s).await
+    }
+
+    /// The state of a job, if there is one.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn status(&self, id: JobId) -> Result<Option<JobStatus>, StoreError> {
+        self.store.status(id).await
+    }
+
+    /// Waits until a job has ended, is gone, or the time is over.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn wait_for_end(&self, id: JobId, longest: Duration) -> Result<(), StoreError> {
+        let end = Instant::now() + longest;
+        while self
+            .status(id)
+            .await?
+            .is_some_and(|status| !status.is_final())
+        {
+            if Instant::now() >= end || self.is_closing() {
+                break;
+            }
+            sleep(LOOK_PAUSE.min(end.duration_since(Instant::now()))).await;
+        }
+        Ok(())
+    }
+
+    /// Removes a job that has ended, and all that it recorded.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn remove(&self, id: JobId) -> Result<Removal, StoreError> {
+        self.store.remove(id).await
+    }
+
+    /// The next events after number `after`, of one job or of all.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn events(&self, after: i64, job: Option<JobId>) -> Result<Vec<Event>, StoreError> {
+        self.store.events(after, job).await
+    }
+
+    /// Number of the last event.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn last_event(&self) -> Result<i64, StoreError> {
+        self.store.last_event().await
+    }
+
+    /// Whether the service stops.
+    pub fn is_closing(&self) -> bool {
+        self.bench.submissions().is_none()
+    }
+
+    /// Counts jobs.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn census(&self) -> Result<Census, StoreError> {
+        self.store.census().await
+    }
+
+    /// Whether a job could be taken in now: really writes.
+    ///
+    /// # Errors
+    /// It could not.
+    pub async fn probe(&self) -> Result<(), StoreError> {
+        self.store.probe().await
     }
 
     /// Whether the database answers.

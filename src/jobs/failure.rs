@@ -78,12 +78,22 @@ impl Failure {
         )
     }
 
+    /// What the run needs was missing as often as is tolerated.
+    pub fn infrastructure(times: u32, last: &str) -> Self {
+        Self::new(
+            "infrastructure",
+            "The service could not run the job",
+            format!("{times} attempts in a row failed without getting on; the last one: {last}"),
+            json!({"attempts": times}),
+        )
+    }
+
     /// The process died under the job as often as is tolerated.
     pub fn cut_off(times: u32) -> Self {
         Self::new(
             "cut-off",
             "The service was cut off while running the job",
-            format!("the service died {times} times while running this job"),
+            format!("the service died {times} times in a row while running this job"),
             json!({"cut_offs": times}),
         )
     }

@@ -77,6 +77,11 @@ impl JobStatus {
         }
     }
 
+    /// Whether a job never leaves it.
+    pub fn is_final(self) -> bool {
+        matches!(self, Self::Successful | Self::Failed | Self::Dismissed)
+    }
+
     /// The state of this word.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|status| status.word() == word)
@@ -102,6 +107,52 @@ pub struct JobSummary {
     pub finished: Option<Timestamp>,
     /// How far it is.
     pub progress: Progress,
+    /// Its labels, in order.
+    pub labels: Vec<String>,
+}
+
+/// One time that a worker took a job up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Attempt {
+    /// The how manieth, from 1.
+    pub attempt: u32,
+    /// Service whose worker it was.
+    pub owner: String,
+    /// When it began.
+    pub started: Timestamp,
+    /// Simulated time of the saved state it went on from [s]; none: from the
+    /// start.
+    pub resumed_from_s: Option<f64>,
+    /// When it ended; none while it goes on.
+    pub ended: Option<Timestamp>,
+    /// How it ended, in a word.
+    pub ending: Option<String>,
+    /// More about that.
+    pub detail: Option<String>,
+}
+
+/// What has to be the same for the same answer, and how to tell.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct Provenance {
+    /// BLAKE3 of the scenario's JSON with every default filled in, as the job
+    /// shows it, 64 hexadecimal digits.
+    pub scenario_hash: String,
+    /// Version of the solver that runs it, or checked it if it has not started.
+    pub solver_version: String,
+    /// Commit of the program that runs it; null before the start.
+    #[schema(required = true)]
+    pub solver_commit: Option<String>,
+    /// Instructions of its fast path (baseline, AVX2, AVX-512); null before the
+    /// start.
+    #[schema(required = true)]
+    pub instructions: Option<String>,
+    /// Solver threads; null before the start. Results do not depend on it.
+    #[schema(required = true)]
+    pub threads: Option<u32>,
+    /// Fingerprint of all that the run recorded, 64 hexadecimal digits: equal
+    /// fingerprints, equal bits. Null unless successful.
+    #[schema(required = true)]
+    pub fingerprint: Option<String>,
 }
 
 /// A whole job.
@@ -113,8 +164,12 @@ pub struct Job {
     pub bodies: usize,
     /// How often a worker took it up.
     pub attempt: u32,
-    /// Version of the solver that runs it, or checked it if it has not started.
-    pub solver_version: String,
+    /// Those times, the first first.
+    pub attempts: Vec<Attempt>,
+    /// Name of the access token it came with; none where no token is asked for.
+    pub submitter: Option<String>,
+    /// What the answer comes from.
+    pub provenance: Provenance,
     /// The scenario's JSON with every default filled in.
     pub scenario: Box<RawValue>,
     /// The outcome's JSON, once successful.

@@ -3,16 +3,23 @@
 //! be finished says so ([`failure`]), how long one will take ([`forecast`]). [`Jobs`] is the door for HTTP.
 
 pub mod campaign;
+pub mod clock;
 mod desk;
 pub mod failure;
 pub mod forecast;
+mod intake;
 pub mod job;
+mod keeper;
+mod open_chunk;
 pub mod pool;
 pub mod progress;
 pub mod recording;
 pub mod runner;
+pub mod saved_run;
 pub mod store;
 pub mod submit;
+mod watch;
 mod worker;
 
-pub use desk::{Dismissed, Jobs, PlanError, SubmitError};
+pub use desk::{Dismissed, Jobs, PlanError};
+pub use intake::{Intake, SubmitError};

@@ -2,10 +2,12 @@
 //! an answer, and an answer never holds up a computation.
 
 use super::job::JobId;
-use super::runner::StopFlag;
-use super::store::Store;
+use super::keeper::Keeper;
+use super::progress::ProgressBoard;
+use super::runner::{Stop, StopFlag};
+use super::store::{Hold, Store};
 use super::worker;
-use crate::config::PoolSize;
+use crate::config::{PoolSize, Queue, Recording, Retention, ServiceConfig};
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -15,14 +17,16 @@ use tokio::runtime::Handle;
 use tokio::sync::watch;
 
 /// How long an idle worker sleeps before it looks for work unasked, in case
-/// the database failed when it was told.
-const IDLE_LOOK: Duration = Duration::from_secs(5);
+/// a job had to wait after a setback.
+const IDLE_LOOK: Duration = Duration::from_secs(1);
 
 /// The workers of a service.
 #[derive(Debug)]
 pub struct Pool {
     bench: Arc<Bench>,
     threads: Vec<JoinHandle<()>>,
+    /// Dropped last: leases are kept until every worker has gone home.
+    _keeper: Keeper,
 }
 
 /// What a worker needs to work.
@@ -32,7 +36,9 @@ pub(super) struct Equipment {
     pub(super) runtime: Handle,
     pub(super) bench: Arc<Bench>,
     pub(super) threads: usize,
-    pub(super) flush_interval: Duration,
+    pub(super) queue: Queue,
+    pub(super) recording: Recording,
+    pub(super) retention: Retention,
 }
 
 /// Where workers wait for work, and where running jobs can be stopped.
@@ -47,21 +53,28 @@ struct State {
     /// Grows with every job that was submitted.
     submissions: u64,
     closing: bool,
-    running: BTreeMap<JobId, Run>,
+    running: BTreeMap<JobId, Seated>,
 }
 
 #[derive(Debug)]
-struct Run {
-    stop: Arc<StopFlag>,
+struct Seated {
+    run: Run,
     ended: watch::Receiver<()>,
+}
+
+/// A running job, for whoever keeps its lease.
+#[derive(Debug, Clone)]
+pub(super) struct Run {
+    pub(super) hold: Hold,
+    pub(super) stop: Arc<StopFlag>,
+    pub(super) board: Arc<ProgressBoard>,
 }
 
 /// A running job's place on the bench; leaving it tells those who wait.
 #[derive(Debug)]
 pub(super) struct Place {
     bench: Arc<Bench>,
-    job: JobId,
-    pub(super) stop: Arc<StopFlag>,
+    pub(super) run: Run,
     _ended: watch::Sender<()>,
 }
 
@@ -70,17 +83,20 @@ impl Pool {
     ///
     /// # Errors
     /// The system refuses a thread.
-    pub fn start(store: &Store, size: PoolSize, flush_interval: Duration) -> io::Result<Self> {
-        let mut pool = Self {
-            bench: Arc::default(),
-            threads: Vec::new(),
-        };
+    pub fn start(store: &Store, size: PoolSize, config: &ServiceConfig) -> io::Result<Self> {
         let equipment = Equipment {
             store: store.clone(),
             runtime: Handle::current(),
-            bench: Arc::clone(&pool.bench),
+            bench: Arc::default(),
             threads: size.threads_per_worker,
-            flush_interval,
+            queue: config.queue.clone(),
+            recording: config.recording.clone(),
+            retention: config.retention.clone(),
+        };
+        let mut pool = Self {
+            bench: Arc::clone(&equipment.bench),
+            threads: Vec::new(),
+            _keeper: Keeper::start(equipment.clone())?,
         };
         for index in 0..size.workers {
             let equipment = equipment.clone();
@@ -97,8 +113,8 @@ impl Pool {
         Arc::clone(&self.bench)
     }
 
-    /// Interrupts running jobs, which go back into the queue, and waits until
-    /// every worker has gone home. Blocks.
+    /// Has running jobs save their state and go back into the queue, and waits
+    /// until every worker has gone home. Blocks.
     pub fn stop(mut self) {
         self.bench.close();
         for thread in self.threads.drain(..) {
@@ -128,20 +144,42 @@ impl Bench {
     /// `None` if no worker runs it.
     pub fn stop_job(&self, job: JobId) -> Option<watch::Receiver<()>> {
         let state = self.state();
-        let run = state.running.get(&job)?;
-        run.stop.raise();
-        Some(run.ended.clone())
+        let seated = state.running.get(&job)?;
+        seated.run.stop.raise();
+        Some(seated.ended.clone())
     }
 
     fn close(&self) {
         let mut state = self.state();
         state.closing = true;
-        state.running.values().for_each(|run| run.stop.raise());
+        for seated in state.running.values() {
+            seated.run.stop.ask(Stop::OnceSaved);
+        }
         self.changed.notify_all();
     }
 
+    /// The jobs that run.
+    pub(super) fn runs(&self) -> Vec<Run> {
+        let state = self.state();
+        state
+            .running
+            .values()
+            .map(|seated| seated.run.clone())
+            .collect()
+    }
+
+    /// Waits a while, or less if the bench closes. Whether it is still open.
+    pub(super) fn pause(&self, pause: Duration) -> bool {
+        let state = self.state();
+        let waited = self
+            .changed
+            .wait_timeout_while(state, pause, |state| !state.closing);
+        let (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        !state.closing
+    }
+
     /// Submissions so far; `None` once the bench is closed.
-    pub(super) fn submissions(&self) -> Option<u64> {
+    pub fn submissions(&self) -> Option<u64> {
         let state = self.state();
         (!state.closing).then_some(state.submissions)
     }
@@ -155,24 +193,25 @@ impl Bench {
     }
 
     /// Gives a job that is about to run its place.
-    pub(super) fn seat(self: &Arc<Self>, job: JobId) -> Place {
-        let stop = Arc::new(StopFlag::default());
+    pub(super) fn seat(self: &Arc<Self>, hold: Hold) -> Place {
+        let run = Run {
+            hold,
+            stop: Arc::default(),
+            board: Arc::default(),
+        };
         let (sender, ended) = watch::channel(());
         let mut state = self.state();
         if state.closing {
-            stop.raise();
+            run.stop.ask(Stop::OnceSaved);
         }
-        state.running.insert(
-            job,
-            Run {
-                stop: Arc::clone(&stop),
-                ended,
-            },
-        );
+        let seated = Seated {
+            run: run.clone(),
+            ended,
+        };
+        state.running.insert(hold.job, seated);
         Place {
             bench: Arc::clone(self),
-            job,
-            stop,
+            run,
             _ended: sender,
         }
     }
@@ -185,7 +224,7 @@ impl Bench {
 
 impl Drop for Place {
     fn drop(&mut self) {
-        self.bench.state().running.remove(&self.job);
+        self.bench.state().running.remove(&self.run.hold.job);
     }
 }
 
@@ -193,24 +232,34 @@ impl Drop for Place {
 mod tests {
     use super::*;
 
+    fn hold() -> Hold {
+        Hold {
+            job: JobId::new(),
+            attempt: 1,
+            token: 1,
+        }
+    }
+
     #[test]
     fn a_job_seated_on_a_closing_bench_is_asked_to_stop_at_once() {
         let bench = Arc::new(Bench::default());
-        let early = bench.seat(JobId::new());
-        assert!(!early.stop.is_raised());
+        let early = bench.seat(hold());
+        assert!(!early.run.stop.is_raised());
         bench.close();
-        assert!(early.stop.is_raised());
-        assert!(bench.seat(JobId::new()).stop.is_raised());
+        assert_eq!(early.run.stop.asked(), Stop::OnceSaved);
+        assert!(bench.seat(hold()).run.stop.is_raised());
         assert_eq!(bench.submissions(), None);
     }
 
     #[test]
     fn a_job_that_left_its_place_can_not_be_stopped() {
         let bench = Arc::new(Bench::default());
-        let job = JobId::new();
-        let place = bench.seat(job);
+        let hold = hold();
+        let job = hold.job;
+        let place = bench.seat(hold);
+        assert_eq!(bench.runs().len(), 1);
         let ended = bench.stop_job(job).unwrap();
-        assert!(place.stop.is_raised());
+        assert_eq!(place.run.stop.asked(), Stop::AtOnce);
         assert!(ended.has_changed().is_ok());
         drop(place);
         assert!(

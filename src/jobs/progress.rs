@@ -1,6 +1,7 @@
 //! How far a run is.
 
 use serde::{Deserialize, Serialize};
+use std::sync::{Mutex, PoisonError};
 use utoipa::ToSchema;
 
 /// How far a run is. All zero before the start.
@@ -20,4 +21,20 @@ pub struct Progress {
     /// step and once the run has ended.
     #[schema(required = true)]
     pub eta_s: Option<f64>,
+}
+
+/// The progress of a run, told by the run and read by whoever wants to know.
+#[derive(Debug, Default)]
+pub struct ProgressBoard(Mutex<Progress>);
+
+impl ProgressBoard {
+    /// Tells it.
+    pub fn tell(&self, progress: &Progress) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = *progress;
+    }
+
+    /// As it was told last.
+    pub fn read(&self) -> Progress {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }

@@ -1,16 +1,27 @@
 //! The sink of the service: gathers what a run records and writes it to the
-//! store every so often, in few large blocks.
+//! store every so often, in few large blocks, now and then with the run's state.
 
-use super::progress::Progress;
+use super::open_chunk::OpenChunk;
+use super::progress::{Progress, ProgressBoard};
 use super::runner::Sink;
-use super::store::{Hold, NewChunk, NewResults, Store, StoreError};
-use crate::results::chunk::{self, BlockError, CHUNK_SAMPLES};
-use crate::results::columns::TrajectoryColumns;
+use super::store::{Hold, Mark, NewResults, Store, StoreError, StoredState};
+use crate::config::Recording;
+use crate::results::chunk::BlockError;
+use crate::results::fingerprint::Fingerprint;
 use crate::results::flow::StoredSnapshot;
 use scree_solver::record::{Record, Sample};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 use tokio::runtime::Handle;
+use tracing::warn;
+
+/// How long a database may refuse results before the run is given up. Until
+/// then they are kept in memory: a full disk is often soon seen to.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Saving states takes at most one in so many parts of the time.
+const STATE_SHARE: u32 = 50;
 
 /// Why results can't be kept.
 #[derive(Debug, Error)]
@@ -24,6 +35,9 @@ pub enum KeepError {
     /// A block can't be made.
     #[error(transparent)]
     Block(#[from] BlockError),
+    /// What a saved state presupposes is not there.
+    #[error("samples recorded before the saved state are missing")]
+    Missing,
 }
 
 /// Writes a run into the store. Lives on a worker's own thread and waits there
@@ -33,69 +47,158 @@ pub struct StoreSink {
     store: Store,
     runtime: Handle,
     hold: Hold,
-    flush_interval: Duration,
-    flushed: Instant,
+    recording: Recording,
+    board: Arc<ProgressBoard>,
     open_chunks: Vec<OpenChunk>,
+    samples: usize,
+    fingerprint: Fingerprint,
+    /// Not written yet.
     snapshots: Vec<StoredSnapshot>,
+    state: Option<StoredState>,
     progress: Progress,
+    times: Times,
 }
 
-/// The last chunk of one body's trajectory, still growing.
-#[derive(Debug, Default)]
-struct OpenChunk {
-    first_sample: usize,
-    written: usize,
-    columns: TrajectoryColumns,
+/// When what happened last, and when what is due.
+#[derive(Debug)]
+struct Times {
+    flushed: Instant,
+    /// Since when the database refuses what is to be written.
+    refused_since: Option<Instant>,
+    state_begun: Instant,
+    state_due: Instant,
 }
 
 impl StoreSink {
-    /// A sink for the job of this hold.
-    pub fn new(store: Store, runtime: Handle, hold: Hold, flush_interval: Duration) -> Self {
+    /// A sink for the job of this hold, which tells its progress on `board`.
+    pub fn new(
+        (store, runtime): (Store, Handle),
+        hold: Hold,
+        recording: Recording,
+        board: Arc<ProgressBoard>,
+    ) -> Self {
+        let now = Instant::now();
         Self {
             store,
             runtime,
             hold,
-            flush_interval,
-            flushed: Instant::now(),
+            board,
             open_chunks: Vec::new(),
+            samples: 0,
+            fingerprint: Fingerprint::default(),
             snapshots: Vec::new(),
+            state: None,
             progress: Progress::default(),
+            times: Times {
+                flushed: now,
+                refused_since: None,
+                state_begun: now,
+                state_due: now + recording.state_interval(),
+            },
+            recording,
         }
     }
 
-    /// Writes all that is not written yet.
+    /// A sink for the same job that has seen nothing yet.
+    pub fn afresh(&self) -> Self {
+        Self::new(
+            (self.store.clone(), self.runtime.clone()),
+            self.hold,
+            self.recording.clone(),
+            Arc::clone(&self.board),
+        )
+    }
+
+    /// Goes on with what was recorded up to a saved state of a run with
+    /// `bodies` bodies.
     ///
     /// # Errors
-    /// The job is lost, or the store fails.
-    pub fn flush(&mut self) -> Result<(), KeepError> {
+    /// The store fails, or does not have what the state presupposes.
+    pub fn go_on_from(&mut self, mark: &Mark, bodies: usize) -> Result<(), KeepError> {
+        for body in 0..bodies {
+            let last = self
+                .runtime
+                .block_on(self.store.last_chunk(self.hold.job, body))?;
+            let open = OpenChunk::reopened(last, mark.samples).ok_or(KeepError::Missing)?;
+            self.open_chunks.push(open);
+        }
+        self.samples = mark.samples;
+        self.fingerprint = Fingerprint::of_bytes(mark.fingerprint);
+        Ok(())
+    }
+
+    /// Fingerprint of all that was recorded.
+    pub fn fingerprint(&self) -> Fingerprint {
+        self.fingerprint
+    }
+
+    /// Writes all that is not written yet, however often it takes.
+    ///
+    /// # Errors
+    /// The job is lost, or the store has refused for too long, or refuses while
+    /// `give_up` says that there is no time.
+    pub fn finish(&mut self, give_up: impl Fn() -> bool) -> Result<(), KeepError> {
+        loop {
+            match self.flush() {
+                Ok(()) if self.times.refused_since.is_none() => return Ok(()),
+                Ok(()) if give_up() => return Err(StoreError::Refused.into()),
+                Ok(()) => std::thread::sleep(self.recording.flush_interval()),
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// Tries to write all that is not written yet. A database that refuses is
+    /// borne for a while.
+    fn flush(&mut self) -> Result<(), KeepError> {
         let mut results = NewResults {
             chunks: Vec::new(),
             snapshots: std::mem::take(&mut self.snapshots),
             progress: self.progress,
+            state: self.state.take(),
         };
         for (body, open) in self.open_chunks.iter().enumerate() {
             results.chunks.extend(open.sealed(body)?);
         }
-        self.flushed = Instant::now();
-        if !self
-            .runtime
-            .block_on(self.store.keep(self.hold, &results))?
-        {
-            return Err(KeepError::Lost);
+        self.times.flushed = Instant::now();
+        match self.runtime.block_on(self.store.keep(self.hold, &results)) {
+            Ok(true) => {
+                self.times.refused_since = None;
+                self.open_chunks
+                    .iter_mut()
+                    .for_each(OpenChunk::mark_written);
+                Ok(())
+            }
+            Ok(false) => Err(KeepError::Lost),
+            Err(error) => {
+                self.snapshots = results.snapshots;
+                self.state = results.state;
+                self.bear(error)
+            }
         }
-        self.open_chunks
-            .iter_mut()
-            .for_each(OpenChunk::mark_written);
-        Ok(())
+    }
+
+    fn bear(&mut self, error: StoreError) -> Result<(), KeepError> {
+        let now = Instant::now();
+        let since = *self.times.refused_since.get_or_insert(now);
+        if since == now {
+            warn!(%error, "results can't be written now; they are kept in memory");
+        }
+        if now.duration_since(since) < PATIENCE {
+            return Ok(());
+        }
+        Err(error.into())
     }
 
     fn take_sample(&mut self, sample: &Sample) -> Result<(), KeepError> {
         self.open_chunks
             .resize_with(sample.bodies.len(), OpenChunk::default);
         for (open, state) in self.open_chunks.iter_mut().zip(&sample.bodies) {
-            open.columns.push(sample.time_s, state);
+            open.push(sample.time_s, state);
         }
-        if self.open_chunks.iter().any(OpenChunk::is_full) {
+        self.samples += 1;
+        let in_trouble = self.times.refused_since.is_some();
+        if self.open_chunks.iter().any(OpenChunk::is_full) && !in_trouble {
             return self.flush();
         }
         Ok(())
@@ -106,6 +209,7 @@ impl Sink for StoreSink {
     type Error = KeepError;
 
     fn record(&mut self, record: Record) -> Result<(), KeepError> {
+        self.fingerprint.take_in(&record);
         match record {
             Record::Sample(sample) => self.take_sample(&sample),
             Record::Snapshot(snapshot) => {
@@ -117,45 +221,29 @@ impl Sink for StoreSink {
 
     fn progress(&mut self, progress: &Progress) -> Result<(), KeepError> {
         self.progress = *progress;
-        if self.flushed.elapsed() < self.flush_interval {
+        self.board.tell(progress);
+        if self.times.flushed.elapsed() < self.recording.flush_interval() {
             return Ok(());
         }
         self.flush()
     }
-}
 
-impl OpenChunk {
-    fn is_full(&self) -> bool {
-        self.columns.len() >= CHUNK_SAMPLES
+    fn wants_state(&mut self) -> bool {
+        self.times.state_begun = Instant::now();
+        self.times.state_begun >= self.times.state_due
     }
 
-    /// The chunk as it is to be written; nothing if nothing is new in it.
-    fn sealed(&self, body: usize) -> Result<Option<NewChunk>, BlockError> {
-        let times = &self.columns.time_s;
-        let (Some(&first_time_s), Some(&last_time_s)) = (times.first(), times.last()) else {
-            return Ok(None);
+    fn state(&mut self, time_s: f64, state: &[u8]) -> Result<(), KeepError> {
+        let mark = Mark {
+            time_s,
+            samples: self.samples,
+            fingerprint: self.fingerprint.bytes(),
         };
-        if times.len() == self.written {
-            return Ok(None);
-        }
-        Ok(Some(NewChunk {
-            body,
-            first_sample: self.first_sample,
-            samples: times.len(),
-            first_time_s,
-            last_time_s,
-            block: chunk::encode(&self.columns)?,
-        }))
-    }
-
-    /// Notes that all is written; a full chunk makes way for the next.
-    fn mark_written(&mut self) {
-        self.written = self.columns.len();
-        if self.is_full() {
-            *self = Self {
-                first_sample: self.first_sample + self.columns.len(),
-                ..Self::default()
-            };
-        }
+        self.state = Some(StoredState::pack(mark, state)?);
+        self.flush()?;
+        let cost = self.times.state_begun.elapsed();
+        let pause = self.recording.state_interval().max(cost * STATE_SHARE);
+        self.times.state_due = Instant::now() + pause;
+        Ok(())
     }
 }

@@ -17,8 +17,22 @@ pub struct NewJob {
     pub bodies: usize,
     /// The scenario's JSON with every default filled in.
     pub scenario: String,
+    /// BLAKE3 of that JSON, in hexadecimal digits.
+    pub scenario_hash: String,
+    /// Its labels, each once.
+    pub labels: Vec<String>,
     /// Solver that checked it.
     pub solver_version: &'static str,
+}
+
+/// Most labels of a list.
+pub const LABELS_AT_MOST: usize = 16;
+
+/// The text as a label: 1 to 64 letters, digits or any of `. _ : = / -`.
+pub fn label(text: &str) -> Option<String> {
+    let legal = |byte: u8| byte.is_ascii_alphanumeric() || b"._:=/-".contains(&byte);
+    let is_legal = (1..=64).contains(&text.len()) && text.bytes().all(legal);
+    is_legal.then(|| text.to_owned())
 }
 
 /// Checks a scenario for a service whose workers have `threads_per_worker`
@@ -26,18 +40,26 @@ pub struct NewJob {
 ///
 /// # Errors
 /// All the rules that it breaks.
-pub fn admit(text: &str, threads_per_worker: usize) -> Result<NewJob, ScenarioError> {
+pub fn admit(
+    text: &str,
+    threads_per_worker: usize,
+    mut labels: Vec<String>,
+) -> Result<NewJob, ScenarioError> {
     let scenario = read(text, threads_per_worker)?;
     let json = serde_json::to_string(&scenario).map_err(|error| ScenarioError::Malformed {
         message: error.to_string(),
         line: 0,
         column: 0,
     })?;
+    labels.sort();
+    labels.dedup();
     Ok(NewJob {
         id: JobId::new(),
         title: scenario.title,
         bodies: scenario.bodies.len(),
+        scenario_hash: blake3::hash(json.as_bytes()).to_hex().to_string(),
         scenario: json,
+        labels,
         solver_version: scree_solver::VERSION,
     })
 }
@@ -126,6 +148,16 @@ fn too_many_threads(asked: Option<usize>, threads_per_worker: usize) -> Option<V
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn labels_are_short_and_plain() {
+        for legal in ["a", "study:alps/2024-05=b_1.2", &"x".repeat(64)] {
+            assert_eq!(label(legal).as_deref(), Some(legal));
+        }
+        for illegal in ["", " ", "a b", "é", "a,b", &"x".repeat(65)] {
+            assert_eq!(label(illegal), None, "{illegal}");
+        }
+    }
 
     #[test]
     fn threads_beyond_a_worker_are_refused_by_their_pointer() {

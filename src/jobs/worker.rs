@@ -2,31 +2,47 @@
 
 use super::campaign;
 use super::failure::Failure;
-use super::pool::Equipment;
+use super::pool::{Equipment, Place};
 use super::recording::{KeepError, StoreSink};
-use super::runner::{RunEnd, RunError, StopFlag};
-use super::store::{Claim, Hold, StoreError};
+use super::runner::{Run, RunEnd, RunError, Stop, StopFlag};
+use super::saved_run::COMMIT;
+use super::store::{Beginning, Claim, Claimant, Hold, Mark, Setback, Solver, StoreError};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
+use scree_solver::{Instructions, SetupError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use tracing::{error, info, info_span};
+use std::time::Duration;
+use tracing::{error, info, info_span, warn};
 use uuid::Uuid;
+
+/// Between two tries to write how a job ended.
+const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
 /// How one run ended, as far as the job is concerned.
 enum Verdict {
-    Successful(Box<Outcome>),
+    Successful(Box<Outcome>, String),
     Failed(Failure),
-    /// Stopped from outside: dismissed, or the service stops.
-    Stopped,
+    /// Through no fault of the scenario.
+    SetBack(String),
+    /// Stopped because the service stops.
+    HandedBack,
+    /// Dismissed or taken away: what there is to say is said.
+    Gone,
 }
 
 /// Works until the bench is closed.
 pub(super) fn work(equipment: &Equipment) {
+    let claimant = Claimant {
+        owner: equipment.queue.name.clone(),
+        lease: equipment.queue.lease(),
+        solver: Solver {
+            version: scree_solver::VERSION,
+            commit: COMMIT,
+            instructions: instructions(),
+        },
+    };
     while let Some(seen) = equipment.bench.submissions() {
-        match equipment
-            .runtime
-            .block_on(equipment.store.claim(scree_solver::VERSION))
-        {
+        match equipment.runtime.block_on(equipment.store.claim(&claimant)) {
             Ok(Some(claim)) => carry_out(equipment, &claim),
             Ok(None) => equipment.bench.wait(seen),
             Err(error) => {
@@ -37,25 +53,28 @@ pub(super) fn work(equipment: &Equipment) {
     }
 }
 
+fn instructions() -> &'static str {
+    match Instructions::detected() {
+        Instructions::Baseline => "baseline",
+        Instructions::Avx2 => "AVX2",
+        Instructions::Avx512 => "AVX-512",
+    }
+}
+
 fn carry_out(equipment: &Equipment, claim: &Claim) {
     let hold = claim.hold;
     let _span = info_span!("job", id = %hold.job, attempt = hold.attempt).entered();
-    // First seated, then looked at: a dismissal that came before finds the row
-    // changed below, one that comes after finds the place.
-    let place = equipment.bench.seat(hold.job);
-    match equipment.runtime.block_on(equipment.store.is_running(hold)) {
-        Ok(true) => {}
-        Ok(false) => return,
-        Err(error) => {
-            error!(%error, "the job can't be looked at");
+    // Seated before its row is looked at: a dismissal that came before finds the
+    // row changed, one that comes after finds the place.
+    let place = equipment.bench.seat(hold);
+    info!("started");
+    let verdict = shielded(|| run(equipment, claim, &place));
+    while let Err(error) = pronounce(equipment, hold, &verdict) {
+        error!(%error, "the job's end can't be written now");
+        if !equipment.bench.pause(RETRY_PAUSE) {
+            // The row stays as it is, and the next start takes it back.
             return;
         }
-    }
-    info!("started");
-    let verdict = shielded(|| run(equipment, claim, &place.stop));
-    if let Err(error) = pronounce(equipment, hold, verdict) {
-        // The row stays as it is, and the next start of the service finds it.
-        error!(%error, "the job's end can't be written");
     }
 }
 
@@ -69,7 +88,7 @@ fn shielded(run: impl FnOnce() -> Verdict) -> Verdict {
     }
 }
 
-fn run(equipment: &Equipment, claim: &Claim, stop: &StopFlag) -> Verdict {
+fn run(equipment: &Equipment, claim: &Claim, place: &Place) -> Verdict {
     let scenario = match Scenario::from_json(&claim.scenario) {
         Ok(scenario) => scenario,
         Err(error) => return broken_off(&error.to_string()),
@@ -80,36 +99,145 @@ fn run(equipment: &Equipment, claim: &Claim, stop: &StopFlag) -> Verdict {
         .unwrap_or(equipment.threads)
         .min(equipment.threads);
     let mut sink = StoreSink::new(
-        equipment.store.clone(),
-        equipment.runtime.clone(),
+        (equipment.store.clone(), equipment.runtime.clone()),
         claim.hold,
-        equipment.flush_interval,
+        equipment.recording.clone(),
+        place.run.board.clone(),
     );
-    let ended = campaign::run(&scenario, threads, stop, &mut sink);
+    let stop = &*place.run.stop;
+    if stop.is_raised() {
+        return stopped(stop);
+    }
+    let ended = carried_through(
+        equipment,
+        claim.hold,
+        (&scenario, threads),
+        (stop, &mut sink),
+    );
     // What was recorded is kept however the run ended.
-    let ended = match (ended, sink.flush()) {
+    let ended = match (ended, sink.finish(|| stop.is_raised())) {
         (Ok(_), Err(error)) => Err(RunError::Sink(error)),
         (ended, _) => ended,
     };
     match ended {
-        Ok(RunEnd::Completed(outcome)) => Verdict::Successful(outcome),
-        Ok(RunEnd::Stopped) | Err(RunError::Sink(KeepError::Lost)) => Verdict::Stopped,
-        Err(RunError::Step(error)) => Verdict::Failed(Failure::numerical(&error)),
-        Err(RunError::Setup(error)) => Verdict::Failed(Failure::setup(&error)),
-        Err(RunError::Sink(error)) => broken_off(&error.to_string()),
+        Ok(RunEnd::Completed(outcome)) => Verdict::Successful(outcome, sink.fingerprint().hex()),
+        Ok(RunEnd::Stopped) => stopped(stop),
+        Err(error) => verdict_on(&error),
+    }
+}
+
+/// The run to its end. One with bands or a target takes several runs, and begins with
+/// the first of them again where it was stopped.
+fn carried_through(
+    equipment: &Equipment,
+    hold: Hold,
+    (scenario, threads): (&Scenario, usize),
+    (stop, sink): (&StopFlag, &mut StoreSink),
+) -> Result<RunEnd, RunError<KeepError>> {
+    if scenario.accuracy.takes_several_runs() {
+        begin(equipment, hold, &Beginning::Afresh, threads)?;
+        *sink = sink.afresh();
+        return campaign::run(scenario, threads, stop, sink);
+    }
+    set_up(equipment, hold, (scenario, threads), sink)?.go(stop, sink)
+}
+
+/// Says where the run begins.
+fn begin(
+    equipment: &Equipment,
+    hold: Hold,
+    beginning: &Beginning,
+    threads: usize,
+) -> Result<(), RunError<KeepError>> {
+    let begun = equipment.store.begin(hold, beginning, threads);
+    match equipment.runtime.block_on(begun) {
+        Ok(true) => Ok(()),
+        Ok(false) => Err(RunError::Sink(KeepError::Lost)),
+        Err(error) => Err(RunError::Sink(error.into())),
+    }
+}
+
+/// The run where its saved state stands, or else at its start.
+fn set_up(
+    equipment: &Equipment,
+    hold: Hold,
+    (scenario, threads): (&Scenario, usize),
+    sink: &mut StoreSink,
+) -> Result<Run, RunError<KeepError>> {
+    if let Some((run, mark)) = restored(equipment, hold, scenario, threads) {
+        begin(equipment, hold, &Beginning::At(mark), threads)?;
+        match sink.go_on_from(&mark, scenario.bodies.len()) {
+            Ok(()) => {
+                info!(time_s = mark.time_s, "goes on from its saved state");
+                return Ok(run);
+            }
+            Err(KeepError::Missing) => warn!("the saved state lacks its samples"),
+            Err(error) => return Err(RunError::Sink(error)),
+        }
+    }
+    begin(equipment, hold, &Beginning::Afresh, threads)?;
+    *sink = sink.afresh();
+    Ok(Run::afresh(scenario, threads)?)
+}
+
+/// The run made from its saved state. A state that can't be used, and why, is
+/// for the log: the run then starts over.
+fn restored(
+    equipment: &Equipment,
+    hold: Hold,
+    scenario: &Scenario,
+    threads: usize,
+) -> Option<(Run, Mark)> {
+    let stored = match equipment.runtime.block_on(equipment.store.state(hold.job)) {
+        Ok(stored) => stored?,
+        Err(error) => {
+            warn!(%error, "the saved state can't be read");
+            return None;
+        }
+    };
+    let run = match stored.unpack() {
+        Ok(state) => Run::restored(scenario, threads, &state).map_err(|error| error.to_string()),
+        Err(error) => Err(error.to_string()),
+    };
+    match run {
+        Ok(run) => Some((run, stored.mark)),
+        Err(reason) => {
+            warn!(reason, "the saved state can't be used");
+            None
+        }
+    }
+}
+
+/// What a raised flag asks for.
+fn stopped(stop: &StopFlag) -> Verdict {
+    match stop.asked() {
+        Stop::OnceSaved => Verdict::HandedBack,
+        Stop::AtOnce | Stop::AtTheEnd => Verdict::Gone,
+    }
+}
+
+fn verdict_on(error: &RunError<KeepError>) -> Verdict {
+    match error {
+        RunError::Step(error) => Verdict::Failed(Failure::numerical(error)),
+        RunError::Setup(
+            error @ (SetupError::TooManyPoints { .. } | SetupError::NotReducible { .. }),
+        ) => Verdict::Failed(Failure::setup(error)),
+        RunError::Setup(error @ SetupError::Threads { .. }) => Verdict::SetBack(error.to_string()),
+        RunError::Sink(KeepError::Lost) => Verdict::Gone,
+        RunError::Sink(error) => Verdict::SetBack(error.to_string()),
     }
 }
 
 /// Writes the verdict. A job that was dismissed meanwhile stays dismissed: each
 /// of these changes a running job only.
-fn pronounce(equipment: &Equipment, hold: Hold, verdict: Verdict) -> Result<(), StoreError> {
+fn pronounce(equipment: &Equipment, hold: Hold, verdict: &Verdict) -> Result<(), StoreError> {
     let store = &equipment.store;
     let runtime = &equipment.runtime;
     match verdict {
-        Verdict::Successful(outcome) => match serde_json::to_string(&outcome) {
+        Verdict::Successful(outcome, fingerprint) => match serde_json::to_string(outcome) {
             Ok(outcome) => {
+                runtime.block_on(store.succeed(hold, &outcome, fingerprint))?;
                 info!("successful");
-                runtime.block_on(store.succeed(hold, &outcome))?;
             }
             Err(error) => {
                 let failure = failure_under_an_id(&error.to_string());
@@ -117,13 +245,19 @@ fn pronounce(equipment: &Equipment, hold: Hold, verdict: Verdict) -> Result<(), 
             }
         },
         Verdict::Failed(failure) => {
+            runtime.block_on(store.fail(hold, failure))?;
             info!(detail = failure.detail, "failed");
-            runtime.block_on(store.fail(hold, &failure))?;
         }
-        Verdict::Stopped => {
-            let put_back = runtime.block_on(store.put_back(hold))?;
-            info!(put_back, "stopped");
+        Verdict::SetBack(reason) => {
+            let setback = Setback::Infrastructure(reason.clone());
+            let returned = runtime.block_on(store.set_back(hold, &setback))?;
+            warn!(reason, ?returned, "set back");
         }
+        Verdict::HandedBack => {
+            let handed_back = runtime.block_on(store.hand_back(hold))?;
+            info!(handed_back, "stopped with the service");
+        }
+        Verdict::Gone => info!("stopped"),
     }
     Ok(())
 }

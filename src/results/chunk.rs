@@ -18,6 +18,9 @@ const BYTES_PER_SAMPLE: usize = 33 * 8 + 4 + 1;
 /// Speed over size: level 3 is zstd's own default.
 const ZSTD_LEVEL: i32 = 3;
 
+/// Level for saved states.
+const ZSTD_QUICK_LEVEL: i32 = 1;
+
 /// Compressed bytes and their checksum.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Block {
@@ -50,13 +53,28 @@ impl Block {
     /// # Errors
     /// Only if the compressor is out of memory.
     pub(super) fn seal(raw: &[u8]) -> Result<Self, BlockError> {
-        let data = zstd::bulk::compress(raw, ZSTD_LEVEL)?;
+        Self::sealed_at(raw, ZSTD_LEVEL)
+    }
+
+    /// The same for what is soon replaced: speed counts more than size.
+    ///
+    /// # Errors
+    /// Only if the compressor is out of memory.
+    pub fn seal_quickly(raw: &[u8]) -> Result<Self, BlockError> {
+        Self::sealed_at(raw, ZSTD_QUICK_LEVEL)
+    }
+
+    fn sealed_at(raw: &[u8], level: i32) -> Result<Self, BlockError> {
+        let data = zstd::bulk::compress(raw, level)?;
         let checksum = *blake3::hash(&data).as_bytes();
         Ok(Self { data, checksum })
     }
 
     /// Checks and decompresses into at most `limit` bytes.
-    pub(super) fn open(&self, limit: usize) -> Result<Vec<u8>, BlockError> {
+    ///
+    /// # Errors
+    /// [`BlockError`], if the bytes are not those that were sealed.
+    pub fn open(&self, limit: usize) -> Result<Vec<u8>, BlockError> {
         if blake3::hash(&self.data).as_bytes() != &self.checksum {
             return Err(BlockError::Checksum);
         }

@@ -60,6 +60,24 @@ impl TrajectoryColumns {
         self.time_s.is_empty()
     }
 
+    /// Keeps the first `len` samples.
+    pub fn truncate(&mut self, len: usize) {
+        self.time_s.truncate(len);
+        self.position_m.truncate(len);
+        self.orientation.truncate(len);
+        self.velocity_m_s.truncate(len);
+        self.angular_velocity_rad_s.truncate(len);
+        self.flow_force_n.truncate(len);
+        self.flow_torque_nm.truncate(len);
+        self.wall_force_n.truncate(len);
+        self.wall_torque_nm.truncate(len);
+        self.body_force_n.truncate(len);
+        self.body_torque_nm.truncate(len);
+        self.touching_points.truncate(len);
+        self.submerged_fraction.truncate(len);
+        self.mode.truncate(len);
+    }
+
     /// Adds one sample at the end.
     pub fn push(&mut self, time_s: f64, sample: &BodySample) {
         self.time_s.push(time_s);

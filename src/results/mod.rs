@@ -5,6 +5,7 @@
 
 pub mod chunk;
 pub mod columns;
+pub mod fingerprint;
 pub mod flow;
 pub mod json;
 mod planes;

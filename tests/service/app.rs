@@ -62,6 +62,15 @@ impl TestApp {
         self.directory
     }
 
+    /// Stops the service once the job has got on for a while.
+    pub(crate) async fn stop_under(self, job: &str) -> TempDir {
+        let steps = |job: &Value| job["progress"]["steps"].as_u64().unwrap();
+        let before = steps(&self.get(job).await.body);
+        self.wait(job, |job| has_ended(job) || steps(job) > before + 20)
+            .await;
+        self.stop().await
+    }
+
     pub(crate) fn address(&self) -> std::net::SocketAddr {
         self.service.address()
     }
@@ -239,6 +248,17 @@ pub(crate) fn tiny_scene() -> Value {
         "flow_snapshots": 3,
         "numerics": {"cell_size_m": 0.02, "points_per_cell": 4}
     })
+}
+
+/// The same, but it takes long enough to be disturbed a few times, and records
+/// more than one chunk.
+pub(crate) fn long_scene() -> Value {
+    let mut scene = tiny_scene();
+    scene["title"] = json!("long");
+    scene["duration_s"] = json!(3.0);
+    scene["sample_interval_s"] = json!(0.004);
+    scene["flow_snapshots"] = json!(8);
+    scene
 }
 
 /// The same, but it runs until someone stops it.

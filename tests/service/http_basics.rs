@@ -35,7 +35,7 @@ async fn what_is_not_there_is_a_problem_document() {
     app.delete(unknown)
         .await
         .assert_problem(StatusCode::NOT_FOUND, "unknown-job");
-    for path in ["/", "/v1", "/v2/jobs", "/v1/jobs/1/2/3"] {
+    for path in ["/v1", "/v2/jobs", "/v1/jobs/1/2/3"] {
         app.get(path)
             .await
             .assert_problem(StatusCode::NOT_FOUND, "unknown-route");

@@ -2,12 +2,15 @@
 //! for every test. Nothing sleeps to wait for something: it is asked for until
 //! it is there, or a deadline passes.
 
+mod access;
 mod app;
 mod bad_input;
 mod campaign;
 mod contract;
 mod dismissal;
+mod following;
 mod http_basics;
+mod intake;
 mod jobs;
 mod layers;
 mod plans;

@@ -1,10 +1,13 @@
 //! What a stop or a crash does to jobs.
 
-use crate::app::{TestApp, config, database, endless_scene, is_running, tiny_scene};
-use scree::jobs::store::{Hold, Store, TOLERATED_CUT_OFFS};
+use crate::app::{
+    TestApp, config, database, endless_scene, has_ended, is_running, long_scene, tiny_scene,
+};
+use scree::jobs::store::{Claimant, Hold, Room, Solver, Store, Submission, TOLERATED_SETBACKS};
 use scree::jobs::submit;
 use scree::service::{self, StartError};
 use serde_json::{Value, json};
+use std::time::Duration;
 use tempfile::TempDir;
 
 #[tokio::test(flavor = "multi_thread")]
@@ -31,28 +34,43 @@ async fn results_and_waiting_jobs_survive_a_restart() {
     app.stop().await;
 }
 
+/// A stop in the middle of a run saves it, and the next start goes on from there
+/// to the bits of a run that nobody disturbed.
 #[tokio::test(flavor = "multi_thread")]
-async fn a_stop_puts_running_jobs_back_to_their_start() {
+async fn a_stopped_job_goes_on_where_it_was_with_the_same_bits() {
     let app = TestApp::start().await;
-    let job = app.submit(&endless_scene()).await;
-    app.wait_for_samples(&job).await;
-    let id = job.rsplit('/').next().unwrap().parse().unwrap();
-    let directory = app.stop().await;
-
-    let store = Store::open(&database(&directory)).await.unwrap();
-    let job = store.job(id).await.unwrap().unwrap();
-    assert_eq!(job.summary.status.word(), "accepted");
-    assert_eq!(job.summary.started, None);
-    assert_eq!(job.summary.progress.steps, 0);
-    assert!(
-        store
-            .chunk(id, 0, 0, &Default::default())
-            .await
-            .unwrap()
-            .is_none()
-    );
-    assert!(store.snapshot(id, None).await.unwrap().is_none());
-    store.close().await;
+    let whole = app.submit(&long_scene()).await;
+    let whole_job = app.wait_for_success(&whole).await;
+    let trajectory = app.get(&format!("{whole}/trajectory")).await.body["columns"].take();
+    let cut = app.submit(&long_scene()).await;
+    let mut directory = Some(app.stop_under(&cut).await);
+    let mut resumed_from_s = 0.0;
+    for attempt in 2..=4 {
+        let app = TestApp::start_in(directory.take().unwrap(), |_| {}).await;
+        let job = app
+            .wait(&cut, |job| is_running(job) || has_ended(job))
+            .await;
+        assert_eq!(job["attempt"], attempt);
+        app.wait(&cut, |job| {
+            !job["attempts"][attempt - 1]["resumed_from_s"].is_null()
+        })
+        .await;
+        let attempts = app.get(&cut).await.body["attempts"].take();
+        assert_eq!(attempts[attempt - 2]["ending"], "handed-back");
+        let from_s = attempts[attempt - 1]["resumed_from_s"].as_f64().unwrap();
+        assert!(from_s > resumed_from_s, "{from_s} after {resumed_from_s}");
+        resumed_from_s = from_s;
+        directory = Some(app.stop_under(&cut).await);
+    }
+    let app = TestApp::start_in(directory.take().unwrap(), |_| {}).await;
+    let job = app.wait_for_success(&cut).await;
+    let fingerprint = |job: &Value| job["provenance"]["fingerprint"].clone();
+    assert_eq!(fingerprint(&job), fingerprint(&whole_job));
+    assert_eq!(job["outcome"]["bodies"], whole_job["outcome"]["bodies"]);
+    assert_eq!(job["outcome"]["audit"], whole_job["outcome"]["audit"]);
+    let again = app.get(&format!("{cut}/trajectory")).await.body["columns"].take();
+    assert_eq!(again, trajectory);
+    app.stop().await;
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -70,7 +88,7 @@ async fn a_job_that_a_crash_cut_off_is_run_again_from_its_start() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_job_that_keeps_taking_the_service_down_fails() {
     let directory = TempDir::new().unwrap();
-    let hold = cut_off(&directory, TOLERATED_CUT_OFFS).await;
+    let hold = cut_off(&directory, TOLERATED_SETBACKS).await;
     let app = TestApp::start_in(directory, |_| {}).await;
     let job = app.get(&format!("/v1/jobs/{}", hold.job)).await.body;
     assert_eq!(job["status"], "failed");
@@ -83,13 +101,31 @@ async fn a_job_that_keeps_taking_the_service_down_fails() {
 /// Leaves a database as services leave it that died `times` times under a job.
 async fn cut_off(directory: &TempDir, times: u32) -> Hold {
     let store = Store::open(&database(directory)).await.unwrap();
-    let new = submit::admit(&tiny_scene().to_string(), 1).unwrap();
-    store.submit(&new).await.unwrap();
+    let new = submit::admit(&tiny_scene().to_string(), 1, Vec::new()).unwrap();
+    let submission = Submission {
+        jobs: &[new],
+        submitter: None,
+        key: None,
+        room: Room {
+            queue: 1,
+            submitter: None,
+        },
+    };
+    store.submit(&submission).await.unwrap();
+    let claimant = Claimant {
+        owner: config(directory).queue.name,
+        lease: Duration::from_secs(30),
+        solver: Solver {
+            version: "0",
+            commit: "",
+            instructions: "",
+        },
+    };
     for _ in 1..times {
-        store.claim("0").await.unwrap().unwrap();
-        store.recover().await.unwrap();
+        store.claim(&claimant).await.unwrap().unwrap();
+        store.take_back_own(&claimant.owner).await.unwrap();
     }
-    let claim = store.claim("0").await.unwrap().unwrap();
+    let claim = store.claim(&claimant).await.unwrap().unwrap();
     store.close().await;
     claim.hold
 }

@@ -22,6 +22,13 @@ pub struct Accuracy {
     pub budget_point_steps: f64,
 }
 
+impl Accuracy {
+    /// Whether the answer takes more than one run.
+    pub fn takes_several_runs(&self) -> bool {
+        self.error_bars || self.target.is_some()
+    }
+}
+
 /// A quantity of the outcome, as JSON by its key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Quantity {

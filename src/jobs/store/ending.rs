@@ -1,36 +1,77 @@
 //! How running jobs end, or go back to where they came from.
 
-use super::queue::hold;
+use super::history::end_attempt;
 use super::{Hold, Store, StoreError};
 use crate::jobs::failure::Failure;
-use jiff::Timestamp;
 use sqlx::sqlite::SqliteConnection;
 
-/// How often the process may die under a job before the job fails: a scenario
-/// that takes the service down must not do so for ever.
-pub const TOLERATED_CUT_OFFS: u32 = 3;
+/// How many setbacks in a row a job may have before it fails: what takes the
+/// service down must not do so for ever.
+pub const TOLERATED_SETBACKS: u32 = 3;
+
+/// How long a job waits after its first, second, … setback [ms]. One that the
+/// process died under has waited for the next start already.
+const BACK_OFF_MS: [i64; 2] = [2_000, 8_000];
+
+/// Longest wait after a setback [ms]. A job that seems to wait longer does so
+/// because the clock was set back.
+pub(super) const LONGEST_BACK_OFF_MS: i64 = BACK_OFF_MS[1];
+
+/// Why an attempt ended through no fault of the scenario.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Setback {
+    /// The process died.
+    CutOff,
+    /// The lease ran out.
+    Expired,
+    /// Something the run needs was not there.
+    Infrastructure(String),
+}
+
+/// What became of a job that an attempt gave back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Returned {
+    /// It waits for another attempt.
+    Waiting,
+    /// That was once too often: it failed.
+    Failed,
+    /// It no longer was this hold's; nothing was changed.
+    Lost,
+}
 
 impl Store {
-    /// Ends a running job with its outcome. `false` if it no longer runs under
-    /// this hold.
+    /// Ends a running job with its outcome and the fingerprint of what it
+    /// recorded. `false` if it no longer runs under this hold.
     ///
     /// # Errors
     /// The database's own.
-    pub async fn succeed(&self, hold: Hold, outcome: &str) -> Result<bool, StoreError> {
-        let mut transaction = self.begin().await?;
+    pub async fn succeed(
+        &self,
+        hold: Hold,
+        outcome: &str,
+        fingerprint: &str,
+    ) -> Result<bool, StoreError> {
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
         let done = sqlx::query(
             "UPDATE jobs
-             SET status = 'successful', finished_ms = ?3, outcome = ?4, fraction = 1, eta_s = NULL
-             WHERE id = ?1 AND attempt = ?2 AND status = 'running'",
+             SET status = 'successful', finished_ms = ?3, outcome = ?4, fingerprint = ?5,
+                 fraction = 1, eta_s = NULL, lease_owner = NULL, lease_expires_ms = NULL
+             WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
         )
         .bind(hold.job.to_string())
-        .bind(hold.attempt)
-        .bind(Timestamp::now().as_millisecond())
+        .bind(hold.token)
+        .bind(now_ms)
         .bind(outcome)
+        .bind(fingerprint)
         .execute(&mut *transaction)
         .await?;
+        if done.rows_affected() == 0 {
+            return Ok(false);
+        }
+        end_attempt(&mut transaction, hold, now_ms, ("successful", None)).await?;
         transaction.commit().await?;
-        Ok(done.rows_affected() == 1)
+        Ok(true)
     }
 
     /// Ends a running job without an answer. `false` if it no longer runs under
@@ -39,56 +80,105 @@ impl Store {
     /// # Errors
     /// The database's own.
     pub async fn fail(&self, hold: Hold, failure: &Failure) -> Result<bool, StoreError> {
-        let mut transaction = self.begin().await?;
-        let done = fail_row(&mut transaction, hold, failure).await?;
-        transaction.commit().await?;
-        Ok(done)
-    }
-
-    /// Puts a running job back into the queue, to be run again from its start:
-    /// what it recorded is removed. `false` if it no longer runs under this
-    /// hold, which leaves everything as it is.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn put_back(&self, hold: Hold) -> Result<bool, StoreError> {
-        let mut transaction = self.begin().await?;
-        let done = put_back_row(&mut transaction, hold, 0).await?;
-        transaction.commit().await?;
-        Ok(done)
-    }
-
-    /// Takes care of jobs that a former process left running: it died under
-    /// them. They go back into the queue, or fail if that happened too often.
-    /// Returns how many there were.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn recover(&self) -> Result<usize, StoreError> {
-        let mut transaction = self.begin().await?;
-        let left: Vec<(String, i64, i64)> = sqlx::query_as(
-            "SELECT id, attempt, cut_offs FROM jobs WHERE status = 'running' ORDER BY sequence",
-        )
-        .fetch_all(&mut *transaction)
-        .await?;
-        for (id, attempt, cut_offs) in &left {
-            let hold = hold(id, *attempt)?;
-            let cut_offs = u32::try_from(cut_offs + 1).unwrap_or(u32::MAX);
-            if cut_offs < TOLERATED_CUT_OFFS {
-                put_back_row(&mut transaction, hold, 1).await?;
-            } else {
-                fail_row(&mut transaction, hold, &Failure::cut_off(cut_offs)).await?;
-            }
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
+        let done = fail_row(&mut transaction, hold, failure, now_ms).await?;
+        if done {
+            let ending = ("failed", Some(failure.detail.as_str()));
+            end_attempt(&mut transaction, hold, now_ms, ending).await?;
         }
         transaction.commit().await?;
-        Ok(left.len())
+        Ok(done)
     }
+
+    /// Hands a running job back into the queue, with its saved state, because
+    /// the service stops. `false` if it no longer runs under this hold.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn hand_back(&self, hold: Hold) -> Result<bool, StoreError> {
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
+        let done = put_back_row(&mut transaction, hold, 0, 0).await?;
+        if done {
+            end_attempt(&mut transaction, hold, now_ms, ("handed-back", None)).await?;
+        }
+        transaction.commit().await?;
+        Ok(done)
+    }
+
+    /// Gives up an attempt at a running job: it goes back into the queue, to
+    /// be claimed again after a while, or fails if that happened too often.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn set_back(&self, hold: Hold, setback: &Setback) -> Result<Returned, StoreError> {
+        let mut transaction = self.begin_write().await?;
+        let returned = set_back_row(&mut transaction, hold, setback, self.now_ms()).await?;
+        transaction.commit().await?;
+        Ok(returned)
+    }
+}
+
+impl Setback {
+    fn word(&self) -> &'static str {
+        match self {
+            Self::CutOff => "cut-off",
+            Self::Expired => "expired",
+            Self::Infrastructure(_) => "infrastructure",
+        }
+    }
+
+    fn detail(&self) -> Option<&str> {
+        match self {
+            Self::CutOff | Self::Expired => None,
+            Self::Infrastructure(detail) => Some(detail),
+        }
+    }
+
+    fn failure(&self, times: u32) -> Failure {
+        match self {
+            Self::CutOff | Self::Expired => Failure::cut_off(times),
+            Self::Infrastructure(detail) => Failure::infrastructure(times, detail),
+        }
+    }
+}
+
+pub(super) async fn set_back_row(
+    connection: &mut SqliteConnection,
+    hold: Hold,
+    setback: &Setback,
+    now_ms: i64,
+) -> Result<Returned, StoreError> {
+    let before: Option<u32> = sqlx::query_scalar(
+        "SELECT setbacks FROM jobs WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
+    )
+    .bind(hold.job.to_string())
+    .bind(hold.token)
+    .fetch_optional(&mut *connection)
+    .await?;
+    let Some(before) = before else {
+        return Ok(Returned::Lost);
+    };
+    end_attempt(connection, hold, now_ms, (setback.word(), setback.detail())).await?;
+    let times = before + 1;
+    if times >= TOLERATED_SETBACKS {
+        fail_row(connection, hold, &setback.failure(times), now_ms).await?;
+        return Ok(Returned::Failed);
+    }
+    let wait_ms = match setback {
+        Setback::CutOff => 0,
+        Setback::Expired | Setback::Infrastructure(_) => BACK_OFF_MS[before as usize],
+    };
+    put_back_row(connection, hold, 1, now_ms + wait_ms).await?;
+    Ok(Returned::Waiting)
 }
 
 async fn fail_row(
     connection: &mut SqliteConnection,
     hold: Hold,
     failure: &Failure,
+    now_ms: i64,
 ) -> Result<bool, StoreError> {
     let problem = serde_json::to_string(failure).map_err(|_| StoreError::Row {
         job: hold.job.to_string(),
@@ -96,46 +186,44 @@ async fn fail_row(
     })?;
     let done = sqlx::query(
         "UPDATE jobs
-         SET status = 'failed', finished_ms = ?3, problem = ?4, eta_s = NULL
-         WHERE id = ?1 AND attempt = ?2 AND status = 'running'",
+         SET status = 'failed', finished_ms = ?3, problem = ?4, eta_s = NULL,
+             lease_owner = NULL, lease_expires_ms = NULL
+         WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
     )
     .bind(hold.job.to_string())
-    .bind(hold.attempt)
-    .bind(Timestamp::now().as_millisecond())
+    .bind(hold.token)
+    .bind(now_ms)
     .bind(problem)
     .execute(connection)
     .await?;
     Ok(done.rows_affected() == 1)
 }
 
+/// Puts a running job back into the queue. Its progress stays if the next
+/// attempt can go on from a saved state.
 async fn put_back_row(
     connection: &mut SqliteConnection,
     hold: Hold,
-    cut_offs: u32,
+    setbacks: u32,
+    not_before_ms: i64,
 ) -> Result<bool, StoreError> {
-    let id = hold.job.to_string();
     let done = sqlx::query(
         "UPDATE jobs
-         SET status = 'accepted', started_ms = NULL, cut_offs = cut_offs + ?3, fraction = 0,
-             simulated_time_s = 0, steps = 0, substeps = 0, point_steps_per_s = 0, eta_s = NULL
-         WHERE id = ?1 AND attempt = ?2 AND status = 'running'",
+         SET status = 'accepted', started_ms = NULL, setbacks = setbacks + ?3,
+             not_before_ms = ?4, lease_owner = NULL, lease_expires_ms = NULL,
+             lease_token = lease_token + 1, point_steps_per_s = 0, eta_s = NULL,
+             (fraction, simulated_time_s, steps, substeps) = (
+                 SELECT iif(saved, fraction, 0), iif(saved, simulated_time_s, 0),
+                        iif(saved, steps, 0), iif(saved, substeps, 0)
+                 FROM (SELECT EXISTS (SELECT 1 FROM run_states WHERE job_id = ?1) AS saved)
+             )
+         WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
     )
-    .bind(&id)
-    .bind(hold.attempt)
-    .bind(cut_offs)
-    .execute(&mut *connection)
+    .bind(hold.job.to_string())
+    .bind(hold.token)
+    .bind(setbacks)
+    .bind(not_before_ms)
+    .execute(connection)
     .await?;
-    if done.rows_affected() == 0 {
-        return Ok(false);
-    }
-    for statement in [
-        "DELETE FROM trajectory_chunks WHERE job_id = ?1",
-        "DELETE FROM flow_snapshots WHERE job_id = ?1",
-    ] {
-        sqlx::query(statement)
-            .bind(&id)
-            .execute(&mut *connection)
-            .await?;
-    }
-    Ok(true)
+    Ok(done.rows_affected() == 1)
 }

@@ -1,5 +1,5 @@
 //! Where jobs and results are kept: one SQLite file. All SQL of the project is
-//! in this folder, and nothing here knows HTTP or the solver.
+//! in this folder, behind [`JobStore`], and nothing here knows HTTP or the solver.
 //!
 //! One connection writes, in transactions that take the write lock at once; a
 //! few read-only ones read beside it (write-ahead log). Every commit reaches
@@ -7,18 +7,34 @@
 //! database keeps a second service off it.
 
 mod ending;
+mod events;
+mod health;
+mod history;
+mod lease;
 mod queue;
 mod read;
+mod removal;
 mod results;
 mod rows;
+mod seam;
+mod states;
+mod submission;
 #[cfg(test)]
 mod tests;
 
-pub use ending::TOLERATED_CUT_OFFS;
-pub use queue::{Claim, Dismissal};
+pub use ending::{Returned, Setback, TOLERATED_SETBACKS};
+pub use events::Event;
+pub use health::{Census, Trouble};
+pub use lease::Renewal;
+pub use queue::{Claim, Claimant, Dismissal, Solver};
 pub use read::Page;
+pub use removal::Removal;
 pub use results::{NewChunk, NewResults, StoredChunk};
+pub use seam::JobStore;
+pub use states::{Beginning, Mark, StoredState};
+pub use submission::{Key, Room, Submission, Submitted};
 
+use super::clock::{Clock, SystemClock};
 use super::job::JobId;
 use crate::results::chunk::BlockError;
 use sqlx::sqlite::{
@@ -38,11 +54,15 @@ const READERS: u32 = 4;
 /// tool could hold one for long.
 const BUSY_TIMEOUT: Duration = Duration::from_secs(5);
 
+/// Length to which the write-ahead log is cut back [bytes].
+const LOG_BYTES: u32 = 16 << 20;
+
 /// The database of one service. Clones share it.
 #[derive(Debug, Clone)]
 pub struct Store {
     writer: SqlitePool,
     readers: SqlitePool,
+    clock: Arc<dyn Clock>,
     _lock: Arc<File>,
 }
 
@@ -53,6 +73,8 @@ pub struct Hold {
     pub job: JobId,
     /// Which attempt at it.
     pub attempt: u32,
+    /// The fencing token: good until the job changes hands.
+    pub token: i64,
 }
 
 /// Why the store can't do what it was asked.
@@ -75,6 +97,9 @@ pub enum StoreError {
     /// The database's own error.
     #[error("database: {0}")]
     Database(#[from] sqlx::Error),
+    /// The database has refused for so long that there is no time left.
+    #[error("the database refuses what is to be written")]
+    Refused,
     /// A row holds what it never should.
     #[error("job {job}: {what} can't be read")]
     Row {
@@ -100,16 +125,31 @@ impl Store {
     /// # Errors
     /// Another service has it, or it can't be opened.
     pub async fn open(path: &Path) -> Result<Self, StoreError> {
+        Self::open_with(path, None, Arc::new(SystemClock)).await
+    }
+
+    /// The same, with a largest size of the database [bytes] and by a clock that
+    /// may be another than the system's.
+    ///
+    /// # Errors
+    /// Another service has it, or it can't be opened.
+    pub async fn open_with(
+        path: &Path,
+        largest_bytes: Option<u64>,
+        clock: Arc<dyn Clock>,
+    ) -> Result<Self, StoreError> {
         let lock = lock(path)?;
         let options = SqliteConnectOptions::new()
             .filename(path)
             .journal_mode(SqliteJournalMode::Wal)
             .synchronous(SqliteSynchronous::Full)
             .foreign_keys(true)
-            .busy_timeout(BUSY_TIMEOUT);
+            .busy_timeout(BUSY_TIMEOUT)
+            // A log that grew under a saved state shrinks again.
+            .pragma("journal_size_limit", LOG_BYTES.to_string());
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
-            .connect_with(options.clone().create_if_missing(true))
+            .connect_with(limited(options.clone(), largest_bytes).create_if_missing(true))
             .await?;
         sqlx::migrate!().run(&writer).await?;
         let readers = SqlitePoolOptions::new()
@@ -119,6 +159,7 @@ impl Store {
         Ok(Self {
             writer,
             readers,
+            clock,
             _lock: Arc::new(lock),
         })
     }
@@ -130,19 +171,27 @@ impl Store {
         self.writer.close().await;
     }
 
-    /// Whether the database answers.
-    ///
-    /// # Errors
-    /// It does not.
-    pub async fn ping(&self) -> Result<(), StoreError> {
-        sqlx::query("SELECT 1").execute(&self.readers).await?;
-        Ok(())
-    }
-
     /// A transaction that has the write lock from its beginning, so that it
     /// can't fail half-way for want of it.
-    async fn begin(&self) -> Result<Transaction<'static, Sqlite>, StoreError> {
+    async fn begin_write(&self) -> Result<Transaction<'static, Sqlite>, StoreError> {
         Ok(self.writer.begin_with("BEGIN IMMEDIATE").await?)
+    }
+
+    /// The time of day, as rows have it [ms].
+    fn now_ms(&self) -> i64 {
+        self.clock.now().as_millisecond()
+    }
+}
+
+/// SQLite's page size [bytes].
+const PAGE_BYTES: u64 = 4096;
+
+fn limited(options: SqliteConnectOptions, largest_bytes: Option<u64>) -> SqliteConnectOptions {
+    match largest_bytes {
+        None => options,
+        Some(bytes) => options
+            .page_size(PAGE_BYTES as u32)
+            .pragma("max_page_count", (bytes / PAGE_BYTES).max(1).to_string()),
     }
 }
 

@@ -1,11 +1,34 @@
-//! The life of a job: submitted, claimed, ended. The row is the queue.
+//! The life of a job: submitted, claimed, dismissed. The row is the queue.
 
-use super::rows::integer;
+use super::ending::LONGEST_BACK_OFF_MS;
+use super::history::{begin_attempt, end_attempt};
+use super::lease::milliseconds;
 use super::{Hold, Store, StoreError};
 use crate::jobs::job::{JobId, JobStatus};
-use crate::jobs::submit::NewJob;
-use jiff::Timestamp;
 use sqlx::FromRow;
+use std::time::Duration;
+
+/// Who claims jobs, and on which terms.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Claimant {
+    /// Name of the service; its next start takes back at once what it left.
+    pub owner: String,
+    /// How long a claim holds unless it is renewed.
+    pub lease: Duration,
+    /// Program that runs the jobs.
+    pub solver: Solver,
+}
+
+/// The program that runs a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Solver {
+    /// Version of the solver.
+    pub version: &'static str,
+    /// Commit the program was built from.
+    pub commit: &'static str,
+    /// The instructions its fast path uses.
+    pub instructions: &'static str,
+}
 
 /// A job that a worker just took up.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,79 +54,58 @@ pub enum Dismissal {
 struct ClaimedRow {
     id: String,
     attempt: i64,
+    lease_token: i64,
     scenario: String,
 }
 
 impl Store {
-    /// Puts a job into the queue; it is on disk when this returns.
+    /// Takes up the oldest accepted job that has not to wait after a setback.
     ///
     /// # Errors
     /// The database's own.
-    pub async fn submit(&self, job: &NewJob) -> Result<(), StoreError> {
-        let mut transaction = self.begin().await?;
-        sqlx::query(
-            "INSERT INTO jobs (id, created_ms, scenario, title, bodies, solver_version)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
-        )
-        .bind(job.id.to_string())
-        .bind(Timestamp::now().as_millisecond())
-        .bind(&job.scenario)
-        .bind(&job.title)
-        .bind(integer(job.bodies as u64))
-        .bind(job.solver_version)
-        .execute(&mut *transaction)
-        .await?;
-        transaction.commit().await?;
-        Ok(())
-    }
-
-    /// Takes up the oldest accepted job for a worker with this solver.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn claim(&self, solver_version: &str) -> Result<Option<Claim>, StoreError> {
-        let mut transaction = self.begin().await?;
+    pub async fn claim(&self, claimant: &Claimant) -> Result<Option<Claim>, StoreError> {
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
         let row: Option<ClaimedRow> = sqlx::query_as(
             "UPDATE jobs
-             SET status = 'running', started_ms = ?1, solver_version = ?2, attempt = attempt + 1
-             WHERE sequence = (SELECT min(sequence) FROM jobs WHERE status = 'accepted')
-             RETURNING id, attempt, scenario",
+             SET status = 'running', started_ms = ?1, solver_version = ?2, attempt = attempt + 1,
+                 solver_commit = ?6, instructions = ?7,
+                 lease_owner = ?3, lease_expires_ms = ?4, lease_token = lease_token + 1
+             WHERE sequence = (SELECT min(sequence) FROM jobs WHERE status = 'accepted'
+                               AND (not_before_ms <= ?1 OR not_before_ms > ?5))
+             RETURNING id, attempt, lease_token, scenario",
         )
-        .bind(Timestamp::now().as_millisecond())
-        .bind(solver_version)
+        .bind(now_ms)
+        .bind(claimant.solver.version)
+        .bind(&claimant.owner)
+        .bind(now_ms + milliseconds(claimant.lease))
+        .bind(now_ms + LONGEST_BACK_OFF_MS)
+        .bind(claimant.solver.commit)
+        .bind(claimant.solver.instructions)
         .fetch_optional(&mut *transaction)
         .await?;
+        let Some(claim) = row.map(ClaimedRow::read).transpose()? else {
+            return Ok(None);
+        };
+        begin_attempt(&mut transaction, claim.hold, &claimant.owner, now_ms).await?;
         transaction.commit().await?;
-        row.map(ClaimedRow::read).transpose()
+        Ok(Some(claim))
     }
 
-    /// Whether the job is still running under this hold.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn is_running(&self, hold: Hold) -> Result<bool, StoreError> {
-        let running: bool = sqlx::query_scalar(
-            "SELECT EXISTS (SELECT 1 FROM jobs WHERE id = ?1 AND attempt = ?2 AND status = 'running')",
-        )
-        .bind(hold.job.to_string())
-        .bind(hold.attempt)
-        .fetch_one(&self.writer)
-        .await?;
-        Ok(running)
-    }
-
-    /// Dismisses a job. A worker that runs it finds out at its next write; the
-    /// caller tells it sooner.
+    /// Dismisses a job. A worker that runs it finds out at its next write or
+    /// heartbeat; the caller tells it sooner.
     ///
     /// # Errors
     /// The database's own.
     pub async fn dismiss(&self, id: JobId) -> Result<Dismissal, StoreError> {
-        let mut transaction = self.begin().await?;
-        let word: Option<String> = sqlx::query_scalar("SELECT status FROM jobs WHERE id = ?1")
-            .bind(id.to_string())
-            .fetch_optional(&mut *transaction)
-            .await?;
-        let Some(word) = word else {
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
+        let row: Option<(String, i64, i64)> =
+            sqlx::query_as("SELECT status, attempt, lease_token FROM jobs WHERE id = ?1")
+                .bind(id.to_string())
+                .fetch_optional(&mut *transaction)
+                .await?;
+        let Some((word, attempt, token)) = row else {
             return Ok(Dismissal::Unknown);
         };
         let status = JobStatus::from_word(&word).ok_or_else(|| StoreError::Row {
@@ -116,12 +118,17 @@ impl Store {
             JobStatus::Accepted | JobStatus::Running => {}
         }
         sqlx::query(
-            "UPDATE jobs SET status = 'dismissed', finished_ms = ?2, eta_s = NULL WHERE id = ?1",
+            "UPDATE jobs
+             SET status = 'dismissed', finished_ms = ?2, eta_s = NULL,
+                 lease_owner = NULL, lease_expires_ms = NULL
+             WHERE id = ?1",
         )
         .bind(id.to_string())
-        .bind(Timestamp::now().as_millisecond())
+        .bind(now_ms)
         .execute(&mut *transaction)
         .await?;
+        let hold = hold(&id.to_string(), attempt, token)?;
+        end_attempt(&mut transaction, hold, now_ms, ("dismissed", None)).await?;
         transaction.commit().await?;
         Ok(Dismissal::Dismissed)
     }
@@ -130,13 +137,13 @@ impl Store {
 impl ClaimedRow {
     fn read(self) -> Result<Claim, StoreError> {
         Ok(Claim {
-            hold: hold(&self.id, self.attempt)?,
+            hold: hold(&self.id, self.attempt, self.lease_token)?,
             scenario: self.scenario,
         })
     }
 }
 
-pub(super) fn hold(id: &str, attempt: i64) -> Result<Hold, StoreError> {
+pub(super) fn hold(id: &str, attempt: i64, token: i64) -> Result<Hold, StoreError> {
     let broken = |what| StoreError::Row {
         job: id.to_owned(),
         what,
@@ -144,5 +151,6 @@ pub(super) fn hold(id: &str, attempt: i64) -> Result<Hold, StoreError> {
     Ok(Hold {
         job: id.parse().map_err(|_| broken("id"))?,
         attempt: u32::try_from(attempt).map_err(|_| broken("attempt"))?,
+        token,
     })
 }

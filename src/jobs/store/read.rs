@@ -1,14 +1,35 @@
 //! Reading jobs.
 
+use super::history::attempts_of;
 use super::rows::{JobRow, SummaryRow};
 use super::{Store, StoreError};
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
 
+/// A job's row and its labels.
+macro_rules! with_labels {
+    ($rest:expr) => {
+        concat!(
+            "SELECT *, (SELECT json_group_array(label) FROM labels WHERE job_id = jobs.id) AS labels
+             FROM jobs ",
+            $rest
+        )
+    };
+}
+
+/// The same for a page of them.
+macro_rules! listed {
+    ($condition:expr) => {
+        with_labels!(concat!($condition, " ORDER BY sequence DESC LIMIT ?2"))
+    };
+}
+
 /// Which jobs a list shows, newest first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Page {
     /// Only jobs of this state.
     pub status: Option<JobStatus>,
+    /// Only jobs with this label.
+    pub label: Option<String>,
     /// Only jobs submitted before the one with this sequence number.
     pub before: Option<i64>,
     /// At most this many.
@@ -21,33 +42,59 @@ impl Store {
     /// # Errors
     /// The database's own, or an unreadable row.
     pub async fn job(&self, id: JobId) -> Result<Option<Job>, StoreError> {
-        let row: Option<JobRow> = sqlx::query_as("SELECT * FROM jobs WHERE id = ?1")
+        // One transaction, so that the attempts are those of the row.
+        let mut transaction = self.readers.begin().await?;
+        let row: Option<JobRow> = sqlx::query_as(with_labels!("WHERE id = ?1"))
+            .bind(id.to_string())
+            .fetch_optional(&mut *transaction)
+            .await?;
+        let Some(row) = row else { return Ok(None) };
+        let attempts = attempts_of(&mut transaction, id).await?;
+        row.read(attempts).map(Some)
+    }
+
+    /// The state of a job, if there is one.
+    ///
+    /// # Errors
+    /// The database's own, or an unreadable row.
+    pub async fn status(&self, id: JobId) -> Result<Option<JobStatus>, StoreError> {
+        let word: Option<String> = sqlx::query_scalar("SELECT status FROM jobs WHERE id = ?1")
             .bind(id.to_string())
             .fetch_optional(&self.readers)
             .await?;
-        row.map(JobRow::read).transpose()
+        let read = |word: String| {
+            JobStatus::from_word(&word).ok_or_else(|| StoreError::Row {
+                job: id.to_string(),
+                what: "status",
+            })
+        };
+        word.map(read).transpose()
     }
 
     /// A page of jobs.
     ///
     /// # Errors
     /// The database's own, or an unreadable row.
-    pub async fn page(&self, page: Page) -> Result<Vec<JobSummary>, StoreError> {
-        // Two statements, so that each can use its index.
-        let query = match page.status {
-            None => sqlx::query_as(
-                "SELECT * FROM jobs WHERE sequence < ?1 ORDER BY sequence DESC LIMIT ?2",
-            ),
-            Some(_) => sqlx::query_as(
-                "SELECT * FROM jobs WHERE sequence < ?1 AND status = ?3
-                 ORDER BY sequence DESC LIMIT ?2",
-            ),
+    pub async fn page(&self, page: &Page) -> Result<Vec<JobSummary>, StoreError> {
+        // A statement for each, so that it can use its index.
+        let query = match (page.status, &page.label) {
+            (None, None) => sqlx::query_as(listed!("WHERE sequence < ?1")),
+            (Some(_), None) => sqlx::query_as(listed!("WHERE sequence < ?1 AND status = ?3")),
+            (None, Some(_)) => sqlx::query_as(listed!(
+                "WHERE sequence < ?1 AND id IN (SELECT job_id FROM labels WHERE label = ?4)"
+            )),
+            (Some(_), Some(_)) => sqlx::query_as(listed!(
+                "WHERE sequence < ?1 AND status = ?3
+                   AND id IN (SELECT job_id FROM labels WHERE label = ?4)"
+            )),
         };
-        let mut query = query.bind(page.before.unwrap_or(i64::MAX)).bind(page.limit);
-        if let Some(status) = page.status {
-            query = query.bind(status.word());
-        }
-        let rows: Vec<SummaryRow> = query.fetch_all(&self.readers).await?;
+        let rows: Vec<SummaryRow> = query
+            .bind(page.before.unwrap_or(i64::MAX))
+            .bind(page.limit)
+            .bind(page.status.map(JobStatus::word))
+            .bind(&page.label)
+            .fetch_all(&self.readers)
+            .await?;
         rows.into_iter().map(SummaryRow::read).collect()
     }
 }

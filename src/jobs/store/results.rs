@@ -1,8 +1,9 @@
 //! Writing and reading what runs recorded.
 
 use super::rows::integer;
+use super::states::{StoredState, write_state};
 use super::{Hold, Store, StoreError};
-use crate::jobs::job::JobId;
+use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::progress::Progress;
 use crate::results::FlowSnapshot;
 use crate::results::chunk::{self, Block, BlockError};
@@ -37,6 +38,8 @@ pub struct NewResults {
     pub snapshots: Vec<StoredSnapshot>,
     /// How far the run is.
     pub progress: Progress,
+    /// The run's state after all that.
+    pub state: Option<StoredState>,
 }
 
 /// A chunk read back.
@@ -74,15 +77,19 @@ impl Store {
     /// # Errors
     /// The database's own.
     pub async fn keep(&self, hold: Hold, results: &NewResults) -> Result<bool, StoreError> {
-        let mut transaction = self.begin().await?;
-        if !keep_progress(&mut transaction, hold, &results.progress).await? {
+        let mut transaction = self.begin_write().await?;
+        let status = keep_progress(&mut transaction, hold, &results.progress).await?;
+        let Some(status) = status else {
             return Ok(false);
-        }
+        };
         for chunk in &results.chunks {
             write_chunk(&mut transaction, hold.job, chunk).await?;
         }
         for snapshot in &results.snapshots {
             write_snapshot(&mut transaction, hold.job, snapshot).await?;
+        }
+        if let (Some(state), JobStatus::Running) = (&results.state, status) {
+            write_state(&mut transaction, hold, state, self.now_ms()).await?;
         }
         transaction.commit().await?;
         Ok(true)
@@ -119,6 +126,30 @@ impl Store {
             .map_err(|source| StoreError::Block { job, source })
     }
 
+    /// The last chunk of a body's trajectory, and the index of its first sample.
+    ///
+    /// # Errors
+    /// The database's own, or a block that is not what was written.
+    pub async fn last_chunk(
+        &self,
+        job: JobId,
+        body: usize,
+    ) -> Result<Option<(usize, TrajectoryColumns)>, StoreError> {
+        let row: Option<ChunkRow> = sqlx::query_as(
+            "SELECT first_sample, samples, checksum, data FROM trajectory_chunks
+             WHERE job_id = ?1 AND body = ?2 ORDER BY first_sample DESC LIMIT 1",
+        )
+        .bind(job.to_string())
+        .bind(integer(body as u64))
+        .fetch_optional(&self.readers)
+        .await?;
+        let Some(row) = row else { return Ok(None) };
+        let first_sample = length(row.first_sample);
+        row.read()
+            .map(|chunk| Some((first_sample, chunk.columns)))
+            .map_err(|source| StoreError::Block { job, source })
+    }
+
     /// The snapshot nearest to a time, the earlier of two equally near; without
     /// a time the latest. `None` if there is none yet.
     ///
@@ -144,29 +175,31 @@ impl Store {
     }
 }
 
-/// Keeps the progress of a job that this hold still owns.
-async fn keep_progress(
+/// Keeps the progress of a job that this hold still owns, and says whether it
+/// runs or was dismissed meanwhile.
+pub(super) async fn keep_progress(
     connection: &mut SqliteConnection,
     hold: Hold,
     progress: &Progress,
-) -> Result<bool, StoreError> {
-    let done = sqlx::query(
+) -> Result<Option<JobStatus>, StoreError> {
+    let word: Option<String> = sqlx::query_scalar(
         "UPDATE jobs
          SET fraction = ?3, simulated_time_s = ?4, steps = ?5, substeps = ?6,
              point_steps_per_s = ?7, eta_s = iif(status = 'running', ?8, NULL)
-         WHERE id = ?1 AND attempt = ?2 AND status IN ('running', 'dismissed')",
+         WHERE id = ?1 AND lease_token = ?2 AND status IN ('running', 'dismissed')
+         RETURNING status",
     )
     .bind(hold.job.to_string())
-    .bind(hold.attempt)
+    .bind(hold.token)
     .bind(progress.fraction)
     .bind(progress.simulated_time_s)
     .bind(integer(progress.steps))
     .bind(integer(progress.substeps))
     .bind(progress.point_steps_per_s)
     .bind(progress.eta_s)
-    .execute(connection)
+    .fetch_optional(connection)
     .await?;
-    Ok(done.rows_affected() == 1)
+    Ok(word.and_then(|word| JobStatus::from_word(&word)))
 }
 
 async fn write_chunk(
@@ -204,7 +237,9 @@ async fn write_snapshot(
     sqlx::query(
         "INSERT INTO flow_snapshots
              (job_id, time_s, points, thinning, kept, encoding, checksum, data)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)
+         -- Written again only if it is not known whether it was written.
+         ON CONFLICT (job_id, time_s) DO NOTHING",
     )
     .bind(job.to_string())
     .bind(snapshot.time_s)

@@ -1,7 +1,7 @@
 //! Rows of the `jobs` table, and what they say.
 
 use super::StoreError;
-use crate::jobs::job::{Job, JobStatus, JobSummary};
+use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
 use crate::jobs::progress::Progress;
 use jiff::Timestamp;
 use serde_json::value::RawValue;
@@ -23,6 +23,8 @@ pub(super) struct SummaryRow {
     substeps: i64,
     point_steps_per_s: f64,
     eta_s: Option<f64>,
+    /// A JSON list.
+    labels: String,
 }
 
 /// All columns of a job.
@@ -32,9 +34,15 @@ pub(super) struct JobRow {
     summary: SummaryRow,
     bodies: i64,
     attempt: i64,
+    threads: Option<u32>,
     solver_version: String,
+    solver_commit: String,
+    instructions: String,
+    scenario_hash: String,
+    submitter: Option<String>,
     scenario: String,
     outcome: Option<String>,
+    fingerprint: Option<String>,
     problem: Option<String>,
 }
 
@@ -55,6 +63,7 @@ impl SummaryRow {
             finished: self.finished_ms.map(time).transpose()?,
             title: self.title,
             progress,
+            labels: serde_json::from_str(&self.labels).map_err(|_| broken("labels"))?,
         })
     }
 
@@ -71,7 +80,7 @@ impl SummaryRow {
 }
 
 impl JobRow {
-    pub(super) fn read(self) -> Result<Job, StoreError> {
+    pub(super) fn read(self, attempts: Vec<Attempt>) -> Result<Job, StoreError> {
         let id = self.summary.id.clone();
         let broken = |what| StoreError::Row {
             job: id.clone(),
@@ -81,13 +90,27 @@ impl JobRow {
         Ok(Job {
             summary: self.summary.read()?,
             bodies: usize::try_from(self.bodies).map_err(|_| broken("bodies"))?,
+            attempts,
             attempt: u32::try_from(self.attempt).map_err(|_| broken("attempt"))?,
-            solver_version: self.solver_version,
+            submitter: self.submitter,
+            provenance: Provenance {
+                scenario_hash: self.scenario_hash,
+                solver_version: self.solver_version,
+                solver_commit: started(self.solver_commit),
+                instructions: started(self.instructions),
+                threads: self.threads,
+                fingerprint: self.fingerprint,
+            },
             scenario: json(self.scenario, "scenario")?,
             outcome: self.outcome.map(|text| json(text, "outcome")).transpose()?,
             problem: self.problem.map(|text| json(text, "problem")).transpose()?,
         })
     }
+}
+
+/// A text that is empty until a worker takes the job up.
+fn started(text: String) -> Option<String> {
+    (!text.is_empty()).then_some(text)
 }
 
 /// A count as SQLite keeps it; counts of a run stay far below the limit.

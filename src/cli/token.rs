@@ -1,0 +1,48 @@
+//! `scree token`: makes an access token, and what the configuration keeps of it.
+
+use super::arguments::{ScopeWord, TokenOptions};
+use super::console;
+use super::failure::Failure;
+use scree::config::{Scope, Token};
+use serde::Serialize;
+use uuid::Uuid;
+
+/// The section of the configuration.
+#[derive(Serialize)]
+struct Section {
+    tokens: [Token; 1],
+}
+
+/// Makes a token and prints it, the only time it is seen, with the section that
+/// belongs into the configuration.
+///
+/// # Errors
+/// Standard output is closed.
+pub(super) fn token(options: &TokenOptions) -> Result<(), Failure> {
+    // 244 random bits: nobody guesses it, so a fast hash of it can be kept.
+    let text = format!(
+        "scree_{}{}",
+        Uuid::new_v4().simple(),
+        Uuid::new_v4().simple()
+    );
+    let token = Token {
+        name: options.name.clone(),
+        blake3: blake3::hash(text.as_bytes()).to_hex().to_string(),
+        scopes: options.scope.iter().map(|word| scope(*word)).collect(),
+        active_jobs: options.active_jobs,
+    };
+    let section = toml::to_string(&Section { tokens: [token] })
+        .map_err(|error| Failure::other("the token can't be written as TOML", error))?;
+    Ok(console::answer(&format!(
+        "# The token, shown this once:\n# {text}\n# For the configuration of the service:\n{}",
+        section.trim_end()
+    ))?)
+}
+
+fn scope(word: ScopeWord) -> Scope {
+    match word {
+        ScopeWord::Submit => Scope::Submit,
+        ScopeWord::Read => Scope::Read,
+        ScopeWord::Admin => Scope::Admin,
+    }
+}

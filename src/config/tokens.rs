@@ -1,0 +1,77 @@
+//! Access tokens: who may ask for what.
+
+use super::{ConfigError, not_allowed};
+use serde::{Deserialize, Serialize};
+
+/// What a token lets its holder do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Scope {
+    /// Submit jobs; dismiss and remove one's own.
+    Submit,
+    /// Look at jobs and results.
+    Read,
+    /// Dismiss and remove anyone's.
+    Admin,
+}
+
+/// An access token, of which only the hash is kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Token {
+    /// Whose it is; jobs are kept under this name.
+    pub name: String,
+    /// BLAKE3 of the token, 64 hexadecimal digits. A token is long and random
+    /// (`scree token` makes one), so a fast hash is enough.
+    pub blake3: String,
+    /// What it is good for.
+    pub scopes: Vec<Scope>,
+    /// Most of its jobs that may wait or run at a time; `None`: as many as the
+    /// queue takes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub active_jobs: Option<u32>,
+}
+
+impl Scope {
+    /// Its word in the configuration.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Submit => "submit",
+            Self::Read => "read",
+            Self::Admin => "admin",
+        }
+    }
+}
+
+impl Token {
+    /// Whether `hash` is that of this token; takes equally long for any.
+    pub fn is(&self, hash: &blake3::Hash) -> bool {
+        // Comparing hashes takes constant time; reading ours tells nothing.
+        blake3::Hash::from_hex(&self.blake3).is_ok_and(|own| own == *hash)
+    }
+
+    /// Whether it is good for this.
+    pub fn may(&self, scope: Scope) -> bool {
+        self.scopes.contains(&scope)
+    }
+}
+
+/// Checks names, hashes and scopes.
+pub(super) fn check(tokens: &[Token]) -> Result<(), ConfigError> {
+    for (place, token) in tokens.iter().enumerate() {
+        let repeated = tokens[..place].iter().any(|other| other.name == token.name);
+        if token.name.is_empty() || token.name.len() > 100 || repeated {
+            let reason = "allowed are 1 to 100 bytes, and each name once";
+            return Err(not_allowed("tokens.name", &token.name, reason));
+        }
+        if blake3::Hash::from_hex(&token.blake3).is_err() {
+            let reason = "allowed is a BLAKE3 hash, 64 hexadecimal digits";
+            return Err(not_allowed("tokens.blake3", &token.blake3, reason));
+        }
+        if token.scopes.is_empty() {
+            let reason = "a token needs one of \"submit\", \"read\", \"admin\"";
+            return Err(not_allowed("tokens.scopes", "[]", reason));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,156 @@
+//! Who may ask for what: access tokens, their scopes, and the caller of a
+//! request.
+
+use super::problem::Problem;
+use crate::config::{Scope, Token};
+use axum::extract::{FromRequestParts, Request, State};
+use axum::http::request::Parts;
+use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use std::sync::Arc;
+
+/// Paths that anyone may ask for: they tell nothing of any job.
+const OPEN: [&str; 4] = ["/", "/healthz", "/readyz", "/openapi.json"];
+
+/// Whoever sent a request.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Caller {
+    /// Nobody is asked for a token.
+    Anyone,
+    /// Somebody with this one.
+    Holder(Arc<Token>),
+}
+
+/// The tokens that are good.
+#[derive(Debug, Clone)]
+pub(super) struct Gate(Arc<[Arc<Token>]>);
+
+impl Gate {
+    pub(super) fn new(tokens: &[Token]) -> Self {
+        Self(tokens.iter().cloned().map(Arc::new).collect())
+    }
+
+    /// The caller, if the request shows a good token or none is asked for.
+    fn caller(&self, headers: &HeaderMap) -> Option<Caller> {
+        if self.0.is_empty() {
+            return Some(Caller::Anyone);
+        }
+        let shown = bearer(headers)?;
+        let hash = blake3::hash(shown.as_bytes());
+        let mut found = None;
+        // Every token is compared, and in constant time: how long it takes
+        // tells nothing.
+        for token in self.0.iter() {
+            if token.is(&hash) {
+                found = Some(token);
+            }
+        }
+        found.map(|token| Caller::Holder(Arc::clone(token)))
+    }
+}
+
+impl Caller {
+    /// Name of the token.
+    pub(super) fn name(&self) -> Option<&str> {
+        match self {
+            Self::Anyone => None,
+            Self::Holder(token) => Some(&token.name),
+        }
+    }
+
+    /// Most jobs that may wait or run at a time.
+    pub(super) fn quota(&self) -> Option<u32> {
+        match self {
+            Self::Anyone => None,
+            Self::Holder(token) => token.active_jobs,
+        }
+    }
+
+    /// Whether it may do this.
+    fn may(&self, scope: Scope) -> bool {
+        match self {
+            Self::Anyone => true,
+            Self::Holder(token) => token.may(scope),
+        }
+    }
+
+    /// Whether it may change a job that `submitter` brought.
+    ///
+    /// # Errors
+    /// The job is another's, and the token none of an administrator.
+    pub(super) fn may_change(&self, submitter: Option<&str>) -> Result<(), Problem> {
+        if self.may(Scope::Admin) || (self.name().is_some() && self.name() == submitter) {
+            return Ok(());
+        }
+        Err(forbidden(
+            "the job is not this token's, which lacks the scope \"admin\"",
+        ))
+    }
+}
+
+impl<S: Send + Sync> FromRequestParts<S> for Caller {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _state: &S) -> Result<Self, Problem> {
+        // Put there by `check`, without which nobody is let in.
+        let caller = parts.extensions.get::<Self>().cloned();
+        caller.ok_or_else(|| Problem::internal("a request without a caller"))
+    }
+}
+
+/// Lets a request in if its token is good for it.
+pub(super) async fn check(State(gate): State<Gate>, mut request: Request, next: Next) -> Response {
+    if OPEN.contains(&request.uri().path()) {
+        request.extensions_mut().insert(Caller::Anyone);
+        return next.run(request).await;
+    }
+    let Some(caller) = gate.caller(request.headers()) else {
+        return unauthorised();
+    };
+    let scope = needed(request.method());
+    if !caller.may(scope) {
+        return forbidden(&format!("the token lacks the scope \"{}\"", scope.word()))
+            .into_response();
+    }
+    request.extensions_mut().insert(caller);
+    next.run(request).await
+}
+
+fn needed(method: &Method) -> Scope {
+    if [Method::GET, Method::HEAD, Method::OPTIONS].contains(method) {
+        Scope::Read
+    } else {
+        Scope::Submit
+    }
+}
+
+fn bearer(headers: &HeaderMap) -> Option<&str> {
+    let text = headers.get(header::AUTHORIZATION)?.to_str().ok()?;
+    let (scheme, token) = text.split_once(' ')?;
+    scheme.eq_ignore_ascii_case("bearer").then(|| token.trim())
+}
+
+fn unauthorised() -> Response {
+    let problem = Problem::new(
+        StatusCode::UNAUTHORIZED,
+        "no-token",
+        "No good access token",
+        "the request needs the header Authorization: Bearer TOKEN with a token of this service",
+    );
+    let mut response = problem.into_response();
+    let challenge = HeaderValue::from_static("Bearer");
+    response
+        .headers_mut()
+        .insert(header::WWW_AUTHENTICATE, challenge);
+    response
+}
+
+fn forbidden(detail: &str) -> Problem {
+    Problem::new(
+        StatusCode::FORBIDDEN,
+        "not-allowed",
+        "Not allowed with this token",
+        detail,
+    )
+}

@@ -1,0 +1,134 @@
+//! Keeps the leases of running jobs, on a thread of its own: however busy the
+//! workers are, their jobs stay theirs. Also takes back jobs whose lease, with
+//! another service, has run out, and removes what has been kept long enough.
+
+use super::pool::Equipment;
+use super::store::{Renewal, StoreError};
+use jiff::Timestamp;
+use std::io;
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::thread::JoinHandle;
+use std::time::Instant;
+use tracing::{error, info, warn};
+
+/// A clock that is this far off the time that passed has jumped [s].
+const TRUSTED_S: f64 = 60.0;
+
+/// The keeper's thread; it ends once this is dropped.
+#[derive(Debug)]
+pub(super) struct Keeper {
+    end: Option<Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Keeper {
+    /// Starts the keeper.
+    ///
+    /// # Errors
+    /// The system refuses a thread.
+    pub(super) fn start(equipment: Equipment) -> io::Result<Self> {
+        let (end, ended) = mpsc::channel();
+        let beat = equipment.queue.heartbeat_interval();
+        let thread = std::thread::Builder::new()
+            .name("keeper".to_owned())
+            .spawn(move || {
+                let tidy = Tidy::new();
+                // Nothing is ever sent: the end is a closed channel.
+                while ended.recv_timeout(beat) == Err(RecvTimeoutError::Timeout) {
+                    beat_once(&equipment);
+                    tidy.remove_old(&equipment);
+                }
+            })?;
+        Ok(Self {
+            end: Some(end),
+            thread: Some(thread),
+        })
+    }
+}
+
+impl Drop for Keeper {
+    fn drop(&mut self) {
+        drop(self.end.take());
+        if self
+            .thread
+            .take()
+            .is_some_and(|thread| thread.join().is_err())
+        {
+            error!("the keeper's thread had panicked");
+        }
+    }
+}
+
+fn beat_once(equipment: &Equipment) {
+    for run in equipment.bench.runs() {
+        let progress = run.board.read();
+        let renewed = equipment
+            .store
+            .renew(run.hold, equipment.queue.lease(), &progress);
+        match equipment.runtime.block_on(renewed) {
+            Ok(Renewal::Held) => {}
+            Ok(renewal) => {
+                info!(id = %run.hold.job, ?renewal, "the job is not to go on");
+                run.stop.raise();
+            }
+            Err(error) => warn!(id = %run.hold.job, %error, "a lease can't be renewed now"),
+        }
+    }
+    match take_back(equipment) {
+        Ok(0) => {}
+        Ok(count) => {
+            warn!(count, "took back jobs whose lease had run out");
+            equipment.bench.announce();
+        }
+        Err(error) => warn!(%error, "leases that ran out can't be looked for now"),
+    }
+}
+
+/// Removes what has been kept for long enough, by a clock that can be trusted.
+struct Tidy {
+    began: Instant,
+    wall: Timestamp,
+}
+
+impl Tidy {
+    fn new() -> Self {
+        Self {
+            began: Instant::now(),
+            wall: Timestamp::now(),
+        }
+    }
+
+    /// A clock that jumped must not remove anything: nobody knows which of its
+    /// two times was right.
+    fn clock_jumped(&self) -> bool {
+        let passed = Timestamp::now().duration_since(self.wall).as_secs_f64();
+        (passed - self.began.elapsed().as_secs_f64()).abs() > TRUSTED_S
+    }
+
+    fn remove_old(&self, equipment: &Equipment) {
+        let Some(age) = equipment.retention.ended_jobs() else {
+            return;
+        };
+        if self.clock_jumped() {
+            return;
+        }
+        let age_ms = i64::try_from(age.as_millis()).unwrap_or(i64::MAX);
+        match equipment
+            .runtime
+            .block_on(equipment.store.remove_ended(age_ms))
+        {
+            Ok(0) => {}
+            Ok(count) => info!(count, "removed jobs that ended long ago"),
+            Err(error) => warn!(%error, "old jobs can't be removed now"),
+        }
+    }
+}
+
+fn take_back(equipment: &Equipment) -> Result<usize, StoreError> {
+    let queue = &equipment.queue;
+    equipment.runtime.block_on(
+        equipment
+            .store
+            .take_back_expired(&queue.name, queue.lease()),
+    )
+}

@@ -1,0 +1,88 @@
+//! A run's state as bytes: the simulation's own, and what the recorder and the
+//! stopwatch know besides.
+
+use scree_solver::record::Recorder;
+use scree_solver::scenario::Scenario;
+use scree_solver::{RestoreError, SaveError, Simulation};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Commit this program was built from.
+pub const COMMIT: &str = env!("BUILD_COMMIT");
+
+/// What a run has cost so far.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Spent {
+    /// Wall time [s].
+    pub wall_s: f64,
+    /// Sub-steps summed over the points that took part.
+    pub point_steps: u64,
+}
+
+/// What stands before the simulation's own bytes.
+#[derive(Serialize, Deserialize)]
+struct Head {
+    /// Another build may round otherwise.
+    commit: String,
+    recorder: Recorder,
+    spent: Spent,
+}
+
+/// Why a saved state can't be gone on from.
+#[derive(Debug, Error)]
+pub enum SavedRunError {
+    /// The simulation's part.
+    #[error(transparent)]
+    Restore(#[from] RestoreError),
+    /// What stands before it.
+    #[error("the head of the saved state can't be read")]
+    Head,
+    /// It was saved by another build of this version.
+    #[error("the state was saved by a build of commit {0}")]
+    OtherBuild(String),
+}
+
+/// Bytes from which [`restore`] makes the run again: the head's length (u32,
+/// little-endian), the head, the simulation.
+///
+/// # Errors
+/// The simulation stands amid a step, or has failed.
+pub fn save(
+    simulation: &Simulation,
+    recorder: &Recorder,
+    spent: Spent,
+) -> Result<Vec<u8>, SaveError> {
+    let simulation = simulation.save()?;
+    let head = Head {
+        commit: COMMIT.to_owned(),
+        recorder: recorder.clone(),
+        spent,
+    };
+    let head = postcard::to_allocvec(&head).expect("plain numbers always serialise");
+    let length = u32::try_from(head.len()).expect("a head of a few hundred bytes a body");
+    let mut bytes = Vec::with_capacity(4 + head.len() + simulation.len());
+    bytes.extend(length.to_le_bytes());
+    bytes.extend(head);
+    bytes.extend(simulation);
+    Ok(bytes)
+}
+
+/// The run of this scenario as it was saved.
+///
+/// # Errors
+/// Bytes of something else: another version, another scenario, no state at all.
+pub fn restore(
+    scenario: &Scenario,
+    threads: usize,
+    bytes: &[u8],
+) -> Result<(Simulation, Recorder, Spent), SavedRunError> {
+    let (length, rest) = bytes.split_first_chunk::<4>().ok_or(SavedRunError::Head)?;
+    let length = u32::from_le_bytes(*length) as usize;
+    let (head, simulation) = rest.split_at_checked(length).ok_or(SavedRunError::Head)?;
+    let head: Head = postcard::from_bytes(head).map_err(|_| SavedRunError::Head)?;
+    if head.commit != COMMIT {
+        return Err(SavedRunError::OtherBuild(head.commit));
+    }
+    let simulation = Simulation::restore(scenario, threads, simulation)?;
+    Ok((simulation, head.recorder, head.spent))
+}

@@ -1,0 +1,135 @@
+//! Whether the database is well, and how much is in it.
+
+use super::{Store, StoreError};
+use crate::jobs::job::JobStatus;
+
+/// A database that has no room for this much can't take a job in [bytes].
+const PROBED_ROOM: u32 = 65_536;
+
+/// What keeps the database from answering, by who has to act.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Trouble {
+    /// The disk, or the database's own limit, is full.
+    Full,
+    /// The database can't be read or written now.
+    Unavailable,
+    /// A defect.
+    Defect,
+}
+
+/// How many jobs there are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Census {
+    /// Jobs of each state, in the order of [`JobStatus::ALL`].
+    pub jobs: [(JobStatus, u64); 5],
+    /// Ended attempts of each ending.
+    pub attempts: Vec<(String, u64)>,
+    /// Length of the database [bytes].
+    pub database_bytes: u64,
+    /// How long the oldest waiting job has waited [s]; 0 if none waits.
+    pub oldest_waiting_s: f64,
+}
+
+impl StoreError {
+    /// What is the matter.
+    pub fn trouble(&self) -> Trouble {
+        let Self::Database(error) = self else {
+            return match self {
+                Self::Refused => Trouble::Unavailable,
+                _ => Trouble::Defect,
+            };
+        };
+        let code = error.as_database_error().and_then(|error| {
+            let code: i32 = error.code()?.parse().ok()?;
+            // The lowest byte of an extended code is the primary one.
+            Some(code & 0xff)
+        });
+        match (code, error) {
+            (Some(SQLITE_FULL), _) => Trouble::Full,
+            (Some(code), _) if UNAVAILABLE.contains(&code) => Trouble::Unavailable,
+            (None, sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed | sqlx::Error::Io(_)) => {
+                Trouble::Unavailable
+            }
+            _ => Trouble::Defect,
+        }
+    }
+}
+
+const SQLITE_FULL: i32 = 13;
+
+/// BUSY, LOCKED, READONLY, IOERR, CORRUPT, CANTOPEN, NOTADB.
+const UNAVAILABLE: [i32; 7] = [5, 6, 8, 10, 11, 14, 26];
+
+impl Store {
+    /// Whether the database answers.
+    ///
+    /// # Errors
+    /// It does not.
+    pub async fn ping(&self) -> Result<(), StoreError> {
+        sqlx::query("SELECT 1").execute(&self.readers).await?;
+        Ok(())
+    }
+
+    /// Whether a job could be taken in: takes the room for one, and writes to
+    /// the disk.
+    ///
+    /// # Errors
+    /// It could not.
+    pub async fn probe(&self) -> Result<(), StoreError> {
+        let mut transaction = self.begin_write().await?;
+        sqlx::query(
+            "INSERT OR REPLACE INTO probes (id, written_ms, room) VALUES (1, ?1, zeroblob(?2))",
+        )
+        .bind(self.now_ms())
+        .bind(PROBED_ROOM)
+        .execute(&mut *transaction)
+        .await?;
+        sqlx::query("UPDATE probes SET room = x''")
+            .execute(&mut *transaction)
+            .await?;
+        transaction.commit().await?;
+        Ok(())
+    }
+
+    /// Counts jobs.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn census(&self) -> Result<Census, StoreError> {
+        let counts: Vec<(String, i64)> =
+            sqlx::query_as("SELECT status, count(*) FROM jobs GROUP BY status")
+                .fetch_all(&self.readers)
+                .await?;
+        let count = |status: JobStatus| {
+            let found = counts.iter().find(|(word, _)| word == status.word());
+            found.map_or(0, |(_, count)| count.unsigned_abs())
+        };
+        let attempts: Vec<(String, i64)> = sqlx::query_as(
+            "SELECT ending, count(*) FROM attempts WHERE ending IS NOT NULL GROUP BY ending",
+        )
+        .fetch_all(&self.readers)
+        .await?;
+        let oldest_waiting_ms: Option<i64> = sqlx::query_scalar(
+            "SELECT created_ms FROM jobs WHERE status = 'accepted' ORDER BY sequence LIMIT 1",
+        )
+        .fetch_optional(&self.readers)
+        .await?;
+        let pages: i64 = sqlx::query_scalar(
+            "SELECT page_count * page_size FROM pragma_page_count, pragma_page_size",
+        )
+        .fetch_one(&self.readers)
+        .await?;
+        Ok(Census {
+            jobs: JobStatus::ALL.map(|status| (status, count(status))),
+            database_bytes: pages.unsigned_abs(),
+            attempts: attempts
+                .into_iter()
+                .map(|(ending, count)| (ending, count.unsigned_abs()))
+                .collect(),
+            oldest_waiting_s: oldest_waiting_ms.map_or(0.0, |since| {
+                // A clock that was set back makes no job younger than new.
+                ((self.now_ms() - since) as f64 * 1e-3).max(0.0)
+            }),
+        })
+    }
+}

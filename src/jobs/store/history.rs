@@ -1,0 +1,93 @@
+//! The attempts at a job: when a worker took it up, and how that ended.
+
+use super::{Hold, StoreError};
+use crate::jobs::job::{Attempt, JobId};
+use jiff::Timestamp;
+use sqlx::FromRow;
+use sqlx::sqlite::SqliteConnection;
+
+#[derive(Debug, FromRow)]
+struct AttemptRow {
+    attempt: u32,
+    owner: String,
+    started_ms: i64,
+    resumed_from_s: Option<f64>,
+    ended_ms: Option<i64>,
+    ending: Option<String>,
+    detail: Option<String>,
+}
+
+/// All attempts at a job, the first first.
+pub(super) async fn attempts_of(
+    connection: &mut SqliteConnection,
+    job: JobId,
+) -> Result<Vec<Attempt>, StoreError> {
+    let rows: Vec<AttemptRow> = sqlx::query_as(
+        "SELECT attempt, owner, started_ms, resumed_from_s, ended_ms, ending, detail
+         FROM attempts WHERE job_id = ?1 ORDER BY attempt",
+    )
+    .bind(job.to_string())
+    .fetch_all(connection)
+    .await?;
+    rows.into_iter().map(|row| row.read(job)).collect()
+}
+
+impl AttemptRow {
+    fn read(self, job: JobId) -> Result<Attempt, StoreError> {
+        let time = |ms| {
+            Timestamp::from_millisecond(ms).map_err(|_| StoreError::Row {
+                job: job.to_string(),
+                what: "an attempt's time",
+            })
+        };
+        Ok(Attempt {
+            attempt: self.attempt,
+            owner: self.owner,
+            started: time(self.started_ms)?,
+            resumed_from_s: self.resumed_from_s,
+            ended: self.ended_ms.map(time).transpose()?,
+            ending: self.ending,
+            detail: self.detail,
+        })
+    }
+}
+
+/// Notes that a worker of `owner` took a job up.
+pub(super) async fn begin_attempt(
+    connection: &mut SqliteConnection,
+    hold: Hold,
+    owner: &str,
+    now_ms: i64,
+) -> Result<(), StoreError> {
+    sqlx::query(
+        "INSERT INTO attempts (job_id, attempt, owner, started_ms) VALUES (?1, ?2, ?3, ?4)",
+    )
+    .bind(hold.job.to_string())
+    .bind(hold.attempt)
+    .bind(owner)
+    .bind(now_ms)
+    .execute(connection)
+    .await?;
+    Ok(())
+}
+
+/// Notes how an attempt ended: in a word, and in more where there is more.
+pub(super) async fn end_attempt(
+    connection: &mut SqliteConnection,
+    hold: Hold,
+    now_ms: i64,
+    (word, detail): (&str, Option<&str>),
+) -> Result<(), StoreError> {
+    sqlx::query(
+        "UPDATE attempts SET ended_ms = ?3, ending = ?4, detail = ?5
+         WHERE job_id = ?1 AND attempt = ?2 AND ending IS NULL",
+    )
+    .bind(hold.job.to_string())
+    .bind(hold.attempt)
+    .bind(now_ms)
+    .bind(word)
+    .bind(detail)
+    .execute(connection)
+    .await?;
+    Ok(())
+}

@@ -1,0 +1,110 @@
+//! Who has a job, until when, and how jobs come back from those who lost them.
+
+use super::ending::{Setback, set_back_row};
+use super::queue::hold;
+use super::results::keep_progress;
+use super::{Hold, Store, StoreError};
+use crate::jobs::job::JobStatus;
+use crate::jobs::progress::Progress;
+use std::time::Duration;
+
+/// What a heartbeat brings back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Renewal {
+    /// The job is still this hold's, for another lease.
+    Held,
+    /// A client called it off.
+    Dismissed,
+    /// It is another's, or has ended.
+    Lost,
+}
+
+impl Store {
+    /// Renews the lease of a running job from now on, and keeps its progress.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn renew(
+        &self,
+        hold: Hold,
+        lease: Duration,
+        progress: &Progress,
+    ) -> Result<Renewal, StoreError> {
+        let mut transaction = self.begin_write().await?;
+        let kept = keep_progress(&mut transaction, hold, progress).await?;
+        let renewal = match kept {
+            Some(JobStatus::Running) => Renewal::Held,
+            Some(_) => Renewal::Dismissed,
+            None => return Ok(Renewal::Lost),
+        };
+        if renewal == Renewal::Held {
+            sqlx::query("UPDATE jobs SET lease_expires_ms = ?2 WHERE id = ?1")
+                .bind(hold.job.to_string())
+                .bind(self.now_ms() + milliseconds(lease))
+                .execute(&mut *transaction)
+                .await?;
+        }
+        transaction.commit().await?;
+        Ok(renewal)
+    }
+
+    /// Takes back what a former process of this name left running: it died
+    /// under these jobs. They may be claimed again at once. Returns how many
+    /// there were.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn take_back_own(&self, owner: &str) -> Result<usize, StoreError> {
+        let mut transaction = self.begin_write().await?;
+        let left: Vec<(String, i64, i64)> = sqlx::query_as(
+            "SELECT id, attempt, lease_token FROM jobs
+             WHERE status = 'running' AND lease_owner = ?1 ORDER BY sequence",
+        )
+        .bind(owner)
+        .fetch_all(&mut *transaction)
+        .await?;
+        for (id, attempt, token) in &left {
+            let hold = hold(id, *attempt, *token)?;
+            set_back_row(&mut transaction, hold, &Setback::CutOff, self.now_ms()).await?;
+        }
+        transaction.commit().await?;
+        Ok(left.len())
+    }
+
+    /// Takes back jobs of others whose lease, of at most `longest`, has run
+    /// out. Returns how many there were.
+    ///
+    /// A lease that ends later than any could is from before the clock was set
+    /// back: whoever is alive renews it, and the token keeps the rest harmless.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn take_back_expired(
+        &self,
+        owner: &str,
+        longest: Duration,
+    ) -> Result<usize, StoreError> {
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
+        let left: Vec<(String, i64, i64)> = sqlx::query_as(
+            "SELECT id, attempt, lease_token FROM jobs
+             WHERE status = 'running' AND lease_owner <> ?1
+               AND (lease_expires_ms <= ?2 OR lease_expires_ms > ?3) ORDER BY sequence",
+        )
+        .bind(owner)
+        .bind(now_ms)
+        .bind(now_ms + 2 * milliseconds(longest))
+        .fetch_all(&mut *transaction)
+        .await?;
+        for (id, attempt, token) in &left {
+            let hold = hold(id, *attempt, *token)?;
+            set_back_row(&mut transaction, hold, &Setback::Expired, now_ms).await?;
+        }
+        transaction.commit().await?;
+        Ok(left.len())
+    }
+}
+
+pub(super) fn milliseconds(duration: Duration) -> i64 {
+    i64::try_from(duration.as_millis()).unwrap_or(i64::MAX / 4)
+}

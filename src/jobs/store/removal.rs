@@ -1,0 +1,63 @@
+//! Removing jobs that have ended, with all that belongs to them.
+
+use super::{Store, StoreError};
+use crate::jobs::job::JobId;
+
+/// Jobs removed at one go: a long list must not hold up those who submit.
+const REMOVED_AT_ONCE: u32 = 20;
+
+/// What became of a wish to remove a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Removal {
+    /// There is no such job.
+    Unknown,
+    /// It is gone, with its results.
+    Removed,
+    /// It has not ended.
+    Active,
+}
+
+impl Store {
+    /// Removes a job that has ended.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn remove(&self, id: JobId) -> Result<Removal, StoreError> {
+        let mut transaction = self.begin_write().await?;
+        let ended: Option<bool> =
+            sqlx::query_scalar("SELECT finished_ms IS NOT NULL FROM jobs WHERE id = ?1")
+                .bind(id.to_string())
+                .fetch_optional(&mut *transaction)
+                .await?;
+        match ended {
+            None => return Ok(Removal::Unknown),
+            Some(false) => return Ok(Removal::Active),
+            Some(true) => {}
+        }
+        sqlx::query("DELETE FROM jobs WHERE id = ?1")
+            .bind(id.to_string())
+            .execute(&mut *transaction)
+            .await?;
+        transaction.commit().await?;
+        Ok(Removal::Removed)
+    }
+
+    /// Removes some of the jobs that ended at least this long ago [ms]; how
+    /// many. To be called again until there are none left.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn remove_ended(&self, age_ms: i64) -> Result<u64, StoreError> {
+        let mut transaction = self.begin_write().await?;
+        let done = sqlx::query(
+            "DELETE FROM jobs WHERE id IN (
+                 SELECT id FROM jobs WHERE finished_ms <= ?1 ORDER BY finished_ms LIMIT ?2)",
+        )
+        .bind(self.now_ms() - age_ms)
+        .bind(REMOVED_AT_ONCE)
+        .execute(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        Ok(done.rows_affected())
+    }
+}

@@ -1,0 +1,84 @@
+//! The seam between jobs and their database: what another driver has to do, and
+//! what `tests/conformance.rs` holds every one of them to.
+
+use super::{
+    Beginning, Census, Claim, Claimant, Dismissal, Event, Hold, NewResults, Page, Removal, Renewal,
+    Returned, Setback, Store, StoreError, StoredChunk, StoredState, Submission, Submitted,
+};
+use crate::jobs::failure::Failure;
+use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
+use crate::jobs::progress::Progress;
+use crate::results::FlowSnapshot;
+use crate::results::columns::{Selection, TrajectoryColumns};
+use std::time::Duration;
+
+type Answer<T> = Result<T, StoreError>;
+
+macro_rules! seam {
+    ($($(#[$doc:meta])* fn $name:ident($($argument:ident: $kind:ty),*) -> $answer:ty;)*) => {
+        /// A database of jobs. Every call is one transaction, whole or not at
+        /// all, and on disk when it returns.
+        pub trait JobStore: Clone + Send + Sync + 'static {
+            $($(#[$doc])* fn $name(&self, $($argument: $kind),*) -> impl Future<Output = Answer<$answer>> + Send;)*
+        }
+
+        impl JobStore for Store {
+            $(async fn $name(&self, $($argument: $kind),*) -> Answer<$answer> {
+                Store::$name(self, $($argument),*).await
+            })*
+        }
+    };
+}
+
+seam! {
+    /// Puts the jobs of a request into the queue, all or none.
+    fn submit(submission: &Submission<'_>) -> Submitted;
+    /// The newest successful job with a scenario, by version and commit.
+    fn finished_like(scenario_hash: &str, solver: (&str, &str)) -> Option<JobId>;
+    /// Takes up the oldest accepted job that has not to wait.
+    fn claim(claimant: &Claimant) -> Option<Claim>;
+    /// Says where an attempt begins.
+    fn begin(hold: Hold, beginning: &Beginning, threads: usize) -> bool;
+    /// Renews a lease and keeps the progress.
+    fn renew(hold: Hold, lease: Duration, progress: &Progress) -> Renewal;
+    /// Writes results, progress and state.
+    fn keep(hold: Hold, results: &NewResults) -> bool;
+    /// Ends a job with its outcome.
+    fn succeed(hold: Hold, outcome: &str, fingerprint: &str) -> bool;
+    /// Ends a job without an answer.
+    fn fail(hold: Hold, failure: &Failure) -> bool;
+    /// Hands a job back because the service stops.
+    fn hand_back(hold: Hold) -> bool;
+    /// Gives up an attempt.
+    fn set_back(hold: Hold, setback: &Setback) -> Returned;
+    /// Takes back what a former process of this name left running.
+    fn take_back_own(owner: &str) -> usize;
+    /// Takes back jobs of others whose lease has run out.
+    fn take_back_expired(owner: &str, longest: Duration) -> usize;
+    /// Dismisses a job.
+    fn dismiss(id: JobId) -> Dismissal;
+    /// Removes a job that has ended.
+    fn remove(id: JobId) -> Removal;
+    /// Removes some of the jobs that ended so long ago [ms].
+    fn remove_ended(age_ms: i64) -> u64;
+    /// The state of a job, if there is one.
+    fn status(id: JobId) -> Option<JobStatus>;
+    /// The next events after a number.
+    fn events(after: i64, job: Option<JobId>) -> Vec<Event>;
+    /// Number of the last event.
+    fn last_event() -> i64;
+    /// Counts jobs.
+    fn census() -> Census;
+    /// The job, if there is one.
+    fn job(id: JobId) -> Option<Job>;
+    /// A page of jobs.
+    fn page(page: &Page) -> Vec<JobSummary>;
+    /// The saved state of a job.
+    fn state(job: JobId) -> Option<StoredState>;
+    /// The first chunk from a sample on that reaches into a range.
+    fn chunk(job: JobId, body: usize, from_sample: i64, selection: &Selection) -> Option<StoredChunk>;
+    /// The last chunk of a body's trajectory.
+    fn last_chunk(job: JobId, body: usize) -> Option<(usize, TrajectoryColumns)>;
+    /// The snapshot nearest to a time.
+    fn snapshot(job: JobId, time_s: Option<f64>) -> Option<FlowSnapshot>;
+}

@@ -1,0 +1,241 @@
+//! Saved states of runs: what the next attempt goes on from. To the store they
+//! are bytes.
+
+use super::rows::integer;
+use super::{Hold, Store, StoreError};
+use crate::jobs::job::JobId;
+use crate::results::chunk::{Block, BlockError};
+use sqlx::FromRow;
+use sqlx::sqlite::SqliteConnection;
+
+/// Bytes of one stored piece.
+const PIECE_BYTES: usize = 8 << 20;
+
+/// Where a saved state stands in what its run recorded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mark {
+    /// Simulated time [s].
+    pub time_s: f64,
+    /// Samples recorded by then.
+    pub samples: usize,
+    /// Fingerprint of what was recorded by then.
+    pub fingerprint: [u8; 32],
+}
+
+/// A run's state, compressed and checksummed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredState {
+    /// Where it stands.
+    pub mark: Mark,
+    /// Length of the state [bytes].
+    pub bytes: usize,
+    /// The state.
+    pub block: Block,
+}
+
+/// Where an attempt begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Beginning {
+    /// At the start: whatever was recorded before is removed.
+    Afresh,
+    /// At a saved state: what was recorded after it is removed.
+    At(Mark),
+}
+
+#[derive(Debug, FromRow)]
+struct StateRow {
+    time_s: f64,
+    samples: i64,
+    fingerprint: Vec<u8>,
+    bytes: i64,
+    checksum: Vec<u8>,
+}
+
+impl StoredState {
+    /// Compresses a state.
+    ///
+    /// # Errors
+    /// Only if the compressor is out of memory.
+    pub fn pack(mark: Mark, state: &[u8]) -> Result<Self, BlockError> {
+        Ok(Self {
+            mark,
+            bytes: state.len(),
+            block: Block::seal_quickly(state)?,
+        })
+    }
+
+    /// The state.
+    ///
+    /// # Errors
+    /// [`BlockError`], if the bytes are not those that were stored.
+    pub fn unpack(&self) -> Result<Vec<u8>, BlockError> {
+        self.block.open(self.bytes)
+    }
+}
+
+impl Store {
+    /// The saved state of a job, if there is one.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn state(&self, job: JobId) -> Result<Option<StoredState>, StoreError> {
+        // One transaction, so that no piece is of another state.
+        let mut transaction = self.readers.begin().await?;
+        let row: Option<StateRow> = sqlx::query_as(
+            "SELECT time_s, samples, fingerprint, bytes, checksum FROM run_states WHERE job_id = ?1",
+        )
+        .bind(job.to_string())
+        .fetch_optional(&mut *transaction)
+        .await?;
+        let Some(row) = row else { return Ok(None) };
+        let pieces: Vec<Vec<u8>> = sqlx::query_scalar(
+            "SELECT data FROM run_state_pieces WHERE job_id = ?1 ORDER BY piece",
+        )
+        .bind(job.to_string())
+        .fetch_all(&mut *transaction)
+        .await?;
+        let state = row.read(pieces.concat());
+        state
+            .map(Some)
+            .map_err(|source| StoreError::Block { job, source })
+    }
+
+    /// Says where an attempt begins and on how many solver threads, and makes
+    /// what is recorded fit that. `false`, with nothing changed, if the job no
+    /// longer runs under this hold.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn begin(
+        &self,
+        hold: Hold,
+        beginning: &Beginning,
+        threads: usize,
+    ) -> Result<bool, StoreError> {
+        let mut transaction = self.begin_write().await?;
+        let done = sqlx::query(
+            "UPDATE jobs SET threads = ?3
+             WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
+        )
+        .bind(hold.job.to_string())
+        .bind(hold.token)
+        .bind(integer(threads as u64))
+        .execute(&mut *transaction)
+        .await?;
+        if done.rows_affected() == 0 {
+            return Ok(false);
+        }
+        match beginning {
+            Beginning::Afresh => clear(&mut transaction, hold.job).await?,
+            Beginning::At(mark) => rewind(&mut transaction, hold, mark).await?,
+        }
+        transaction.commit().await?;
+        Ok(true)
+    }
+}
+
+impl StateRow {
+    fn read(self, data: Vec<u8>) -> Result<StoredState, BlockError> {
+        let exact = |bytes: Vec<u8>| bytes.try_into().map_err(|_| BlockError::Checksum);
+        let length = |number| usize::try_from(number).map_err(|_| BlockError::Checksum);
+        Ok(StoredState {
+            mark: Mark {
+                time_s: self.time_s,
+                samples: length(self.samples)?,
+                fingerprint: exact(self.fingerprint)?,
+            },
+            bytes: length(self.bytes)?,
+            block: Block {
+                data,
+                checksum: exact(self.checksum)?,
+            },
+        })
+    }
+}
+
+/// Puts a state in the place of the one before, and forgets setbacks: the job
+/// has got on.
+pub(super) async fn write_state(
+    connection: &mut SqliteConnection,
+    hold: Hold,
+    state: &StoredState,
+    now_ms: i64,
+) -> Result<(), StoreError> {
+    let id = hold.job.to_string();
+    for statement in [
+        "DELETE FROM run_states WHERE job_id = ?1",
+        "UPDATE jobs SET setbacks = 0 WHERE id = ?1",
+    ] {
+        sqlx::query(statement)
+            .bind(&id)
+            .execute(&mut *connection)
+            .await?;
+    }
+    sqlx::query(
+        "INSERT INTO run_states
+             (job_id, attempt, saved_ms, time_s, samples, fingerprint, bytes, checksum)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+    )
+    .bind(&id)
+    .bind(hold.attempt)
+    .bind(now_ms)
+    .bind(state.mark.time_s)
+    .bind(integer(state.mark.samples as u64))
+    .bind(&state.mark.fingerprint[..])
+    .bind(integer(state.bytes as u64))
+    .bind(&state.block.checksum[..])
+    .execute(&mut *connection)
+    .await?;
+    for (piece, data) in state.block.data.chunks(PIECE_BYTES).enumerate() {
+        sqlx::query("INSERT INTO run_state_pieces (job_id, piece, data) VALUES (?1, ?2, ?3)")
+            .bind(&id)
+            .bind(integer(piece as u64))
+            .bind(data)
+            .execute(&mut *connection)
+            .await?;
+    }
+    Ok(())
+}
+
+async fn clear(connection: &mut SqliteConnection, job: JobId) -> Result<(), StoreError> {
+    for statement in [
+        "DELETE FROM run_states WHERE job_id = ?1",
+        "DELETE FROM trajectory_chunks WHERE job_id = ?1",
+        "DELETE FROM flow_snapshots WHERE job_id = ?1",
+        "UPDATE jobs SET fraction = 0, simulated_time_s = 0, steps = 0, substeps = 0 WHERE id = ?1",
+    ] {
+        sqlx::query(statement)
+            .bind(job.to_string())
+            .execute(&mut *connection)
+            .await?;
+    }
+    Ok(())
+}
+
+/// What lies beyond the mark would come again with the same bits; removed, it
+/// can't clash with that. The chunk that holds the mark stays, and its rest is
+/// written over.
+async fn rewind(
+    connection: &mut SqliteConnection,
+    hold: Hold,
+    mark: &Mark,
+) -> Result<(), StoreError> {
+    let id = hold.job.to_string();
+    sqlx::query("UPDATE attempts SET resumed_from_s = ?3 WHERE job_id = ?1 AND attempt = ?2")
+        .bind(&id)
+        .bind(hold.attempt)
+        .bind(mark.time_s)
+        .execute(&mut *connection)
+        .await?;
+    sqlx::query("DELETE FROM trajectory_chunks WHERE job_id = ?1 AND first_sample >= ?2")
+        .bind(&id)
+        .bind(integer(mark.samples as u64))
+        .execute(&mut *connection)
+        .await?;
+    sqlx::query("DELETE FROM flow_snapshots WHERE job_id = ?1 AND time_s > ?2")
+        .bind(&id)
+        .bind(mark.time_s)
+        .execute(&mut *connection)
+        .await?;
+    Ok(())
+}

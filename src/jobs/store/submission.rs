@@ -1,0 +1,218 @@
+//! Jobs coming in: one request, one transaction, all of its jobs or none.
+
+use super::rows::integer;
+use super::{Store, StoreError};
+use crate::jobs::job::JobId;
+use crate::jobs::submit::NewJob;
+use sqlx::sqlite::SqliteConnection;
+
+/// What one request brings.
+#[derive(Debug, Clone, Copy)]
+pub struct Submission<'a> {
+    /// Its jobs, to be run in this order.
+    pub jobs: &'a [NewJob],
+    /// Name of the access token it came with.
+    pub submitter: Option<&'a str>,
+    /// Its Idempotency-Key.
+    pub key: Option<Key<'a>>,
+    /// How many jobs may wait.
+    pub room: Room,
+}
+
+/// An Idempotency-Key, and the body that came with it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Key<'a> {
+    /// The key.
+    pub text: &'a str,
+    /// BLAKE3 of the body.
+    pub body_hash: [u8; 32],
+}
+
+/// How many jobs may wait, those of the request included.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Room {
+    /// Of all submitters together.
+    pub queue: u32,
+    /// Of this one.
+    pub submitter: Option<u32>,
+}
+
+/// What became of a submission.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Submitted {
+    /// Its jobs wait.
+    Accepted,
+    /// It came before, and these are its jobs.
+    Before(Vec<JobId>),
+    /// The key came before with another body.
+    OtherBody,
+    /// So many jobs wait already.
+    QueueFull(u32),
+    /// So many jobs of this submitter wait or run already.
+    QuotaSpent(u32),
+}
+
+impl Store {
+    /// Puts the jobs of a request into the queue; they are on disk when this
+    /// returns.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn submit(&self, submission: &Submission<'_>) -> Result<Submitted, StoreError> {
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
+        if let Some(key) = &submission.key
+            && let Some(before) = former_request(&mut transaction, submission, key).await?
+        {
+            return Ok(before);
+        }
+        if let Some(full) = no_room(&mut transaction, submission).await? {
+            return Ok(full);
+        }
+        let request = match &submission.key {
+            Some(key) => Some(keep_key(&mut transaction, submission, key).await?),
+            None => None,
+        };
+        for job in submission.jobs {
+            insert(
+                &mut transaction,
+                job,
+                submission.submitter,
+                (now_ms, request),
+            )
+            .await?;
+        }
+        transaction.commit().await?;
+        Ok(Submitted::Accepted)
+    }
+
+    /// The newest successful job with this scenario, run by this solver.
+    ///
+    /// # Errors
+    /// The database's own, or an unreadable row.
+    pub async fn finished_like(
+        &self,
+        scenario_hash: &str,
+        solver: (&str, &str),
+    ) -> Result<Option<JobId>, StoreError> {
+        let id: Option<String> = sqlx::query_scalar(
+            "SELECT id FROM jobs
+             WHERE scenario_hash = ?1 AND status = 'successful'
+               AND solver_version = ?2 AND solver_commit = ?3
+             ORDER BY sequence DESC LIMIT 1",
+        )
+        .bind(scenario_hash)
+        .bind(solver.0)
+        .bind(solver.1)
+        .fetch_optional(&self.readers)
+        .await?;
+        id.map(|id| parse(&id)).transpose()
+    }
+}
+
+async fn former_request(
+    connection: &mut SqliteConnection,
+    submission: &Submission<'_>,
+    key: &Key<'_>,
+) -> Result<Option<Submitted>, StoreError> {
+    let former: Option<(i64, Vec<u8>)> = sqlx::query_as(
+        "SELECT sequence, body_hash FROM keyed_requests WHERE submitter = ?1 AND key = ?2",
+    )
+    .bind(submission.submitter.unwrap_or_default())
+    .bind(key.text)
+    .fetch_optional(&mut *connection)
+    .await?;
+    let Some((sequence, body_hash)) = former else {
+        return Ok(None);
+    };
+    if body_hash != key.body_hash {
+        return Ok(Some(Submitted::OtherBody));
+    }
+    let ids: Vec<String> =
+        sqlx::query_scalar("SELECT id FROM jobs WHERE keyed_request = ?1 ORDER BY sequence")
+            .bind(sequence)
+            .fetch_all(connection)
+            .await?;
+    let ids: Result<_, _> = ids.iter().map(|id| parse(id)).collect();
+    Ok(Some(Submitted::Before(ids?)))
+}
+
+async fn no_room(
+    connection: &mut SqliteConnection,
+    submission: &Submission<'_>,
+) -> Result<Option<Submitted>, StoreError> {
+    let coming = u32::try_from(submission.jobs.len()).unwrap_or(u32::MAX);
+    let waiting: u32 = sqlx::query_scalar("SELECT count(*) FROM jobs WHERE status = 'accepted'")
+        .fetch_one(&mut *connection)
+        .await?;
+    if waiting.saturating_add(coming) > submission.room.queue {
+        return Ok(Some(Submitted::QueueFull(waiting)));
+    }
+    let Some(quota) = submission.room.submitter else {
+        return Ok(None);
+    };
+    let own: u32 = sqlx::query_scalar(
+        "SELECT count(*) FROM jobs WHERE submitter = ?1 AND status IN ('accepted', 'running')",
+    )
+    .bind(submission.submitter)
+    .fetch_one(connection)
+    .await?;
+    Ok((own.saturating_add(coming) > quota).then_some(Submitted::QuotaSpent(own)))
+}
+
+async fn keep_key(
+    connection: &mut SqliteConnection,
+    submission: &Submission<'_>,
+    key: &Key<'_>,
+) -> Result<i64, StoreError> {
+    let sequence = sqlx::query_scalar(
+        "INSERT INTO keyed_requests (submitter, key, body_hash) VALUES (?1, ?2, ?3)
+         RETURNING sequence",
+    )
+    .bind(submission.submitter.unwrap_or_default())
+    .bind(key.text)
+    .bind(&key.body_hash[..])
+    .fetch_one(connection)
+    .await?;
+    Ok(sequence)
+}
+
+async fn insert(
+    connection: &mut SqliteConnection,
+    job: &NewJob,
+    submitter: Option<&str>,
+    (now_ms, request): (i64, Option<i64>),
+) -> Result<(), StoreError> {
+    let id = job.id.to_string();
+    sqlx::query(
+        "INSERT INTO jobs (id, created_ms, scenario, title, bodies, solver_version,
+                           scenario_hash, submitter, keyed_request)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
+    )
+    .bind(&id)
+    .bind(now_ms)
+    .bind(&job.scenario)
+    .bind(&job.title)
+    .bind(integer(job.bodies as u64))
+    .bind(job.solver_version)
+    .bind(&job.scenario_hash)
+    .bind(submitter)
+    .bind(request)
+    .execute(&mut *connection)
+    .await?;
+    for label in &job.labels {
+        sqlx::query("INSERT INTO labels (label, job_id) VALUES (?1, ?2)")
+            .bind(label)
+            .bind(&id)
+            .execute(&mut *connection)
+            .await?;
+    }
+    Ok(())
+}
+
+fn parse(id: &str) -> Result<JobId, StoreError> {
+    id.parse().map_err(|_| StoreError::Row {
+        job: id.to_owned(),
+        what: "id",
+    })
+}

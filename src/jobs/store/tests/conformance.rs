@@ -1,0 +1,377 @@
+//! What any driver of the job store must hold to, one rule a test. Another
+//! driver adds itself to [`conformance!`]'s list.
+
+use super::*;
+use crate::jobs::failure::Failure;
+use crate::results::columns::Selection;
+
+macro_rules! conformance {
+    ($($rule:ident)*) => {
+        mod sqlite {
+            use super::Fixture;
+            $(
+                #[tokio::test]
+                async fn $rule() {
+                    super::$rule(&Fixture::sqlite().await).await;
+                }
+            )*
+        }
+    };
+}
+
+conformance! {
+    jobs_are_claimed_in_the_order_of_submission_and_once
+    a_job_ends_once_and_says_how
+    a_growing_chunk_replaces_itself_and_reads_back
+    the_nearest_snapshot_is_found_the_earlier_of_two
+    a_worker_that_lost_its_job_can_not_write
+    a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed
+    a_lease_that_is_renewed_does_not_run_out
+    a_lease_that_ran_out_is_another_s_to_take
+    a_former_self_s_jobs_are_taken_back_at_once_and_no_others
+    the_third_setback_in_a_row_is_the_last
+    after_a_setback_a_job_waits_longer_each_time
+    a_saved_state_comes_back_and_ends_the_row_of_setbacks
+    an_attempt_begins_at_its_saved_state_or_afresh
+    a_job_handed_back_keeps_its_state_and_has_no_setback
+    a_clock_set_back_holds_up_neither_waiting_nor_lost_jobs
+    a_clock_set_forward_costs_a_lease_and_nothing_else
+}
+
+async fn jobs_are_claimed_in_the_order_of_submission_and_once<S: JobStore>(fixture: &Fixture<S>) {
+    let jobs = [fixture.submit().await, fixture.submit().await];
+    let first = fixture.claim("a").await;
+    assert_eq!((first.job, first.attempt), (jobs[0], 1));
+    assert_eq!(fixture.claim("b").await.job, jobs[1]);
+    assert_eq!(fixture.try_claim("a").await, None);
+    let job = fixture.job(jobs[0]).await;
+    assert_eq!(job.summary.status, JobStatus::Running);
+    assert_eq!(
+        job.provenance.solver_version, "2",
+        "the solver that runs it"
+    );
+    assert!(job.summary.started.unwrap() >= job.summary.created);
+}
+
+async fn a_job_ends_once_and_says_how<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    let failure = Failure::internal("x");
+    assert!(
+        fixture
+            .store
+            .succeed(hold, "{}", FINGERPRINT)
+            .await
+            .unwrap()
+    );
+    assert!(
+        !fixture
+            .store
+            .succeed(hold, "[]", FINGERPRINT)
+            .await
+            .unwrap()
+    );
+    assert!(!fixture.store.fail(hold, &failure).await.unwrap());
+    let job = fixture.job(id).await;
+    assert_eq!(job.outcome.unwrap().get(), "{}");
+    assert_eq!(job.provenance.fingerprint.as_deref(), Some(FINGERPRINT));
+    assert_eq!(job.summary.progress.fraction, 1.0);
+    assert_eq!(fixture.endings(id).await, ["successful"]);
+
+    let id = fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    assert!(fixture.store.fail(hold, &failure).await.unwrap());
+    assert!(
+        !fixture
+            .store
+            .succeed(hold, "{}", FINGERPRINT)
+            .await
+            .unwrap()
+    );
+    assert!(fixture.job(id).await.problem.is_some());
+    assert_eq!(fixture.endings(id).await, ["failed"]);
+    assert_eq!(fixture.try_claim("a").await, None, "a failure is final");
+}
+
+async fn a_growing_chunk_replaces_itself_and_reads_back<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    for count in [3, 8] {
+        assert!(fixture.store.keep(hold, &results(count)).await.unwrap());
+    }
+    let all = Selection::default();
+    let stored = fixture.store.chunk(id, 0, 0, &all).await.unwrap().unwrap();
+    let found = (stored.next_sample, stored.columns);
+    assert_eq!(found, (8, numbered_columns(8)));
+    let last = fixture.store.last_chunk(id, 0).await.unwrap();
+    assert_eq!(last, Some((0, numbered_columns(8))));
+    assert_eq!(fixture.store.chunk(id, 0, 8, &all).await.unwrap(), None);
+    assert_eq!(fixture.store.chunk(id, 1, 0, &all).await.unwrap(), None);
+    let late = Selection {
+        from_s: Some(0.08),
+        ..all
+    };
+    assert_eq!(fixture.store.chunk(id, 0, 0, &late).await.unwrap(), None);
+    let progress = fixture.job(id).await.summary.progress;
+    assert_eq!((progress.steps, progress.eta_s), (7, Some(3.0)));
+}
+
+async fn the_nearest_snapshot_is_found_the_earlier_of_two<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    assert_eq!(fixture.store.snapshot(id, None).await.unwrap(), None);
+    for time in [2, 4, 8, 8] {
+        fixture.store.keep(hold, &results(time)).await.unwrap();
+    }
+    for (asked, found) in [
+        (Some(-1.0), 2.0),
+        (Some(3.0), 2.0),
+        (Some(3.1), 4.0),
+        (Some(9e9), 8.0),
+        (None, 8.0),
+    ] {
+        let snapshot = fixture.store.snapshot(id, asked).await.unwrap().unwrap();
+        assert_eq!(snapshot.time_s, found, "{asked:?}");
+    }
+}
+
+async fn a_worker_that_lost_its_job_can_not_write<S: JobStore>(fixture: &Fixture<S>) {
+    let store = &fixture.store;
+    let id = fixture.submit().await;
+    let old = fixture.claim("a").await;
+    assert!(store.hand_back(old).await.unwrap());
+    let new = fixture.claim("b").await;
+    assert_eq!((new.job, new.attempt), (id, 2));
+    assert!(new.token > old.token);
+
+    let setback = Setback::Infrastructure("x".to_owned());
+    assert!(!store.keep(old, &results_and_state(5)).await.unwrap());
+    assert!(!store.succeed(old, "{}", FINGERPRINT).await.unwrap());
+    assert!(!store.fail(old, &Failure::internal("x")).await.unwrap());
+    assert!(!store.hand_back(old).await.unwrap());
+    assert!(!store.begin(old, &Beginning::Afresh, 1).await.unwrap());
+    assert_eq!(store.set_back(old, &setback).await.unwrap(), Returned::Lost);
+    let progress = Progress::default();
+    let renewed = store.renew(old, LEASE, &progress).await.unwrap();
+    assert_eq!(renewed, Renewal::Lost);
+    assert_eq!(store.snapshot(id, None).await.unwrap(), None);
+    assert_eq!(store.state(id).await.unwrap(), None);
+    assert_eq!(fixture.endings(id).await, ["handed-back", ""]);
+
+    assert!(store.succeed(new, "{}", FINGERPRINT).await.unwrap());
+    assert_eq!(fixture.endings(id).await, ["handed-back", "successful"]);
+}
+
+async fn a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed<S: JobStore>(
+    fixture: &Fixture<S>,
+) {
+    let store = &fixture.store;
+    let id = fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    store.keep(hold, &results_and_state(3)).await.unwrap();
+    assert_eq!(store.dismiss(id).await.unwrap(), Dismissal::Dismissed);
+    let renewed = store.renew(hold, LEASE, &Progress::default()).await;
+    assert_eq!(renewed.unwrap(), Renewal::Dismissed);
+    assert!(store.keep(hold, &results_and_state(4)).await.unwrap());
+    assert_eq!(store.state(id).await.unwrap(), None, "it never goes on");
+    assert!(!store.hand_back(hold).await.unwrap());
+    assert!(!store.succeed(hold, "{}", FINGERPRINT).await.unwrap());
+    assert_eq!(fixture.status(id).await, JobStatus::Dismissed);
+    let all = Selection::default();
+    let kept = store.chunk(id, 0, 0, &all).await.unwrap().unwrap();
+    assert_eq!(kept.next_sample, 4);
+    assert_eq!(fixture.job(id).await.summary.progress.eta_s, None);
+    assert_eq!(store.dismiss(id).await.unwrap(), Dismissal::Dismissed);
+    assert_eq!(fixture.endings(id).await, ["dismissed"]);
+    let nobody = store.dismiss(JobId::new()).await.unwrap();
+    assert_eq!(nobody, Dismissal::Unknown);
+}
+
+async fn a_lease_that_is_renewed_does_not_run_out<S: JobStore>(fixture: &Fixture<S>) {
+    fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    let progress = Progress {
+        fraction: 0.25,
+        ..Progress::default()
+    };
+    for _ in 0..5 {
+        fixture.pass(LEASE / 2);
+        let renewed = fixture.store.renew(hold, LEASE, &progress).await.unwrap();
+        assert_eq!(renewed, Renewal::Held);
+        let taken = fixture.store.take_back_expired("b", LEASE).await.unwrap();
+        assert_eq!(taken, 0);
+    }
+    assert_eq!(fixture.job(hold.job).await.summary.progress, progress);
+}
+
+async fn a_lease_that_ran_out_is_another_s_to_take<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    let old = fixture.claim("a").await;
+    fixture.pass(LEASE);
+    let own = fixture.store.take_back_expired("a", LEASE).await.unwrap();
+    assert_eq!(own, 0, "its own process knows better");
+    assert_eq!(
+        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
+        1
+    );
+    assert_eq!(fixture.status(id).await, JobStatus::Accepted);
+    fixture.pass(Duration::from_secs(10));
+    let new = fixture.claim("b").await;
+    assert_eq!((new.job, new.attempt), (id, 2));
+    assert!(!fixture.store.keep(old, &results(3)).await.unwrap());
+    assert_eq!(fixture.endings(id).await, ["expired", ""]);
+}
+
+async fn a_former_self_s_jobs_are_taken_back_at_once_and_no_others<S: JobStore>(
+    fixture: &Fixture<S>,
+) {
+    let jobs = [fixture.submit().await, fixture.submit().await];
+    fixture.claim("a").await;
+    fixture.claim("b").await;
+    assert_eq!(fixture.store.take_back_own("a").await.unwrap(), 1);
+    assert_eq!(fixture.status(jobs[1]).await, JobStatus::Running);
+    let again = fixture.claim("a").await;
+    assert_eq!((again.job, again.attempt), (jobs[0], 2));
+    assert_eq!(fixture.endings(jobs[0]).await, ["cut-off", ""]);
+}
+
+async fn the_third_setback_in_a_row_is_the_last<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    for attempt in 1..=TOLERATED_SETBACKS {
+        assert_eq!(fixture.claim("a").await.attempt, attempt);
+        assert_eq!(fixture.store.take_back_own("a").await.unwrap(), 1);
+    }
+    let job = fixture.job(id).await;
+    assert_eq!(job.summary.status, JobStatus::Failed);
+    assert!(job.problem.unwrap().get().contains("cut-off"));
+    assert_eq!(fixture.endings(id).await, ["cut-off"; 3]);
+    assert_eq!(fixture.try_claim("a").await, None);
+}
+
+async fn after_a_setback_a_job_waits_longer_each_time<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    let setback = Setback::Infrastructure("no room".to_owned());
+    for wait_s in [2, 8] {
+        let hold = fixture.claim("a").await;
+        let returned = fixture.store.set_back(hold, &setback).await.unwrap();
+        assert_eq!(returned, Returned::Waiting);
+        fixture.pass(Duration::from_millis(wait_s * 1000 - 1));
+        assert_eq!(fixture.try_claim("a").await, None);
+        fixture.pass(Duration::from_millis(1));
+    }
+    let hold = fixture.claim("a").await;
+    let returned = fixture.store.set_back(hold, &setback).await.unwrap();
+    assert_eq!(returned, Returned::Failed);
+    let problem = fixture.job(id).await.problem.unwrap();
+    assert!(problem.get().contains("urn:scree:failure:infrastructure"));
+    assert!(problem.get().contains("no room"));
+    let attempts = fixture.job(id).await.attempts;
+    assert_eq!(attempts[0].detail.as_deref(), Some("no room"));
+}
+
+async fn a_saved_state_comes_back_and_ends_the_row_of_setbacks<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    for count in 1..=2 * TOLERATED_SETBACKS {
+        let hold = fixture.claim("a").await;
+        let kept = results_and_state(count);
+        assert!(fixture.store.keep(hold, &kept).await.unwrap());
+        let state = fixture.store.state(id).await.unwrap().unwrap();
+        assert_eq!(Some(&state), kept.state.as_ref());
+        assert_eq!(state.unpack().unwrap(), b"the state");
+        fixture.store.take_back_own("a").await.unwrap();
+        let progress = fixture.job(id).await.summary.progress;
+        assert_eq!((progress.fraction, progress.eta_s), (0.5, None));
+    }
+    let hold = fixture.claim("a").await;
+    fixture
+        .store
+        .succeed(hold, "{}", FINGERPRINT)
+        .await
+        .unwrap();
+    assert_eq!(fixture.store.state(id).await.unwrap(), None);
+}
+
+async fn an_attempt_begins_at_its_saved_state_or_afresh<S: JobStore>(fixture: &Fixture<S>) {
+    let store = &fixture.store;
+    let id = fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    store.keep(hold, &results_and_state(3)).await.unwrap();
+    store.keep(hold, &results(8)).await.unwrap();
+    store.take_back_own("a").await.unwrap();
+
+    let hold = fixture.claim("a").await;
+    let mark = store.state(id).await.unwrap().unwrap().mark;
+    assert!(store.begin(hold, &Beginning::At(mark), 2).await.unwrap());
+    let latest = store.snapshot(id, None).await.unwrap().unwrap();
+    assert_eq!(latest.time_s, 3.0, "what came after is gone");
+    let attempts = fixture.job(id).await.attempts;
+    assert_eq!(attempts[0].resumed_from_s, None);
+    assert_eq!(attempts[1].resumed_from_s, Some(3.0));
+
+    assert!(store.begin(hold, &Beginning::Afresh, 2).await.unwrap());
+    assert_eq!(store.snapshot(id, None).await.unwrap(), None);
+    assert_eq!(store.last_chunk(id, 0).await.unwrap(), None);
+    assert_eq!(store.state(id).await.unwrap(), None);
+    assert_eq!(fixture.job(id).await.summary.progress.fraction, 0.0);
+}
+
+async fn a_job_handed_back_keeps_its_state_and_has_no_setback<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    for _ in 0..=TOLERATED_SETBACKS {
+        let hold = fixture.claim("a").await;
+        assert!(fixture.store.hand_back(hold).await.unwrap());
+        let progress = fixture.job(id).await.summary.progress;
+        assert_eq!(progress, Progress::default());
+    }
+    let hold = fixture.claim("a").await;
+    fixture
+        .store
+        .keep(hold, &results_and_state(3))
+        .await
+        .unwrap();
+    fixture.store.hand_back(hold).await.unwrap();
+    assert!(fixture.store.state(id).await.unwrap().is_some());
+    let job = fixture.job(id).await;
+    assert_eq!(job.summary.status, JobStatus::Accepted);
+    assert_eq!(job.summary.started, None);
+    assert_eq!(job.summary.progress.fraction, 0.5, "it goes on from there");
+}
+
+async fn a_clock_set_back_holds_up_neither_waiting_nor_lost_jobs<S: JobStore>(
+    fixture: &Fixture<S>,
+) {
+    let waiting = fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    let setback = Setback::Infrastructure("x".to_owned());
+    fixture.store.set_back(hold, &setback).await.unwrap();
+    let lost = fixture.submit().await;
+    assert_eq!(fixture.claim("a").await.job, lost, "the other one waits");
+    fixture.clock.jump(SignedDuration::from_hours(-24));
+    assert_eq!(
+        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
+        1
+    );
+    fixture.pass(Duration::from_secs(2));
+    assert_eq!(fixture.claim("b").await.job, waiting);
+    assert_eq!(fixture.claim("b").await.job, lost);
+}
+
+async fn a_clock_set_forward_costs_a_lease_and_nothing_else<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    let old = fixture.claim("a").await;
+    fixture.clock.jump(SignedDuration::from_hours(24));
+    assert_eq!(fixture.store.take_back_own("b").await.unwrap(), 0);
+    assert_eq!(
+        fixture.store.take_back_expired("a", LEASE).await.unwrap(),
+        0
+    );
+    let progress = Progress::default();
+    let renewed = fixture.store.renew(old, LEASE, &progress).await.unwrap();
+    assert_eq!(renewed, Renewal::Held, "nobody was faster");
+    assert_eq!(
+        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
+        0
+    );
+    assert!(fixture.store.succeed(old, "{}", FINGERPRINT).await.unwrap());
+    assert_eq!(fixture.endings(id).await, ["successful"]);
+}

@@ -1,0 +1,178 @@
+//! The job store under test: what any driver must hold to ([`conformance`],
+//! [`races`], [`model`]), and what only SQLite has ([`sqlite`]).
+
+mod conformance;
+mod model;
+mod races;
+mod sqlite;
+
+use super::*;
+use crate::jobs::clock::Clock;
+use crate::jobs::job::{Job, JobStatus};
+use crate::jobs::progress::Progress;
+use crate::jobs::submit::NewJob;
+use crate::results::chunk;
+use crate::results::columns::tests::numbered_columns;
+use crate::results::flow::StoredSnapshot;
+use jiff::{SignedDuration, Timestamp};
+use scree_solver::record::FlowSnapshot;
+use std::sync::Mutex;
+use tempfile::TempDir;
+
+/// How long claims hold in these tests.
+const LEASE: Duration = Duration::from_secs(30);
+
+/// A clock that stands until it is set.
+#[derive(Debug)]
+struct SetClock(Mutex<Timestamp>);
+
+impl SetClock {
+    fn jump(&self, by: SignedDuration) {
+        *self.0.lock().unwrap() += by;
+    }
+}
+
+impl Clock for SetClock {
+    fn now(&self) -> Timestamp {
+        *self.0.lock().unwrap()
+    }
+}
+
+/// A driver with an empty database.
+struct Fixture<S> {
+    store: S,
+    clock: Arc<SetClock>,
+    directory: TempDir,
+}
+
+impl Fixture<Store> {
+    async fn sqlite() -> Self {
+        let directory = TempDir::new().unwrap();
+        let now = Timestamp::from_second(1_700_000_000).unwrap();
+        let clock = Arc::new(SetClock(Mutex::new(now)));
+        let path = directory.path().join("test.db");
+        let store = Store::open_with(&path, None, clock.clone()).await.unwrap();
+        Self {
+            store,
+            clock,
+            directory,
+        }
+    }
+}
+
+impl<S: JobStore> Fixture<S> {
+    async fn submit(&self) -> JobId {
+        let job = NewJob {
+            id: JobId::new(),
+            title: "a title".to_owned(),
+            bodies: 1,
+            scenario: "{}".to_owned(),
+            scenario_hash: "0".repeat(64),
+            labels: Vec::new(),
+            solver_version: "1",
+        };
+        let jobs = [job];
+        let submitted = self.store.submit(&submission(&jobs)).await.unwrap();
+        assert_eq!(submitted, Submitted::Accepted);
+        jobs[0].id
+    }
+
+    async fn try_claim(&self, owner: &str) -> Option<Hold> {
+        let claim = self.store.claim(&claimant(owner)).await.unwrap();
+        claim.map(|claim| claim.hold)
+    }
+
+    async fn claim(&self, owner: &str) -> Hold {
+        self.try_claim(owner).await.expect("a job to claim")
+    }
+
+    async fn job(&self, id: JobId) -> Job {
+        self.store.job(id).await.unwrap().unwrap()
+    }
+
+    async fn status(&self, id: JobId) -> JobStatus {
+        self.job(id).await.summary.status
+    }
+
+    /// How the attempts at a job ended, in words; "" for one that goes on.
+    async fn endings(&self, id: JobId) -> Vec<String> {
+        let attempts = self.job(id).await.attempts;
+        attempts
+            .into_iter()
+            .map(|attempt| attempt.ending.unwrap_or_default())
+            .collect()
+    }
+
+    fn pass(&self, time: Duration) {
+        self.clock.jump(SignedDuration::try_from(time).unwrap());
+    }
+}
+
+fn submission(jobs: &[NewJob]) -> Submission<'_> {
+    Submission {
+        jobs,
+        submitter: None,
+        key: None,
+        room: Room {
+            queue: 1_000,
+            submitter: None,
+        },
+    }
+}
+
+fn claimant(owner: &str) -> Claimant {
+    Claimant {
+        owner: owner.to_owned(),
+        lease: LEASE,
+        solver: Solver {
+            version: "2",
+            commit: "c",
+            instructions: "none",
+        },
+    }
+}
+
+const FINGERPRINT: &str = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
+
+/// Results of the samples 0..count.
+fn results(count: u32) -> NewResults {
+    let columns = numbered_columns(count);
+    let snapshot = FlowSnapshot {
+        time_s: f64::from(count),
+        points: 1,
+        thinning: 1,
+        position_m: vec![[1.0, 2.0, 3.0]],
+        speed_m_s: vec![0.5],
+    };
+    NewResults {
+        chunks: vec![NewChunk {
+            body: 0,
+            first_sample: 0,
+            samples: columns.len(),
+            first_time_s: columns.time_s[0],
+            last_time_s: columns.time_s[columns.len() - 1],
+            block: chunk::encode(&columns).unwrap(),
+        }],
+        snapshots: vec![StoredSnapshot::pack(&snapshot).unwrap()],
+        progress: Progress {
+            fraction: 0.5,
+            steps: 7,
+            eta_s: Some(3.0),
+            ..Progress::default()
+        },
+        state: None,
+    }
+}
+
+/// The same, with the run's state after them.
+fn results_and_state(count: u32) -> NewResults {
+    let mark = Mark {
+        time_s: f64::from(count),
+        samples: count as usize,
+        fingerprint: [9; 32],
+    };
+    NewResults {
+        state: Some(StoredState::pack(mark, b"the state").unwrap()),
+        ..results(count)
+    }
+}

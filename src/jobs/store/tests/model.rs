@@ -1,0 +1,317 @@
+//! The job store against a model of it: random lives of a few jobs under two
+//! services, with workers that come too late, clocks that jump, and crashes.
+
+use super::*;
+use crate::jobs::failure::Failure;
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+
+const OWNERS: [&str; 2] = ["a", "b"];
+
+/// One thing that happens. `usize`s pick a job, or a hold that was ever given.
+#[derive(Debug, Clone)]
+enum Event {
+    Submit,
+    Claim(usize),
+    Renew(usize),
+    Save(usize),
+    Succeed(usize),
+    Fail(usize),
+    HandBack(usize),
+    SetBack(usize),
+    Dismiss(usize),
+    Crash(usize),
+    TakeBackExpired(usize),
+    Jump(i64),
+}
+
+fn event() -> impl Strategy<Value = Event> {
+    prop_oneof![
+        3 => Just(Event::Submit),
+        6 => (0..2usize).prop_map(Event::Claim),
+        2 => any::<usize>().prop_map(Event::Renew),
+        2 => any::<usize>().prop_map(Event::Save),
+        2 => any::<usize>().prop_map(Event::Succeed),
+        1 => any::<usize>().prop_map(Event::Fail),
+        2 => any::<usize>().prop_map(Event::HandBack),
+        2 => any::<usize>().prop_map(Event::SetBack),
+        1 => any::<usize>().prop_map(Event::Dismiss),
+        2 => (0..2usize).prop_map(Event::Crash),
+        2 => (0..2usize).prop_map(Event::TakeBackExpired),
+        4 => prop_oneof![0..20_000i64, 20_000..90_000i64, -90_000..0i64].prop_map(Event::Jump),
+    ]
+}
+
+/// What is known of a job without looking into the database.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct ModelJob {
+    status: Option<JobStatus>,
+    attempt: u32,
+    /// Its holder's number among all holds, while it runs or was dismissed.
+    holder: Option<usize>,
+    owner: usize,
+    expires_ms: i64,
+    not_before_ms: i64,
+    setbacks: u32,
+    saved: bool,
+}
+
+#[derive(Debug, Default)]
+struct Model {
+    now_ms: i64,
+    jobs: BTreeMap<usize, ModelJob>,
+}
+
+const LEASE_MS: i64 = 30_000;
+
+impl Model {
+    fn is(job: &ModelJob, status: JobStatus) -> bool {
+        job.status == Some(status)
+    }
+
+    /// The job that a hold is good for.
+    fn held(&mut self, hold: usize) -> Option<&mut ModelJob> {
+        self.jobs.values_mut().find(|job| job.holder == Some(hold))
+    }
+
+    fn running(&mut self, hold: usize) -> Option<&mut ModelJob> {
+        self.held(hold)
+            .filter(|job| Self::is(job, JobStatus::Running))
+    }
+
+    fn claimable(&mut self) -> Option<(usize, &mut ModelJob)> {
+        let now = self.now_ms;
+        let free = |job: &ModelJob| job.not_before_ms <= now || job.not_before_ms > now + 8_000;
+        let mut jobs = self.jobs.iter_mut().map(|(place, job)| (*place, job));
+        jobs.find(|(_, job)| Self::is(job, JobStatus::Accepted) && free(job))
+    }
+
+    fn end(job: &mut ModelJob, status: JobStatus) {
+        job.status = Some(status);
+        job.saved = false;
+        if status != JobStatus::Dismissed {
+            job.holder = None;
+        }
+    }
+
+    fn put_back(job: &mut ModelJob, not_before_ms: i64) {
+        job.status = Some(JobStatus::Accepted);
+        job.holder = None;
+        job.not_before_ms = not_before_ms;
+    }
+
+    fn set_back(job: &mut ModelJob, now_ms: i64, at_once: bool) -> Returned {
+        let wait_ms = match (at_once, job.setbacks) {
+            (true, _) => 0,
+            (false, 0) => 2_000,
+            (false, _) => 8_000,
+        };
+        job.setbacks += 1;
+        if job.setbacks == 3 {
+            Self::end(job, JobStatus::Failed);
+            return Returned::Failed;
+        }
+        Self::put_back(job, now_ms + wait_ms);
+        Returned::Waiting
+    }
+
+    /// Sets back every running job that `lost` says; how many.
+    fn take_back(&mut self, at_once: bool, lost: impl Fn(&ModelJob, i64) -> bool) -> usize {
+        let now = self.now_ms;
+        let mut count = 0;
+        for job in self.jobs.values_mut() {
+            if Self::is(job, JobStatus::Running) && lost(job, now) {
+                Self::set_back(job, now, at_once);
+                count += 1;
+            }
+        }
+        count
+    }
+}
+
+/// The store and its model, and all holds that were ever given.
+struct Pair {
+    fixture: Fixture<Store>,
+    model: Model,
+    ids: Vec<JobId>,
+    holds: Vec<Hold>,
+}
+
+impl Pair {
+    async fn happen(&mut self, event: &Event) {
+        match *event {
+            Event::Submit => {
+                let job = ModelJob {
+                    status: Some(JobStatus::Accepted),
+                    ..ModelJob::default()
+                };
+                self.model.jobs.insert(self.ids.len(), job);
+                self.ids.push(self.fixture.submit().await);
+            }
+            Event::Claim(owner) => self.claim(owner).await,
+            Event::Dismiss(pick) if !self.ids.is_empty() => self.dismiss(pick).await,
+            Event::Crash(owner) => {
+                let expected = self.model.take_back(true, |job, _| job.owner == owner);
+                let taken = self.fixture.store.take_back_own(OWNERS[owner]).await;
+                assert_eq!(taken.unwrap(), expected);
+            }
+            Event::TakeBackExpired(owner) => {
+                let expected = self.model.take_back(false, |job, now| {
+                    let expires = job.expires_ms;
+                    job.owner != owner && (expires <= now || expires > now + 2 * LEASE_MS)
+                });
+                let store = &self.fixture.store;
+                let taken = store.take_back_expired(OWNERS[owner], LEASE).await;
+                assert_eq!(taken.unwrap(), expected);
+            }
+            Event::Jump(by_ms) => {
+                self.fixture.clock.jump(SignedDuration::from_millis(by_ms));
+                self.model.now_ms += by_ms;
+            }
+            _ if !self.holds.is_empty() => self.write(event).await,
+            _ => {}
+        }
+    }
+
+    async fn claim(&mut self, owner: usize) {
+        let hold = self.fixture.try_claim(OWNERS[owner]).await;
+        let number = self.holds.len();
+        let expires_ms = self.model.now_ms + LEASE_MS;
+        let Some((place, job)) = self.model.claimable() else {
+            assert_eq!(hold, None);
+            return;
+        };
+        let hold = hold.expect("the model has a job to claim");
+        job.status = Some(JobStatus::Running);
+        job.attempt += 1;
+        job.holder = Some(number);
+        job.owner = owner;
+        job.expires_ms = expires_ms;
+        assert_eq!((hold.job, hold.attempt), (self.ids[place], job.attempt));
+        self.holds.push(hold);
+    }
+
+    async fn dismiss(&mut self, pick: usize) {
+        let place = pick % self.ids.len();
+        let job = self.model.jobs.get_mut(&place).expect("it was submitted");
+        let expected = match job.status {
+            Some(status @ (JobStatus::Successful | JobStatus::Failed)) => Dismissal::Ended(status),
+            _ => {
+                Model::end(job, JobStatus::Dismissed);
+                Dismissal::Dismissed
+            }
+        };
+        let dismissal = self.fixture.store.dismiss(self.ids[place]).await;
+        assert_eq!(dismissal.unwrap(), expected);
+    }
+
+    /// A write under some hold, good or stale.
+    async fn write(&mut self, event: &Event) {
+        let store = &self.fixture.store;
+        let model = &mut self.model;
+        let now = model.now_ms;
+        let number = |pick: usize| pick % self.holds.len();
+        match *event {
+            Event::Renew(pick) => {
+                let expected = match model.held(number(pick)) {
+                    None => Renewal::Lost,
+                    Some(job) if Model::is(job, JobStatus::Dismissed) => Renewal::Dismissed,
+                    Some(job) => {
+                        job.expires_ms = now + LEASE_MS;
+                        Renewal::Held
+                    }
+                };
+                let hold = self.holds[number(pick)];
+                let renewed = store.renew(hold, LEASE, &Progress::default()).await;
+                assert_eq!(renewed.unwrap(), expected);
+            }
+            Event::Save(pick) => {
+                let held = model.held(number(pick));
+                let expected = held.is_some();
+                if let Some(job) = held.filter(|job| Model::is(job, JobStatus::Running)) {
+                    job.saved = true;
+                    job.setbacks = 0;
+                }
+                let hold = self.holds[number(pick)];
+                let kept = store.keep(hold, &results_and_state(3)).await;
+                assert_eq!(kept.unwrap(), expected);
+            }
+            Event::SetBack(pick) => {
+                let expected = match model.running(number(pick)) {
+                    Some(job) => Model::set_back(job, now, false),
+                    None => Returned::Lost,
+                };
+                let setback = Setback::Infrastructure("x".to_owned());
+                let hold = self.holds[number(pick)];
+                assert_eq!(store.set_back(hold, &setback).await.unwrap(), expected);
+            }
+            Event::Succeed(pick) | Event::Fail(pick) | Event::HandBack(pick) => {
+                let hold = self.holds[number(pick)];
+                let running = model.running(number(pick));
+                let expected = running.is_some();
+                let done = match (event, running) {
+                    (Event::Succeed(_), job) => {
+                        job.into_iter()
+                            .for_each(|job| Model::end(job, JobStatus::Successful));
+                        store.succeed(hold, "{}", FINGERPRINT).await
+                    }
+                    (Event::Fail(_), job) => {
+                        job.into_iter()
+                            .for_each(|job| Model::end(job, JobStatus::Failed));
+                        store.fail(hold, &Failure::internal("x")).await
+                    }
+                    (_, job) => {
+                        job.into_iter().for_each(|job| Model::put_back(job, 0));
+                        store.hand_back(hold).await
+                    }
+                };
+                assert_eq!(done.unwrap(), expected, "{event:?}");
+            }
+            _ => {}
+        }
+    }
+
+    async fn agree(&self) {
+        for (place, expected) in &self.model.jobs {
+            let id = self.ids[*place];
+            let job = self.fixture.job(id).await;
+            assert_eq!(Some(job.summary.status), expected.status, "job {place}");
+            assert_eq!(job.attempt, expected.attempt, "job {place}");
+            let state = self.fixture.store.state(id).await.unwrap();
+            assert_eq!(state.is_some(), expected.saved, "job {place}");
+            let endings = self.fixture.endings(id).await;
+            assert_eq!(endings.len(), expected.attempt as usize, "job {place}");
+            let running = endings.iter().filter(|ending| ending.is_empty()).count();
+            let expected_running = usize::from(Model::is(expected, JobStatus::Running));
+            assert_eq!(running, expected_running, "job {place}: {endings:?}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn whatever_happens_the_store_does_what_its_model_does(
+        events in prop::collection::vec(event(), 1..60)
+    ) {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
+        runtime.block_on(async {
+            let fixture = Fixture::sqlite().await;
+            let mut pair = Pair {
+                fixture,
+                model: Model {
+                    // Not near 0, which is "never waits" to the store.
+                    now_ms: 1_700_000_000_000,
+                    ..Model::default()
+                },
+                ids: Vec::new(),
+                holds: Vec::new(),
+            };
+            for event in &events {
+                pair.happen(event).await;
+            }
+            pair.agree().await;
+        });
+    }
+}

@@ -1,0 +1,87 @@
+//! Leases that run out under workers who do not notice.
+
+use super::*;
+use crate::jobs::failure::Failure;
+
+/// Times that a lease is forced to run out.
+const RACES: u32 = 200;
+
+/// A worker sleeps through its lease, another takes the job up, and both write
+/// at the same time. Whatever order the database makes of it, only the second
+/// one's writes count.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn no_stale_worker_ever_writes() {
+    let fixture = Fixture::sqlite().await;
+    let mut stale_writes = 0;
+    for race in 0..RACES {
+        let id = fixture.submit().await;
+        let stale = fixture.claim("a").await;
+        fixture.pass(LEASE);
+        fixture.store.take_back_expired("b", LEASE).await.unwrap();
+        fixture.pass(Duration::from_secs(10));
+        let fresh = fixture.claim("b").await;
+        assert_eq!(fresh.job, id);
+
+        let old = tokio::spawn(write_as_a_stale_worker(fixture.store.clone(), stale, race));
+        let new = tokio::spawn(write_to_the_end(fixture.store.clone(), fresh));
+        stale_writes += old.await.unwrap();
+        new.await.unwrap();
+        let job = fixture.job(id).await;
+        assert_eq!(job.outcome.unwrap().get(), "{\"by\":\"b\"}");
+        let snapshot = fixture.store.snapshot(id, None).await.unwrap().unwrap();
+        assert_eq!(snapshot.time_s, 5.0);
+        assert_eq!(fixture.endings(id).await, ["expired", "successful"]);
+    }
+    assert_eq!(stale_writes, 0, "of {RACES} races");
+}
+
+/// Tries every way of writing; how many were let in.
+async fn write_as_a_stale_worker(store: Store, hold: Hold, race: u32) -> u32 {
+    let mut written = 0;
+    let progress = Progress::default();
+    written += u32::from(store.keep(hold, &results_and_state(9)).await.unwrap());
+    let renewed = store.renew(hold, LEASE, &progress).await.unwrap();
+    written += u32::from(renewed != Renewal::Lost);
+    let ended = match race % 4 {
+        0 => store.succeed(hold, "{\"by\":\"a\"}", FINGERPRINT).await,
+        1 => store.fail(hold, &Failure::internal("a")).await,
+        2 => store.hand_back(hold).await,
+        _ => store.begin(hold, &Beginning::Afresh, 1).await,
+    };
+    written + u32::from(ended.unwrap())
+}
+
+async fn write_to_the_end(store: Store, hold: Hold) {
+    assert!(store.keep(hold, &results_and_state(5)).await.unwrap());
+    let ended = store.succeed(hold, "{\"by\":\"b\"}", FINGERPRINT).await;
+    assert!(ended.unwrap());
+}
+
+/// Many workers claim at once: every job goes to one of them.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_job_is_claimed_by_one_of_many() {
+    let fixture = Fixture::sqlite().await;
+    let mut submitted = Vec::new();
+    for _ in 0..50 {
+        submitted.push(fixture.submit().await);
+    }
+    let workers = (0..8).map(|worker| {
+        let store = fixture.store.clone();
+        tokio::spawn(async move {
+            let mut claimed = Vec::new();
+            let claimant = claimant(&format!("worker {worker}"));
+            while let Some(claim) = store.claim(&claimant).await.unwrap() {
+                claimed.push(claim.hold.job);
+            }
+            claimed
+        })
+    });
+    let workers: Vec<_> = workers.collect();
+    let mut claimed = Vec::new();
+    for worker in workers {
+        claimed.extend(worker.await.unwrap());
+    }
+    claimed.sort();
+    submitted.sort();
+    assert_eq!(claimed, submitted);
+}

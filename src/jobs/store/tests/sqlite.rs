@@ -1,0 +1,167 @@
+//! What only the SQLite driver has: rules that the database itself enforces,
+//! one file, one lock.
+
+use super::*;
+use crate::jobs::failure::Failure;
+use crate::results::columns::Selection;
+
+#[tokio::test]
+async fn a_damaged_block_is_noticed() {
+    let fixture = Fixture::sqlite().await;
+    let id = fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    fixture.store.keep(hold, &results(3)).await.unwrap();
+    sqlx::query("UPDATE trajectory_chunks SET data = zeroblob(length(data))")
+        .execute(&fixture.store.writer)
+        .await
+        .unwrap();
+    let read = fixture.store.chunk(id, 0, 0, &Selection::default()).await;
+    assert!(matches!(read, Err(StoreError::Block { .. })), "{read:?}");
+}
+
+#[tokio::test]
+async fn final_states_are_sinks_whatever_the_code_asks_for() {
+    let fixture = Fixture::sqlite().await;
+    let ended = [
+        fixture.submit().await,
+        fixture.submit().await,
+        fixture.submit().await,
+    ];
+    let holds = [
+        fixture.claim("a").await,
+        fixture.claim("a").await,
+        fixture.claim("a").await,
+    ];
+    fixture
+        .store
+        .succeed(holds[0], "{}", FINGERPRINT)
+        .await
+        .unwrap();
+    fixture
+        .store
+        .fail(holds[1], &Failure::internal("x"))
+        .await
+        .unwrap();
+    fixture.store.dismiss(ended[2]).await.unwrap();
+    let wanted = [
+        JobStatus::Successful,
+        JobStatus::Failed,
+        JobStatus::Dismissed,
+    ];
+    assert_eq!(
+        fixture.store.dismiss(ended[0]).await.unwrap(),
+        Dismissal::Ended(wanted[0])
+    );
+
+    for statement in [
+        "UPDATE jobs SET status = 'accepted', started_ms = NULL, finished_ms = NULL, outcome = NULL, problem = NULL",
+        "UPDATE jobs SET status = 'running', finished_ms = NULL, outcome = NULL, problem = NULL",
+        "UPDATE jobs SET finished_ms = 0",
+        "UPDATE jobs SET outcome = '[]' WHERE outcome IS NOT NULL",
+    ] {
+        let refused = sqlx::query(statement)
+            .execute(&fixture.store.writer)
+            .await
+            .unwrap_err();
+        assert!(
+            refused.to_string().contains("the job has ended"),
+            "{statement}: {refused}"
+        );
+    }
+    for (id, status) in ended.into_iter().zip(wanted) {
+        assert_eq!(fixture.status(id).await, status);
+    }
+}
+
+#[tokio::test]
+async fn rows_that_make_no_sense_are_refused() {
+    let fixture = Fixture::sqlite().await;
+    fixture.submit().await;
+    for statement in [
+        "UPDATE jobs SET status = 'done'",
+        "UPDATE jobs SET status = 'running'",
+        "UPDATE jobs SET status = 'running', started_ms = 1, lease_owner = 'a', lease_expires_ms = 9",
+        "UPDATE jobs SET lease_owner = 'a', lease_expires_ms = 9",
+        "UPDATE jobs SET lease_token = -1",
+        "UPDATE jobs SET finished_ms = 1",
+        "UPDATE jobs SET status = 'successful', started_ms = 1, finished_ms = 2, outcome = '{}'",
+        "UPDATE jobs SET outcome = '{}'",
+        "UPDATE jobs SET scenario = 'no JSON'",
+        "UPDATE jobs SET fraction = 1.5",
+        "UPDATE jobs SET steps = 'many'",
+        "INSERT INTO trajectory_chunks SELECT 'nobody', 0, 0, 1, 0, 0, 'planes-zstd-1', zeroblob(32), zeroblob(1)",
+    ] {
+        let done = sqlx::query(statement).execute(&fixture.store.writer).await;
+        assert!(done.is_err(), "{statement}");
+    }
+}
+
+#[tokio::test]
+async fn no_job_is_run_to_its_end_twice_whatever_the_code_asks_for() {
+    let fixture = Fixture::sqlite().await;
+    fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    fixture
+        .store
+        .succeed(hold, "{}", FINGERPRINT)
+        .await
+        .unwrap();
+    let again = sqlx::query(
+        "INSERT INTO attempts (job_id, attempt, owner, started_ms, ended_ms, ending)
+         SELECT job_id, 2, owner, 1, 2, ending FROM attempts",
+    );
+    assert!(again.execute(&fixture.store.writer).await.is_err());
+}
+
+#[tokio::test]
+async fn a_state_of_many_pieces_is_whole_or_noticed() {
+    let fixture = Fixture::sqlite().await;
+    let id = fixture.submit().await;
+    let hold = fixture.claim("a").await;
+    // Noise does not compress: more than two pieces.
+    let mut noise = vec![0; 20 << 20];
+    blake3::Hasher::new().finalize_xof().fill(&mut noise);
+    let mark = Mark {
+        time_s: 1.0,
+        samples: 1,
+        fingerprint: [0; 32],
+    };
+    let kept = NewResults {
+        state: Some(StoredState::pack(mark, &noise).unwrap()),
+        ..results(1)
+    };
+    assert!(fixture.store.keep(hold, &kept).await.unwrap());
+    let state = fixture.store.state(id).await.unwrap().unwrap();
+    assert!(state.unpack().unwrap() == noise);
+    sqlx::query("DELETE FROM run_state_pieces WHERE piece = 1")
+        .execute(&fixture.store.writer)
+        .await
+        .unwrap();
+    let state = fixture.store.state(id).await.unwrap().unwrap();
+    assert!(matches!(state.unpack(), Err(BlockError::Checksum)));
+}
+
+#[tokio::test]
+async fn a_closed_database_leaves_one_file_and_the_lock() {
+    let fixture = Fixture::sqlite().await;
+    fixture.submit().await;
+    fixture.store.close().await;
+    let entries = std::fs::read_dir(fixture.directory.path()).unwrap();
+    let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["test.db", "test.db.lock"]);
+}
+
+// Once a link to the database let a second service take over its jobs.
+#[cfg(unix)]
+#[tokio::test]
+async fn a_database_has_one_service_by_whatever_name() {
+    let fixture = Fixture::sqlite().await;
+    let database = fixture.directory.path().join("test.db");
+    let link = fixture.directory.path().join("link.db");
+    std::os::unix::fs::symlink(&database, &link).unwrap();
+    for name in [database, link] {
+        let second = Store::open(&name).await;
+        assert!(matches!(second, Err(StoreError::InUse(_))), "{name:?}");
+    }
+}

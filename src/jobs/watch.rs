@@ -1,0 +1,217 @@
+//! Watches a run: records, progress, states and wishes to stop all go through
+//! here, between two sub-steps.
+
+use super::progress::Progress;
+use super::runner::{Sink, Stop, StopFlag};
+use super::saved_run::{self, Spent};
+use scree_solver::record::{Outcome, Record, Recorder};
+use scree_solver::{Simulation, SubstepReport};
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// How often a sink hears of progress at most: often enough for a progress
+/// bar, rare enough to cost nothing.
+const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
+
+/// What stands between a running simulation and the sink.
+pub(super) struct Watch<'a, S: Sink> {
+    recorder: Recorder,
+    pace: Pace,
+    stop: &'a StopFlag,
+    sink: &'a mut S,
+    refused: Option<S::Error>,
+    /// Whether nothing can move any more.
+    ended_early: bool,
+}
+
+impl<'a, S: Sink> Watch<'a, S> {
+    pub(super) fn new(
+        recorder: Recorder,
+        duration_s: f64,
+        spent: Spent,
+        (stop, sink): (&'a StopFlag, &'a mut S),
+    ) -> Self {
+        Self {
+            recorder,
+            pace: Pace::new(duration_s, spent),
+            stop,
+            sink,
+            refused: None,
+            ended_early: false,
+        }
+    }
+
+    /// Whether the run ended because nothing can move any more.
+    pub(super) fn ended_early(&self) -> bool {
+        self.ended_early
+    }
+
+    /// Hands on the records of time 0.
+    pub(super) fn start(&mut self, simulation: &Simulation) -> Result<(), S::Error> {
+        let records = self.recorder.start(simulation);
+        self.hand_on(records)
+    }
+
+    /// Takes one sub-step in.
+    pub(super) fn observe(
+        &mut self,
+        simulation: &Simulation,
+        report: &SubstepReport,
+    ) -> ControlFlow<()> {
+        // After a refusal or a wish to stop the solver still finishes the step
+        // in hand: what it shows then belongs to the run, unless the sink is shut.
+        if self.refused.is_some() {
+            return ControlFlow::Break(());
+        }
+        self.pace.count(report);
+        let mut records = self.recorder.observe(simulation, report);
+        if report.sample.is_some() && report.time_s < self.pace.duration_s {
+            records.extend(self.end_early(simulation));
+        }
+        // Asked once: a wish that comes in between is heard next time.
+        let stop = self.stop.asked();
+        let stop_here = stop == Stop::AtOnce || (stop == Stop::OnceSaved && report.step_ended);
+        let taken = self
+            .hand_on(records)
+            .and_then(|()| self.tell_progress())
+            .and_then(|()| self.save(simulation, report, stop));
+        if let Err(error) = taken {
+            self.refused = Some(error);
+        }
+        if self.refused.is_some() || stop_here || self.ended_early {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// The last records, if nothing can move any more.
+    fn end_early(&mut self, simulation: &Simulation) -> Vec<Record> {
+        let last = self.recorder.end_early(simulation);
+        if last.is_some() {
+            self.ended_early = true;
+            self.pace.duration_s = simulation.time_s();
+        }
+        last.unwrap_or_default()
+    }
+
+    /// Saves the state where a step ended, when it is time to or the last chance.
+    fn save(
+        &mut self,
+        simulation: &Simulation,
+        report: &SubstepReport,
+        stop: Stop,
+    ) -> Result<(), S::Error> {
+        let wanted = |sink: &mut S| stop == Stop::OnceSaved || sink.wants_state();
+        if !report.step_ended || stop == Stop::AtOnce || !wanted(self.sink) {
+            return Ok(());
+        }
+        match saved_run::save(simulation, &self.recorder, self.pace.spent()) {
+            Ok(state) => self.sink.state(report.time_s, &state),
+            // The run itself will say what is wrong with it.
+            Err(error) => {
+                tracing::warn!(%error, "the run's state can't be saved");
+                Ok(())
+            }
+        }
+    }
+
+    /// The outcome, with the wall time of all attempts together.
+    pub(super) fn outcome(&self, simulation: &Simulation) -> Outcome {
+        self.recorder.outcome(simulation, self.pace.wall_s())
+    }
+
+    fn hand_on(&mut self, records: Vec<Record>) -> Result<(), S::Error> {
+        records
+            .into_iter()
+            .try_for_each(|record| self.sink.record(record))
+    }
+
+    fn tell_progress(&mut self) -> Result<(), S::Error> {
+        match self.pace.due() {
+            Some(progress) => self.sink.progress(&progress),
+            None => Ok(()),
+        }
+    }
+
+    /// Tells the last progress, or why the sink took no more.
+    pub(super) fn end(&mut self) -> Result<(), S::Error> {
+        match self.refused.take() {
+            Some(error) => Err(error),
+            None => self.sink.progress(&self.pace.progress()),
+        }
+    }
+}
+
+/// Counts and times a run.
+struct Pace {
+    /// By the attempts before this one.
+    before: Spent,
+    began: Instant,
+    told: Instant,
+    duration_s: f64,
+    simulated_time_s: f64,
+    steps: u64,
+    substeps: u64,
+    point_steps: u64,
+}
+
+impl Pace {
+    fn new(duration_s: f64, before: Spent) -> Self {
+        let now = Instant::now();
+        Self {
+            before,
+            began: now,
+            told: now,
+            duration_s,
+            simulated_time_s: 0.0,
+            steps: 0,
+            substeps: 0,
+            point_steps: before.point_steps,
+        }
+    }
+
+    fn count(&mut self, report: &SubstepReport) {
+        self.simulated_time_s = report.time_s;
+        self.steps = report.steps;
+        self.substeps = report.substeps;
+        self.point_steps += report.points;
+    }
+
+    fn wall_s(&self) -> f64 {
+        self.before.wall_s + self.began.elapsed().as_secs_f64()
+    }
+
+    fn spent(&self) -> Spent {
+        Spent {
+            wall_s: self.wall_s(),
+            point_steps: self.point_steps,
+        }
+    }
+
+    /// Progress, if it was last told long enough ago.
+    fn due(&mut self) -> Option<Progress> {
+        if self.told.elapsed() < PROGRESS_INTERVAL {
+            return None;
+        }
+        self.told = Instant::now();
+        Some(self.progress())
+    }
+
+    fn progress(&self) -> Progress {
+        let wall_s = self.wall_s();
+        let fraction = (self.simulated_time_s / self.duration_s).clamp(0.0, 1.0);
+        let going = fraction > 0.0 && fraction < 1.0;
+        Progress {
+            fraction,
+            simulated_time_s: self.simulated_time_s,
+            steps: self.steps,
+            substeps: self.substeps,
+            point_steps_per_s: if wall_s > 0.0 {
+                self.point_steps as f64 / wall_s
+            } else {
+                0.0
+            },
+            eta_s: going.then(|| wall_s * (1.0 - fraction) / fraction),
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Following jobs: tags, waiting, events; and what tells of the service itself.
+
+use crate::app::{TestApp, endless_scene, is_running, tiny_scene};
+use reqwest::{Response, StatusCode};
+use std::time::Instant;
+
+async fn ask_with_tag(app: &TestApp, path: &str, tag: &str) -> Response {
+    let request = app.client.get(app.url(path)).header("if-none-match", tag);
+    request.send().await.unwrap()
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_a_client_has_is_not_sent_again() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    app.wait_for_success(&job).await;
+    for path in [job.clone(), format!("{job}/flow"), "/v1/jobs".to_owned()] {
+        let first = app.client.get(app.url(&path)).send().await.unwrap();
+        let tag = first.headers()["etag"].to_str().unwrap().to_owned();
+        let again = ask_with_tag(&app, &path, &tag).await;
+        assert_eq!(again.status(), StatusCode::NOT_MODIFIED, "{path}");
+        assert_eq!(again.headers()["etag"], tag.as_str());
+        assert_eq!(again.text().await.unwrap(), "");
+        let other = ask_with_tag(&app, &path, "\"other\"").await;
+        assert_eq!(other.status(), StatusCode::OK, "{path}");
+    }
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_look_can_wait_for_the_end() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    let answer = app.get(&format!("{job}?wait=60s")).await;
+    assert_eq!(answer.body["status"], "successful");
+    let job = app.submit(&endless_scene()).await;
+    let began = Instant::now();
+    let answer = app.get(&format!("{job}?wait=1s")).await;
+    assert!(began.elapsed().as_secs_f64() >= 1.0);
+    assert_ne!(answer.body["status"], "successful");
+    for wait in ["30", "61s", "-1s", "1.5s", "s", "1m"] {
+        let answer = app.get(&format!("{job}?wait={wait}")).await;
+        answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
+    }
+    app.delete(&job).await;
+    app.stop().await;
+}
+
+/// The stream's text up to its end.
+async fn events(app: &TestApp, query: &str, after: Option<&str>) -> (StatusCode, String) {
+    let mut request = app.client.get(app.url(&format!("/v1/events{query}")));
+    if let Some(after) = after {
+        request = request.header("last-event-id", after);
+    }
+    let response = request.send().await.unwrap();
+    (response.status(), response.text().await.unwrap())
+}
+
+fn statuses(text: &str) -> Vec<&str> {
+    let data = text.lines().filter_map(|line| line.strip_prefix("data: "));
+    data.filter_map(|data| data.split("\"status\":\"").nth(1)?.split('"').next())
+        .collect()
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn events_come_in_order_and_again_for_who_was_away() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    let query = format!("?job={}", job.rsplit('/').next().unwrap());
+    let (status, text) = events(&app, &query, None).await;
+    assert_eq!(status, StatusCode::OK);
+    assert_eq!(statuses(&text), ["accepted", "running", "successful"]);
+    let ids: Vec<&str> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("id: "))
+        .collect();
+    let (_, rest) = events(&app, &query, Some(ids[0])).await;
+    assert_eq!(statuses(&rest), ["running", "successful"]);
+    let (status, _) = events(&app, &query, Some(ids[2])).await;
+    assert_eq!(status, StatusCode::NO_CONTENT, "nothing will come any more");
+    let (status, _) = events(&app, "?job=01890a5d-ac96-774b-bcce-b302099a8057", None).await;
+    assert_eq!(status, StatusCode::NOT_FOUND);
+    let (status, _) = events(&app, "?job=1&after=x&spam=1", None).await;
+    assert_eq!(status, StatusCode::UNPROCESSABLE_ENTITY);
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_stream_of_all_jobs_ends_with_the_service() {
+    let app = TestApp::start().await;
+    let job = app.submit(&endless_scene()).await;
+    app.wait(&job, is_running).await;
+    let response = app
+        .client
+        .get(app.url("/v1/events?after=0"))
+        .send()
+        .await
+        .unwrap();
+    let began = Instant::now();
+    let (text, directory) = tokio::join!(response.text(), app.stop());
+    // Far below the five seconds that requests in hand may take.
+    assert!(began.elapsed().as_secs_f64() < 4.0, "{:?}", began.elapsed());
+    let text = text.unwrap();
+    assert_eq!(statuses(&text)[..2], ["accepted", "running"], "{text}");
+    drop(directory);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_service_tells_of_itself() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    app.wait_for_success(&job).await;
+    assert_eq!(app.get("/readyz").await.body["status"], "ok");
+    let metrics = app.get("/metrics").await;
+    assert!(metrics.content_type.starts_with("text/plain"));
+    let text = metrics.body.as_str().unwrap();
+    for line in [
+        "scree_jobs{status=\"successful\"} 1",
+        "scree_jobs{status=\"running\"} 0",
+        "scree_attempts_ended_total{ending=\"successful\"} 1",
+        "scree_oldest_waiting_seconds 0",
+    ] {
+        assert!(text.lines().any(|found| found == line), "{line}\n{text}");
+    }
+    let page = app.client.get(app.url("/")).send().await.unwrap();
+    let request_id = page.headers()["x-request-id"].to_str().unwrap().to_owned();
+    assert_eq!(request_id.len(), 36);
+    let page = page.text().await.unwrap();
+    assert!(page.contains("openapi.json"));
+    // A lab without the internet sees the page, too.
+    assert!(
+        !page.contains("http://") && !page.contains("https://"),
+        "{page}"
+    );
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_answer_says_what_it_comes_from() {
+    let app = TestApp::start().await;
+    let path = app.submit(&tiny_scene()).await;
+    let job = app.wait_for_success(&path).await;
+    let provenance = &job["provenance"];
+    let scenario = app
+        .client
+        .get(app.url(&path))
+        .send()
+        .await
+        .unwrap()
+        .text()
+        .await
+        .unwrap();
+    let start = scenario.find("\"scenario\":").unwrap() + "\"scenario\":".len();
+    let end = scenario.find(",\"progress\":").unwrap();
+    let hash = blake3::hash(&scenario.as_bytes()[start..end])
+        .to_hex()
+        .to_string();
+    assert_eq!(
+        provenance["scenario_hash"], hash,
+        "of the scenario as it is shown"
+    );
+    assert_eq!(provenance["solver_version"], scree_solver::VERSION);
+    assert_eq!(provenance["solver_commit"], scree::jobs::saved_run::COMMIT);
+    let instructions = scree_solver::Instructions::detected().to_string();
+    assert_eq!(provenance["instructions"], instructions);
+    assert_eq!(provenance["threads"], 1);
+    assert_eq!(provenance["fingerprint"].as_str().unwrap().len(), 64);
+    let again = app.submit(&tiny_scene()).await;
+    let again = app.wait_for_success(&again).await;
+    assert_eq!(again["provenance"], *provenance, "the same again");
+    app.stop().await;
+}
