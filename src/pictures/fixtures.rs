@@ -1,7 +1,8 @@
 //! Made-up runs for the tests of the pictures.
 
 use scree_solver::record::{
-    Audit, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, Mode, Outcome, Sample,
+    Audit, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, MassProperties, Mode, Outcome,
+    Sample,
 };
 use scree_solver::scenario::{
     Body, Channel, Flow, Material, Numerics, Position, Precision, Release,
@@ -157,6 +158,12 @@ pub(super) fn slid() -> BodyOutcome {
         path_length_m: 0.4005,
         final_position_m: [0.44, 0.02, 0.02],
         final_orientation: [1.0, 0.0, 0.0, 0.0],
+        mass_properties: MassProperties {
+            mass_kg: 0.127,
+            volume_m3: 6.34e-5,
+            principal_moments_kg_m2: [3.36e-5; 3],
+            principal_axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        },
     }
 }
 

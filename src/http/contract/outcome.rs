@@ -40,6 +40,23 @@ pub struct BodyOutcomeDocument {
     pub final_position_m: [f64; 3],
     /// Orientation at the end [w, x, y, z].
     pub final_orientation: [f64; 4],
+    /// What it weighs and how it resists turning.
+    pub mass_properties: MassPropertiesDocument,
+}
+
+/// Mass properties of a rounded body about its centre of mass.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = MassProperties)]
+pub struct MassPropertiesDocument {
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// Volume [m³].
+    pub volume_m3: f64,
+    /// Principal moments of inertia, the smallest first [kg m²].
+    pub principal_moments_kg_m2: [f64; 3],
+    /// Unit axes of these moments in body axes, right-handed; about equal moments
+    /// those nearest to the body axes.
+    pub principal_axes: [[f64; 3]; 3],
 }
 
 /// Outcome of the flow.
