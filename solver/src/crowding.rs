@@ -174,6 +174,8 @@ pub fn leave_less_room(boundary: &Boundary, bodies: &[Body], nodes: &mut impl No
     for body in bodies {
         make_room_for(body, nodes);
     }
+    // A body in the channel takes room from a node's images as well.
+    boundary.fill_images_alike(nodes);
 }
 
 fn make_room_for(body: &Body, nodes: &mut impl NodeAccess) {

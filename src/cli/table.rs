@@ -154,6 +154,7 @@ fn optional(value: Option<f64>, decimals: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scree_solver::record::MassProperties;
 
     fn body(onset_time_s: Option<f64>) -> BodyOutcome {
         BodyOutcome {
@@ -166,6 +167,12 @@ mod tests {
             final_position_m: [0.45, -1e-9, 0.02],
             final_orientation: [1.0, 0.0, 0.0, 0.0],
             error_bars: None,
+            mass_properties: MassProperties {
+                mass_kg: 0.1,
+                volume_m3: 5e-5,
+                principal_moments_kg_m2: [1e-5; 3],
+                principal_axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            },
         }
     }
 

@@ -4,7 +4,9 @@ use super::arguments::ValidateOptions;
 use super::failure::{Failure, not_set_up};
 use super::{console, scenario_file};
 use scree_solver::Simulation;
+use scree_solver::rigid::Body;
 use scree_solver::scenario::{Channel, Scenario, Shape, Support};
+use scree_solver::shape::PrincipalInertia;
 
 /// Prints what a legal scenario comes to.
 ///
@@ -25,7 +27,10 @@ fn facts(scenario: &Scenario, simulation: &Simulation) -> String {
         ("flow".to_owned(), flow(scenario)),
     ];
     let bodies = 0..scenario.bodies.len();
-    facts.extend(bodies.map(|index| (format!("body {index}"), body(scenario, index))));
+    facts.extend(bodies.map(|index| {
+        let set_up = &simulation.bodies()[index];
+        (format!("body {index}"), body(scenario, index, set_up))
+    }));
     facts.push(("recorded".to_owned(), recorded(scenario)));
     facts.push(("numerics".to_owned(), numerics(scenario, simulation)));
     facts.extend(volume_left_out(simulation).map(|text| ("left out".to_owned(), text)));
@@ -65,10 +70,11 @@ fn flow(scenario: &Scenario) -> String {
     )
 }
 
-fn body(scenario: &Scenario, index: usize) -> String {
+/// A body of the scenario as it was set up.
+fn body(scenario: &Scenario, index: usize, set_up: &Body) -> String {
     let body = &scenario.bodies[index];
     let shape = shape(&body.shape);
-    let mass_kg = body.density_kg_m3 * scenario.shape_of(index).volume();
+    let [least, middle, most] = PrincipalInertia::of(&set_up.inertia).moments;
     let [x, y, z]: [f64; 3] = scenario.initial_pose(index).position.into();
     let support = match scenario.support_of(index) {
         Support::Floor => "on the floor",
@@ -77,8 +83,8 @@ fn body(scenario: &Scenario, index: usize) -> String {
     };
     let fixed = if body.fixed { ", fixed" } else { "" };
     format!(
-        "{shape}, rounded by {} m, {mass_kg:.4} kg, centre at {x:.4}, {y:.4}, {z:.4} m {support}{fixed}",
-        body.sphero_radius_m
+        "{shape}, rounded by {} m, {:.4} kg, principal moments {least:.3e}, {middle:.3e}, {most:.3e} kg m², centre at {x:.4}, {y:.4}, {z:.4} m {support}{fixed}",
+        body.sphero_radius_m, set_up.mass
     )
 }
 

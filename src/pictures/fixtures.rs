@@ -1,7 +1,8 @@
 //! Made-up runs for the tests of the pictures.
 
 use scree_solver::record::{
-    Audit, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, Mode, Outcome, Sample,
+    Audit, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, MassProperties, Mode, Outcome,
+    Sample,
 };
 use scree_solver::scenario::{
     Accuracy, Approach, Body, Channel, Ending, Flow, Material, Numerics, Position, Precision,
@@ -169,6 +170,12 @@ pub(super) fn slid() -> BodyOutcome {
         final_position_m: [0.44, 0.02, 0.02],
         final_orientation: [1.0, 0.0, 0.0, 0.0],
         error_bars: None,
+        mass_properties: MassProperties {
+            mass_kg: 0.127,
+            volume_m3: 6.34e-5,
+            principal_moments_kg_m2: [3.36e-5; 3],
+            principal_axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        },
     }
 }
 

@@ -1,8 +1,8 @@
 //! The bodies' own sub-steps: bodies that may meet within a sub-step of the flow
 //! form an island and move together (docs/method.md, equations 15, 20 and 48).
 
-use crate::contact::body_body::{Meeting, least_gap, pair_law, reduced_mass};
-use crate::contact::body_wall::{deepest_overlap, touch_walls};
+use crate::contact::body_body::{Meeting, least_gap, pair_law};
+use crate::contact::body_wall::touch_walls;
 use crate::contact::law::ContactLaw;
 use crate::contact::neighbours::{Ball, overlapping};
 use crate::math::Vec3;
@@ -10,13 +10,10 @@ use crate::rigid::{Body, Freedom, Load};
 use crate::walls::{Impulse, Plane};
 use rayon::prelude::*;
 
-/// Share of a contact's time scale √(m/k'), k' where it is deepest, taken per
-/// body sub-step: an undamped impact lasts about four of them, so it gets forty.
-const CONTACT_SHARE: f64 = 0.1;
-/// Largest turn per body sub-step [rad].
-const LARGEST_TURN: f64 = 0.05;
-/// More body sub-steps than this never pay.
-const MOST_SUBSTEPS: f64 = 10_000.0;
+mod pace;
+
+use pace::substeps;
+
 /// A body none of whose places is faster is still [m/s].
 const STILL: f64 = 1e-5;
 /// An island all of whose bodies were still for so long sleeps [s].
@@ -335,29 +332,6 @@ fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surro
     }
 }
 
-/// Number of body sub-steps in `dt`, whole but kept as a float.
-fn substeps(members: &[Member], meetings: &[Met], planes: &[Plane], dt: f64) -> f64 {
-    let alone = members.iter();
-    let alone = alone.map(|member| substeps_alone(member.body, planes, dt));
-    let met = meetings.iter().map(|met| substeps_met(members, met, dt));
-    let count = alone.chain(met).fold(0.0, f64::max);
-    count.ceil().clamp(1.0, MOST_SUBSTEPS)
-}
-
-fn substeps_met(members: &[Member], met: &Met, dt: f64) -> f64 {
-    let [first, second] = met.sides.map(|side| body_of(members, side));
-    let free = || [first, second].into_iter().filter(|body| is_free(body));
-    let speed = free().map(Body::largest_speed).sum();
-    let impact = impact_overlap(&met.law, reduced_mass(first, second), speed);
-    let inverse: f64 = free().map(|body| 1.0 / lightest_effective_mass(body)).sum();
-    let deepest = met.meeting.deepest.max(impact);
-    if deepest > 0.0 {
-        dt / (CONTACT_SHARE * met.law.time_scale(deepest, 1.0 / inverse))
-    } else {
-        0.0
-    }
-}
-
 fn body_of<'a>(members: &'a [Member], side: Side<'a>) -> &'a Body {
     match side {
         Side::Member(place) => members[place].body,
@@ -469,33 +443,6 @@ impl<'a> Member<'a> {
             self.body.state.still_for = 0.0;
         }
     }
-}
-
-/// Sub-steps that a body asks for by its spin and the walls.
-fn substeps_alone(body: &Body, planes: &[Plane], dt: f64) -> f64 {
-    let turns = body.angular_velocity().norm() * dt / LARGEST_TURN;
-    let speed = body.largest_speed();
-    let deepest = deepest_overlap(body, planes);
-    let contacts = if deepest + reach(body, dt) > 0.0 {
-        let law = &body.wall_law;
-        let impact = impact_overlap(law, body.mass, speed);
-        dt / (CONTACT_SHARE * law.time_scale(deepest.max(impact), lightest_effective_mass(body)))
-    } else {
-        0.0
-    };
-    turns.max(contacts)
-}
-
-/// Depth of a Hertz impact [m].
-fn impact_overlap(law: &ContactLaw, mass: f64, speed: f64) -> f64 {
-    (1.25 * mass * speed * speed / law.stiffness).powf(0.4)
-}
-
-/// A lower bound of the effective mass at any place of the body [kg].
-fn lightest_effective_mass(body: &Body) -> f64 {
-    let radius = body.shape.bounding_radius();
-    let turning = body.inverse_inertia.norm() * radius * radius;
-    1.0 / (1.0 / body.mass + turning)
 }
 
 #[cfg(test)]

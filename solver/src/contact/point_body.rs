@@ -5,7 +5,8 @@ use crate::grid::{BLOCK, BlockKey};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::rigid::{Body, Freedom, Load};
-use crate::walls::Impulse;
+use crate::shape::Face;
+use crate::walls::{Impulse, Plane};
 use rayon::prelude::*;
 
 /// Candidates one task looks at.
@@ -291,15 +292,29 @@ impl Meeting<'_> {
     }
 }
 
-/// Where a point belongs that ended a step inside a body's core: on the surface
-/// nearest to it. `None` if it is outside.
-pub fn put_back(position: &Vec3, body: &Body) -> Option<Vec3> {
+/// Where a point belongs that ended a step inside a body's core: over the nearest
+/// face above which there is room between the `walls`. `None` if it is outside, or
+/// there is no room at all.
+pub fn put_back(position: &Vec3, body: &Body, walls: &[Plane]) -> Option<Vec3> {
     let arm = body.to_body(&(position - body.state.position));
-    let closest = body.shape.closest_feature(&arm);
-    (closest.distance < 0.0).then(|| {
-        let out = closest.normal * (body.shape.sphero_radius() - closest.distance);
-        position + body.to_world(&out)
-    })
+    if body.shape.closest_feature(&arm).distance >= 0.0 {
+        return None;
+    }
+    let over = |face: &Face| {
+        let depth = face.offset - face.normal.dot(&arm);
+        let out = face.normal * (depth + body.shape.sphero_radius());
+        (depth, position + body.to_world(&out))
+    };
+    // One that was behind a wall before is at least not pushed farther.
+    let has_room = |place: &Vec3| {
+        let behind = |wall: &Plane| wall.height(place) < wall.height(position).min(0.0);
+        !walls.iter().any(behind)
+    };
+    let places = body.shape.faces().iter().map(over);
+    places
+        .filter(|(_, place)| has_room(place))
+        .min_by(|one, other| one.0.total_cmp(&other.0))
+        .map(|(_, place)| place)
 }
 
 /// A box of world axes round a body.

@@ -117,6 +117,22 @@ pub struct BodyOutcome {
     pub final_orientation: [f64; 4],
     /// Bands of all but the orientation; `None` unless asked for.
     pub error_bars: Option<BodyBars>,
+    /// What it weighs and how it resists turning.
+    pub mass_properties: MassProperties,
+}
+
+/// Mass properties of a rounded body about its centre of mass, exact (equation 14).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct MassProperties {
+    /// [kg].
+    pub mass_kg: f64,
+    /// [m³].
+    pub volume_m3: f64,
+    /// Principal moments of inertia, the smallest first [kg m²].
+    pub principal_moments_kg_m2: [f64; 3],
+    /// Unit axes of these moments in body axes, right-handed; about equal moments
+    /// those nearest to the body axes.
+    pub principal_axes: [[f64; 3]; 3],
 }
 
 /// Outcome of the flow.

@@ -1,9 +1,10 @@
 //! How the outcome's quantities come about.
 
 use super::recorder::REST_SPEED;
-use super::{BodyOutcome, FlowOutcome};
+use super::{BodyOutcome, FlowOutcome, MassProperties};
 use crate::math::Vec3;
 use crate::rigid::Body;
+use crate::shape::PrincipalInertia;
 use crate::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 
@@ -72,7 +73,8 @@ impl BodyHistory {
         self.onset_time.is_some() || self.peak_speed >= REST_SPEED
     }
 
-    pub(super) fn outcome(&self) -> BodyOutcome {
+    /// The outcome of `body`, whose history this is.
+    pub(super) fn outcome(&self, body: &Body) -> BodyOutcome {
         let way = self.last - self.start;
         BodyOutcome {
             onset_time_s: self.onset_time,
@@ -85,7 +87,18 @@ impl BodyHistory {
             final_position_m: self.last.into(),
             final_orientation: self.orientation,
             error_bars: None,
+            mass_properties: mass_properties(body),
         }
+    }
+}
+
+fn mass_properties(body: &Body) -> MassProperties {
+    let principal = PrincipalInertia::of(&body.inertia);
+    MassProperties {
+        mass_kg: body.mass,
+        volume_m3: body.shape.volume(),
+        principal_moments_kg_m2: principal.moments,
+        principal_axes: principal.axes.map(Into::into),
     }
 }
 

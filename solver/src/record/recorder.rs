@@ -165,8 +165,11 @@ impl Recorder {
     pub fn outcome(&self, simulation: &Simulation, wall_s: f64) -> Outcome {
         let audit = simulation.audit();
         let (steps, substeps, point_steps) = simulation.counts();
+        let bodies = self.histories.iter().zip(simulation.bodies());
         Outcome {
-            bodies: self.histories.iter().map(BodyHistory::outcome).collect(),
+            bodies: bodies
+                .map(|(history, body)| history.outcome(body))
+                .collect(),
             flow: flow_outcome(simulation, self.initial_toe, self.open_end),
             audit: Audit {
                 mass_error: audit.mass_error,

@@ -142,8 +142,8 @@ pub struct Body {
     pub flow_friction: f64,
     /// Restitution with the flow.
     pub flow_restitution: f64,
-    /// Hertz contact modulus E* with walls [Pa]; `None`: by
-    /// equation 33 of `docs/method.md`.
+    /// Hertz contact modulus E* with rigid walls [Pa], of two bodies
+    /// 1/E* = 1/E_A + 1/E_B; `None`: by equation 33 of `docs/method.md`.
     pub contact_modulus_pa: Option<f64>,
     /// A fixed body is a barrier.
     pub fixed: bool,

@@ -106,6 +106,20 @@ impl Boundary {
             }
         }
     }
+
+    /// Makes every image as full as the node in the channel that it is one of: a
+    /// crowd that looked larger on one side of a wall would push points through it.
+    pub fn fill_images_alike(&self, nodes: &mut impl NodeAccess) {
+        for group in &self.groups {
+            let [leader, images @ ..] = &self.members[group.members.clone()] else {
+                continue;
+            };
+            let fullness = nodes.fullness(leader.place as usize);
+            for image in images {
+                nodes.set_fullness(image.place as usize, fullness);
+            }
+        }
+    }
 }
 
 /// Fullness of a share of the room, what fills all of it to `fullness`.

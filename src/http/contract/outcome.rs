@@ -69,6 +69,23 @@ pub struct BodyOutcomeDocument {
     /// Bands of all but the orientation; null unless asked for.
     #[schema(required = true)]
     pub error_bars: Option<BodyBarsDocument>,
+    /// What it weighs and how it resists turning.
+    pub mass_properties: MassPropertiesDocument,
+}
+
+/// Mass properties of a rounded body about its centre of mass.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = MassProperties)]
+pub struct MassPropertiesDocument {
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// Volume [m³].
+    pub volume_m3: f64,
+    /// Principal moments of inertia, the smallest first [kg m²].
+    pub principal_moments_kg_m2: [f64; 3],
+    /// Unit axes of these moments in body axes, right-handed; about equal moments
+    /// those nearest to the body axes.
+    pub principal_axes: [[f64; 3]; 3],
 }
 
 /// Outcome of the flow.

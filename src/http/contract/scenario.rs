@@ -165,7 +165,8 @@ pub struct BodyDocument {
     /// Restitution with the flow.
     #[schema(required = false)]
     pub flow_restitution: f64,
-    /// Hertz contact modulus with walls [Pa]; null: automatic.
+    /// Hertz contact modulus E* with rigid walls, of two bodies
+    /// 1/E* = 1/E_A + 1/E_B [Pa]; null: automatic.
     pub contact_modulus_pa: Option<f64>,
     /// A fixed body is a barrier.
     #[schema(required = false)]

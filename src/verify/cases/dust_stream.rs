@@ -83,7 +83,7 @@ fn stream(cells: u32, sphere: f64) -> Stream {
         cells,
         wide: cells + 8,
         material: beads::with_sound_speed(10.0),
-        share: std::env::var("SHARE").map_or(SHARE, |s| s.parse().unwrap()),
+        share: SHARE,
         sphere,
         travel: 10,
     }

@@ -180,11 +180,30 @@ fn forces_of_the_last_sub_step_are_gone() {
 fn points_in_the_core_are_put_on_its_surface() {
     let body = cube();
     let core_top = 0.12 - body.shape.sphero_radius();
-    let at = |z: f64| put_back(&Vec3::new(0.1, 0.1, z), &body);
+    let at = |z: f64| put_back(&Vec3::new(0.1, 0.1, z), &body, &[]);
     let outside = at(core_top - 1e-3).expect("it is inside");
     assert!((outside - Vec3::new(0.1, 0.1, 0.12)).norm() < 1e-15);
     assert_eq!(at(core_top + 1e-3), None);
     assert_eq!(at(0.15), None);
+}
+
+// Nearest to the top, but a lid lies there; next to the side at x = 0.12.
+#[test]
+fn no_point_is_put_behind_a_wall() {
+    let body = cube();
+    let wall = |name, normal: Vec3, offset| Plane {
+        name,
+        normal,
+        offset,
+        flow_friction: 0.0,
+    };
+    let lid = wall("lid", -Vec3::z(), -0.119);
+    let inside = Vec3::new(0.11, 0.1, 0.114);
+    let at_side = put_back(&inside, &body, &[lid]).expect("there is room");
+    assert!((at_side - Vec3::new(0.12, 0.1, 0.114)).norm() < 1e-15);
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let cage = axes.map(|axis| [wall("low", axis, 0.081), wall("high", -axis, -0.119)]);
+    assert_eq!(put_back(&inside, &body, cage.as_flattened()), None);
 }
 
 // The search goes by blocks: a block that holds a point of a body's box must

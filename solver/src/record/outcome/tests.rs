@@ -14,7 +14,7 @@ fn history(seen: &[(f64, f64, f64)]) -> BodyOutcome {
     for &(time_s, x, speed) in seen {
         history.take_in(&at(x, speed), time_s);
     }
-    history.outcome()
+    history.outcome(&at(0.0, 0.0))
 }
 
 #[test]
@@ -23,7 +23,7 @@ fn what_never_moved_has_no_times() {
     assert_eq!(outcome.onset_time_s, None);
     assert_eq!(outcome.stop_time_s, None);
     assert_eq!(outcome.displacement_m, 5e-4);
-    let outcome = BodyHistory::start(&at(0.0, 0.0)).outcome();
+    let outcome = BodyHistory::start(&at(0.0, 0.0)).outcome(&at(0.0, 0.0));
     assert_eq!(
         (outcome.peak_speed_m_s, outcome.peak_speed_time_s),
         (0.0, None)
@@ -62,7 +62,22 @@ fn a_fall_is_no_displacement() {
     let mut fallen = at(0.0, 0.0);
     fallen.state.position.z = -2.0;
     history.take_in(&fallen, 0.5);
-    let outcome = history.outcome();
+    let outcome = history.outcome(&at(0.0, 0.0));
     assert_eq!((outcome.displacement_m, outcome.path_length_m), (0.0, 2.0));
     assert_eq!(outcome.onset_time_s, Some(0.5));
+}
+
+// Its longest side is along z, about which it resists turning least.
+#[test]
+fn mass_properties_are_those_of_the_body() {
+    let body = cuboid([0.02, 0.04, 0.06]);
+    let properties = BodyHistory::start(&body).outcome(&body).mass_properties;
+    assert_eq!(properties.mass_kg, body.mass);
+    assert_eq!(properties.volume_m3, body.shape.volume());
+    let moments = [2, 1, 0].map(|axis| body.inertia[(axis, axis)]);
+    for (got, wanted) in properties.principal_moments_kg_m2.iter().zip(moments) {
+        assert!((got / wanted - 1.0).abs() < 1e-12, "{got} {wanted}");
+    }
+    let [least, ..] = properties.principal_axes;
+    assert!((Vec3::from(least) - Vec3::z()).norm() < 1e-12, "{least:?}");
 }

@@ -3,6 +3,7 @@
 mod closest;
 mod hull;
 mod mass;
+mod principal;
 mod search;
 mod separation;
 mod validity;

@@ -189,7 +189,7 @@ impl FastFlow {
         self.nodes.take_rest(&self.momentum, room as f32, level);
     }
 
-    fn put_back(&mut self, bodies: &[Body]) -> u64 {
+    fn put_back(&mut self, bodies: &[Body], walls: &[Plane]) -> u64 {
         let mut count = 0;
         for (body, candidates) in bodies.iter().zip(&self.loads.candidates) {
             for candidate in candidates {
@@ -197,7 +197,7 @@ impl FastFlow {
                 let block = &mut self.blocks.occupied_mut()[place.block as usize];
                 let slot = place.slot as usize;
                 let position = self.packing.position(&block.key, &block.position(slot));
-                if let Some(outside) = point_body::put_back(&position, body) {
+                if let Some(outside) = point_body::put_back(&position, body, walls) {
                     block.shift(slot, &self.packing.in_block(&block.key, &outside));
                     count += 1;
                 }
@@ -327,7 +327,7 @@ impl Flow for FastFlow {
         self.sum_up_ends();
         let blocks = self.blocks.occupied().iter();
         let spread = blocks.fold(Spread::default(), |sum, block| sum.plus(&block.spread()));
-        let put_back = self.put_back(bodies);
+        let put_back = self.put_back(bodies, &given.planes);
         self.go_round(given);
         laps.done(Verb::Motion);
         self.blocks.settle();

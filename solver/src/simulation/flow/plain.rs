@@ -226,7 +226,7 @@ impl Flow for PlainFlow {
             for candidate in candidates {
                 let place = &candidate.place;
                 let point = &mut self.points[place.point];
-                if let Some(outside) = point_body::put_back(&point.position, body) {
+                if let Some(outside) = point_body::put_back(&point.position, body, &given.planes) {
                     point.position = outside;
                     count += 1;
                 }

@@ -80,7 +80,8 @@ pub(super) fn expected_speed(scenario: &Scenario) -> f64 {
 struct Weighty {
     mass: f64,
     /// Where its centre starts [m].
-    height: f64,
+    start: Vec3,
+    bounding_radius: f64,
     /// Of its start, and of a fall to the floor [m²/s²].
     speed_squared: f64,
     free: bool,
@@ -93,11 +94,13 @@ impl Crowd {
     pub(super) fn of(scenario: &Scenario) -> Self {
         let weighty = |place: usize| {
             let body = &scenario.bodies[place];
-            let height = scenario.initial_pose(place).position.z;
-            let falling = 2.0 * scenario.gravity_m_s2 * height.max(0.0);
+            let shape = scenario.shape_of(place);
+            let start = scenario.initial_pose(place).position;
+            let falling = 2.0 * scenario.gravity_m_s2 * start.z.max(0.0);
             Weighty {
-                mass: body.density_kg_m3 * scenario.shape_of(place).volume(),
-                height,
+                mass: body.density_kg_m3 * shape.volume(),
+                start,
+                bounding_radius: shape.bounding_radius(),
                 speed_squared: falling + Vec3::from(body.velocity_m_s).norm_squared(),
                 free: !body.fixed,
             }
@@ -105,23 +108,37 @@ impl Crowd {
         Self((0..scenario.bodies.len()).map(weighty).collect())
     }
 
-    /// Mass that may come to rest on a body, its own included [kg].
+    /// Mass that may come to rest on a body, its own included if it is free [kg].
     fn carried_by(&self, place: usize) -> f64 {
         let own = &self.0[place];
-        let above = self
-            .0
-            .iter()
-            .filter(|other| other.free && other.height > own.height);
-        own.mass + above.map(|other| other.mass).sum::<f64>()
+        let above = self.0.iter().filter(|other| other.can_rest_on(own));
+        own.moving_mass() + above.map(|other| other.mass).sum::<f64>()
     }
 
     /// Largest mass and squared speed of what may strike a body, or it strike.
     fn striking(&self, place: usize) -> (f64, f64) {
         let own = &self.0[place];
         let others = self.0.iter().filter(|other| other.free);
-        others.fold((own.mass, own.speed_squared), |(mass, speed), other| {
+        let alone = (own.moving_mass(), own.speed_squared);
+        others.fold(alone, |(mass, speed), other| {
             (mass.max(other.mass), speed.max(other.speed_squared))
         })
+    }
+}
+
+impl Weighty {
+    /// Whether its weight can come to rest on another body: it starts higher, and
+    /// not farther aside than both reach and it is higher. What falls, rolls or is
+    /// stacked hands its weight down no flatter than at 45°.
+    fn can_rest_on(&self, other: &Self) -> bool {
+        let apart = self.start - other.start;
+        let reach = self.bounding_radius + other.bounding_radius;
+        self.free && apart.z > 0.0 && apart.xy().norm() < reach + apart.z
+    }
+
+    /// A fixed body presses on nothing and strikes nothing.
+    fn moving_mass(&self) -> f64 {
+        if self.free { self.mass } else { 0.0 }
     }
 }
 
@@ -138,4 +155,41 @@ pub(super) fn contact_modulus(scenario: &Scenario, place: usize, crowd: &Crowd) 
     let at_impact = 1.25 * striking * speed_squared / (OVERLAP_AT_IMPACT * radius).powf(2.5);
     let softer = if crowd.0.len() > 1 { TWO_LIKE_ONE } else { 1.0 };
     0.75 * softer * at_rest.max(at_impact) / radius.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bodies of 1 kg and 5 cm that start there, the first one fixed or not.
+    fn crowd(free: bool, starts: &[[f64; 3]]) -> Crowd {
+        let weighty = |(place, start): (usize, &[f64; 3])| Weighty {
+            mass: 1.0,
+            start: Vec3::from(*start),
+            bounding_radius: 0.05,
+            speed_squared: 0.0,
+            free: free || place > 0,
+        };
+        Crowd(starts.iter().enumerate().map(weighty).collect())
+    }
+
+    // 10 cm of reach aside and as far as the other is higher.
+    #[test]
+    fn a_body_carries_what_can_come_to_rest_on_it() {
+        let beside = [0.3, 0.0, 0.1];
+        let on_top = [0.0, 0.09, 0.1];
+        let down_the_slope = [-0.35, 0.0, 0.3];
+        let lower = [0.0, 0.0, -0.1];
+        let starts = [[0.0; 3], beside, on_top, down_the_slope, lower];
+        assert_eq!(crowd(true, &starts).carried_by(0), 3.0);
+        assert_eq!(crowd(false, &starts).carried_by(0), 2.0);
+        assert_eq!(crowd(true, &starts).carried_by(1), 1.0);
+        assert_eq!(crowd(true, &starts).carried_by(4), 5.0);
+    }
+
+    #[test]
+    fn a_barrier_does_not_strike_by_its_own_mass() {
+        assert_eq!(crowd(false, &[[0.0; 3]]).striking(0), (0.0, 0.0));
+        assert_eq!(crowd(false, &[[0.0; 3]; 2]).striking(0), (1.0, 0.0));
+    }
 }

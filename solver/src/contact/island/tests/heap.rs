@@ -1,6 +1,7 @@
 //! Bodies that come to rest on each other.
 
 use super::*;
+use crate::contact::body_wall::deepest_overlap;
 use crate::rigid::fixture::tetrahedron;
 
 /// Ten cubes, boxes and tetrahedra over a floor between walls, stiff enough for

@@ -6,6 +6,7 @@ mod heap;
 use super::*;
 use crate::rigid::fixture::cuboid;
 use nalgebra::UnitQuaternion;
+use pace::substeps_alone;
 
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
 

@@ -1,0 +1,81 @@
+//! How many sub-steps of its own an island takes within one of the flow
+//! (docs/method.md, equations 20 and 48).
+
+use super::{Member, Met, body_of, is_free, reach};
+use crate::contact::body_body::reduced_mass;
+use crate::contact::body_wall::deepest_overlap;
+use crate::contact::law::ContactLaw;
+use crate::rigid::Body;
+use crate::walls::Plane;
+
+/// Share of a contact's time scale √(m/k'), k' where it is deepest, taken per
+/// body sub-step: an undamped impact lasts about four of them, so it gets forty.
+const CONTACT_SHARE: f64 = 0.1;
+/// The same where nothing damps the contact: what the integration changes of the
+/// energy is all that changes it.
+const UNDAMPED_SHARE: f64 = 0.02;
+/// Damping number from which on damping takes a hundred times more energy in an
+/// impact than the integration makes in steps of [`CONTACT_SHARE`].
+const DAMPED: f64 = 0.001;
+/// Largest turn per body sub-step [rad].
+const LARGEST_TURN: f64 = 0.05;
+/// More body sub-steps than this never pay.
+const MOST_SUBSTEPS: f64 = 10_000.0;
+
+/// Number of body sub-steps in `dt`, whole but kept as a float.
+pub(super) fn substeps(members: &[Member], meetings: &[Met], planes: &[Plane], dt: f64) -> f64 {
+    let alone = members.iter();
+    let alone = alone.map(|member| substeps_alone(member.body, planes, dt));
+    let met = meetings.iter().map(|met| substeps_met(members, met, dt));
+    let count = alone.chain(met).fold(0.0, f64::max);
+    count.ceil().clamp(1.0, MOST_SUBSTEPS)
+}
+
+/// Sub-steps that a body asks for by its spin and the walls.
+pub(super) fn substeps_alone(body: &Body, planes: &[Plane], dt: f64) -> f64 {
+    let turns = body.angular_velocity().norm() * dt / LARGEST_TURN;
+    let speed = body.largest_speed();
+    let deepest = deepest_overlap(body, planes);
+    let contacts = if deepest + reach(body, dt) > 0.0 {
+        let law = &body.wall_law;
+        let impact = impact_overlap(law, body.mass, speed);
+        dt / longest(law, deepest.max(impact), lightest_effective_mass(body))
+    } else {
+        0.0
+    };
+    turns.max(contacts)
+}
+
+/// Sub-steps that two bodies ask for.
+fn substeps_met(members: &[Member], met: &Met, dt: f64) -> f64 {
+    let [first, second] = met.sides.map(|side| body_of(members, side));
+    let free = || [first, second].into_iter().filter(|body| is_free(body));
+    let speed = free().map(Body::largest_speed).sum();
+    let impact = impact_overlap(&met.law, reduced_mass(first, second), speed);
+    let inverse: f64 = free().map(|body| 1.0 / lightest_effective_mass(body)).sum();
+    let deepest = met.meeting.deepest.max(impact);
+    if deepest > 0.0 {
+        dt / longest(&met.law, deepest, 1.0 / inverse)
+    } else {
+        0.0
+    }
+}
+
+/// Longest body sub-step with a contact this deep [m] that moves this mass [kg] [s].
+fn longest(law: &ContactLaw, deepest: f64, mass: f64) -> f64 {
+    let damped = (law.damping / DAMPED).min(1.0);
+    let share = UNDAMPED_SHARE + damped * (CONTACT_SHARE - UNDAMPED_SHARE);
+    share * law.time_scale(deepest, mass)
+}
+
+/// Depth of a Hertz impact [m].
+fn impact_overlap(law: &ContactLaw, mass: f64, speed: f64) -> f64 {
+    (1.25 * mass * speed * speed / law.stiffness).powf(0.4)
+}
+
+/// A lower bound of the effective mass at any place of the body [kg].
+fn lightest_effective_mass(body: &Body) -> f64 {
+    let radius = body.shape.bounding_radius();
+    let turning = body.inverse_inertia.norm() * radius * radius;
+    1.0 / (1.0 / body.mass + turning)
+}
