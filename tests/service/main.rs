@@ -6,6 +6,7 @@ mod app;
 mod bad_input;
 mod contract;
 mod dismissal;
+mod ending;
 mod http_basics;
 mod jobs;
 mod layers;

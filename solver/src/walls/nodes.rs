@@ -25,6 +25,10 @@ pub trait NodeAccess: Sync {
     fn fullness(&self, place: usize) -> f64;
     /// Changes it.
     fn set_fullness(&mut self, place: usize, fullness: f64);
+    /// Mean dilation of its points at the transfer.
+    fn dilation(&self, place: usize) -> f64;
+    /// Changes it.
+    fn set_dilation(&mut self, place: usize, dilation: f64);
 }
 
 impl NodeAccess for Grid {
@@ -62,5 +66,13 @@ impl NodeAccess for Grid {
 
     fn set_fullness(&mut self, place: usize, fullness: f64) {
         self.node_mut(place).fullness = fullness;
+    }
+
+    fn dilation(&self, place: usize) -> f64 {
+        self.nodes()[place].dilation
+    }
+
+    fn set_dilation(&mut self, place: usize, dilation: f64) {
+        self.node_mut(place).dilation = dilation;
     }
 }
