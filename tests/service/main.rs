@@ -8,6 +8,7 @@ mod bad_input;
 mod campaign;
 mod contract;
 mod dismissal;
+mod ending;
 mod following;
 mod http_basics;
 mod intake;

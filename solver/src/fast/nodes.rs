@@ -265,6 +265,15 @@ impl NodeAccess for Nodes {
         }
     }
 
+    fn dilation(&self, place: usize) -> f64 {
+        let node = self.displacement[place / BLOCK_NODES].node(place % BLOCK_NODES);
+        f64::from(node[0])
+    }
+
+    fn set_dilation(&mut self, place: usize, dilation: f64) {
+        self.displacement[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)] = dilation as f32;
+    }
+
     fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64) {
         let (block, node) = (place / BLOCK_NODES, place % BLOCK_NODES);
         let moving = &mut self.motion[block].0[4 * node..4 * node + 4];

@@ -35,6 +35,8 @@ pub struct Recorder {
     initial_toe: Option<f64>,
     open_end: f64,
     base: Base,
+    /// Of the run, unless it ends early [s].
+    duration: f64,
     ending: Ending,
     plan: Option<Plan>,
     ended_early: Option<EndedEarly>,
@@ -90,6 +92,7 @@ impl Recorder {
             initial_toe: scenario.release().map(|release| release.front_m),
             open_end: scenario.channel.runout_length_m,
             base: Base::of(scenario),
+            duration: scenario.duration_s,
             ending: scenario.numerics.ending,
             // What has no plan can't be set up either.
             plan: plan::of(scenario).ok(),
@@ -144,7 +147,8 @@ impl Recorder {
             return None;
         }
         let remaining = Remaining::of(simulation, &self.base);
-        let body_bound_m = body_bound(simulation, &remaining)?;
+        let left = (self.duration - time_s).max(0.0);
+        let body_bound_m = body_bound(simulation, &remaining, left)?;
         let front = front(simulation, self.open_end);
         let farthest = front_of(simulation, remaining.reaches, self.open_end);
         let front_bound_m = front

@@ -100,24 +100,24 @@ fn specific_energy(point: &Point, simulation: &Simulation, base: &Base) -> f64 {
     0.5 * speed * speed + simulation.gravity().norm() * base.bed_under(x)
 }
 
-/// How far a flow with this much left could push any of these bodies [m] (equation
-/// 62); `None` if nothing says so.
-pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining) -> Option<f64> {
+/// How far any of these bodies could still get in `left` [s], by itself and pushed by
+/// a flow with this much left [m] (equation 62); `None` if too far, or if nothing
+/// says how far.
+pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f64) -> Option<f64> {
     let free = simulation.bodies().iter().filter(|body| body.is_free());
     let mut largest = 0.0f64;
     for body in free {
-        if remaining.energy == 0.0 {
-            continue;
+        let mut way = body.largest_speed() * left;
+        if remaining.energy > 0.0 {
+            let footing = Footing::of(body, simulation)?;
+            if remaining.energy >= TIPPING_SHARE * footing.tipping {
+                return None;
+            }
+            way += remaining.energy / footing.holding;
         }
-        let footing = Footing::of(body, simulation)?;
-        let pushed = remaining.energy / footing.holding;
-        let stands = remaining.energy < TIPPING_SHARE * footing.tipping;
-        if !stands || pushed > BODY_BOUND {
-            return None;
-        }
-        largest = largest.max(pushed);
+        largest = largest.max(way);
     }
-    Some(largest)
+    (largest <= BODY_BOUND).then_some(largest)
 }
 
 /// Whether a front that could still go so far [m] counts as one at rest.

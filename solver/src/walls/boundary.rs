@@ -64,7 +64,7 @@ pub struct Boundary {
 
 impl Boundary {
     /// Where walls leave less room, the same volume of points fills more of it;
-    /// a node and its images share theirs.
+    /// a node and its images share theirs, and their mean dilation.
     pub fn leave_less_room(&self, nodes: &mut impl NodeAccess) {
         for (place, room) in &self.cut {
             let place = *place as usize;
@@ -79,6 +79,26 @@ impl Boundary {
             for member in members {
                 nodes.set_fullness(member.place as usize, fullness);
             }
+            share_dilation(members, nodes);
+        }
+    }
+}
+
+/// A node and its images have the dilation that the points round all of them have on
+/// the mean.
+fn share_dilation(members: &[Member], nodes: &mut impl NodeAccess) {
+    if members.len() < 2 {
+        return;
+    }
+    let (mut mass, mut sum) = (0.0, 0.0);
+    for member in members {
+        let place = member.place as usize;
+        mass += nodes.mass(place);
+        sum += nodes.mass(place) * nodes.dilation(place);
+    }
+    if mass > 0.0 {
+        for member in members {
+            nodes.set_dilation(member.place as usize, sum / mass);
         }
     }
 

@@ -29,6 +29,10 @@ pub trait NodeAccess: Sync {
     fn strain_rate(&self, place: usize) -> Sym3;
     /// Changes it.
     fn set_strain_rate(&mut self, place: usize, strain_rate: &Sym3);
+    /// Mean dilation of its points at the transfer.
+    fn dilation(&self, place: usize) -> f64;
+    /// Changes it.
+    fn set_dilation(&mut self, place: usize, dilation: f64);
 }
 
 impl NodeAccess for Grid {
@@ -74,5 +78,13 @@ impl NodeAccess for Grid {
 
     fn set_strain_rate(&mut self, place: usize, strain_rate: &Sym3) {
         self.node_mut(place).strain_rate = *strain_rate;
+    }
+
+    fn dilation(&self, place: usize) -> f64 {
+        self.nodes()[place].dilation
+    }
+
+    fn set_dilation(&mut self, place: usize, dilation: f64) {
+        self.node_mut(place).dilation = dilation;
     }
 }

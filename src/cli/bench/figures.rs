@@ -95,7 +95,7 @@ fn of_plan(savings: &Savings, machine: &str) -> Chart {
     let ways = ["full", "mirror", "all of them"];
     let of = |way: &'static str| savings.runs.iter().filter(move |run| run.way == way);
     let displaced = |run: &Saving| run.outcome.bodies[0].displacement_m;
-    let finest = of("full").last().map_or(f64::NAN, displaced);
+    let finest = of("full").next_back().map_or(f64::NAN, displaced);
     let off = |run: &Saving| (displaced(run) / finest - 1.0).abs();
     let curve = |way: &'static str| Curve {
         name: way.to_owned(),

@@ -25,7 +25,11 @@ fn outcome(scenario: &Scenario, displacement_m: f64) -> Outcome {
         "bodies": [{"onset_time_s": 0.2, "peak_speed_m_s": 1.0, "peak_speed_time_s": 0.3,
                     "stop_time_s": null, "displacement_m": displacement_m,
                     "path_length_m": displacement_m, "final_position_m": [0.4, 0.0, 0.02],
-                    "final_orientation": [1.0, 0.0, 0.0, 0.0], "error_bars": null}],
+                    "final_orientation": [1.0, 0.0, 0.0, 0.0], "error_bars": null,
+                    "mass_properties": {"mass_kg": 0.1, "volume_m3": 6e-5,
+                                        "principal_moments_kg_m2": [1e-5, 1e-5, 1e-5],
+                                        "principal_axes": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0],
+                                                           [0.0, 0.0, 1.0]]}}],
         "flow": {"front_m": 1.0, "runout_m": 1.0, "mass_left_kg": 0.0,
                  "volume_left_out_m3": 0.0, "error_bars": null},
         "audit": {"mass_error": 0.0, "momentum_residual": 0.0, "angular_momentum_residual": 0.0,
@@ -35,7 +39,7 @@ fn outcome(scenario: &Scenario, displacement_m: f64) -> Outcome {
         "cost": {"points": 1, "steps": 1, "substeps": 1, "wall_s": 1.0, "point_steps_per_s": 1.0,
                  "point_steps": (1e9 * (0.01 / cell_size_m).powi(4)) as u64, "threads": 1,
                  "cell_size_m": cell_size_m, "sound_speed_m_s": 20.0},
-        "accuracy": null
+        "ended_early": null, "plan": null, "accuracy": null
     });
     serde_json::from_value(document).unwrap()
 }
