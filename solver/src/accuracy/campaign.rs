@@ -1,7 +1,7 @@
 //! The runs that an answer needs, one after the other, and the answer they make.
 
 use super::bars::{Runs, band_of, relative, value_of};
-use super::companions::{Extent, Rung, SOFTER, companions, scenario_of};
+use super::companions::{self, Extent, Rung, SOFTER, scenario_of};
 use super::target::{self, Next, Progress};
 use crate::error::SetupError;
 use crate::record::{AccuracyReport, Outcome, Role, RunCost, TargetReport};
@@ -50,7 +50,7 @@ impl Campaign {
         };
         let to_do = match (accuracy.target, accuracy.error_bars) {
             (Some(_), _) => target::pilots(&extent),
-            (None, true) => [companions(&extent), vec![plain]].concat(),
+            (None, true) => [companions::companions(&extent), vec![plain]].concat(),
             (None, false) => vec![plain],
         };
         Ok(Self {
@@ -80,11 +80,7 @@ impl Campaign {
 
     /// Whether a run's records may be those of the answer.
     pub fn may_be_the_answer(&self, rung: Rung) -> bool {
-        match rung.role {
-            Role::Answer => true,
-            Role::Coarser => self.has_a_target(),
-            Role::Softer => false,
-        }
+        companions::may_be_the_answer(&self.given, rung)
     }
 
     /// Whether there may be an answer without this run.
@@ -228,10 +224,11 @@ impl Campaign {
         let Some((asked, quantity)) = accuracy.goal() else {
             return;
         };
-        let failed = self
+        let last = self
             .done
             .last()
-            .and_then(|last| last.outcome.as_ref().err());
+            .filter(|done| done.rung.role != Role::Softer);
+        let failed = last.and_then(|last| last.outcome.as_ref().err());
         let spent = |done: &Done| done.outcome.as_ref().map_or(0, |o| o.cost.point_steps);
         let progress = Progress {
             asked,

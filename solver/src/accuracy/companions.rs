@@ -118,6 +118,16 @@ pub(super) fn companions(extent: &Extent) -> Vec<Rung> {
     rungs
 }
 
+/// Whether a run's records may be those of the answer: of all runs that a target
+/// takes, the finest one is.
+pub(super) fn may_be_the_answer(given: &Scenario, rung: Rung) -> bool {
+    match rung.role {
+        Role::Answer => true,
+        Role::Coarser => given.accuracy.target.is_some(),
+        Role::Softer => false,
+    }
+}
+
 /// The scenario of a run. That of an answer which keeps its cells is the one given,
 /// word for word.
 pub(super) fn scenario_of(given: &Scenario, extent: &Extent, rung: Rung) -> Scenario {
@@ -126,17 +136,17 @@ pub(super) fn scenario_of(given: &Scenario, extent: &Extent, rung: Rung) -> Scen
         return scenario;
     }
     scenario.numerics.cell_size_m = Some(rung.cell_size_m);
+    scenario.accuracy = Accuracy {
+        error_bars: false,
+        target: None,
+        quantity: None,
+        ..given.accuracy
+    };
     if rung.role == Role::Softer {
         scenario.numerics.sound_speed_m_s = Some(SOFTER * extent.sound_speed_m_s);
     }
-    if rung.role != Role::Answer {
+    if !may_be_the_answer(given, rung) {
         scenario.flow_snapshots = 0;
-        scenario.accuracy = Accuracy {
-            error_bars: false,
-            target: None,
-            quantity: None,
-            ..given.accuracy.clone()
-        };
     }
     scenario
 }

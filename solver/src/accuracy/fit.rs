@@ -1,5 +1,5 @@
 //! Lines and powers through values at several cell sizes (docs/method.md,
-//! equations 60 and 61).
+//! equations 70 and 71).
 
 /// Orders that are tried within the plausible range.
 const ORDERS: u32 = 140;

@@ -1,5 +1,5 @@
 //! The band of one quantity, from its values at several cell sizes (docs/method.md,
-//! equations 60–64).
+//! equations 70–74).
 
 use super::fit::{Line, observed_order};
 use crate::record::{Band, Basis};
@@ -109,7 +109,7 @@ impl Series {
         }
     }
 
-    /// What half the sound speed changes (equation 63).
+    /// What half the sound speed changes (equation 73).
     fn of_softness(&self) -> f64 {
         match self.softer {
             Some([Some(softer), Some(usual)]) => (softer - usual).abs(),

@@ -196,6 +196,18 @@ fn a_target_beyond_the_budget_says_so_and_answers_all_the_same() {
 }
 
 #[test]
+fn every_run_that_may_become_the_answer_is_recorded_in_full() {
+    let given = scenario(&json!({"target": 0.1, "quantity": "displacement_m"}));
+    let campaign = Campaign::of(&given).unwrap();
+    for rung in &campaign.to_do {
+        let scenario = campaign.scenario_of(*rung);
+        let whole = rung.role != Role::Softer;
+        assert_eq!(scenario.flow_snapshots == given.flow_snapshots, whole);
+        assert_eq!(campaign.may_be_the_answer(*rung), whole);
+    }
+}
+
+#[test]
 fn a_target_about_what_never_happens_is_given_up() {
     let accuracy = json!({"target": 0.05, "quantity": "stop_time_s"});
     let verdict = carried_out(&accuracy, linear)
