@@ -11,6 +11,7 @@ mod keeper;
 mod open_chunk;
 pub mod pool;
 pub mod progress;
+mod reading;
 pub mod recording;
 pub mod runner;
 pub mod saved_run;
@@ -21,3 +22,4 @@ mod worker;
 
 pub use desk::{Dismissed, Jobs};
 pub use intake::{Intake, SubmitError};
+pub use reading::Stretch;
