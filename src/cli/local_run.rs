@@ -102,7 +102,7 @@ impl Recording {
     ) -> Result<(), Failure> {
         for body in 0..scenario.bodies.len() {
             let columns = TrajectoryColumns::of_body(&self.samples, body);
-            let document = trajectory_json(None, body, &columns)?;
+            let document = trajectory_json(None, body, &columns);
             directory.trajectory(body, document.as_bytes())?;
         }
         Ok(())

@@ -4,16 +4,17 @@
 
 mod access;
 mod batch;
+mod common_answers;
 pub mod contract;
 mod documents;
 mod events;
+mod flow;
 mod jobs;
 mod metrics;
 mod named_job;
 mod plans;
 mod problem;
 mod query;
-mod results;
 mod router;
 mod scenario_body;
 pub mod server;
@@ -21,5 +22,6 @@ mod stall;
 mod submission;
 mod system;
 mod tagged;
+mod trajectory;
 
 pub use router::{openapi, router};

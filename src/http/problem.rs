@@ -11,7 +11,8 @@ use utoipa::ToSchema;
 use uuid::Uuid;
 
 /// Media type of a problem document.
-const MEDIA_TYPE: HeaderValue = HeaderValue::from_static("application/problem+json");
+pub(super) const MEDIA_TYPE_TEXT: &str = "application/problem+json";
+const MEDIA_TYPE: HeaderValue = HeaderValue::from_static(MEDIA_TYPE_TEXT);
 
 /// After so many seconds a database may be there again.
 const RETRY_AFTER_S: u8 = 5;

@@ -4,7 +4,7 @@ use super::access::{self, Gate};
 use super::metrics::{self, RequestCounts};
 use super::problem::Problem;
 use super::scenario_body::BodyDeadline;
-use super::{batch, events, jobs, plans, results, submission, system};
+use super::{batch, common_answers, events, flow, jobs, plans, submission, system, trajectory};
 use crate::config::ServiceConfig;
 use crate::jobs::Jobs;
 use axum::extract::{DefaultBodyLimit, Request};
@@ -63,17 +63,20 @@ fn documented(limit: Duration) -> OpenApiRouter<Jobs> {
     let quick = OpenApiRouter::new()
         .routes(routes!(submission::submit, jobs::list))
         .routes(routes!(batch::submit_batch))
-        .routes(routes!(results::trajectory))
-        .routes(routes!(results::flow))
+        .routes(routes!(trajectory::trajectory))
+        .routes(routes!(flow::flow))
+        .routes(routes!(flow::flow_archive))
         .routes(routes!(system::health))
         .routes(routes!(system::ready))
         .routes(routes!(metrics::metrics))
         .layer(from_fn(move |request, next| in_time(limit, request, next)));
-    OpenApiRouter::with_openapi(description())
+    let mut all = OpenApiRouter::with_openapi(description())
         .routes(routes!(jobs::show, jobs::dismiss))
         .routes(routes!(events::events))
         .routes(routes!(plans::plan))
-        .merge(quick)
+        .merge(quick);
+    common_answers::add(all.get_openapi_mut());
+    all
 }
 
 /// The name of a request in the log and in its answer.

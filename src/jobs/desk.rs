@@ -7,8 +7,6 @@ use super::pool::Bench;
 use super::store::{Census, Dismissal, Event, Page, Removal, Store, StoreError};
 use super::submit::{self, NewJob, ScenarioError};
 use crate::config::Limits;
-use crate::results::FlowSnapshot;
-use crate::results::columns::{Selection, Selector, TrajectoryColumns};
 use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
@@ -129,37 +127,6 @@ impl Jobs {
         }
         let job = self.store.job(id).await?;
         Ok(job.map_or(Dismissed::Unknown, |job| Dismissed::Done(Box::new(job))))
-    }
-
-    /// The selected samples of a body's trajectory so far.
-    ///
-    /// # Errors
-    /// The store's own.
-    pub async fn trajectory(
-        &self,
-        job: JobId,
-        body: usize,
-        selection: Selection,
-    ) -> Result<TrajectoryColumns, StoreError> {
-        let mut selector = Selector::new(selection);
-        let mut from_sample = 0;
-        while let Some(chunk) = self.store.chunk(job, body, from_sample, &selection).await? {
-            selector.take(&chunk.columns);
-            from_sample = chunk.next_sample;
-        }
-        Ok(selector.finish())
-    }
-
-    /// The snapshot of the flow nearest to a time; without a time the latest.
-    ///
-    /// # Errors
-    /// The store's own.
-    pub async fn snapshot(
-        &self,
-        job: JobId,
-        time_s: Option<f64>,
-    ) -> Result<Option<FlowSnapshot>, StoreError> {
-        self.store.snapshot(job, time_s).await
     }
 
     /// The state of a job, if there is one.

@@ -13,6 +13,7 @@ mod keeper;
 mod open_chunk;
 pub mod pool;
 pub mod progress;
+mod reading;
 pub mod recording;
 pub mod runner;
 pub mod saved_run;
@@ -23,3 +24,4 @@ mod worker;
 
 pub use desk::{Dismissed, Jobs, PlanError};
 pub use intake::{Intake, SubmitError};
+pub use reading::Stretch;

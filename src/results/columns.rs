@@ -166,7 +166,6 @@ impl Selection {
 pub struct Selector {
     selection: Selection,
     in_range: usize,
-    chosen: TrajectoryColumns,
 }
 
 impl Selector {
@@ -175,12 +174,12 @@ impl Selector {
         Self {
             selection,
             in_range: 0,
-            chosen: TrajectoryColumns::default(),
         }
     }
 
-    /// Takes the next chunk of the trajectory.
-    pub fn take(&mut self, chunk: &TrajectoryColumns) {
+    /// The chosen samples of the next chunk of the trajectory.
+    pub fn choose(&mut self, chunk: &TrajectoryColumns) -> TrajectoryColumns {
+        let mut chosen = TrajectoryColumns::default();
         let (earliest_s, latest_s) = (self.selection.earliest_s(), self.selection.latest_s());
         for index in 0..chunk.len() {
             let time_s = chunk.time_s[index];
@@ -189,15 +188,11 @@ impl Selector {
             }
             if self.in_range.is_multiple_of(self.selection.stride) {
                 let (time_s, sample) = chunk.sample(index);
-                self.chosen.push(time_s, &sample);
+                chosen.push(time_s, &sample);
             }
             self.in_range += 1;
         }
-    }
-
-    /// The chosen samples.
-    pub fn finish(self) -> TrajectoryColumns {
-        self.chosen
+        chosen
     }
 }
 
@@ -239,6 +234,7 @@ pub(crate) mod tests {
     fn chosen_times(selection: Selection, chunk_lengths: &[u32]) -> Vec<f64> {
         let whole = numbered_columns(chunk_lengths.iter().sum());
         let mut selector = Selector::new(selection);
+        let mut times = Vec::new();
         let mut index = 0;
         for &length in chunk_lengths {
             let mut chunk = TrajectoryColumns::default();
@@ -247,9 +243,9 @@ pub(crate) mod tests {
                 chunk.push(time_s, &sample);
                 index += 1;
             }
-            selector.take(&chunk);
+            times.extend(selector.choose(&chunk).time_s);
         }
-        selector.finish().time_s
+        times
     }
 
     #[test]

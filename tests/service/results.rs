@@ -186,7 +186,8 @@ async fn bad_questions_are_answered_with_what_is_wrong_in_them() {
         ("trajectory?stride=0", &["stride"]),
         ("trajectory?stride=1.5", &["stride"]),
         ("trajectory?stride=1&stride=2", &["stride"]),
-        ("trajectory?format=csv", &["format"]),
+        ("trajectory?format=xml", &["format"]),
+        ("trajectory?fields=speed", &["fields"]),
         (
             "trajectory?stride=0&from_s=x&spam=1",
             &["from_s", "stride", "spam"],
@@ -201,5 +202,133 @@ async fn bad_questions_are_answered_with_what_is_wrong_in_them() {
     app.get(&format!("{job}/trajectory?body=1"))
         .await
         .assert_problem(StatusCode::NOT_FOUND, "unknown-body");
+    app.stop().await;
+}
+
+async fn text(app: &TestApp, path: &str) -> (String, String) {
+    let response = app.client.get(app.url(path)).send().await.unwrap();
+    assert_eq!(response.status(), StatusCode::OK, "{path}");
+    let kind = response.headers()["content-type"]
+        .to_str()
+        .unwrap()
+        .to_owned();
+    (kind, response.text().await.unwrap())
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_trajectory_comes_in_every_form_with_the_same_numbers() {
+    let app = TestApp::start().await;
+    let mut scene = tiny_scene();
+    scene["flow"] = Value::Null;
+    scene["duration_s"] = json!(0.7);
+    scene["sample_interval_s"] = json!(0.001);
+    let job = app.submit(&scene).await;
+    app.wait_for_success(&job).await;
+    let path = format!("{job}/trajectory?fields=time_s,position_m,mode&stride=3");
+    let columns = app.get(&path).await.body["columns"].take();
+    assert_eq!(columns.as_object().unwrap().len(), 3);
+    assert_eq!(columns["time_s"].as_array().unwrap().len(), 234);
+
+    let (kind, lines) = text(&app, &format!("{path}&format=ndjson")).await;
+    assert_eq!(kind, "application/x-ndjson");
+    for (row, line) in lines.lines().enumerate() {
+        let sample: Value = serde_json::from_str(line).unwrap();
+        for field in ["time_s", "position_m", "mode"] {
+            assert_eq!(sample[field], columns[field][row], "{field} {row}");
+        }
+    }
+    assert_eq!(lines.lines().count(), 234);
+
+    let (kind, csv) = text(&app, &format!("{path}&format=csv")).await;
+    assert_eq!(kind, "text/csv");
+    let mut rows = csv.lines();
+    let heading = "time_s,position_m_x,position_m_y,position_m_z,mode";
+    assert_eq!(rows.next(), Some(heading));
+    for (row, line) in rows.enumerate() {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |cell: usize| cells[cell].parse::<f64>().unwrap();
+        assert_eq!(columns["time_s"][row], number(0));
+        assert_eq!(
+            columns["position_m"][row],
+            json!([number(1), number(2), number(3)])
+        );
+        assert_eq!(columns["mode"][row], cells[4]);
+    }
+    let request = app
+        .client
+        .get(app.url(&path))
+        .header("accept", "text/html, text/csv;q=0.9");
+    assert_eq!(request.send().await.unwrap().text().await.unwrap(), csv);
+    app.stop().await;
+}
+
+/// The last file of an archive, by its directory.
+fn last_file(archive: &[u8]) -> (String, &[u8]) {
+    let number = |place: usize, bytes: usize| {
+        let digits = archive[place..place + bytes].iter().rev();
+        digits.fold(0, |number, digit| number << 8 | usize::from(*digit))
+    };
+    let end = archive.len() - 22;
+    assert_eq!(number(end, 4), 0x0605_4b50);
+    let mut entry = number(end + 16, 4);
+    for _ in 1..number(end + 10, 2) {
+        entry += 46 + number(entry + 28, 2);
+    }
+    assert_eq!(number(entry, 4), 0x0201_4b50);
+    let (length, local) = (number(entry + 24, 4), number(entry + 42, 4));
+    let name = &archive[entry + 46..entry + 46 + number(entry + 28, 2)];
+    assert_eq!(number(local, 4), 0x0403_4b50);
+    let data = local + 30 + name.len();
+    (
+        String::from_utf8(name.to_vec()).unwrap(),
+        &archive[data..data + length],
+    )
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn arrays_and_snapshots_come_as_archives() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    app.wait_for_success(&job).await;
+    let ask = async |path: &str| {
+        let response = app.client.get(app.url(path)).send().await.unwrap();
+        assert_eq!(response.headers()["content-type"], "application/zip");
+        response.bytes().await.unwrap()
+    };
+    let path = format!("{job}/trajectory?fields=mode,time_s");
+    let columns = app.get(&path).await.body["columns"].take();
+    let archive = ask(&format!("{path}&format=npz&from_s=0.01")).await;
+    let (name, array) = last_file(&archive);
+    assert_eq!(name, "time_s.npy");
+    // Magic and version, the head's length, the head; then the numbers.
+    let start = 10 + usize::from(u16::from_le_bytes([array[8], array[9]]));
+    assert!(String::from_utf8_lossy(&array[10..start]).contains("'shape': (5,)"));
+    let numbers = array[start..].chunks(8);
+    let times: Vec<f64> = numbers
+        .map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap()))
+        .collect();
+    assert_eq!(
+        json!(times),
+        json!(columns["time_s"].as_array().unwrap()[1..])
+    );
+
+    let archive = ask(&format!("{job}/flow.zip")).await;
+    let (name, vtp) = last_file(&archive);
+    assert_eq!(name, "flow-0002.vtp");
+    let vtp = String::from_utf8(vtp.to_vec()).unwrap();
+    let flow = app.get(&format!("{job}/flow")).await.body;
+    let count = flow["speed_m_s"].as_array().unwrap().len();
+    assert!(vtp.contains(&format!("NumberOfPoints=\"{count}\"")));
+    let document = roxmltree::Document::parse(&vtp).unwrap();
+    let speeds = document
+        .descendants()
+        .find(|node| node.attribute("Name") == Some("speed_m_s"));
+    let speeds = speeds.unwrap().text().unwrap().split_whitespace();
+    let speeds: Vec<f32> = speeds.map(|number| number.parse().unwrap()).collect();
+    let expected: Vec<f32> = serde_json::from_value(flow["speed_m_s"].clone()).unwrap();
+    assert_eq!(speeds, expected);
+    app.get("/v1/jobs/x/flow.zip")
+        .await
+        .assert_problem(StatusCode::NOT_FOUND, "unknown-job");
     app.stop().await;
 }

@@ -40,7 +40,7 @@ use crate::results::chunk::BlockError;
 use sqlx::sqlite::{
     SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
 };
-use sqlx::{Sqlite, Transaction};
+use sqlx::{Connection, Sqlite, Transaction};
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -149,6 +149,12 @@ impl Store {
             .pragma("journal_size_limit", LOG_BYTES.to_string());
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
+            // On a full disk SQLite ends a transaction itself, which the
+            // connection does not notice: it could never begin another one.
+            .before_acquire(|connection, _| {
+                let usable = !connection.is_in_transaction();
+                Box::pin(async move { Ok(usable) })
+            })
             .connect_with(limited(options.clone(), largest_bytes).create_if_missing(true))
             .await?;
         sqlx::migrate!().run(&writer).await?;

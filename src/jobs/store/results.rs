@@ -126,6 +126,32 @@ impl Store {
             .map_err(|source| StoreError::Block { job, source })
     }
 
+    /// How many samples of a body's trajectory there are.
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn samples(&self, job: JobId, body: usize) -> Result<usize, StoreError> {
+        let end: Option<i64> = sqlx::query_scalar(
+            "SELECT max(first_sample + samples) FROM trajectory_chunks WHERE job_id = ?1 AND body = ?2",
+        )
+        .bind(job.to_string())
+        .bind(integer(body as u64))
+        .fetch_one(&self.readers)
+        .await?;
+        Ok(end.map_or(0, length))
+    }
+
+    /// The times of all snapshots so far [s].
+    ///
+    /// # Errors
+    /// The database's own.
+    pub async fn snapshot_times(&self, job: JobId) -> Result<Vec<f64>, StoreError> {
+        let times = sqlx::query_scalar(
+            "SELECT time_s FROM flow_snapshots WHERE job_id = ?1 ORDER BY time_s",
+        );
+        Ok(times.bind(job.to_string()).fetch_all(&self.readers).await?)
+    }
+
     /// The last chunk of a body's trajectory, and the index of its first sample.
     ///
     /// # Errors

@@ -77,6 +77,10 @@ seam! {
     fn state(job: JobId) -> Option<StoredState>;
     /// The first chunk from a sample on that reaches into a range.
     fn chunk(job: JobId, body: usize, from_sample: i64, selection: &Selection) -> Option<StoredChunk>;
+    /// How many samples of a body's trajectory there are.
+    fn samples(job: JobId, body: usize) -> usize;
+    /// The times of all snapshots so far [s].
+    fn snapshot_times(job: JobId) -> Vec<f64>;
     /// The last chunk of a body's trajectory.
     fn last_chunk(job: JobId, body: usize) -> Option<(usize, TrajectoryColumns)>;
     /// The snapshot nearest to a time.

@@ -1,0 +1,46 @@
+//! Answers that any request may get, written into the contract once.
+
+use super::access::is_open;
+use super::problem::MEDIA_TYPE_TEXT;
+use utoipa::openapi::path::Operation;
+use utoipa::openapi::{ContentBuilder, OpenApi, Ref, ResponseBuilder};
+
+/// Adds them to every request of the contract.
+pub(super) fn add(contract: &mut OpenApi) {
+    for (path, item) in &mut contract.paths.paths {
+        let asks_for_token = !is_open(path);
+        for operation in [&mut item.get, &mut item.post, &mut item.delete] {
+            let Some(operation) = operation else { continue };
+            if asks_for_token {
+                answer(
+                    operation,
+                    "401",
+                    "No good access token, where one is needed",
+                );
+                answer(operation, "403", "The access token is not good for this");
+            }
+            answer(
+                operation,
+                "500",
+                "A defect; the log has the details under `error_id`",
+            );
+            answer(
+                operation,
+                "503",
+                "It took too long, or the database can't be used now",
+            );
+        }
+    }
+}
+
+/// Adds a problem document, unless the request says more about it itself.
+fn answer(operation: &mut Operation, status: &str, description: &str) {
+    let problem = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem")));
+    let response = ResponseBuilder::new()
+        .description(description)
+        .content(MEDIA_TYPE_TEXT, problem.build());
+    let responses = &mut operation.responses.responses;
+    responses
+        .entry(status.to_owned())
+        .or_insert_with(|| response.build().into());
+}

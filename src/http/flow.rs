@@ -1,0 +1,129 @@
+//! Snapshots of the flow.
+
+use super::contract::FlowSchema;
+use super::jobs::find;
+use super::named_job::NamedJob;
+use super::problem::Problem;
+use super::query::Query;
+use super::tagged;
+use crate::jobs::Jobs;
+use crate::jobs::job::JobId;
+use crate::jobs::store::StoreError;
+use crate::results::flow::FlowDocument;
+use crate::results::vtk;
+use crate::results::zip::ZipWriter;
+use axum::body::{Body, Bytes};
+use axum::extract::{RawQuery, State};
+use axum::http::{HeaderMap, header};
+use axum::response::{IntoResponse, Response};
+use futures_util::{StreamExt, stream};
+
+/// Look at the flow
+///
+/// The stored snapshot nearest to a time: position and speed of at most 5000
+/// points.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/flow",
+    tag = "results",
+    params(
+        ("id" = String, Path, description = "Identity of the job"),
+        ("time_s" = Option<f64>, Query, description = "Simulated time [s]; the latest snapshot unless given"),
+    ),
+    responses(
+        (status = 200, description = "The snapshot", body = FlowSchema),
+        (status = 304, description = "It is what `If-None-Match` names"),
+        (status = 404, description = "There is no such job, or no snapshot yet", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn flow(
+    State(jobs): State<Jobs>,
+    NamedJob(id): NamedJob,
+    headers: HeaderMap,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let mut query = Query::new(query.as_deref());
+    let time_s = query.number("time_s", "s");
+    query.finish()?;
+    let job_id = find(&jobs, &id).await?.summary.id;
+    let snapshot = jobs.snapshot(job_id, time_s).await?;
+    let snapshot = snapshot.ok_or_else(|| {
+        Problem::not_found(
+            "no-snapshot",
+            format!("job {id} has no snapshot of the flow yet"),
+        )
+    })?;
+    let document = FlowDocument {
+        job_id: Some(job_id.to_string()),
+        snapshot,
+    };
+    tagged::json(&headers, &document)
+}
+
+/// Take the flow's snapshots to ParaView
+///
+/// A ZIP archive of all snapshots so far: `flow.pvd`, to be opened, and a `.vtp`
+/// file for each.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/flow.zip",
+    tag = "results",
+    params(("id" = String, Path, description = "Identity of the job")),
+    responses(
+        (status = 200, description = "The archive", body = Vec<u8>, content_type = "application/zip"),
+        (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn flow_archive(
+    State(jobs): State<Jobs>,
+    NamedJob(id): NamedJob,
+) -> Result<Response, Problem> {
+    let job = find(&jobs, &id).await?.summary.id;
+    let times_s = jobs.snapshot_times(job).await?;
+    let mut archive = ZipWriter::default();
+    let mut head = Vec::new();
+    archive.begin("flow.pvd", &mut head);
+    archive.data(vtk::pvd(&times_s).as_bytes(), &mut head);
+    archive.end(&mut head);
+    let packing = Packing {
+        jobs,
+        job,
+        times_s,
+        next: 0,
+        archive,
+    };
+    let first = stream::once(async { Ok(Bytes::from(head)) });
+    let rest = stream::unfold(Some(packing), |packing| async { packing?.piece().await });
+    let kind = [(header::CONTENT_TYPE, "application/zip")];
+    Ok((kind, Body::from_stream(first.chain(rest))).into_response())
+}
+
+/// Snapshots on their way to a client: one of them at a time.
+struct Packing {
+    jobs: Jobs,
+    job: JobId,
+    times_s: Vec<f64>,
+    next: usize,
+    archive: ZipWriter,
+}
+
+impl Packing {
+    /// The next file, or the archive's end.
+    async fn piece(mut self) -> Option<(Result<Bytes, StoreError>, Option<Self>)> {
+        let mut out = Vec::new();
+        let Some(&time_s) = self.times_s.get(self.next) else {
+            self.archive.finish(&mut out);
+            return Some((Ok(out.into()), None));
+        };
+        let snapshot = match self.jobs.snapshot(self.job, Some(time_s)).await {
+            Ok(snapshot) => snapshot?,
+            Err(error) => return Some((Err(error), None)),
+        };
+        self.archive.begin(&vtk::file_name(self.next), &mut out);
+        self.archive.data(vtk::vtp(&snapshot).as_bytes(), &mut out);
+        self.archive.end(&mut out);
+        self.next += 1;
+        Some((Ok(out.into()), Some(self)))
+    }
+}

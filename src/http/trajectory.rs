@@ -1,0 +1,222 @@
+//! Trajectories, written to the client while they are read chunk by chunk.
+
+use super::contract::TrajectorySchema;
+use super::jobs::find;
+use super::named_job::NamedJob;
+use super::problem::Problem;
+use super::query::Query;
+use crate::jobs::store::StoreError;
+use crate::jobs::{Jobs, Stretch};
+use crate::results::columns::{Selection, Selector};
+use crate::results::table::{Field, Format, Heading, Writer};
+use axum::body::{Body, Bytes};
+use axum::extract::{RawQuery, State};
+use axum::http::{HeaderMap, header};
+use axum::response::{IntoResponse, Response};
+use futures_util::stream;
+
+/// Samples that fit an archive without ZIP64: 4 GiB of 269 bytes, and heads.
+const LARGEST_ARCHIVE: usize = 15_000_000;
+
+/// What a client wants of a trajectory.
+struct Wish {
+    body: usize,
+    selection: Selection,
+    format: Format,
+    fields: Vec<Field>,
+}
+
+/// Read a body's trajectory
+///
+/// As one JSON document by columns, as NDJSON, CSV or NumPy's NPZ: `format`, or
+/// else the first of `Accept` that is one of these. Both ends of the time range
+/// are inclusive. It is empty before the job starts and grows while it runs.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/trajectory",
+    tag = "results",
+    params(
+        ("id" = String, Path, description = "Identity of the job"),
+        ("body" = Option<u32>, Query, description = "Index of the body in the scenario; 0 unless given"),
+        ("from_s" = Option<f64>, Query, description = "First simulated time [s]"),
+        ("to_s" = Option<f64>, Query, description = "Last simulated time [s]"),
+        ("stride" = Option<u32>, Query, minimum = 1, description = "One sample in how many, counted from the first in the range; 1 unless given"),
+        ("format" = Option<String>, Query, description = "json, ndjson, csv or npz; wins over `Accept`"),
+        ("fields" = Option<String>, Query, description = "Names of columns, with commas between them; all unless given"),
+    ),
+    responses(
+        (status = 200, description = "The trajectory", content(
+            (TrajectorySchema = "application/json"),
+            (String = "application/x-ndjson"),
+            (String = "text/csv"),
+            (Vec<u8> = "application/zip"),
+        )),
+        (status = 404, description = "There is no such job or body", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn trajectory(
+    State(jobs): State<Jobs>,
+    NamedJob(id): NamedJob,
+    headers: HeaderMap,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let wish = read_wish(query.as_deref(), &headers)?;
+    let job = find(&jobs, &id).await?;
+    if wish.body >= job.bodies {
+        return Err(unknown_body(wish.body, job.bodies));
+    }
+    let id = job.summary.id;
+    let stretch = jobs.stretch(id, wish.body, wish.selection).await?;
+    let rows = match wish.format {
+        Format::Npz => jobs.count_samples(&stretch).await?,
+        Format::Json | Format::Ndjson | Format::Csv => 0,
+    };
+    if rows > LARGEST_ARCHIVE {
+        return Err(too_large_for_npz(rows));
+    }
+    let heading = Heading {
+        job_id: Some(id.to_string()),
+        body: wish.body,
+        rows,
+    };
+    let kind = [(header::CONTENT_TYPE, wish.format.media_type())];
+    let reading = Reading::new(jobs, stretch, wish.format.writer(&heading, wish.fields));
+    Ok((kind, reading.into_body()).into_response())
+}
+
+/// A trajectory on its way to a client: one chunk of it at a time.
+struct Reading {
+    jobs: Jobs,
+    stretch: Stretch,
+    writer: Box<dyn Writer>,
+    pass: usize,
+    /// Where the pass is; none before it has begun.
+    place: Option<(i64, Selector)>,
+}
+
+impl Reading {
+    fn new(jobs: Jobs, stretch: Stretch, writer: Box<dyn Writer>) -> Self {
+        Self {
+            jobs,
+            stretch,
+            writer,
+            pass: 0,
+            place: None,
+        }
+    }
+
+    fn into_body(self) -> Body {
+        let pieces = stream::unfold(Some(self), |reading| async {
+            let mut reading = reading?;
+            match reading.piece().await {
+                Ok(None) => None,
+                Ok(Some(bytes)) => Some((Ok(Bytes::from(bytes)), Some(reading))),
+                Err(error) => {
+                    tracing::error!(%error, "a trajectory breaks off");
+                    Some((Err(error), None))
+                }
+            }
+        });
+        Body::from_stream(pieces)
+    }
+
+    /// The next bytes; none after the last.
+    async fn piece(&mut self) -> Result<Option<Vec<u8>>, StoreError> {
+        let mut out = Vec::new();
+        while out.is_empty() && self.pass < self.writer.passes() {
+            let (from_sample, mut selector) = match self.place.take() {
+                Some(place) => place,
+                None => {
+                    self.writer.begin(self.pass, &mut out);
+                    (0, Selector::new(self.stretch.selection))
+                }
+            };
+            match self.jobs.next_chunk(&self.stretch, from_sample).await? {
+                Some(chunk) => {
+                    let chosen = selector.choose(&chunk.columns);
+                    self.writer.rows(self.pass, &chosen, &mut out);
+                    self.place = Some((chunk.next_sample, selector));
+                }
+                None => {
+                    self.writer.end(self.pass, &mut out);
+                    self.pass += 1;
+                }
+            }
+        }
+        Ok((!out.is_empty()).then_some(out))
+    }
+}
+
+fn read_wish(query: Option<&str>, headers: &HeaderMap) -> Result<Wish, Problem> {
+    let mut query = Query::new(query);
+    let body = query.whole("body", 0..=u32::MAX).unwrap_or(0);
+    let from_s = query.number("from_s", "s");
+    let to_s = query.number("to_s", "s");
+    let stride = query.whole("stride", 1..=u32::MAX).unwrap_or(1);
+    if let (Some(from_s), Some(to_s)) = (from_s, to_s)
+        && to_s < from_s
+    {
+        let rule = format!("x >= from_s = {from_s}");
+        query.refuse("to_s", &to_s.to_string(), &rule, Some("s"));
+    }
+    let format = query.word("format", "json, ndjson, csv or npz", |word| {
+        Format::ALL.into_iter().find(|format| format.word() == word)
+    });
+    let names: Vec<&str> = Field::all().iter().map(|field| field.name()).collect();
+    let rule = format!("names with commas between them, of {}", names.join(", "));
+    let fields = query.word("fields", &rule, |text| {
+        text.split(',')
+            .map(Field::from_name)
+            .collect::<Option<Vec<_>>>()
+    });
+    query.finish()?;
+    Ok(Wish {
+        body: body as usize,
+        selection: Selection {
+            from_s,
+            to_s,
+            stride: stride as usize,
+        },
+        format: format.unwrap_or_else(|| accepted(headers)),
+        fields: fields.unwrap_or_else(Field::all),
+    })
+}
+
+/// The first form that `Accept` names; JSON if it names none.
+fn accepted(headers: &HeaderMap) -> Format {
+    let lists = headers.get_all(header::ACCEPT).into_iter();
+    let lists = lists.filter_map(|list| list.to_str().ok());
+    let mut kinds = lists.flat_map(|list| list.split(','));
+    let of_kind = |kind: &str| {
+        let essence = kind.split(';').next().unwrap_or_default().trim();
+        Format::ALL
+            .into_iter()
+            .find(|format| format.media_type().eq_ignore_ascii_case(essence))
+    };
+    kinds.find_map(of_kind).unwrap_or(Format::Json)
+}
+
+fn too_large_for_npz(rows: usize) -> Problem {
+    let mut query = Query::new(None);
+    let rule = format!(
+        "json, ndjson or csv for {rows} samples; npz with a stride or a range that leaves at most {LARGEST_ARCHIVE}"
+    );
+    query.refuse("format", "npz", &rule, None);
+    match query.finish() {
+        Err(problem) => problem,
+        Ok(()) => Problem::internal("a refusal was lost"),
+    }
+}
+
+fn unknown_body(body: usize, bodies: usize) -> Problem {
+    let detail = match bodies {
+        0 => format!("there is no body {body}: the scenario has none"),
+        1 => format!("there is no body {body}: the scenario has one, body 0"),
+        _ => format!(
+            "there is no body {body}: the scenario has 0 to {}",
+            bodies - 1
+        ),
+    };
+    Problem::not_found("unknown-body", detail)
+}

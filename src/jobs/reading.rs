@@ -1,0 +1,102 @@
+//! Reading what runs recorded, a chunk at a time.
+
+use super::Jobs;
+use super::job::JobId;
+use super::store::{StoreError, StoredChunk};
+use crate::results::FlowSnapshot;
+use crate::results::columns::{Selection, Selector};
+
+/// A stretch of one body's trajectory: what there was of it when it was asked
+/// for, however far the run gets meanwhile.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    job: JobId,
+    body: usize,
+    /// Samples there were.
+    end: usize,
+    /// Which of them.
+    pub selection: Selection,
+}
+
+impl Jobs {
+    /// A body's trajectory as far as it is now.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn stretch(
+        &self,
+        job: JobId,
+        body: usize,
+        selection: Selection,
+    ) -> Result<Stretch, StoreError> {
+        Ok(Stretch {
+            job,
+            body,
+            end: self.store.samples(job, body).await?,
+            selection,
+        })
+    }
+
+    /// The first chunk from sample `from_sample` on that reaches into the
+    /// stretch, cut to it.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn next_chunk(
+        &self,
+        stretch: &Stretch,
+        from_sample: i64,
+    ) -> Result<Option<StoredChunk>, StoreError> {
+        let Stretch {
+            job,
+            body,
+            end,
+            selection,
+        } = stretch;
+        let chunk = self
+            .store
+            .chunk(*job, *body, from_sample, selection)
+            .await?;
+        Ok(chunk.and_then(|mut chunk| {
+            let next = usize::try_from(chunk.next_sample).unwrap_or(usize::MAX);
+            let first = next.saturating_sub(chunk.columns.len());
+            // What came after the question does not belong to the answer.
+            chunk.columns.truncate(end.saturating_sub(first));
+            (!chunk.columns.is_empty()).then_some(chunk)
+        }))
+    }
+
+    /// How many samples the stretch has.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn count_samples(&self, stretch: &Stretch) -> Result<usize, StoreError> {
+        let mut selector = Selector::new(stretch.selection);
+        let (mut count, mut from_sample) = (0, 0);
+        while let Some(chunk) = self.next_chunk(stretch, from_sample).await? {
+            count += selector.choose(&chunk.columns).len();
+            from_sample = chunk.next_sample;
+        }
+        Ok(count)
+    }
+
+    /// The times of all snapshots of the flow so far [s].
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn snapshot_times(&self, job: JobId) -> Result<Vec<f64>, StoreError> {
+        self.store.snapshot_times(job).await
+    }
+
+    /// The snapshot of the flow nearest to a time; without a time the latest.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn snapshot(
+        &self,
+        job: JobId,
+        time_s: Option<f64>,
+    ) -> Result<Option<FlowSnapshot>, StoreError> {
+        self.store.snapshot(job, time_s).await
+    }
+}
