@@ -82,25 +82,6 @@ impl Boundary {
             share_dilation(members, nodes);
         }
     }
-}
-
-/// A node and its images have the dilation that the points round all of them have on
-/// the mean.
-fn share_dilation(members: &[Member], nodes: &mut impl NodeAccess) {
-    if members.len() < 2 {
-        return;
-    }
-    let (mut mass, mut sum) = (0.0, 0.0);
-    for member in members {
-        let place = member.place as usize;
-        mass += nodes.mass(place);
-        sum += nodes.mass(place) * nodes.dilation(place);
-    }
-    if mass > 0.0 {
-        for member in members {
-            nodes.set_dilation(member.place as usize, sum / mass);
-        }
-    }
 
     /// The mean strain rate of a node's points takes in those of its images; on a
     /// wall, the mirror of itself.
@@ -138,6 +119,25 @@ fn share_dilation(members: &[Member], nodes: &mut impl NodeAccess) {
             for image in images {
                 nodes.set_fullness(image.place as usize, fullness);
             }
+        }
+    }
+}
+
+/// A node and its images have the dilation that the points round all of them have on
+/// the mean.
+fn share_dilation(members: &[Member], nodes: &mut impl NodeAccess) {
+    if members.len() < 2 {
+        return;
+    }
+    let (mut mass, mut sum) = (0.0, 0.0);
+    for member in members {
+        let place = member.place as usize;
+        mass += nodes.mass(place);
+        sum += nodes.mass(place) * nodes.dilation(place);
+    }
+    if mass > 0.0 {
+        for member in members {
+            nodes.set_dilation(member.place as usize, sum / mass);
         }
     }
 }
