@@ -46,6 +46,12 @@ impl Lattice {
         self.spacing.product()
     }
 
+    /// Largest volume of a point [m³], that of its kernel, two cells wide along every
+    /// axis: a point alone in it can't tell how much more room there is.
+    pub fn largest_point_volume(&self) -> f64 {
+        8.0 * self.cell_volume()
+    }
+
     /// Smallest spacing [m].
     pub fn finest_spacing(&self) -> f64 {
         self.spacing.min()

@@ -107,6 +107,12 @@ impl Deformation {
         }
     }
 
+    /// min(1, det F̂) F̂⁻¹: the inverse, but for a point that has been compressed: its
+    /// kernel keeps its size, and would carry a steeper gradient as far as before.
+    pub fn inverse_at_most(&self) -> Mat3 {
+        self.inverse * self.volume_ratio.min(1.0)
+    }
+
     /// F̂ ← F̂ + Δt Σ v_i ⊗ ∇w_i, with the velocity gradient L = (Σ v_i ⊗ ∇w_i) F̂⁻¹.
     pub fn advance(&mut self, gradient_at_transfer: &Mat3, dt: f64) {
         self.velocity_gradient = gradient_at_transfer * self.inverse;

@@ -226,9 +226,9 @@ pub fn gather_gradient(grid: &Grid, points: &[Point], dt: f64, deformations: &mu
 /// the displaced nodes (equations 12 and 13), and keeps the points evenly spread
 /// (equations 39–42). Returns what that did to their sums.
 ///
-/// The affine velocity is the gradient on the displaced nodes, C F̂⁻¹, with
-/// its skew part set so that points and displaced nodes have the same angular
-/// momentum.
+/// The affine velocity is the gradient on the displaced nodes, C F̂⁻¹, but no
+/// steeper for a point having been compressed, with its skew part set so that points
+/// and displaced nodes have the same angular momentum.
 pub fn gather_motion(
     grid: &Grid,
     deformations: &[Deformation],
@@ -263,7 +263,7 @@ pub fn gather_motion(
             let outer = gather_outer(block, &stencil, &velocities, &displacements);
             // Σ w v_i (x_i' − x_p')ᵀ on the displaced nodes.
             let on_displaced = velocity.first + outer - velocity.zeroth * displacement.transpose();
-            let gradient = velocity.first * inverse_moment * deformation.inverse;
+            let gradient = velocity.first * inverse_moment * deformation.inverse_at_most();
             point.velocity = velocity.zeroth;
             point.affine = with_angular_momentum(&gradient, &on_displaced, &moment);
             let dilation = |volume: f64| volume * material.bulk_density / point.mass - 1.0;
@@ -281,6 +281,7 @@ pub fn gather_motion(
             point.position += shift;
             spread.add(point.mass, &shift, &point.velocity);
             point.volume += point.mass / material.bulk_density * (tended.dilation - seen.dilation);
+            point.volume = point.volume.min(lattice.largest_point_volume());
             point.stress = material.pressed_anew(&point.stress, tended.rise, point.density());
         }
         spread

@@ -61,6 +61,8 @@ pub struct Ending<'a> {
     pub tending: &'a Tending,
     /// The base planes.
     pub shelters: &'a [Shelter],
+    /// Mass that fills the largest volume a point can have [kg].
+    pub roomiest: f32,
 }
 
 /// Gives mass and momentum to a tile (equation 8).
@@ -239,6 +241,7 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
         dt,
         tending,
         shelters,
+        roomiest,
     } = *ending;
     let mut moments = Moments::EMPTY;
     let mut displacement = Quads::EMPTY;
@@ -262,7 +265,7 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
         let [crowding, vx, vy, vz] = moments.zeroth.spread(simd);
         let [mean_dilation, ux, uy, uz] = displacement.spread(simd);
         let [_, tx, ty, tz] = twist.spread(simd);
-        let on_displaced = strained.deformed.undone(simd, &a);
+        let on_displaced = strained.deformed.undone_at_most(simd, &a);
         // Of Σ w v_i (d_i + u_i − u_p)ᵀ only the skew part counts: what the
         // nodes' displacement adds is u_p × v_p − Σ w u_i × v_i.
         let added = [
@@ -295,7 +298,9 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
             let before = f32x16::simd_from(simd, *part);
             *part = tended.rise.mul_add(before, before).into();
         }
-        chunk.dilation = tended.dilation.into();
+        let mass = f32x16::simd_from(simd, chunk.mass);
+        let roomiest = f32x16::splat(simd, roomiest) / mass - f32x16::splat(simd, 1.0);
+        chunk.dilation = tended.dilation.min(roomiest).into();
         spread.add(simd, chunk, &tended.shift, &velocity, spacing);
         for axis in 0..3 {
             chunk.velocity[axis] = velocity[axis].into();

@@ -208,9 +208,21 @@ impl<S: Simd> Deformed<S> {
     #[inline(always)]
     pub fn undone(&self, simd: S, a: &Matrix<S>) -> Matrix<S> {
         let one = f32x16::splat(simd, 1.0);
-        let scale = one / (one + self.volume_change);
+        self.by_cofactor(a, one / (one + self.volume_change))
+    }
+
+    /// min(1, det F̂) A F̂⁻¹.
+    #[inline(always)]
+    pub fn undone_at_most(&self, simd: S, a: &Matrix<S>) -> Matrix<S> {
+        let one = f32x16::splat(simd, 1.0);
+        let growth = self.volume_change.max(f32x16::splat(simd, 0.0));
+        self.by_cofactor(a, one / (one + growth))
+    }
+
+    /// A times the transposed cofactor, scaled: (F̂⁻¹)_kj = cofactor_jk / det F̂.
+    #[inline(always)]
+    fn by_cofactor(&self, a: &Matrix<S>, scale: f32x16<S>) -> Matrix<S> {
         let c = &self.cofactor;
-        // (F̂⁻¹)_kj = cofactor_jk / det F̂
         let mut undone = *a;
         for (row, of) in undone.iter_mut().zip(a) {
             for j in 0..3 {

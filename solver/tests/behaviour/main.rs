@@ -22,3 +22,4 @@ mod same_bits;
 mod shapes;
 mod sliding_block;
 mod symmetry;
+mod thin_flows;

@@ -120,6 +120,7 @@ fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (
                 dt,
                 tending: &tending(),
                 shelters: &shelters,
+                roomiest: (lattice().largest_point_volume() * beads().bulk_density) as f32,
             };
             finish(simd, block, &ending, &tiles);
         });

@@ -308,6 +308,8 @@ impl Flow for FastFlow {
             dt: end.dt as f32,
             tending: &end.tending,
             shelters: &self.shelters,
+            roomiest: (given.lattice.largest_point_volume() * self.packing.material.bulk_density)
+                as f32,
         };
         self.blocks
             .occupied_mut()
