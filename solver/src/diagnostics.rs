@@ -42,8 +42,12 @@ impl Totals {
         self
     }
 
-    /// Sums over so many images, which lie symmetrically about the plane y = 0.
+    /// Sums over so many images, which lie symmetrically about the plane y = 0. One
+    /// alone is what it is.
     pub fn of_images(&self, count: f64) -> Self {
+        if count == 1.0 {
+            return *self;
+        }
         Self {
             mass: self.mass * count,
             first_moment: in_plane(&self.first_moment) * count,

@@ -13,7 +13,7 @@ use crate::walls::Plane;
 const CONTACT_SHARE: f64 = 0.1;
 /// The same where nothing damps the contact: what the integration changes of the
 /// energy is all that changes it.
-const UNDAMPED_SHARE: f64 = 0.02;
+const UNDAMPED_SHARE: f64 = 0.01;
 /// Damping number from which on damping takes a hundred times more energy in an
 /// impact than the integration makes in steps of [`CONTACT_SHARE`].
 const DAMPED: f64 = 0.001;
