@@ -86,3 +86,47 @@ pub fn restore(
     let simulation = Simulation::restore(scenario, threads, simulation)?;
     Ok((simulation, head.recorder, head.spent))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENARIO: &str = r#"{"channel": {"inclination_deg": 30, "incline_length_m": 0.4,
+        "runout_length_m": 0.4, "width_m": 0.1}, "flow": null, "duration_s": 0.1,
+        "bodies": [{"shape": {"cube": {"side_m": 0.04}}}]}"#;
+
+    #[test]
+    fn a_run_comes_back_as_it_was_and_only_to_its_own_scenario_and_build() {
+        let scenario = Scenario::from_json(SCENARIO).unwrap();
+        let simulation = Simulation::new(&scenario, 1).unwrap();
+        let recorder = Recorder::new(&scenario);
+        let spent = Spent {
+            wall_s: 1.5,
+            point_steps: 7,
+        };
+        let bytes = save(&simulation, &recorder, spent).unwrap();
+        let (again, same_recorder, same_spent) = restore(&scenario, 1, &bytes).unwrap();
+        assert_eq!(again.save(), simulation.save());
+        assert_eq!((same_recorder, same_spent), (recorder, spent));
+
+        let mut other = scenario.clone();
+        other.duration_s = 0.2;
+        assert!(restore(&other, 1, &bytes).is_err());
+        let mut other_build = bytes.clone();
+        // Head's length, then the commit's length, then the commit.
+        other_build[5] ^= 1;
+        let refused = restore(&scenario, 1, &other_build);
+        assert!(matches!(refused, Err(SavedRunError::OtherBuild(_))));
+    }
+
+    #[test]
+    fn bytes_that_are_cut_off_are_no_run() {
+        let scenario = Scenario::from_json(SCENARIO).unwrap();
+        let simulation = Simulation::new(&scenario, 1).unwrap();
+        let recorder = Recorder::new(&scenario);
+        let bytes = save(&simulation, &recorder, Spent::default()).unwrap();
+        for length in 0..bytes.len() {
+            assert!(restore(&scenario, 1, &bytes[..length]).is_err(), "{length}");
+        }
+    }
+}

@@ -236,4 +236,26 @@ mod tests {
             block.data.len()
         );
     }
+
+    proptest::proptest! {
+        /// Whatever bytes a block has, with a checksum that is right: they are
+        /// read as what they are, or refused.
+        #[test]
+        fn reading_any_bytes_is_safe(
+            raw in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..2000),
+            samples in 0..2000_usize,
+        ) {
+            let packed = Block::seal(&raw).unwrap();
+            let fits = |bytes| raw.len() == samples * bytes;
+            if let Ok(columns) = decode(&packed, samples) {
+                proptest::prop_assert!(fits(BYTES_PER_SAMPLE) || fits(BYTES_PER_SAMPLE - 6 * 8));
+                proptest::prop_assert_eq!(columns.len(), samples);
+            }
+            let checksum = *blake3::hash(&raw).as_bytes();
+            let unpacked = Block { data: raw, checksum };
+            // Bytes that are no compressed stream hold no samples.
+            let held = decode(&unpacked, samples).map_or(0, |columns| columns.len());
+            proptest::prop_assert!(held == 0 || held == samples);
+        }
+    }
 }

@@ -1,0 +1,180 @@
+//! Much at once: thousands of jobs, calls to stop, ten clients with a large
+//! trajectory; and what the service costs beside the computation.
+
+use crate::client::{ask, get};
+use crate::served::{Place, fine_scene, has_ended, scene, trifle};
+use crate::{at_length, percentile};
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::process::Command;
+use std::time::Instant;
+
+fn seconds<T>(what: impl FnOnce() -> T) -> (f64, T) {
+    let began = Instant::now();
+    let result = what();
+    (began.elapsed().as_secs_f64(), result)
+}
+
+/// Jobs come in by the thousand while one runs, and a look at one stays quick.
+#[test]
+fn thousands_of_waiting_jobs_are_no_burden() {
+    let _turn = crate::turn();
+    let (clients, jobs) = (4, at_length(200, 10_000));
+    let place = Place::new(&[("SCREE_LIMITS__QUEUED_JOBS", "20000")]);
+    let served = place.serve();
+    let address = served.address.as_str();
+    let running = served.submit(&fine_scene(600.0));
+    served.wait(&running, |job| job["status"] == "running");
+    let body = trifle().to_string();
+    let submit = || {
+        let answer = ask(address, "POST", "/v1/jobs", &body).expect("an answer");
+        assert_eq!(answer.status, 202, "{}", answer.body);
+        answer.body["id"].as_str().expect("an id").to_owned()
+    };
+    let (all_s, ids) = seconds(|| {
+        std::thread::scope(|scope| {
+            let clients: Vec<_> = (0..clients)
+                .map(|_| scope.spawn(|| (0..jobs / clients).map(|_| submit()).collect::<Vec<_>>()))
+                .collect();
+            let ids = clients
+                .into_iter()
+                .flat_map(|client| client.join().expect("a client"));
+            ids.collect::<Vec<_>>()
+        })
+    });
+    let looks = at_length(100, 1_000);
+    let look = |look: usize| {
+        let id = &ids[(look * 7919) % ids.len()];
+        seconds(|| get(address, &format!("/v1/jobs/{id}"))).0
+    };
+    let mut looks_s: Vec<f64> = (0..looks).map(look).collect();
+    let mut lists_s: Vec<f64> = (0..looks / 10)
+        .map(|_| seconds(|| get(address, "/v1/jobs?status=accepted&limit=100")).0)
+        .collect();
+    crate::tell(&format!(
+        "{} jobs waiting: submitted at {:.0} a second by {clients} clients, one connection a \
+         request; a look at a job p50 {:.1}, p99 {:.1} ms; a list of 100 p99 {:.1} ms",
+        ids.len(),
+        ids.len() as f64 / all_s,
+        percentile(&mut looks_s, 0.5) * 1e3,
+        percentile(&mut looks_s, 0.99) * 1e3,
+        percentile(&mut lists_s, 0.99) * 1e3,
+    ));
+    assert_eq!(get(address, &running)["status"], "running");
+}
+
+/// From the request to the answer that shows a running job as it stays.
+#[test]
+fn running_jobs_are_dismissed_at_once() {
+    let _turn = crate::turn();
+    let place = Place::new(&[]);
+    let served = place.serve();
+    let mut times_s = Vec::new();
+    for _ in 0..at_length(5, 100) {
+        let job = served.submit(&scene(600.0));
+        served.wait(&job, |job| job["progress"]["steps"].as_u64() > Some(0));
+        let (time_s, answer) = seconds(|| ask(&served.address, "DELETE", &job, ""));
+        assert_eq!(answer.expect("an answer").body["status"], "dismissed");
+        times_s.push(time_s);
+    }
+    let p99 = percentile(&mut times_s, 0.99);
+    crate::tell(&format!(
+        "{} running jobs dismissed: p50 {:.0} ms, p99 {:.0} ms",
+        times_s.len(),
+        percentile(&mut times_s, 0.5) * 1e3,
+        p99 * 1e3
+    ));
+    assert!(p99 < 0.5, "{p99} s");
+}
+
+/// Ten clients with a trajectory much larger than the bound take no more memory
+/// than the bound.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_large_trajectory_goes_out_in_little_memory() {
+    let _turn = crate::turn();
+    let samples = at_length(5_000, 300_000);
+    let place = Place::new(&[]);
+    let served = place.serve();
+    let mut large = trifle();
+    large["sample_interval_s"] = 1e-3.into();
+    large["duration_s"] = (samples as f64 * 1e-3).into();
+    let job = served.submit(&large);
+    served.wait_for_success(&job);
+    for format in ["json", "ndjson", "npz"] {
+        let before = served.resident_bytes();
+        let path = format!("{job}/trajectory?format={format}");
+        let (most, bytes) = std::thread::scope(|scope| {
+            let (address, path) = (&served.address, &path);
+            let clients: Vec<_> = (0..10)
+                .map(|_| scope.spawn(|| count_bytes(address, path)))
+                .collect();
+            let mut most = before;
+            while !clients.iter().all(|client| client.is_finished()) {
+                most = most.max(served.resident_bytes());
+                std::thread::sleep(crate::served::PAUSE);
+            }
+            let bytes: usize = clients
+                .into_iter()
+                .map(|client| client.join().expect("a client"))
+                .sum();
+            (most, bytes)
+        });
+        let grown_mib = most.saturating_sub(before) as f64 / f64::from(1 << 20);
+        crate::tell(&format!(
+            "ten clients pull {samples} samples as {format}, {:.0} MB in all: memory grows by {grown_mib:.1} MiB",
+            bytes as f64 * 1e-6
+        ));
+        assert!(bytes > 10 * samples * 200, "{bytes} bytes");
+        assert!(grown_mib < 64.0, "{grown_mib} MiB");
+    }
+}
+
+fn count_bytes(address: &str, path: &str) -> usize {
+    let mut stream = TcpStream::connect(address).expect("a connection");
+    write!(
+        stream,
+        "GET {path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
+    )
+    .expect("it reads");
+    let (mut buffer, mut total) = (vec![0; 1 << 16], 0);
+    loop {
+        match stream.read(&mut buffer).expect("it answers") {
+            0 => return total,
+            count => total += count,
+        }
+    }
+}
+
+/// The same scene with the service and without, in turn; the best of each.
+#[test]
+fn the_service_costs_little_beside_the_computation() {
+    let _turn = crate::turn();
+    let rounds = at_length(1, 3);
+    let long = match rounds {
+        1 => scene(0.5),
+        _ => fine_scene(2.0),
+    };
+    let place = Place::new(&[]);
+    let file = place.path().join("scene.json");
+    std::fs::write(&file, long.to_string()).expect("writable");
+    let served = place.serve();
+    let (mut alone_s, mut with_s) = (Vec::new(), Vec::new());
+    for _ in 0..rounds {
+        let run = Command::new(env!("CARGO_BIN_EXE_scree"))
+            .args(["run", "--json", "--threads", "1"])
+            .arg(&file)
+            .output();
+        let outcome: serde_json::Value =
+            serde_json::from_slice(&run.expect("it runs").stdout).expect("an outcome");
+        alone_s.push(outcome["cost"]["wall_s"].as_f64().expect("seconds"));
+        let job = served.wait(&served.submit(&long), has_ended);
+        with_s.push(job["outcome"]["cost"]["wall_s"].as_f64().expect("seconds"));
+        assert_eq!(job["outcome"]["bodies"], outcome["bodies"]);
+    }
+    let (alone, with) = (percentile(&mut alone_s, 0.0), percentile(&mut with_s, 0.0));
+    crate::tell(&format!(
+        "scree run {alone:.3} s, as a job {with:.3} s (best of {rounds}): {:+.1} %",
+        (with / alone - 1.0) * 100.0
+    ));
+}

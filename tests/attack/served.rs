@@ -1,0 +1,181 @@
+//! The service as a process of its own, on a database that outlives it.
+
+use crate::client::{ask, get};
+use serde_json::{Value, json};
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// How long anything may take to happen.
+pub(crate) fn deadline() -> Duration {
+    Duration::from_secs(crate::at_length(120, 1_200) as u64)
+}
+
+/// Between two looks.
+pub(crate) const PAUSE: Duration = Duration::from_millis(10);
+
+/// A directory with a database, and settings for services on it.
+pub(crate) struct Place {
+    directory: TempDir,
+    settings: Vec<(&'static str, String)>,
+}
+
+/// A running service; killed when it is dropped.
+pub(crate) struct Served {
+    child: Child,
+    pub(crate) address: String,
+}
+
+impl Place {
+    pub(crate) fn new(settings: &[(&'static str, &str)]) -> Self {
+        let settings = settings.iter();
+        Self {
+            directory: TempDir::new().expect("a directory for the test"),
+            settings: settings
+                .map(|(key, value)| (*key, (*value).to_owned()))
+                .collect(),
+        }
+    }
+
+    pub(crate) fn database(&self) -> PathBuf {
+        self.directory.path().join("scree.db")
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        self.directory.path()
+    }
+
+    fn command(&self) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_scree"));
+        command
+            .current_dir(self.path())
+            .args(["serve", "--listen", "127.0.0.1:0", "--database"])
+            .arg(self.database())
+            .env("SCREE_WORKERS__THREADS_PER_WORKER", "1")
+            .envs(
+                self.settings
+                    .iter()
+                    .map(|(key, value)| (*key, value.as_str())),
+            )
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped());
+        command
+    }
+
+    /// Starts the service and waits until it listens.
+    pub(crate) fn serve(&self) -> Served {
+        let child = self.command().stderr(Stdio::null()).spawn();
+        let mut child = child.expect("the binary starts");
+        let mut line = String::new();
+        let stdout = child.stdout.take().expect("piped");
+        BufReader::new(stdout)
+            .read_line(&mut line)
+            .expect("the address");
+        let address = line
+            .trim()
+            .strip_prefix("listening on http://")
+            .expect("the address");
+        Served {
+            address: address.to_owned(),
+            child,
+        }
+    }
+
+    /// Starts a service that must refuse; its exit code and last words.
+    pub(crate) fn refuse(&self) -> (Option<i32>, String) {
+        let child = self.command().stderr(Stdio::piped()).spawn();
+        let mut child = child.expect("the binary starts");
+        let status = child.wait().expect("it ends");
+        let mut words = String::new();
+        let mut stderr = child.stderr.take().expect("piped");
+        stderr.read_to_string(&mut words).expect("words");
+        (status.code(), words)
+    }
+}
+
+impl Served {
+    /// kill -9.
+    pub(crate) fn kill(mut self) {
+        self.child.kill().expect("it runs");
+        self.child.wait().expect("it ends");
+    }
+
+    /// Memory it takes.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn resident_bytes(&self) -> usize {
+        let path = format!("/proc/{}/status", self.child.id());
+        let text = std::fs::read_to_string(path).expect("it runs");
+        let line = text.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+        let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<usize>().ok());
+        1024 * kilobytes.expect("a number")
+    }
+
+    /// Submits a scenario that must be accepted; the job's path.
+    pub(crate) fn submit(&self, scenario: &Value) -> String {
+        let answer = ask(&self.address, "POST", "/v1/jobs", &scenario.to_string());
+        let answer = answer.expect("an answer");
+        assert_eq!(answer.status, 202, "{}", answer.body);
+        format!("/v1/jobs/{}", answer.body["id"].as_str().expect("an id"))
+    }
+
+    /// Looks at a job until it is as wanted.
+    pub(crate) fn wait(&self, job: &str, wanted: impl Fn(&Value) -> bool) -> Value {
+        let began = Instant::now();
+        loop {
+            let document = get(&self.address, job);
+            if wanted(&document) {
+                return document;
+            }
+            assert!(began.elapsed() < deadline(), "not as wanted: {document:#}");
+            std::thread::sleep(PAUSE);
+        }
+    }
+
+    pub(crate) fn wait_for_success(&self, job: &str) -> Value {
+        let document = self.wait(job, has_ended);
+        assert_eq!(document["status"], "successful", "{document:#}");
+        document
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+pub(crate) fn has_ended(job: &Value) -> bool {
+    !["accepted", "running"].contains(&job["status"].as_str().expect("a status"))
+}
+
+/// A cube on a slope with a little flow behind it.
+pub(crate) fn scene(duration_s: f64) -> Value {
+    json!({
+        "channel": {"inclination_deg": 30, "incline_length_m": 0.4, "runout_length_m": 0.4,
+                    "width_m": 0.1},
+        "flow": {"volume_m3": 0.0003, "release": {"height_m": 0.04, "toe_distance_m": 0.05}},
+        "bodies": [{"shape": {"cube": {"side_m": 0.04}}}],
+        "duration_s": duration_s,
+        "sample_interval_s": 0.01,
+        "flow_snapshots": 5,
+        "numerics": {"cell_size_m": 0.02, "points_per_cell": 4}
+    })
+}
+
+/// The same in finer cells: minutes of computing for a few simulated seconds.
+pub(crate) fn fine_scene(duration_s: f64) -> Value {
+    let mut scene = scene(duration_s);
+    scene["numerics"]["cell_size_m"] = json!(0.01);
+    scene["numerics"]["points_per_cell"] = json!(8);
+    scene
+}
+
+/// A cube alone for a moment: next to nothing to compute.
+pub(crate) fn trifle() -> Value {
+    let mut scene = scene(0.01);
+    scene["flow"] = Value::Null;
+    scene
+}
