@@ -25,7 +25,8 @@ fn a_point_alone_that_spins_keeps_its_volume() {
             .flow(json!({"volume_m3": 0.001, "release": {"height_m": 0.08}}))
             .set("numerics", "cell_size_m", 0.02)
             .set("numerics", "precision", precision)
-            .lasting(0.5);
+            .lasting(0.5)
+            .full();
         let mut simulation = changed(&scene, |made| {
             let speed = made
                 .given
