@@ -78,7 +78,6 @@ fn an_early_end_changes_nothing_beyond_its_bounds() {
     });
     let ((early, _), (full, _)) = (run(&scene, "auto"), run(&scene, "full"));
     let ended = early.ended_early.expect("all of it comes to rest");
-    println!("{ended:?}");
     let (ours, theirs) = (&early.bodies[0], &full.bodies[0]);
     assert_eq!(ours.onset_time_s, theirs.onset_time_s);
     assert_eq!(ours.peak_speed_m_s, theirs.peak_speed_m_s);
