@@ -147,6 +147,10 @@ impl Spread {
 
     /// Of so many images, which lie symmetrically about the plane y = 0.
     pub fn of_images(&self, count: f64) -> Self {
+        // Alone it need not be symmetric.
+        if count <= 1.0 {
+            return *self;
+        }
         Self {
             first_moment: in_plane(&self.first_moment) * count,
             angular: Vec3::new(0.0, self.angular.y * count, 0.0),

@@ -44,6 +44,10 @@ impl Totals {
 
     /// Sums over so many images, which lie symmetrically about the plane y = 0.
     pub fn of_images(&self, count: f64) -> Self {
+        // Alone it need not be symmetric.
+        if count <= 1.0 {
+            return *self;
+        }
         Self {
             mass: self.mass * count,
             first_moment: in_plane(&self.first_moment) * count,

@@ -67,6 +67,10 @@ impl Impulse {
     /// What so many images together give, which lie symmetrically about the plane
     /// y = 0: twice as much of two, and nothing across.
     pub fn of_images(&self, count: f64) -> Self {
+        // Alone it need not be symmetric.
+        if count <= 1.0 {
+            return *self;
+        }
         Self {
             linear: in_plane(&self.linear) * count,
             angular: Vec3::new(0.0, self.angular.y * count, 0.0),
