@@ -16,7 +16,9 @@ struct Bounds {
     points: f64,
 }
 
-/// Measured: body and points.
+/// Measured in double precision, after 0.3 s: a slab that became the whole 4e-15 m
+/// (cube) and 5e-16 m (points). The bounds in single precision are a tenth of a
+/// percent of the way.
 const EACH: [Bounds; 2] = [
     Bounds {
         precision: PRECISIONS[0],
