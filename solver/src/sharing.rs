@@ -9,7 +9,7 @@
 use crate::math::Sym3;
 
 /// Share of the mean in the strain rate that a point feels.
-const SHARE: f64 = 2.0 / 3.0;
+const SHARE: f64 = 0.5;
 /// A point slower than this share of the fastest shares less, by the square: what
 /// only trembles is left alone.
 const SLOW: f64 = 0.2;
