@@ -64,6 +64,14 @@ impl Impulse {
         self.angular += x.cross(linear);
     }
 
+    /// Both together.
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            linear: self.linear + other.linear,
+            angular: self.angular + other.angular,
+        }
+    }
+
     /// What so many images together give, which lie symmetrically about the plane
     /// y = 0: twice as much of two, and nothing across. One alone is what it is.
     pub fn of_images(&self, count: f64) -> Self {

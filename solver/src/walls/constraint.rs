@@ -47,6 +47,19 @@ impl Walls {
     ) -> Impulse {
         self.propose(boundary, nodes, Self::velocity_of);
         self.line_up(boundary, true);
+        Self::give(boundary, nodes, dt)
+    }
+
+    /// Makes nodes and their images move as one again after the rest of a transfer,
+    /// which goes to each of them alone: bodies meet the flow's motion before the
+    /// first sub-step's [`constrain`](Self::constrain). Returns the impulse given.
+    pub fn join(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) -> Impulse {
+        self.propose(boundary, nodes, Self::joint_velocity);
+        Self::give(boundary, nodes, 0.0)
+    }
+
+    /// Gives the groups the velocities found for them.
+    fn give(boundary: &mut Boundary, nodes: &mut impl NodeAccess, dt: f64) -> Impulse {
         let Boundary {
             members,
             groups,

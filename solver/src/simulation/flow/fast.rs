@@ -39,6 +39,8 @@ pub(in crate::simulation) struct FastFlow {
     /// Forces of the present sub-step, for the next.
     forces: Vec<Tile>,
     boundary: Boundary,
+    /// What joining nodes with their images gave at the transfer, until it is told.
+    from_joining: Impulse,
     loads: Loads<Place>,
     packing: Packing,
     law: Law,
@@ -68,6 +70,7 @@ impl FastFlow {
             momentum: Vec::new(),
             forces: Vec::new(),
             boundary: Boundary::default(),
+            from_joining: Impulse::default(),
             loads: Loads::default(),
             packing,
             law: Law::of(&packing.material, &given.lattice.spacing),
@@ -246,6 +249,7 @@ impl Flow for FastFlow {
         self.boundary.share_strain_rates(&mut self.nodes);
         laps.done(Verb::Search);
         self.hand_over_rest(given, &start.sharing);
+        self.from_joining = given.walls.join(&mut self.boundary, &mut self.nodes);
         laps.done(Verb::Transfer);
         crowding::leave_less_room(&self.boundary, bodies, &mut self.nodes);
         let access = Access {
@@ -287,7 +291,7 @@ impl Flow for FastFlow {
             self.pass(dt);
             laps.done(Verb::Points);
         }
-        from_walls
+        from_walls.plus(&std::mem::take(&mut self.from_joining))
     }
 
     fn on_bodies(&self) -> &[FlowLoad] {

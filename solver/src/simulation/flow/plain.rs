@@ -21,6 +21,8 @@ pub(in crate::simulation) struct PlainFlow {
     deformations: Vec<Deformation>,
     grid: Grid,
     boundary: Boundary,
+    /// What joining nodes with their images gave at the transfer, until it is told.
+    from_joining: Impulse,
     loads: Loads<Place>,
     /// Force of bodies on every point [N].
     contact_forces: Vec<Vec3>,
@@ -79,6 +81,7 @@ impl PlainFlow {
             deformations: Vec::new(),
             grid: Grid::new(given.lattice),
             boundary: Boundary::default(),
+            from_joining: Impulse::default(),
             loads: Loads::default(),
             contact_forces: Vec::new(),
         }
@@ -130,6 +133,7 @@ impl Flow for PlainFlow {
         if let Some(flow) = &given.flow {
             let density = flow.material.bulk_density;
             transfer::hand_over_rest(&self.points, density, &mut self.grid);
+            self.from_joining = given.walls.join(&mut self.boundary, &mut self.grid);
         }
         laps.done(Verb::Transfer);
         crowding::leave_less_room(&self.boundary, bodies, &mut self.grid);
@@ -197,7 +201,7 @@ impl Flow for PlainFlow {
             dt,
         );
         laps.done(Verb::Points);
-        from_walls
+        from_walls.plus(&std::mem::take(&mut self.from_joining))
     }
 
     fn on_bodies(&self) -> &[FlowLoad] {
