@@ -7,6 +7,7 @@ use crate::jobs::forecast::WallTime;
 use crate::jobs::{Jobs, PlanError};
 use axum::Json;
 use axum::extract::State;
+use axum::http::StatusCode;
 use serde::Serialize;
 use serde_json::Value;
 use utoipa::ToSchema;
@@ -36,7 +37,7 @@ pub(super) struct PlannedDocument {
         (status = 400, description = "The body is not JSON", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "The body is too large", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "The body is not declared as JSON", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The scenario breaks rules; `errors` has them all", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The scenario breaks rules (`errors` has them all), or its first steps can't be taken", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn plan(
@@ -55,7 +56,13 @@ impl From<PlanError> for Problem {
     fn from(error: PlanError) -> Self {
         match error {
             PlanError::Scenario(error) => error.into(),
-            PlanError::Forecast(error) => Self::internal(&error),
+            // Legal, but it breaks off within its first steps: as a job it would fail.
+            PlanError::Forecast(error) => Self::new(
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "no-forecast",
+                "No forecast",
+                error.to_string(),
+            ),
             PlanError::BrokenOff(error) => Self::internal(&error),
         }
     }

@@ -99,6 +99,8 @@ fn a_large_trajectory_goes_out_in_little_memory() {
     let mut large = trifle();
     large["sample_interval_s"] = 1e-3.into();
     large["duration_s"] = (samples as f64 * 1e-3).into();
+    // It comes to rest at once.
+    large["numerics"]["ending"] = "full".into();
     let job = served.submit(&large);
     served.wait_for_success(&job);
     for format in ["json", "ndjson", "npz"] {
@@ -125,7 +127,8 @@ fn a_large_trajectory_goes_out_in_little_memory() {
             "ten clients pull {samples} samples as {format}, {:.0} MB in all: memory grows by {grown_mib:.1} MiB",
             bytes as f64 * 1e-6
         ));
-        assert!(bytes > 10 * samples * 200, "{bytes} bytes");
+        // All of them came: a cube that stands takes 199 bytes a sample as JSON.
+        assert!(bytes > 10 * samples * 150, "{bytes} bytes");
         assert!(grown_mib < 64.0, "{grown_mib} MiB");
     }
 }

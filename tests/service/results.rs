@@ -74,6 +74,8 @@ async fn ranges_include_both_ends_and_strides_count_from_the_first() {
     let app = TestApp::start().await;
     let mut scene = tiny_scene();
     scene["sample_interval_s"] = json!(0.001);
+    // It comes to rest at once.
+    scene["numerics"]["ending"] = json!("full");
     scene["flow"] = Value::Null;
     // More samples than one stored chunk takes (512).
     scene["duration_s"] = json!(1.2);
@@ -222,6 +224,8 @@ async fn a_trajectory_comes_in_every_form_with_the_same_numbers() {
     scene["flow"] = Value::Null;
     scene["duration_s"] = json!(0.7);
     scene["sample_interval_s"] = json!(0.001);
+    // It comes to rest at once.
+    scene["numerics"]["ending"] = json!("full");
     let job = app.submit(&scene).await;
     app.wait_for_success(&job).await;
     let path = format!("{job}/trajectory?fields=time_s,position_m,mode&stride=3");
