@@ -125,7 +125,7 @@ fn strain_rate<S: Simd>(simd: S, chunk: &Chunk) -> [f32x16<S>; 6] {
 }
 
 /// Gives part of the points' strain rates times their masses to a tile (equation
-/// 49).
+/// 42a).
 #[inline(always)]
 pub fn give_strain_rates<S: Simd>(simd: S, block: &mut Block, part: Part, tile: &mut Tile) {
     *tile = Tile::EMPTY;
