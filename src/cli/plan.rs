@@ -4,8 +4,9 @@ use super::arguments::PlanOptions;
 use super::failure::{Failure, not_set_up};
 use super::machine::cores;
 use super::{console, scenario_file};
-use scree::jobs::forecast::{ForecastError, Planned, WallTime, forecast};
+use scree::jobs::forecast::{ForecastError, Planned, PlannedCompanion, WallTime, forecast};
 use scree_solver::plan::{Choice, Cost, Stage};
+use scree_solver::record::Role;
 
 /// Prints the plan of a scenario's run.
 ///
@@ -32,6 +33,7 @@ fn in_words(planned: &Planned) -> String {
     let mut lines: Vec<String> = choices.collect();
     lines.push(cost(&planned.plan.cost));
     lines.extend(planned.plan.cost.stages.iter().map(stage));
+    lines.extend(planned.companions.iter().map(companion));
     lines.push(wall_time(&planned.wall_time));
     lines.join("\n")
 }
@@ -69,9 +71,31 @@ fn stage(stage: &Stage) -> String {
     )
 }
 
-fn wall_time(wall_time: &WallTime) -> String {
+fn companion(run: &PlannedCompanion) -> String {
+    let softer = match run.role {
+        Role::Softer => " and a softer material",
+        Role::Coarser | Role::Answer => "",
+    };
     format!(
-        "time {:.1} s here on {} threads, most likely {:.1} to {:.1} s",
-        wall_time.expected_s, wall_time.threads, wall_time.low_s, wall_time.high_s
+        "for error bars: cells of {:.4} m{softer}, {:.3e} point-steps, {:.1} s",
+        run.cell_size_m, run.point_steps as f64, run.expected_s
     )
+}
+
+fn wall_time(wall_time: &WallTime) -> String {
+    let WallTime {
+        expected_s,
+        low_s,
+        high_s,
+        threads,
+    } = wall_time;
+    match expected_s {
+        Some(expected_s) => format!(
+            "time {expected_s:.1} s here on {threads} threads, most likely {low_s:.1} to {high_s:.1} s"
+        ),
+        None => format!(
+            "time {low_s:.1} s to {high_s:.1} s here on {threads} threads: the first runs of a target \
+             at least, its whole budget at most"
+        ),
+    }
 }

@@ -1,6 +1,6 @@
 //! Plans: what a run would compute and cost.
 
-use super::contract::{PlanDocument, ScenarioDocument};
+use super::contract::{PlanDocument, PlannedCompanionDocument, ScenarioDocument};
 use super::problem::Problem;
 use super::scenario_body::ScenarioText;
 use crate::jobs::forecast::WallTime;
@@ -12,14 +12,17 @@ use serde::Serialize;
 use serde_json::Value;
 use utoipa::ToSchema;
 
-/// A plan, and how long the run would take.
+/// A plan, the runs behind error bars, and how long all would take.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Planned)]
 pub(super) struct PlannedDocument {
     /// What would be computed and left out, and what it would cost.
     #[schema(value_type = PlanDocument)]
     pub plan: Value,
-    /// How long it would take on a worker of this service.
+    /// Runs that would be made before the answer; with a target, the first ones.
+    #[schema(value_type = Vec<PlannedCompanionDocument>)]
+    pub companions: Value,
+    /// How long everything would take on a worker of this service.
     pub wall_time: WallTime,
 }
 
@@ -46,8 +49,11 @@ pub(super) async fn plan(
 ) -> Result<Json<PlannedDocument>, Problem> {
     let planned = jobs.plan(&text).await?;
     let plan = serde_json::to_value(&planned.plan).map_err(|error| Problem::internal(&error))?;
+    let companions =
+        serde_json::to_value(&planned.companions).map_err(|error| Problem::internal(&error))?;
     Ok(Json(PlannedDocument {
         plan,
+        companions,
         wall_time: planned.wall_time,
     }))
 }

@@ -1,6 +1,8 @@
 //! How long a run will take on this machine: its own first steps, timed.
 
+use scree_solver::accuracy::Campaign;
 use scree_solver::plan::{self, Cost, Plan, Stage};
+use scree_solver::record::Role;
 use scree_solver::scenario::{Approach, Scenario};
 use scree_solver::{SetupError, Simulation, StepError};
 use serde::{Deserialize, Serialize};
@@ -11,6 +13,8 @@ use utoipa::ToSchema;
 
 /// How long the steps of one share are timed.
 const TIMED_FOR: Duration = Duration::from_millis(400);
+/// The same of a companion, which is a small part of the whole.
+const COMPANION_TIMED_FOR: Duration = Duration::from_millis(100);
 /// Steps before timing starts: they touch all memory for the first time.
 const WARM_UP: u64 = 2;
 /// Steps that are timed at least.
@@ -23,23 +27,39 @@ const SPREADING: f64 = 1.0;
 /// How far a forecast may be off, as a share.
 const UNCERTAINTY: f64 = 0.3;
 
-/// A run's plan, and how long it will take here.
+/// A run's plan, the runs behind its error bars, and how long all will take here.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Planned {
     /// The plan.
     pub plan: Plan,
-    /// How long the run will take.
+    /// Runs that are made before the answer; with a target, the first ones.
+    pub companions: Vec<PlannedCompanion>,
+    /// How long everything will take.
     pub wall_time: WallTime,
 }
 
-/// How long a run will take on this machine.
+/// A run behind error bars, before it is made.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PlannedCompanion {
+    /// What it is for.
+    pub role: Role,
+    /// Cell size [m].
+    pub cell_size_m: f64,
+    /// Sub-steps summed over its points, to the end of the duration.
+    pub point_steps: u64,
+    /// How long it will take [s].
+    pub expected_s: f64,
+}
+
+/// How long a run will take on this machine, with its companions.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct WallTime {
-    /// Expected [s].
-    pub expected_s: f64,
+    /// Expected [s]; null with a target, whose cells are found by its first runs.
+    #[schema(required = true)]
+    pub expected_s: Option<f64>,
     /// At least, most likely [s].
     pub low_s: f64,
-    /// At most, most likely: to the end of the duration [s].
+    /// At most, most likely [s]: to the end of the duration, or of a target's budget.
     pub high_s: f64,
     /// Threads that this holds for.
     pub threads: usize,
@@ -63,29 +83,80 @@ pub enum ForecastError {
 /// It can't be set up, or can't take its first steps.
 pub fn forecast(scenario: &Scenario, threads: usize) -> Result<Planned, ForecastError> {
     let plan = plan::of(scenario)?;
-    let wall_time = time(scenario, &plan.cost, threads)?;
-    Ok(Planned { plan, wall_time })
+    let companions = companions(scenario, threads)?;
+    let first: f64 = companions.iter().map(|run| run.expected_s).sum();
+    let answer = Span::of(scenario, &plan.cost, threads, TIMED_FOR)?;
+    let target = scenario.accuracy.target;
+    let (expected, longest) = if target.is_some() {
+        let per_point_step = answer.longest / plan.cost.point_steps.max(1) as f64;
+        (first, scenario.accuracy.budget_point_steps * per_point_step)
+    } else {
+        (first + answer.expected, first + answer.longest)
+    };
+    let wall_time = WallTime {
+        expected_s: target.is_none().then_some(expected),
+        low_s: expected * (1.0 - UNCERTAINTY),
+        high_s: longest.max(expected) * (1.0 + UNCERTAINTY),
+        threads,
+    };
+    Ok(Planned {
+        plan,
+        companions,
+        wall_time,
+    })
 }
 
-fn time(scenario: &Scenario, cost: &Cost, threads: usize) -> Result<WallTime, ForecastError> {
-    let timed = coarsened(scenario, cost);
-    let (mut expected, mut longest) = (0.0, 0.0);
-    for (place, stage) in cost.stages.iter().enumerate() {
-        let mut timed = timed.clone();
-        if place > 0 {
-            timed.numerics.approach = Approach::Full;
+/// The runs that come before the answer.
+fn companions(scenario: &Scenario, threads: usize) -> Result<Vec<PlannedCompanion>, ForecastError> {
+    let campaign = Campaign::of(scenario)?;
+    let before = campaign.to_do().filter(|rung| rung.role != Role::Answer);
+    before
+        .map(|rung| {
+            let scenario = campaign.scenario_of(rung);
+            let cost = plan::cost(&scenario)?;
+            let span = Span::of(&scenario, &cost, threads, COMPANION_TIMED_FOR)?;
+            Ok(PlannedCompanion {
+                role: rung.role,
+                cell_size_m: rung.cell_size_m,
+                point_steps: cost.point_steps,
+                expected_s: span.expected,
+            })
+        })
+        .collect()
+}
+
+/// How long one run takes.
+struct Span {
+    /// To its expected end [s].
+    expected: f64,
+    /// To the end of its duration [s].
+    longest: f64,
+}
+
+impl Span {
+    fn of(
+        scenario: &Scenario,
+        cost: &Cost,
+        threads: usize,
+        timed_for: Duration,
+    ) -> Result<Self, ForecastError> {
+        let timed = coarsened(scenario, cost);
+        let mut span = Self {
+            expected: 0.0,
+            longest: 0.0,
+        };
+        for (place, stage) in cost.stages.iter().enumerate() {
+            let mut timed = timed.clone();
+            if place > 0 {
+                timed.numerics.approach = Approach::Full;
+            }
+            let per_substep = seconds_per_substep(&timed, stage, threads, timed_for)?;
+            let spreading = if stage.points > 0 { SPREADING } else { 1.0 };
+            span.expected += stage.expected_substeps as f64 * per_substep * spreading;
+            span.longest += stage.substeps as f64 * per_substep * spreading;
         }
-        let per_substep = seconds_per_substep(&timed, stage, threads)?;
-        let spreading = if stage.points > 0 { SPREADING } else { 1.0 };
-        expected += stage.expected_substeps as f64 * per_substep * spreading;
-        longest += stage.substeps as f64 * per_substep * spreading;
+        Ok(span)
     }
-    Ok(WallTime {
-        expected_s: expected,
-        low_s: expected * (1.0 - UNCERTAINTY),
-        high_s: longest * (1.0 + UNCERTAINTY),
-        threads,
-    })
 }
 
 /// The scenario with cells so large that timing it is no matter.
@@ -104,10 +175,11 @@ fn seconds_per_substep(
     timed: &Scenario,
     stage: &Stage,
     threads: usize,
+    timed_for: Duration,
 ) -> Result<f64, ForecastError> {
     let mut simulation = Simulation::new(timed, threads)?;
     let computed = simulation.computed_points().max(1) as f64;
-    let mut timing = Timing::default();
+    let mut timing = Timing::lasting(timed_for);
     simulation.run(f64::INFINITY, |simulation, report| {
         if simulation.share() != stage.share {
             ControlFlow::Break(())
@@ -121,8 +193,9 @@ fn seconds_per_substep(
 }
 
 /// A stopwatch that starts after the first steps.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Timing {
+    lasts: Duration,
     /// When, and how many steps and sub-steps had been taken by then.
     began: Option<(Instant, u64, u64)>,
     /// Mean since then [s].
@@ -130,6 +203,14 @@ struct Timing {
 }
 
 impl Timing {
+    fn lasting(lasts: Duration) -> Self {
+        Self {
+            lasts,
+            began: None,
+            per_substep: 0.0,
+        }
+    }
+
     fn count(&mut self, steps: u64, substeps: u64) -> ControlFlow<()> {
         let Some((began, first_step, first_substep)) = self.began else {
             if steps >= WARM_UP {
@@ -139,7 +220,7 @@ impl Timing {
         };
         let passed = began.elapsed();
         self.per_substep = passed.as_secs_f64() / (substeps - first_substep) as f64;
-        if passed >= TIMED_FOR && steps >= first_step + FEWEST_STEPS {
+        if passed >= self.lasts && steps >= first_step + FEWEST_STEPS {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())

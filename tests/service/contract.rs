@@ -40,7 +40,7 @@ async fn the_service_serves_its_contract_and_keeps_to_it() {
     // Only a failed job has one.
     job["problem"] = serde_json::json!({"type": "", "title": "", "detail": ""});
     contract.assert_matches("Job", &job);
-    let scene = tiny_scene().to_string();
+    let scene = scene.to_string();
     let planned = app.post_to("/v1/plans", "application/json", scene).await;
     contract.assert_matches("Planned", &planned.body);
     contract.assert_matches("JobPage", &app.get("/v1/jobs").await.body);

@@ -28,6 +28,40 @@ async fn a_plan_is_what_the_job_then_does() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn runs_behind_error_bars_are_part_of_a_plan() {
+    let app = TestApp::start().await;
+    let mut scene = tiny_scene();
+    scene["accuracy"] = json!({"error_bars": true});
+    let planned = app
+        .post_to("/v1/plans", "application/json", scene.to_string())
+        .await
+        .body;
+    let path = app.submit(&scene).await;
+    let outcome = app.wait_for_success(&path).await["outcome"].clone();
+    let sizes = |runs: &serde_json::Value| -> Vec<f64> {
+        let runs = runs.as_array().unwrap();
+        let companions = runs.iter().filter(|run| run["role"] != "answer");
+        companions
+            .map(|run| run["cell_size_m"].as_f64().unwrap())
+            .collect()
+    };
+    let companions = sizes(&planned["companions"]);
+    assert!(!companions.is_empty());
+    assert_eq!(companions, sizes(&outcome["accuracy"]["runs"]));
+
+    scene["accuracy"] = json!({"target": 0.1, "quantity": "displacement_m"});
+    scene["numerics"]["cell_size_m"] = json!(null);
+    let planned = app
+        .post_to("/v1/plans", "application/json", scene.to_string())
+        .await
+        .body;
+    let time = &planned["wall_time"];
+    assert!(time["expected_s"].is_null(), "{time}");
+    assert!(time["low_s"].as_f64().unwrap() < time["high_s"].as_f64().unwrap());
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn what_a_scene_does_not_allow_is_refused_by_its_pointer() {
     let app = TestApp::start().await;
     let mut askew = tiny_scene();

@@ -67,6 +67,11 @@ impl Campaign {
         self.to_do.front().copied()
     }
 
+    /// All runs that are known to be made yet, in turn.
+    pub fn to_do(&self) -> impl Iterator<Item = Rung> {
+        self.to_do.iter().copied()
+    }
+
     /// The scenario of a run. That of an answer whose cells are not chosen here is
     /// the one given, word for word, so its answer has the same bits.
     pub fn scenario_of(&self, rung: Rung) -> Scenario {

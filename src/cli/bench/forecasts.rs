@@ -98,7 +98,7 @@ impl Foretold {
                 ForecastError::Step(error) => Failure::Numerical(error.to_string()),
             })?;
             points = planned.plan.cost.points;
-            expected.push(planned.wall_time.expected_s);
+            expected.extend(planned.wall_time.expected_s);
             took.push(timed(&scenario, cores())?.0);
         }
         Ok(Self {

@@ -1,5 +1,6 @@
 //! The plan of a run.
 
+use super::accuracy::RoleDocument;
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -78,4 +79,18 @@ pub enum ShareDocument {
     Half,
     /// One cell next to the right wall.
     Slab,
+}
+
+/// A run behind error bars, before it is made.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = PlannedCompanion)]
+pub struct PlannedCompanionDocument {
+    /// What it is for.
+    pub role: RoleDocument,
+    /// Cell size [m].
+    pub cell_size_m: f64,
+    /// Sub-steps summed over its points, to the end of the duration.
+    pub point_steps: u64,
+    /// How long it will take [s].
+    pub expected_s: f64,
 }
