@@ -149,7 +149,7 @@ impl Block {
                     smooth("right side wall", Vec3::y(), half_width),
                     smooth("left side wall", -Vec3::y(), half_width),
                 ],
-                cells_across: self.cells_across as i32,
+                halves_across: 2 * self.cells_across as i32,
             },
         }
     }

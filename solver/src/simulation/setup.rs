@@ -349,7 +349,7 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
                 upright("right side wall", Vec3::y(), half_width),
                 upright("left side wall", -Vec3::y(), half_width),
             ],
-            cells_across: (channel.width_m / lattice.spacing.y).round() as i32,
+            halves_across: 2 * (channel.width_m / lattice.spacing.y).round() as i32,
         },
     }
 }

@@ -192,7 +192,7 @@ impl Walls {
             Ends::BackWall(_) => first[0] <= 1,
             Ends::Seam { cells } => first[0] <= 1 || last[0] >= cells - 1,
         };
-        let upright = ends || first[1] <= 1 || last[1] >= self.upright.cells_across - 1;
+        let upright = ends || first[1] <= 1 || 2 * last[1] >= self.upright.halves_across - 2;
         let (low, high) = (lattice.position(first), lattice.position(last));
         // The lowest of a box's corners above a plane.
         let lowest =

@@ -24,7 +24,7 @@ pub(super) fn channel(cells_across: i32, base_friction: f64, side_friction: f64)
                 plane("right side wall", Vec3::y(), 0.0, side_friction),
                 plane("left side wall", -Vec3::y(), -width, side_friction),
             ],
-            cells_across,
+            halves_across: 2 * cells_across,
         },
     }
 }

@@ -5,15 +5,16 @@ use super::nodes::NodeAccess;
 use std::iter::once;
 
 /// The upright walls, on planes of nodes: ends at index 0 along x, sides at
-/// index 0 and `cells_across` along y.
+/// index 0 and half of `halves_across` along y.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Upright {
     /// What is at index 0 along x.
     pub ends: Ends,
     /// The side walls.
     pub sides: [Plane; 2],
-    /// Cells between the side walls.
-    pub cells_across: i32,
+    /// Cells between the side walls, twice; odd where the second is a mirror halfway
+    /// between two nodes.
+    pub halves_across: i32,
 }
 
 /// What bounds the flow along x.
@@ -34,7 +35,7 @@ pub enum Ends {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meets {
     Not,
-    /// One node away, so that its image is behind the wall.
+    /// Up to one node away, so that its image is behind the wall.
     Near {
         inward: f64,
     },
@@ -58,9 +59,12 @@ impl Upright {
     /// The node in the channel that a node is the image of (itself, mostly);
     /// across a seam the first that has a block.
     pub(super) fn leader(&self, [i, j, k]: [i32; 3], nodes: &impl NodeAccess) -> [i32; 3] {
-        let across = self.cells_across;
         let j = j.abs();
-        let j = if j > across { 2 * across - j } else { j };
+        let j = if 2 * j > self.halves_across {
+            self.behind_far_side(j)
+        } else {
+            j
+        };
         let i = match self.ends {
             Ends::BackWall(_) => i.abs(),
             Ends::Seam { cells } => {
@@ -79,7 +83,17 @@ impl Upright {
             Ends::BackWall(_) => i == 1,
             Ends::Seam { cells } => across_seam(i, cells).next().is_some(),
         };
-        along || j == 1 || j == self.cells_across - 1
+        along || j == 1 || self.is_before_far_side(j)
+    }
+
+    /// The image of row `j` of nodes in the second side.
+    fn behind_far_side(&self, j: i32) -> i32 {
+        self.halves_across - j
+    }
+
+    /// Whether the kernel can reach the image of row `j` in the second side.
+    fn is_before_far_side(&self, j: i32) -> bool {
+        (1..=2).contains(&(self.halves_across - 2 * j))
     }
 
     /// Visits the images that the kernel can reach, one node behind a wall.
@@ -88,7 +102,6 @@ impl Upright {
         [i, j, k]: [i32; 3],
         mut visit: impl FnMut([i32; 3], [f64; 2]),
     ) {
-        let across = self.cells_across;
         let (mirror, period) = match self.ends {
             Ends::BackWall(_) => ((i == 1).then_some((-i, -1.0)), None),
             Ends::Seam { cells } => (None, Some(cells)),
@@ -100,7 +113,8 @@ impl Upright {
         let along_y = [
             Some((j, 1.0)),
             (j == 1).then_some((-j, -1.0)),
-            (j == across - 1).then_some((2 * across - j, -1.0)),
+            self.is_before_far_side(j)
+                .then_some((self.behind_far_side(j), -1.0)),
         ];
         for (x, (i, sign_x)) in along_x.enumerate() {
             for (y, &(j, sign_y)) in along_y.iter().flatten().enumerate() {
@@ -113,17 +127,17 @@ impl Upright {
 
     pub(super) fn meets_back(&self, [i, ..]: [i32; 3]) -> Meets {
         match self.ends {
-            Ends::BackWall(_) => meets(i, 1.0),
+            Ends::BackWall(_) => meets(2 * i, 1.0),
             Ends::Seam { .. } => Meets::Not,
         }
     }
 
     pub(super) fn meets_side(&self, [_, j, _]: [i32; 3]) -> Meets {
-        let from_far_side = self.cells_across - j;
-        if from_far_side < j {
+        let from_far_side = self.halves_across - 2 * j;
+        if from_far_side < 2 * j {
             meets(from_far_side, -1.0)
         } else {
-            meets(j, 1.0)
+            meets(2 * j, 1.0)
         }
     }
 
@@ -161,11 +175,11 @@ fn across_seam(i: i32, cells: i32) -> impl Iterator<Item = i32> {
     alike.filter(move |alike| *alike != i && (-1..=cells + 1).contains(alike))
 }
 
-/// How a node `distance` nodes from a wall meets it.
-fn meets(distance: i32, inward: f64) -> Meets {
-    match distance {
+/// How a node so many halves of a cell from a wall meets it.
+fn meets(halves: i32, inward: f64) -> Meets {
+    match halves {
         0 => Meets::On { inward },
-        1 => Meets::Near { inward },
+        1 | 2 => Meets::Near { inward },
         _ => Meets::Not,
     }
 }

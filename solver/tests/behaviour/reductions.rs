@@ -8,6 +8,7 @@ use scree_solver::simulation::Share;
 use serde_json::json;
 
 /// How far a reduced run may be from the full one: rounding, and what it grows to.
+#[derive(Clone, Copy)]
 struct Bounds {
     precision: &'static str,
     /// Of a body's place [m].
@@ -32,12 +33,12 @@ const EACH: [Bounds; 2] = [
     },
 ];
 
-/// A cube struck after 0.1 s, on cells of a fifth of the channel's half width.
-fn struck() -> Scene {
+/// A cube struck after 0.1 s, with so many cells across the channel.
+fn struck(cells_across: u32) -> Scene {
     Scene::channel(45.0, 1.0, 1.0, 0.2)
         .flow(json!({"volume_m3": 0.003, "release": {"height_m": 0.1, "toe_distance_m": 0.1}}))
         .body(json!({"shape": {"cube": {"side_m": 0.04}}, "position": {"downstream_m": 0.04}}))
-        .set("numerics", "cell_size_m", 0.02)
+        .set("numerics", "cell_size_m", 0.2 / f64::from(cells_across))
         .lasting(0.4)
 }
 
@@ -87,8 +88,9 @@ fn same_books(reduced: &Simulation, full: &Simulation) {
 
 #[test]
 fn a_half_moves_as_the_whole() {
-    for bounds in EACH {
-        let scene = struck().precision(bounds.precision);
+    // With nodes in the centre plane, and without.
+    for (bounds, cells_across) in EACH.into_iter().flat_map(|of| [(of, 10), (of, 9)]) {
+        let scene = struck(cells_across).precision(bounds.precision);
         let mut half = scene.clone().set("numerics", "symmetry", "mirror");
         half = half.set("numerics", "approach", "full");
         let (mut half, mut full) = (half.start(), scene.full().start());
@@ -106,9 +108,20 @@ fn a_half_moves_as_the_whole() {
 }
 
 #[test]
+fn a_slab_becomes_a_half_between_nodes() {
+    for bounds in EACH {
+        let scene = struck(9).precision(bounds.precision);
+        let (mut slab, mut full) = (scene.start(), scene.full().start());
+        assert_eq!(slab.share(), Share::Slab);
+        compare(&mut slab, &mut full, &bounds);
+        assert_eq!(slab.share(), Share::Half);
+    }
+}
+
+#[test]
 fn a_slab_becomes_the_whole() {
     for bounds in EACH {
-        let scene = struck()
+        let scene = struck(10)
             .first_body("yaw_deg", 20.0)
             .precision(bounds.precision);
         let slab = scene.clone().set("numerics", "approach", "slab");

@@ -10,7 +10,7 @@ use crate::simulation::setup::{Columns, Setup, Share};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Images {
     share: Share,
-    /// Cells across that the images fill, the share's own included.
+    /// Cells across the whole channel.
     cells_across: u32,
     /// Width of a cell across [m].
     cell_width: f64,
@@ -25,7 +25,7 @@ pub(super) struct Images {
 impl Images {
     /// The images that make up the whole channel.
     pub(super) fn of_share(share: Share, columns: &Columns, whole: &Setup) -> Self {
-        let cells = whole.walls.upright.cells_across.unsigned_abs();
+        let cells = whole.walls.upright.halves_across.unsigned_abs() / 2;
         let [_, rows, up] = columns.count;
         Self {
             share,
@@ -34,14 +34,6 @@ impl Images {
             rows,
             up,
             rows_per_cell: rows / cells,
-        }
-    }
-
-    /// Those that make up so many cells.
-    pub(super) fn across(self, cells: i32) -> Self {
-        Self {
-            cells_across: cells.unsigned_abs(),
-            ..self
         }
     }
 
@@ -72,6 +64,11 @@ impl Images {
         }
     }
 
+    /// Which row across a point is in.
+    pub(super) fn row(&self, point: &Point) -> u32 {
+        point.id / self.up % self.rows
+    }
+
     fn shift(&self, which: u32) -> f64 {
         f64::from(which) * self.cell_width
     }
@@ -86,7 +83,7 @@ impl Images {
 
     fn mirrored(&self, point: &Point) -> Point {
         let mut image = *point;
-        let row = point.id / self.up % self.rows;
+        let row = self.row(point);
         image.id = image.id - row * self.up + (self.rows - 1 - row) * self.up;
         image.position.y = -image.position.y;
         image.velocity.y = -image.velocity.y;

@@ -81,14 +81,14 @@ impl SharedFlow {
     /// Goes on with the last share: its points are images of the present ones.
     fn widen(&mut self, whole: &Setup) {
         let wider = self.shares.last;
-        let images = self
-            .images
-            .across(wider.cells_across(whole.walls.upright.cells_across));
-        let mut points = Vec::with_capacity(self.flow.count() * images.count() as usize);
-        for which in 0..images.count() {
-            let mut take = |point: &Point| points.push(images.of(which, point));
-            self.flow.visit(None, &mut take);
-        }
+        let rows = wider.rows_across(&self.shares.columns, whole.walls.upright.halves_across);
+        let mut points = Vec::new();
+        let mut take = |point: &Point| {
+            if self.images.row(point) < rows {
+                points.push(*point);
+            }
+        };
+        self.visit(None, &mut take);
         let on_bodies = std::mem::take(&mut self.on_bodies);
         let instructions = self.instructions;
         let shares = self.shares.clone();

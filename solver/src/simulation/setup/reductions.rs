@@ -99,8 +99,8 @@ struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    fn cells_across(&self) -> i32 {
-        self.given.walls.upright.cells_across
+    fn halves_across(&self) -> i32 {
+        self.given.walls.upright.halves_across
     }
 
     /// Which body is the image of each, or why it is not computed by halves.
@@ -109,7 +109,10 @@ impl Seen<'_> {
         let found = match (asked, self.columns) {
             (Symmetry::Full, _) => Err(forbidden("symmetry")),
             (_, None) => Err(without_flow()),
-            _ => partners(self.scenario, self.cells_across(), self.bodies),
+            _ if Share::Half.halves_across(self.halves_across()) < 2 => {
+                Err("the channel is one cell wide".to_owned())
+            }
+            (_, Some(columns)) => partners(self.scenario, columns, self.bodies),
         };
         insist(found, asked == Symmetry::Mirror, "symmetry", "mirror")
     }
@@ -120,7 +123,7 @@ impl Seen<'_> {
         let found = match (asked, self.columns) {
             (Approach::Full, _) => Err(forbidden("approach")),
             (_, None) => Err(without_flow()),
-            _ if last.cells_across(self.cells_across()) == 1 => {
+            _ if last.halves_across(self.halves_across()) <= 2 => {
                 Err("what is computed is one cell wide anyway".to_owned())
             }
             (_, Some(columns)) => {

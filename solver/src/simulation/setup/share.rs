@@ -18,32 +18,31 @@ pub enum Share {
 }
 
 impl Share {
-    /// Cells across that are computed, of so many between the side walls.
-    pub fn cells_across(self, whole: i32) -> i32 {
+    /// Halves of a cell across that are computed, of so many between the side walls.
+    pub fn halves_across(self, whole: i32) -> i32 {
         match self {
             Self::Whole => whole,
             Self::Half => whole / 2,
-            Self::Slab => 1,
+            Self::Slab => 2,
         }
     }
 
     /// Rows of points across that are computed, of all in the release.
     pub fn rows_across(self, columns: &Columns, whole: i32) -> u32 {
-        let rows_per_cell = columns.count[1] / whole.unsigned_abs().max(1);
-        rows_per_cell * self.cells_across(whole).unsigned_abs()
+        columns.count[1] * self.halves_across(whole).unsigned_abs() / whole.unsigned_abs().max(1)
     }
 
     /// The walls of this share of a channel.
     pub(in crate::simulation) fn walls(self, whole: &Setup) -> Walls {
         let mut walls = whole.walls.clone();
-        let cells = self.cells_across(walls.upright.cells_across);
-        if cells < walls.upright.cells_across {
+        let halves = self.halves_across(walls.upright.halves_across);
+        if halves < walls.upright.halves_across {
             let lattice = &whole.lattice;
-            walls.upright.cells_across = cells;
+            walls.upright.halves_across = halves;
             walls.upright.sides[1] = Plane {
                 name: "mirror",
                 normal: -Vec3::y(),
-                offset: -(lattice.origin.y + f64::from(cells) * lattice.spacing.y),
+                offset: -(lattice.origin.y + 0.5 * f64::from(halves) * lattice.spacing.y),
                 flow_friction: 0.0,
             };
         }

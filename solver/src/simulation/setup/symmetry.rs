@@ -21,12 +21,13 @@ pub(super) type Why = String;
 /// the centre plane.
 pub(super) fn partners(
     scenario: &Scenario,
-    cells_across: i32,
+    columns: &Columns,
     bodies: &[Body],
 ) -> Result<Vec<usize>, Why> {
-    if cells_across % 2 != 0 {
+    let rows = columns.count[1];
+    if rows % 2 != 0 {
         return Err(format!(
-            "{cells_across} cells lie across the channel: an odd number, so that no nodes lie in the centre plane"
+            "{rows} rows of points lie across the channel: an odd number, so that one lies in the centre plane"
         ));
     }
     (0..bodies.len())
