@@ -66,3 +66,27 @@ fn a_body_that_stands_alone_needs_no_more_than_a_tenth_of_a_second() {
         early.bodies[0].displacement_m
     );
 }
+
+#[test]
+fn an_early_end_changes_nothing_beyond_its_bounds() {
+    let mut scene: Value =
+        serde_json::from_str(include_str!("../../configs/scenarios/source_paper.json")).unwrap();
+    scene["numerics"]["cell_size_m"] = json!(0.03);
+    let ((early, _), (full, _)) = (run(&scene, "auto"), run(&scene, "full"));
+    let ended = early.ended_early.expect("all of it comes to rest");
+    let (ours, theirs) = (&early.bodies[0], &full.bodies[0]);
+    assert_eq!(ours.onset_time_s, theirs.onset_time_s);
+    assert_eq!(ours.peak_speed_m_s, theirs.peak_speed_m_s);
+    assert_eq!(ours.stop_time_s, theirs.stop_time_s);
+    let moved = (ours.displacement_m - theirs.displacement_m).abs();
+    assert!(moved <= ended.body_bound_m + 1e-6, "{moved}");
+    let fronts = early
+        .flow
+        .front_m
+        .zip(full.flow.front_m)
+        .map(|(a, b)| (a - b).abs());
+    assert!(
+        fronts <= ended.front_bound_m.map(|bound| bound + 1e-6),
+        "{fronts:?}"
+    );
+}

@@ -4,9 +4,12 @@
 use super::fit::{Line, observed_order};
 use crate::record::{Band, Basis};
 
-/// How much of the scatter is added to the trend: chosen on scenes that served for
-/// nothing else.
-const SCATTER: f64 = 2.0;
+/// How much of the scatter is added to the trend: chosen, with the next one, on scenes
+/// that served for nothing else.
+const SCATTER: f64 = 2.5;
+/// How far a band goes against the trend, over how far with it: finer cells mostly
+/// change a value as the coarser ones did.
+const BACK: f64 = 0.5;
 /// Half the width over the only difference there is.
 const SAFETY_OF_ONE: f64 = 3.0;
 /// Observed orders that are plausible.
@@ -92,18 +95,19 @@ impl Series {
 
     fn about(&self, happened: &[(f64, f64)], basis: Basis, order: Option<f64>) -> Band {
         let (size, value) = happened[0];
-        let of_cells = match happened {
-            [_, (_, other)] => SAFETY_OF_ONE * (value - other).abs(),
+        let (trend, off_it) = match happened {
+            [_, (_, other)] => (0.0, SAFETY_OF_ONE * (value - other).abs()),
             _ => {
                 let line = Line::through(happened);
-                line.slope.abs() * size + SCATTER * line.scatter
+                (-line.slope * size, SCATTER * line.scatter)
             }
         };
-        let half = of_cells + self.of_softness() + self.floor(size, value);
+        let [down, up] = [-trend, trend].map(|way| way.max(-BACK * way));
+        let around = off_it + self.of_softness() + self.floor(size, value);
         Band {
             value: Some(value),
-            low: Some(self.not_below(value - half)),
-            high: Some(value + half),
+            low: Some(self.not_below(value - down - around)),
+            high: Some(value + up + around),
             order,
             basis,
         }
@@ -158,11 +162,11 @@ mod tests {
         let band = happened(&[1.1, 1.15, 1.2, 1.25]).band();
         assert_eq!(band.basis, Basis::Converging);
         assert!((band.order.unwrap() - 1.0).abs() < 0.05, "{band:?}");
-        // The limit is 1.0.
-        assert!(
-            band.low.unwrap() <= 1.0 && band.high.unwrap() >= 1.2,
-            "{band:?}"
-        );
+        // The limit is 1.0, and half of that way lies on the other side.
+        let ends = [band.low.unwrap(), band.high.unwrap()];
+        let floor = 1.1 * FLOOR_SHARE;
+        assert!((ends[0] - (1.0 - floor)).abs() < 1e-12, "{band:?}");
+        assert!((ends[1] - (1.15 + floor)).abs() < 1e-12, "{band:?}");
     }
 
     #[test]

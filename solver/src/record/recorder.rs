@@ -146,8 +146,8 @@ impl Recorder {
         if self.ending == Ending::Full || time_s < RESTS_FOR || !bodies.all(rests) {
             return None;
         }
-        let remaining = Remaining::of(simulation, &self.base);
         let left = (self.duration - time_s).max(0.0);
+        let remaining = Remaining::of(simulation, &self.base, left);
         let body_bound_m = body_bound(simulation, &remaining, left)?;
         let front = front(simulation, self.open_end);
         let farthest = front_of(simulation, remaining.reaches, self.open_end);

@@ -63,30 +63,56 @@ impl Base {
 
 /// What the moving part of a flow could still do.
 pub(super) struct Remaining {
-    /// Of what moves, and of its height on the incline [J].
-    energy: f64,
     /// Where each point comes to rest at the farthest [m], with its mass [kg].
     pub(super) reaches: Vec<(f64, f64)>,
+    moving: Vec<Sliding>,
+}
+
+/// A point that moves.
+struct Sliding {
+    /// Where it is, along the channel [m].
+    x: f64,
+    /// How far friction lets it get from there [m].
+    way: f64,
+    /// Of motion, and of height on the incline [J].
+    energy: f64,
+}
+
+impl Sliding {
+    /// What friction has left of the energy when it gets to x [J].
+    fn energy_at(&self, x: f64) -> f64 {
+        let spent = ((x - self.x) / self.way).clamp(0.0, 1.0);
+        self.energy * (1.0 - spent)
+    }
 }
 
 impl Remaining {
-    pub(super) fn of(simulation: &Simulation, base: &Base) -> Self {
+    /// With so much of the duration left [s].
+    pub(super) fn of(simulation: &Simulation, base: &Base, left: f64) -> Self {
         let gravity = simulation.gravity().norm();
         let mut remaining = Self {
-            energy: 0.0,
             reaches: Vec::with_capacity(simulation.point_count()),
+            moving: Vec::new(),
         };
         simulation.visit_points(None, |point| {
             let specific = specific_energy(point, simulation, base);
-            let way = if specific > 0.0 {
-                specific / (base.friction * gravity)
-            } else {
-                0.0
-            };
-            remaining.energy += point.mass * specific;
-            remaining.reaches.push((point.position.x + way, point.mass));
+            let x = point.position.x;
+            let mut way = 0.0;
+            if specific > 0.0 {
+                way = specific / (base.friction * gravity);
+                let energy = point.mass * specific;
+                remaining.moving.push(Sliding { x, way, energy });
+            }
+            // What creeps, pushed by others, need not slow down.
+            let reach = x + way.max(point.velocity.norm() * left);
+            remaining.reaches.push((reach, point.mass));
         });
         remaining
+    }
+
+    /// Energy that gets as far as x [J].
+    fn energy_at(&self, x: f64) -> f64 {
+        self.moving.iter().map(|point| point.energy_at(x)).sum()
     }
 }
 
@@ -101,19 +127,22 @@ fn specific_energy(point: &Point, simulation: &Simulation, base: &Base) -> f64 {
 }
 
 /// How far any of these bodies could still get in `left` [s], by itself and pushed by
-/// a flow with this much left [m] (equation 62); `None` if too far, or if nothing
-/// says how far.
+/// what of a flow gets as far as it is [m] (equation 62); `None` if too far, or if
+/// nothing says how far.
 pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f64) -> Option<f64> {
     let free = simulation.bodies().iter().filter(|body| body.is_free());
     let mut largest = 0.0f64;
     for body in free {
         let mut way = body.largest_speed() * left;
-        if remaining.energy > 0.0 {
+        // What comes to rest more than a cell before the body does not touch it.
+        let behind = body.shape.bounding_radius() + simulation.cell_size_m();
+        let energy = remaining.energy_at(body.state.position.x - behind);
+        if energy > 0.0 {
             let footing = Footing::of(body, simulation)?;
-            if remaining.energy >= TIPPING_SHARE * footing.tipping {
+            if energy >= TIPPING_SHARE * footing.tipping {
                 return None;
             }
-            way += remaining.energy / footing.holding;
+            way += energy / footing.holding;
         }
         largest = largest.max(way);
     }

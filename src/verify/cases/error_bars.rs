@@ -4,8 +4,8 @@
 //! shape, with everything about them thrown by dice. Each is answered with error bars,
 //! at 2.2 to 3 cells across its body, and computed once more with cells half as large.
 //! Oracle: that finer run. Bar: nine in ten of its values lie inside the bands, quantity
-//! by quantity. Twenty scenes served to choose the estimator's numbers; they are not
-//! among those that are judged here. A quantity counts where it happened in the finer
+//! by quantity. Forty other scenes served to choose the estimator's numbers; none
+//! of them is judged here. A quantity counts where it happened in the finer
 //! run or in one of those behind the band, and not of bodies that never moved. How wide
 //! the bands are and what they cost is reported beside: wide enough is easy.
 
@@ -27,7 +27,7 @@ pub(super) const CASE: Case = Case {
     how: How::Runs(run),
 };
 
-/// Scenes that are judged; those before the first served to choose the estimator.
+/// Scenes that are judged; 0 to 19 and 40 to 59 served to choose the estimator.
 const SCENES: [u64; 20] = [
     20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39,
 ];
