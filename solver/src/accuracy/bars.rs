@@ -95,10 +95,10 @@ pub(super) fn value_of(outcome: &Outcome, quantity: Quantity, body: u32) -> Opti
     }
 }
 
-/// Half the width of a band over its value; `None` if an end is open or the value
-/// is 0.
+/// How far a band reaches from its value, over the value; `None` if an end is open or
+/// the value is 0.
 pub(super) fn relative(band: &Band) -> Option<f64> {
-    let width = band.high? - band.low?;
     let value = band.value.filter(|value| *value != 0.0)?;
-    Some(0.5 * width / value.abs())
+    let reach = (band.high? - value).max(value - band.low?);
+    Some(reach / value.abs())
 }

@@ -38,7 +38,7 @@ pub(super) fn pilots(extent: &Extent) -> Vec<Rung> {
 /// How far the way to a target is.
 #[derive(Debug)]
 pub(super) struct Progress {
-    /// Half the width over the value that is asked for.
+    /// How far the band may reach from the value, over it.
     pub(super) asked: f64,
     /// The band so far.
     pub(super) band: Option<Band>,

@@ -118,7 +118,7 @@ pub struct TargetReport {
     pub quantity: Quantity,
     /// Index of the body whose quantity that is; null for the flow's.
     pub body: Option<u32>,
-    /// Half the width of the band over the value, as asked.
+    /// How far the band may reach from the value, over it, as asked.
     pub asked: f64,
     /// The same, as reached; null if the band has an open end or the value is 0.
     pub reached: Option<f64>,

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub struct Accuracy {
     /// Every quantity of the outcome gets a band (docs/error-bars.md).
     pub error_bars: bool,
-    /// Half the width of the band of `quantity` over its value, to be reached by
+    /// How far the band of `quantity` may reach from its value, over it; to be met by
     /// the choice of cells; `None`: the cells are those of `numerics`.
     pub target: Option<f64>,
     /// The quantity that `target` is about.

@@ -11,7 +11,7 @@ pub struct AccuracyDocument {
     /// Every quantity of the outcome gets a band.
     #[schema(required = false)]
     pub error_bars: bool,
-    /// Half the width of the band of `quantity` over its value, to be reached by
+    /// How far the band of `quantity` may reach from its value, over it; to be met by
     /// the choice of cells; null: the cells are those of `numerics`.
     pub target: Option<f64>,
     /// The quantity that `target` is about.
@@ -187,7 +187,7 @@ pub struct TargetReportDocument {
     /// Index of the body whose quantity that is; null for the flow's.
     #[schema(required = true)]
     pub body: Option<u32>,
-    /// Half the width of the band over the value, as asked.
+    /// How far the band may reach from the value, over it, as asked.
     pub asked: f64,
     /// The same, as reached; null if the band has an open end or the value is 0.
     #[schema(required = true)]
