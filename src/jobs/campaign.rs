@@ -2,10 +2,13 @@
 //! answer, or as many runs as its target takes.
 
 use super::progress::Progress;
-use super::runner::{self, RunEnd, RunError, Sink, StopFlag};
+use super::runner::{Run, RunEnd, RunError, Sink, StopFlag};
+use super::saved_campaign::{self, SavedCampaign};
+use super::saved_run::SavedRunError;
 use scree_solver::accuracy::{Campaign, Rung};
 use scree_solver::record::Record;
 use scree_solver::scenario::Scenario;
+use scree_solver::{SetupError, StepError};
 use std::time::Instant;
 
 /// Runs `scenario` on `threads` solver threads from its start to its end or until
@@ -21,38 +24,112 @@ pub fn run<S: Sink>(
     stop: &StopFlag,
     sink: &mut S,
 ) -> Result<RunEnd, RunError<S::Error>> {
-    let mut campaign = Campaign::of(scenario)?;
-    let mut whole = Whole::new(sink);
-    let mut failure = None;
-    while let Some(rung) = campaign.next() {
-        let mut part = Part {
-            whole: &mut whole,
-            campaign: &campaign,
-            fate: Fate::of(&campaign, rung),
+    Runs::afresh(scenario, threads)?.go(stop, sink)
+}
+
+/// The runs of a scenario that takes several.
+#[derive(Debug)]
+pub struct Runs {
+    campaign: Campaign,
+    threads: usize,
+    /// Records of the finest run so far, where a target may still ask for a finer one.
+    kept: Vec<Record>,
+    /// The run in hand, gone on with where it was saved, and its records if they are
+    /// kept.
+    begun: Option<(Run, Vec<Record>)>,
+    /// Why the last run that failed did.
+    failure: Option<StepError>,
+}
+
+impl Runs {
+    /// None of them made yet.
+    ///
+    /// # Errors
+    /// The solver can't set the scenario up.
+    pub fn afresh(scenario: &Scenario, threads: usize) -> Result<Self, SetupError> {
+        Ok(Self {
+            campaign: Campaign::of(scenario)?,
+            threads,
             kept: Vec::new(),
-        };
-        let ended = runner::run(&campaign.scenario_of(rung), threads, stop, &mut part);
-        let Part { fate, kept, .. } = part;
-        match ended {
-            Ok(RunEnd::Stopped) => return Ok(RunEnd::Stopped),
-            Ok(RunEnd::Completed(outcome)) => {
-                if fate == Fate::Kept {
-                    whole.kept = kept;
-                }
-                campaign.take(Ok(*outcome));
-            }
-            Err(RunError::Step(error)) if campaign.can_do_without(rung) => {
-                campaign.take(Err(error.to_string()));
-                failure = Some(error);
-            }
-            Err(error) => return Err(error),
-        }
+            begun: None,
+            failure: None,
+        })
     }
-    whole.hand_on_kept().map_err(RunError::Sink)?;
-    match (campaign.finish(), failure) {
-        (Some(answer), _) => Ok(RunEnd::Completed(Box::new(answer))),
-        (None, Some(error)) => Err(error.into()),
-        (None, None) => Ok(RunEnd::Stopped),
+
+    /// Where they were when `state` was saved.
+    ///
+    /// # Errors
+    /// Bytes that are no state of this scenario and this build.
+    pub fn restored(
+        scenario: &Scenario,
+        threads: usize,
+        state: &[u8],
+    ) -> Result<Self, SavedRunError> {
+        let (saved, run) = saved_campaign::read(state)?;
+        let SavedCampaign { done, kept, of_run } = saved;
+        let mut runs = Self::afresh(scenario, threads).map_err(|_| SavedRunError::Head)?;
+        let any_before = !done.is_empty();
+        done.into_iter().for_each(|done| runs.campaign.take(done));
+        // Where all runs failed so far, why the last one did is to be found out anew.
+        let rung = runs.campaign.next().ok_or(SavedRunError::Head)?;
+        if any_before && !runs.campaign.has_an_answer() {
+            return Err(SavedRunError::Head);
+        }
+        let run = Run::restored(&runs.campaign.scenario_of(rung), threads, run)?;
+        Ok(Self {
+            kept,
+            begun: Some((run, of_run)),
+            ..runs
+        })
+    }
+
+    /// Runs to the end or until `stop` is raised.
+    ///
+    /// # Errors
+    /// See [`RunError`]; what the sink had taken by then stays valid.
+    pub fn go<S: Sink>(
+        mut self,
+        stop: &StopFlag,
+        sink: &mut S,
+    ) -> Result<RunEnd, RunError<S::Error>> {
+        let mut whole = Whole::new(sink, self.kept);
+        while let Some(rung) = self.campaign.next() {
+            let (run, kept) = match self.begun.take() {
+                Some(begun) => begun,
+                None => {
+                    let scenario = self.campaign.scenario_of(rung);
+                    (Run::afresh(&scenario, self.threads)?, Vec::new())
+                }
+            };
+            let mut part = Part {
+                fate: Fate::of(&self.campaign, rung),
+                whole: &mut whole,
+                campaign: &self.campaign,
+                kept,
+            };
+            let ended = run.go(stop, &mut part);
+            let Part { fate, kept, .. } = part;
+            match ended {
+                Ok(RunEnd::Stopped) => return Ok(RunEnd::Stopped),
+                Ok(RunEnd::Completed(outcome)) => {
+                    if fate == Fate::Kept {
+                        whole.kept = kept;
+                    }
+                    self.campaign.take(Ok(*outcome));
+                }
+                Err(RunError::Step(error)) if self.campaign.can_do_without(rung) => {
+                    self.campaign.take(Err(error.to_string()));
+                    self.failure = Some(error);
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        whole.hand_on_kept().map_err(RunError::Sink)?;
+        match (self.campaign.finish(), self.failure) {
+            (Some(answer), _) => Ok(RunEnd::Completed(Box::new(answer))),
+            (None, Some(error)) => Err(error.into()),
+            (None, None) => Ok(RunEnd::Stopped),
+        }
     }
 }
 
@@ -87,10 +164,10 @@ struct Whole<'a, S> {
 }
 
 impl<'a, S: Sink> Whole<'a, S> {
-    fn new(sink: &'a mut S) -> Self {
+    fn new(sink: &'a mut S, kept: Vec<Record>) -> Self {
         Self {
             sink,
-            kept: Vec::new(),
+            kept,
             began: Instant::now(),
             told: 0.0,
         }
@@ -138,5 +215,20 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
     fn progress(&mut self, progress: &Progress) -> Result<(), S::Error> {
         let fraction = self.campaign.share_done(progress.fraction);
         self.whole.tell(progress, fraction)
+    }
+
+    fn wants_state(&mut self) -> bool {
+        self.whole.sink.wants_state()
+    }
+
+    fn state(&mut self, time_s: f64, run: &[u8]) -> Result<(), S::Error> {
+        let saved = SavedCampaign {
+            done: self.campaign.done().cloned().collect(),
+            kept: self.whole.kept.clone(),
+            of_run: self.kept.clone(),
+        };
+        self.whole
+            .sink
+            .state(time_s, &saved_campaign::write(&saved, run))
     }
 }

@@ -16,6 +16,7 @@ pub mod progress;
 mod reading;
 pub mod recording;
 pub mod runner;
+mod saved_campaign;
 pub mod saved_run;
 pub mod store;
 pub mod submit;

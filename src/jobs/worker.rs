@@ -1,11 +1,11 @@
 //! One worker: claims jobs, runs them, and says how they ended.
 
-use super::campaign;
+use super::campaign::Runs;
 use super::failure::Failure;
 use super::pool::{Equipment, Place};
 use super::recording::{KeepError, StoreSink};
 use super::runner::{Run, RunEnd, RunError, Stop, StopFlag};
-use super::saved_run::COMMIT;
+use super::saved_run::{COMMIT, SavedRunError};
 use super::store::{Beginning, Claim, Claimant, Hold, Mark, Setback, Solver, StoreError};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
@@ -126,21 +126,27 @@ fn run(equipment: &Equipment, claim: &Claim, place: &Place) -> Verdict {
     }
 }
 
-/// The run to its end. One with bands or a target takes several runs, and begins with
-/// the first of them again where it was stopped.
+/// The run to its end, or the several that bands or a target take.
 fn carried_through(
     equipment: &Equipment,
     hold: Hold,
     (scenario, threads): (&Scenario, usize),
     (stop, sink): (&StopFlag, &mut StoreSink),
 ) -> Result<RunEnd, RunError<KeepError>> {
+    let what = (scenario, threads);
     if scenario.accuracy.takes_several_runs() {
-        begin(equipment, hold, &Beginning::Afresh, threads)?;
-        *sink = sink.afresh();
-        return campaign::run(scenario, threads, stop, sink);
+        let ways: Ways<Runs> = (Runs::restored, Runs::afresh);
+        return set_up(equipment, hold, what, sink, ways)?.go(stop, sink);
     }
-    set_up(equipment, hold, (scenario, threads), sink)?.go(stop, sink)
+    let ways: Ways<Run> = (Run::restored, Run::afresh);
+    set_up(equipment, hold, what, sink, ways)?.go(stop, sink)
 }
+
+/// How a run is made from its saved state, and how at its start.
+type Ways<T> = (
+    fn(&Scenario, usize, &[u8]) -> Result<T, SavedRunError>,
+    fn(&Scenario, usize) -> Result<T, SetupError>,
+);
 
 /// Says where the run begins.
 fn begin(
@@ -158,13 +164,15 @@ fn begin(
 }
 
 /// The run where its saved state stands, or else at its start.
-fn set_up(
+fn set_up<T>(
     equipment: &Equipment,
     hold: Hold,
     (scenario, threads): (&Scenario, usize),
     sink: &mut StoreSink,
-) -> Result<Run, RunError<KeepError>> {
-    if let Some((run, mark)) = restored(equipment, hold, scenario, threads) {
+    (restore, afresh): Ways<T>,
+) -> Result<T, RunError<KeepError>> {
+    let from = |state: &[u8]| restore(scenario, threads, state);
+    if let Some((run, mark)) = restored(equipment, hold, from) {
         begin(equipment, hold, &Beginning::At(mark), threads)?;
         match sink.go_on_from(&mark, scenario.bodies.len()) {
             Ok(()) => {
@@ -177,17 +185,16 @@ fn set_up(
     }
     begin(equipment, hold, &Beginning::Afresh, threads)?;
     *sink = sink.afresh();
-    Ok(Run::afresh(scenario, threads)?)
+    Ok(afresh(scenario, threads)?)
 }
 
 /// The run made from its saved state. A state that can't be used, and why, is
 /// for the log: the run then starts over.
-fn restored(
+fn restored<T>(
     equipment: &Equipment,
     hold: Hold,
-    scenario: &Scenario,
-    threads: usize,
-) -> Option<(Run, Mark)> {
+    from: impl Fn(&[u8]) -> Result<T, SavedRunError>,
+) -> Option<(T, Mark)> {
     let stored = match equipment.runtime.block_on(equipment.store.state(hold.job)) {
         Ok(stored) => stored?,
         Err(error) => {
@@ -196,7 +203,7 @@ fn restored(
         }
     };
     let run = match stored.unpack() {
-        Ok(state) => Run::restored(scenario, threads, &state).map_err(|error| error.to_string()),
+        Ok(state) => from(&state).map_err(|error| error.to_string()),
         Err(error) => Err(error.to_string()),
     };
     match run {

@@ -73,6 +73,47 @@ async fn a_stopped_job_goes_on_where_it_was_with_the_same_bits() {
     app.stop().await;
 }
 
+/// The same of runs behind error bars, and of those on the way to a target.
+#[tokio::test(flavor = "multi_thread")]
+async fn several_runs_go_on_where_they_were_with_the_same_bits() {
+    for accuracy in [
+        json!({"error_bars": true}),
+        json!({"target": 0.5, "quantity": "displacement_m", "budget_point_steps": 4e5}),
+    ] {
+        let mut scene = tiny_scene();
+        scene["duration_s"] = json!(0.5);
+        if accuracy["error_bars"].is_null() {
+            scene["numerics"]["cell_size_m"] = Value::Null;
+        }
+        scene["accuracy"] = accuracy;
+        let app = TestApp::start().await;
+        let whole = app.submit(&scene).await;
+        let whole = app.wait_for_success(&whole).await;
+        let cut = app.submit(&scene).await;
+        let mut directory = Some(app.stop_under(&cut).await);
+        for _ in 0..3 {
+            let app = TestApp::start_in(directory.take().unwrap(), |_| {}).await;
+            app.wait(&cut, |job| is_running(job) || has_ended(job))
+                .await;
+            directory = Some(app.stop_under(&cut).await);
+        }
+        let app = TestApp::start_in(directory.take().unwrap(), |_| {}).await;
+        let job = app.wait_for_success(&cut).await;
+        let attempts = job["attempts"].as_array().unwrap();
+        let resumed = |attempt: &&Value| attempt["resumed_from_s"].as_f64() > Some(0.0);
+        assert!(
+            attempts.iter().any(|attempt| resumed(&attempt)),
+            "{attempts:?}"
+        );
+        let fingerprint = |job: &Value| job["provenance"]["fingerprint"].clone();
+        assert_eq!(fingerprint(&job), fingerprint(&whole));
+        for part in ["bodies", "flow", "audit"] {
+            assert_eq!(job["outcome"][part], whole["outcome"][part]);
+        }
+        app.stop().await;
+    }
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn a_job_that_a_crash_cut_off_is_run_again_from_its_start() {
     let directory = TempDir::new().unwrap();

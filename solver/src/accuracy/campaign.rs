@@ -72,6 +72,16 @@ impl Campaign {
         self.to_do.iter().copied()
     }
 
+    /// What came of the runs that are done, in turn.
+    pub fn done(&self) -> impl Iterator<Item = &Result<Outcome, String>> {
+        self.done.iter().map(|done| &done.outcome)
+    }
+
+    /// Whether there is an outcome that may be the answer.
+    pub fn has_an_answer(&self) -> bool {
+        self.done.iter().any(|done| done.grid().is_some())
+    }
+
     /// The scenario of a run. That of an answer whose cells are not chosen here is
     /// the one given, word for word, so its answer has the same bits.
     pub fn scenario_of(&self, rung: Rung) -> Scenario {

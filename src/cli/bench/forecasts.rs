@@ -25,6 +25,9 @@ struct Foretold {
     expected_s: f64,
     /// Median of the runs.
     took_s: f64,
+    /// When the run was expected to end, and when it did: simulated time [s].
+    expected_end_s: f64,
+    ended_s: f64,
 }
 
 /// A scene: its name, inclination [°], volume [m³], width [m], cell size [m],
@@ -91,30 +94,39 @@ impl Foretold {
             Failure::Other(format!("the scene {scene:?} is refused: {error:?}"))
         })?;
         let (mut expected, mut took) = (Vec::new(), Vec::new());
-        let mut points = 0;
+        let (mut points, mut expected_end_s, mut ended_s) = (0, 0.0, 0.0);
         for _ in 0..repeats {
             let planned = forecast(&scenario, cores()).map_err(|error| match error {
                 ForecastError::Setup(error) => not_set_up(&error),
                 ForecastError::Step(error) => Failure::Numerical(error.to_string()),
             })?;
             points = planned.plan.cost.points;
+            expected_end_s = planned.plan.cost.expected_end_s;
             expected.extend(planned.wall_time.expected_s);
-            took.push(timed(&scenario, cores())?.0);
+            let (wall_s, outcome) = timed(&scenario, cores())?;
+            took.push(wall_s);
+            ended_s = outcome
+                .ended_early
+                .map_or(scenario.duration_s, |ended| ended.time_s);
         }
         Ok(Self {
             scene,
             points,
             expected_s: median(expected),
             took_s: median(took),
+            expected_end_s,
+            ended_s,
         })
     }
 
-    fn row(&self) -> [String; 5] {
+    fn row(&self) -> [String; 7] {
         [
             self.scene.to_owned(),
             self.points.to_string(),
             format!("{:.2}", self.expected_s),
             format!("{:.2}", self.took_s),
+            format!("{:.2}", self.expected_end_s),
+            format!("{:.2}", self.ended_s),
             format!("{:+.0} %", 100.0 * (self.expected_s / self.took_s - 1.0)),
         ]
     }
@@ -127,7 +139,15 @@ impl Forecasts {
             "forecast: wall time foretold and taken, {} threads",
             self.threads
         );
-        let headings = ["scene", "points", "foretold s", "took s", "off"];
+        let headings = [
+            "scene",
+            "points",
+            "foretold s",
+            "took s",
+            "foretold end s",
+            "ended s",
+            "off",
+        ];
         table(&title, headings, self.scenes.iter().map(Foretold::row))
     }
 }
