@@ -5,6 +5,8 @@ use crate::simulation::Outline;
 
 /// Acceleration of a front that collapses, over gravity.
 const COLLAPSE: f64 = 0.25;
+/// How long a release that does not slide collapses, over √(h/g).
+const COLLAPSES_FOR: f64 = 4.5;
 
 /// What is expected of a flow: a block that slides on the incline and is stopped by
 /// friction on the floor.
@@ -76,6 +78,7 @@ impl Slide {
             0.0
         };
         let speed = (2.0 * self.down * way + self.gravity * self.height).sqrt();
-        sliding + speed / self.braking
+        let collapsing = COLLAPSES_FOR * (self.height / self.gravity).sqrt();
+        (sliding + speed / self.braking).max(collapsing)
     }
 }
