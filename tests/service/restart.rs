@@ -120,6 +120,7 @@ async fn cut_off(directory: &TempDir, times: u32) -> Hold {
             commit: "",
             instructions: "",
         },
+        up_for: Duration::from_secs(3_600),
     };
     for _ in 1..times {
         store.claim(&claimant).await.unwrap().unwrap();

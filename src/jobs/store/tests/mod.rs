@@ -129,6 +129,7 @@ fn claimant(owner: &str) -> Claimant {
             commit: "c",
             instructions: "none",
         },
+        up_for: Duration::from_secs(3_600),
     }
 }
 
