@@ -163,9 +163,11 @@ pub fn damping_number(restitution: f64) -> f64 {
         return 0.0;
     }
     let (mut low, mut high) = (0.0, MAX_DAMPING);
+    // A restitution that even the strongest damping does not reach needs no search.
+    let beyond = rebound_speed(MAX_DAMPING) > restitution;
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
-        if rebound_speed(middle) > restitution {
+        if beyond || rebound_speed(middle) > restitution {
             low = middle;
         } else {
             high = middle;

@@ -80,7 +80,7 @@ impl Store {
                  lease_owner = ?3, lease_expires_ms = ?4, lease_token = lease_token + 1
              WHERE sequence = (SELECT min(sequence) FROM jobs WHERE status = 'accepted'
                                AND (not_before_ms <= ?1 OR not_before_ms > ?5)
-                               AND (setbacks = 0 OR ?7 >= iif(setbacks = 1, ?8, ?9)))
+                               AND (setbacks = 0 OR ?8 >= iif(setbacks = 1, ?9, ?10)))
              RETURNING id, attempt, lease_token, scenario, setbacks",
         )
         .bind(now_ms)
