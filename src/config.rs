@@ -75,6 +75,9 @@ pub struct Limits {
     pub drain_timeout_s: f64,
     /// Most jobs that may wait; more are refused with 429.
     pub queued_jobs: u32,
+    /// Most point-steps (points times sub-steps) that a job may be planned to take;
+    /// `None`: as many as it likes.
+    pub job_point_steps: Option<u64>,
     /// Largest size of the database [bytes]; `None`: as the disk has room.
     pub database_bytes: Option<u64>,
 }
@@ -143,6 +146,7 @@ impl Default for ServiceConfig {
                 connections: 256,
                 drain_timeout_s: 5.0,
                 queued_jobs: 10_000,
+                job_point_steps: None,
                 database_bytes: None,
             },
             recording: Recording {

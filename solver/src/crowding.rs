@@ -7,6 +7,7 @@
 //! volumes are averaged over the grid, points move away from crowds, and those in
 //! a crowd are pressed together on paper, so that pressure drives them apart.
 
+use crate::grid::{BLOCK, BlockKey, block_of};
 use crate::kernel::{Lattice, REACH, share_above};
 use crate::math::Vec3;
 use crate::rigid::Body;
@@ -188,18 +189,37 @@ fn make_room_for(body: &Body, nodes: &mut impl NodeAccess) {
     // However small its share, a small body does not fill a kernel.
     let least = 1.0 - PEAK * body.shape.volume() / lattice.spacing.product();
     let width = lattice.spacing.max();
-    for i in low[0]..=high[0] {
-        for j in low[1]..=high[1] {
-            for k in low[2]..=high[2] {
-                let Some(place) = nodes.place_of([i, j, k]) else {
-                    continue;
-                };
-                let height = body.distance_to(&lattice.position([i, j, k]));
-                let room = share_above(height / width).max(least);
-                nodes.set_fullness(place, filled(nodes.fullness(place), room));
+    for block in blocks_between(nodes.blocks(), low, high) {
+        let within = |axis: usize| {
+            let first = block[axis] * BLOCK as i32;
+            first.max(low[axis])..=(first + BLOCK as i32 - 1).min(high[axis])
+        };
+        for i in within(0) {
+            for j in within(1) {
+                for k in within(2) {
+                    let Some(place) = nodes.place_of([i, j, k]) else {
+                        continue;
+                    };
+                    let height = body.distance_to(&lattice.position([i, j, k]));
+                    let room = share_above(height / width).max(least);
+                    nodes.set_fullness(place, filled(nodes.fullness(place), room));
+                }
             }
         }
     }
+}
+
+/// Those of the blocks, which come sorted, that have nodes between two: a large body
+/// holds millions of cells, most of them without a point near.
+fn blocks_between(blocks: &[BlockKey], low: [i32; 3], high: [i32; 3]) -> Vec<BlockKey> {
+    let (low, high) = (block_of(low), block_of(high));
+    let first = blocks.partition_point(|block| block[0] < low[0]);
+    let reached = blocks[first..]
+        .iter()
+        .take_while(|block| block[0] <= high[0]);
+    let between =
+        |block: &&BlockKey| (1..3).all(|axis| (low[axis]..=high[axis]).contains(&block[axis]));
+    reached.filter(between).copied().collect()
 }
 
 /// Lowest and highest node whose kernel may meet a body.

@@ -75,6 +75,21 @@ pub enum StepError {
         /// Smallest sub-step accepted [s].
         limit_s: f64,
     },
+    /// The contacts of a body are too stiff for what is lightest among those that hang
+    /// together.
+    #[error(
+        "t = {time_s:.6} s: contacts of body {body} ask for sub-steps of {substep_s:e} s (limit {limit_s:e} s): too stiff for the lightest body that hangs together with it (contact_modulus_pa, density_kg_m3)"
+    )]
+    BodyTimeStepCollapse {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Index of the body in the scenario.
+        body: usize,
+        /// Sub-step its contacts ask for [s].
+        substep_s: f64,
+        /// Smallest sub-step accepted [s].
+        limit_s: f64,
+    },
     /// A point left the channel through a wall.
     #[error("t = {time_s:.6} s: point {point} is {depth_m:.4} m behind the {wall}")]
     PointBehindWall {
@@ -126,6 +141,7 @@ impl StepError {
             Self::NonFinitePoint { time_s, .. }
             | Self::NonFiniteBody { time_s, .. }
             | Self::TimeStepCollapse { time_s, .. }
+            | Self::BodyTimeStepCollapse { time_s, .. }
             | Self::BodyBehindWall { time_s, .. }
             | Self::BodiesMerge { time_s, .. }
             | Self::PointBehindWall { time_s, .. } => time_s,

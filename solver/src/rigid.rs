@@ -181,6 +181,18 @@ impl Body {
         self.velocity().norm() + self.angular_velocity().norm() * self.shape.bounding_radius()
     }
 
+    /// What no place of it exceeds while its momenta last, however it turns [m/s]; 0
+    /// for a fixed body.
+    pub fn speed_bound(&self) -> f64 {
+        match self.freedom {
+            Freedom::Fixed => 0.0,
+            Freedom::Free | Freedom::InPlane => {
+                let turning = self.inverse_inertia.norm() * self.state.angular_momentum.norm();
+                self.velocity().norm() + turning * self.shape.bounding_radius()
+            }
+        }
+    }
+
     /// Changes momentum and angular momentum by `load` over `dt`.
     pub fn kick(&mut self, load: &Load, dt: f64) {
         self.state.momentum += load.force * dt;

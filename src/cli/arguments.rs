@@ -177,8 +177,10 @@ pub(super) enum Measurement {
     Size,
     /// The source paper's channel with and without its cube
     Channel,
-    /// The channel with none, 1, 10 and 50 small cubes
+    /// The channel with none, 1, 10 and 100 small cubes
     Bodies,
+    /// 1, 10 and 100 bodies dropped on each other
+    Heaps,
     /// Shares of the step's verbs
     Verbs,
     /// The collapse on one thread to all, with the hash of how it ends

@@ -1,6 +1,6 @@
 //! What the service answers with.
 
-use super::contract::{OutcomeDocument, ScenarioDocument};
+use super::contract::{OutcomeDocument, PlanDocument, ScenarioDocument};
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
 use crate::jobs::progress::Progress;
@@ -41,6 +41,10 @@ pub(super) struct JobDocument {
     /// The scenario with every default filled in.
     #[schema(value_type = ScenarioDocument)]
     pub scenario: Box<RawValue>,
+    /// What it was planned to compute and cost when it was accepted; null for jobs
+    /// accepted by an older version.
+    #[schema(required = true, value_type = Option<PlanDocument>)]
+    pub plan: Option<Box<RawValue>>,
     /// How far it is.
     pub progress: Progress,
     /// The answer; null unless successful.
@@ -141,6 +145,7 @@ impl From<Job> for JobDocument {
             submitter: job.submitter,
             provenance: job.provenance,
             scenario: job.scenario,
+            plan: job.plan,
             progress: summary.progress,
             outcome: job.outcome,
             problem: job.problem,

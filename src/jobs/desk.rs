@@ -5,7 +5,7 @@ use super::intake::InFlight;
 use super::job::{Job, JobId, JobStatus, JobSummary};
 use super::pool::Bench;
 use super::store::{Census, Dismissal, Event, Page, Removal, Store, StoreError};
-use super::submit::{self, NewJob, ScenarioError};
+use super::submit::{self, Means, NewJob, ScenarioError};
 use crate::config::Limits;
 use std::sync::Arc;
 use std::time::Duration;
@@ -75,7 +75,11 @@ impl Jobs {
     /// # Errors
     /// All the rules that it breaks.
     pub fn admit(&self, scenario: &str, labels: Vec<String>) -> Result<NewJob, ScenarioError> {
-        submit::admit(scenario, self.threads_per_worker, labels)
+        let means = Means {
+            threads_per_worker: self.threads_per_worker,
+            point_steps: self.limits.job_point_steps,
+        };
+        submit::admit(scenario, &means, labels)
     }
 
     /// What a job of this scenario would compute and how long it would take.

@@ -123,6 +123,14 @@ fn step_numbers(error: &StepError) -> Value {
         } => json!({
             "time_s": time_s, "substep_s": substep_s, "speed_m_s": speed_m_s, "limit_s": limit_s
         }),
+        StepError::BodyTimeStepCollapse {
+            time_s,
+            body,
+            substep_s,
+            limit_s,
+        } => {
+            json!({"time_s": time_s, "body": body, "substep_s": substep_s, "limit_s": limit_s})
+        }
         StepError::PointBehindWall {
             time_s,
             point,

@@ -172,6 +172,8 @@ pub struct Job {
     pub provenance: Provenance,
     /// The scenario's JSON with every default filled in.
     pub scenario: Box<RawValue>,
+    /// The plan's JSON; none for jobs from before there were plans.
+    pub plan: Option<Box<RawValue>>,
     /// The outcome's JSON, once successful.
     pub outcome: Option<Box<RawValue>>,
     /// The failure's JSON, once failed.

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tokio::runtime::Handle;
 use tokio::sync::watch;
 
@@ -36,6 +36,7 @@ pub(super) struct Equipment {
     pub(super) runtime: Handle,
     pub(super) bench: Arc<Bench>,
     pub(super) threads: usize,
+    pub(super) started: Instant,
     pub(super) queue: Queue,
     pub(super) recording: Recording,
     pub(super) retention: Retention,
@@ -89,6 +90,7 @@ impl Pool {
             runtime: Handle::current(),
             bench: Arc::default(),
             threads: size.threads_per_worker,
+            started: Instant::now(),
             queue: config.queue.clone(),
             recording: config.recording.clone(),
             retention: config.retention.clone(),

@@ -23,6 +23,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// Saving states takes at most one in so many parts of the time.
 const STATE_SHARE: u32 = 50;
 
+/// When a run that was cut off before saves its first state: soon, so that it gets on.
+const EARLY_STATE: Duration = Duration::from_millis(500);
+
 /// Why results can't be kept.
 #[derive(Debug, Error)]
 pub enum KeepError {
@@ -48,6 +51,8 @@ pub struct StoreSink {
     runtime: Handle,
     hold: Hold,
     recording: Recording,
+    /// When the first state is due after the start.
+    first_state: Duration,
     board: Arc<ProgressBoard>,
     open_chunks: Vec<OpenChunk>,
     samples: usize,
@@ -95,18 +100,31 @@ impl StoreSink {
                 state_begun: now,
                 state_due: now + recording.state_interval(),
             },
+            first_state: recording.state_interval(),
             recording,
         }
     }
 
     /// A sink for the same job that has seen nothing yet.
     pub fn afresh(&self) -> Self {
-        Self::new(
+        let mut sink = Self::new(
             (self.store.clone(), self.runtime.clone()),
             self.hold,
             self.recording.clone(),
             Arc::clone(&self.board),
-        )
+        );
+        sink.begin_with_a_state_in(self.first_state);
+        sink
+    }
+
+    /// Has the first state saved early.
+    pub fn save_early(&mut self) {
+        self.begin_with_a_state_in(self.first_state.min(EARLY_STATE));
+    }
+
+    fn begin_with_a_state_in(&mut self, pause: Duration) {
+        self.first_state = pause;
+        self.times.state_due = Instant::now() + pause;
     }
 
     /// Goes on with what was recorded up to a saved state of a run with

@@ -3,7 +3,7 @@
 
 use scree_solver::record::Recorder;
 use scree_solver::scenario::Scenario;
-use scree_solver::{RestoreError, SaveError, Simulation};
+use scree_solver::{Instructions, RestoreError, SaveError, Simulation};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -24,6 +24,8 @@ pub struct Spent {
 struct Head {
     /// Another build may round otherwise.
     commit: String,
+    /// So do instructions that multiply and add in one: [`Instructions::fuse`].
+    fused: bool,
     recorder: Recorder,
     spent: Spent,
 }
@@ -40,6 +42,9 @@ pub enum SavedRunError {
     /// It was saved by another build of this version.
     #[error("the state was saved by a build of commit {0}")]
     OtherBuild(String),
+    /// It was saved on a processor with other instructions.
+    #[error("the state was saved {0} fused multiply-add, and this processor would round otherwise")]
+    OtherInstructions(&'static str),
 }
 
 /// Bytes from which [`restore`] makes the run again: the head's length (u32,
@@ -55,6 +60,7 @@ pub fn save(
     let simulation = simulation.save()?;
     let head = Head {
         commit: COMMIT.to_owned(),
+        fused: Instructions::detected().fuse(),
         recorder: recorder.clone(),
         spent,
     };
@@ -82,6 +88,10 @@ pub fn restore(
     let head: Head = postcard::from_bytes(head).map_err(|_| SavedRunError::Head)?;
     if head.commit != COMMIT {
         return Err(SavedRunError::OtherBuild(head.commit));
+    }
+    if head.fused != Instructions::detected().fuse() {
+        let how = if head.fused { "with" } else { "without" };
+        return Err(SavedRunError::OtherInstructions(how));
     }
     let simulation = Simulation::restore(scenario, threads, simulation)?;
     Ok((simulation, head.recorder, head.spent))
@@ -117,6 +127,11 @@ mod tests {
         other_build[5] ^= 1;
         let refused = restore(&scenario, 1, &other_build);
         assert!(matches!(refused, Err(SavedRunError::OtherBuild(_))));
+        let mut other_instructions = bytes.clone();
+        // Behind the commit.
+        other_instructions[5 + COMMIT.len()] ^= 1;
+        let refused = restore(&scenario, 1, &other_instructions);
+        assert!(matches!(refused, Err(SavedRunError::OtherInstructions(_))));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::job::JobId;
 use scree_solver::scenario::Scenario;
 pub use scree_solver::scenario::{ScenarioError, Violation};
-use scree_solver::{SetupError, Simulation};
+use scree_solver::{SetupError, Simulation, plan};
 use serde_json::{Value, json};
 
 /// A job that may enter the queue.
@@ -19,6 +19,8 @@ pub struct NewJob {
     pub scenario: String,
     /// BLAKE3 of that JSON, in hexadecimal digits.
     pub scenario_hash: String,
+    /// The JSON of its plan: what will be computed, left out, and what it costs.
+    pub plan: String,
     /// Its labels, each once.
     pub labels: Vec<String>,
     /// Solver that checked it.
@@ -35,22 +37,26 @@ pub fn label(text: &str) -> Option<String> {
     is_legal.then(|| text.to_owned())
 }
 
-/// Checks a scenario for a service whose workers have `threads_per_worker`
-/// solver threads.
+/// What a service has for a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Means {
+    /// Solver threads of a worker.
+    pub threads_per_worker: usize,
+    /// Most point-steps that a job may be planned to take.
+    pub point_steps: Option<u64>,
+}
+
+/// Checks a scenario for a service with these means, and plans its run.
 ///
 /// # Errors
 /// All the rules that it breaks.
-pub fn admit(
-    text: &str,
-    threads_per_worker: usize,
-    mut labels: Vec<String>,
-) -> Result<NewJob, ScenarioError> {
-    let scenario = read(text, threads_per_worker)?;
-    let json = serde_json::to_string(&scenario).map_err(|error| ScenarioError::Malformed {
-        message: error.to_string(),
-        line: 0,
-        column: 0,
-    })?;
+pub fn admit(text: &str, means: &Means, mut labels: Vec<String>) -> Result<NewJob, ScenarioError> {
+    let scenario = read(text, means.threads_per_worker)?;
+    let plan = plan::of(&scenario).map_err(|error| unwritable(&error))?;
+    if let Some(violation) = too_costly(plan.cost.point_steps, means.point_steps) {
+        return Err(ScenarioError::Invalid(vec![violation]));
+    }
+    let json = serde_json::to_string(&scenario).map_err(|error| unwritable(&error))?;
     labels.sort();
     labels.dedup();
     Ok(NewJob {
@@ -59,6 +65,7 @@ pub fn admit(
         bodies: scenario.bodies.len(),
         scenario_hash: blake3::hash(json.as_bytes()).to_hex().to_string(),
         scenario: json,
+        plan: serde_json::to_string(&plan).map_err(|error| unwritable(&error))?,
         labels,
         solver_version: scree_solver::VERSION,
     })
@@ -129,6 +136,31 @@ fn threads_asked_for(text: &str) -> Option<usize> {
     usize::try_from(threads).ok()
 }
 
+/// A legal scenario that can't be written down or planned after all.
+fn unwritable(error: &impl ToString) -> ScenarioError {
+    ScenarioError::Malformed {
+        message: error.to_string(),
+        line: 0,
+        column: 0,
+    }
+}
+
+/// A run that would take longer than this service gives a job.
+fn too_costly(planned: u64, most: Option<u64>) -> Option<Violation> {
+    let most = most.filter(|&most| planned > most)?;
+    Some(Violation {
+        pointer: String::new(),
+        value: json!(planned),
+        allowed: format!("a run of at most {most} planned point-steps"),
+        unit: Some("point-steps".to_owned()),
+        detail: format!(
+            "the run is planned to take {planned} point-steps (points times sub-steps), and \
+             limits.job_point_steps of this service is {most}: coarser cells (numerics.cell_size_m) \
+             or a shorter duration_s take fewer"
+        ),
+    })
+}
+
 const THREADS: &str = "/numerics/threads";
 
 fn too_many_threads(asked: Option<usize>, threads_per_worker: usize) -> Option<Violation> {
@@ -157,6 +189,16 @@ mod tests {
         for illegal in ["", " ", "a b", "é", "a,b", &"x".repeat(65)] {
             assert_eq!(label(illegal), None, "{illegal}");
         }
+    }
+
+    #[test]
+    fn a_run_beyond_the_cost_limit_is_refused_with_its_numbers() {
+        let violation = too_costly(11, Some(10)).unwrap();
+        assert_eq!(violation.value, json!(11));
+        assert!(violation.allowed.contains("10") && violation.detail.contains("job_point_steps"));
+        assert_eq!(violation.unit.as_deref(), Some("point-steps"));
+        assert_eq!(too_costly(10, Some(10)), None);
+        assert_eq!(too_costly(u64::MAX, None), None);
     }
 
     #[test]

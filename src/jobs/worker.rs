@@ -32,7 +32,7 @@ enum Verdict {
 
 /// Works until the bench is closed.
 pub(super) fn work(equipment: &Equipment) {
-    let claimant = Claimant {
+    let mut claimant = Claimant {
         owner: equipment.queue.name.clone(),
         lease: equipment.queue.lease(),
         solver: Solver {
@@ -40,8 +40,10 @@ pub(super) fn work(equipment: &Equipment) {
             commit: COMMIT,
             instructions: instructions(),
         },
+        up_for: Duration::ZERO,
     };
     while let Some(seen) = equipment.bench.submissions() {
+        claimant.up_for = equipment.started.elapsed();
         match equipment.runtime.block_on(equipment.store.claim(&claimant)) {
             Ok(Some(claim)) => carry_out(equipment, &claim),
             Ok(None) => equipment.bench.wait(seen),
@@ -104,6 +106,9 @@ fn run(equipment: &Equipment, claim: &Claim, place: &Place) -> Verdict {
         equipment.recording.clone(),
         place.run.board.clone(),
     );
+    if claim.setbacks > 0 {
+        sink.save_early();
+    }
     let stop = &*place.run.stop;
     if stop.is_raised() {
         return stopped(stop);

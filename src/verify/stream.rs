@@ -4,6 +4,7 @@
 use super::blocks::{Block, PER_CELL};
 use super::run::{Answer, Run, Trouble};
 use super::scenes::body;
+use scree_solver::contact::law::damping_number;
 use scree_solver::material::Material;
 use scree_solver::math::Vec3;
 use scree_solver::rigid::Body;
@@ -49,7 +50,7 @@ pub(super) fn fixed_cube(centre: Vec3, scene: &Scene) -> Result<Body, Trouble> {
     }))?;
     cube.state.position = centre;
     if let Some(flow) = &scene.given.flow {
-        cube.flow_law = flow.contact_law(0.0, 0.0);
+        cube.flow_law = flow.contact_law(damping_number(0.0), 0.0);
     }
     Ok(cube)
 }

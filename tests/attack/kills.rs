@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// Killed again and again while clients submit: every job that was acknowledged
-/// is there afterwards and was run to an end once, unless it was killed three times.
+/// is there afterwards and was run to an end once; none fails for the kills.
 #[test]
 fn no_acknowledged_job_is_lost_and_none_is_run_twice() {
     let _turn = crate::turn();
@@ -34,7 +34,7 @@ fn no_acknowledged_job_is_lost_and_none_is_run_twice() {
         acknowledged.extend(taken);
     }
     let served = place.serve();
-    let (mut lost, mut twice, mut cut_off) = (0, 0, 0);
+    let (mut lost, mut twice, mut failed) = (0, 0, 0);
     for id in &acknowledged {
         let path = format!("/v1/jobs/{id}");
         let answer = ask(&served.address, "GET", &path, "").expect("an answer");
@@ -47,19 +47,15 @@ fn no_acknowledged_job_is_lost_and_none_is_run_twice() {
         let successful = |attempt: &&serde_json::Value| attempt["ending"] == "successful";
         let ends = attempts.iter().filter(successful).count();
         twice += usize::from(ends > 1);
-        // Three kills in a row may hit the same job: then it has failed, and says so.
-        if ends == 0 {
-            assert_eq!(job["problem"]["cut_offs"], 3, "{job:#}");
-            cut_off += 1;
-        }
+        failed += usize::from(ends == 0);
     }
     assert!(acknowledged.len() >= cycles, "{} jobs", acknowledged.len());
     crate::tell(&format!(
         "kill -9 under submissions: {cycles} cycles, {} jobs acknowledged, {lost} lost, \
-         {twice} run twice to an end, {cut_off} failed after three kills in a row",
+         {twice} run twice to an end, {failed} failed",
         acknowledged.len()
     ));
-    assert_eq!((lost, twice), (0, 0));
+    assert_eq!((lost, twice, failed), (0, 0, 0));
 }
 
 /// Ids of the jobs that were answered with 202.

@@ -2,7 +2,7 @@
 //! trajectory; and what the service costs beside the computation.
 
 use crate::client::{ask, get};
-use crate::served::{Place, fine_scene, has_ended, scene, trifle};
+use crate::served::{Place, binary, fine_scene, has_ended, scene, trifle};
 use crate::{at_length, percentile};
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -164,7 +164,7 @@ fn the_service_costs_little_beside_the_computation() {
     let served = place.serve();
     let (mut alone_s, mut with_s) = (Vec::new(), Vec::new());
     for _ in 0..rounds {
-        let run = Command::new(env!("CARGO_BIN_EXE_scree"))
+        let run = Command::new(binary())
             .args(["run", "--json", "--threads", "1"])
             .arg(&file)
             .output();

@@ -13,6 +13,12 @@ pub(crate) fn deadline() -> Duration {
     Duration::from_secs(crate::at_length(120, 1_200) as u64)
 }
 
+/// The program that is attacked: this build's, or the one that `ATTACK_BINARY` names.
+pub(crate) fn binary() -> PathBuf {
+    let named = std::env::var_os("ATTACK_BINARY");
+    named.map_or_else(|| env!("CARGO_BIN_EXE_scree").into(), PathBuf::from)
+}
+
 /// Between two looks.
 pub(crate) const PAUSE: Duration = Duration::from_millis(10);
 
@@ -48,7 +54,7 @@ impl Place {
     }
 
     fn command(&self) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_scree"));
+        let mut command = Command::new(binary());
         command
             .current_dir(self.path())
             .args(["serve", "--listen", "127.0.0.1:0", "--database"])

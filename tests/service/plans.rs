@@ -13,6 +13,7 @@ async fn a_plan_is_what_the_job_then_does() {
     let cost = &planned.body["plan"]["cost"];
     assert!(planned.body["wall_time"]["expected_s"].as_f64().unwrap() > 0.0);
     let path = app.submit(&tiny_scene()).await;
+    assert_eq!(app.get(&path).await.body["plan"], planned.body["plan"]);
     let outcome = app.wait_for_success(&path).await["outcome"].clone();
     assert_eq!(outcome["plan"], planned.body["plan"]);
     assert_eq!(outcome["cost"]["points"], cost["points"]);
@@ -58,6 +59,33 @@ async fn runs_behind_error_bars_are_part_of_a_plan() {
     let time = &planned["wall_time"];
     assert!(time["expected_s"].is_null(), "{time}");
     assert!(time["low_s"].as_f64().unwrap() < time["high_s"].as_f64().unwrap());
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_run_planned_to_take_too_long_is_refused_with_its_numbers() {
+    let app = TestApp::start_with(|config| config.limits.job_point_steps = Some(1_000)).await;
+    let scene = tiny_scene().to_string();
+    let planned = app
+        .post_to("/v1/plans", "application/json", scene.clone())
+        .await;
+    let cost = &planned.body["plan"]["cost"]["point_steps"];
+    assert!(cost.as_u64() > Some(1_000), "{:#}", planned.body);
+    let batch = json!({"jobs": [{"scenario": tiny_scene()}]}).to_string();
+    for (path, body) in [("/v1/jobs", scene), ("/v1/batches", batch)] {
+        let refused = app.post_to(path, "application/json", body).await;
+        assert_eq!(refused.status, StatusCode::UNPROCESSABLE_ENTITY);
+        let error = &refused.body["errors"][0];
+        assert_eq!(
+            (&error["value"], &error["unit"]),
+            (cost, &json!("point-steps"))
+        );
+        assert!(error["allowed"].as_str().unwrap().contains("1000"));
+    }
+    let mut alone = tiny_scene();
+    alone["flow"] = json!(null);
+    let path = app.submit(&alone).await;
+    app.wait_for_success(&path).await;
     app.stop().await;
 }
 

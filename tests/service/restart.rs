@@ -142,7 +142,11 @@ async fn a_job_that_keeps_taking_the_service_down_fails() {
 /// Leaves a database as services leave it that died `times` times under a job.
 async fn cut_off(directory: &TempDir, times: u32) -> Hold {
     let store = Store::open(&database(directory)).await.unwrap();
-    let new = submit::admit(&tiny_scene().to_string(), 1, Vec::new()).unwrap();
+    let means = submit::Means {
+        threads_per_worker: 1,
+        point_steps: None,
+    };
+    let new = submit::admit(&tiny_scene().to_string(), &means, Vec::new()).unwrap();
     let submission = Submission {
         jobs: &[new],
         submitter: None,
@@ -161,6 +165,7 @@ async fn cut_off(directory: &TempDir, times: u32) -> Hold {
             commit: "",
             instructions: "",
         },
+        up_for: Duration::from_secs(3_600),
     };
     for _ in 1..times {
         store.claim(&claimant).await.unwrap().unwrap();

@@ -8,9 +8,10 @@ use serde::{Deserialize, Serialize};
 
 mod places;
 mod segments;
+mod separation;
 
-pub use places::least_gap;
 use places::{Between, Contact, contacts};
+pub use separation::{Separation, least_gap};
 
 /// What the contacts of two bodies remember from one body sub-step to the next.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -61,9 +62,15 @@ impl Meeting {
         self.deepest > 0.0
     }
 
-    /// Renews springs and forces after a drift of `dt`.
-    pub fn touch(&mut self, first: &Body, second: &Body, law: &ContactLaw, dt: f64) -> Exchange {
-        let found = contacts(first, second, law);
+    /// Renews springs and forces after a drift of `dt`, and what is known of the gap.
+    pub fn touch(
+        &mut self,
+        [first, second]: [&Body; 2],
+        law: &ContactLaw,
+        dt: f64,
+        separation: &mut Separation,
+    ) -> Exchange {
+        let found = contacts(first, second, law, separation);
         let pair = Pair::new(first, second, &found.push);
         let before = std::mem::take(&mut self.springs);
         let mut push = found.push;

@@ -43,6 +43,13 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
     if body.rolling_friction > 0.0 {
         rolling.resize(count, Vec3::zeros());
     }
+    if body.state.wall_overlap == 0.0 && clear_of(body, planes) {
+        body.state.springs = springs;
+        body.state.rolling = rolling;
+        body.state.wall_load = Load::default();
+        body.state.wall_energy = 0.0;
+        return;
+    }
     let push = elastic_push(body, planes);
     let mut load = Load::default();
     let mut energy = 0.0;
@@ -73,6 +80,15 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
     body.state.wall_load = load;
     body.state.wall_energy = energy;
     body.state.wall_overlap = deepest;
+}
+
+/// Whether no wall comes as near as the bounding ball.
+fn clear_of(body: &Body, planes: &[Plane]) -> bool {
+    let radius = body.shape.bounding_radius();
+    let heights = planes.iter();
+    heights
+        .map(|plane| plane.height(&body.state.position))
+        .all(|height| height > radius)
 }
 
 /// The elastic forces of all walls together.

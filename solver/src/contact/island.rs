@@ -1,7 +1,7 @@
 //! The bodies' own sub-steps: bodies that may meet within a sub-step of the flow
 //! form an island and move together (docs/method.md, equations 15, 20 and 48).
 
-use crate::contact::body_body::{Meeting, least_gap, pair_law};
+use crate::contact::body_body::{Meeting, Separation, least_gap, pair_law};
 use crate::contact::body_wall::touch_walls;
 use crate::contact::law::ContactLaw;
 use crate::contact::neighbours::{Ball, overlapping};
@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 mod pace;
 
+pub use pace::SHORTEST_SUBSTEP;
 use pace::substeps;
 
 /// A body none of whose places is faster is still [m/s].
@@ -39,6 +40,9 @@ pub struct BodyReport {
     /// Its deepest overlap with a wall or another body, over its sphero radius
     /// or that of the other if smaller.
     pub deepest_overlap_ratio: f64,
+    /// The sub-step its island asks for [s], where that is below [`SHORTEST_SUBSTEP`]
+    /// and was not taken.
+    pub too_short: Option<f64>,
 }
 
 impl BodyReport {
@@ -198,6 +202,7 @@ struct Met<'a> {
     meeting: Meeting,
     law: ContactLaw,
     sides: [Side<'a>; 2],
+    separation: Separation,
 }
 
 #[derive(Clone, Copy)]
@@ -252,6 +257,7 @@ fn islands<'a>(
                 meeting,
                 law,
                 sides: sides.map(|(_, side)| side),
+                separation: Separation::default(),
             });
         }
     }
@@ -306,6 +312,14 @@ impl Island<'_> {
 fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surroundings, dt: f64) {
     let count = substeps(members, meetings, around.planes, dt);
     let h = dt / count;
+    // As where a body's speed is no number any more.
+    let stands_still = h < SHORTEST_SUBSTEP || !h.is_finite();
+    if stands_still {
+        for member in members {
+            member.report.too_short = Some(h);
+        }
+        return;
+    }
     for _ in 0..count as u32 {
         for member in members.iter_mut() {
             member.half_kick(&around.gravity, 0.5 * h);
@@ -349,7 +363,13 @@ fn touch_bodies(members: &mut [Member], meetings: &mut [Met], dt: f64) {
     }
     for met in meetings {
         let [first, second] = met.sides.map(|side| body_of(members, side));
-        let exchange = met.meeting.touch(first, second, &met.law, dt);
+        let approach = dt * (first.speed_bound() + second.speed_bound());
+        if met.separation.outlasts(approach) {
+            continue;
+        }
+        let exchange = met
+            .meeting
+            .touch([first, second], &met.law, dt, &mut met.separation);
         if met.meeting.touches() {
             let smaller = f64::min(first.shape.sphero_radius(), second.shape.sphero_radius());
             let ratio = met.meeting.deepest / smaller;

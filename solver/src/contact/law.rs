@@ -22,9 +22,19 @@ impl ContactLaw {
     /// Law of a contact modulus E* [Pa], an equivalent radius R* [m], a
     /// restitution coefficient and a friction coefficient.
     pub fn hertz(contact_modulus: f64, radius: f64, restitution: f64, friction: f64) -> Self {
+        Self::damped(
+            contact_modulus,
+            radius,
+            damping_number(restitution),
+            friction,
+        )
+    }
+
+    /// The same with a damping number known.
+    pub fn damped(contact_modulus: f64, radius: f64, damping: f64, friction: f64) -> Self {
         Self {
             stiffness: 4.0 / 3.0 * contact_modulus * radius.sqrt(),
-            damping: damping_number(restitution),
+            damping,
             friction,
         }
     }
@@ -153,15 +163,34 @@ pub fn damping_number(restitution: f64) -> f64 {
         return 0.0;
     }
     let (mut low, mut high) = (0.0, MAX_DAMPING);
+    // A restitution that even the strongest damping does not reach needs no search.
+    let beyond = rebound_speed(MAX_DAMPING) > restitution;
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
-        if rebound_speed(middle) > restitution {
+        if beyond || rebound_speed(middle) > restitution {
             low = middle;
         } else {
             high = middle;
         }
     }
     0.5 * (low + high)
+}
+
+/// Damping numbers found so far, by their restitutions: each takes some 10 ms to find.
+#[derive(Debug, Default)]
+pub struct Dampings(Vec<(f64, f64)>);
+
+impl Dampings {
+    /// The damping number of a restitution.
+    pub fn of(&mut self, restitution: f64) -> f64 {
+        let known = self.0.iter().find(|(asked, _)| *asked == restitution);
+        if let Some(&(_, number)) = known {
+            return number;
+        }
+        let number = damping_number(restitution);
+        self.0.push((restitution, number));
+        number
+    }
 }
 
 /// Largest damping number used.

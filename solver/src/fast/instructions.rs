@@ -38,6 +38,12 @@ impl Instructions {
         Self::Baseline
     }
 
+    /// Whether they round once where a product is added, or twice: a run goes on with
+    /// the same bits under instructions that do alike.
+    pub fn fuse(self) -> bool {
+        self > Self::Baseline
+    }
+
     /// These instructions, or the best below them that this processor has.
     #[cfg(target_arch = "x86_64")]
     pub fn level(self) -> Level {

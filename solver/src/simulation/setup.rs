@@ -274,12 +274,12 @@ impl GivenFlow {
 
     /// Law of a body's contacts with points: as stiff at the reference overlap
     /// as a column of material one point wide, M l (equation 22).
-    pub fn contact_law(&self, restitution: f64, friction: f64) -> ContactLaw {
+    pub fn contact_law(&self, damping: f64, friction: f64) -> ContactLaw {
         let spacing = self.sphere.spacing;
         let tangent = self.material.p_wave_modulus() * spacing;
         ContactLaw {
             stiffness: tangent / (1.5 * (REFERENCE_OVERLAP * spacing).sqrt()),
-            ..ContactLaw::hertz(0.0, 1.0, restitution, friction)
+            ..ContactLaw::damped(0.0, 1.0, damping, friction)
         }
     }
 

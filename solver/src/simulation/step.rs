@@ -32,7 +32,7 @@ impl Simulation {
         let passed = f64::from(step.done) / f64::from(step.pace.count);
         step.done += 1;
         let last = step.done == step.pace.count;
-        self.substep(Substep { dt, passed, last });
+        self.substep(Substep { dt, passed, last })?;
         let clock = &mut self.state.clock;
         clock.time = step.start + f64::from(step.done) * dt;
         clock.substeps += 1;
@@ -100,7 +100,7 @@ impl Simulation {
     }
 
     /// One sub-step at the speed of sound.
-    fn substep(&mut self, substep: Substep) {
+    fn substep(&mut self, substep: Substep) -> Result<(), StepError> {
         let dt = substep.dt;
         let (given, state, scratch) = (&self.given, &mut self.state, &mut self.scratch);
         if state.flow.count() > 0 {
@@ -137,6 +137,7 @@ impl Simulation {
             state.audit.meet(flow.deepest_overlap_ratio);
         }
         scratch.laps.done(Verb::Bodies);
+        self.look_at_body_steps()
     }
 
     /// Hands the motion back to the points and checks what came of it; returns
@@ -223,6 +224,31 @@ impl Simulation {
                 depth_m,
             }),
         }
+    }
+
+    /// Bodies whose contacts ask for steps so short that nobody would see their end. One
+    /// that is no number asks for such steps, too.
+    fn look_at_body_steps(&self) -> Result<(), StepError> {
+        let time_s = self.state.clock.time;
+        for (body, report) in self.scratch.body_reports.iter().enumerate() {
+            let Some(substep_s) = report.too_short else {
+                continue;
+            };
+            if let Some(quantity) = self.state.bodies[body].non_finite() {
+                return Err(StepError::NonFiniteBody {
+                    time_s,
+                    body,
+                    quantity,
+                });
+            }
+            return Err(StepError::BodyTimeStepCollapse {
+                time_s,
+                body,
+                substep_s,
+                limit_s: island::SHORTEST_SUBSTEP,
+            });
+        }
+        Ok(())
     }
 
     /// A body whose core has gone through a wall was not held by its contacts.

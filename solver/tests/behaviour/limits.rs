@@ -93,6 +93,27 @@ fn a_flow_faster_than_its_sound_is_a_typed_error() {
     assert_eq!(simulation.save(), Err(SaveError::Failed(error)));
 }
 
+// As stiff as scenarios allow and as light: steps nobody would see the end of.
+#[test]
+fn contacts_too_stiff_for_a_light_body_are_a_typed_error() {
+    let dust = |elevation: f64| {
+        json!({"shape": {"cube": {"side_m": 1e-3}}, "sphero_radius_m": 4e-4, "density_kg_m3": 1.0,
+               "contact_modulus_pa": 1e12, "velocity_m_s": [0.0, 0.0, -1.0],
+               "position": {"downstream_m": 0.1, "elevation_m": elevation}})
+    };
+    let scene = Scene::channel(0.0, 0.5, 1.0, 0.3)
+        .body(dust(0.0008))
+        .lasting(0.01);
+    let mut simulation = scene.start();
+    let error = watch(&mut simulation, 0.01, |_, _| {}).expect_err("it can't run");
+    println!("{error}");
+    assert!(matches!(
+        error,
+        StepError::BodyTimeStepCollapse { body: 0, .. }
+    ));
+    assert_eq!(simulation.save(), Err(SaveError::Failed(error)));
+}
+
 // A body thrown as fast as scenarios allow either runs or ends with the time
 // and the culprit; never a panic, never a state that is no number.
 #[test]

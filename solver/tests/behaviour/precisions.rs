@@ -71,6 +71,7 @@ fn limited(instructions: Instructions) -> Option<Simulation> {
 #[test]
 fn avx2_and_avx512_give_the_same_bits() {
     let runs = [Instructions::Avx2, Instructions::Avx512].map(limited);
+    assert_eq!(Instructions::Avx2.fuse(), Instructions::Avx512.fuse());
     if let [Some(avx2), Some(avx512)] = &runs {
         assert!(avx2.save().expect("it ended") == avx512.save().expect("it ended"));
     }
@@ -82,6 +83,10 @@ fn the_baseline_goes_as_the_best() {
     let best = limited(Instructions::detected()).expect("it was detected");
     let off = (cube(&baseline) - cube(&best)).norm();
     println!("baseline: cube off by {off:.1e} m");
+    // Which is why a state saved under the one is not gone on from under the other.
+    let same = baseline.save() == best.save();
+    let alike = Instructions::Baseline.fuse() == Instructions::detected().fuse();
+    assert_eq!(same, alike);
     // As far apart as single and double by then; measured 3.6e-6.
     assert!(off < 2e-5, "{off}");
     assert!(baseline.audit().momentum_residual < 2e-7);

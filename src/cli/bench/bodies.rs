@@ -10,7 +10,7 @@ use scree_solver::scenario::Scenario;
 use serde::Serialize;
 
 /// Small cubes in the channel.
-const COUNTS: [usize; 4] = [0, 1, 10, 50];
+const COUNTS: [usize; 4] = [0, 1, 10, 100];
 
 /// The same channel with more and more bodies.
 #[derive(Debug, Serialize)]

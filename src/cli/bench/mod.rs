@@ -4,6 +4,7 @@ mod bodies;
 mod collapse;
 mod figures;
 mod forecasts;
+mod heaps;
 mod plan;
 mod roofline;
 mod scenes;
@@ -48,6 +49,8 @@ struct Report {
     channel: Option<bodies::Growth>,
     #[serde(skip_serializing_if = "Option::is_none")]
     bodies: Option<bodies::Growth>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    heaps: Option<heaps::Heaps>,
     #[serde(skip_serializing_if = "Option::is_none")]
     verbs: Option<verbs::Shares>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -99,7 +102,9 @@ fn if_asked<T>(
 
 impl Report {
     fn measured(effort: Effort, only: &[Measurement]) -> Result<Self, Failure> {
-        use Measurement::{Bodies, Channel, Forecast, Plan, Roofline, S200k, Size, Threads, Verbs};
+        use Measurement::{
+            Bodies, Channel, Forecast, Heaps, Plan, Roofline, S200k, Size, Threads, Verbs,
+        };
         Ok(Self {
             solver_version: VERSION,
             machine: Machine::here(),
@@ -107,6 +112,7 @@ impl Report {
             size: if_asked(only, Size, || size::measure(&effort))?,
             channel: if_asked(only, Channel, || bodies::measure_channel(&effort))?,
             bodies: if_asked(only, Bodies, || bodies::measure_bodies(&effort))?,
+            heaps: if_asked(only, Heaps, || heaps::measure(&effort))?,
             verbs: if_asked(only, Verbs, || verbs::measure(&effort))?,
             threads: if_asked(only, Threads, || threads::measure(&effort))?,
             roofline: if_asked(only, Roofline, || roofline::measure(&effort))?,
@@ -126,6 +132,7 @@ impl Report {
             self.bodies
                 .as_ref()
                 .map(|growth| growth.table("bodies: small cubes in the same channel")),
+            self.heaps.as_ref().map(heaps::Heaps::table),
             self.verbs.as_ref().map(verbs::Shares::table),
             self.threads.as_ref().map(threads::Scaling::table),
             self.roofline.as_ref().map(roofline::Rooflines::table),

@@ -114,6 +114,47 @@ pub(super) fn small_cubes(count: usize, cell_m: f64) -> Result<Scenario, Failure
     read(&scene)
 }
 
+/// Cubes, boxes and tetrahedra dropped askew into a pit, layers of at most 4 x 4.
+pub(super) fn heap(count: usize) -> Result<Scenario, Failure> {
+    let shapes = [
+        json!({"cube": {"side_m": 0.04}}),
+        json!({"box": {"sides_m": [0.03, 0.04, 0.05]}}),
+        json!({"regular": {"solid": "tetrahedron", "size_m": 0.05}}),
+    ];
+    let abreast = if count > 10 { 4 } else { 2 };
+    let distance = 0.065;
+    let side = abreast as f64 * distance;
+    let along = |place: usize| (place as f64 + 0.5) * distance - 0.5 * side;
+    let body = |place: usize| {
+        let (layer, spot) = (place / (abreast * abreast), place % (abreast * abreast));
+        let (sin, cos) = (0.3 + 0.4 * place as f64).sin_cos();
+        json!({
+            "shape": shapes[place % shapes.len()],
+            "position": {
+                "downstream_m": along(spot % abreast),
+                "lateral_m": along(spot / abreast),
+                "elevation_m": 0.04 + distance * layer as f64
+            },
+            "orientation": [cos, 0.48 * sin, 0.6 * sin, 0.64 * sin]
+        })
+    };
+    // Of walls there are three; a barrier is the fourth.
+    let barrier = json!({
+        "shape": {"box": {"sides_m": [0.02, side - 1e-3, 1.0]}},
+        "position": {"downstream_m": 0.5 * side + 0.01, "elevation_m": 0.5},
+        "fixed": true
+    });
+    let bodies: Vec<Value> = (0..count).map(body).chain([barrier]).collect();
+    read(&json!({
+        "channel": {"inclination_deg": 0, "incline_length_m": 0.5 * side,
+                    "runout_length_m": 1, "width_m": side},
+        "flow": null,
+        "bodies": bodies,
+        "duration_s": NEVER_S,
+        "sample_interval_s": 1e-3 * NEVER_S
+    }))
+}
+
 fn source_paper(cell_m: f64) -> Result<Value, Failure> {
     let mut scene: Value = serde_json::from_str(CHANNEL)?;
     scene["numerics"]["cell_size_m"] = json!(cell_m);
@@ -137,9 +178,12 @@ mod tests {
             let scenario = Collapse::of(points).scenario().unwrap();
             assert_eq!(Simulation::check(&scenario), Ok(()), "{points}");
         }
-        for cubes in [0, 1, 10, 50] {
+        for cubes in [0, 1, 10, 100] {
             let scenario = small_cubes(cubes, 0.0125).unwrap();
             assert_eq!(scenario.bodies.len(), cubes);
+        }
+        for bodies in [1, 10, 100] {
+            assert_eq!(heap(bodies).unwrap().bodies.len(), bodies + 1);
         }
         assert_eq!(channel(true, 0.01).unwrap().bodies.len(), 1);
         assert_eq!(channel(false, 0.01).unwrap().bodies.len(), 0);

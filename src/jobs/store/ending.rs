@@ -9,9 +9,9 @@ use sqlx::sqlite::SqliteConnection;
 /// service down must not do so for ever.
 pub const TOLERATED_SETBACKS: u32 = 3;
 
-/// How long a job waits after its first, second, … setback [ms]. One that the
-/// process died under has waited for the next start already.
-const BACK_OFF_MS: [i64; 2] = [2_000, 8_000];
+/// How long a job waits after its first, second, … setback [ms], and how long a service
+/// has to have been up before it takes the job up again.
+pub(super) const BACK_OFF_MS: [i64; 2] = [2_000, 8_000];
 
 /// Longest wait after a setback [ms]. A job that seems to wait longer does so
 /// because the clock was set back.
@@ -167,6 +167,7 @@ pub(super) async fn set_back_row(
         return Ok(Returned::Failed);
     }
     let wait_ms = match setback {
+        // The next start makes it wait.
         Setback::CutOff => 0,
         Setback::Expired | Setback::Infrastructure(_) => BACK_OFF_MS[before as usize],
     };

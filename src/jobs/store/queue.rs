@@ -1,6 +1,6 @@
 //! The life of a job: submitted, claimed, dismissed. The row is the queue.
 
-use super::ending::LONGEST_BACK_OFF_MS;
+use super::ending::{BACK_OFF_MS, LONGEST_BACK_OFF_MS};
 use super::history::{begin_attempt, end_attempt};
 use super::lease::milliseconds;
 use super::{Hold, Store, StoreError};
@@ -17,6 +17,8 @@ pub struct Claimant {
     pub lease: Duration,
     /// Program that runs the jobs.
     pub solver: Solver,
+    /// How long the service has been up.
+    pub up_for: Duration,
 }
 
 /// The program that runs a job.
@@ -37,6 +39,8 @@ pub struct Claim {
     pub hold: Hold,
     /// The scenario's JSON.
     pub scenario: String,
+    /// Setbacks in a row before this attempt.
+    pub setbacks: u32,
 }
 
 /// What became of a wish to dismiss a job.
@@ -56,10 +60,13 @@ struct ClaimedRow {
     attempt: i64,
     lease_token: i64,
     scenario: String,
+    setbacks: u32,
 }
 
 impl Store {
-    /// Takes up the oldest accepted job that has not to wait after a setback.
+    /// Takes up the oldest accepted job that has not to wait after a setback. One that
+    /// a setback is held against waits until the service has lived as long without it:
+    /// a service that dies sooner does not die of it.
     ///
     /// # Errors
     /// The database's own.
@@ -72,8 +79,9 @@ impl Store {
                  solver_commit = ?6, instructions = ?7,
                  lease_owner = ?3, lease_expires_ms = ?4, lease_token = lease_token + 1
              WHERE sequence = (SELECT min(sequence) FROM jobs WHERE status = 'accepted'
-                               AND (not_before_ms <= ?1 OR not_before_ms > ?5))
-             RETURNING id, attempt, lease_token, scenario",
+                               AND (not_before_ms <= ?1 OR not_before_ms > ?5)
+                               AND (setbacks = 0 OR ?8 >= iif(setbacks = 1, ?9, ?10)))
+             RETURNING id, attempt, lease_token, scenario, setbacks",
         )
         .bind(now_ms)
         .bind(claimant.solver.version)
@@ -82,6 +90,9 @@ impl Store {
         .bind(now_ms + LONGEST_BACK_OFF_MS)
         .bind(claimant.solver.commit)
         .bind(claimant.solver.instructions)
+        .bind(milliseconds(claimant.up_for))
+        .bind(BACK_OFF_MS[0])
+        .bind(BACK_OFF_MS[1])
         .fetch_optional(&mut *transaction)
         .await?;
         let Some(claim) = row.map(ClaimedRow::read).transpose()? else {
@@ -139,6 +150,7 @@ impl ClaimedRow {
         Ok(Claim {
             hold: hold(&self.id, self.attempt, self.lease_token)?,
             scenario: self.scenario,
+            setbacks: self.setbacks,
         })
     }
 }

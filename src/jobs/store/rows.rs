@@ -41,6 +41,7 @@ pub(super) struct JobRow {
     scenario_hash: String,
     submitter: Option<String>,
     scenario: String,
+    plan: Option<String>,
     outcome: Option<String>,
     fingerprint: Option<String>,
     problem: Option<String>,
@@ -102,6 +103,7 @@ impl JobRow {
                 fingerprint: self.fingerprint,
             },
             scenario: json(self.scenario, "scenario")?,
+            plan: self.plan.map(|text| json(text, "plan")).transpose()?,
             outcome: self.outcome.map(|text| json(text, "outcome")).transpose()?,
             problem: self.problem.map(|text| json(text, "problem")).transpose()?,
         })

@@ -186,8 +186,8 @@ async fn insert(
     let id = job.id.to_string();
     sqlx::query(
         "INSERT INTO jobs (id, created_ms, scenario, title, bodies, solver_version,
-                           scenario_hash, submitter, keyed_request)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
+                           scenario_hash, submitter, keyed_request, plan)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
     )
     .bind(&id)
     .bind(now_ms)
@@ -198,6 +198,7 @@ async fn insert(
     .bind(&job.scenario_hash)
     .bind(submitter)
     .bind(request)
+    .bind(&job.plan)
     .execute(&mut *connection)
     .await?;
     for label in &job.labels {

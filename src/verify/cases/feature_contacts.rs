@@ -21,7 +21,7 @@ use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Cost, Run, Trouble};
 use crate::verify::scenes::{body, on_vertex, thrown_down};
 use crate::verify::{Case, Effort, How};
-use scree_solver::contact::body_body::{Meeting, pair_law};
+use scree_solver::contact::body_body::{Meeting, Separation, pair_law};
 use scree_solver::contact::law::ContactLaw;
 use scree_solver::math::Vec3;
 use scree_solver::rigid::Body;
@@ -126,7 +126,12 @@ impl Slide {
         let across = if along_rim { RIM } else { 0.3 * RIM };
         self.above.state.position = Vec3::new(RIM + beyond, across, self.height);
         let mut meeting = Meeting::new([0, 1]);
-        let exchange = meeting.touch(&self.below, &self.above, &self.law, 0.0);
+        let exchange = meeting.touch(
+            [&self.below, &self.above],
+            &self.law,
+            0.0,
+            &mut Separation::default(),
+        );
         (
             meeting.energy / self.law.elastic_energy(OVERLAP),
             exchange.on_second.force / self.law.elastic_force(OVERLAP),

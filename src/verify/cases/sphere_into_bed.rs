@@ -20,6 +20,7 @@ use crate::verify::order::slope;
 use crate::verify::run::{Answer, Cost, Run, Trouble};
 use crate::verify::scenes::{GRAVITY, body};
 use crate::verify::{Case, Effort, How};
+use scree_solver::contact::law::damping_number;
 use scree_solver::rigid::Body;
 use scree_solver::scenario::Precision;
 use scree_solver::simulation::Scene;
@@ -171,7 +172,7 @@ fn scene(drop: &Drop, cells: u32, surface: f64) -> Result<Scene, Trouble> {
     sphere.state.position = block.middle();
     sphere.state.position.z = surface + 0.5 * drop.diameter;
     if let Some(flow) = &scene.given.flow {
-        sphere.flow_law = flow.contact_law(0.0, beads::FRICTION.0);
+        sphere.flow_law = flow.contact_law(damping_number(0.0), beads::FRICTION.0);
     }
     scene.bodies.push(sphere);
     Ok(scene)

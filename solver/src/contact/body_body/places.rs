@@ -3,6 +3,7 @@
 //! 43 and 44; docs/decisions/0010).
 
 use super::segments::{crossing, nearest_on};
+use super::separation::Separation;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
@@ -56,10 +57,15 @@ pub(super) struct Contacts {
     pub(super) energy: f64,
 }
 
-/// Finds every contact of two bodies.
-pub(super) fn contacts(first: &Body, second: &Body, law: &ContactLaw) -> Contacts {
+/// Finds every contact of two bodies, looking first where they were kept apart before.
+pub(super) fn contacts(
+    first: &Body,
+    second: &Body,
+    law: &ContactLaw,
+    separation: &mut Separation,
+) -> Contacts {
     let mut found = Contacts::default();
-    let Some(pair) = Pair::near(first, second) else {
+    let Some(pair) = Pair::near(first, second, separation) else {
         return found;
     };
     for &(vertex, place) in &pair.first.vertices {
@@ -151,14 +157,15 @@ struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
-    fn near(first: &'a Body, second: &'a Body) -> Option<Self> {
+    fn near(first: &'a Body, second: &'a Body, separation: &mut Separation) -> Option<Self> {
         let bodies = [first, second];
         let apart = second.state.position - first.state.position;
         let radii = bodies.map(|body| body.shape.sphero_radius());
         let corners = [corners(first, &Vec3::zeros()), corners(second, &apart)];
-        let widest = widest_gap(bodies, &apart, &corners);
+        let widest = separation.look(bodies, &apart, &corners);
         let reach = radii[0] + radii[1];
-        if widest.width >= reach {
+        separation.gap = widest.width - reach;
+        if separation.gap >= 0.0 {
             return None;
         }
         let [of_first, of_second] = &corners;
@@ -236,7 +243,7 @@ impl<'a> Pair<'a> {
 }
 
 /// Core vertices in world axes, the body's centre being at `centre`.
-fn corners(body: &Body, centre: &Vec3) -> Vec<Vec3> {
+pub(super) fn corners(body: &Body, centre: &Vec3) -> Vec<Vec3> {
     let turn = body.state.orientation.to_rotation_matrix();
     let vertices = body.shape.core_vertices().iter();
     vertices.map(|vertex| centre + turn * vertex).collect()
@@ -288,63 +295,4 @@ impl Bounds {
         let other = Self::of(places);
         (0..3).all(|axis| other.low[axis] < self.high[axis] && other.high[axis] > self.low[axis])
     }
-}
-
-/// The widest gap that a face normal of either core shows between them: a lower
-/// bound of their distance if positive.
-struct Gap {
-    width: f64,
-    /// From the first to the second.
-    direction: Vec3,
-    /// Where along it the first core ends, and the second begins.
-    first_to: f64,
-    second_from: f64,
-}
-
-fn widest_gap(bodies: [&Body; 2], apart: &Vec3, corners: &[Vec<Vec3>; 2]) -> Gap {
-    let mut widest = Gap {
-        width: f64::NEG_INFINITY,
-        direction: Vec3::zeros(),
-        first_to: 0.0,
-        second_from: 0.0,
-    };
-    let mut try_gap = |direction: Vec3, first_to: f64, second_from: f64| {
-        if second_from - first_to > widest.width {
-            widest = Gap {
-                width: second_from - first_to,
-                direction,
-                first_to,
-                second_from,
-            };
-        }
-    };
-    for face in bodies[0].shape.faces() {
-        let direction = bodies[0].to_world(&face.normal);
-        let heights = corners[1].iter().map(|x| direction.dot(x));
-        try_gap(
-            direction,
-            face.offset,
-            heights.fold(f64::INFINITY, f64::min),
-        );
-    }
-    for face in bodies[1].shape.faces() {
-        let direction = -bodies[1].to_world(&face.normal);
-        let heights = corners[0].iter().map(|x| direction.dot(x));
-        let second_from = direction.dot(apart) - face.offset;
-        try_gap(
-            direction,
-            heights.fold(f64::NEG_INFINITY, f64::max),
-            second_from,
-        );
-    }
-    widest
-}
-
-/// A lower bound of the distance of two rounded bodies [m], from their face
-/// normals; of no use below 0.
-pub fn least_gap(first: &Body, second: &Body) -> f64 {
-    let apart = second.state.position - first.state.position;
-    let corners = [corners(first, &Vec3::zeros()), corners(second, &apart)];
-    let reach = first.shape.sphero_radius() + second.shape.sphero_radius();
-    widest_gap([first, second], &apart, &corners).width - reach
 }

@@ -1,6 +1,7 @@
 use super::*;
 use crate::math::Mat3;
 use crate::rigid::fixture::{cuboid, tetrahedron};
+use crate::shape::SpheroPolyhedron;
 use nalgebra::UnitQuaternion;
 
 /// Numbers in −1 … 1 that look random (Weyl's sequence).
@@ -34,8 +35,14 @@ fn moved(body: &Body, along: &Vec3, turn: &Vec3) -> Body {
     body
 }
 
+/// Their contacts, looked for afresh.
+fn touching(first: &Body, second: &Body) -> places::Contacts {
+    let law = law([first, second]);
+    contacts(first, second, &law, &mut Separation::default())
+}
+
 fn potential(first: &Body, second: &Body) -> f64 {
-    contacts(first, second, &law([first, second])).energy
+    touching(first, second).energy
 }
 
 /// Brings the second body along `direction` until it overlaps by `depth`.
@@ -44,10 +51,7 @@ fn brought_together(first: &Body, second: &mut Body, direction: &Vec3, depth: f6
     for _ in 0..60 {
         let middle = 0.5 * (near + far);
         second.state.position = first.state.position + direction * middle;
-        if contacts(first, second, &law([first, second]))
-            .places
-            .is_empty()
-        {
+        if touching(first, second).places.is_empty() {
             far = middle;
         } else {
             near = middle;
@@ -78,7 +82,7 @@ fn touching_pairs(count: usize) -> Vec<[Body; 2]> {
 #[test]
 fn forces_are_the_gradient_of_the_potential() {
     for [first, second] in &touching_pairs(60) {
-        let found = contacts(first, second, &law([first, second]));
+        let found = touching(first, second);
         assert!(!found.places.is_empty());
         let on_second =
             Exchange::of(&found.push, &(second.state.position - first.state.position)).on_second;
@@ -122,7 +126,7 @@ fn bodies_that_meet_at_random_touch_once() {
     };
     let mut once = [0; 3];
     for [first, second] in &pairs {
-        let found = contacts(first, second, &law([first, second]));
+        let found = touching(first, second);
         let (a, b) = (&first.shape, &second.shape);
         let distance = crate::shape::separation(a, &pose(first), b, &pose(second));
         let overlap = a.sphero_radius() + b.sphero_radius() - distance;
@@ -198,7 +202,7 @@ fn a_vertex_slides_from_face_to_edge_to_vertex_without_a_jump() {
         let mut above = standing.clone();
         let reach = above.shape.extent_along(&above.to_body(&-Vec3::z()));
         above.state.position = Vec3::new(x, y, 0.02 + reach - overlap);
-        let found = contacts(&below, &above, &law([&below, &above]));
+        let found = touching(&below, &above);
         (found.energy, found.push.force)
     };
     let one = of_one(&below, &standing, overlap);
@@ -263,7 +267,7 @@ fn friction_goes_on_while_a_contact_changes_its_features() {
     for n in 0..steps {
         let x = -0.004 + step * f64::from(n);
         above.state.position = Vec3::new(x, 0.0, 0.02 + reach - 2e-4);
-        let exchange = meeting.touch(&below, &above, &law, step);
+        let exchange = meeting.touch([&below, &above], &law, step, &mut Separation::default());
         forces.push(exchange.on_second.force);
         kinds.push(
             meeting
@@ -285,4 +289,92 @@ fn friction_goes_on_while_a_contact_changes_its_features() {
     for force in &forces[200..] {
         assert!((-force.x / force.z / 0.5 - 1.0).abs() < 0.2, "{force}");
     }
+}
+
+// What is known from the last look saves work only: bodies that fly past each other,
+// turning, feel the same bits as where it is forgotten at every step.
+#[test]
+fn what_is_known_of_the_gap_changes_no_bit() {
+    let (mut numbers, mut touched, mut spared) = (Numbers(0.3), 0, 0);
+    let h = 1e-4;
+    for kinds in [
+        [cuboid([0.04; 3]), tetrahedron(0.05)],
+        [cuboid([0.03, 0.04, 0.05]), cuboid([0.01, 0.05, 0.02])],
+    ] {
+        let [first, mut second] = kinds.map(undamped);
+        for _ in 0..20 {
+            let from = numbers.vector().normalize() * 0.09;
+            second.state.position = first.state.position + from;
+            let aim = 0.02 * numbers.vector() - from;
+            second.state.momentum = aim.normalize() * second.mass;
+            second.state.angular_momentum = second.inertia * numbers.vector() * 30.0;
+            let law = law([&first, &second]);
+            let (mut knowing, mut forgetting) = (Meeting::new([0, 1]), Meeting::new([0, 1]));
+            let mut separation = Separation::default();
+            for _ in 0..1000 {
+                second.drift(h);
+                let pair = [&first, &second];
+                let afresh = forgetting.touch(pair, &law, h, &mut Separation::default());
+                if separation.outlasts(h * (first.speed_bound() + second.speed_bound())) {
+                    assert_eq!(afresh, Exchange::default());
+                    spared += 1;
+                } else {
+                    assert_eq!(knowing.touch(pair, &law, h, &mut separation), afresh);
+                }
+                assert_eq!(knowing, forgetting);
+                touched += usize::from(knowing.touches());
+                if knowing.deepest > 1e-3 {
+                    break;
+                }
+            }
+        }
+    }
+    assert!(touched > 100 && spared > 10_000, "{touched} {spared}");
+}
+
+/// A plate this thick that stands on its short edge, across an edge of a cube below,
+/// overlapping by `depth`; force over that of one contact as deep.
+fn counted(thickness: f64, depth: f64) -> f64 {
+    let eighth = std::f64::consts::FRAC_PI_4;
+    let below = moved(
+        &undamped(cuboid([0.04; 3])),
+        &Vec3::zeros(),
+        &(Vec3::y() * eighth),
+    );
+    let radius = below.shape.sphero_radius();
+    let sides = [thickness, 0.02, 0.02].map(|side| side + 2.0 * radius);
+    let mut above = below.clone();
+    above.shape = SpheroPolyhedron::cuboid(sides, radius).expect("a rounded plate");
+    above.state.orientation = UnitQuaternion::from_scaled_axis(Vec3::x() * eighth);
+    let half_diagonal = |half_side: f64| half_side * 2f64.sqrt();
+    let height = half_diagonal(0.02 - radius) + half_diagonal(0.01) + 2.0 * radius - depth;
+    above.state.position = below.state.position + Vec3::z() * height;
+    let found = touching(&below, &above);
+    found.push.force.z / law([&below, &above]).elastic_force(depth)
+}
+
+#[expect(clippy::print_stdout, reason = "the table of docs/method.md")]
+fn tell(row: &str) {
+    println!("{row}");
+}
+
+// Where one edge crosses another, both ends of a short one touch as well: twice the
+// force for an edge of no length, once beyond 2 sqrt(2 R delta), R the sum of the radii;
+// the table is that of docs/method.md.
+#[test]
+fn a_short_edge_counts_up_to_twice() {
+    let radii = 2.0 * cuboid([0.04; 3]).shape.sphero_radius();
+    let depth = 0.05 * radii;
+    let reach = (2.0 * radii * depth).sqrt();
+    let mut before = 2.0 + 1e-9;
+    for over_reach in [0.05, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 3.0] {
+        let times = counted(over_reach * reach, depth);
+        tell(&format!(
+            "edge / sqrt(2 R delta) = {over_reach}: counted {times:.3} times"
+        ));
+        assert!(times <= before && times > 1.0 - 1e-9, "{times}");
+        before = times;
+    }
+    assert!(counted(0.05 * reach, depth) > 1.95);
+    assert!((before - 1.0).abs() < 1e-12, "{before}");
 }

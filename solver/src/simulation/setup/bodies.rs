@@ -4,7 +4,7 @@ use super::Setup;
 use super::resolution::{Crowd, contact_modulus};
 use super::settle::settle;
 use crate::contact::body_wall::touch_walls;
-use crate::contact::law::ContactLaw;
+use crate::contact::law::{ContactLaw, Dampings};
 use crate::math::Vec3;
 use crate::rigid::{Body, BodyState, Freedom, Load};
 use crate::scenario::Scenario;
@@ -12,12 +12,19 @@ use crate::scenario::Scenario;
 /// The bodies of a scenario, where they start.
 pub(in crate::simulation) fn bodies(scenario: &Scenario, given: &Setup) -> Vec<Body> {
     let crowd = Crowd::of(scenario);
+    let mut dampings = Dampings::default();
     (0..scenario.bodies.len())
-        .map(|place| body(scenario, given, place, &crowd))
+        .map(|place| body(scenario, given, place, &crowd, &mut dampings))
         .collect()
 }
 
-fn body(scenario: &Scenario, given: &Setup, place: usize, crowd: &Crowd) -> Body {
+fn body(
+    scenario: &Scenario,
+    given: &Setup,
+    place: usize,
+    crowd: &Crowd,
+    dampings: &mut Dampings,
+) -> Body {
     let spec = &scenario.bodies[place];
     let shape = scenario.shape_of(place);
     let pose = scenario.initial_pose(place);
@@ -26,14 +33,14 @@ fn body(scenario: &Scenario, given: &Setup, place: usize, crowd: &Crowd) -> Body
     let modulus = spec
         .contact_modulus_pa
         .unwrap_or_else(|| contact_modulus(scenario, place, crowd));
-    let wall_law = ContactLaw::hertz(
+    let wall_law = ContactLaw::damped(
         modulus,
         shape.sphero_radius(),
-        spec.restitution,
+        dampings.of(spec.restitution),
         spec.friction,
     );
     let flow_law = match &given.flow {
-        Some(flow) => flow.contact_law(spec.flow_restitution, spec.flow_friction),
+        Some(flow) => flow.contact_law(dampings.of(spec.flow_restitution), spec.flow_friction),
         None => wall_law,
     };
     let mut body = Body {

@@ -79,6 +79,8 @@ pub(super) fn expected_speed(scenario: &Scenario) -> f64 {
 /// What a body brings to its contacts.
 struct Weighty {
     mass: f64,
+    sphero_radius: f64,
+    restitution: f64,
     /// Where its centre starts [m].
     start: Vec3,
     bounding_radius: f64,
@@ -96,9 +98,13 @@ impl Crowd {
             let body = &scenario.bodies[place];
             let shape = scenario.shape_of(place);
             let start = scenario.initial_pose(place).position;
-            let falling = 2.0 * scenario.gravity_m_s2 * start.z.max(0.0);
+            let faces = shape.faces().iter().map(|face| face.offset);
+            let lowest = faces.fold(f64::INFINITY, f64::min) + shape.sphero_radius();
+            let falling = 2.0 * scenario.gravity_m_s2 * (start.z - lowest).max(0.0);
             Weighty {
                 mass: body.density_kg_m3 * shape.volume(),
+                sphero_radius: shape.sphero_radius(),
+                restitution: body.restitution,
                 start,
                 bounding_radius: shape.bounding_radius(),
                 speed_squared: falling + Vec3::from(body.velocity_m_s).norm_squared(),
@@ -113,6 +119,23 @@ impl Crowd {
         let own = &self.0[place];
         let above = self.0.iter().filter(|other| other.can_rest_on(own));
         own.moving_mass() + above.map(|other| other.mass).sum::<f64>()
+    }
+
+    /// Least sphero radius of all [m]: overlap is measured by the smaller radius of
+    /// two, and the softer of two contact moduli decides.
+    fn least_radius(&self) -> f64 {
+        let radii = self.0.iter().map(|body| body.sphero_radius);
+        radii.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Energy of the hardest impact of two bodies over that of the heaviest one on a
+    /// wall at the largest speed: of what has bounced on what still falls, and
+    /// of a lighter body thrown up in between (equation 33).
+    fn gain(&self) -> f64 {
+        let free = self.0.iter().filter(|body| body.free);
+        let restitution = free.map(|body| body.restitution).fold(0.0, f64::max);
+        let towards = (1.0 + restitution).powi(2);
+        f64::max(0.5 * towards, 4.0 / 27.0 * towards.powi(2)).max(1.0)
     }
 
     /// Largest mass and squared speed of what may strike a body, or it strike.
@@ -145,15 +168,18 @@ impl Weighty {
 /// Contact modulus E* of a body on a rigid wall [Pa]: stiff enough that resting
 /// on one vertex overlaps 1 % of the sphero radius, and an impact on one vertex
 /// at the largest speed expected 20 %; among other bodies, where both yield and
-/// both are round, for what may lie on it and what may strike it.
+/// both are round, of the least radius, for what may lie on it and what may strike it.
 pub(super) fn contact_modulus(scenario: &Scenario, place: usize, crowd: &Crowd) -> f64 {
-    let radius = scenario.bodies[place].sphero_radius_m;
+    let radius = crowd.least_radius();
     let (striking, speed_squared) = crowd.striking(place);
     let speed_squared = speed_squared.max(expected_speed(scenario).powi(2));
     let pressed = crowd.carried_by(place) * scenario.gravity_m_s2;
+    let (gain, softer) = match crowd.0.len() {
+        1 => (1.0, 1.0),
+        _ => (crowd.gain(), TWO_LIKE_ONE),
+    };
     let at_rest = pressed / (OVERLAP_AT_REST * radius).powf(1.5);
-    let at_impact = 1.25 * striking * speed_squared / (OVERLAP_AT_IMPACT * radius).powf(2.5);
-    let softer = if crowd.0.len() > 1 { TWO_LIKE_ONE } else { 1.0 };
+    let at_impact = 1.25 * gain * striking * speed_squared / (OVERLAP_AT_IMPACT * radius).powf(2.5);
     0.75 * softer * at_rest.max(at_impact) / radius.sqrt()
 }
 
@@ -165,6 +191,8 @@ mod tests {
     fn crowd(free: bool, starts: &[[f64; 3]]) -> Crowd {
         let weighty = |(place, start): (usize, &[f64; 3])| Weighty {
             mass: 1.0,
+            sphero_radius: 0.002,
+            restitution: 0.3,
             start: Vec3::from(*start),
             bounding_radius: 0.05,
             speed_squared: 0.0,

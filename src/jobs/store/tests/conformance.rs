@@ -30,6 +30,7 @@ conformance! {
     a_lease_that_ran_out_is_another_s_to_take
     a_former_self_s_jobs_are_taken_back_at_once_and_no_others
     the_third_setback_in_a_row_is_the_last
+    a_job_cut_off_waits_until_the_service_has_lived_as_long
     after_a_setback_a_job_waits_longer_each_time
     a_saved_state_comes_back_and_ends_the_row_of_setbacks
     an_attempt_begins_at_its_saved_state_or_afresh
@@ -246,6 +247,37 @@ async fn the_third_setback_in_a_row_is_the_last<S: JobStore>(fixture: &Fixture<S
     assert!(job.problem.unwrap().get().contains("cut-off"));
     assert_eq!(fixture.endings(id).await, ["cut-off"; 3]);
     assert_eq!(fixture.try_claim("a").await, None);
+}
+
+// A service that is killed again and again, sooner than it could have run the job, fails
+// nothing: the job waits for one that has lived a while, and others go first.
+async fn a_job_cut_off_waits_until_the_service_has_lived_as_long<S: JobStore>(
+    fixture: &Fixture<S>,
+) {
+    let store = &fixture.store;
+    let id = fixture.submit().await;
+    let after = |up_ms: u64| Claimant {
+        up_for: Duration::from_millis(up_ms),
+        ..claimant("a")
+    };
+    for (wait_ms, setbacks) in [(0, 0), (2_000, 1), (8_000, 2)] {
+        if wait_ms > 0 {
+            let too_soon = after(wait_ms - 1);
+            for _ in 0..5 {
+                assert_eq!(store.take_back_own("a").await.unwrap(), 0);
+                fixture.pass(Duration::from_secs(60));
+                assert_eq!(store.claim(&too_soon).await.unwrap(), None);
+            }
+            let other = fixture.submit().await;
+            let claim = store.claim(&too_soon).await.unwrap().unwrap();
+            assert_eq!((claim.hold.job, claim.setbacks), (other, 0));
+            assert!(store.succeed(claim.hold, "{}", FINGERPRINT).await.unwrap());
+        }
+        let claim = store.claim(&after(wait_ms)).await.unwrap().unwrap();
+        assert_eq!((claim.hold.job, claim.setbacks), (id, setbacks));
+        assert_eq!(store.take_back_own("a").await.unwrap(), 1);
+    }
+    assert_eq!(fixture.status(id).await, JobStatus::Failed);
 }
 
 async fn after_a_setback_a_job_waits_longer_each_time<S: JobStore>(fixture: &Fixture<S>) {

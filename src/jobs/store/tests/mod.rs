@@ -68,6 +68,7 @@ impl<S: JobStore> Fixture<S> {
             bodies: 1,
             scenario: "{}".to_owned(),
             scenario_hash: "0".repeat(64),
+            plan: "{}".to_owned(),
             labels: Vec::new(),
             solver_version: "1",
         };
@@ -129,6 +130,7 @@ fn claimant(owner: &str) -> Claimant {
             commit: "c",
             instructions: "none",
         },
+        up_for: Duration::from_secs(3_600),
     }
 }
 
