@@ -276,7 +276,7 @@ mod tests {
         let bench = Bench::default();
         let seen = bench.submissions().unwrap();
         bench.announce();
-        let began = std::time::Instant::now();
+        let began = Instant::now();
         bench.wait(seen);
         assert!(began.elapsed() < IDLE_LOOK);
     }

@@ -1,7 +1,7 @@
 //! kill -9, under submissions and mid-run.
 
 use crate::client::{ask, get};
-use crate::served::{Place, fine_scene, has_ended, scene, trifle};
+use crate::served::{Place, finest_scene, has_ended, scene, trifle};
 use crate::{at_length, percentile};
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -90,7 +90,7 @@ fn a_run_killed_many_times_ends_with_the_same_bits() {
     let place = Place::new(&settings);
     let (long, apart_s) = match kills {
         2 => (scene(3.0), 0.8),
-        _ => (fine_scene(3.0), 0.1),
+        _ => (finest_scene(3.0), 0.05),
     };
     let served = place.serve();
     let whole = served.submit(&long);

@@ -2,7 +2,7 @@
 //! trajectory; and what the service costs beside the computation.
 
 use crate::client::{ask, get};
-use crate::served::{Place, binary, fine_scene, has_ended, scene, trifle};
+use crate::served::{Place, binary, fine_scene, finest_scene, has_ended, scene, trifle};
 use crate::{at_length, percentile};
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -156,7 +156,7 @@ fn the_service_costs_little_beside_the_computation() {
     let rounds = at_length(1, 3);
     let long = match rounds {
         1 => scene(0.5),
-        _ => fine_scene(2.0),
+        _ => finest_scene(2.0),
     };
     let place = Place::new(&[]);
     let file = place.path().join("scene.json");

@@ -179,6 +179,13 @@ pub(crate) fn fine_scene(duration_s: f64) -> Value {
     scene
 }
 
+/// The same in cells as fine as a run of half a minute takes.
+pub(crate) fn finest_scene(duration_s: f64) -> Value {
+    let mut scene = fine_scene(duration_s);
+    scene["numerics"]["cell_size_m"] = json!(0.005);
+    scene
+}
+
 /// A cube alone for a moment: next to nothing to compute.
 pub(crate) fn trifle() -> Value {
     let mut scene = scene(0.01);

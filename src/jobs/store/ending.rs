@@ -150,17 +150,24 @@ pub(super) async fn set_back_row(
     setback: &Setback,
     now_ms: i64,
 ) -> Result<Returned, StoreError> {
-    let before: Option<u32> = sqlx::query_scalar(
-        "SELECT setbacks FROM jobs WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
+    let found: Option<(u32, bool)> = sqlx::query_as(
+        "SELECT setbacks, EXISTS (SELECT 1 FROM run_states WHERE job_id = ?1 AND attempt = ?3)
+         FROM jobs WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
     )
     .bind(hold.job.to_string())
     .bind(hold.token)
+    .bind(hold.attempt)
     .fetch_optional(&mut *connection)
     .await?;
-    let Some(before) = before else {
+    let Some((before, got_on)) = found else {
         return Ok(Returned::Lost);
     };
     end_attempt(connection, hold, now_ms, (setback.word(), setback.detail())).await?;
+    if got_on && *setback == Setback::CutOff {
+        // It ran well for a while, and goes on from there.
+        put_back_row(connection, hold, 0, now_ms).await?;
+        return Ok(Returned::Waiting);
+    }
     let times = before + 1;
     if times >= TOLERATED_SETBACKS {
         fail_row(connection, hold, &setback.failure(times), now_ms).await?;

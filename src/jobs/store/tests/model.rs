@@ -54,6 +54,8 @@ struct ModelJob {
     not_before_ms: i64,
     setbacks: u32,
     saved: bool,
+    /// In the attempt that goes on.
+    saved_now: bool,
 }
 
 #[derive(Debug, Default)]
@@ -101,6 +103,10 @@ impl Model {
     }
 
     fn set_back(job: &mut ModelJob, now_ms: i64, at_once: bool) -> Returned {
+        if at_once && job.saved_now {
+            Self::put_back(job, now_ms);
+            return Returned::Waiting;
+        }
         let wait_ms = match (at_once, job.setbacks) {
             (true, _) => 0,
             (false, 0) => 2_000,
@@ -187,6 +193,7 @@ impl Pair {
         job.holder = Some(number);
         job.owner = owner;
         job.expires_ms = expires_ms;
+        job.saved_now = false;
         assert_eq!((hold.job, hold.attempt), (self.ids[place], job.attempt));
         self.holds.push(hold);
     }
@@ -230,6 +237,7 @@ impl Pair {
                 let expected = held.is_some();
                 if let Some(job) = held.filter(|job| Model::is(job, JobStatus::Running)) {
                     job.saved = true;
+                    job.saved_now = true;
                     job.setbacks = 0;
                 }
                 let hold = self.holds[number(pick)];
