@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 mod pace;
 
+pub use pace::MOST_SUBSTEPS;
 use pace::substeps;
 
 /// A body none of whose places is faster is still [m/s].
@@ -34,6 +35,8 @@ pub struct BodyReport {
     pub body_load: Load,
     /// Body sub-steps.
     pub substeps: u32,
+    /// Body sub-steps that contacts and spin ask for, [`MOST_SUBSTEPS`] or not.
+    pub substeps_asked: f64,
     /// Body sub-steps that ended in touch with a wall or another body.
     pub substeps_supported: u32,
     /// Its deepest overlap with a wall or another body, over its sphero radius
@@ -304,7 +307,8 @@ impl Island<'_> {
 
 /// Velocity Verlet in as many sub-steps as the member that needs most asks for.
 fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surroundings, dt: f64) {
-    let count = substeps(members, meetings, around.planes, dt);
+    let asked = substeps(members, meetings, around.planes, dt);
+    let count = asked.min(MOST_SUBSTEPS);
     let h = dt / count;
     for _ in 0..count as u32 {
         for member in members.iter_mut() {
@@ -324,6 +328,7 @@ fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surro
     }
     for member in members {
         let report = &mut *member.report;
+        report.substeps_asked = asked;
         for load in [&mut report.wall_load, &mut report.body_load] {
             load.force /= dt;
             load.torque /= dt;

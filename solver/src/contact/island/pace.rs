@@ -19,16 +19,16 @@ const UNDAMPED_SHARE: f64 = 0.01;
 const DAMPED: f64 = 0.001;
 /// Largest turn per body sub-step [rad].
 const LARGEST_TURN: f64 = 0.05;
-/// More body sub-steps than this never pay.
-const MOST_SUBSTEPS: f64 = 10_000.0;
+/// More body sub-steps than this are never taken; a run that needs them ends.
+pub const MOST_SUBSTEPS: f64 = 100_000.0;
 
-/// Number of body sub-steps in `dt`, whole but kept as a float.
+/// Number of body sub-steps that `dt` asks for, whole but kept as a float.
 pub(super) fn substeps(members: &[Member], meetings: &[Met], planes: &[Plane], dt: f64) -> f64 {
     let alone = members.iter();
     let alone = alone.map(|member| substeps_alone(member.body, planes, dt));
     let met = meetings.iter().map(|met| substeps_met(members, met, dt));
     let count = alone.chain(met).fold(0.0, f64::max);
-    count.ceil().clamp(1.0, MOST_SUBSTEPS)
+    count.ceil().max(1.0)
 }
 
 /// Sub-steps that a body asks for by its spin and the walls.
