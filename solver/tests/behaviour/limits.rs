@@ -218,7 +218,7 @@ fn a_body_pressed_through_the_floor_ends_the_run() {
     let scenario = Scene::channel(40.0, 0.6, 0.6, 0.2)
         .body(json!({
             "shape": {"cube": {"side_m": 0.06}},
-            "position": {"downstream_m": 0.1},
+            "position": {"downstream_m": 0.1, "elevation_m": 0.05},
         }))
         .lasting(0.5)
         .scenario();
