@@ -1,5 +1,5 @@
 //! Points kept evenly spread, and their volumes true to the room they take
-//! (docs/method.md, equations 39–42).
+//! (docs/method.md, equations 39–42b).
 //!
 //! A point's volume follows the velocity gradient along its path; where points
 //! gather, nothing in that tells. In long shear they gather, the volumes scatter,

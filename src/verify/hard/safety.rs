@@ -6,9 +6,9 @@ use scree_solver::simulation::Scene;
 use std::ops::ControlFlow;
 
 /// Multiples of the chosen sub-step that are tried, one after the other.
-const MULTIPLES: [f64; 10] = [1.25, 1.5, 1.75, 2.0, 2.25, 2.5, 3.0, 3.5, 4.0, 5.0];
+const MULTIPLES: [f64; 7] = [1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0];
 /// Point-steps one try may take.
-const BUDGET: u64 = 4_000_000;
+const BUDGET: u64 = 1_500_000;
 /// A run whose energy rises by more than this share of its scale is unstable.
 const UNSTABLE: f64 = 0.02;
 

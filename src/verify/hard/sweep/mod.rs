@@ -14,7 +14,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Point-steps of one run, and what counts as such.
-const BUDGET: u64 = 250_000;
+const BUDGET: u64 = 60_000;
 /// Draws until one is legal.
 const MOST_DRAWS: u32 = 400;
 

@@ -4,7 +4,7 @@ use crate::verify::hard::trial::{Trial, Tried};
 use serde_json::Value;
 
 /// Most runs spent on one scenario.
-const MOST_RUNS: usize = 100;
+const MOST_RUNS: usize = 60;
 
 /// The smallest scenario found that fails as this one does.
 pub(super) fn reduced(
