@@ -63,7 +63,7 @@ pub(super) fn flow_carries_itself(
     let slowest = SOFTEST * (gravity_m_s2 * flow.release.height_m).sqrt();
     let why = |value: f64| {
         format!(
-            "is {}, so soft that the release's own weight would press it together by a fifth \
+            "is {}, so soft that the release's own weight would press it together by a third \
              or more",
             short(value)
         )

@@ -31,6 +31,8 @@ const ROUNDING: f64 = 1e-4;
 /// What a sub-step and one of a body cost, in point-steps.
 const OF_ITSELF: u64 = 300;
 const OF_A_BODY: u64 = 200;
+/// A step is broken off once so many budgets are spent.
+const PATIENCE: u64 = 4;
 /// Looks at points and bodies during a run.
 const LOOKS: u32 = 8;
 
@@ -277,7 +279,7 @@ fn watched(trial: &Trial) -> (Ended, Option<Figures>) {
         ..Figures::default()
     };
     let duration = trial.scenario["duration_s"].as_f64().unwrap_or(0.0);
-    let mut spent = 0;
+    let (mut spent, mut amid_step) = (0, false);
     let mut ended = Ended::Finished;
     look(&simulation, &mut figures);
     for part in 1..=LOOKS {
@@ -286,8 +288,9 @@ fn watched(trial: &Trial) -> (Ended, Option<Figures>) {
             let bodies = 0..simulation.bodies().len();
             let own = bodies.map(|body| u64::from(simulation.body_report(body).substeps));
             spent += OF_ITSELF + report.points + OF_A_BODY * own.sum::<u64>();
-            let over = trial.budget.is_some_and(|budget| spent > budget);
-            if over && report.step_ended {
+            amid_step = !report.step_ended;
+            let over = |times| trial.budget.is_some_and(|budget| spent > times * budget);
+            if over(PATIENCE) || over(1) && report.step_ended {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
@@ -297,7 +300,10 @@ fn watched(trial: &Trial) -> (Ended, Option<Figures>) {
             ended = Ended::Failed(error);
             break;
         }
-        look(&simulation, &mut figures);
+        // Amid a step the points' motion lies on the grid.
+        if !amid_step {
+            look(&simulation, &mut figures);
+        }
         if trial.budget.is_some_and(|budget| spent > budget) {
             break;
         }

@@ -29,14 +29,14 @@ fn members(_: Effort) -> Vec<Member> {
             ],
         ),
         strike_with("of one point", &[("/flow/volume_m3", json!(1e-6))]),
-        on(40.0, "cube buried on the incline", cube_on_incline(-0.1)),
-        on(0.0, "cube buried on the flat", cube_at(-0.1)),
+        on(40.0, "cube buried on the incline", &cube_on_incline(-0.1)),
+        on(0.0, "cube buried on the flat", &cube_at(-0.1)),
         on_top(),
     ];
     scenes.map(|trial| Member::Scene(Box::new(trial))).into()
 }
 
-fn on(inclination_deg: f64, name: &str, body: Value) -> Trial {
+fn on(inclination_deg: f64, name: &str, body: &Value) -> Trial {
     let mut scenario = strike(inclination_deg);
     scenario["bodies"] = json!([body]);
     Trial::new(name, scenario)

@@ -86,7 +86,8 @@ fn simpler(scenario: &Value) -> Vec<Value> {
             "numerics",
         ];
         let removable = fields.keys().filter(|key| {
-            !required.contains(&key.as_str()) && !(part.is_empty() && basic.contains(&key.as_str()))
+            let kept = required.contains(&key.as_str());
+            !(kept || part.is_empty() && basic.contains(&key.as_str()))
         });
         for key in removable {
             try_with(&|copy| {
