@@ -1,5 +1,5 @@
 //! Points kept evenly spread, and their volumes true to the room they take
-//! (docs/method.md, equations 39–42).
+//! (docs/method.md, equations 39–42b).
 //!
 //! A point's volume follows the velocity gradient along its path; where points
 //! gather, nothing in that tells. In long shear they gather, the volumes scatter,
@@ -29,6 +29,8 @@ const SLOW: f64 = 0.2;
 
 /// Height above a base plane below which no point is shifted towards it [cells].
 pub const KEPT_OFF: f64 = 0.5;
+/// Depth behind a base plane from which on no point is moved farther behind [cells].
+pub const DEEPEST: f64 = 0.25;
 
 /// What a step's length makes of the rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,15 +116,28 @@ pub struct Tended {
     pub rise: f64,
 }
 
-/// A shift [m] without its part into a base plane that the point is near to or
-/// behind: nodes behind a wall can't say how crowded it is there.
-pub fn not_into_wall(shift: &Vec3, position: &Vec3, base: &[Plane], spacing: &Vec3) -> Vec3 {
+/// A shift [m] of a point that was `moved` to a position, without its part into a base
+/// plane that the point is near to or behind: nodes behind a wall can't say how crowded
+/// it is there. A point deep behind is also given back what it was moved into the wall:
+/// where the flow spreads over its base, nodes behind go on inward (equation 29), and
+/// the deeper a point is the faster they take it (equation 42b).
+pub fn not_into_wall(
+    shift: &Vec3,
+    moved: &Vec3,
+    position: &Vec3,
+    base: &[Plane],
+    spacing: &Vec3,
+) -> Vec3 {
     let mut shift = *shift;
     for plane in base {
-        let near = KEPT_OFF * plane.normal.component_mul(spacing).norm();
-        let into = -plane.normal.dot(&shift);
-        if into > 0.0 && plane.height(position) < near {
-            shift += plane.normal * into;
+        let width = plane.normal.component_mul(spacing).norm();
+        let height = plane.height(position);
+        let into = |way: &Vec3| (-plane.normal.dot(way)).max(0.0);
+        if height < KEPT_OFF * width {
+            shift += plane.normal * into(&shift);
+        }
+        if height < -DEEPEST * width {
+            shift += plane.normal * into(moved);
         }
     }
     shift
@@ -277,11 +292,31 @@ mod tests {
             offset: 0.0,
             flow_friction: 0.4,
         }];
-        let kept = |z, shift| not_into_wall(&shift, &Vec3::new(0.0, 0.0, z), &floor, &SPACING);
+        let still = Vec3::zeros();
+        let kept =
+            |z, shift| not_into_wall(&shift, &still, &Vec3::new(0.0, 0.0, z), &floor, &SPACING);
         let (down, up) = (Vec3::new(1e-4, 0.0, -1e-4), Vec3::new(0.0, 0.0, 1e-4));
         assert_eq!(kept(0.004, down), Vec3::new(1e-4, 0.0, 0.0));
         assert_eq!(kept(-0.004, down), Vec3::new(1e-4, 0.0, 0.0));
         assert_eq!(kept(0.006, down), down);
         assert_eq!(kept(0.004, up), up);
+    }
+
+    // A quarter of a cell is 2.5 mm.
+    #[test]
+    fn no_point_deep_behind_a_wall_goes_deeper() {
+        let floor = [Plane {
+            name: "floor",
+            normal: Vec3::z(),
+            offset: 0.0,
+            flow_friction: 0.4,
+        }];
+        let none = Vec3::zeros();
+        let kept =
+            |z, moved| not_into_wall(&none, &moved, &Vec3::new(0.0, 0.0, z), &floor, &SPACING);
+        let (down, up) = (Vec3::new(1e-4, 0.0, -1e-4), Vec3::new(0.0, 0.0, 1e-4));
+        assert_eq!(kept(-0.0026, down), Vec3::new(0.0, 0.0, 1e-4));
+        assert_eq!(kept(-0.0026, up), none);
+        assert_eq!(kept(-0.0024, down), none);
     }
 }

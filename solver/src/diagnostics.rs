@@ -184,6 +184,7 @@ pub struct Audit {
     spread: Vec3,
     /// Angular momentum that spreading the points made, relative as the residual.
     pub angular_momentum_spread: f64,
+    start_energy: f64,
     lowest_energy: f64,
     largest_rise: f64,
     largest_kinetic_energy: f64,
@@ -196,6 +197,7 @@ impl Audit {
         Self {
             released_mass: flow.mass,
             expected: total.momentum,
+            start_energy: total.energy,
             lowest_energy: total.energy,
             ..Self::default()
         }
@@ -264,6 +266,17 @@ impl Audit {
         self.lowest_energy = self.lowest_energy.min(energy);
         self.largest_rise = self.largest_rise.max(energy - self.lowest_energy);
         self.largest_kinetic_energy = self.largest_kinetic_energy.max(total.kinetic_energy);
+    }
+
+    /// Largest rise of the mechanical energy above its running minimum [J].
+    pub fn energy_rise(&self) -> f64 {
+        self.largest_rise
+    }
+
+    /// What a rise is to be compared with where little moves: the size of the start's
+    /// energy, heights counted from the floor, and the largest kinetic energy [J].
+    pub fn energy_scale(&self) -> f64 {
+        self.start_energy.abs() + self.largest_kinetic_energy
     }
 
     /// Largest rise of the mechanical energy above its running minimum,

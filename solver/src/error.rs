@@ -1,5 +1,6 @@
 //! What can go wrong once a scenario is legal.
 
+use std::fmt;
 use thiserror::Error;
 
 /// A legal scenario that this solver nevertheless can't set up.
@@ -35,6 +36,24 @@ pub enum SetupError {
         /// The thread pool's own words.
         reason: String,
     },
+}
+
+/// Whose motion it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mover {
+    /// The point of this identity.
+    Point(u32),
+    /// The body of this index in the scenario.
+    Body(usize),
+}
+
+impl fmt::Display for Mover {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Point(point) => write!(to, "point {point}"),
+            Self::Body(body) => write!(to, "body {body}"),
+        }
+    }
 }
 
 /// A run that can't go on. It names the simulated time and the culprit, and is
@@ -75,20 +94,81 @@ pub enum StepError {
         /// Smallest sub-step accepted [s].
         limit_s: f64,
     },
-    /// The contacts of a body are too stiff for what is lightest among those that hang
-    /// together.
+    /// A body would take more sub-steps of its own than are ever taken: its
+    /// contact is too stiff for what it weighs, or it spins too fast.
     #[error(
-        "t = {time_s:.6} s: contacts of body {body} ask for sub-steps of {substep_s:e} s (limit {limit_s:e} s): too stiff for the lightest body that hangs together with it (contact_modulus_pa, density_kg_m3)"
+        "t = {time_s:.6} s: body {body} needs {asked:.0} sub-steps of its own within one of {substep_s:e} s, more than {limit:.0}: its contact is too stiff for its mass (contact_modulus_pa), or it spins too fast"
     )]
-    BodyTimeStepCollapse {
+    BodyStepCollapse {
         /// Simulated time [s].
         time_s: f64,
         /// Index of the body in the scenario.
         body: usize,
-        /// Sub-step its contacts ask for [s].
+        /// Sub-step of the flow, or of the scene without one [s].
         substep_s: f64,
-        /// Smallest sub-step accepted [s].
-        limit_s: f64,
+        /// Body sub-steps that its contacts and its spin ask for.
+        asked: f64,
+        /// Most body sub-steps taken.
+        limit: f64,
+    },
+    /// Something is faster than anything at the start could have made it.
+    #[error(
+        "t = {time_s:.6} s: {mover} moves at {speed_m_s:.3} m/s; what could fall and what was thrown gives no more than {limit_m_s:.3} m/s, a wide margin included"
+    )]
+    SpeedRunaway {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Who.
+        mover: Mover,
+        /// Its speed [m/s].
+        speed_m_s: f64,
+        /// Largest speed accepted [m/s].
+        limit_m_s: f64,
+    },
+    /// There is more mechanical energy than there was: nothing but an unstable
+    /// computation makes any.
+    #[error(
+        "t = {time_s:.6} s: the mechanical energy has risen by {rise_j:.4e} J above its lowest value, more than {limit_j:.4e} J; fastest is {mover} with {speed_m_s:.3} m/s"
+    )]
+    EnergyRunaway {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Rise above the running minimum [J].
+        rise_j: f64,
+        /// Largest rise accepted [J].
+        limit_j: f64,
+        /// Who moves fastest.
+        mover: Mover,
+        /// How fast [m/s].
+        speed_m_s: f64,
+    },
+    /// A point is denser than its material can be.
+    #[error(
+        "t = {time_s:.6} s: point {point} is crushed to {density_kg_m3:.0} kg/m³, more than {limit_kg_m3:.0} kg/m³: the material is too soft for its weight or its speed (sound_speed_m_s, youngs_modulus_pa)"
+    )]
+    Crushed {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Identity of the point.
+        point: u32,
+        /// Its density [kg/m³].
+        density_kg_m3: f64,
+        /// Largest density accepted [kg/m³].
+        limit_kg_m3: f64,
+    },
+    /// A point is in the core of a body and there is no room to put it back.
+    #[error(
+        "t = {time_s:.6} s: point {point} is {depth_m:.6} m inside the core of body {body}, with walls on every way out"
+    )]
+    PointInsideBody {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Identity of the point.
+        point: u32,
+        /// Index of the body in the scenario.
+        body: usize,
+        /// Depth below the nearest face of the core [m].
+        depth_m: f64,
     },
     /// A point left the channel through a wall.
     #[error("t = {time_s:.6} s: point {point} is {depth_m:.4} m behind the {wall}")]
@@ -141,9 +221,13 @@ impl StepError {
             Self::NonFinitePoint { time_s, .. }
             | Self::NonFiniteBody { time_s, .. }
             | Self::TimeStepCollapse { time_s, .. }
-            | Self::BodyTimeStepCollapse { time_s, .. }
             | Self::BodyBehindWall { time_s, .. }
             | Self::BodiesMerge { time_s, .. }
+            | Self::BodyStepCollapse { time_s, .. }
+            | Self::SpeedRunaway { time_s, .. }
+            | Self::EnergyRunaway { time_s, .. }
+            | Self::Crushed { time_s, .. }
+            | Self::PointInsideBody { time_s, .. }
             | Self::PointBehindWall { time_s, .. } => time_s,
         }
     }

@@ -31,7 +31,7 @@ pub mod stability;
 pub mod transfer;
 pub mod walls;
 
-pub use error::{RestoreError, SaveError, SetupError, StepError};
+pub use error::{Mover, RestoreError, SaveError, SetupError, StepError};
 pub use fast::instructions::Instructions;
 pub use simulation::{Ending, LapWatch, Simulation, SubstepReport, Verb};
 

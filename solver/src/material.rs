@@ -45,6 +45,15 @@ impl Material {
         matches!(self.yielding, Yielding::Granular { .. })
     }
 
+    /// What it can't be denser than [kg/m³]: its grains, or twice the bulk at rest
+    /// if that is more; no bound for a solid.
+    pub fn densest(&self) -> f64 {
+        match self.yielding {
+            Yielding::Granular { grain_density, .. } => grain_density.max(2.0 * self.bulk_density),
+            Yielding::Never => f64::INFINITY,
+        }
+    }
+
     /// P-wave modulus M = K + 4G/3 [Pa].
     pub fn p_wave_modulus(&self) -> f64 {
         self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus

@@ -18,6 +18,8 @@ pub struct Limits {
     pub courant: f64,
     /// Cells the fastest point may travel per step.
     pub flow_courant: f64,
+    /// Share of a body's own time scale against points allowed per sub-step.
+    pub body_contact_share: f64,
     /// A flow slower than this steps as if it had this speed [m/s]: one at rest
     /// would otherwise never be transferred.
     pub slow: f64,
@@ -102,6 +104,7 @@ mod tests {
             cell_size: 0.01,
             courant: 0.4,
             flow_courant: 0.2,
+            body_contact_share: 0.5,
             slow: 0.5,
         }
     }

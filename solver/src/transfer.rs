@@ -277,7 +277,13 @@ pub fn gather_motion(
             let travel = displacement.component_div(&lattice.spacing).norm();
             let tended = tending.of(&seen, travel, &lattice.spacing);
             point.position += displacement;
-            let shift = not_into_wall(&tended.shift, &point.position, base, &lattice.spacing);
+            let shift = not_into_wall(
+                &tended.shift,
+                &displacement,
+                &point.position,
+                base,
+                &lattice.spacing,
+            );
             point.position += shift;
             spread.add(point.mass, &shift, &point.velocity);
             point.volume += point.mass / material.bulk_density * (tended.dilation - seen.dilation);

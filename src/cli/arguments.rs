@@ -148,10 +148,20 @@ pub(super) struct BenchOptions {
 
 #[derive(Debug, Args)]
 pub(super) struct VerifyOptions {
-    /// Run this case alone; may be given several times [default: all]
+    /// Which cases
+    #[arg(long, value_name = "NAME", value_enum, default_value = "standard")]
+    pub(super) suite: SuiteWord,
+    /// Run this case alone; may be given several times [default: all of the suite]
     #[arg(long, value_name = "NAME")]
     pub(super) case: Vec<String>,
-    /// More and finer resolutions: takes ten minutes or more instead of one
+    /// Scenarios of a sweep
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    pub(super) count: u64,
+    /// Seed of a sweep's first scenario; each takes the next one
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) seed: u64,
+    /// More and finer resolutions, longer runs, and how far the hard cases' steps are
+    /// from unstable ones: takes ten minutes or more instead of one
     #[arg(long)]
     pub(super) full: bool,
     /// Write diagrams of error against wall time into this directory; takes runs
@@ -164,6 +174,26 @@ pub(super) struct VerifyOptions {
     /// Print one JSON document instead of tables
     #[arg(long)]
     pub(super) json: bool,
+}
+
+/// What `scree verify` can run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum SuiteWord {
+    /// Cases whose answer is known
+    Standard,
+    /// Scenes that are there to break the computation
+    Hard,
+    /// Scenarios drawn at random from all that is legal
+    Sweep,
+    /// All three
+    All,
+}
+
+impl SuiteWord {
+    /// Whether a part of it is asked for.
+    pub(super) fn takes(self, part: Self) -> bool {
+        self == part || self == Self::All
+    }
 }
 
 /// What `scree bench` can measure.

@@ -1,6 +1,6 @@
 //! Why a job failed, as the problem document that stays with it.
 
-use scree_solver::{SetupError, StepError};
+use scree_solver::{Mover, SetupError, StepError};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use utoipa::ToSchema;
@@ -123,14 +123,6 @@ fn step_numbers(error: &StepError) -> Value {
         } => json!({
             "time_s": time_s, "substep_s": substep_s, "speed_m_s": speed_m_s, "limit_s": limit_s
         }),
-        StepError::BodyTimeStepCollapse {
-            time_s,
-            body,
-            substep_s,
-            limit_s,
-        } => {
-            json!({"time_s": time_s, "body": body, "substep_s": substep_s, "limit_s": limit_s})
-        }
         StepError::PointBehindWall {
             time_s,
             point,
@@ -155,7 +147,64 @@ fn step_numbers(error: &StepError) -> Value {
         } => {
             json!({"time_s": time_s, "body": body, "other": other, "overlap_m": overlap_m})
         }
+        StepError::BodyStepCollapse {
+            time_s,
+            body,
+            substep_s,
+            asked,
+            limit,
+        } => json!({
+            "time_s": time_s, "body": body, "substep_s": substep_s,
+            "body_substeps": asked, "limit": limit
+        }),
+        StepError::SpeedRunaway {
+            time_s,
+            mover,
+            speed_m_s,
+            limit_m_s,
+        } => moving(
+            *mover,
+            json!({"time_s": time_s, "speed_m_s": speed_m_s, "limit_m_s": limit_m_s}),
+        ),
+        StepError::EnergyRunaway {
+            time_s,
+            rise_j,
+            limit_j,
+            mover,
+            speed_m_s,
+        } => moving(
+            *mover,
+            json!({
+                "time_s": time_s, "rise_j": rise_j, "limit_j": limit_j, "speed_m_s": speed_m_s
+            }),
+        ),
+        StepError::Crushed {
+            time_s,
+            point,
+            density_kg_m3,
+            limit_kg_m3,
+        } => json!({
+            "time_s": time_s, "point": point, "density_kg_m3": density_kg_m3,
+            "limit_kg_m3": limit_kg_m3
+        }),
+        StepError::PointInsideBody {
+            time_s,
+            point,
+            body,
+            depth_m,
+        } => {
+            json!({"time_s": time_s, "point": point, "body": body, "depth_m": depth_m})
+        }
     }
+}
+
+/// The numbers of a failure and whose motion it is.
+fn moving(mover: Mover, mut numbers: Value) -> Value {
+    match mover {
+        Mover::Point(point) => numbers["point"] = json!(point),
+        Mover::Body(body) => numbers["body"] = json!(body),
+    }
+    numbers
 }
 
 #[cfg(test)]
@@ -177,5 +226,21 @@ mod tests {
         assert_eq!(document["substep_s"], 1e-12);
         assert_eq!(document["speed_m_s"], 900.0);
         assert_eq!(document["limit_s"], 1e-10);
+    }
+
+    #[test]
+    fn a_runaway_names_who_moves() {
+        let error = |mover| StepError::SpeedRunaway {
+            time_s: 0.5,
+            mover,
+            speed_m_s: 70.0,
+            limit_m_s: 60.0,
+        };
+        for (mover, key, who) in [(Mover::Point(7), "point", 7), (Mover::Body(2), "body", 2)] {
+            let document = serde_json::to_value(Failure::numerical(&error(mover))).unwrap();
+            assert_eq!(document[key], who);
+            assert_eq!(document["speed_m_s"], 70.0);
+            assert_eq!(document["limit_m_s"], 60.0);
+        }
     }
 }

@@ -6,7 +6,7 @@ use scree_solver::material::{Material, Yielding};
 use scree_solver::math::{Mat3, Sym3, Vec3};
 use scree_solver::points::Point;
 use scree_solver::scenario::Precision;
-use scree_solver::simulation::{GivenFlow, Scene, Setup, Timing};
+use scree_solver::simulation::{GivenFlow, Guards, Scene, Setup, Timing};
 use scree_solver::walls::{Ends, Plane, Upright, Walls};
 
 /// Points per cell and axis, as a scenario has them by default.
@@ -123,6 +123,7 @@ impl Block {
                 self.expected_speed,
             )),
             lattice,
+            guards: Guards::ANY_SPEED,
         }
     }
 

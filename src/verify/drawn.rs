@@ -1,6 +1,7 @@
 //! Scenes drawn at random from a fixed seed: short channels in which a flow
 //! meets one or two bodies. Nobody chose them, so nothing is tuned on them.
 
+use super::dice::Dice;
 use serde_json::{Value, json};
 
 /// Every scene ends then [s].
@@ -17,35 +18,9 @@ pub(super) struct Drawn {
     pub(super) cell_size_m: f64,
 }
 
-/// Numbers from a seed (SplitMix64; Steele, Lea & Flood 2014).
-#[derive(Debug)]
-struct Dice(u64);
-
-impl Dice {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
-    }
-
-    /// Evenly from low to high.
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        let share = (self.next() >> 11) as f64 / (1u64 << 53) as f64;
-        // Three digits, as people write them.
-        let value = low + share * (high - low);
-        (value * 1000.0).round() / 1000.0
-    }
-
-    /// True once in so many throws.
-    fn once_in(&mut self, throws: u64) -> bool {
-        self.next().is_multiple_of(throws)
-    }
-}
-
 /// The scene of this number.
 pub(super) fn scene(number: u64) -> Drawn {
-    let mut dice = Dice(number.wrapping_mul(0x2545_f491_4f6c_dd1d));
+    let mut dice = Dice::of(number);
     let mut scenario = json!({
         "duration_s": DURATION, "sample_interval_s": 0.02, "flow_snapshots": 0,
     });

@@ -2,10 +2,13 @@
 //!
 //! The way through it: [`cases::ALL`] lists the cases, each a page of its own
 //! with problem, answer and bar; [`verify`] runs them and gathers what each
-//! [`findings::Findings`] holds. Verdicts come out of error and bar alone.
+//! [`findings::Findings`] holds. Verdicts come out of error and bar alone. [`hard`]
+//! has the scenes that are there to break the computation; of them no answer is
+//! known but that it has to be a sound one.
 
 pub mod cases;
 pub mod findings;
+pub mod hard;
 pub mod limit;
 pub mod order;
 pub mod run;
@@ -15,6 +18,7 @@ mod banded;
 mod beads;
 mod blocks;
 mod columns;
+mod dice;
 mod drawn;
 mod paper;
 mod scenes;

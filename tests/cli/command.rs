@@ -96,12 +96,15 @@ pub(crate) fn tiny() -> Value {
     })
 }
 
-/// The tiny scene with next to no stiffness in a hundredfold gravity: it soon
-/// moves many times faster than its own sound, where no sub-step is stable.
+/// The tiny scene with a block of 1,000,000 kg/m³ that falls on the cube, whose
+/// contact carries its own weight and no more.
 pub(crate) fn unstable() -> Value {
     let mut scenario = tiny();
-    scenario["gravity_m_s2"] = json!(1000);
-    scenario["numerics"]["sound_speed_m_s"] = json!(0.1);
+    let mut block = scenario["bodies"][0].clone();
+    block["position"]["elevation_m"] = json!(0.1);
+    block["density_kg_m3"] = json!(1e6);
+    scenario["bodies"][0]["contact_modulus_pa"] = json!(1e6);
+    scenario["bodies"] = json!([scenario["bodies"][0], block]);
     scenario["duration_s"] = json!(0.5);
     scenario["sample_interval_s"] = json!(0.0001);
     scenario

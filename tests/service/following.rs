@@ -151,7 +151,7 @@ async fn an_answer_says_what_it_comes_from() {
         .await
         .unwrap();
     let start = scenario.find("\"scenario\":").unwrap() + "\"scenario\":".len();
-    let end = scenario.find(",\"progress\":").unwrap();
+    let end = scenario.find(",\"plan\":").unwrap();
     let hash = blake3::hash(&scenario.as_bytes()[start..end])
         .to_hex()
         .to_string();

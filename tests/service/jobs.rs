@@ -78,10 +78,13 @@ async fn a_flow_of_too_many_points_is_refused_at_once() {
 async fn a_numerical_failure_is_final_says_where_and_keeps_what_there_is() {
     let app = TestApp::start().await;
     let mut scene = tiny_scene();
-    // A flow with next to no stiffness in a hundredfold gravity: it soon moves
-    // many times faster than its own sound, where no sub-step is stable.
-    scene["gravity_m_s2"] = json!(1000);
-    scene["numerics"]["sound_speed_m_s"] = json!(0.1);
+    // A block of 1,000,000 kg/m³ falls on the cube, whose contact carries its own
+    // weight and no more.
+    let cube = json!({"shape": {"cube": {"side_m": 0.04}}, "contact_modulus_pa": 1e6,
+                      "position": {"downstream_m": 0.1}});
+    let block = json!({"shape": {"cube": {"side_m": 0.04}}, "density_kg_m3": 1e6,
+                       "position": {"downstream_m": 0.1, "elevation_m": 0.2}});
+    scene["bodies"] = json!([cube, block]);
     scene["duration_s"] = json!(0.5);
     scene["sample_interval_s"] = json!(0.0001);
     let path = app.submit(&scene).await;

@@ -2,7 +2,7 @@
 //! known miss is asked for what holds. Figures are in the command's own tables.
 
 use scree::verify::findings::{Finding, Verdict};
-use scree::verify::{Case, Effort, Verified, cases, verify};
+use scree::verify::{Case, Effort, Verified, cases, hard, verify};
 use std::collections::BTreeSet;
 
 fn verified(name: &str) -> Verified {
@@ -22,10 +22,47 @@ fn holds(name: &str) {
     assert!(found.count().passed > 0, "{name} asks for nothing");
 }
 
+/// Runs families of hard cases; all must be sound.
+fn sound(families: &[&str]) {
+    for family in hard::cases::ALL {
+        if families.contains(&family.name) {
+            for tried in hard::try_family(family, Effort::Quick, false) {
+                assert!(tried.is_sound(), "{tried:#?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn hard_slopes_and_sizes() {
+    sound(&["inclination", "size of the cube", "density of the cube"]);
+}
+
+#[test]
+fn hard_places() {
+    sound(&["place of the cube", "cubes on cubes"]);
+}
+
+#[test]
+fn hard_limits_and_restart() {
+    sound(&["limits", "restart", "far away", "dust"]);
+}
+
+// Some hundred scenarios as they come, and two runs of the same one.
+#[test]
+fn a_sweep_is_sound() {
+    let swept = hard::sweep::sweep(1_000_000, 60, &|_| {});
+    assert_eq!(swept.run, 60);
+    assert!(swept.failures.is_empty(), "{:#?}", swept.failures);
+    assert_eq!(hard::sweep::scenario(7), hard::sweep::scenario(7));
+}
+
 #[test]
 fn every_case_has_a_name_of_its_own() {
-    let names: BTreeSet<&str> = cases::ALL.iter().map(|case| case.name).collect();
-    assert_eq!(names.len(), cases::ALL.len());
+    let names = cases::ALL.iter().map(|case| case.name);
+    let names = names.chain(hard::cases::ALL.iter().map(|family| family.name));
+    let names: BTreeSet<&str> = names.collect();
+    assert_eq!(names.len(), cases::ALL.len() + hard::cases::ALL.len());
 }
 
 #[test]

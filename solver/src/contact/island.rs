@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 mod pace;
 
-pub use pace::SHORTEST_SUBSTEP;
+pub use pace::MOST_SUBSTEPS;
 use pace::substeps;
 
 /// A body none of whose places is faster is still [m/s].
@@ -35,14 +35,14 @@ pub struct BodyReport {
     pub body_load: Load,
     /// Body sub-steps.
     pub substeps: u32,
+    /// Body sub-steps that contacts and spin ask for; none are taken if they are more
+    /// than [`MOST_SUBSTEPS`].
+    pub substeps_asked: f64,
     /// Body sub-steps that ended in touch with a wall or another body.
     pub substeps_supported: u32,
     /// Its deepest overlap with a wall or another body, over its sphero radius
     /// or that of the other if smaller.
     pub deepest_overlap_ratio: f64,
-    /// The sub-step its island asks for [s], where that is below [`SHORTEST_SUBSTEP`]
-    /// and was not taken.
-    pub too_short: Option<f64>,
 }
 
 impl BodyReport {
@@ -308,19 +308,18 @@ impl Island<'_> {
     }
 }
 
-/// Velocity Verlet in as many sub-steps as the member that needs most asks for.
+/// Velocity Verlet in as many sub-steps as the member that needs most asks for, if that
+/// can be done; a body whose speed is no number asks for no number of them.
 fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surroundings, dt: f64) {
-    let count = substeps(members, meetings, around.planes, dt);
-    let h = dt / count;
-    // As where a body's speed is no number any more.
-    let stands_still = h < SHORTEST_SUBSTEP || !h.is_finite();
-    if stands_still {
-        for member in members {
-            member.report.too_short = Some(h);
-        }
+    let asked = substeps(members, meetings, around.planes, dt);
+    for member in members.iter_mut() {
+        member.report.substeps_asked = asked;
+    }
+    if asked.is_nan() || asked > MOST_SUBSTEPS {
         return;
     }
-    for _ in 0..count as u32 {
+    let h = dt / asked;
+    for _ in 0..asked as u32 {
         for member in members.iter_mut() {
             member.half_kick(&around.gravity, 0.5 * h);
             member.body.drift(h);

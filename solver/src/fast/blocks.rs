@@ -26,6 +26,8 @@ pub struct End {
     pub fastest: f32,
     /// Whether every number is a number.
     pub finite: bool,
+    /// V ρ_c/m − 1 of the densest, at most 0.
+    pub lowest_dilation: f32,
 }
 
 impl Default for End {
@@ -33,6 +35,7 @@ impl Default for End {
         Self {
             fastest: 0.0,
             finite: true,
+            lowest_dilation: 0.0,
         }
     }
 }

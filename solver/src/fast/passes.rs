@@ -292,7 +292,7 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
         let mut tended = tend(simd, tending, &seen, &moved);
         for shelter in shelters {
             let here = shelter.in_block(&key);
-            here.keep_off(simd, &position, &mut tended.shift);
+            here.keep_off(simd, &position, &moved, &mut tended.shift);
         }
         for part in &mut chunk.deviator {
             let before = f32x16::simd_from(simd, *part);

@@ -1,7 +1,7 @@
 //! Points kept evenly spread, sixteen at a time: the formulas of `crowding.rs`.
 
 use super::chunk::{Chunk, LANES, Lanes};
-use crate::crowding::{KEPT_OFF, LARGEST_RISE, LARGEST_SHIFT, Spread, Tending};
+use crate::crowding::{DEEPEST, KEPT_OFF, LARGEST_RISE, LARGEST_SHIFT, Spread, Tending};
 use crate::grid::{BLOCK, BlockKey};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
@@ -79,8 +79,8 @@ fn splat<S: Simd>(simd: S, value: f64) -> f32x16<S> {
     f32x16::splat(simd, value as f32)
 }
 
-/// A base plane: no point near it is shifted towards it
-/// (`crowding::not_into_wall`).
+/// A base plane: no point near it is shifted towards it, and none deep behind it is
+/// moved farther behind (`crowding::not_into_wall`).
 #[derive(Debug, Clone, Copy)]
 pub struct Shelter {
     /// Height of a place [m] over its position [cells].
@@ -91,6 +91,8 @@ pub struct Shelter {
     out: [f32; 3],
     /// Height below which points are kept off [m].
     near: f32,
+    /// Height below which they go no deeper [m].
+    deep: f32,
 }
 
 impl Shelter {
@@ -103,6 +105,7 @@ impl Shelter {
             origin: plane.height(&lattice.origin),
             out: [0, 1, 2].map(|axis| (plane.normal[axis] / spacing[axis]) as f32),
             near: (KEPT_OFF * rise.norm()) as f32,
+            deep: (-DEEPEST * rise.norm()) as f32,
         }
     }
 
@@ -115,23 +118,29 @@ impl Shelter {
         here
     }
 
-    /// Takes the part into the plane out of shifts [cells] of points near to it.
+    /// Takes the part into the plane out of shifts [cells] of points near to it, and
+    /// gives those deep behind it back what they were `moved` into it.
     #[inline(always)]
     pub fn keep_off<S: Simd>(
         &self,
         simd: S,
         position: &[f32x16<S>; 3],
+        moved: &[f32x16<S>; 3],
         shift: &mut [f32x16<S>; 3],
     ) {
         let none = f32x16::splat(simd, 0.0);
-        let (mut height, mut along) = (f32x16::splat(simd, self.origin as f32), none);
+        let mut height = f32x16::splat(simd, self.origin as f32);
+        let (mut along, mut went) = (none, none);
         for axis in 0..3 {
             let rise = f32x16::splat(simd, self.rise[axis]);
             height = rise.mul_add(position[axis], height);
             along = rise.mul_add(shift[axis], along);
+            went = rise.mul_add(moved[axis], went);
         }
         let near = height.simd_lt(f32x16::splat(simd, self.near));
+        let deep = height.simd_lt(f32x16::splat(simd, self.deep));
         let into = near.select((none - along).max(none), none);
+        let into = into + deep.select((none - went).max(none), none);
         for axis in 0..3 {
             shift[axis] = f32x16::splat(simd, self.out[axis]).mul_add(into, shift[axis]);
         }

@@ -120,6 +120,7 @@ fn add_elastic(sums: &mut Sums, chunk: &Chunk, packing: &Packing) {
 pub struct EndSums {
     squared: Lanes,
     flaw: Lanes,
+    dilation: Lanes,
 }
 
 impl EndSums {
@@ -127,6 +128,7 @@ impl EndSums {
     pub const NONE: Self = Self {
         squared: [0.0; LANES],
         flaw: [0.0; LANES],
+        dilation: [0.0; LANES],
     };
 
     /// Takes a chunk in.
@@ -136,6 +138,7 @@ impl EndSums {
         for lane in 0..LANES {
             let here = vx[lane] * vx[lane] + vy[lane] * vy[lane] + vz[lane] * vz[lane];
             self.squared[lane] = self.squared[lane].max(here);
+            self.dilation[lane] = self.dilation[lane].min(chunk.dilation[lane]);
         }
         // Nothing times zero is nothing, unless it is no number.
         let motion = chunk.position.iter().chain(&chunk.velocity);
@@ -153,6 +156,7 @@ impl EndSums {
         End {
             fastest: self.squared.into_iter().fold(0.0, f32::max).sqrt(),
             finite: self.flaw.into_iter().all(|sum| sum == 0.0),
+            lowest_dilation: self.dilation.into_iter().fold(0.0, f32::min),
         }
     }
 }

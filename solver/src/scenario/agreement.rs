@@ -3,7 +3,7 @@
 use super::range::{Rule, rounded_up, short};
 use super::reader::Object;
 use super::report::Report;
-use super::rules::{BODY_SAMPLES, SAMPLE_INTERVAL, SOUND_SPEED, YOUNGS_MODULUS};
+use super::rules::{BODY_SAMPLES, SAMPLE_INTERVAL, SOFTEST, SOUND_SPEED, YOUNGS_MODULUS};
 use super::{Flow, Numerics};
 
 /// The second field must not be below the first.
@@ -48,6 +48,37 @@ pub(super) fn samples_are_bounded(
             SAMPLE_INTERVAL.unit,
             &why,
         );
+    }
+}
+
+/// A release must not be crushed by its own weight: p = ρ g H presses a bulk of sound
+/// speed c together by g H/c².
+pub(super) fn flow_carries_itself(
+    report: &Report,
+    flow: &Flow,
+    numerics: &Numerics,
+    gravity_m_s2: f64,
+) {
+    let material = &flow.material;
+    let slowest = SOFTEST * (gravity_m_s2 * flow.release.height_m).sqrt();
+    let why = |value: f64| {
+        format!(
+            "is {}, so soft that the release's own weight would press it together by a third \
+             or more",
+            short(value)
+        )
+    };
+    if let Some(speed) = numerics.sound_speed_m_s.filter(|&speed| speed < slowest) {
+        let allowed = format!("x >= {}, or null", short(rounded_up(slowest)));
+        let pointer = format!("/numerics/{}", SOUND_SPEED.key);
+        report.refuse(&pointer, &allowed, SOUND_SPEED.unit, &why(speed));
+    }
+    let softest =
+        3.0 * (1.0 - 2.0 * material.poissons_ratio) * material.bulk_density_kg_m3 * slowest.powi(2);
+    if let Some(modulus) = material.youngs_modulus_pa.filter(|&given| given < softest) {
+        let allowed = format!("x >= {}, or null", short(rounded_up(softest)));
+        let pointer = format!("/flow/material/{}", YOUNGS_MODULUS.key);
+        report.refuse(&pointer, &allowed, YOUNGS_MODULUS.unit, &why(modulus));
     }
 }
 

@@ -4,7 +4,10 @@
 use super::placement::Pose;
 use super::range::{rounded_down, rounded_up, short};
 use super::report::{Report, field_name};
-use super::rules::{CELL_SIZE, DOWNSTREAM, ELEVATION, LATERAL, TOE_DISTANCE, TOUCHING, VOLUME};
+use super::rules::{
+    CELL_SIZE, CONTACT_MODULUS, DEEPEST_AT_IMPACT, DEEPEST_AT_REST, DOWNSTREAM, ELEVATION, LATERAL,
+    TOE_DISTANCE, TOUCHING, VOLUME,
+};
 use super::{Body, Channel, Flow, Numerics};
 use crate::shape::{SpheroPolyhedron, separation};
 use nalgebra::Vector3;
@@ -187,6 +190,48 @@ fn is_above_the_bed(report: &Report, channel: &Channel, placed: &Placed<'_>) {
         ELEVATION.unit,
         &why,
     );
+}
+
+/// A contact that is given carries its body: at rest on one vertex, and when it strikes
+/// with one vertex as fast as it starts or falls (Hertz, F = 4/3 E* √r δ^1.5).
+pub(super) fn contacts_carry(
+    report: &Report,
+    channel: &Channel,
+    bodies: &[Option<Body>],
+    gravity_m_s2: f64,
+) {
+    for placed in placed(channel, bodies) {
+        let Some(modulus) = placed
+            .body
+            .contact_modulus_pa
+            .filter(|_| !placed.body.fixed)
+        else {
+            continue;
+        };
+        let (mass, radius) = (
+            placed.body.density_kg_m3 * placed.shape.volume(),
+            placed.body.sphero_radius_m,
+        );
+        let spin = Vector3::from(placed.body.angular_velocity_rad_s).norm();
+        let thrown =
+            Vector3::from(placed.body.velocity_m_s).norm() + spin * placed.shape.bounding_radius();
+        let bed = channel.bed_elevation_m(placed.pose.position.x);
+        let fall = placed.pose.position.z - bed - placed.reach(&-Vector3::z());
+        let struck = thrown * thrown + 2.0 * gravity_m_s2 * fall.max(0.0);
+        let at_rest = mass * gravity_m_s2 / (DEEPEST_AT_REST * radius).powf(1.5);
+        let at_impact = 1.25 * mass * struck / (DEEPEST_AT_IMPACT * radius).powf(2.5);
+        let softest = 0.75 * at_rest.max(at_impact) / radius.sqrt();
+        if modulus < softest {
+            let why = format!(
+                "is {}, too soft to carry the body's own weight, or an impact as fast as it \
+                 starts or falls, on one vertex",
+                short(modulus)
+            );
+            let pointer = format!("{}/{}", placed.pointer, CONTACT_MODULUS.key);
+            let allowed = format!("x >= {}, or null", short(rounded_up(softest)));
+            report.refuse(&pointer, &allowed, CONTACT_MODULUS.unit, &why);
+        }
+    }
 }
 
 /// No two rounded bodies overlap.

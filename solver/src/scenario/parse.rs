@@ -4,7 +4,7 @@ use super::accuracy::{
     bands_can_be_made, body_is_there, cells_are_chosen_once, read_accuracy,
     target_is_about_something,
 };
-use super::agreement::{samples_are_bounded, stiffness_is_given_once};
+use super::agreement::{flow_carries_itself, samples_are_bounded, stiffness_is_given_once};
 use super::body::read_bodies;
 use super::fit;
 use super::node::Node;
@@ -102,6 +102,9 @@ impl Draft {
         }
         if let (Some(flow), Some(numerics)) = (flow, &self.numerics) {
             stiffness_is_given_once(report, flow, numerics);
+            if let Some(gravity) = self.gravity_m_s2 {
+                flow_carries_itself(report, flow, numerics, gravity);
+            }
         }
         self.check_accuracy(report);
         let Some(channel) = &self.channel else { return };
@@ -112,6 +115,9 @@ impl Draft {
             fit::cells_fit(report, channel, numerics);
         }
         fit::bodies_fit(report, channel, bodies);
+        if let Some(gravity) = self.gravity_m_s2 {
+            fit::contacts_carry(report, channel, bodies, gravity);
+        }
     }
 
     fn check_accuracy(&self, report: &Report) {

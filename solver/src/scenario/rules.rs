@@ -30,6 +30,14 @@ pub(super) const POLYHEDRON_VERTICES: RangeInclusive<usize> = 4..=32;
 /// Diameter of the smallest ball a polyhedron must hold [m]: a default sphero
 /// radius is then not below the least allowed.
 pub(super) const LEAST_THICKNESS: f64 = 2e-5;
+/// Least sound speed over √(g H) of the release: its own weight then takes a third of
+/// its volume.
+pub(super) const SOFTEST: f64 = std::f64::consts::SQRT_2;
+/// Largest overlap of a body at rest on one vertex, over its sphero radius.
+pub(super) const DEEPEST_AT_REST: f64 = 0.5;
+/// Largest overlap of a body that strikes with one vertex as fast as it starts or
+/// falls, over its sphero radius: from 1 on its core is in the wall.
+pub(super) const DEEPEST_AT_IMPACT: f64 = 0.9;
 /// A body's thickness over its default sphero radius.
 pub(super) const SIZE_PER_SPHERO_RADIUS: f64 = 20.0;
 

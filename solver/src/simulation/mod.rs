@@ -3,6 +3,7 @@
 
 mod clock;
 mod flow;
+mod guards;
 mod laps;
 mod saved;
 mod setup;
@@ -28,6 +29,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 pub use clock::Timing;
+pub use guards::Guards;
 pub use laps::{LapWatch, Verb};
 pub use setup::{Columns, GivenFlow, Outline, Reductions, Scene, Setup, Share, Shares};
 
@@ -289,6 +291,12 @@ impl Simulation {
     /// Gravity [m/s²].
     pub fn gravity(&self) -> Vec3 {
         self.given.gravity
+    }
+
+    /// Speed that a fall from the highest place and the fastest throw give together
+    /// [m/s]; infinite where that is not known.
+    pub fn speed_given(&self) -> f64 {
+        self.given.guards.speed_given
     }
 
     /// The walls as bodies meet them.

@@ -1,6 +1,7 @@
 //! From a scenario to a scene: what a run is given, its bodies and its points.
 
 use super::clock::Timing;
+use super::guards::{Guards, thrown};
 use crate::contact::law::ContactLaw;
 use crate::contact::point_body::{PointSphere, Reach};
 use crate::error::SetupError;
@@ -81,6 +82,8 @@ pub struct Setup {
     pub open_end: f64,
     /// The flow, if there is one.
     pub flow: Option<GivenFlow>,
+    /// What it may not go beyond.
+    pub guards: Guards,
 }
 
 /// What a run with a flow is given besides.
@@ -207,6 +210,7 @@ impl Setup {
             walls,
             open_end: channel.runout_length_m,
             flow,
+            guards: guards(scenario),
         };
         Ok((given, columns))
     }
@@ -261,6 +265,7 @@ impl GivenFlow {
                 cell_size: lattice.finest_spacing(),
                 courant: COURANT,
                 flow_courant: FLOW_COURANT,
+                body_contact_share: BODY_CONTACT_SHARE,
                 slow: SLOW * expected_speed,
             },
             sphere: PointSphere {
@@ -289,7 +294,7 @@ impl GivenFlow {
         let modulus = self.material.p_wave_modulus();
         let of_body = |body: &Body| {
             let stiffness = modulus * self.sphere.spacing * self.sphere.most_touching(body);
-            BODY_CONTACT_SHARE * (body.mass / stiffness).sqrt()
+            self.limits.body_contact_share * (body.mass / stiffness).sqrt()
         };
         bodies
             .iter()
@@ -368,6 +373,26 @@ impl Setup {
             arm.norm() > reach || !overlaps()
         })
     }
+}
+
+/// What can fall from where, and what is thrown how fast.
+fn guards(scenario: &Scenario) -> Guards {
+    let channel = &scenario.channel;
+    let release = scenario.release();
+    let top = release.map_or(0.0, |release| {
+        channel.bed_elevation_m(release.back_m) + release.vertical_thickness_m
+    });
+    let bodies = scenario.bodies.iter().enumerate().map(|(place, body)| {
+        let radius = scenario.shape_of(place).bounding_radius();
+        let height = scenario.initial_pose(place).position.z + radius;
+        let velocity = Vec3::from(body.velocity_m_s);
+        let spin = Vec3::from(body.angular_velocity_rad_s);
+        (height, thrown(&velocity, &spin, radius))
+    });
+    let (highest, fastest) = bodies.fold((top, 0.0f64), |(top, speed), (height, thrown)| {
+        (top.max(height), speed.max(thrown))
+    });
+    Guards::of(scenario.gravity_m_s2, highest, fastest)
 }
 
 /// A point at rest.

@@ -1,7 +1,7 @@
 //! One step: a transfer at the speed of the flow, sub-steps at the speed of
 //! sound, one gather.
 
-use super::flow::{Culprit, StepEnd, StepStart, Substep};
+use super::flow::{StepEnd, StepStart, Substep};
 use super::laps::Verb;
 use super::{Simulation, StepInHand, SubstepReport};
 use crate::contact::island::{self, Surroundings};
@@ -17,10 +17,6 @@ use crate::stability::{self, Pace};
 /// they would show at a step's end shows at a later one as well.
 const AUDIT_INTERVAL: u64 = 64;
 
-/// Overlap of two bodies, as a share of both sphero radii, that is taken for a
-/// contact too soft.
-const DEEPEST_OVERLAP: f64 = 0.9;
-
 impl Simulation {
     /// Takes one sub-step, of the step in hand or of a new one.
     pub(super) fn advance(&mut self) -> Result<SubstepReport, StepError> {
@@ -32,7 +28,8 @@ impl Simulation {
         let passed = f64::from(step.done) / f64::from(step.pace.count);
         step.done += 1;
         let last = step.done == step.pace.count;
-        self.substep(Substep { dt, passed, last })?;
+        self.substep(Substep { dt, passed, last });
+        self.look_at_body_steps(dt)?;
         let clock = &mut self.state.clock;
         clock.time = step.start + f64::from(step.done) * dt;
         clock.substeps += 1;
@@ -100,7 +97,7 @@ impl Simulation {
     }
 
     /// One sub-step at the speed of sound.
-    fn substep(&mut self, substep: Substep) -> Result<(), StepError> {
+    fn substep(&mut self, substep: Substep) {
         let dt = substep.dt;
         let (given, state, scratch) = (&self.given, &mut self.state, &mut self.scratch);
         if state.flow.count() > 0 {
@@ -137,7 +134,6 @@ impl Simulation {
             state.audit.meet(flow.deepest_overlap_ratio);
         }
         scratch.laps.done(Verb::Bodies);
-        self.look_at_body_steps()
     }
 
     /// Hands the motion back to the points and checks what came of it; returns
@@ -168,12 +164,13 @@ impl Simulation {
             clock.time = self.given.timing.sample_time(clock.next_sample);
             clock.next_sample += 1;
         }
-        self.look_for_culprits()?;
+        self.look_for_culprits(finished.stuck.as_ref())?;
         self.remove_what_left();
         self.scratch.laps.done(Verb::Checks);
         let since = self.state.clock.substeps - self.state.clock.last_audit;
         if sample.is_some() || since >= AUDIT_INTERVAL {
             self.check_audit();
+            self.look_at_energy()?;
             self.scratch.laps.done(Verb::Audit);
         }
         Ok(sample)
@@ -190,104 +187,6 @@ impl Simulation {
             step_ended: self.scratch.in_hand.is_none(),
             sample,
         }
-    }
-
-    fn look_for_culprits(&self) -> Result<(), StepError> {
-        let time_s = self.state.clock.time;
-        for (body, state) in self.state.bodies.iter().enumerate() {
-            if let Some(quantity) = state.non_finite() {
-                return Err(StepError::NonFiniteBody {
-                    time_s,
-                    body,
-                    quantity,
-                });
-            }
-        }
-        self.look_behind_walls()?;
-        self.look_for_merging_bodies()?;
-        let tolerance = self.given.lattice.spacing.max();
-        match self.state.flow.culprit(&self.given.planes, tolerance) {
-            None => Ok(()),
-            Some(Culprit::NonFinite { point, quantity }) => Err(StepError::NonFinitePoint {
-                time_s,
-                point,
-                quantity,
-            }),
-            Some(Culprit::BehindWall {
-                point,
-                wall,
-                depth_m,
-            }) => Err(StepError::PointBehindWall {
-                time_s,
-                point,
-                wall,
-                depth_m,
-            }),
-        }
-    }
-
-    /// Bodies whose contacts ask for steps so short that nobody would see their end. One
-    /// that is no number asks for such steps, too.
-    fn look_at_body_steps(&self) -> Result<(), StepError> {
-        let time_s = self.state.clock.time;
-        for (body, report) in self.scratch.body_reports.iter().enumerate() {
-            let Some(substep_s) = report.too_short else {
-                continue;
-            };
-            if let Some(quantity) = self.state.bodies[body].non_finite() {
-                return Err(StepError::NonFiniteBody {
-                    time_s,
-                    body,
-                    quantity,
-                });
-            }
-            return Err(StepError::BodyTimeStepCollapse {
-                time_s,
-                body,
-                substep_s,
-                limit_s: island::SHORTEST_SUBSTEP,
-            });
-        }
-        Ok(())
-    }
-
-    /// A body whose core has gone through a wall was not held by its contacts.
-    fn look_behind_walls(&self) -> Result<(), StepError> {
-        let time_s = self.state.clock.time;
-        for (place, body) in self.state.bodies.iter().enumerate() {
-            for plane in &self.given.planes {
-                let deepest = body.shape.extent_along(&body.to_body(&-plane.normal));
-                let core =
-                    plane.height(&body.state.position) - deepest + body.shape.sphero_radius();
-                if body.is_free() && core < 0.0 {
-                    return Err(StepError::BodyBehindWall {
-                        time_s,
-                        body: place,
-                        wall: plane.name,
-                        depth_m: -core,
-                    });
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Two cores that come together were not held apart by their contacts, and
-    /// beyond that these would push the wrong way.
-    fn look_for_merging_bodies(&self) -> Result<(), StepError> {
-        for meeting in &self.state.meetings {
-            let [body, other] = meeting.bodies;
-            let radius = |place: usize| self.state.bodies[place].shape.sphero_radius();
-            if meeting.deepest > DEEPEST_OVERLAP * (radius(body) + radius(other)) {
-                return Err(StepError::BodiesMerge {
-                    time_s: self.state.clock.time,
-                    body,
-                    other,
-                    overlap_m: meeting.deepest,
-                });
-            }
-        }
-        Ok(())
     }
 
     /// Takes points beyond the open end out, and counts them.

@@ -35,6 +35,8 @@ fn a_point_alone_that_spins_keeps_its_volume() {
                 .map_or(0.0, |flow| flow.limits.slow);
             let spin = 4.0 * speed / 0.02;
             made.points.truncate(1);
+            // All there is is a spin that no grid holds: its energy is not kept.
+            made.given.guards = scree_solver::simulation::Guards::ANY_SPEED;
             made.points[0].position = Vec3::new(0.3, 0.05, 0.2);
             made.points[0].affine = Mat3::new(0.0, -spin, 0.0, spin, 0.0, 0.0, 0.0, 0.0, 0.0);
         });

@@ -56,6 +56,13 @@ fn parted(text: &str) -> Option<(&str, &str)> {
 
 fn tables(report: &Report) -> String {
     let mut text = report.heading();
+    if !report.hard.is_empty() || report.sweep.is_some() {
+        text.push_str("\n\n");
+        text.push_str(&super::hard::markdown(report));
+    }
+    if report.cases.is_empty() {
+        return text;
+    }
     text.push_str("\n\n| case | | passed | missed | reported |\n|---|---|---|---|---|\n");
     for Verified { case, found } in &report.cases {
         let count = found.count();

@@ -1,14 +1,18 @@
 //! `scree verify`: the solver against cases with a trusted answer.
 
 mod figures;
+mod hard;
 mod markdown;
 
-use super::arguments::VerifyOptions;
+use super::arguments::{SuiteWord, VerifyOptions};
 use super::columns::{millions, table};
 use super::console;
 use super::failure::Failure;
 use super::machine::Machine;
 use scree::verify::findings::{Count, Error, Finding, Verdict};
+use scree::verify::hard::sweep::{Swept, sweep};
+use scree::verify::hard::trial::Tried;
+use scree::verify::hard::{self as hard_cases, Family, try_family};
 use scree::verify::limit::Limit;
 use scree::verify::order::Order;
 use scree::verify::{Case, Effort, How, Verified, cases, count, verify as run_case, work};
@@ -28,6 +32,8 @@ struct Report {
     effort: Effort,
     count: Count,
     cases: Vec<Verified>,
+    hard: Vec<Tried>,
+    sweep: Option<Swept>,
 }
 
 /// Runs the cases asked for and prints what was found.
@@ -42,19 +48,29 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     };
     let page = options.markdown.as_deref().map(markdown::Page::open);
     let page = page.transpose()?;
+    let asked = Asked::of(options)?;
     let mut verified = Vec::new();
-    for case in asked_for(&options.case)? {
-        if std::io::stderr().is_terminal() {
-            console::note(&format!("verifying: {}", case.name));
-        }
+    for case in asked.cases {
+        tell_of(case.name);
         verified.push(run_case(case, effort));
     }
+    let mut tried = Vec::new();
+    for family in asked.families {
+        tell_of(family.name);
+        tried.extend(try_family(family, effort, options.full));
+    }
+    let tell = |failing: &_| console::note(&hard::in_words(failing));
+    let swept = asked
+        .sweep
+        .then(|| sweep(options.seed, options.count, &tell));
     let report = Report {
         solver_version: VERSION,
         machine: Machine::here(),
         effort,
         count: count(&verified),
         cases: verified,
+        hard: tried,
+        sweep: swept,
     };
     let answer = if options.json {
         serde_json::to_string_pretty(&report)?
@@ -71,27 +87,66 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     if let Some(page) = &page {
         page.write(&report)?;
     }
-    match report.count.missed {
+    match report.missed() {
         0 => Ok(()),
         missed => Err(Failure::Missed(missed)),
     }
 }
 
-/// The cases with these names, in the order of the list; all if none is named.
-fn asked_for(names: &[String]) -> Result<Vec<&'static Case>, Failure> {
-    let known = |name: &&String| cases::ALL.iter().any(|case| case.name == **name);
-    if let Some(unknown) = names.iter().find(|name| !known(name)) {
-        let all: Vec<&str> = cases::ALL.iter().map(|case| case.name).collect();
-        let all = all.join(", ");
-        return Err(Failure::Input(format!(
-            "there is no case {unknown}; there are: {all}"
-        )));
+/// Tells a person who waits what is being run.
+fn tell_of(name: &str) {
+    if std::io::stderr().is_terminal() {
+        console::note(&format!("verifying: {name}"));
     }
-    let asked = |case: &&Case| names.is_empty() || names.iter().any(|name| name == case.name);
-    Ok(cases::ALL.iter().filter(asked).collect())
+}
+
+/// What is to be run.
+struct Asked {
+    cases: Vec<&'static Case>,
+    families: Vec<&'static Family>,
+    sweep: bool,
+}
+
+impl Asked {
+    /// The cases with the names given, in the order of the lists; all of the suite if
+    /// none is named. A name finds its case in whatever suite it is.
+    fn of(options: &VerifyOptions) -> Result<Self, Failure> {
+        let (suite, names) = (options.suite, &options.case);
+        let all = cases::ALL.iter().map(|case| case.name);
+        let all = all.chain(hard_cases::cases::ALL.iter().map(|family| family.name));
+        let all: Vec<&str> = all.collect();
+        if let Some(unknown) = names.iter().find(|name| !all.contains(&name.as_str())) {
+            let all = all.join(", ");
+            return Err(Failure::Input(format!(
+                "there is no case {unknown}; there are: {all}"
+            )));
+        }
+        let asked = |name: &str, part: SuiteWord| match &names[..] {
+            [] => suite.takes(part),
+            names => names.iter().any(|one| one == name),
+        };
+        let cases = cases::ALL.iter();
+        let families = hard_cases::cases::ALL.iter();
+        Ok(Self {
+            cases: cases
+                .filter(|case| asked(case.name, SuiteWord::Standard))
+                .collect(),
+            families: families
+                .filter(|family| asked(family.name, SuiteWord::Hard))
+                .collect(),
+            sweep: names.is_empty() && suite.takes(SuiteWord::Sweep),
+        })
+    }
 }
 
 impl Report {
+    /// Bars missed, hard cases that broke something, and failures of a sweep.
+    fn missed(&self) -> usize {
+        let broken = self.hard.iter().filter(|tried| !tried.is_sound()).count();
+        let failures = self.sweep.as_ref().map_or(0, |swept| swept.failures.len());
+        self.count.missed + broken + failures
+    }
+
     /// Version, machine and effort.
     fn heading(&self) -> String {
         let effort = match self.effort {
@@ -122,7 +177,10 @@ impl Report {
         for verified in &self.cases {
             let _ = write!(text, "\n{}", page(verified));
         }
-        let _ = write!(text, "\n{}", self.ending());
+        if !self.cases.is_empty() {
+            let _ = write!(text, "\n{}", self.ending());
+        }
+        text.push_str(&hard::tables(self));
         text
     }
 }
@@ -270,6 +328,8 @@ mod tests {
             effort: Effort::Quick,
             count: Count::default(),
             cases: vec![verified],
+            hard: Vec::new(),
+            sweep: None,
         };
         let text = report.tables();
         assert!(text.contains("not yet expressible: friction is not negative"));

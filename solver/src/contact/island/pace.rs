@@ -19,10 +19,10 @@ const UNDAMPED_SHARE: f64 = 0.01;
 const DAMPED: f64 = 0.001;
 /// Largest turn per body sub-step [rad].
 const LARGEST_TURN: f64 = 0.05;
-/// A shorter body sub-step [s] is not worth waiting for.
-pub const SHORTEST_SUBSTEP: f64 = 1e-9;
+/// More body sub-steps than this are never taken; a run that needs them ends.
+pub const MOST_SUBSTEPS: f64 = 100_000.0;
 
-/// Number of body sub-steps in `dt`, whole but kept as a float, however many.
+/// Number of body sub-steps that `dt` asks for, whole but kept as a float.
 pub(super) fn substeps(members: &[Member], meetings: &[Met], planes: &[Plane], dt: f64) -> f64 {
     let alone = members.iter();
     let alone = alone.map(|member| substeps_alone(member.body, planes, dt));

@@ -181,7 +181,9 @@ fn points_in_the_core_are_put_on_its_surface() {
     let body = cube();
     let core_top = 0.12 - body.shape.sphero_radius();
     let at = |z: f64| put_back(&Vec3::new(0.1, 0.1, z), &body, &[]);
-    let outside = at(core_top - 1e-3).expect("it is inside");
+    let Some(PutBack::To(outside)) = at(core_top - 1e-3) else {
+        panic!("it is inside");
+    };
     assert!((outside - Vec3::new(0.1, 0.1, 0.12)).norm() < 1e-15);
     assert_eq!(at(core_top + 1e-3), None);
     assert_eq!(at(0.15), None);
@@ -199,11 +201,19 @@ fn no_point_is_put_behind_a_wall() {
     };
     let lid = wall("lid", -Vec3::z(), -0.119);
     let inside = Vec3::new(0.11, 0.1, 0.114);
-    let at_side = put_back(&inside, &body, &[lid]).expect("there is room");
+    let Some(PutBack::To(at_side)) = put_back(&inside, &body, &[lid]) else {
+        panic!("there is room");
+    };
     assert!((at_side - Vec3::new(0.12, 0.1, 0.114)).norm() < 1e-15);
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
     let cage = axes.map(|axis| [wall("low", axis, 0.081), wall("high", -axis, -0.119)]);
-    assert_eq!(put_back(&inside, &body, cage.as_flattened()), None);
+    // Nearest to the core's top, the sphero radius below the body's.
+    let depth = 0.12 - body.shape.sphero_radius() - 0.114;
+    let Some(PutBack::NoRoom { depth: found }) = put_back(&inside, &body, cage.as_flattened())
+    else {
+        panic!("there is no room");
+    };
+    assert!((found - depth).abs() < 1e-15, "{found}, not {depth}");
 }
 
 // The search goes by blocks: a block that holds a point of a body's box must

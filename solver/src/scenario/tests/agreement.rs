@@ -224,3 +224,54 @@ fn trajectories_are_bounded() {
     set(&mut scenario, "/sample_interval_s", json!(0.00012));
     accepted(&scenario);
 }
+
+// At the least sound speed, √(2 g H), the weight presses a third out of the volume.
+#[test]
+fn a_release_carries_itself() {
+    let least = (2.0 * 9.81 * 0.15f64).sqrt();
+    let found = refused(&with("/numerics/sound_speed_m_s", json!(0.99 * least)));
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].pointer, "/numerics/sound_speed_m_s");
+    assert_eq!(found[0].allowed, "x >= 1.71552, or null");
+    assert!(
+        found[0].detail.contains("own weight"),
+        "{}",
+        found[0].detail
+    );
+    accepted(&with("/numerics/sound_speed_m_s", json!(1.71552)));
+    // E = 3 (1 − 2ν) ρ c² at ν = 0.3.
+    let modulus = 1.2 * 1500.0 * least.powi(2);
+    let pointer = "/flow/material/youngs_modulus_pa";
+    assert_eq!(
+        refused(&with(pointer, json!(0.99 * modulus)))[0].pointer,
+        pointer
+    );
+    accepted(&with(pointer, json!(1.01 * modulus)));
+}
+
+// A cube of 40 mm weighs 0.127 kg: at rest on one vertex it sinks in by half its sphero
+// radius of 2 mm at E* = ¾ m g/(1 mm)^1.5/√(2 mm) = 0.66 MPa.
+#[test]
+fn a_contact_that_is_given_carries_its_body() {
+    let pointer = "/bodies/0/contact_modulus_pa";
+    let found = refused(&with(pointer, json!(6e5)));
+    assert_eq!((found.len(), found[0].pointer.as_str()), (1, pointer));
+    assert!(
+        found[0].allowed.starts_with("x >= 6617"),
+        "{}",
+        found[0].allowed
+    );
+    accepted(&with(pointer, json!(7e5)));
+    for (field, value) in [
+        ("velocity_m_s", json!([0, 0, -5])),
+        ("angular_velocity_rad_s", json!([150, 0, 0])),
+        ("position", json!({"downstream_m": 0.1, "elevation_m": 1.2})),
+    ] {
+        let mut scenario = with(pointer, json!(7e5));
+        set(&mut scenario, &format!("/bodies/0/{field}"), value);
+        assert_eq!(refused(&scenario)[0].pointer, pointer);
+    }
+    let mut barrier = with(pointer, json!(6e5));
+    set(&mut barrier, "/bodies/0/fixed", json!(true));
+    accepted(&barrier);
+}

@@ -1,8 +1,8 @@
 //! The fast path: blocks of points in single precision, a whole sub-step in one
 //! pass over them.
 
-use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
-use crate::contact::point_body::{self, Around, FlowLoad, Loads};
+use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
+use crate::contact::point_body::{self, Around, FlowLoad, Loads, PutBack, Stuck};
 use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::{Block, Blocks};
@@ -50,6 +50,8 @@ pub(in crate::simulation) struct FastFlow {
     fastest: f64,
     /// Whether some point has a quantity that is no number.
     flawed: bool,
+    /// V ρ_c/m − 1 of the densest point.
+    lowest_dilation: f64,
 }
 
 impl FastFlow {
@@ -80,6 +82,7 @@ impl FastFlow {
             level: Instructions::detected().level(),
             fastest: 0.0,
             flawed: false,
+            lowest_dilation: 0.0,
         };
         flow.look_over();
         flow
@@ -98,6 +101,9 @@ impl FastFlow {
         self.fastest = self.largest_speed();
         let mut blocks = self.blocks.occupied().iter();
         self.flawed = blocks.any(|block| !block.end().finite);
+        let blocks = self.blocks.occupied().iter();
+        let dilations = blocks.map(|block| block.end().lowest_dilation);
+        self.lowest_dilation = f64::from(dilations.fold(0.0, f32::min));
     }
 
     fn largest_speed(&self) -> f64 {
@@ -192,21 +198,32 @@ impl FastFlow {
         self.nodes.take_rest(&self.momentum, room as f32, level);
     }
 
-    fn put_back(&mut self, bodies: &[Body], walls: &[Plane]) -> u64 {
-        let mut count = 0;
-        for (body, candidates) in bodies.iter().zip(&self.loads.candidates) {
+    fn put_back(&mut self, bodies: &[Body], walls: &[Plane]) -> (u64, Option<Stuck>) {
+        let (mut count, mut stuck) = (0, None);
+        for (which, (body, candidates)) in bodies.iter().zip(&self.loads.candidates).enumerate() {
             for candidate in candidates {
                 let place = &candidate.place;
                 let block = &mut self.blocks.occupied_mut()[place.block as usize];
                 let slot = place.slot as usize;
                 let position = self.packing.position(&block.key, &block.position(slot));
-                if let Some(outside) = point_body::put_back(&position, body, walls) {
-                    block.shift(slot, &self.packing.in_block(&block.key, &outside));
-                    count += 1;
+                match point_body::put_back(&position, body, walls) {
+                    None => {}
+                    Some(PutBack::To(outside)) => {
+                        block.shift(slot, &self.packing.in_block(&block.key, &outside));
+                        count += 1;
+                    }
+                    Some(PutBack::NoRoom { depth }) => {
+                        let here = Stuck {
+                            point: block.get(slot).id,
+                            body: which,
+                            depth,
+                        };
+                        stuck = Stuck::deeper(stuck, here);
+                    }
                 }
             }
         }
-        count
+        (count, stuck)
     }
 }
 
@@ -333,15 +350,24 @@ impl Flow for FastFlow {
         self.sum_up_ends();
         let blocks = self.blocks.occupied().iter();
         let spread = blocks.fold(Spread::default(), |sum, block| sum.plus(&block.spread()));
-        let put_back = self.put_back(bodies, &given.planes);
+        let (put_back, stuck) = self.put_back(bodies, &given.planes);
         self.go_round(given);
         laps.done(Verb::Motion);
         self.blocks.settle();
         laps.done(Verb::Settle);
-        Finished { put_back, spread }
+        Finished {
+            put_back,
+            stuck,
+            spread,
+        }
     }
 
-    fn culprit(&self, planes: &[Plane], tolerance: f64) -> Option<Culprit> {
+    fn culprit(&self, bounds: &Bounds) -> Option<Culprit> {
+        let Bounds {
+            planes, tolerance, ..
+        } = *bounds;
+        let densest = self.packing.material.bulk_density / (1.0 + self.lowest_dilation);
+        let every = self.flawed || densest > bounds.densest;
         let lattice = &self.packing.lattice;
         let behind = |plane: &Plane, block: &Block| {
             let height = |slot| {
@@ -351,13 +377,12 @@ impl Flow for FastFlow {
             lowest(plane, lattice, &block.key) < -tolerance
                 && (0..block.count()).any(|slot| height(slot) < -tolerance)
         };
-        let suspect =
-            |block: &&Block| self.flawed || planes.iter().any(|plane| behind(plane, block));
+        let suspect = |block: &&Block| every || planes.iter().any(|plane| behind(plane, block));
         let suspects = self.blocks.occupied().iter().filter(suspect);
         let mut points = suspects.flat_map(|block| {
             (0..block.count()).map(|slot| self.packing.unpack(&block.key, &block.get(slot)))
         });
-        points.find_map(|point| Culprit::of(&point, planes, tolerance))
+        points.find_map(|point| Culprit::of(&point, bounds))
     }
 
     fn take_out_beyond(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)> {

@@ -8,7 +8,7 @@ mod shared;
 
 use super::laps::Laps;
 use super::setup::{GivenFlow, Setup, Share, Shares};
-use crate::contact::point_body::{Around, FlowLoad, Reach};
+use crate::contact::point_body::{Around, FlowLoad, Reach, Stuck};
 use crate::crowding::{Spread, Tending};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::Blocks;
@@ -73,7 +73,7 @@ pub(super) trait Flow: Debug + Send + Sync {
     ) -> Finished;
 
     /// A point that should not be as it is after a step.
-    fn culprit(&self, planes: &[Plane], tolerance: f64) -> Option<Culprit>;
+    fn culprit(&self, bounds: &Bounds) -> Option<Culprit>;
 
     /// Takes out the points beyond x = `end` [m]; `None` if there are none.
     fn take_out_beyond(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)>;
@@ -129,8 +129,21 @@ pub(super) struct StepEnd {
 pub(super) struct Finished {
     /// Points put back to a body's surface.
     pub put_back: u64,
+    /// The deepest point that stays inside a body for want of room.
+    pub stuck: Option<Stuck>,
     /// What spreading the points did to their sums.
     pub spread: Spread,
+}
+
+/// What points have to keep to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds<'a> {
+    /// The walls.
+    pub planes: &'a [Plane],
+    /// How far behind one a point may be [m].
+    pub tolerance: f64,
+    /// Largest density [kg/m³].
+    pub densest: f64,
 }
 
 /// What is wrong with a point.
@@ -152,23 +165,40 @@ pub(super) enum Culprit {
         /// How far [m].
         depth_m: f64,
     },
+    /// It is too dense.
+    Crushed {
+        /// Identity of the point.
+        point: u32,
+        /// [kg/m³].
+        density: f64,
+    },
 }
 
 impl Culprit {
     /// What is wrong with a point, if anything is.
-    fn of(point: &Point, planes: &[Plane], tolerance: f64) -> Option<Self> {
+    fn of(point: &Point, bounds: &Bounds) -> Option<Self> {
         if let Some(quantity) = point.non_finite() {
             return Some(Self::NonFinite {
                 point: point.id,
                 quantity,
             });
         }
-        let behind = |plane: &&Plane| plane.height(&point.position) < -tolerance;
-        planes.iter().find(behind).map(|plane| Self::BehindWall {
-            point: point.id,
-            wall: plane.name,
-            depth_m: -plane.height(&point.position),
-        })
+        if point.density() > bounds.densest {
+            return Some(Self::Crushed {
+                point: point.id,
+                density: point.density(),
+            });
+        }
+        let behind = |plane: &&Plane| plane.height(&point.position) < -bounds.tolerance;
+        bounds
+            .planes
+            .iter()
+            .find(behind)
+            .map(|plane| Self::BehindWall {
+                point: point.id,
+                wall: plane.name,
+                depth_m: -plane.height(&point.position),
+            })
     }
 }
 

@@ -1,7 +1,9 @@
 //! The plain path: every verb on its own, in double precision.
 
-use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
-use crate::contact::point_body::{self, Around, FlowLoad, Loads, Moving, PointAccess};
+use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
+use crate::contact::point_body::{
+    self, Around, FlowLoad, Loads, Moving, PointAccess, PutBack, Stuck,
+};
 use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::instructions::Instructions;
@@ -12,7 +14,7 @@ use crate::rigid::Body;
 use crate::simulation::laps::{Laps, Verb};
 use crate::simulation::setup::Setup;
 use crate::transfer;
-use crate::walls::{Boundary, Impulse, Plane};
+use crate::walls::{Boundary, Impulse};
 use rayon::prelude::*;
 
 #[derive(Debug)]
@@ -225,14 +227,25 @@ impl Flow for PlainFlow {
                 &mut self.points,
             )
         });
-        let mut count = 0;
-        for (body, candidates) in bodies.iter().zip(&self.loads.candidates) {
+        let (mut count, mut stuck) = (0, None);
+        for (which, (body, candidates)) in bodies.iter().zip(&self.loads.candidates).enumerate() {
             for candidate in candidates {
                 let place = &candidate.place;
                 let point = &mut self.points[place.point];
-                if let Some(outside) = point_body::put_back(&point.position, body, &given.planes) {
-                    point.position = outside;
-                    count += 1;
+                match point_body::put_back(&point.position, body, &given.planes) {
+                    None => {}
+                    Some(PutBack::To(outside)) => {
+                        point.position = outside;
+                        count += 1;
+                    }
+                    Some(PutBack::NoRoom { depth }) => {
+                        let here = Stuck {
+                            point: point.id,
+                            body: which,
+                            depth,
+                        };
+                        stuck = Stuck::deeper(stuck, here);
+                    }
                 }
             }
         }
@@ -240,12 +253,13 @@ impl Flow for PlainFlow {
         laps.done(Verb::Motion);
         Finished {
             put_back: count,
+            stuck,
             spread,
         }
     }
 
-    fn culprit(&self, planes: &[Plane], tolerance: f64) -> Option<Culprit> {
-        let culprit = |point: &Point| Culprit::of(point, planes, tolerance);
+    fn culprit(&self, bounds: &Bounds) -> Option<Culprit> {
+        let culprit = |point: &Point| Culprit::of(point, bounds);
         self.points.par_iter().find_map_first(culprit)
     }
 

@@ -2,7 +2,7 @@
 //! answer that of the whole flow (docs/method.md, section 12).
 
 use super::images::{Images, load_of_both};
-use super::{Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep, plainly};
+use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep, plainly};
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::Totals;
 use crate::fast::instructions::Instructions;
@@ -171,12 +171,16 @@ impl Flow for SharedFlow {
         }
         Finished {
             put_back: finished.put_back * u64::from(count),
+            stuck: finished.stuck,
             spread: finished.spread.of_images(f64::from(count)),
         }
     }
 
-    fn culprit(&self, _: &[Plane], tolerance: f64) -> Option<Culprit> {
-        self.flow.culprit(&self.planes, tolerance)
+    fn culprit(&self, bounds: &Bounds) -> Option<Culprit> {
+        self.flow.culprit(&Bounds {
+            planes: &self.planes,
+            ..*bounds
+        })
     }
 
     fn take_out_beyond(&mut self, end: f64, _: &Setup) -> Option<(u64, Totals)> {

@@ -1,0 +1,233 @@
+//! What ends a run that has gone wrong (docs/method.md, section 10). Nothing here
+//! changes a run that goes well.
+
+use super::Simulation;
+use super::flow::{Bounds, Culprit};
+use crate::contact::island::MOST_SUBSTEPS;
+use crate::contact::point_body::Stuck;
+use crate::error::{Mover, StepError};
+use crate::math::Vec3;
+use crate::rigid::Body;
+
+/// Overlap of two bodies, as a share of both sphero radii, that is taken for a
+/// contact too soft.
+const DEEPEST_OVERLAP: f64 = 0.9;
+/// Nothing gets this many times faster than a fall from the highest place and the
+/// fastest throw together: an elastic impact doubles a speed, and a few in a row
+/// on ever lighter things some more.
+const FASTER: f64 = 10.0;
+/// Share of the energy scale that the mechanical energy may rise by.
+const ENERGY_MADE: f64 = 0.1;
+
+/// What a run may not go beyond, known at its start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guards {
+    /// Speed that a fall from the highest place and the fastest throw give [m/s].
+    pub speed_given: f64,
+    /// Whether the energy is bounded: not where gravity drives a flow that runs round.
+    pub energy: bool,
+}
+
+impl Guards {
+    /// Of a scene in which nothing is known of speeds.
+    pub const ANY_SPEED: Self = Self {
+        speed_given: f64::INFINITY,
+        energy: false,
+    };
+
+    /// Where things fall from `highest` [m] at most, under `gravity` [m/s²], and
+    /// bodies start with `thrown` [m/s] at most, their turning included.
+    pub fn of(gravity: f64, highest: f64, thrown: f64) -> Self {
+        let given = 2.0 * gravity * highest + thrown * thrown;
+        Self {
+            speed_given: given.sqrt(),
+            energy: true,
+        }
+    }
+}
+
+impl Simulation {
+    /// Whether the bodies' own sub-steps were as short as they have to be.
+    pub(super) fn look_at_body_steps(&self, substep_s: f64) -> Result<(), StepError> {
+        let time_s = self.state.clock.time;
+        let reports = self.scratch.body_reports.iter().enumerate();
+        let asked = reports.map(|(body, report)| (body, report.substeps_asked));
+        let mut too_many = asked.filter(|(_, asked)| asked.is_nan() || *asked > MOST_SUBSTEPS);
+        let Some((body, asked)) = too_many.next() else {
+            return Ok(());
+        };
+        // A state that is no number asks for no number of steps.
+        Err(match self.state.bodies[body].non_finite() {
+            Some(quantity) => StepError::NonFiniteBody {
+                time_s,
+                body,
+                quantity,
+            },
+            None => StepError::BodyStepCollapse {
+                time_s,
+                body,
+                substep_s,
+                asked,
+                limit: MOST_SUBSTEPS,
+            },
+        })
+    }
+
+    /// Looks at bodies and points after a step.
+    pub(super) fn look_for_culprits(&self, stuck: Option<&Stuck>) -> Result<(), StepError> {
+        let time_s = self.state.clock.time;
+        for (body, state) in self.state.bodies.iter().enumerate() {
+            if let Some(quantity) = state.non_finite() {
+                return Err(StepError::NonFiniteBody {
+                    time_s,
+                    body,
+                    quantity,
+                });
+            }
+        }
+        self.look_behind_walls()?;
+        self.look_for_merging_bodies()?;
+        self.look_at_points()?;
+        self.look_at_speeds()?;
+        let radius = self.point_radius_m();
+        match stuck.filter(|stuck| stuck.depth > radius) {
+            None => Ok(()),
+            Some(stuck) => Err(StepError::PointInsideBody {
+                time_s,
+                point: stuck.point,
+                body: stuck.body,
+                depth_m: stuck.depth,
+            }),
+        }
+    }
+
+    fn look_at_points(&self) -> Result<(), StepError> {
+        let time_s = self.state.clock.time;
+        let material = self.given.flow.as_ref().map(|flow| flow.material);
+        let densest = material.map_or(f64::INFINITY, |material| material.densest());
+        let bounds = Bounds {
+            planes: &self.given.planes,
+            tolerance: self.given.lattice.spacing.max(),
+            densest,
+        };
+        match self.state.flow.culprit(&bounds) {
+            None => Ok(()),
+            Some(Culprit::NonFinite { point, quantity }) => Err(StepError::NonFinitePoint {
+                time_s,
+                point,
+                quantity,
+            }),
+            Some(Culprit::Crushed { point, density }) => Err(StepError::Crushed {
+                time_s,
+                point,
+                density_kg_m3: density,
+                limit_kg_m3: densest,
+            }),
+            Some(Culprit::BehindWall {
+                point,
+                wall,
+                depth_m,
+            }) => Err(StepError::PointBehindWall {
+                time_s,
+                point,
+                wall,
+                depth_m,
+            }),
+        }
+    }
+
+    /// Whether anything is faster than it can have become.
+    fn look_at_speeds(&self) -> Result<(), StepError> {
+        let limit_m_s = FASTER * self.given.guards.speed_given;
+        let bodies = self.state.bodies.iter().map(Body::largest_speed);
+        let fastest = bodies.fold(self.state.flow.fastest(), f64::max);
+        if fastest <= limit_m_s {
+            return Ok(());
+        }
+        let (mover, speed_m_s) = self.fastest_mover();
+        Err(StepError::SpeedRunaway {
+            time_s: self.state.clock.time,
+            mover,
+            speed_m_s,
+            limit_m_s,
+        })
+    }
+
+    /// Whether there is more energy than there was, after an audit.
+    pub(super) fn look_at_energy(&self) -> Result<(), StepError> {
+        let audit = &self.state.audit;
+        let limit_j = ENERGY_MADE * audit.energy_scale();
+        if !self.given.guards.energy || audit.energy_rise() <= limit_j {
+            return Ok(());
+        }
+        let (mover, speed_m_s) = self.fastest_mover();
+        Err(StepError::EnergyRunaway {
+            time_s: self.state.clock.time,
+            rise_j: audit.energy_rise(),
+            limit_j,
+            mover,
+            speed_m_s,
+        })
+    }
+
+    /// Who is fastest, and how fast [m/s].
+    fn fastest_mover(&self) -> (Mover, f64) {
+        let mut fastest = (Mover::Body(0), 0.0);
+        let mut meet = |mover, speed| {
+            if speed > fastest.1 {
+                fastest = (mover, speed);
+            }
+        };
+        for (body, state) in self.state.bodies.iter().enumerate() {
+            meet(Mover::Body(body), state.largest_speed());
+        }
+        self.state.flow.visit(None, &mut |point| {
+            meet(Mover::Point(point.id), point.velocity.norm());
+        });
+        fastest
+    }
+
+    /// A body whose core has gone through a wall was not held by its contacts.
+    fn look_behind_walls(&self) -> Result<(), StepError> {
+        let time_s = self.state.clock.time;
+        for (place, body) in self.state.bodies.iter().enumerate() {
+            for plane in &self.given.planes {
+                let deepest = body.shape.extent_along(&body.to_body(&-plane.normal));
+                let core =
+                    plane.height(&body.state.position) - deepest + body.shape.sphero_radius();
+                if body.is_free() && core < 0.0 {
+                    return Err(StepError::BodyBehindWall {
+                        time_s,
+                        body: place,
+                        wall: plane.name,
+                        depth_m: -core,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Two cores that come together were not held apart by their contacts, and
+    /// beyond that these would push the wrong way.
+    fn look_for_merging_bodies(&self) -> Result<(), StepError> {
+        for meeting in &self.state.meetings {
+            let [body, other] = meeting.bodies;
+            let radius = |place: usize| self.state.bodies[place].shape.sphero_radius();
+            if meeting.deepest > DEEPEST_OVERLAP * (radius(body) + radius(other)) {
+                return Err(StepError::BodiesMerge {
+                    time_s: self.state.clock.time,
+                    body,
+                    other,
+                    overlap_m: meeting.deepest,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Speed of the fastest place of a body of this bounding radius [m] at the start [m/s].
+pub(super) fn thrown(velocity: &Vec3, angular_velocity: &Vec3, radius: f64) -> f64 {
+    velocity.norm() + angular_velocity.norm() * radius
+}

@@ -1,0 +1,144 @@
+//! A sweep over all that is legal: scenarios drawn at random, coarse, each run for a
+//! fraction of a second. What fails is made smaller until only what it takes is left.
+
+mod draw;
+mod reduce;
+
+use super::trial::{self, Ended, Tried};
+use crate::verify::dice::Dice;
+use crate::verify::run::scenario_of;
+use scree_solver::Simulation;
+use serde::Serialize;
+use serde_json::Value;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Point-steps of one run, and what counts as such.
+const BUDGET: u64 = 60_000;
+/// Draws until one is legal.
+const MOST_DRAWS: u32 = 400;
+
+/// What a sweep found.
+#[derive(Debug, Default, Serialize)]
+pub struct Swept {
+    /// Scenarios run.
+    pub run: u64,
+    /// Draws that validation or the set-up refused on the way, or that would have been
+    /// cut into too many points.
+    pub refused: u64,
+    /// Runs that came to the end of their duration or budget.
+    pub finished: u64,
+    /// Wall time of the longest run [s], and its seed.
+    pub longest: (f64, u64),
+    /// Sub-steps of all of them.
+    pub substeps: u64,
+    /// Points of all of them.
+    pub points: u64,
+    /// What failed, by seed.
+    pub failures: Vec<Failing>,
+}
+
+/// A scenario that failed.
+#[derive(Debug, Serialize)]
+pub struct Failing {
+    /// The seed it comes from.
+    pub seed: u64,
+    /// In which way.
+    pub kind: String,
+    /// What happened.
+    pub words: String,
+    /// As small as it could be made.
+    pub scenario: Value,
+}
+
+/// A legal scenario of this seed, and how many draws were refused before it.
+pub fn scenario(seed: u64) -> Option<(Value, u64)> {
+    let mut dice = Dice::of(seed.wrapping_add(1));
+    for refused in 0..MOST_DRAWS {
+        let drawn = draw::scenario(&mut dice);
+        let legal = scenario_of(&drawn).is_ok_and(|scenario| Simulation::check(&scenario).is_ok());
+        if legal && draw::is_small(&drawn) {
+            return Some((drawn, u64::from(refused)));
+        }
+    }
+    None
+}
+
+/// Runs a scenario within the budget of a sweep.
+pub fn run(scenario: &Value) -> Tried {
+    trial::run("sweep", &reduce::trial(scenario, BUDGET))
+}
+
+/// Runs `count` scenarios, those of the seeds from `first` on, on all cores.
+pub fn sweep(first: u64, count: u64, tell: &(impl Fn(&Failing) + Sync)) -> Swept {
+    let next = AtomicU64::new(0);
+    let swept = Mutex::new(Swept::default());
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    std::thread::scope(|scope| {
+        for _ in 0..cores {
+            scope.spawn(|| {
+                loop {
+                    let place = next.fetch_add(1, Ordering::Relaxed);
+                    if place >= count {
+                        break;
+                    }
+                    take(&swept, first + place, tell);
+                }
+            });
+        }
+    });
+    let mut swept = swept
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    swept.failures.sort_by_key(|failing| failing.seed);
+    swept
+}
+
+fn take(swept: &Mutex<Swept>, seed: u64, tell: &(impl Fn(&Failing) + Sync)) {
+    let Some((scenario, refused)) = scenario(seed) else {
+        return;
+    };
+    let tried = run(&scenario);
+    let failing = (!tried.is_sound()).then(|| failing(seed, &scenario, &tried));
+    if let Some(failing) = &failing {
+        tell(failing);
+    }
+    let mut swept = swept
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    swept.run += 1;
+    swept.refused += refused;
+    if tried.wall_s > swept.longest.0 {
+        swept.longest = (tried.wall_s, seed);
+    }
+    swept.finished += u64::from(tried.ended == Ended::Finished);
+    if let Some(figures) = tried.figures {
+        swept.substeps += figures.substeps;
+        swept.points += figures.points;
+    }
+    swept.failures.extend(failing);
+}
+
+fn failing(seed: u64, scenario: &Value, tried: &Tried) -> Failing {
+    let kind = reduce::kind(tried);
+    let mut last = tried.clone();
+    let scenario = reduce::reduced(scenario, &mut |simpler| {
+        let again = run(simpler);
+        let alike = !again.is_sound() && reduce::kind(&again) == kind;
+        if alike {
+            last = again.clone();
+        }
+        alike.then_some(again)
+    });
+    Failing {
+        seed,
+        kind,
+        words: format!(
+            "{}; broken: {}; {:?}",
+            last.ended,
+            last.broken.join(", "),
+            last.figures
+        ),
+        scenario,
+    }
+}

@@ -1,0 +1,155 @@
+//! A failing scenario made smaller, as long as it fails the same way.
+
+use crate::verify::hard::trial::{Trial, Tried};
+use serde_json::Value;
+
+/// Most runs spent on one scenario.
+const MOST_RUNS: usize = 60;
+
+/// The smallest scenario found that fails as this one does.
+pub(super) fn reduced(
+    scenario: &Value,
+    fails_alike: &mut impl FnMut(&Value) -> Option<Tried>,
+) -> Value {
+    let mut smallest = scenario.clone();
+    let mut runs = 0;
+    loop {
+        let before = runs;
+        let mut changed = false;
+        for simpler in simpler(&smallest) {
+            if runs >= MOST_RUNS {
+                return smallest;
+            }
+            runs += 1;
+            if fails_alike(&simpler).is_some() {
+                smallest = simpler;
+                changed = true;
+                break;
+            }
+        }
+        if !changed || runs == before {
+            return smallest;
+        }
+    }
+}
+
+/// Scenarios a little simpler than this one, the simplest first.
+fn simpler(scenario: &Value) -> Vec<Value> {
+    let mut all = Vec::new();
+    let mut try_with = |change: &dyn Fn(&mut Value)| {
+        let mut copy = scenario.clone();
+        change(&mut copy);
+        if copy != *scenario {
+            all.push(copy);
+        }
+    };
+    try_with(&|copy| copy["flow"] = Value::Null);
+    let bodies = scenario["bodies"].as_array().map_or(0, Vec::len);
+    for body in 0..bodies {
+        try_with(&|copy| {
+            copy["bodies"].as_array_mut().map(|all| all.remove(body));
+        });
+    }
+    try_with(&|copy| {
+        let half = copy["duration_s"].as_f64().unwrap_or(0.0) / 2.0;
+        copy["duration_s"] = half.into();
+        copy["sample_interval_s"] = half.clamp(1e-5, 3600.0).into();
+    });
+    // Every field that may be left out.
+    let required = [
+        "inclination_deg",
+        "incline_length_m",
+        "runout_length_m",
+        "width_m",
+        "volume_m3",
+        "release",
+        "shape",
+        "position",
+        "downstream_m",
+        "height_m",
+        "toe_distance_m",
+        "cell_size_m",
+    ];
+    let parts = ["/channel", "/flow/material", "/numerics", ""];
+    let of_bodies =
+        (0..bodies).flat_map(|body| ["", "/position"].map(|part| format!("/bodies/{body}{part}")));
+    for part in parts.map(str::to_owned).into_iter().chain(of_bodies) {
+        let Some(Value::Object(fields)) = scenario.pointer(&part) else {
+            continue;
+        };
+        let basic = [
+            "channel",
+            "flow",
+            "bodies",
+            "duration_s",
+            "sample_interval_s",
+            "numerics",
+        ];
+        let removable = fields.keys().filter(|key| {
+            let kept = required.contains(&key.as_str());
+            !(kept || part.is_empty() && basic.contains(&key.as_str()))
+        });
+        for key in removable {
+            try_with(&|copy| {
+                if let Some(Value::Object(fields)) = copy.pointer_mut(&part) {
+                    fields.remove(key);
+                }
+            });
+        }
+    }
+    all
+}
+
+/// What two runs that fail alike have in common.
+pub(super) fn kind(tried: &Tried) -> String {
+    match &tried.ended {
+        super::Ended::Failed(error) => {
+            let whole = format!("{error:?}");
+            let name = whole.split([' ', '{', '(']).next();
+            name.unwrap_or_default().to_owned()
+        }
+        super::Ended::Panicked(words) => {
+            format!("panic: {}", words.split('(').next().unwrap_or(""))
+        }
+        _ => tried.broken.join(", "),
+    }
+}
+
+/// The same scenario to be run with that budget.
+pub(super) fn trial(scenario: &Value, budget: u64) -> Trial {
+    let mut trial = Trial::new("", scenario.clone());
+    trial.budget = Some(budget);
+    trial
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    // What fails is that a body is fast; everything else goes.
+    #[test]
+    fn what_does_not_matter_goes() {
+        let scenario = json!({
+            "channel": {"inclination_deg": 3, "width_m": 1, "base_friction": 0.3},
+            "flow": {"volume_m3": 1.0}, "gravity_m_s2": 3.0, "duration_s": 1.0,
+            "bodies": [{"shape": 1, "friction": 2}, {"shape": 2, "velocity_m_s": 5, "friction": 1}],
+            "numerics": {"courant": 0.3},
+        });
+        let tried = |scenario: &Value| {
+            let bodies = scenario["bodies"].as_array()?;
+            let fast = bodies.iter().any(|body| body["velocity_m_s"] == 5);
+            let long = scenario["duration_s"].as_f64()? > 0.2;
+            (fast && long).then(|| crate::verify::hard::trial::run("", &trial(&json!({}), 1)))
+        };
+        let smallest = reduced(&scenario, &mut |scenario| tried(scenario));
+        assert_eq!(smallest["bodies"], json!([{"shape": 2, "velocity_m_s": 5}]));
+        assert_eq!(smallest["flow"], Value::Null);
+        assert_eq!(
+            smallest["channel"],
+            json!({"inclination_deg": 3, "width_m": 1})
+        );
+        assert_eq!(smallest["duration_s"], 0.25);
+        assert!(smallest.get("gravity_m_s2").is_none());
+    }
+}
