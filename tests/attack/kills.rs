@@ -81,16 +81,17 @@ fn submit_until(address: &str, stop: &AtomicBool, answered: &AtomicUsize) -> Vec
 #[test]
 fn a_run_killed_many_times_ends_with_the_same_bits() {
     let _turn = crate::turn();
-    // Long enough apart for a state in between, all within the run.
+    // Long enough apart for a state in between, all within the run: what a run loses by a
+    // kill its progress still shows, so that the pause counts as well.
     let kills = at_length(2, 22);
     let settings = [
         ("SCREE_RECORDING__STATE_INTERVAL_S", "0.05"),
         ("SCREE_RECORDING__FLUSH_INTERVAL_S", "0.05"),
     ];
     let place = Place::new(&settings);
-    let (long, apart_s) = match kills {
-        2 => (scene(3.0), 0.8),
-        _ => (finest_scene(3.0), 0.05),
+    let (long, apart_s, pause) = match kills {
+        2 => (scene(3.0), 0.8, Duration::ZERO),
+        _ => (finest_scene(3.0), 0.01, Duration::from_millis(700)),
     };
     let served = place.serve();
     let whole = served.submit(&long);
@@ -104,6 +105,7 @@ fn a_run_killed_many_times_ends_with_the_same_bits() {
         served.wait(&job, |job| {
             has_ended(job) || started(job) > Some(resumed_from_s + apart_s)
         });
+        std::thread::sleep(pause);
         served.kill();
         let began = Instant::now();
         served = place.serve();
