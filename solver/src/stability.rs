@@ -77,9 +77,9 @@ impl Limits {
     }
 }
 
-/// The next step of a scene without a flow.
-pub fn pace_without_flow(remaining: f64) -> Pace {
-    divide(remaining, SUBSTEP_WITHOUT_FLOW, 1.0)
+/// The next step of a scene without a flow, no longer than `longest` [s].
+pub fn pace_without_flow(longest: f64, remaining: f64) -> Pace {
+    divide(remaining, longest, 1.0)
 }
 
 /// Divides what remains into equal sub-steps and takes the first `allowed`.

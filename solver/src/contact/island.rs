@@ -109,6 +109,11 @@ fn advance_apart(
     });
 }
 
+/// Sub-steps of its own that a body asks for in `dt` by its spin and the walls alone.
+pub fn asked_alone(body: &Body, planes: &[Plane], dt: f64) -> f64 {
+    pace::substeps_alone(body, planes, dt)
+}
+
 /// Finds who touches whom at the start, before anything moved.
 pub fn meet(bodies: &mut [Body]) -> Vec<Meeting> {
     let pairs = near_pairs(bodies, 0.0);

@@ -6,7 +6,6 @@ use super::flow::{Bounds, Culprit};
 use crate::contact::island::MOST_SUBSTEPS;
 use crate::contact::point_body::Stuck;
 use crate::error::{Mover, StepError};
-use crate::math::Vec3;
 use crate::rigid::Body;
 
 /// Overlap of two bodies, as a share of both sphero radii, that is taken for a
@@ -225,9 +224,4 @@ impl Simulation {
         }
         Ok(())
     }
-}
-
-/// Speed of the fastest place of a body of this bounding radius [m] at the start [m/s].
-pub(super) fn thrown(velocity: &Vec3, angular_velocity: &Vec3, radius: f64) -> f64 {
-    velocity.norm() + angular_velocity.norm() * radius
 }

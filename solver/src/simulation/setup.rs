@@ -1,7 +1,7 @@
 //! From a scenario to a scene: what a run is given, its bodies and its points.
 
 use super::clock::Timing;
-use super::guards::{Guards, thrown};
+use super::guards::Guards;
 use crate::contact::law::ContactLaw;
 use crate::contact::point_body::{PointSphere, Reach};
 use crate::error::SetupError;
@@ -385,9 +385,7 @@ fn guards(scenario: &Scenario) -> Guards {
     let bodies = scenario.bodies.iter().enumerate().map(|(place, body)| {
         let radius = scenario.shape_of(place).bounding_radius();
         let height = scenario.initial_pose(place).position.z + radius;
-        let velocity = Vec3::from(body.velocity_m_s);
-        let spin = Vec3::from(body.angular_velocity_rad_s);
-        (height, thrown(&velocity, &spin, radius))
+        (height, resolution::thrown(body, radius))
     });
     let (highest, fastest) = bodies.fold((top, 0.0f64), |(top, speed), (height, thrown)| {
         (top.max(height), speed.max(thrown))

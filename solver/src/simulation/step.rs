@@ -17,6 +17,9 @@ use crate::stability::{self, Pace};
 /// they would show at a step's end shows at a later one as well.
 const AUDIT_INTERVAL: u64 = 64;
 
+/// A sub-step in which a body asked for more sub-steps of its own is shortened.
+const MANY_BODY_SUBSTEPS: f64 = 10_000.0;
+
 impl Simulation {
     /// Takes one sub-step, of the step in hand or of a new one.
     pub(super) fn advance(&mut self) -> Result<SubstepReport, StepError> {
@@ -69,12 +72,11 @@ impl Simulation {
     fn pace(&self) -> Result<Pace, StepError> {
         let clock = &self.state.clock;
         let remaining = self.given.timing.sample_time(clock.next_sample) - clock.time;
-        let Some(flow) = &self.given.flow else {
-            return Ok(stability::pace_without_flow(remaining));
+        let flow = self.given.flow.as_ref();
+        let Some(flow) = flow.filter(|_| self.state.flow.count() > 0) else {
+            let longest = self.for_bodies(stability::SUBSTEP_WITHOUT_FLOW);
+            return Ok(stability::pace_without_flow(longest, remaining));
         };
-        if self.state.flow.count() == 0 {
-            return Ok(stability::pace_without_flow(remaining));
-        }
         let flow_speed = self.state.flow.fastest();
         let body_speeds = self.state.bodies.iter().map(|body| body.largest_speed());
         let body_speed = body_speeds.fold(0.0, f64::max);
@@ -84,6 +86,7 @@ impl Simulation {
             .limits
             .substep(fastest)
             .min(flow.contact_substep(&self.state.bodies));
+        let substep = self.for_bodies(substep);
         let limit = flow.limits.shortest_substep();
         if flow.limits.substep(flow_speed) < limit {
             return Err(StepError::TimeStepCollapse {
@@ -94,6 +97,18 @@ impl Simulation {
             });
         }
         Ok(flow.limits.pace(substep, fastest, remaining))
+    }
+
+    /// A sub-step no longer than this [s] in which no body asks for too many of its own.
+    fn for_bodies(&self, longest: f64) -> f64 {
+        let free = self.state.bodies.iter().filter(|body| body.is_free());
+        let asked = free.map(|body| island::asked_alone(body, &self.given.planes, longest));
+        let most = asked.fold(0.0, f64::max);
+        if most > MANY_BODY_SUBSTEPS {
+            longest * (MANY_BODY_SUBSTEPS / most)
+        } else {
+            longest
+        }
     }
 
     /// One sub-step at the speed of sound.

@@ -6,14 +6,14 @@ use crate::verify::hard::{Family, Member};
 use serde_json::{Value, json};
 
 pub(super) const FRICTION: Family = Family {
-    name: "friction",
+    name: "friction 0 and 5",
     reason: "without friction nothing takes energy out; at 5 the tangential forces are larger \
              than the normal ones and must not throw anything",
     members: frictions,
 };
 
 pub(super) const RESTITUTION: Family = Family {
-    name: "restitution",
+    name: "restitution 0 and 1",
     reason: "at 0 the contacts are damped twelvefold critically, at 1 only the integration \
              changes the energy",
     members: restitutions,
