@@ -141,7 +141,7 @@ pub(super) fn heap(count: usize) -> Result<Scenario, Failure> {
     // Of walls there are three; a barrier is the fourth.
     let barrier = json!({
         "shape": {"box": {"sides_m": [0.02, side - 1e-3, 1.0]}},
-        "position": {"downstream_m": 0.5 * side + 0.01, "elevation_m": 0.5},
+        "position": {"downstream_m": 0.5 * side + 0.012, "elevation_m": 0.5},
         "fixed": true
     });
     let bodies: Vec<Value> = (0..count).map(body).chain([barrier]).collect();

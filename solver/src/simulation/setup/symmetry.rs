@@ -25,7 +25,7 @@ pub(super) fn partners(
     bodies: &[Body],
 ) -> Result<Vec<usize>, Why> {
     let rows = columns.count[1];
-    if rows % 2 != 0 {
+    if !rows.is_multiple_of(2) {
         return Err(format!(
             "{rows} rows of points lie across the channel: an odd number, so that one lies in the centre plane"
         ));
