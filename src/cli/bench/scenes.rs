@@ -122,7 +122,7 @@ pub(super) fn heap(count: usize) -> Result<Scenario, Failure> {
         json!({"regular": {"solid": "tetrahedron", "size_m": 0.05}}),
     ];
     let abreast = if count > 10 { 4 } else { 2 };
-    let distance = 0.065;
+    let distance = 0.08;
     let side = abreast as f64 * distance;
     let along = |place: usize| (place as f64 + 0.5) * distance - 0.5 * side;
     let body = |place: usize| {
@@ -141,7 +141,7 @@ pub(super) fn heap(count: usize) -> Result<Scenario, Failure> {
     // Of walls there are three; a barrier is the fourth.
     let barrier = json!({
         "shape": {"box": {"sides_m": [0.02, side - 1e-3, 1.0]}},
-        "position": {"downstream_m": 0.5 * side + 0.012, "elevation_m": 0.5},
+        "position": {"downstream_m": 0.5 * side + 0.01, "elevation_m": 0.5},
         "fixed": true
     });
     let bodies: Vec<Value> = (0..count).map(body).chain([barrier]).collect();
