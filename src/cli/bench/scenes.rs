@@ -122,7 +122,7 @@ pub(super) fn heap(count: usize) -> Result<Scenario, Failure> {
         json!({"regular": {"solid": "tetrahedron", "size_m": 0.05}}),
     ];
     let abreast = if count > 10 { 4 } else { 2 };
-    let distance = 0.065;
+    let distance = 0.08;
     let side = abreast as f64 * distance;
     let along = |place: usize| (place as f64 + 0.5) * distance - 0.5 * side;
     let body = |place: usize| {
