@@ -167,7 +167,8 @@ pub(crate) fn scene(duration_s: f64) -> Value {
         "duration_s": duration_s,
         "sample_interval_s": 0.01,
         "flow_snapshots": 5,
-        "numerics": {"cell_size_m": 0.02, "points_per_cell": 4}
+        // To the end, although it comes to rest before.
+        "numerics": {"cell_size_m": 0.02, "points_per_cell": 4, "ending": "full"}
     })
 }
 
