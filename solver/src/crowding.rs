@@ -12,6 +12,7 @@ use crate::kernel::{Lattice, REACH, share_above};
 use crate::math::Vec3;
 use crate::rigid::Body;
 use crate::walls::{Boundary, NodeAccess, Plane, filled, in_plane};
+use std::ops::Range;
 
 /// Points move by this share of −h² ∇crowding per cell of travel.
 const SHIFT: f64 = 1.0;
@@ -204,7 +205,12 @@ fn make_room_for(body: &Body, nodes: &mut impl NodeAccess) {
     // However small its share, a small body does not fill a kernel.
     let least = 1.0 - PEAK * body.shape.volume() / lattice.spacing.product();
     let width = lattice.spacing.max();
-    for block in blocks_between(nodes.blocks(), low, high) {
+    let (first, last) = (block_of(low), block_of(high));
+    for place in blocks_along(nodes.blocks(), first[0], last[0]) {
+        let block = nodes.blocks()[place];
+        if !(1..3).all(|axis| (first[axis]..=last[axis]).contains(&block[axis])) {
+            continue;
+        }
         let within = |axis: usize| {
             let first = block[axis] * BLOCK as i32;
             first.max(low[axis])..=(first + BLOCK as i32 - 1).min(high[axis])
@@ -224,17 +230,12 @@ fn make_room_for(body: &Body, nodes: &mut impl NodeAccess) {
     }
 }
 
-/// Those of the blocks, which come sorted, that have nodes between two: a large body
-/// holds millions of cells, most of them without a point near.
-fn blocks_between(blocks: &[BlockKey], low: [i32; 3], high: [i32; 3]) -> Vec<BlockKey> {
-    let (low, high) = (block_of(low), block_of(high));
-    let first = blocks.partition_point(|block| block[0] < low[0]);
-    let reached = blocks[first..]
-        .iter()
-        .take_while(|block| block[0] <= high[0]);
-    let between =
-        |block: &&BlockKey| (1..3).all(|axis| (low[axis]..=high[axis]).contains(&block[axis]));
-    reached.filter(between).copied().collect()
+/// Where those of the blocks are, which come sorted, that lie between two along x: a large
+/// body holds millions of cells, most of them without a point near.
+fn blocks_along(blocks: &[BlockKey], first: i32, last: i32) -> Range<usize> {
+    let start = blocks.partition_point(|block| block[0] < first);
+    let end = blocks.partition_point(|block| block[0] <= last);
+    start..end
 }
 
 /// Lowest and highest node whose kernel may meet a body.

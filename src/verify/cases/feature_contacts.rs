@@ -92,7 +92,7 @@ fn question(of: &str) -> Question {
 /// A cube about the origin, without damping and friction.
 fn cube(orientation: [f64; 4]) -> Result<Body, Trouble> {
     let mut body = body(&json!({"shape": {"cube": {"side_m": SIDE}},
-        "sphero_radius_m": RADIUS, "contact_modulus_pa": 1e6, "restitution": 1.0,
+        "sphero_radius_m": RADIUS, "contact_modulus_pa": 1e8, "restitution": 1.0,
         "friction": 0.0, "orientation": orientation,
         "position": {"downstream_m": 0.5, "elevation_m": 0.5}}))?;
     body.state.position = Vec3::zeros();
