@@ -26,7 +26,7 @@ fn in_both_precisions(check: impl Fn(Scene)) {
 fn what_is_faster_than_a_fall_is_named() {
     in_both_precisions(|scene| {
         let error = spoilt(&scene, |built| {
-            built.given.guards = Guards::of(9.81, 5e-5, 0.0)
+            built.given.guards = Guards::of(9.81, 5e-5, 0.0);
         });
         let StepError::SpeedRunaway {
             mover: Mover::Point(_),
