@@ -255,7 +255,7 @@ pub(crate) fn tiny_scene() -> Value {
 pub(crate) fn long_scene() -> Value {
     let mut scene = tiny_scene();
     scene["title"] = json!("long");
-    scene["duration_s"] = json!(3.0);
+    scene["duration_s"] = json!(9.0);
     scene["numerics"]["ending"] = json!("full");
     scene["sample_interval_s"] = json!(0.004);
     scene["flow_snapshots"] = json!(8);

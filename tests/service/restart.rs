@@ -50,7 +50,7 @@ async fn a_stopped_job_goes_on_where_it_was_with_the_same_bits() {
         let job = app
             .wait(&cut, |job| is_running(job) || has_ended(job))
             .await;
-        assert_eq!(job["attempt"], attempt);
+        assert_eq!(job["attempt"], attempt, "{job:#}");
         app.wait(&cut, |job| {
             !job["attempts"][attempt - 1]["resumed_from_s"].is_null()
         })
