@@ -112,10 +112,11 @@ impl Runs {
             match ended {
                 Ok(RunEnd::Stopped) => return Ok(RunEnd::Stopped),
                 Ok(RunEnd::Completed(outcome)) => {
-                    if fate == Fate::Kept {
+                    self.campaign.take(Ok(*outcome));
+                    let finest = self.campaign.finest() == Some(rung.cell_size_m);
+                    if fate == Fate::Kept && finest {
                         whole.kept = kept;
                     }
-                    self.campaign.take(Ok(*outcome));
                 }
                 Err(RunError::Step(error)) if self.campaign.can_do_without(rung) => {
                     self.campaign.take(Err(error.to_string()));

@@ -8,6 +8,12 @@ use crate::record::{AccuracyReport, Outcome, Role, RunCost, TargetReport};
 use crate::scenario::Scenario;
 use std::collections::VecDeque;
 
+/// Cells of a companion over those of the answer, at most: a little more than those of the
+/// coarsest that is made on purpose.
+const FARTHEST: f64 = 2.6;
+/// Companions that a band rests on, at least.
+const FEWEST_NEAR: usize = 2;
+
 /// Everything to be computed for one scenario: the answer alone, or companions
 /// before it, or as many runs as a target takes. Whoever runs it takes the
 /// [`next`](Self::next) run, computes [its scenario](Self::scenario_of) and hands in
@@ -79,7 +85,13 @@ impl Campaign {
 
     /// Whether there is an outcome that may be the answer.
     pub fn has_an_answer(&self) -> bool {
-        self.done.iter().any(|done| done.grid().is_some())
+        self.finest().is_some()
+    }
+
+    /// Cells of the finest run so far that may be the answer [m].
+    pub fn finest(&self) -> Option<f64> {
+        let grids = self.done.iter().filter(|done| done.grid().is_some());
+        grids.map(|done| done.rung.cell_size_m).reduce(f64::min)
     }
 
     /// The scenario of a run. That of an answer whose cells are not chosen here is
@@ -138,6 +150,7 @@ impl Campaign {
         let mut grids: Vec<&Outcome> = self.done.iter().filter_map(Done::grid).collect();
         grids.sort_by(|a, b| a.cost.cell_size_m.total_cmp(&b.cost.cell_size_m));
         let (answer, coarser) = grids.split_first()?;
+        let coarser = near(answer, coarser);
         let mut banded = (*answer).clone();
         if self.given.accuracy.is_asked_for() {
             let runs = Runs {
@@ -156,7 +169,7 @@ impl Campaign {
     /// The softer run and the one it is to be compared with.
     fn softer(&self) -> Option<[&Outcome; 2]> {
         let is_softer = |done: &&Done| done.rung.role == Role::Softer;
-        let softer = self.done.iter().find(is_softer)?;
+        let softer = self.done.iter().rfind(is_softer)?;
         let beside = self.done.iter().find(|done| {
             done.rung.role != Role::Softer && done.rung.cell_size_m == softer.rung.cell_size_m
         })?;
@@ -256,12 +269,31 @@ impl Campaign {
         };
         match target::next(&progress, &self.given) {
             Next::Met => {}
-            Next::Finer(cell_size_m) => self.to_do.push_back(Rung {
-                role: Role::Answer,
-                cell_size_m,
-            }),
+            Next::Finer(cell_size_m) => {
+                let extent = Extent {
+                    cell_size_m,
+                    ..self.extent
+                };
+                self.to_do.extend(companions::companions(&extent));
+                self.to_do.push_back(Rung {
+                    role: Role::Answer,
+                    cell_size_m,
+                });
+            }
             Next::GiveUp(reason) => self.given_up = Some(reason),
         }
+    }
+}
+
+/// Those of the coarser outcomes that tell of an answer's error: runs of a target's
+/// beginning, far coarser than its end, only as long as there are no others.
+fn near<'a>(answer: &Outcome, coarser: &'a [&'a Outcome]) -> &'a [&'a Outcome] {
+    let limit = FARTHEST * answer.cost.cell_size_m;
+    let near = coarser.partition_point(|of| of.cost.cell_size_m <= limit);
+    if near >= FEWEST_NEAR {
+        &coarser[..near]
+    } else {
+        coarser
     }
 }
 

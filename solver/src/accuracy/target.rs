@@ -11,6 +11,8 @@ use crate::simulation::Simulation;
 const PILOTS: [f64; 3] = [1.0, 0.8, 0.64];
 /// A band is expected to narrow with this power of the cell size.
 const ORDER: f64 = 1.0;
+/// Cost of an answer with its companions over its own.
+const WITH_COMPANIONS: f64 = 1.3;
 /// Aims below the target, so that a guess a little off still meets it.
 const AIM: f64 = 0.9;
 /// Least and largest ratio of two cell sizes that follow each other: less is not
@@ -88,7 +90,7 @@ pub(super) fn next(progress: &Progress, given: &Scenario) -> Next {
     let wanted = reached.map_or(least, |reached| {
         ((reached - progress.softness) / of_cells).powf(1.0 / ORDER)
     });
-    let affordable = (progress.left / progress.cost).powf(0.25);
+    let affordable = (progress.left / (WITH_COMPANIONS * progress.cost)).powf(0.25);
     if affordable < least {
         return Next::GiveUp(out_of_budget(progress, wanted));
     }
@@ -109,7 +111,7 @@ fn too_soft(progress: &Progress) -> String {
 }
 
 fn out_of_budget(progress: &Progress, wanted: f64) -> String {
-    let next = progress.cost * wanted.max(RATIOS.0).powi(4);
+    let next = WITH_COMPANIONS * progress.cost * wanted.max(RATIOS.0).powi(4);
     format!(
         "about {next:.1e} more point-steps are needed, but accuracy.budget_point_steps leaves {:.1e}",
         progress.left.max(0.0)

@@ -52,7 +52,7 @@ fn carried_out(accuracy: &Value, displacement_m: fn(f64) -> f64) -> Outcome {
         let scenario = campaign.scenario_of(rung);
         campaign.take(Ok(outcome(&scenario, displacement_m(rung.cell_size_m))));
         runs += 1;
-        assert!(runs < 20, "it ends");
+        assert!(runs < 30, "it ends");
     }
     campaign.finish().unwrap()
 }
@@ -178,6 +178,27 @@ fn a_target_is_met_by_cells_no_finer_than_it_takes() {
     let (rough, fine) = (reach(0.5), reach(0.1));
     assert!(fine < 0.5 * rough, "{fine} {rough}");
     assert!(fine > 0.003, "{fine}");
+}
+
+#[test]
+fn runs_far_coarser_than_the_answer_do_not_widen_its_band() {
+    // Nonsense at cells that are too coarse, settled at finer ones.
+    let settles = |cell_size_m: f64| {
+        let nonsense = if cell_size_m > 0.02 {
+            20.0 * (cell_size_m * 1e3).sin()
+        } else {
+            0.0
+        };
+        0.4 + 4.0 * cell_size_m + nonsense
+    };
+    let answer = carried_out(
+        &json!({"target": 0.2, "quantity": "displacement_m"}),
+        settles,
+    );
+    let report = answer.accuracy.unwrap();
+    assert!(report.target.unwrap().met);
+    let answers = report.runs.iter().filter(|run| run.cell_size_m < 0.01);
+    assert!(answers.count() < 6, "{:?}", report.runs);
 }
 
 #[test]
