@@ -9,6 +9,7 @@ use scree_solver::accuracy::{Campaign, Rung};
 use scree_solver::record::Record;
 use scree_solver::scenario::Scenario;
 use scree_solver::{SetupError, StepError};
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// Runs `scenario` on `threads` solver threads from its start to its end or until
@@ -77,8 +78,8 @@ impl Runs {
         }
         let run = Run::restored(&runs.campaign.scenario_of(rung), threads, run)?;
         Ok(Self {
-            kept,
-            begun: Some((run, of_run)),
+            kept: kept.into_owned(),
+            begun: Some((run, of_run.into_owned())),
             ..runs
         })
     }
@@ -225,11 +226,10 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
     fn state(&mut self, time_s: f64, run: &[u8]) -> Result<(), S::Error> {
         let saved = SavedCampaign {
             done: self.campaign.done().cloned().collect(),
-            kept: self.whole.kept.clone(),
-            of_run: self.kept.clone(),
+            kept: Cow::Borrowed(&self.whole.kept),
+            of_run: Cow::Borrowed(&self.kept),
         };
-        self.whole
-            .sink
-            .state(time_s, &saved_campaign::write(&saved, run))
+        let state = saved_campaign::write(&saved, run);
+        self.whole.sink.state(time_s, &state)
     }
 }

@@ -7,6 +7,7 @@ pub mod clock;
 mod desk;
 pub mod failure;
 pub mod forecast;
+mod headed;
 mod intake;
 pub mod job;
 mod keeper;

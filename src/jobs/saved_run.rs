@@ -1,6 +1,7 @@
 //! A run's state as bytes: the simulation's own, and what the recorder and the
 //! stopwatch know besides.
 
+use super::headed;
 use scree_solver::record::Recorder;
 use scree_solver::scenario::Scenario;
 use scree_solver::{Instructions, RestoreError, SaveError, Simulation};
@@ -47,8 +48,7 @@ pub enum SavedRunError {
     OtherInstructions(&'static str),
 }
 
-/// Bytes from which [`restore`] makes the run again: the head's length (u32,
-/// little-endian), the head, the simulation.
+/// Bytes from which [`restore`] makes the run again: a head, then the simulation.
 ///
 /// # Errors
 /// The simulation stands amid a step, or has failed.
@@ -64,13 +64,7 @@ pub fn save(
         recorder: recorder.clone(),
         spent,
     };
-    let head = postcard::to_allocvec(&head).expect("plain numbers always serialise");
-    let length = u32::try_from(head.len()).expect("a head of a few hundred bytes a body");
-    let mut bytes = Vec::with_capacity(4 + head.len() + simulation.len());
-    bytes.extend(length.to_le_bytes());
-    bytes.extend(head);
-    bytes.extend(simulation);
-    Ok(bytes)
+    Ok(headed::joined(&head, &simulation))
 }
 
 /// The run of this scenario as it was saved.
@@ -82,10 +76,7 @@ pub fn restore(
     threads: usize,
     bytes: &[u8],
 ) -> Result<(Simulation, Recorder, Spent), SavedRunError> {
-    let (length, rest) = bytes.split_first_chunk::<4>().ok_or(SavedRunError::Head)?;
-    let length = u32::from_le_bytes(*length) as usize;
-    let (head, simulation) = rest.split_at_checked(length).ok_or(SavedRunError::Head)?;
-    let head: Head = postcard::from_bytes(head).map_err(|_| SavedRunError::Head)?;
+    let (head, simulation): (Head, &[u8]) = headed::parted(bytes).ok_or(SavedRunError::Head)?;
     if head.commit != COMMIT {
         return Err(SavedRunError::OtherBuild(head.commit));
     }

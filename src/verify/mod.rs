@@ -20,6 +20,7 @@ mod blocks;
 mod columns;
 mod dice;
 mod drawn;
+mod on_all_cores;
 mod paper;
 mod scenes;
 mod slope;

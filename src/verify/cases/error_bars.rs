@@ -12,12 +12,11 @@
 use crate::verify::banded::answer;
 use crate::verify::drawn::{self, Drawn};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
+use crate::verify::on_all_cores::side_by_side;
 use crate::verify::run::{Answer, Cost, Trouble};
 use crate::verify::{Case, Effort, How};
 use scree_solver::record::{Band, Basis, BodyBars, BodyOutcome, Outcome};
 use serde_json::{Value, json};
-use std::sync::Mutex;
-use std::thread;
 
 pub(super) const CASE: Case = Case {
     name: "error-bars",
@@ -144,28 +143,6 @@ fn pair(drawn: &Drawn, coarser: f64) -> Result<Pair, Trouble> {
         answer: with(cell_size_m, true)?,
         finer: with(FINER * cell_size_m, false)?,
     })
-}
-
-/// Does the same for all, on all cores, in any order.
-fn side_by_side<T: Sync, R: Send>(all: &[T], each: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let cores = thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let to_do = Mutex::new(all.iter().enumerate());
-    let done = Mutex::new(Vec::new());
-    thread::scope(|scope| {
-        for _ in 0..cores {
-            scope.spawn(|| {
-                while let Some((place, one)) = to_do.lock().ok().and_then(|mut all| all.next()) {
-                    let result = each(one);
-                    if let Ok(mut done) = done.lock() {
-                        done.push((place, result));
-                    }
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().unwrap_or_default();
-    done.sort_by_key(|(place, _)| *place);
-    done.into_iter().map(|(_, result)| result).collect()
 }
 
 /// One value of a finer run and the band it should be in.
@@ -338,18 +315,5 @@ mod tests {
         assert!(inside(Some(0.9), None, Some(7.0)));
         assert!(!inside(Some(0.9), None, Some(0.8)));
         assert!(!inside(None, None, Some(1.0)), "no band holds nothing");
-    }
-
-    #[test]
-    fn all_is_done_and_stays_in_order() {
-        let numbers: Vec<u64> = (0..100).collect();
-        let squares = side_by_side(&numbers, |number| number * number);
-        assert!(
-            squares
-                .iter()
-                .zip(&numbers)
-                .all(|(square, number)| *square == number * number)
-        );
-        assert_eq!(squares.len(), 100);
     }
 }

@@ -6,12 +6,12 @@ mod reduce;
 
 use super::trial::{self, Ended, Tried};
 use crate::verify::dice::Dice;
+use crate::verify::on_all_cores::side_by_side;
 use crate::verify::run::scenario_of;
 use scree_solver::Simulation;
 use serde::Serialize;
 use serde_json::Value;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Point-steps of one run, and what counts as such.
 const BUDGET: u64 = 60_000;
@@ -71,22 +71,9 @@ pub fn run(scenario: &Value) -> Tried {
 
 /// Runs `count` scenarios, those of the seeds from `first` on, on all cores.
 pub fn sweep(first: u64, count: u64, tell: &(impl Fn(&Failing) + Sync)) -> Swept {
-    let next = AtomicU64::new(0);
     let swept = Mutex::new(Swept::default());
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    std::thread::scope(|scope| {
-        for _ in 0..cores {
-            scope.spawn(|| {
-                loop {
-                    let place = next.fetch_add(1, Ordering::Relaxed);
-                    if place >= count {
-                        break;
-                    }
-                    take(&swept, first + place, tell);
-                }
-            });
-        }
-    });
+    let seeds: Vec<u64> = (first..first + count).collect();
+    side_by_side(&seeds, |seed| take(&swept, *seed, tell));
     let mut swept = swept
         .into_inner()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -126,9 +113,9 @@ fn failing(seed: u64, scenario: &Value, tried: &Tried) -> Failing {
         let again = run(simpler);
         let alike = !again.is_sound() && reduce::kind(&again) == kind;
         if alike {
-            last = again.clone();
+            last = again;
         }
-        alike.then_some(again)
+        alike
     });
     Failing {
         seed,
