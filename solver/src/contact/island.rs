@@ -12,8 +12,8 @@ use rayon::prelude::*;
 
 mod pace;
 
-pub use pace::MOST_SUBSTEPS;
 use pace::substeps;
+pub use pace::{MOST_SUBSTEPS, substeps_alone};
 
 /// A body none of whose places is faster is still [m/s].
 const STILL: f64 = 1e-5;
@@ -107,11 +107,6 @@ fn advance_apart(
             }
         }
     });
-}
-
-/// Sub-steps of its own that a body asks for in `dt` by its spin and the walls alone.
-pub fn asked_alone(body: &Body, planes: &[Plane], dt: f64) -> f64 {
-    pace::substeps_alone(body, planes, dt)
 }
 
 /// Finds who touches whom at the start, before anything moved.

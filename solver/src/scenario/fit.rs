@@ -212,9 +212,7 @@ pub(super) fn contacts_carry(
             placed.body.density_kg_m3 * placed.shape.volume(),
             placed.body.sphero_radius_m,
         );
-        let spin = Vector3::from(placed.body.angular_velocity_rad_s).norm();
-        let thrown =
-            Vector3::from(placed.body.velocity_m_s).norm() + spin * placed.shape.bounding_radius();
+        let thrown = placed.body.thrown_m_s(placed.shape.bounding_radius());
         let bed = channel.bed_elevation_m(placed.pose.position.x);
         let fall = placed.pose.position.z - bed - placed.reach(&-Vector3::z());
         let struck = thrown * thrown + 2.0 * gravity_m_s2 * fall.max(0.0);

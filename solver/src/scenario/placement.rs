@@ -150,6 +150,13 @@ impl Size {
 }
 
 impl Body {
+    /// Speed of the fastest place of a body of this bounding radius [m] at the start
+    /// [m/s], its turning included.
+    pub fn thrown_m_s(&self, bounding_radius: f64) -> f64 {
+        let spin = Vector3::from(self.angular_velocity_rad_s).norm();
+        Vector3::from(self.velocity_m_s).norm() + spin * bounding_radius
+    }
+
     /// Orientation at the start: as given, or flat on the bed under the centre
     /// and turned by the yaw about its normal.
     fn initial_orientation(&self, channel: &Channel) -> UnitQuaternion<f64> {

@@ -385,7 +385,7 @@ fn guards(scenario: &Scenario) -> Guards {
     let bodies = scenario.bodies.iter().enumerate().map(|(place, body)| {
         let radius = scenario.shape_of(place).bounding_radius();
         let height = scenario.initial_pose(place).position.z + radius;
-        (height, resolution::thrown(body, radius))
+        (height, body.thrown_m_s(radius))
     });
     let (highest, fastest) = bodies.fold((top, 0.0f64), |(top, speed), (height, thrown)| {
         (top.max(height), speed.max(thrown))

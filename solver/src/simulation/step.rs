@@ -102,7 +102,7 @@ impl Simulation {
     /// A sub-step no longer than this [s] in which no body asks for too many of its own.
     fn for_bodies(&self, longest: f64) -> f64 {
         let free = self.state.bodies.iter().filter(|body| body.is_free());
-        let asked = free.map(|body| island::asked_alone(body, &self.given.planes, longest));
+        let asked = free.map(|body| island::substeps_alone(body, &self.given.planes, longest));
         let most = asked.fold(0.0, f64::max);
         if most > MANY_BODY_SUBSTEPS {
             longest * (MANY_BODY_SUBSTEPS / most)

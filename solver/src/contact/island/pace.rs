@@ -32,7 +32,7 @@ pub(super) fn substeps(members: &[Member], meetings: &[Met], planes: &[Plane], d
 }
 
 /// Sub-steps that a body asks for by its spin and the walls.
-pub(super) fn substeps_alone(body: &Body, planes: &[Plane], dt: f64) -> f64 {
+pub fn substeps_alone(body: &Body, planes: &[Plane], dt: f64) -> f64 {
     let turns = body.angular_velocity().norm() * dt / LARGEST_TURN;
     let speed = body.largest_speed();
     let deepest = deepest_overlap(body, planes);

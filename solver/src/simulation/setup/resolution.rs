@@ -3,7 +3,7 @@
 
 use crate::kernel::Lattice;
 use crate::math::Vec3;
-use crate::scenario::{Body, Scenario};
+use crate::scenario::Scenario;
 
 /// Cells across the thinnest body.
 const CELLS_PER_BODY: f64 = 4.0;
@@ -76,12 +76,6 @@ pub(super) fn expected_speed(scenario: &Scenario) -> f64 {
     (sliding + collapsing).max(thrown).sqrt()
 }
 
-/// Speed of the fastest place of a body of this bounding radius [m] at the start [m/s].
-pub(super) fn thrown(body: &Body, bounding_radius: f64) -> f64 {
-    let spin = Vec3::from(body.angular_velocity_rad_s).norm();
-    Vec3::from(body.velocity_m_s).norm() + spin * bounding_radius
-}
-
 /// What a body brings to its contacts.
 struct Weighty {
     mass: f64,
@@ -108,7 +102,7 @@ impl Crowd {
             let lowest = faces.fold(f64::INFINITY, f64::min) + shape.sphero_radius();
             let falling = 2.0 * scenario.gravity_m_s2 * (start.z - lowest).max(0.0);
             let bounding_radius = shape.bounding_radius();
-            let thrown = thrown(body, bounding_radius);
+            let thrown = body.thrown_m_s(bounding_radius);
             Weighty {
                 mass: body.density_kg_m3 * shape.volume(),
                 sphero_radius: shape.sphero_radius(),
