@@ -7,7 +7,7 @@ use super::constraint::Answer;
 use super::nodes::NodeAccess;
 use super::upright::{Ends, Meets};
 use crate::grid::{BLOCK, BLOCK_NODES};
-use crate::kernel::{Lattice, REACH, share_above};
+use crate::kernel::{Lattice, REACH, share_above, share_above_both};
 use crate::math::{Sym3, Vec3};
 use std::ops::Range;
 
@@ -271,12 +271,18 @@ impl Walls {
 
     /// Share of the kernel of a node at `x` that lies above the base planes.
     fn room(&self, x: &Vec3, spacing: &Vec3) -> f64 {
-        let share = |plane: &Plane| {
+        let height = |plane: &Plane| {
             // The kernel is as wide along a slant as along its axes.
             let width = plane.normal.component_mul(spacing).norm();
-            share_above(plane.height(x) / width)
+            plane.height(x) / width
         };
-        self.base.iter().map(share).product()
+        match self.base.as_slice() {
+            [] => 1.0,
+            [plane] => share_above(height(plane)),
+            [one, other, ..] => {
+                share_above_both([height(one), height(other)], one.normal.dot(&other.normal))
+            }
+        }
     }
 
     fn below(&self, x: &Vec3) -> u8 {
