@@ -11,7 +11,7 @@ use crate::grid::{BLOCK, BlockKey, block_of};
 use crate::kernel::{Lattice, REACH, share_above};
 use crate::math::Vec3;
 use crate::rigid::Body;
-use crate::walls::{Boundary, NodeAccess, Plane, filled, in_plane};
+use crate::walls::{Boundary, Impulse, NodeAccess, Plane, filled, in_plane};
 use std::ops::Range;
 
 /// Points move by this share of −h² ∇crowding per cell of travel.
@@ -144,13 +144,29 @@ pub fn not_into_wall(
     shift
 }
 
-/// What shifting points does to their sums: a shift leaves the velocity.
+/// What changes a velocity [m/s] so that a point deep behind a base plane goes no deeper
+/// (equation 42c).
+pub fn stop_behind_wall(velocity: &Vec3, position: &Vec3, base: &[Plane], spacing: &Vec3) -> Vec3 {
+    let mut change = Vec3::zeros();
+    for plane in base {
+        let width = plane.normal.component_mul(spacing).norm();
+        if plane.height(position) < -DEEPEST * width {
+            let into = (-plane.normal.dot(&(velocity + change))).max(0.0);
+            change += plane.normal * into;
+        }
+    }
+    change
+}
+
+/// What tending points does to their sums. A shift leaves the velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Spread {
     /// Σ m δx [kg m].
     pub first_moment: Vec3,
     /// Σ m δx × v [N m s].
     pub angular: Vec3,
+    /// What walls gave those deep behind them.
+    pub stopped: Impulse,
 }
 
 impl Spread {
@@ -159,6 +175,7 @@ impl Spread {
         Self {
             first_moment: self.first_moment + other.first_moment,
             angular: self.angular + other.angular,
+            stopped: self.stopped.plus(&other.stopped),
         }
     }
 
@@ -171,6 +188,7 @@ impl Spread {
         Self {
             first_moment: in_plane(&self.first_moment) * count,
             angular: Vec3::new(0.0, self.angular.y * count, 0.0),
+            stopped: self.stopped.of_images(count),
         }
     }
 
@@ -301,6 +319,28 @@ mod tests {
         assert_eq!(kept(-0.004, down), Vec3::new(1e-4, 0.0, 0.0));
         assert_eq!(kept(0.006, down), down);
         assert_eq!(kept(0.004, up), up);
+    }
+
+    #[test]
+    fn a_point_deep_behind_two_walls_is_stopped_by_both() {
+        let steep = Vec3::new(0.6, 0.0, 0.8);
+        let base = [Vec3::z(), steep].map(|normal| Plane {
+            name: "a plane",
+            normal,
+            offset: 0.0,
+            flow_friction: 0.4,
+        });
+        let stopped = |position: Vec3, velocity| {
+            velocity + stop_behind_wall(&velocity, &position, &base, &SPACING)
+        };
+        let (down, up) = (Vec3::new(0.1, 0.2, -1.0), Vec3::new(0.1, 0.2, 1.0));
+        let behind_floor = Vec3::new(0.1, 0.0, -0.0026);
+        assert_eq!(stopped(behind_floor, down), Vec3::new(0.1, 0.2, 0.0));
+        assert_eq!(stopped(behind_floor, up), up);
+        assert_eq!(stopped(behind_floor * 0.9, down), down);
+        let behind_both = stopped(Vec3::new(0.0, 0.0, -0.01), Vec3::new(-1.0, 0.2, -1.0));
+        assert!(behind_both.z >= 0.0 && behind_both.dot(&steep).abs() < 1e-15);
+        assert_eq!(behind_both.y, 0.2);
     }
 
     // A quarter of a cell is 2.5 mm.

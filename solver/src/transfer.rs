@@ -6,7 +6,7 @@
 //! Within one step the weights stay those of the transfer; the displaced nodes
 //! carry the deformation F̂ of every point (two clocks).
 
-use crate::crowding::{Seen, Spread, Tending, crowding, not_into_wall};
+use crate::crowding::{Seen, Spread, Tending, crowding, not_into_wall, stop_behind_wall};
 use crate::grid::{Grid, Node, PointBlock, TILE, Tile, in_tile};
 use crate::kernel::{Stencil, WIDTH};
 use crate::material::Material;
@@ -284,6 +284,9 @@ pub fn gather_motion(
                 base,
                 &lattice.spacing,
             );
+            let stop = stop_behind_wall(&point.velocity, &point.position, base, &lattice.spacing);
+            point.velocity += stop;
+            spread.stopped.add_at(&point.position, &(stop * point.mass));
             point.position += shift;
             spread.add(point.mass, &shift, &point.velocity);
             point.volume += point.mass / material.bulk_density * (tended.dilation - seen.dilation);

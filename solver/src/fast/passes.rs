@@ -9,6 +9,8 @@ use super::stress::{self, Law, Matrix, Strained};
 use super::tend::{Seen, Shelter, SpreadSums, tend};
 use super::totals::EndSums;
 use crate::crowding::{Tending, crowding};
+use crate::grid::BLOCK;
+use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::sharing::Sharing;
 use fearless_simd::{f32x16, prelude::*};
@@ -53,8 +55,8 @@ impl EndTiles {
 pub struct Ending<'a> {
     /// What the points are made of.
     pub law: &'a Law,
-    /// Node distances [m].
-    pub spacing: &'a Vec3,
+    /// Where the nodes lie.
+    pub lattice: &'a Lattice,
     /// Length of the last sub-step [s].
     pub dt: f32,
     /// How the points are kept evenly spread.
@@ -237,12 +239,13 @@ pub fn substep<S: Simd>(
 pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndTiles) {
     let Ending {
         law,
-        spacing,
+        lattice,
         dt,
         tending,
         shelters,
         roomiest,
     } = *ending;
+    let spacing = &lattice.spacing;
     let mut moments = Moments::EMPTY;
     let mut displacement = Quads::EMPTY;
     let mut twist = Quads::EMPTY;
@@ -274,7 +277,7 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
             ux * vy - uy * vx - tz,
         ];
         let affine = with_angular_momentum(simd, &on_displaced, &a, &added, spacing);
-        let (velocity, mut moved) = ([vx, vy, vz], [ux, uy, uz]);
+        let (arriving, mut moved) = ([vx, vy, vz], [ux, uy, uz]);
         for axis in 0..3 {
             moved[axis] *= splat(simd, 1.0 / spacing[axis]);
         }
@@ -290,10 +293,13 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
             position[axis] += f32x16::simd_from(simd, chunk.position[axis]);
         }
         let mut tended = tend(simd, tending, &seen, &moved);
+        let mut velocity = arriving;
         for shelter in shelters {
             let here = shelter.in_block(&key);
-            here.keep_off(simd, &position, &moved, &mut tended.shift);
+            here.keep_off(simd, &position, &moved, &mut tended.shift, &mut velocity);
         }
+        let change = [0, 1, 2].map(|axis| velocity[axis] - arriving[axis]);
+        spread.stop(simd, chunk, &position, &change, spacing);
         for part in &mut chunk.deviator {
             let before = f32x16::simd_from(simd, *part);
             *part = tended.rise.mul_add(before, before).into();
@@ -311,7 +317,8 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
         }
         sums.add(chunk);
     }
-    block.note_end(sums.end(), spread.total());
+    let origin = lattice.position(key.map(|along| along * BLOCK as i32));
+    block.note_end(sums.end(), spread.total(&origin));
 }
 
 /// h ∇crowding, per axis [1/cell].

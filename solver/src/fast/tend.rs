@@ -5,7 +5,7 @@ use crate::crowding::{DEEPEST, KEPT_OFF, LARGEST_RISE, LARGEST_SHIFT, Spread, Te
 use crate::grid::{BLOCK, BlockKey};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
-use crate::walls::Plane;
+use crate::walls::{Impulse, Plane};
 use fearless_simd::{f32x16, prelude::*};
 
 /// What points have and what the nodes tell them; as in `crowding.rs`, but the
@@ -89,6 +89,8 @@ pub struct Shelter {
     origin: f64,
     /// Normal over node distance [1/m].
     out: [f32; 3],
+    /// Unit normal.
+    normal: [f32; 3],
     /// Height below which points are kept off [m].
     near: f32,
     /// Height below which they go no deeper [m].
@@ -104,6 +106,7 @@ impl Shelter {
             rise: [rise.x as f32, rise.y as f32, rise.z as f32],
             origin: plane.height(&lattice.origin),
             out: [0, 1, 2].map(|axis| (plane.normal[axis] / spacing[axis]) as f32),
+            normal: [0, 1, 2].map(|axis| plane.normal[axis] as f32),
             near: (KEPT_OFF * rise.norm()) as f32,
             deep: (-DEEPEST * rise.norm()) as f32,
         }
@@ -119,7 +122,8 @@ impl Shelter {
     }
 
     /// Takes the part into the plane out of shifts [cells] of points near to it, and
-    /// gives those deep behind it back what they were `moved` into it.
+    /// gives those deep behind it back what they were `moved` into it, and what takes
+    /// them farther into it [m/s] out of their velocities.
     #[inline(always)]
     pub fn keep_off<S: Simd>(
         &self,
@@ -127,15 +131,18 @@ impl Shelter {
         position: &[f32x16<S>; 3],
         moved: &[f32x16<S>; 3],
         shift: &mut [f32x16<S>; 3],
+        velocity: &mut [f32x16<S>; 3],
     ) {
         let none = f32x16::splat(simd, 0.0);
         let mut height = f32x16::splat(simd, self.origin as f32);
-        let (mut along, mut went) = (none, none);
+        let (mut along, mut went, mut goes) = (none, none, none);
         for axis in 0..3 {
             let rise = f32x16::splat(simd, self.rise[axis]);
             height = rise.mul_add(position[axis], height);
             along = rise.mul_add(shift[axis], along);
             went = rise.mul_add(moved[axis], went);
+            let normal = f32x16::splat(simd, self.normal[axis]);
+            goes = normal.mul_add(velocity[axis], goes);
         }
         let near = height.simd_lt(f32x16::splat(simd, self.near));
         let deep = height.simd_lt(f32x16::splat(simd, self.deep));
@@ -144,13 +151,21 @@ impl Shelter {
         for axis in 0..3 {
             shift[axis] = f32x16::splat(simd, self.out[axis]).mul_add(into, shift[axis]);
         }
+        let stop = deep.select((none - goes).max(none), none);
+        for axis in 0..3 {
+            let normal = f32x16::splat(simd, self.normal[axis]);
+            velocity[axis] = normal.mul_add(stop, velocity[axis]);
+        }
     }
 }
 
-/// What shifting points does to their sums, chunk by chunk.
+/// What tending the points of a block does to their sums, chunk by chunk.
 pub struct SpreadSums {
     first_moment: [Lanes; 3],
     angular: [Lanes; 3],
+    /// Impulse of the walls on points deep behind them, and its moment about the
+    /// block's origin.
+    stopped: [[Lanes; 3]; 2],
 }
 
 impl SpreadSums {
@@ -158,7 +173,30 @@ impl SpreadSums {
     pub const NONE: Self = Self {
         first_moment: [[0.0; LANES]; 3],
         angular: [[0.0; LANES]; 3],
+        stopped: [[[0.0; LANES]; 3]; 2],
     };
+
+    /// Takes a chunk in, the velocities [m/s] of its points changed by the walls while
+    /// they were at these positions [cells].
+    #[inline(always)]
+    pub fn stop<S: Simd>(
+        &mut self,
+        simd: S,
+        chunk: &Chunk,
+        position: &[f32x16<S>; 3],
+        change: &[f32x16<S>; 3],
+        spacing: &Vec3,
+    ) {
+        let mass = f32x16::simd_from(simd, chunk.mass);
+        let (mut given, mut arm) = (*change, *position);
+        for axis in 0..3 {
+            given[axis] *= mass;
+            arm[axis] *= splat(simd, spacing[axis]);
+        }
+        for (sums, added) in self.stopped.iter_mut().zip([given, cross(&arm, &given)]) {
+            add(simd, sums, &added);
+        }
+    }
 
     /// Takes a chunk in, shifted by so many cells.
     #[inline(always)]
@@ -175,23 +213,34 @@ impl SpreadSums {
         for axis in 0..3 {
             moved[axis] *= splat(simd, spacing[axis]) * mass;
         }
-        let [x, y, z] = moved;
-        let [vx, vy, vz] = *velocity;
-        let twist = [y * vz - z * vy, z * vx - x * vz, x * vy - y * vx];
-        for axis in 0..3 {
-            let sum = f32x16::simd_from(simd, self.first_moment[axis]) + moved[axis];
-            self.first_moment[axis] = sum.into();
-            let sum = f32x16::simd_from(simd, self.angular[axis]) + twist[axis];
-            self.angular[axis] = sum.into();
-        }
+        add(simd, &mut self.first_moment, &moved);
+        add(simd, &mut self.angular, &cross(&moved, velocity));
     }
 
-    /// The sums.
-    pub fn total(&self) -> Spread {
+    /// The sums of a block whose origin is there [m].
+    pub fn total(&self, origin: &Vec3) -> Spread {
+        let [linear, about_block] = self.stopped.each_ref().map(total);
         Spread {
             first_moment: total(&self.first_moment),
             angular: total(&self.angular),
+            stopped: Impulse {
+                linear,
+                angular: about_block + origin.cross(&linear),
+            },
         }
+    }
+}
+
+#[inline(always)]
+fn cross<S: Simd>(a: &[f32x16<S>; 3], b: &[f32x16<S>; 3]) -> [f32x16<S>; 3] {
+    let ([ax, ay, az], [bx, by, bz]) = (*a, *b);
+    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
+}
+
+#[inline(always)]
+fn add<S: Simd>(simd: S, sums: &mut [Lanes; 3], added: &[f32x16<S>; 3]) {
+    for axis in 0..3 {
+        sums[axis] = (f32x16::simd_from(simd, sums[axis]) + added[axis]).into();
     }
 }
 

@@ -170,7 +170,9 @@ impl Simulation {
         let finished = state.flow.finish(&self.given, &state.bodies, &end, laps);
         state.audit.points_put_back += finished.put_back;
         state.audit.spread(&finished.spread.angular);
+        state.audit.exchange(&finished.spread.stopped);
         state.moments.first_moment += finished.spread.first_moment;
+        state.moments.momentum += finished.spread.stopped.linear;
         let clock = &mut state.clock;
         clock.steps += 1;
         let mut sample = None;

@@ -116,7 +116,7 @@ fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (
             let shelters = base().map(|plane| Shelter::of(&plane, &lattice()));
             let ending = Ending {
                 law: &law,
-                spacing: &spacing,
+                lattice: &lattice(),
                 dt,
                 tending: &tending(),
                 shelters: &shelters,

@@ -325,7 +325,7 @@ impl Flow for FastFlow {
         let (nodes, level) = (&self.nodes, self.level);
         let ending = Ending {
             law: &self.law,
-            spacing: &given.lattice.spacing,
+            lattice: &given.lattice,
             dt: end.dt as f32,
             tending: &end.tending,
             shelters: &self.shelters,
