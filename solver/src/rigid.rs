@@ -181,6 +181,20 @@ impl Body {
         self.velocity().norm() + self.angular_velocity().norm() * self.shape.bounding_radius()
     }
 
+    /// Bound of the acceleration of any of its places under gravity [m/s²] and a load, its
+    /// present turning left out [m/s²]; 0 for a fixed body.
+    pub fn largest_acceleration(&self, gravity: &Vec3, load: &Load) -> f64 {
+        match self.freedom {
+            Freedom::Fixed => 0.0,
+            Freedom::Free | Freedom::InPlane => {
+                let turning = self.inverse_inertia.norm() * load.torque.norm();
+                gravity.norm()
+                    + load.force.norm() / self.mass
+                    + turning * self.shape.bounding_radius()
+            }
+        }
+    }
+
     /// What no place of it exceeds while its momenta last, however it turns [m/s]; 0
     /// for a fixed body.
     pub fn speed_bound(&self) -> f64 {

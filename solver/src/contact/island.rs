@@ -72,7 +72,9 @@ pub fn advance(
     around: &Surroundings,
     dt: f64,
 ) {
-    renew(meetings, &near_pairs(bodies, dt));
+    let acceleration =
+        |place: usize| bodies[place].largest_acceleration(&around.gravity, &flow(place));
+    renew(meetings, &near_pairs(bodies, acceleration, dt));
     if meetings.is_empty() {
         advance_apart(bodies, reports, flow, around, dt);
         return;
@@ -111,7 +113,7 @@ fn advance_apart(
 
 /// Finds who touches whom at the start, before anything moved.
 pub fn meet(bodies: &mut [Body]) -> Vec<Meeting> {
-    let pairs = near_pairs(bodies, 0.0);
+    let pairs = near_pairs(bodies, |_| 0.0, 0.0);
     let mut meetings: Vec<Meeting> = pairs.iter().map(|pair| Meeting::new(*pair)).collect();
     let mut reports = vec![BodyReport::default(); bodies.len()];
     let at_rest = |_| Load::default();
@@ -139,20 +141,24 @@ pub fn hold(bodies: &mut [Body], gravity: &Vec3) {
     }
 }
 
-/// Pairs of bodies, one of them free, that may touch within `dt`, in order.
-fn near_pairs(bodies: &[Body], dt: f64) -> Vec<[usize; 2]> {
+/// Pairs of bodies, one of them free, that may touch within `dt` under accelerations
+/// [m/s²], in order.
+fn near_pairs(bodies: &[Body], acceleration: impl Fn(usize) -> f64, dt: f64) -> Vec<[usize; 2]> {
     if bodies.len() < 2 {
         return Vec::new();
     }
-    let ball = |body: &Body| Ball {
+    let of_place = |(place, body)| reach(body, acceleration(place), dt);
+    let reaches: Vec<f64> = bodies.iter().enumerate().map(of_place).collect();
+    let ball = |(body, reach): (&Body, &f64)| Ball {
         centre: body.state.position,
-        radius: body.shape.bounding_radius() + reach(body, dt),
+        radius: body.shape.bounding_radius() + reach,
     };
-    let mut pairs = overlapping(&bodies.iter().map(ball).collect::<Vec<_>>());
-    pairs.retain(|pair| {
-        let [first, second] = pair.map(|place| &bodies[place]);
-        let free = [first, second].iter().any(|body| is_free(body));
-        free && least_gap(first, second) < reach(first, dt) + reach(second, dt)
+    let balls: Vec<Ball> = bodies.iter().zip(&reaches).map(ball).collect();
+    let mut pairs = overlapping(&balls);
+    pairs.retain(|&[first, second]| {
+        let (one, other) = (&bodies[first], &bodies[second]);
+        let free = is_free(one) || is_free(other);
+        free && least_gap(one, other) < reaches[first] + reaches[second]
     });
     pairs
 }
@@ -161,11 +167,14 @@ fn is_free(body: &Body) -> bool {
     body.is_free()
 }
 
-/// What a body can travel in `dt`, with room for what accelerates it [m].
-fn reach(body: &Body, dt: f64) -> f64 {
+/// What a body can travel in `dt` under an acceleration [m/s²], with room for what else
+/// accelerates it [m].
+fn reach(body: &Body, acceleration: f64, dt: f64) -> f64 {
     let margin = 0.01 * body.shape.sphero_radius();
     match body.freedom {
-        Freedom::Free | Freedom::InPlane => 2.0 * body.largest_speed() * dt + margin,
+        Freedom::Free | Freedom::InPlane => {
+            2.0 * (body.largest_speed() + acceleration * dt) * dt + margin
+        }
         Freedom::Fixed => margin,
     }
 }
@@ -311,7 +320,7 @@ impl Island<'_> {
 /// Velocity Verlet in as many sub-steps as the member that needs most asks for, if that
 /// can be done; a body whose speed is no number asks for no number of them.
 fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surroundings, dt: f64) {
-    let asked = substeps(members, meetings, around.planes, dt);
+    let asked = substeps(members, meetings, around, dt);
     for member in members.iter_mut() {
         member.report.substeps_asked = asked;
     }

@@ -2,6 +2,7 @@
 
 use super::clock::Timing;
 use super::guards::Guards;
+use crate::contact::island::Surroundings;
 use crate::contact::law::ContactLaw;
 use crate::contact::point_body::{PointSphere, Reach};
 use crate::error::SetupError;
@@ -360,6 +361,14 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
 }
 
 impl Setup {
+    /// What bodies move under.
+    pub(super) fn surroundings(&self) -> Surroundings<'_> {
+        Surroundings {
+            planes: &self.planes,
+            gravity: self.gravity,
+        }
+    }
+
     /// Points overlapping none of the bodies are released.
     fn is_free(&self, x: &Vec3, bodies: &[Body]) -> bool {
         let radius = self.flow.as_ref().map_or(0.0, |flow| flow.sphere.radius);

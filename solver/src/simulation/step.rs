@@ -3,8 +3,9 @@
 
 use super::flow::{StepEnd, StepStart, Substep};
 use super::laps::Verb;
+use super::setup::Setup;
 use super::{Simulation, StepInHand, SubstepReport};
-use crate::contact::island::{self, Surroundings};
+use crate::contact::island;
 use crate::contact::point_body::impulse_on_flow;
 use crate::crowding::Tending;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
@@ -74,7 +75,8 @@ impl Simulation {
         let remaining = self.given.timing.sample_time(clock.next_sample) - clock.time;
         let flow = self.given.flow.as_ref();
         let Some(flow) = flow.filter(|_| self.state.flow.count() > 0) else {
-            let longest = self.for_bodies(stability::SUBSTEP_WITHOUT_FLOW);
+            let longest = stability::SUBSTEP_WITHOUT_FLOW;
+            let longest = self.for_bodies(longest, longest);
             return Ok(stability::pace_without_flow(longest, remaining));
         };
         let flow_speed = self.state.flow.fastest();
@@ -86,7 +88,8 @@ impl Simulation {
             .limits
             .substep(fastest)
             .min(flow.contact_substep(&self.state.bodies));
-        let substep = self.for_bodies(substep);
+        let step = flow.limits.substeps_per_step(substep, fastest) * substep;
+        let substep = self.for_bodies(substep, step);
         let limit = flow.limits.shortest_substep();
         if flow.limits.substep(flow_speed) < limit {
             return Err(StepError::TimeStepCollapse {
@@ -99,10 +102,17 @@ impl Simulation {
         Ok(flow.limits.pace(substep, fastest, remaining))
     }
 
-    /// A sub-step no longer than this [s] in which no body asks for too many of its own.
-    fn for_bodies(&self, longest: f64) -> f64 {
+    /// A sub-step no longer than this [s] in which no body asks for too many of its own,
+    /// be it at the end of a `step` [s] that starts now.
+    fn for_bodies(&self, longest: f64, step: f64) -> f64 {
         let free = self.state.bodies.iter().filter(|body| body.is_free());
-        let asked = free.map(|body| island::substeps_alone(body, &self.given.planes, longest));
+        let Setup {
+            planes, gravity, ..
+        } = &self.given;
+        let asked = free.map(|body| {
+            let falling = body.largest_acceleration(gravity, &Load::default());
+            island::substeps_alone(body, planes, falling, longest, step)
+        });
         let most = asked.fold(0.0, f64::max);
         if most > MANY_BODY_SUBSTEPS {
             longest * (MANY_BODY_SUBSTEPS / most)
@@ -132,10 +142,7 @@ impl Simulation {
         }
         let on_bodies = state.flow.on_bodies();
         let flow = |body: usize| on_bodies.get(body).map_or_else(Load::default, |on| on.load);
-        let around = Surroundings {
-            planes: &given.planes,
-            gravity: given.gravity,
-        };
+        let around = given.surroundings();
         let (bodies, meetings) = (&mut state.bodies, &mut state.meetings);
         let reports = &mut scratch.body_reports;
         island::advance(bodies, meetings, reports, flow, &around, dt);

@@ -1,10 +1,11 @@
 //! How many sub-steps of its own an island takes within one of the flow
 //! (docs/method.md, equations 20 and 48).
 
-use super::{Member, Met, body_of, is_free, reach};
+use super::{Member, Met, Side, Surroundings, body_of, is_free, reach};
 use crate::contact::body_body::reduced_mass;
 use crate::contact::body_wall::deepest_overlap;
 use crate::contact::law::ContactLaw;
+use crate::math::Vec3;
 use crate::rigid::Body;
 use crate::walls::Plane;
 
@@ -23,20 +24,39 @@ const LARGEST_TURN: f64 = 0.05;
 pub const MOST_SUBSTEPS: f64 = 100_000.0;
 
 /// Number of body sub-steps that `dt` asks for, whole but kept as a float.
-pub(super) fn substeps(members: &[Member], meetings: &[Met], planes: &[Plane], dt: f64) -> f64 {
-    let alone = members.iter();
-    let alone = alone.map(|member| substeps_alone(member.body, planes, dt));
-    let met = meetings.iter().map(|met| substeps_met(members, met, dt));
+pub(super) fn substeps(
+    members: &[Member],
+    meetings: &[Met],
+    around: &Surroundings,
+    dt: f64,
+) -> f64 {
+    let alone = members.iter().map(|member| {
+        let acceleration = member
+            .body
+            .largest_acceleration(&around.gravity, &member.flow);
+        substeps_alone(member.body, around.planes, acceleration, dt, dt)
+    });
+    let met = meetings
+        .iter()
+        .map(|met| substeps_met(members, met, &around.gravity, dt));
     let count = alone.chain(met).fold(0.0, f64::max);
     count.ceil().max(1.0)
 }
 
-/// Sub-steps that a body asks for by its spin and the walls.
-pub fn substeps_alone(body: &Body, planes: &[Plane], dt: f64) -> f64 {
+/// Sub-steps that a body needs within `dt` for its spin and for the walls that it may
+/// touch in the time `ahead` [s], under this acceleration [m/s²].
+pub fn substeps_alone(
+    body: &Body,
+    planes: &[Plane],
+    acceleration: f64,
+    dt: f64,
+    ahead: f64,
+) -> f64 {
     let turns = body.angular_velocity().norm() * dt / LARGEST_TURN;
-    let speed = body.largest_speed();
+    // What starts from rest is not at rest at the end.
+    let speed = body.largest_speed() + acceleration * dt;
     let deepest = deepest_overlap(body, planes);
-    let contacts = if deepest + reach(body, dt) > 0.0 {
+    let contacts = if deepest + reach(body, acceleration, ahead) > 0.0 {
         let law = &body.wall_law;
         let impact = impact_overlap(law, body.mass, speed);
         dt / longest(law, deepest.max(impact), lightest_effective_mass(body))
@@ -47,10 +67,17 @@ pub fn substeps_alone(body: &Body, planes: &[Plane], dt: f64) -> f64 {
 }
 
 /// Sub-steps that two bodies ask for.
-fn substeps_met(members: &[Member], met: &Met, dt: f64) -> f64 {
+fn substeps_met(members: &[Member], met: &Met, gravity: &Vec3, dt: f64) -> f64 {
     let [first, second] = met.sides.map(|side| body_of(members, side));
     let free = || [first, second].into_iter().filter(|body| is_free(body));
-    let speed = free().map(Body::largest_speed).sum();
+    let gained = met.sides.iter().map(|side| match side {
+        Side::Member(place) => {
+            let Member { body, flow, .. } = &members[*place];
+            body.largest_acceleration(gravity, flow) * dt
+        }
+        Side::Barrier(_) => 0.0,
+    });
+    let speed = gained.chain(free().map(Body::largest_speed)).sum();
     let impact = impact_overlap(&met.law, reduced_mass(first, second), speed);
     let inverse: f64 = free().map(|body| 1.0 / lightest_effective_mass(body)).sum();
     let deepest = met.meeting.deepest.max(impact);
