@@ -3,8 +3,10 @@
 use super::range::{Rule, rounded_up, short};
 use super::reader::Object;
 use super::report::Report;
-use super::rules::{BODY_SAMPLES, SAMPLE_INTERVAL, SOFTEST, SOUND_SPEED, YOUNGS_MODULUS};
-use super::{Flow, Numerics};
+use super::rules::{
+    BODY_SAMPLES, SAMPLE_INTERVAL, SLOWEST_SOUND, SOFTEST, SOUND_SPEED, YOUNGS_MODULUS,
+};
+use super::{Channel, Flow, Numerics};
 
 /// The second field must not be below the first.
 pub(super) fn ascend(
@@ -51,23 +53,29 @@ pub(super) fn samples_are_bounded(
     }
 }
 
-/// A release must not be crushed by its own weight: p = ρ g H presses a bulk of sound
-/// speed c together by g H/c².
+/// A release must not be crushed by its own weight, p = ρ g H presses a bulk of sound
+/// speed c together by g H/c², nor a flow where it strikes a wall.
 pub(super) fn flow_carries_itself(
     report: &Report,
+    channel: &Channel,
     flow: &Flow,
     numerics: &Numerics,
     gravity_m_s2: f64,
 ) {
     let material = &flow.material;
-    let slowest = SOFTEST * (gravity_m_s2 * flow.release.height_m).sqrt();
-    let why = |value: f64| {
+    let for_weight = SOFTEST * (gravity_m_s2 * flow.release.height_m).sqrt();
+    let fastest = channel.fastest_flow(flow, gravity_m_s2);
+    let slowest = for_weight.max(SLOWEST_SOUND * fastest);
+    let reason = if slowest > for_weight {
         format!(
-            "is {}, so soft that the release's own weight would press it together by a third \
-             or more",
-            short(value)
+            "that the flow, which may reach {} m/s, would be more than twice as fast as its \
+             own sound",
+            short(fastest)
         )
+    } else {
+        "that the release's own weight would press it together by a third or more".to_owned()
     };
+    let why = |value: f64| format!("is {}, so soft {reason}", short(value));
     if let Some(speed) = numerics.sound_speed_m_s.filter(|&speed| speed < slowest) {
         let allowed = format!("x >= {}, or null", short(rounded_up(slowest)));
         let pointer = format!("/numerics/{}", SOUND_SPEED.key);

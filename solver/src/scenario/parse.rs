@@ -102,8 +102,8 @@ impl Draft {
         }
         if let (Some(flow), Some(numerics)) = (flow, &self.numerics) {
             stiffness_is_given_once(report, flow, numerics);
-            if let Some(gravity) = self.gravity_m_s2 {
-                flow_carries_itself(report, flow, numerics, gravity);
+            if let (Some(channel), Some(gravity)) = (&self.channel, self.gravity_m_s2) {
+                flow_carries_itself(report, channel, flow, numerics, gravity);
             }
         }
         self.check_accuracy(report);

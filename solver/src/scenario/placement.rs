@@ -79,6 +79,20 @@ impl Channel {
         }
     }
 
+    /// Speed [m/s] a flow may reach under this gravity [m/s²]: the back of the release
+    /// sliding to the foot against base friction, and the release collapsing, as energies
+    /// (docs/method.md, equation 31).
+    pub fn fastest_flow(&self, flow: &Flow, gravity_m_s2: f64) -> f64 {
+        let (sin, cos) = self.inclination_rad().sin_cos();
+        let sliding = if flow.volume_m3 > 0.0 {
+            let along_slope = -self.release_box(flow).back_m / cos;
+            2.0 * gravity_m_s2 * along_slope * (sin - self.base_friction * cos).max(0.0)
+        } else {
+            0.0
+        };
+        (sliding + gravity_m_s2 * flow.release.height_m).sqrt()
+    }
+
     /// Where a flow is released.
     pub(super) fn release_box(&self, flow: &Flow) -> ReleaseBox {
         let vertical_thickness_m = flow.release.height_m / self.inclination_rad().cos();

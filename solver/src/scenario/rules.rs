@@ -33,6 +33,9 @@ pub(super) const LEAST_THICKNESS: f64 = 2e-5;
 /// Least sound speed over √(g H) of the release: its own weight then takes a third of
 /// its volume.
 pub(super) const SOFTEST: f64 = std::f64::consts::SQRT_2;
+/// Least sound speed over the speed that the flow may reach: what strikes a wall head-on at
+/// half its own sound loses half its volume; at twice it, it need not be head-on.
+pub(super) const SLOWEST_SOUND: f64 = 0.5;
 /// Largest overlap of a body at rest on one vertex, over its sphero radius.
 pub(super) const DEEPEST_AT_REST: f64 = 0.5;
 /// Largest overlap of a body that strikes with one vertex as fast as it starts or

@@ -54,26 +54,16 @@ fn automatic_cell_size(scenario: &Scenario) -> f64 {
     fine.max(affordable).min(scenario.channel.width_m)
 }
 
-/// Speed the flow is expected to reach [m/s]: the back of the release sliding
-/// to the foot against base friction, and the release collapsing, as energies.
+/// Speed the flow is expected to reach [m/s]: its own, or that of the fastest body.
 pub(super) fn expected_speed(scenario: &Scenario) -> f64 {
-    let channel = &scenario.channel;
-    let gravity = scenario.gravity_m_s2;
-    let (sin, cos) = channel.inclination_deg.to_radians().sin_cos();
-    let sliding = scenario.release().map_or(0.0, |release| {
-        let along_slope = -release.back_m / cos;
-        2.0 * gravity * along_slope * (sin - channel.base_friction * cos).max(0.0)
+    let flow = scenario.flow.as_ref();
+    let of_flow = flow.map_or(0.0, |flow| {
+        let channel = &scenario.channel;
+        channel.fastest_flow(flow, scenario.gravity_m_s2)
     });
-    let collapsing = scenario
-        .flow
-        .as_ref()
-        .map_or(0.0, |flow| gravity * flow.release.height_m);
-    let thrown = scenario
-        .bodies
-        .iter()
-        .map(|body| Vec3::from(body.velocity_m_s).norm_squared())
-        .fold(0.0, f64::max);
-    (sliding + collapsing).max(thrown).sqrt()
+    let bodies = scenario.bodies.iter();
+    let thrown = bodies.map(|body| Vec3::from(body.velocity_m_s).norm());
+    thrown.fold(of_flow, f64::max)
 }
 
 /// What a body brings to its contacts.
