@@ -322,7 +322,9 @@ fn look(simulation: &Simulation, figures: &mut Figures) {
     });
     let (mut inside, slack) = (0, ROUNDING * simulation.cell_size_m());
     for body in simulation.bodies() {
-        fastest = fastest.max(body.largest_speed());
+        // As fast as its energy would make it without turning: how fast a corner gets by
+        // turning is a matter of shape.
+        fastest = fastest.max((2.0 * body.kinetic_energy() / body.mass).sqrt());
         finite &= body.non_finite().is_none();
         let radius = body.shape.sphero_radius();
         simulation.visit_points(Some(&Around::body(body, 0.0)), |point| {
