@@ -74,7 +74,8 @@ fn running_jobs_are_dismissed_at_once() {
         let job = served.submit(&scene(600.0));
         served.wait(&job, |job| job["progress"]["steps"].as_u64() > Some(0));
         let (time_s, answer) = seconds(|| ask(&served.address, "DELETE", &job, ""));
-        assert_eq!(answer.expect("an answer").body["status"], "dismissed");
+        let answer = answer.expect("an answer").body;
+        assert_eq!(answer["status"], "dismissed", "{answer}");
         times_s.push(time_s);
     }
     let p99 = percentile(&mut times_s, 0.99);
