@@ -175,7 +175,7 @@ fn the_service_costs_little_beside_the_computation() {
         serde_json::from_slice::<Value>(&run.expect("it runs").stdout).expect("an outcome")
     };
     let as_job = || served.wait(&served.submit(&long), has_ended)["outcome"].clone();
-    let (mut alone_s, mut with_s, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut alone_s, mut with_s) = (Vec::new(), Vec::new());
     for round in 0..rounds {
         // Whichever comes first has no advantage.
         let (run, job) = if round % 2 == 0 {
@@ -188,8 +188,11 @@ fn the_service_costs_little_beside_the_computation() {
         assert_eq!(job["bodies"], run["bodies"]);
         alone_s.push(wall_s(&run));
         with_s.push(wall_s(&job));
-        ratios.push((wall_s(&job) / wall_s(&run)).ln());
     }
+    let neighbours = with_s.iter().zip(&alone_s);
+    let ratios: Vec<f64> = neighbours
+        .map(|(with, alone)| (with / alone).ln())
+        .collect();
     let count = rounds as f64;
     let mean = ratios.iter().sum::<f64>() / count;
     let variance = ratios
