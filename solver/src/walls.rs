@@ -9,6 +9,7 @@
 use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
 
+mod bed;
 mod boundary;
 mod columns;
 mod constraint;

@@ -2,7 +2,8 @@
 
 use super::Plane;
 use super::Walls;
-use super::columns::{Column, Rung};
+use super::bed::Surface;
+use super::columns::{Column, Rung, Way};
 use super::constraint::Answer;
 use super::nodes::NodeAccess;
 use super::upright::{Ends, Meets};
@@ -32,9 +33,9 @@ pub(super) struct Group {
     pub(super) side: Meets,
     /// Their mass together [kg].
     pub(super) mass: f64,
-    /// Which base planes act on it alone, as bits: those it is on or below, unless
-    /// it is of a column.
-    pub(super) below: u8,
+    /// Surfaces of the bed that act on it alone: where it is on or below the bed,
+    /// unless it is of a column.
+    pub(super) surfaces: [Option<Surface>; 2],
     /// Share of the kernels that lies above the base planes.
     room: f64,
 }
@@ -81,6 +82,17 @@ impl Boundary {
             }
             share_dilation(members, nodes);
         }
+    }
+
+    /// Places of the nodes that move as one with ghosts of theirs, group by group.
+    pub fn ghost_groups(&self) -> impl Iterator<Item = impl Iterator<Item = usize> + Clone> {
+        self.groups
+            .iter()
+            .filter(|group| group.members.len() > 1)
+            .map(|group| {
+                let members = self.members[group.members.clone()].iter();
+                members.map(|member| member.place as usize)
+            })
     }
 
     /// The mean strain rate of a node's points takes in those of its images; on a
@@ -215,7 +227,6 @@ impl Walls {
         boundary: &mut Boundary,
     ) {
         let resting = nodes.lattice().position(index);
-        let below = self.below(&resting);
         let start = boundary.members.len();
         boundary.members.push(Member {
             place: place as u32,
@@ -233,6 +244,8 @@ impl Walls {
             });
         let back = self.upright.meets_back(index);
         let side = self.upright.meets_side(index);
+        let on_back_wall = matches!(back, Meets::On { .. });
+        let surfaces = self.surfaces_over(index, on_back_wall, nodes.lattice());
         let alone = boundary.members.len() == start + 1;
         let group = boundary.groups.len() as u32;
         let known = boundary.rungs.len();
@@ -240,7 +253,7 @@ impl Walls {
         boundary.rungs.extend(rungs);
         let of_column = boundary.rungs.len() > known;
         let upright = back != Meets::Not || side != Meets::Not;
-        let plain = alone && below == 0 && !upright && !of_column;
+        let plain = alone && surfaces == [None; 2] && !upright && !of_column;
         let empty = alone && nodes.mass(place) <= 0.0;
         if plain || empty {
             boundary.members.truncate(start);
@@ -264,7 +277,7 @@ impl Walls {
             mass,
             back,
             side,
-            below,
+            surfaces,
             room,
         });
     }
@@ -285,13 +298,29 @@ impl Walls {
         }
     }
 
-    fn below(&self, x: &Vec3) -> u8 {
+    /// Surfaces of the bed that a node is on or below: of vertical columns the mean
+    /// bed there, of horizontal ones their plane.
+    fn surfaces_over(
+        &self,
+        index: [i32; 3],
+        on_back_wall: bool,
+        lattice: &Lattice,
+    ) -> [Option<Surface>; 2] {
+        let x = lattice.position(index);
         // A node that lies on the plane but for rounding belongs to it.
         let rounding = 1e-9 * (1.0 + x.norm());
-        self.base
-            .iter()
-            .enumerate()
-            .filter(|(_, plane)| plane.height(x) <= rounding)
-            .fold(0, |bits, (which, _)| bits | 1 << which)
+        // The floor acts before a steep incline, as it comes first in the base.
+        [Way::Standing, Way::Lying].map(|way| {
+            let of_way = self.base.iter().enumerate();
+            let (plane, _) = of_way
+                .filter(|(_, plane)| Way::of(plane) == way && plane.height(&x) <= rounding)
+                .max_by(|one, other| other.1.height(&x).total_cmp(&one.1.height(&x)))?;
+            let surface = self.surface_at(plane, way, index[0], lattice);
+            Some(if on_back_wall {
+                surface.at_back_wall()
+            } else {
+                surface
+            })
+        })
     }
 }

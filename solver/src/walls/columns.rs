@@ -6,6 +6,7 @@
 //! (docs/method.md, equations 29–29c). So the motion near the base is a linear one,
 //! where nodes that are each held on their own would let it slip.
 
+use super::bed::Surface;
 use super::boundary::{Boundary, Group};
 use super::constraint::{Answer, constrain_to};
 use super::upright::Meets;
@@ -42,7 +43,7 @@ impl Way {
         }
     }
 
-    fn of(plane: &Plane) -> Self {
+    pub(super) fn of(plane: &Plane) -> Self {
         if plane.normal.x.abs() > STEEP * plane.normal.z {
             Self::Lying
         } else {
@@ -66,9 +67,8 @@ pub(super) struct Rung {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Column {
     rungs: Range<usize>,
-    /// The base plane it stands on.
-    plane: usize,
-    against_back_wall: bool,
+    /// The bed at its foot.
+    surface: Surface,
     /// Inverse of the mass matrix of a and b [1/kg]: aa, ab, bb.
     mobility: [f64; 3],
     /// Shares of a and b in the velocity at the base.
@@ -81,14 +81,14 @@ fn shares(depth: f64) -> [f64; 2] {
 }
 
 impl Column {
-    /// The column of these rungs, on this plane `gap` node distances behind the
+    /// The column of these rungs, on a surface `gap` node distances behind the
     /// first node; `None` if nodes with mass are too few or an upright wall holds
     /// one of them across the way.
     fn new(
         all: &[Rung],
         rungs: Range<usize>,
         groups: &[Group],
-        plane: usize,
+        surface: Surface,
         gap: f64,
     ) -> Option<Self> {
         let group = |rung: &Rung| &groups[rung.group as usize];
@@ -114,8 +114,11 @@ impl Column {
         let determinant = mass * mass * spread;
         Some(Self {
             rungs,
-            plane,
-            against_back_wall,
+            surface: if against_back_wall {
+                surface.at_back_wall()
+            } else {
+                surface
+            },
             mobility: [bb, -ab, aa].map(|of| of / determinant),
             at_base: shares(gap),
         })
@@ -141,11 +144,11 @@ impl Column {
     }
 
     /// What the base makes of them: no inflow at its place, and friction there.
-    fn stopped(&self, plane: &Plane, ends: [Vec3; 2]) -> [Vec3; 2] {
+    fn stopped(&self, ends: [Vec3; 2]) -> [Vec3; 2] {
         let [a, b] = self.at_base;
         let arriving = ends[0] * a + ends[1] * b;
         let mut left = arriving;
-        constrain_to(plane, self.against_back_wall, &mut left);
+        constrain_to(&self.surface, &mut left);
         if left == arriving {
             return ends;
         }
@@ -221,10 +224,11 @@ impl Walls {
             let end = start + alike.len();
             let Rung { way, across, .. } = alike[0];
             if let Some((plane, gap, _)) = self.foot(way, across, lattice)
-                && let Some(column) = Column::new(rungs, start..end, groups, plane, gap)
+                && let surface = self.surface_at(plane, way, across[0], lattice)
+                && let Some(column) = Column::new(rungs, start..end, groups, surface, gap)
             {
                 for rung in alike {
-                    groups[rung.group as usize].below = 0;
+                    groups[rung.group as usize].surfaces = [None; 2];
                 }
                 columns.push(column);
             }
@@ -251,11 +255,7 @@ impl Walls {
                 .with_min_len(TASK)
                 .map(|column| {
                     let ends = column.fitted(&rungs[column.rungs.clone()], groups, answers);
-                    if acts {
-                        column.stopped(&self.base[column.plane], ends)
-                    } else {
-                        ends
-                    }
+                    if acts { column.stopped(ends) } else { ends }
                 })
                 .collect_into_vec(ends);
             for (column, [a, b]) in alike.iter().zip(ends.iter()) {

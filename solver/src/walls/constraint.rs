@@ -1,9 +1,10 @@
 //! What walls do to the motion of nodes.
 
+use super::bed::Surface;
 use super::boundary::{Boundary, Group, Member};
 use super::nodes::NodeAccess;
 use super::upright::Meets;
-use super::{Impulse, Plane, Walls};
+use super::{Impulse, Walls};
 use crate::math::Vec3;
 use rayon::prelude::*;
 
@@ -124,11 +125,8 @@ impl Walls {
     /// The same with the base planes that act on it alone.
     fn velocity_of(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Vec3 {
         let mut velocity = self.joint_velocity(group, members, nodes);
-        let against_back_wall = matches!(group.back, Meets::On { .. });
-        for (which, plane) in self.base.iter().enumerate() {
-            if group.below & 1 << which != 0 {
-                constrain_to(plane, against_back_wall, &mut velocity);
-            }
+        for surface in group.surfaces.iter().flatten() {
+            constrain_to(surface, &mut velocity);
         }
         velocity
     }
@@ -214,21 +212,14 @@ fn rub(axis: usize, largest_loss: f64, velocity: &mut Vec3) {
     velocity[axis] = normal;
 }
 
-/// No inflow through a base plane, and friction on what was stopped.
-pub(super) fn constrain_to(plane: &Plane, against_back_wall: bool, velocity: &mut Vec3) {
-    // On the back wall only the vertical is left to move in, so the incline
-    // acts along it there.
-    let normal = if against_back_wall {
-        Vec3::z()
-    } else {
-        plane.normal
-    };
-    let inflow = -velocity.dot(&normal);
+/// No inflow through a surface, and friction on what was stopped.
+pub(super) fn constrain_to(surface: &Surface, velocity: &mut Vec3) {
+    let inflow = -velocity.dot(&surface.normal);
     if inflow <= 0.0 {
         return;
     }
-    let tangential = *velocity + normal * inflow;
-    *velocity = tangential * kept_by_friction(plane.flow_friction * inflow, tangential.norm());
+    let tangential = *velocity + surface.normal * inflow;
+    *velocity = tangential * kept_by_friction(surface.friction * inflow, tangential.norm());
 }
 
 /// Share of a tangential speed that Coulomb friction leaves.

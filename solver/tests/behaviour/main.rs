@@ -12,6 +12,7 @@ mod balances;
 mod bodies_alone;
 mod bodies_together;
 mod column_at_rest;
+mod grid_phase;
 mod guards;
 mod heap;
 mod layers;
