@@ -4,7 +4,7 @@
 //! tiles are then added to the nodes in a fixed order. So the work runs in
 //! parallel without locks and gives the same bits for any number of threads.
 
-use crate::kernel::{Lattice, Stencil, WIDTH};
+use crate::kernel::{Lattice, PointStencil, Stencil, WIDTH};
 use crate::math::{Sym3, Vec3};
 use layout::{Layout, OCTANTS, there, within};
 use rayon::prelude::*;
@@ -260,6 +260,19 @@ impl Grid {
             displacement += node.displacement * weight;
         }
         (velocity, displacement)
+    }
+
+    /// Nodes at a point's transfer position: place and weight of each.
+    pub fn stencil_at(&self, block: &PointBlock, stencil: &Stencil) -> PointStencil {
+        let local =
+            [0, 1, 2].map(|axis| (stencil.base[axis] - block.key[axis] * BLOCK as i32) as usize);
+        std::array::from_fn(|n| {
+            let [a, b, c] = [n / (WIDTH * WIDTH), n / WIDTH % WIDTH, n % WIDTH];
+            let (octant, node) = within([local[0] + a, local[1] + b, local[2] + c]);
+            let place = block.reach[octant] * BLOCK_NODES as u32 + node as u32;
+            let weight = stencil.weight[0][a] * stencil.weight[1][b] * stencil.weight[2][c];
+            (place, weight)
+        })
     }
 
     /// v ← v + Δt (f/m + g) at every node with mass.

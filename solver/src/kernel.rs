@@ -5,6 +5,8 @@ use crate::math::Vec3;
 
 /// Nodes per axis a point touches.
 pub const WIDTH: usize = 3;
+/// Nodes a point exchanges momentum with: place and weight of each.
+pub type PointStencil = [(u32, f64); WIDTH * WIDTH * WIDTH];
 /// Half the kernel's width [node distances].
 pub const REACH: f64 = 1.5;
 

@@ -6,7 +6,7 @@ use scree_solver::material::{Material, Yielding};
 use scree_solver::math::{Mat3, Sym3, Vec3};
 use scree_solver::points::Point;
 use scree_solver::scenario::Precision;
-use scree_solver::simulation::{GivenFlow, Guards, Scene, Setup, Timing};
+use scree_solver::simulation::{Expected, GivenFlow, Guards, Scene, Setup, Timing};
 use scree_solver::walls::{Ends, Plane, Upright, Walls};
 
 /// Points per cell and axis, as a scenario has them by default.
@@ -120,10 +120,20 @@ impl Block {
                 self.material,
                 &lattice,
                 self.point_volume(),
-                self.expected_speed,
+                self.expected(),
             )),
             lattice,
+            partners: Vec::new(),
             guards: Guards::ANY_SPEED,
+        }
+    }
+
+    fn expected(&self) -> Expected {
+        let height = self.cell * f64::from(self.cells[2]);
+        Expected {
+            speed: self.expected_speed,
+            pressing_speed: self.expected_speed,
+            static_pressure: 0.5 * self.material.bulk_density * self.gravity * height,
         }
     }
 

@@ -6,7 +6,7 @@ use super::rows::Tile;
 use super::stencil::weights;
 use crate::grid::layout::{Layout, OCTANTS, there, within};
 use crate::grid::{BLOCK, BLOCK_NODES, BlockKey, TILE, in_block, in_tile};
-use crate::kernel::{Lattice, WIDTH};
+use crate::kernel::{Lattice, PointStencil, WIDTH};
 use crate::math::{Sym3, Vec3};
 use crate::walls::NodeAccess;
 use fearless_simd::{Level, dispatch, f32x4, f32x8, f32x16, prelude::*};
@@ -196,6 +196,19 @@ impl Nodes {
             }
         }
         (vector(&velocity), vector(&displacement))
+    }
+
+    /// Nodes at a place in a block of points: place and weight of each.
+    pub fn stencil_at(&self, block: usize, position: &[f32; 3]) -> PointStencil {
+        let (base, weight) = weights(position);
+        let reach = self.layout.reach(block);
+        std::array::from_fn(|n| {
+            let [a, b, c] = [n / (WIDTH * WIDTH), n / WIDTH % WIDTH, n % WIDTH];
+            let (octant, node) = within([base[0] + a, base[1] + b, base[2] + c]);
+            let place = reach[octant] * BLOCK_NODES as u32 + node as u32;
+            let weight = weight[0][a] * weight[1][b] * weight[2][c];
+            (place, f64::from(weight))
+        })
     }
 
     /// Bytes held for nodes.

@@ -107,10 +107,16 @@ fn stiffness(scenario: &Scenario, outline: &Outline) -> Choice {
         .and_then(|flow| flow.material.youngs_modulus_pa);
     let found = match &outline.given.flow {
         None => Err("there is no flow".to_owned()),
-        Some(_) if given || modulus.is_some() => Err("the stiffness is given".to_owned()),
+        Some(flow) if given || modulus.is_some() => Err(format!(
+            "the stiffness is given: where the flow or a body presses hardest, density \
+             varies by about {:.2} %",
+            100.0 * flow.density_change(scenario)
+        )),
         Some(flow) => Ok(format!(
-            "sound at {:.2} m/s is ten times faster than the flow is expected to be",
-            flow.limits.sound_speed
+            "sound at {:.2} m/s: where the flow or a body presses hardest, density varies \
+             by about {:.2} %",
+            flow.limits.sound_speed,
+            100.0 * flow.density_change(scenario)
         )),
     };
     choice(

@@ -208,10 +208,25 @@ pub struct Numerics {
     pub symmetry: Symmetry,
     /// How a flow is computed before it varies across the channel.
     pub approach: Approach,
+    /// Formulation of contacts between points and bodies.
+    pub coupling: Coupling,
     /// When the run ends.
     pub ending: Ending,
     /// Solver threads.
     pub threads: Option<usize>,
+}
+
+/// Formulation of contacts between points and bodies. As JSON `"half_spacing"` or
+/// `"source_paper"`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Coupling {
+    /// A point's centre stands off by half the point spacing, where the continuum's
+    /// surface is; the overlap carries the largest pressure expected.
+    #[default]
+    HalfSpacing,
+    /// A point is a sphere of its own volume, as stiff as the material (P3).
+    SourcePaper,
 }
 
 /// Arithmetic of the flow, its points and its grid; bodies, time and audits are

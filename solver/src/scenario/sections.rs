@@ -4,7 +4,9 @@ use super::agreement::ascend;
 use super::node::Node;
 use super::reader::Object;
 use super::rules::*;
-use super::{Approach, Channel, Ending, Flow, Material, Numerics, Precision, Release, Symmetry};
+use super::{
+    Approach, Channel, Coupling, Ending, Flow, Material, Numerics, Precision, Release, Symmetry,
+};
 
 /// Words for the precision.
 pub(super) const PRECISIONS: [(&str, Precision); 2] =
@@ -22,6 +24,12 @@ pub(super) const APPROACHES: [(&str, Approach); 3] = [
     ("auto", Approach::Auto),
     ("full", Approach::Full),
     ("slab", Approach::Slab),
+];
+
+/// Words for the coupling.
+pub(super) const COUPLINGS: [(&str, Coupling); 2] = [
+    ("half_spacing", Coupling::HalfSpacing),
+    ("source_paper", Coupling::SourcePaper),
 ];
 
 /// Words for the ending.
@@ -129,6 +137,7 @@ pub(super) fn read_numerics(parent: &Object<'_>) -> Option<Numerics> {
     let precision = object.choice("precision", &PRECISIONS, Some(Precision::default()));
     let symmetry = object.choice("symmetry", &SYMMETRIES, Some(Symmetry::default()));
     let approach = object.choice("approach", &APPROACHES, Some(Approach::default()));
+    let coupling = object.choice("coupling", &COUPLINGS, Some(Coupling::default()));
     let ending = object.choice("ending", &ENDINGS, Some(Ending::default()));
     let threads = object.automatic_count(&THREADS);
     object.refuse_unknown();
@@ -141,6 +150,7 @@ pub(super) fn read_numerics(parent: &Object<'_>) -> Option<Numerics> {
         precision: precision?,
         symmetry: symmetry?,
         approach: approach?,
+        coupling: coupling?,
         ending: ending?,
         threads: threads?.map(|threads| threads as usize),
     })

@@ -31,7 +31,9 @@ use std::sync::Arc;
 pub use clock::Timing;
 pub use guards::Guards;
 pub use laps::{LapWatch, Verb};
-pub use setup::{Columns, GivenFlow, Outline, Reductions, Scene, Setup, Share, Shares};
+pub use setup::{
+    Columns, Expected, GivenFlow, Outline, Reductions, Scene, Setup, Share, Shares,
+};
 
 /// A run in progress: what is given, what changes, and scratch.
 #[derive(Debug)]

@@ -11,7 +11,7 @@ use crate::material::{Material, Yielding};
 use crate::math::Vec3;
 use crate::points::Point;
 use crate::rigid::Body;
-use crate::scenario::{self, Precision, Scenario};
+use crate::scenario::{self, Coupling, Precision, Scenario};
 use crate::stability::{Limits, Pace};
 use crate::walls::{Ends, Plane, Upright, Walls};
 
@@ -26,21 +26,24 @@ mod symmetry;
 use bodies::bodies;
 pub use reductions::Reductions;
 pub use release::Columns;
+pub use resolution::Expected;
 pub use share::{Share, Shares};
 pub(super) use symmetry::near_body;
 
-/// Default Courant number of the sub-step.
-const COURANT: f64 = 0.4;
+/// Default Courant number of the sub-step: a lone point is stable up to 1, a flow up to
+/// about 2 (docs/decisions/0021-what-a-step-costs.md).
+const COURANT: f64 = 0.8;
 /// Default travel of the fastest point per step, in cells.
 const FLOW_COURANT: f64 = 0.2;
 /// A flow slower than this share of its expected speed is transferred as
 /// often as if it had that speed.
 const SLOW: f64 = 1.0;
-/// Sound speed over expected flow speed: density varies by its inverse square
-/// under steady load.
+/// Sound speed over the speed whose dynamic pressure is the largest one expected:
+/// density varies by its inverse square under steady load.
 const STIFFNESS_FACTOR: f64 = 10.0;
-/// Overlap of a point and a body, over the point spacing, at which the
-/// contact is as stiff as the material between two points.
+/// Overlap of a point and a body, over the point spacing, that carries the largest
+/// pressure expected; at this overlap a contact is no stiffer than the material
+/// between two points.
 const REFERENCE_OVERLAP: f64 = 0.1;
 /// Share of a body's own contact time scale allowed per sub-step.
 const BODY_CONTACT_SHARE: f64 = 0.5;
@@ -79,6 +82,9 @@ pub struct Setup {
     pub walls: Walls,
     /// The walls as bodies meet them.
     pub planes: Vec<Plane>,
+    /// Mirror image of each body where half of a symmetric flow is computed; empty
+    /// where all is.
+    pub partners: Vec<usize>,
     /// x of the open end [m].
     pub open_end: f64,
     /// The flow, if there is one.
@@ -94,8 +100,10 @@ pub struct GivenFlow {
     pub material: Material,
     /// What bounds its steps.
     pub limits: Limits,
-    /// What points are to bodies.
+    /// Spheres that points are to bodies.
     pub sphere: PointSphere,
+    /// Pressure over relative overlap δ/l at the reference overlap [Pa].
+    contact_modulus: f64,
 }
 
 /// A scene without its points: what can be known of a run before it is set up.
@@ -192,8 +200,10 @@ impl Setup {
         let flow = scenario.flow.as_ref().zip(columns.as_ref());
         let flow = flow.map(|(flow, columns)| {
             let material = material(scenario, &flow.material);
-            let speed = resolution::expected_speed(scenario);
-            let mut flow = GivenFlow::new(material, &lattice, columns.volume, speed);
+            let expected = resolution::expected(scenario);
+            let coupling = scenario.numerics.coupling;
+            let mut flow = GivenFlow::new(material, &lattice, columns.volume, expected);
+            flow.couple(coupling, columns.volume);
             let (numerics, limits) = (&scenario.numerics, &mut flow.limits);
             limits.courant = numerics.courant.unwrap_or(limits.courant);
             limits.flow_courant = numerics.flow_courant.unwrap_or(limits.flow_courant);
@@ -209,6 +219,7 @@ impl Setup {
             lattice,
             planes: walls.planes().copied().collect(),
             walls,
+            partners: Vec::new(),
             open_end: channel.runout_length_m,
             flow,
             guards: guards(scenario),
@@ -216,10 +227,12 @@ impl Setup {
         Ok((given, columns))
     }
 
-    /// The same between other walls.
-    pub(super) fn between(&self, walls: Walls) -> Self {
+    /// The same between other walls, with the mirror image of each body if one of
+    /// them is a mirror.
+    pub(super) fn between(&self, walls: Walls, partners: Vec<usize>) -> Self {
         Self {
             walls,
+            partners,
             ..self.clone()
         }
     }
@@ -250,15 +263,24 @@ impl Setup {
 }
 
 impl GivenFlow {
-    /// A flow of points of this volume [m³] on a lattice, expected to reach this
-    /// speed [m/s], at the default Courant numbers.
+    /// A flow of points of this volume [m³] on a lattice, where such speeds and pressures
+    /// are expected, at the default Courant numbers.
     pub fn new(
         material: Material,
         lattice: &Lattice,
         point_volume: f64,
-        expected_speed: f64,
+        expected: Expected,
     ) -> Self {
         let spacing = point_volume.cbrt();
+        let pressure = material.bulk_density * expected.pressing_speed.powi(2);
+        let modulus = (pressure / REFERENCE_OVERLAP).min(material.p_wave_modulus() / 1.5);
+        // Hertz: (δ/δ_ref)^1.5 is the pressure over that at the reference overlap.
+        let share = expected.static_pressure / (modulus * REFERENCE_OVERLAP);
+        let at_rest = if share > 0.0 && share.is_finite() {
+            REFERENCE_OVERLAP * share.powf(2.0 / 3.0)
+        } else {
+            0.0
+        };
         Self {
             limits: Limits {
                 p_wave_speed: material.p_wave_speed(),
@@ -267,24 +289,42 @@ impl GivenFlow {
                 courant: COURANT,
                 flow_courant: FLOW_COURANT,
                 body_contact_share: BODY_CONTACT_SHARE,
-                slow: SLOW * expected_speed,
+                slow: SLOW * expected.speed,
             },
             sphere: PointSphere {
-                radius: (3.0 * point_volume / (4.0 * std::f64::consts::PI)).cbrt(),
-                impedance: material.bulk_density * material.p_wave_speed() * spacing * spacing,
+                radius: (0.5 + at_rest) * spacing,
                 spacing,
             },
+            contact_modulus: modulus,
             material,
         }
     }
 
-    /// Law of a body's contacts with points: as stiff at the reference overlap
-    /// as a column of material one point wide, M l (equation 22).
+    /// Chooses the formulation of contacts between points and bodies.
+    fn couple(&mut self, coupling: Coupling, point_volume: f64) {
+        match coupling {
+            Coupling::HalfSpacing => {}
+            Coupling::SourcePaper => {
+                self.sphere.radius = (3.0 * point_volume / (4.0 * std::f64::consts::PI)).cbrt();
+                self.contact_modulus = self.material.p_wave_modulus() / 1.5;
+            }
+        }
+    }
+
+    /// Relative change of density under the largest pressure that a scenario makes
+    /// expect.
+    pub fn density_change(&self, scenario: &Scenario) -> f64 {
+        let pressing_speed = resolution::expected(scenario).pressing_speed;
+        (pressing_speed / self.limits.sound_speed).powi(2)
+    }
+
+    /// Law of a body's contacts with points: at the reference overlap a point carries
+    /// the largest pressure expected on its cross-section l² (equation 22).
     pub fn contact_law(&self, damping: f64, friction: f64) -> ContactLaw {
         let spacing = self.sphere.spacing;
-        let tangent = self.material.p_wave_modulus() * spacing;
+        let overlap = REFERENCE_OVERLAP * spacing;
         ContactLaw {
-            stiffness: tangent / (1.5 * (REFERENCE_OVERLAP * spacing).sqrt()),
+            stiffness: self.contact_modulus * spacing / overlap.sqrt(),
             ..ContactLaw::damped(0.0, 1.0, damping, friction)
         }
     }
@@ -292,9 +332,10 @@ impl GivenFlow {
     /// Longest sub-step at which a free body covered with points does not ring
     /// against them unstably [s] (docs/method.md, equation 26).
     pub fn contact_substep(&self, bodies: &[Body]) -> f64 {
-        let modulus = self.material.p_wave_modulus();
+        let overlap = REFERENCE_OVERLAP * self.sphere.spacing;
         let of_body = |body: &Body| {
-            let stiffness = modulus * self.sphere.spacing * self.sphere.most_touching(body);
+            let points = self.sphere.most_touching(body);
+            let stiffness = body.flow_law.tangent_stiffness(overlap) * points;
             self.limits.body_contact_share * (body.mass / stiffness).sqrt()
         };
         bodies
@@ -306,14 +347,17 @@ impl GivenFlow {
 }
 
 /// Granular material with the stiffness asked for, or a sound speed of
-/// [`STIFFNESS_FACTOR`] times the fastest flow expected.
+/// [`STIFFNESS_FACTOR`] times the speed of the largest dynamic pressure expected.
 fn material(scenario: &Scenario, given: &scenario::Material) -> Material {
     let nu = given.poissons_ratio;
     let density = given.bulk_density_kg_m3;
     let bulk_modulus = match (given.youngs_modulus_pa, scenario.numerics.sound_speed_m_s) {
         (Some(youngs_modulus), _) => youngs_modulus / (3.0 * (1.0 - 2.0 * nu)),
         (None, Some(sound_speed)) => density * sound_speed.powi(2),
-        (None, None) => density * (STIFFNESS_FACTOR * resolution::expected_speed(scenario)).powi(2),
+        (None, None) => {
+            let pressing_speed = resolution::expected(scenario).pressing_speed;
+            density * (STIFFNESS_FACTOR * pressing_speed).powi(2)
+        }
     };
     Material {
         bulk_density: density,
@@ -367,20 +411,6 @@ impl Setup {
             planes: &self.planes,
             gravity: self.gravity,
         }
-    }
-
-    /// Points overlapping none of the bodies are released.
-    fn is_free(&self, x: &Vec3, bodies: &[Body]) -> bool {
-        let radius = self.flow.as_ref().map_or(0.0, |flow| flow.sphere.radius);
-        bodies.iter().all(|body| {
-            let arm = x - body.state.position;
-            let reach = radius + body.shape.bounding_radius();
-            let overlaps = || {
-                let closest = body.shape.closest_feature(&body.to_body(&arm));
-                closest.distance < radius + body.shape.sphero_radius()
-            };
-            arm.norm() > reach || !overlaps()
-        })
     }
 }
 

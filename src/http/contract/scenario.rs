@@ -261,6 +261,9 @@ pub struct NumericsDocument {
     /// How a flow is computed before it varies across the channel.
     #[schema(required = false)]
     pub approach: ApproachDocument,
+    /// Formulation of contacts between points and bodies.
+    #[schema(required = false)]
+    pub coupling: CouplingDocument,
     /// When the run ends.
     #[schema(required = false)]
     pub ending: EndingDocument,
@@ -303,6 +306,17 @@ pub enum ApproachDocument {
     Full,
     /// In a slab; a scene that varies across from the start is refused.
     Slab,
+}
+
+/// Formulation of contacts between points and bodies.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = Coupling)]
+pub enum CouplingDocument {
+    /// A point's centre stands off by half the point spacing.
+    HalfSpacing,
+    /// A point is a sphere of its own volume (source paper, P3).
+    SourcePaper,
 }
 
 /// When a run ends.

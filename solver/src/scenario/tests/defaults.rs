@@ -27,7 +27,8 @@ fn the_minimal_scenario_has_the_documented_defaults() {
         "gravity_m_s2": 9.81, "duration_s": 3.0, "sample_interval_s": 0.01, "flow_snapshots": 6,
         "numerics": {"cell_size_m": null, "points_per_cell": 8, "sound_speed_m_s": null,
                      "courant": null, "flow_courant": null, "precision": "single",
-                     "symmetry": "auto", "approach": "auto", "ending": "auto", "threads": null},
+                     "symmetry": "auto", "approach": "auto", "coupling": "half_spacing",
+                     "ending": "auto", "threads": null},
         "accuracy": {"error_bars": false, "target": null, "quantity": null, "body": 0,
                      "budget_point_steps": 2e10}
     });

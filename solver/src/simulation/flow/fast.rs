@@ -2,7 +2,9 @@
 //! pass over them.
 
 use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
-use crate::contact::point_body::{self, Around, FlowLoad, Loads, PutBack, Stuck};
+use crate::contact::point_body::{
+    self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, PutBack, Stuck,
+};
 use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::{Block, Blocks};
@@ -293,8 +295,14 @@ impl Flow for FastFlow {
             nodes: &self.nodes,
             packing: &self.packing,
         };
+        let grid = CouplingGrid {
+            nodes: &self.nodes,
+            boundary: &self.boundary,
+            partners: &given.partners,
+        };
+        let time = ContactTime { dt, passed };
         self.loads
-            .evaluate(&access, bodies, flow.sphere, dt, passed);
+            .evaluate(&access, grid, bodies, flow.sphere, time);
         self.add_contact_forces();
         laps.done(Verb::Contact);
         self.nodes

@@ -2,12 +2,13 @@
 
 use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
 use crate::contact::point_body::{
-    self, Around, FlowLoad, Loads, Moving, PointAccess, PutBack, Stuck,
+    self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, Moving, PointAccess, PutBack, Stuck,
 };
 use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::instructions::Instructions;
 use crate::grid::Grid;
+use crate::kernel::PointStencil;
 use crate::math::Vec3;
 use crate::points::{self, Deformation, Point};
 use crate::rigid::Body;
@@ -63,6 +64,15 @@ impl PointAccess for Access<'_> {
         self.points[place.point].position
     }
 
+    fn stencil(&self, place: Place) -> PointStencil {
+        let stencil = self
+            .grid
+            .lattice()
+            .stencil(&self.points[place.point].position);
+        let block = &self.grid.point_blocks()[place.block];
+        self.grid.stencil_at(block, &stencil)
+    }
+
     fn moving(&self, place: Place) -> Moving {
         let point = &self.points[place.point];
         let stencil = self.grid.lattice().stencil(&point.position);
@@ -71,7 +81,6 @@ impl PointAccess for Access<'_> {
         Moving {
             position: point.position + displacement,
             velocity,
-            mass: point.mass,
         }
     }
 }
@@ -175,8 +184,14 @@ impl Flow for PlainFlow {
             points: &self.points,
             grid: &self.grid,
         };
+        let grid = CouplingGrid {
+            nodes: &self.grid,
+            boundary: &self.boundary,
+            partners: &given.partners,
+        };
+        let time = ContactTime { dt, passed };
         self.loads
-            .evaluate(&access, bodies, flow.sphere, dt, passed);
+            .evaluate(&access, grid, bodies, flow.sphere, time);
         for (place, force) in &self.loads.on_points {
             self.contact_forces[place.point] += force;
         }

@@ -52,7 +52,11 @@ impl SharedFlow {
 
     /// Without points yet.
     fn of(share: Share, shares: Shares, whole: &Setup, precision: Precision) -> Self {
-        let given = whole.between(share.walls(whole));
+        let partners = match share {
+            Share::Half => shares.partners.clone(),
+            Share::Whole | Share::Slab => Vec::new(),
+        };
+        let given = whole.between(share.walls(whole), partners);
         let mut planes = whole.planes.clone();
         planes.push(given.walls.upright.sides[1]);
         Self {

@@ -9,6 +9,7 @@ use crate::math::{Mat3, Sym3, Vec3};
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::{Channel, ReleaseBox, Scenario};
+use crate::walls::Plane;
 
 /// Largest number of points of one run.
 const MOST_POINTS: u64 = 20_000_000;
@@ -57,10 +58,10 @@ impl Columns {
             for j in 0..rows {
                 for k in 0..up {
                     let position = self.place([i, j, k], &scenario.channel, &release);
-                    if !given.is_free(&position, bodies) {
+                    let Some(position) = given.place_beside(position, bodies) else {
                         left_out += self.volume * images;
                         continue;
-                    }
+                    };
                     let id = (i * across + j) * up + k;
                     let depth = release.vertical_thickness_m - self.along(k, 2);
                     let mut point = resting_point(id, position, mass, self.volume);
@@ -125,6 +126,43 @@ impl Columns {
             spacing,
             volume: spacing.product(),
         })
+    }
+}
+
+/// Distance from a body's surface, over a point's stand-off, from which on a point is
+/// as far off as it should be: a lattice that the surface fits is left as it is.
+const CLOSE: f64 = 0.98;
+
+impl Setup {
+    /// Place of a point of the release beside the bodies: where it is, or moved off a
+    /// surface that is nearer than its stand-off; `None` inside a body or where there
+    /// is no room. So the volume left out is that of the bodies.
+    fn place_beside(&self, position: Vec3, bodies: &[Body]) -> Option<Vec3> {
+        // Where the continuum's surface is: at rest the contacts carry what presses there.
+        let stand_off = 0.5 * self.flow.as_ref()?.sphere.spacing;
+        let mut place = position;
+        for body in bodies {
+            let arm = body.to_body(&(place - body.state.position));
+            if arm.norm() > body.shape.bounding_radius() + stand_off {
+                continue;
+            }
+            let closest = body.shape.closest_feature(&arm);
+            let distance = closest.distance - body.shape.sphero_radius();
+            if distance < 0.0 {
+                return None;
+            }
+            if distance < CLOSE * stand_off {
+                place += body.to_world(&closest.normal) * (stand_off - distance);
+            }
+        }
+        let beside = |body: &Body| body.distance_to(&place) >= CLOSE * stand_off;
+        let between = |plane: &Plane| {
+            let height = plane.height(&place);
+            height >= stand_off.min(plane.height(&position)) * CLOSE
+        };
+        let has_room =
+            place == position || (bodies.iter().all(beside) && self.planes.iter().all(between));
+        has_room.then_some(place)
     }
 }
 

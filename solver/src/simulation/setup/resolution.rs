@@ -3,7 +3,7 @@
 
 use crate::kernel::Lattice;
 use crate::math::Vec3;
-use crate::scenario::Scenario;
+use crate::scenario::{Flow, Scenario};
 
 /// Cells across the thinnest body.
 const CELLS_PER_BODY: f64 = 4.0;
@@ -54,8 +54,40 @@ fn automatic_cell_size(scenario: &Scenario) -> f64 {
     fine.max(affordable).min(scenario.channel.width_m)
 }
 
+/// Speeds and pressures that are expected in a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expected {
+    /// Speed of the flow, or of the fastest body at the start [m/s].
+    pub speed: f64,
+    /// Speed whose dynamic pressure ρ_c v² is the largest pressure expected in the flow
+    /// [m/s]: of the flow itself, of bodies that fall or slide into it, or of the
+    /// weight of a body that lies on it.
+    pub pressing_speed: f64,
+    /// Mean pressure of the flow at rest [Pa].
+    pub static_pressure: f64,
+}
+
+/// Speeds and pressures that are expected in a scenario (equations 31 and 31a).
+pub(super) fn expected(scenario: &Scenario) -> Expected {
+    let speed = expected_speed(scenario);
+    let flow = scenario.flow.as_ref();
+    let density = flow.map_or(f64::INFINITY, |flow| flow.material.bulk_density_kg_m3);
+    let weight = |flow: &Flow| 0.5 * density * scenario.gravity_m_s2 * flow.release.height_m;
+    let crowd = Crowd::of(scenario);
+    let of_body = |body: &Weighty| {
+        let weight = body.mass * scenario.gravity_m_s2 / body.projected_area;
+        body.speed_squared.max(weight / density)
+    };
+    let free = crowd.0.iter().filter(|body| body.free);
+    Expected {
+        speed,
+        pressing_speed: free.map(of_body).fold(speed * speed, f64::max).sqrt(),
+        static_pressure: flow.map_or(0.0, weight),
+    }
+}
+
 /// Speed the flow is expected to reach [m/s]: its own, or that of the fastest body.
-pub(super) fn expected_speed(scenario: &Scenario) -> f64 {
+fn expected_speed(scenario: &Scenario) -> f64 {
     let flow = scenario.flow.as_ref();
     let of_flow = flow.map_or(0.0, |flow| {
         let channel = &scenario.channel;
@@ -74,6 +106,8 @@ struct Weighty {
     /// Where its centre starts [m].
     start: Vec3,
     bounding_radius: f64,
+    /// [m²].
+    projected_area: f64,
     /// Of its start, and of a fall to the floor [m²/s²].
     speed_squared: f64,
     free: bool,
@@ -99,6 +133,7 @@ impl Crowd {
                 restitution: body.restitution,
                 start,
                 bounding_radius,
+                projected_area: std::f64::consts::PI * shape.shadow_radius().powi(2),
                 speed_squared: falling + thrown * thrown,
                 free: !body.fixed,
             }
@@ -187,6 +222,7 @@ mod tests {
             restitution: 0.3,
             start: Vec3::from(*start),
             bounding_radius: 0.05,
+            projected_area: 0.01,
             speed_squared: 0.0,
             free: free || place > 0,
         };

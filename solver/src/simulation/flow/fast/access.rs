@@ -4,6 +4,7 @@ use crate::contact::point_body::{Around, Moving, PointAccess};
 use crate::fast::blocks::Block;
 use crate::fast::nodes::Nodes;
 use crate::fast::packing::Packing;
+use crate::kernel::PointStencil;
 use crate::math::Vec3;
 
 /// Where a point is kept.
@@ -44,6 +45,12 @@ impl PointAccess for Access<'_> {
         self.packing.position(&block.key, &position)
     }
 
+    fn stencil(&self, place: Place) -> PointStencil {
+        let block = place.block as usize;
+        let position = self.blocks[block].position(place.slot as usize);
+        self.nodes.stencil_at(block, &position)
+    }
+
     fn moving(&self, place: Place) -> Moving {
         let block = &self.blocks[place.block as usize];
         let position = block.position(place.slot as usize);
@@ -51,7 +58,6 @@ impl PointAccess for Access<'_> {
         Moving {
             position: self.packing.position(&block.key, &position) + displacement,
             velocity,
-            mass: f64::from(block.mass(place.slot as usize)),
         }
     }
 }

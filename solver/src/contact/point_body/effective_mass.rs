@@ -1,0 +1,124 @@
+//! Effective mass of the contacts between points and bodies: the mass that resists
+//! when a force acts on all of them at once (docs/method.md, equations 24a and 24b).
+
+use crate::grid::BLOCK_NODES;
+use crate::kernel::PointStencil;
+use crate::rigid::Body;
+use crate::walls::{Boundary, NodeAccess};
+
+/// Compliance of the grid at the contacts of a sub-step: per node Σ_q w_iq / m_i [1/kg]
+/// over the points q in contact with any body.
+#[derive(Debug, Default)]
+pub(super) struct GridCompliance {
+    per_node: Vec<f64>,
+    /// Nodes where it is not zero.
+    loaded: Vec<u32>,
+}
+
+impl GridCompliance {
+    /// Takes up the stencils of the points in contact.
+    pub(super) fn gather<'a>(
+        &mut self,
+        stencils: impl Iterator<Item = &'a PointStencil>,
+        nodes: &impl NodeAccess,
+        boundary: &Boundary,
+    ) {
+        for place in self.loaded.drain(..) {
+            self.per_node[place as usize] = 0.0;
+        }
+        let count = nodes.blocks().len() * BLOCK_NODES;
+        if self.per_node.len() < count {
+            self.per_node.resize(count, 0.0);
+        }
+        for (place, weight) in stencils.flatten() {
+            let sum = &mut self.per_node[*place as usize];
+            if *sum == 0.0 {
+                self.loaded.push(*place);
+            }
+            *sum += weight;
+        }
+        for place in &self.loaded {
+            self.per_node[*place as usize] /= nodes.mass(*place as usize);
+        }
+        if !self.loaded.is_empty() {
+            self.share_with_ghosts(nodes, boundary);
+        }
+    }
+
+    /// A node and its ghosts move as one: all of their mass answers to all of their
+    /// weights.
+    fn share_with_ghosts(&mut self, nodes: &impl NodeAccess, boundary: &Boundary) {
+        for group in boundary.ghost_groups() {
+            let weight = |place: usize| self.per_node[place] * nodes.mass(place);
+            let weights: f64 = group.clone().map(weight).sum();
+            if weights == 0.0 {
+                continue;
+            }
+            let compliance = weights / group.clone().map(|place| nodes.mass(place)).sum::<f64>();
+            for place in group {
+                if self.per_node[place] == 0.0 {
+                    self.loaded.push(place as u32);
+                }
+                self.per_node[place] = compliance;
+            }
+        }
+    }
+
+    /// Acceleration of a point by a unit force on every point in contact [1/kg].
+    pub(super) fn at(&self, stencil: &PointStencil) -> f64 {
+        let of_node = |(place, weight): &(u32, f64)| weight * self.per_node[*place as usize];
+        stencil.iter().map(of_node).sum()
+    }
+}
+
+/// Contacts of one body: how many, and the sum of their levers.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ContactSum {
+    count: f64,
+    /// Σ |arm| [m].
+    levers: f64,
+}
+
+impl ContactSum {
+    /// Takes in a contact at this distance from the centre of mass [m].
+    pub(super) fn add(&mut self, lever: f64) {
+        self.count += 1.0;
+        self.levers += lever;
+    }
+
+    /// Those of a body and of its mirror image.
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self {
+            count: self.count + other.count,
+            levers: self.levers + other.levers,
+        }
+    }
+
+    /// Compliance of a body to unit forces at all of these contacts.
+    pub(super) fn compliance(&self, body: &Body) -> BodyCompliance {
+        if !body.is_free() {
+            return BodyCompliance::default();
+        }
+        let turning = body.inverse_inertia.symmetric_eigenvalues().max();
+        BodyCompliance {
+            translation: self.count / body.mass,
+            rotation: turning * self.levers,
+        }
+    }
+}
+
+/// Compliance of a body to unit forces at all of its contacts.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct BodyCompliance {
+    /// [1/kg].
+    translation: f64,
+    /// Per distance from the centre of mass [1/(kg m)].
+    rotation: f64,
+}
+
+impl BodyCompliance {
+    /// Bound of the acceleration at `lever` [m] from the centre of mass [1/kg].
+    pub(super) fn at(&self, lever: f64) -> f64 {
+        self.translation + self.rotation * lever
+    }
+}

@@ -1,0 +1,86 @@
+//! Force of a body on one point (docs/method.md, equations 21–24).
+
+use super::{Moving, PointAccess};
+use crate::contact::law::ContactLaw;
+use crate::kernel::PointStencil;
+use crate::math::Vec3;
+use crate::rigid::Body;
+
+/// Share of the approach speed and of the sliding speed that all contacts together
+/// take in one sub-step at most: the spectral radius of damping and friction stays
+/// below it, so that they never turn a motion round.
+const LARGEST_BRAKING: f64 = 0.5;
+
+/// A point that overlaps a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PointContact {
+    /// From the body's centre to the point [m].
+    pub(super) arm: Vec3,
+    /// Away from the body.
+    normal: Vec3,
+    /// Velocity of the point relative to the body's there [m/s].
+    velocity: Vec3,
+    /// δ [m].
+    overlap: f64,
+    /// δ/(R_p + r).
+    overlap_ratio: f64,
+    /// Nodes that the point exchanges momentum with.
+    pub(super) stencil: PointStencil,
+}
+
+/// Force on a point in contact with a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PointForce {
+    /// From the body's centre to the point [m].
+    pub(super) arm: Vec3,
+    /// On the point [N].
+    pub(super) force: Vec3,
+    /// δ/(R_p + r).
+    pub(super) overlap_ratio: f64,
+    /// Energy the contact holds [J].
+    pub(super) energy: f64,
+}
+
+impl PointContact {
+    /// Contact of a point with the closest feature of a body; `None` if apart.
+    pub(super) fn find<A: PointAccess>(
+        points: &A,
+        place: A::Place,
+        body: &Body,
+        stand_off: f64,
+    ) -> Option<Self> {
+        let Moving { position, velocity } = points.moving(place);
+        let arm = position - body.state.position;
+        let closest = body.shape.closest_feature(&body.to_body(&arm));
+        let reach = stand_off + body.shape.sphero_radius();
+        let overlap = reach - closest.distance;
+        (overlap > 0.0).then(|| Self {
+            arm,
+            normal: body.to_world(&closest.normal),
+            velocity: velocity - body.velocity_at(&arm),
+            overlap,
+            overlap_ratio: overlap / reach,
+            stencil: points.stencil(place),
+        })
+    }
+
+    /// Force of this contact in a sub-step of `dt` [s], where this effective mass [kg]
+    /// resists it.
+    pub(super) fn force(&self, law: &ContactLaw, effective_mass: f64, dt: f64) -> PointForce {
+        let largest = LARGEST_BRAKING * effective_mass / dt;
+        let approach = self.velocity.dot(&self.normal);
+        let damping = law
+            .damping_coefficient(self.overlap, effective_mass)
+            .min(largest);
+        let pressed = (law.elastic_force(self.overlap) - damping * approach).max(0.0);
+        let sliding = self.velocity - self.normal * approach;
+        let slip = sliding.norm().max(f64::MIN_POSITIVE);
+        let friction = largest.min(law.friction * pressed / slip);
+        PointForce {
+            arm: self.arm,
+            force: self.normal * pressed - sliding * friction,
+            overlap_ratio: self.overlap_ratio,
+            energy: law.elastic_energy(self.overlap),
+        }
+    }
+}
