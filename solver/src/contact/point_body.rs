@@ -41,7 +41,7 @@ impl PointSphere {
     /// Largest damping coefficient of one point on this body [N s/m].
     fn braking(&self, body: &Body, dt: f64) -> f64 {
         match body.freedom {
-            Freedom::Fixed => self.impedance,
+            Freedom::Fixed | Freedom::Prescribed(_) => self.impedance,
             Freedom::Free | Freedom::InPlane => {
                 let share = LARGEST_BRAKING * body.mass / (self.most_touching(body) * dt);
                 self.impedance.min(share)

@@ -236,7 +236,7 @@ impl Setup {
         let duration = pace.substep * f64::from(pace.count);
         let body_travel = bodies
             .iter()
-            .map(|body| body.largest_speed() * duration)
+            .map(|body| body.speed_ahead() * duration)
             .fold(0.0, f64::max);
         // A step of a single sub-step may go beyond the flow's Courant number.
         let cells = flow.limits.flow_courant.max(flow.limits.courant);
@@ -361,9 +361,10 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
 }
 
 impl Setup {
-    /// What bodies move under.
-    pub(super) fn surroundings(&self) -> Surroundings<'_> {
+    /// What bodies move under from a time on [s].
+    pub(super) fn surroundings(&self, time: f64) -> Surroundings<'_> {
         Surroundings {
+            time,
             planes: &self.planes,
             gravity: self.gravity,
         }
