@@ -1,7 +1,7 @@
 //! The bodies' own sub-steps: bodies that may meet within a sub-step of the flow
 //! form an island and move together (docs/method.md, equations 15, 20 and 48).
 
-use crate::contact::body_body::{Meeting, Separation, least_gap, pair_law};
+use crate::contact::body_body::{Meeting, Separation, least_gap};
 use crate::contact::body_wall::touch_walls;
 use crate::contact::law::ContactLaw;
 use crate::contact::neighbours::{Ball, overlapping};
@@ -10,9 +10,12 @@ use crate::rigid::{Body, Freedom, Load};
 use crate::walls::{Impulse, Plane};
 use rayon::prelude::*;
 
+mod division;
+mod member;
 mod mover;
 mod pace;
 
+use division::islands;
 use mover::Mover;
 use pace::substeps;
 pub use pace::{MOST_SUBSTEPS, substeps_alone};
@@ -260,101 +263,7 @@ enum Side<'a> {
     Mover(usize),
 }
 
-/// Where a body is when the islands are made.
-#[derive(Clone, Copy)]
-enum Seat<'a> {
-    /// In an island, at a place among its members.
-    Island(usize, usize),
-    /// In none: loads do not move it.
-    Outside(&'a Body),
-}
-
-/// Divides the bodies into islands; the order follows from the bodies alone.
-fn islands<'a>(
-    bodies: &'a mut [Body],
-    reports: &'a mut [BodyReport],
-    meetings: Vec<Meeting>,
-    flow: impl Fn(usize) -> Load,
-) -> Vec<Island<'a>> {
-    let laws: Vec<ContactLaw> = meetings
-        .iter()
-        .map(|meeting| pair_law(&bodies[meeting.bodies[0]], &bodies[meeting.bodies[1]]))
-        .collect();
-    let heads = heads(bodies, &meetings);
-    let mut islands: Vec<Island> = Vec::new();
-    let mut seats: Vec<Seat> = Vec::with_capacity(bodies.len());
-    for (place, (body, report)) in bodies.iter_mut().zip(reports).enumerate() {
-        *report = BodyReport::default();
-        if !is_free(body) {
-            seats.push(Seat::Outside(body));
-            continue;
-        }
-        let island = match seats.get(heads[place]) {
-            Some(Seat::Island(island, _)) => *island,
-            _ => {
-                islands.push(Island::default());
-                islands.len() - 1
-            }
-        };
-        let members = &mut islands[island].members;
-        seats.push(Seat::Island(island, members.len()));
-        members.push(Member::new(body, report, flow(place)));
-    }
-    for (meeting, law) in meetings.into_iter().zip(laws) {
-        let inside = meeting.bodies.iter().find_map(|&place| match seats[place] {
-            Seat::Island(island, _) => Some(island),
-            Seat::Outside(_) => None,
-        });
-        if let Some(island) = inside {
-            let island = &mut islands[island];
-            let sides = meeting.bodies.map(|place| island.side(place, seats[place]));
-            island.meetings.push(Met {
-                meeting,
-                law,
-                sides,
-                separation: Separation::default(),
-            });
-        }
-    }
-    islands
-}
-
-/// Per body the first of those it hangs together with.
-fn heads(bodies: &[Body], meetings: &[Meeting]) -> Vec<usize> {
-    fn head_of(heads: &[usize], mut place: usize) -> usize {
-        while heads[place] != place {
-            place = heads[place];
-        }
-        place
-    }
-    let mut heads: Vec<usize> = (0..bodies.len()).collect();
-    for meeting in meetings {
-        if meeting.bodies.iter().all(|&place| is_free(&bodies[place])) {
-            let [a, b] = meeting.bodies.map(|place| head_of(&heads, place));
-            heads[a.max(b)] = a.min(b);
-        }
-    }
-    (0..bodies.len())
-        .map(|place| head_of(&heads, place))
-        .collect()
-}
-
-impl<'a> Island<'a> {
-    /// One of the two sides of a meeting.
-    fn side(&mut self, place: usize, seat: Seat<'a>) -> Side<'a> {
-        match seat {
-            Seat::Island(_, member) => Side::Member(member),
-            Seat::Outside(body) if body.prescribed().is_none() => Side::Barrier(body),
-            Seat::Outside(body) => {
-                let known = self.movers.iter().position(|mover| mover.place == place);
-                Side::Mover(known.unwrap_or_else(|| {
-                    self.movers.push(Mover::new(place, body));
-                    self.movers.len() - 1
-                }))
-            }
-        }
-    }
-
+impl Island<'_> {
     fn advance(&mut self, around: &Surroundings, dt: f64) {
         let Self {
             members,
@@ -483,74 +392,6 @@ fn take(members: &mut [Member], movers: &mut [Mover], [to, from]: [Side; 2], loa
     match from {
         Side::Member(_) => state.body_load.add(load),
         Side::Barrier(_) | Side::Mover(_) => state.barrier_load.add(load),
-    }
-}
-
-impl<'a> Member<'a> {
-    fn new(body: &'a mut Body, report: &'a mut BodyReport, flow: Load) -> Self {
-        Self {
-            start: body.state.position,
-            flow,
-            body,
-            report,
-        }
-    }
-
-    fn half_kick(&mut self, gravity: &Vec3, dt: f64) {
-        let weight = gravity * self.body.mass;
-        let state = &self.body.state;
-        let position = state.position;
-        let (wall, barrier, others) = (state.wall_load, state.barrier_load, state.body_load);
-        // The flow's force keeps its line of action, so that points and body
-        // exchange equal and opposite angular momentum.
-        let shifted = self.flow.torque - (position - self.start).cross(&self.flow.force);
-        let mut total = Load {
-            force: wall.force + self.flow.force + weight,
-            torque: wall.torque + shifted,
-        };
-        let mut bodies = others;
-        bodies.add(&barrier);
-        total.add(&bodies);
-        self.body.kick(&total, dt);
-        let report = &mut *self.report;
-        report.wall.add_at(&position, &(wall.force * dt));
-        report.wall.angular += wall.torque * dt;
-        report.barrier.add_at(&position, &(barrier.force * dt));
-        report.barrier.angular += barrier.torque * dt;
-        report.gravity.add_at(&position, &(weight * dt));
-        for (sum, load) in [
-            (&mut report.wall_load, &wall),
-            (&mut report.body_load, &bodies),
-        ] {
-            sum.force += load.force * dt;
-            sum.torque += load.torque * dt;
-        }
-    }
-
-    /// Whether it has stood since the start, held by the walls, and nothing touches
-    /// it: steps would change nothing but its rounding.
-    fn waits(&self) -> bool {
-        self.body.is_held() && self.flow == Load::default()
-    }
-
-    /// What it reports asleep: the loads that hold it.
-    fn lie(&mut self) {
-        let state = &self.body.state;
-        self.report.wall_load = state.wall_load;
-        self.report.body_load = state.body_load;
-        self.report.body_load.add(&state.barrier_load);
-        self.report.substeps = 1;
-        self.report.substeps_supported = u32::from(self.body.is_supported());
-        let overlap = state.wall_overlap / self.body.shape.sphero_radius();
-        self.report.overlap(overlap);
-    }
-
-    fn watch_rest(&mut self, dt: f64) {
-        if self.body.largest_speed() < STILL && self.flow == Load::default() {
-            self.body.state.still_for += dt;
-        } else {
-            self.body.state.still_for = 0.0;
-        }
     }
 }
 
