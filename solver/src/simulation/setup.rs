@@ -394,7 +394,9 @@ fn guards(scenario: &Scenario) -> Guards {
     });
     let bodies = scenario.bodies.iter().enumerate().map(|(place, body)| {
         let radius = scenario.shape_of(place).bounding_radius();
-        let height = scenario.initial_pose(place).position.z + radius;
+        let motion = body.motion.as_ref().map(scenario::Motion::prescribed);
+        let rise = motion.map_or(0.0, |motion| motion.rise(scenario.duration_s));
+        let height = scenario.initial_pose(place).position.z + radius + rise;
         (height, body.thrown_m_s(radius))
     });
     let (highest, fastest) = bodies.fold((top, 0.0f64), |(top, speed), (height, thrown)| {
