@@ -81,10 +81,10 @@ fn what_is_no_motion_is_refused() {
             "2 velocities, each a list of 3 numbers",
         ),
         (
-            "one velocity for a table",
+            "a number for a velocity",
             POINTER,
-            table(json!([0, 1]), json!([1, 0])),
-            "/bodies/0/motion/velocity_m_s/0",
+            table(json!([0, 1]), json!([[1, 0, 0], 0])),
+            "/bodies/0/motion/velocity_m_s/1",
             "a list of 3 numbers",
         ),
     ]);
