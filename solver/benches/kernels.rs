@@ -328,6 +328,7 @@ fn bodies_substep(criterion: &mut Criterion) {
     let around = Surroundings {
         planes: &planes,
         gravity: Vec3::new(0.0, 0.0, -GRAVITY),
+        time: 0.0,
     };
     let mut group = criterion.benchmark_group("bodies");
     for (word, distance) in [("scattered", 0.08), ("walled up", 0.039_99)] {

@@ -188,6 +188,10 @@ pub struct Audit {
     lowest_energy: f64,
     largest_rise: f64,
     largest_kinetic_energy: f64,
+    /// Work that prescribed motions have done.
+    given: f64,
+    /// Accumulated sizes of it.
+    given_size: f64,
 }
 
 impl Audit {
@@ -209,6 +213,17 @@ impl Audit {
         self.expected.angular += impulse.angular;
         self.exchanged.0 += impulse.linear.norm();
         self.exchanged.1 += impulse.angular.norm();
+    }
+
+    /// Takes in work from outside, done by a prescribed motion [J].
+    pub fn give(&mut self, work: f64) {
+        self.given += work;
+        self.given_size += work.abs();
+    }
+
+    /// Work that prescribed motions have done [J].
+    pub fn work_given(&self) -> f64 {
+        self.given
     }
 
     /// Takes in the angular momentum that spreading the points made [N m s].
@@ -262,25 +277,27 @@ impl Audit {
             let missing = (flow.mass + self.left.mass - self.released_mass).abs();
             self.mass_error = self.mass_error.max(missing / self.released_mass);
         }
-        let energy = total.energy + self.left.energy + contact_energy;
+        let energy = total.energy + self.left.energy + contact_energy - self.given;
         self.lowest_energy = self.lowest_energy.min(energy);
         self.largest_rise = self.largest_rise.max(energy - self.lowest_energy);
         self.largest_kinetic_energy = self.largest_kinetic_energy.max(total.kinetic_energy);
     }
 
-    /// Largest rise of the mechanical energy above its running minimum [J].
+    /// Largest rise of the mechanical energy, less the work of prescribed motions, above
+    /// its running minimum [J].
     pub fn energy_rise(&self) -> f64 {
         self.largest_rise
     }
 
     /// What a rise is to be compared with where little moves: the size of the start's
-    /// energy, heights counted from the floor, and the largest kinetic energy [J].
+    /// energy, heights counted from the floor, the largest kinetic energy, and what
+    /// prescribed motions gave and took [J].
     pub fn energy_scale(&self) -> f64 {
-        self.start_energy.abs() + self.largest_kinetic_energy
+        self.start_energy.abs() + self.largest_kinetic_energy + self.given_size
     }
 
-    /// Largest rise of the mechanical energy above its running minimum,
-    /// relative to the largest kinetic energy so far; 0 if nothing ever moved.
+    /// Largest rise of the mechanical energy, less the work of prescribed motions, above
+    /// its running minimum, relative to the largest kinetic energy so far; 0 if nothing ever moved.
     pub fn energy_residual(&self) -> f64 {
         if self.largest_kinetic_energy > 0.0 {
             self.largest_rise / self.largest_kinetic_energy

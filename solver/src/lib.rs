@@ -19,6 +19,7 @@ pub mod grid;
 pub mod kernel;
 pub mod material;
 pub mod math;
+pub mod motion;
 pub mod plan;
 pub mod points;
 pub mod record;

@@ -2,20 +2,32 @@
 
 use crate::contact::law::ContactLaw;
 use crate::math::{Mat3, Vec3};
+use crate::motion::{PrescribedMotion, Velocities};
 use crate::shape::SpheroPolyhedron;
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 
-/// Whether a body moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What moves a body.
+#[derive(Debug, Clone, PartialEq)]
 pub enum Freedom {
-    /// It does.
+    /// Loads do.
     Free,
-    /// It does, but never leaves the plane y = 0 nor turns out of it: loads that
+    /// Loads do, but it never leaves the plane y = 0 nor turns out of it: loads that
     /// would do that are rounding.
     InPlane,
-    /// It is a barrier.
+    /// Nothing: it is a barrier.
     Fixed,
+    /// A motion that is given, whatever acts on it.
+    Prescribed(Prescribed),
+}
+
+/// A prescribed motion from a place on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prescribed {
+    /// Centre at time 0 [m].
+    pub start: Vec3,
+    /// How it moves from there.
+    pub motion: PrescribedMotion,
 }
 
 /// A body: what it is, and how it stands.
@@ -36,7 +48,7 @@ pub struct Body {
     /// Rolling resistance: the torque of a contact is at most this × its
     /// equivalent radius × its normal force.
     pub rolling_friction: f64,
-    /// Whether it moves.
+    /// What moves it.
     pub freedom: Freedom,
     /// How it stands.
     pub state: BodyState,
@@ -66,7 +78,7 @@ pub struct BodyState {
     pub wall_overlap: f64,
     /// What other free bodies do to it now.
     pub body_load: Load,
-    /// What fixed bodies do to it now.
+    /// What fixed bodies, and those with a prescribed motion, do to it now.
     pub barrier_load: Load,
     /// How many bodies it touches now.
     pub touching_bodies: u32,
@@ -143,14 +155,60 @@ impl Body {
         self.inverse_inertia_times(&self.state.orientation, torque)
     }
 
-    /// 1/m [1/kg]; 0 for a fixed body.
+    /// 1/m [1/kg]; 0 for a body that no load moves.
     pub fn inverse_mass(&self) -> f64 {
         if self.is_free() { 1.0 / self.mass } else { 0.0 }
     }
 
-    /// Whether it moves.
+    /// Whether loads move it.
     pub fn is_free(&self) -> bool {
-        self.freedom != Freedom::Fixed
+        match self.freedom {
+            Freedom::Free | Freedom::InPlane => true,
+            Freedom::Fixed | Freedom::Prescribed(_) => false,
+        }
+    }
+
+    /// Its prescribed motion, if it has one.
+    pub fn prescribed(&self) -> Option<&Prescribed> {
+        match &self.freedom {
+            Freedom::Prescribed(prescribed) => Some(prescribed),
+            Freedom::Free | Freedom::InPlane | Freedom::Fixed => None,
+        }
+    }
+
+    /// Moves a body with a prescribed motion from one time to a later one [s]; leaves
+    /// any other as it is.
+    pub fn follow(&mut self, from: f64, to: f64) {
+        let Freedom::Prescribed(prescribed) = &self.freedom else {
+            return;
+        };
+        self.state.position = prescribed.start + prescribed.motion.way(to);
+        if let Some(turn) = prescribed.motion.turn(from, to) {
+            let mut end = turn * self.state.orientation;
+            end.renormalize();
+            self.state.orientation = end;
+        }
+        let velocities = prescribed.motion.velocities(to);
+        self.set_velocities(&velocities);
+    }
+
+    /// Gives it the momenta of these velocities as it stands.
+    pub fn set_velocities(&mut self, velocities: &Velocities) {
+        self.state.momentum = velocities.linear * self.mass;
+        let spin = self.to_body(&velocities.angular);
+        self.state.angular_momentum = self.to_world(&(self.inertia * spin));
+    }
+
+    /// Work that it does in `dt` by its prescribed motion against a load on it [J]; none
+    /// if it has no such motion.
+    pub fn work_against(&self, load: &Load, dt: f64) -> f64 {
+        match self.freedom {
+            Freedom::Prescribed(_) => {
+                let turning = load.torque.dot(&self.angular_velocity());
+                -(load.force.dot(&self.velocity()) + turning) * dt
+            }
+            Freedom::Free | Freedom::InPlane | Freedom::Fixed => 0.0,
+        }
     }
 
     /// Mass that resists a force along `direction` (unit) at `arm` [kg].
@@ -181,11 +239,22 @@ impl Body {
         self.velocity().norm() + self.angular_velocity().norm() * self.shape.bounding_radius()
     }
 
+    /// Largest speed to reckon with in a step that begins now [m/s]: the present one, or
+    /// the largest of a prescribed motion.
+    pub fn speed_ahead(&self) -> f64 {
+        match &self.freedom {
+            Freedom::Prescribed(prescribed) => {
+                prescribed.motion.fastest(self.shape.bounding_radius())
+            }
+            Freedom::Free | Freedom::InPlane | Freedom::Fixed => self.largest_speed(),
+        }
+    }
+
     /// Bound of the acceleration of any of its places under gravity [m/s²] and a load, its
-    /// present turning left out [m/s²]; 0 for a fixed body.
+    /// present turning left out [m/s²]; 0 for a body that no load moves.
     pub fn largest_acceleration(&self, gravity: &Vec3, load: &Load) -> f64 {
         match self.freedom {
-            Freedom::Fixed => 0.0,
+            Freedom::Fixed | Freedom::Prescribed(_) => 0.0,
             Freedom::Free | Freedom::InPlane => {
                 let turning = self.inverse_inertia.norm() * load.torque.norm();
                 gravity.norm()
@@ -195,11 +264,12 @@ impl Body {
         }
     }
 
-    /// What no place of it exceeds while its momenta last, however it turns [m/s]; 0
-    /// for a fixed body.
+    /// What no place of it exceeds while its momenta last, however it turns, or ever by
+    /// a prescribed motion [m/s]; 0 for a fixed body.
     pub fn speed_bound(&self) -> f64 {
         match self.freedom {
             Freedom::Fixed => 0.0,
+            Freedom::Prescribed(_) => self.speed_ahead(),
             Freedom::Free | Freedom::InPlane => {
                 let turning = self.inverse_inertia.norm() * self.state.angular_momentum.norm();
                 self.velocity().norm() + turning * self.shape.bounding_radius()

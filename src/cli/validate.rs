@@ -81,7 +81,11 @@ fn body(scenario: &Scenario, index: usize, set_up: &Body) -> String {
         Support::Incline => "on the incline",
         Support::Free => "as placed",
     };
-    let fixed = if body.fixed { ", fixed" } else { "" };
+    let fixed = match &body.motion {
+        Some(_) => ", its motion prescribed",
+        None if body.fixed => ", fixed",
+        None => "",
+    };
     format!(
         "{shape}, rounded by {} m, {:.4} kg, principal moments {least:.3e}, {middle:.3e}, {most:.3e} kg m², centre at {x:.4}, {y:.4}, {z:.4} m {support}{fixed}",
         body.sphero_radius_m, set_up.mass

@@ -31,6 +31,7 @@ pub(super) fn cube(side_m: f64, sphero_radius_m: f64) -> Body {
         flow_restitution: 0.0,
         contact_modulus_pa: None,
         fixed: false,
+        motion: None,
     }
 }
 

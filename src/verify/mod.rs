@@ -22,6 +22,7 @@ mod dice;
 mod drawn;
 mod on_all_cores;
 mod paper;
+mod plates;
 mod scenes;
 mod slope;
 mod stream;

@@ -279,7 +279,7 @@ impl Motion {
     fn velocity(body: &Body) -> Self {
         match body.freedom {
             Freedom::Fixed => Self::NONE,
-            Freedom::Free | Freedom::InPlane => Self {
+            Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => Self {
                 linear: body.velocity(),
                 angular: body.angular_velocity(),
             },
@@ -289,7 +289,7 @@ impl Motion {
     /// What a load gives a body that does not turn yet.
     fn acceleration(body: &Body, load: &Load) -> Self {
         match body.freedom {
-            Freedom::Fixed => Self::NONE,
+            Freedom::Fixed | Freedom::Prescribed(_) => Self::NONE,
             Freedom::Free | Freedom::InPlane => Self {
                 linear: load.force / body.mass,
                 angular: body.angular_acceleration(&load.torque),
@@ -302,7 +302,7 @@ impl Motion {
     }
 }
 
-/// Mass of the motion of two bodies towards each other [kg]; of two fixed ones none.
+/// Mass of the motion of two bodies towards each other [kg]; of two that no load moves none.
 pub fn reduced_mass(first: &Body, second: &Body) -> f64 {
     1.0 / (first.inverse_mass() + second.inverse_mass())
 }

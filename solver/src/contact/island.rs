@@ -1,7 +1,7 @@
 //! The bodies' own sub-steps: bodies that may meet within a sub-step of the flow
 //! form an island and move together (docs/method.md, equations 15, 20 and 48).
 
-use crate::contact::body_body::{Meeting, Separation, least_gap, pair_law};
+use crate::contact::body_body::{Meeting, Separation, least_gap};
 use crate::contact::body_wall::touch_walls;
 use crate::contact::law::ContactLaw;
 use crate::contact::neighbours::{Ball, overlapping};
@@ -10,8 +10,13 @@ use crate::rigid::{Body, Freedom, Load};
 use crate::walls::{Impulse, Plane};
 use rayon::prelude::*;
 
+mod division;
+mod member;
+mod mover;
 mod pace;
 
+use division::islands;
+use mover::Mover;
 use pace::substeps;
 pub use pace::{MOST_SUBSTEPS, substeps_alone};
 
@@ -25,7 +30,7 @@ const FALLS_ASLEEP_AFTER: f64 = 0.1;
 pub struct BodyReport {
     /// Impulse of the walls, about the origin.
     pub wall: Impulse,
-    /// Impulse of fixed bodies, about the origin.
+    /// Impulse of bodies that no load moves, about the origin.
     pub barrier: Impulse,
     /// Impulse of gravity, about the origin.
     pub gravity: Impulse,
@@ -33,6 +38,8 @@ pub struct BodyReport {
     pub wall_load: Load,
     /// Mean force and torque of all other bodies.
     pub body_load: Load,
+    /// Work that a prescribed motion did on other bodies [J].
+    pub work: f64,
     /// Body sub-steps.
     pub substeps: u32,
     /// Body sub-steps that contacts and spin ask for; none are taken if they are more
@@ -59,6 +66,8 @@ pub struct Surroundings<'a> {
     pub planes: &'a [Plane],
     /// [m/s²].
     pub gravity: Vec3,
+    /// Simulated time at the start [s].
+    pub time: f64,
 }
 
 /// Advances all bodies by `dt` under a constant load of the flow each (force, and
@@ -75,17 +84,33 @@ pub fn advance(
     let acceleration =
         |place: usize| bodies[place].largest_acceleration(&around.gravity, &flow(place));
     renew(meetings, &near_pairs(bodies, acceleration, dt));
+    let mut movers = Vec::new();
     if meetings.is_empty() {
         advance_apart(bodies, reports, flow, around, dt);
-        return;
+    } else {
+        let mut islands = islands(bodies, reports, std::mem::take(meetings), flow);
+        islands
+            .par_iter_mut()
+            .for_each(|island| island.advance(around, dt));
+        for island in islands {
+            meetings.extend(island.meetings.into_iter().map(|met| met.meeting));
+            movers.extend(island.movers);
+        }
+        meetings.sort_unstable_by_key(|meeting| meeting.bodies);
     }
-    let mut islands = islands(bodies, reports, std::mem::take(meetings), flow);
-    islands
-        .par_iter_mut()
-        .for_each(|island| island.advance(around, dt));
-    let parted = islands.into_iter().flat_map(|island| island.meetings);
-    meetings.extend(parted.map(|met| met.meeting));
-    meetings.sort_unstable_by_key(|meeting| meeting.bodies);
+    follow_motions(bodies, around.time, dt);
+    for mover in movers {
+        let place = mover.place;
+        mover.hand_over(&mut bodies[place], &mut reports[place], dt);
+    }
+}
+
+/// Moves the bodies whose motion is prescribed.
+fn follow_motions(bodies: &mut [Body], time: f64, dt: f64) {
+    for body in bodies.iter_mut().filter(|body| body.prescribed().is_some()) {
+        body.state.touching_bodies = 0;
+        body.follow(time, time + dt);
+    }
 }
 
 /// Advances bodies of which none is near another: as many islands, with nothing
@@ -105,7 +130,13 @@ fn advance_apart(
             if alone.waits() {
                 alone.lie();
             } else {
-                advance_together(std::slice::from_mut(&mut alone), &mut [], around, dt);
+                advance_together(
+                    std::slice::from_mut(&mut alone),
+                    &mut [],
+                    &mut [],
+                    around,
+                    dt,
+                );
             }
         }
     });
@@ -118,7 +149,12 @@ pub fn meet(bodies: &mut [Body]) -> Vec<Meeting> {
     let mut reports = vec![BodyReport::default(); bodies.len()];
     let at_rest = |_| Load::default();
     for mut island in islands(bodies, &mut reports, std::mem::take(&mut meetings), at_rest) {
-        touch_bodies(&mut island.members, &mut island.meetings, 0.0);
+        let Island {
+            members,
+            movers,
+            meetings: met,
+        } = &mut island;
+        touch_bodies(members, movers, met, 0.0);
         meetings.extend(island.meetings.into_iter().map(|met| met.meeting));
     }
     meetings.sort_unstable_by_key(|meeting| meeting.bodies);
@@ -172,8 +208,8 @@ fn is_free(body: &Body) -> bool {
 fn reach(body: &Body, acceleration: f64, dt: f64) -> f64 {
     let margin = 0.01 * body.shape.sphero_radius();
     match body.freedom {
-        Freedom::Free | Freedom::InPlane => {
-            2.0 * (body.largest_speed() + acceleration * dt) * dt + margin
+        Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => {
+            2.0 * (body.speed_ahead() + acceleration * dt) * dt + margin
         }
         Freedom::Fixed => margin,
     }
@@ -192,8 +228,11 @@ fn renew(meetings: &mut Vec<Meeting>, pairs: &[[usize; 2]]) {
 }
 
 /// Free bodies that have to move together.
+#[derive(Default)]
 struct Island<'a> {
     members: Vec<Member<'a>>,
+    /// Bodies with a prescribed motion near them.
+    movers: Vec<Mover>,
     meetings: Vec<Met<'a>>,
 }
 
@@ -220,107 +259,48 @@ enum Side<'a> {
     Member(usize),
     /// A fixed body.
     Barrier(&'a Body),
-}
-
-/// Divides the bodies into islands; the order follows from the bodies alone.
-fn islands<'a>(
-    bodies: &'a mut [Body],
-    reports: &'a mut [BodyReport],
-    meetings: Vec<Meeting>,
-    flow: impl Fn(usize) -> Load,
-) -> Vec<Island<'a>> {
-    let laws: Vec<ContactLaw> = meetings
-        .iter()
-        .map(|meeting| pair_law(&bodies[meeting.bodies[0]], &bodies[meeting.bodies[1]]))
-        .collect();
-    let heads = heads(bodies, &meetings);
-    let mut islands: Vec<Island> = Vec::new();
-    // Per body: its island and place there, or the barrier that it is.
-    let mut seats: Vec<(usize, Side)> = Vec::with_capacity(bodies.len());
-    for (place, (body, report)) in bodies.iter_mut().zip(reports).enumerate() {
-        *report = BodyReport::default();
-        if body.freedom == Freedom::Fixed {
-            seats.push((0, Side::Barrier(body)));
-            continue;
-        }
-        let island = if heads[place] == place {
-            islands.push(Island {
-                members: Vec::new(),
-                meetings: Vec::new(),
-            });
-            islands.len() - 1
-        } else {
-            seats[heads[place]].0
-        };
-        let members = &mut islands[island].members;
-        seats.push((island, Side::Member(members.len())));
-        members.push(Member::new(body, report, flow(place)));
-    }
-    for (meeting, law) in meetings.into_iter().zip(laws) {
-        let sides = meeting.bodies.map(|place| seats[place]);
-        let member = sides
-            .iter()
-            .find(|(_, side)| matches!(side, Side::Member(_)));
-        if let Some(&(island, _)) = member {
-            islands[island].meetings.push(Met {
-                meeting,
-                law,
-                sides: sides.map(|(_, side)| side),
-                separation: Separation::default(),
-            });
-        }
-    }
-    islands
-}
-
-/// Per body the first of those it hangs together with.
-fn heads(bodies: &[Body], meetings: &[Meeting]) -> Vec<usize> {
-    fn head_of(heads: &[usize], mut place: usize) -> usize {
-        while heads[place] != place {
-            place = heads[place];
-        }
-        place
-    }
-    let mut heads: Vec<usize> = (0..bodies.len()).collect();
-    for meeting in meetings {
-        if meeting.bodies.iter().all(|&place| is_free(&bodies[place])) {
-            let [a, b] = meeting.bodies.map(|place| head_of(&heads, place));
-            heads[a.max(b)] = a.min(b);
-        }
-    }
-    (0..bodies.len())
-        .map(|place| head_of(&heads, place))
-        .collect()
+    /// One with a prescribed motion, by its place among the island's.
+    Mover(usize),
 }
 
 impl Island<'_> {
     fn advance(&mut self, around: &Surroundings, dt: f64) {
-        if self.sleeps() {
-            for member in &mut self.members {
-                member.lie();
-            }
+        let Self {
+            members,
+            movers,
+            meetings,
+        } = self;
+        if sleeps(members, movers, meetings) {
+            members.iter_mut().for_each(Member::lie);
         } else {
-            advance_together(&mut self.members, &mut self.meetings, around, dt);
-        }
-    }
-
-    /// Time stands still on an island where nothing has moved for a while and
-    /// nothing from outside is near: contacts, momentum and all stay as they
-    /// are until another body comes near or a point touches.
-    fn sleeps(&self) -> bool {
-        match &self.members[..] {
-            [alone] => self.meetings.is_empty() && alone.waits(),
-            many => many.iter().all(|member| {
-                member.flow == Load::default() && member.body.state.still_for >= FALLS_ASLEEP_AFTER
-            }),
+            advance_together(members, movers, meetings, around, dt);
         }
     }
 }
 
+/// Time stands still on an island where nothing has moved for a while and nothing from
+/// outside is near: contacts, momentum and all stay as they are until another body comes
+/// near or a point touches.
+fn sleeps(members: &[Member], movers: &[Mover], meetings: &[Met]) -> bool {
+    movers.iter().all(Mover::stands)
+        && match members {
+            [alone] => meetings.is_empty() && alone.waits(),
+            many => many.iter().all(|member| {
+                member.flow == Load::default() && member.body.state.still_for >= FALLS_ASLEEP_AFTER
+            }),
+        }
+}
+
 /// Velocity Verlet in as many sub-steps as the member that needs most asks for, if that
 /// can be done; a body whose speed is no number asks for no number of them.
-fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surroundings, dt: f64) {
-    let asked = substeps(members, meetings, around, dt);
+fn advance_together(
+    members: &mut [Member],
+    movers: &mut [Mover],
+    meetings: &mut [Met],
+    around: &Surroundings,
+    dt: f64,
+) {
+    let asked = substeps(members, movers, meetings, around, dt);
     for member in members.iter_mut() {
         member.report.substeps_asked = asked;
     }
@@ -328,13 +308,19 @@ fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surro
         return;
     }
     let h = dt / asked;
-    for _ in 0..asked as u32 {
+    for done in 1..=asked as u32 {
+        for mover in movers.iter_mut() {
+            mover.follow(around.time, f64::from(done) * h);
+        }
         for member in members.iter_mut() {
             member.half_kick(&around.gravity, 0.5 * h);
             member.body.drift(h);
             touch_walls(member.body, around.planes, h);
         }
-        touch_bodies(members, meetings, h);
+        touch_bodies(members, movers, meetings, h);
+        for mover in movers.iter_mut() {
+            mover.take_in(h);
+        }
         for member in members.iter_mut() {
             member.half_kick(&around.gravity, 0.5 * h);
             member.report.substeps += 1;
@@ -354,23 +340,25 @@ fn advance_together(members: &mut [Member], meetings: &mut [Met], around: &Surro
     }
 }
 
-fn body_of<'a>(members: &'a [Member], side: Side<'a>) -> &'a Body {
+fn body_of<'a>(members: &'a [Member], movers: &'a [Mover], side: Side<'a>) -> &'a Body {
     match side {
         Side::Member(place) => members[place].body,
         Side::Barrier(body) => body,
+        Side::Mover(place) => &movers[place].body,
     }
 }
 
 /// Renews what bodies do to each other after a drift of `dt`.
-fn touch_bodies(members: &mut [Member], meetings: &mut [Met], dt: f64) {
-    for member in members.iter_mut() {
-        let state = &mut member.body.state;
+fn touch_bodies(members: &mut [Member], movers: &mut [Mover], meetings: &mut [Met], dt: f64) {
+    let members_bodies = members.iter_mut().map(|member| &mut *member.body);
+    for body in members_bodies.chain(movers.iter_mut().map(|mover| &mut mover.body)) {
+        let state = &mut body.state;
         state.body_load = Load::default();
         state.barrier_load = Load::default();
         state.touching_bodies = 0;
     }
     for met in meetings {
-        let [first, second] = met.sides.map(|side| body_of(members, side));
+        let [first, second] = met.sides.map(|side| body_of(members, movers, side));
         let approach = dt * (first.speed_bound() + second.speed_bound());
         if met.separation.outlasts(approach) {
             continue;
@@ -386,90 +374,24 @@ fn touch_bodies(members: &mut [Member], meetings: &mut [Met], dt: f64) {
                     members[place].report.overlap(ratio);
                 }
             }
-            take(members, met.sides, &exchange.on_first);
-            take(members, [met.sides[1], met.sides[0]], &exchange.on_second);
+            let [one, other] = met.sides;
+            take(members, movers, [one, other], &exchange.on_first);
+            take(members, movers, [other, one], &exchange.on_second);
         }
     }
 }
 
 /// Takes in what the second side does to the first.
-fn take(members: &mut [Member], [to, from]: [Side; 2], load: &Load) {
-    let Side::Member(place) = to else {
-        return;
+fn take(members: &mut [Member], movers: &mut [Mover], [to, from]: [Side; 2], load: &Load) {
+    let state = match to {
+        Side::Member(place) => &mut members[place].body.state,
+        Side::Mover(place) => &mut movers[place].body.state,
+        Side::Barrier(_) => return,
     };
-    let state = &mut members[place].body.state;
     state.touching_bodies += 1;
     match from {
         Side::Member(_) => state.body_load.add(load),
-        Side::Barrier(_) => state.barrier_load.add(load),
-    }
-}
-
-impl<'a> Member<'a> {
-    fn new(body: &'a mut Body, report: &'a mut BodyReport, flow: Load) -> Self {
-        Self {
-            start: body.state.position,
-            flow,
-            body,
-            report,
-        }
-    }
-
-    fn half_kick(&mut self, gravity: &Vec3, dt: f64) {
-        let weight = gravity * self.body.mass;
-        let state = &self.body.state;
-        let position = state.position;
-        let (wall, barrier, others) = (state.wall_load, state.barrier_load, state.body_load);
-        // The flow's force keeps its line of action, so that points and body
-        // exchange equal and opposite angular momentum.
-        let shifted = self.flow.torque - (position - self.start).cross(&self.flow.force);
-        let mut total = Load {
-            force: wall.force + self.flow.force + weight,
-            torque: wall.torque + shifted,
-        };
-        let mut bodies = others;
-        bodies.add(&barrier);
-        total.add(&bodies);
-        self.body.kick(&total, dt);
-        let report = &mut *self.report;
-        report.wall.add_at(&position, &(wall.force * dt));
-        report.wall.angular += wall.torque * dt;
-        report.barrier.add_at(&position, &(barrier.force * dt));
-        report.barrier.angular += barrier.torque * dt;
-        report.gravity.add_at(&position, &(weight * dt));
-        for (sum, load) in [
-            (&mut report.wall_load, &wall),
-            (&mut report.body_load, &bodies),
-        ] {
-            sum.force += load.force * dt;
-            sum.torque += load.torque * dt;
-        }
-    }
-
-    /// Whether it has stood since the start, held by the walls, and nothing touches
-    /// it: steps would change nothing but its rounding.
-    fn waits(&self) -> bool {
-        self.body.is_held() && self.flow == Load::default()
-    }
-
-    /// What it reports asleep: the loads that hold it.
-    fn lie(&mut self) {
-        let state = &self.body.state;
-        self.report.wall_load = state.wall_load;
-        self.report.body_load = state.body_load;
-        self.report.body_load.add(&state.barrier_load);
-        self.report.substeps = 1;
-        self.report.substeps_supported = u32::from(self.body.is_supported());
-        let overlap = state.wall_overlap / self.body.shape.sphero_radius();
-        self.report.overlap(overlap);
-    }
-
-    fn watch_rest(&mut self, dt: f64) {
-        if self.body.largest_speed() < STILL && self.flow == Load::default() {
-            self.body.state.still_for += dt;
-        } else {
-            self.body.state.still_for = 0.0;
-        }
+        Side::Barrier(_) | Side::Mover(_) => state.barrier_load.add(load),
     }
 }
 

@@ -1,5 +1,6 @@
 //! How a flow is expected to go: roughly, for what a run will cost.
 
+use crate::rigid::Body;
 use crate::scenario::Scenario;
 use crate::simulation::Outline;
 
@@ -14,7 +15,8 @@ const COLLAPSES_FOR: f64 = 4.5;
 pub(super) struct Course {
     /// When it comes near a body [s]; infinite without one.
     pub(super) meets_body: f64,
-    /// When its last part has come to rest [s].
+    /// When its last part has come to rest, and no prescribed motion stirs it any more
+    /// [s]; infinite if that is never known.
     pub(super) rests: f64,
 }
 
@@ -33,9 +35,12 @@ impl Course {
             back - 3.5 * outline.given.lattice.spacing.x - release.front_m
         });
         let way = front.fold(f64::INFINITY, f64::min).max(0.0);
+        let rests = slide.rests_after(-release.back_m);
+        let mut prescribed = outline.bodies.iter().filter_map(Body::prescribed);
+        let stirred = prescribed.any(|body| !body.motion.rests_from(rests));
         Self {
             meets_body: slide.front_takes(way),
-            rests: slide.rests_after(-release.back_m),
+            rests: if stirred { f64::INFINITY } else { rests },
         }
     }
 }

@@ -9,7 +9,7 @@ use super::{
 use crate::contact::island::BodyReport;
 use crate::math::Vec3;
 use crate::plan::{self, Plan};
-use crate::rigid::{Body, Load};
+use crate::rigid::{Body, Freedom, Load};
 use crate::scenario::{Ending, Scenario};
 use crate::simulation::{Simulation, SubstepReport};
 use serde::{Deserialize, Serialize};
@@ -140,7 +140,11 @@ impl Recorder {
         let time_s = simulation.time_s();
         let rests = |(body, history): (&Body, &BodyHistory)| {
             let turning = body.angular_velocity().norm() * body.shape.bounding_radius();
-            !body.is_free() || (turning < REST_SPEED && history.rests_for(RESTS_FOR, time_s))
+            match body.prescribed() {
+                Some(prescribed) => prescribed.motion.rests_from(time_s),
+                None if !body.is_free() => true,
+                None => turning < REST_SPEED && history.rests_for(RESTS_FOR, time_s),
+            }
         };
         let mut bodies = simulation.bodies().iter().zip(&self.histories);
         if self.ending == Ending::Full || time_s < RESTS_FOR || !bodies.all(rests) {
@@ -261,7 +265,7 @@ fn body_sample(simulation: &Simulation, place: usize, body: &Body, means: &Means
 fn mode(body: &Body, means: &Means) -> Mode {
     let speed = body.velocity().norm();
     let turning = body.angular_velocity().norm() * body.shape.bounding_radius();
-    if !body.is_free() || speed.max(turning) < REST_SPEED {
+    if body.freedom == Freedom::Fixed || speed.max(turning) < REST_SPEED {
         Mode::Resting
     } else if !means.supported(body) {
         Mode::Saltating

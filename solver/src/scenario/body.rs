@@ -1,9 +1,10 @@
 //! Readers of the bodies.
 
+use super::motion::read_motion;
 use super::node::Node;
 use super::placement::Size;
 use super::range::{rounded_up, short};
-use super::reader::Object;
+use super::reader::{Object, Several};
 use super::report::Report;
 use super::rules::*;
 use super::{Body, Position, RegularSolid, Shape};
@@ -51,6 +52,7 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
     let flow_restitution = object.number(&FLOW_RESTITUTION);
     let contact_modulus_pa = object.automatic(&CONTACT_MODULUS);
     let fixed = object.flag("fixed", false);
+    let motion = read_motion(&object);
     object.refuse_unknown();
     let fits = rounding_fits(&object, shape.as_ref(), sphero_radius_m);
     let ((yaw_deg, orientation), (velocity_m_s, angular_velocity_rad_s)) = (turn?, velocities?);
@@ -70,8 +72,9 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
         flow_restitution: flow_restitution?,
         contact_modulus_pa: contact_modulus_pa?,
         fixed: fixed?,
+        motion: motion?,
     };
-    fixed_bodies_stand(&object, &body);
+    moves_one_way(&object, &body);
     fits.then_some(body)
 }
 
@@ -132,7 +135,8 @@ fn read_regular(object: &Object<'_>) -> Option<Shape> {
 
 /// A polyhedron that encloses something.
 fn read_polyhedron(object: &Object<'_>) -> Option<Shape> {
-    let vertices_m = object.vectors(&VERTICES, &POLYHEDRON_VERTICES)?;
+    let points = Several::new(POLYHEDRON_VERTICES, "points");
+    let vertices_m = object.vectors(&VERTICES, &points)?;
     let shape = Shape::Polyhedron { vertices_m };
     let why = match shape.size() {
         Ok(size) if size.thickness_m >= LEAST_THICKNESS => return Some(shape),
@@ -214,18 +218,29 @@ fn read_velocities(object: &Object<'_>) -> Option<([f64; 3], [f64; 3])> {
     Some((velocity?, angular_velocity?))
 }
 
-fn fixed_bodies_stand(object: &Object<'_>, body: &Body) {
+/// A body is free, fixed, or has a prescribed motion; only a free one has velocities of
+/// its own at the start.
+fn moves_one_way(object: &Object<'_>, body: &Body) {
+    let why = match (body.fixed, &body.motion) {
+        (true, Some(_)) => {
+            let why = "can't be true, since the body's motion is given";
+            let pointer = object.pointer_to("fixed");
+            let allowed = "false while motion is given";
+            object.report.refuse(&pointer, allowed, None, why);
+            return;
+        }
+        (true, None) => "must be zero, since the body is fixed",
+        (false, Some(_)) => "must be zero, since the body's motion is given",
+        (false, None) => return,
+    };
     let given = [
         (&VELOCITY, body.velocity_m_s),
         (&ANGULAR_VELOCITY, body.angular_velocity_rad_s),
     ];
-    for (rule, velocity) in given {
-        if body.fixed && velocity != [0.0; 3] {
-            let why = "must be zero, since the body is fixed";
-            object
-                .report
-                .refuse(&object.pointer_to(rule.key), "[0, 0, 0]", rule.unit, why);
-        }
+    for (rule, _) in given.iter().filter(|(_, velocity)| *velocity != [0.0; 3]) {
+        object
+            .report
+            .refuse(&object.pointer_to(rule.key), "[0, 0, 0]", rule.unit, why);
     }
 }
 

@@ -204,7 +204,7 @@ pub(super) fn contacts_carry(
         let Some(modulus) = placed
             .body
             .contact_modulus_pa
-            .filter(|_| !placed.body.fixed)
+            .filter(|_| placed.body.is_free())
         else {
             continue;
         };

@@ -7,6 +7,7 @@ mod accuracy;
 mod agreement;
 mod body;
 mod fit;
+mod motion;
 mod node;
 mod parse;
 mod placement;
@@ -21,6 +22,7 @@ mod tests;
 
 pub use crate::shape::RegularSolid;
 pub use accuracy::{Accuracy, Quantity};
+pub use motion::Motion;
 pub use placement::{Pose, ReleaseBox, Support};
 pub use reduction::{Approach, Ending, Symmetry};
 
@@ -147,6 +149,8 @@ pub struct Body {
     pub contact_modulus_pa: Option<f64>,
     /// A fixed body is a barrier.
     pub fixed: bool,
+    /// How it moves whatever acts on it; `None`: it is fixed or free.
+    pub motion: Option<Motion>,
 }
 
 /// Shape of a body before it is rounded, as JSON `{"cube": {"side_m": 0.04}}`.

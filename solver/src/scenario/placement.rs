@@ -164,9 +164,17 @@ impl Size {
 }
 
 impl Body {
-    /// Speed of the fastest place of a body of this bounding radius [m] at the start
-    /// [m/s], its turning included.
+    /// Whether loads move it.
+    pub fn is_free(&self) -> bool {
+        !self.fixed && self.motion.is_none()
+    }
+
+    /// Speed of the fastest place of a body of this bounding radius [m] at the start, or
+    /// ever by its prescribed motion [m/s], its turning included.
     pub fn thrown_m_s(&self, bounding_radius: f64) -> f64 {
+        if let Some(motion) = &self.motion {
+            return motion.prescribed().fastest(bounding_radius);
+        }
         let spin = Vector3::from(self.angular_velocity_rad_s).norm();
         Vector3::from(self.velocity_m_s).norm() + spin * bounding_radius
     }

@@ -8,6 +8,28 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
+/// How many entries a list has, and what they are called.
+pub(super) struct Several {
+    count: RangeInclusive<usize>,
+    noun: &'static str,
+}
+
+impl Several {
+    pub(super) const fn new(count: RangeInclusive<usize>, noun: &'static str) -> Self {
+        Self { count, noun }
+    }
+
+    /// In words: "4 to 32 points".
+    fn words(&self) -> String {
+        let (least, most) = (self.count.start(), self.count.end());
+        if least == most {
+            format!("{most} {}", self.noun)
+        } else {
+            format!("{least} to {most} {}", self.noun)
+        }
+    }
+}
+
 /// One JSON object in the reading.
 pub(super) struct Object<'a> {
     pub(super) pointer: String,
@@ -234,24 +256,45 @@ impl<'a> Object<'a> {
     pub(super) fn vectors<const N: usize>(
         &self,
         rule: &Rule,
-        count: &RangeInclusive<usize>,
+        several: &Several,
     ) -> Option<Vec<[f64; N]>> {
-        let (least, most) = (count.start(), count.end());
         let words = list_words::<N>(&rule.range);
-        let allowed = format!("{least} to {most} points, each {words}");
+        let read = |item: &Node, pointer: &str| self.elements(item, pointer, rule);
+        self.list(rule, several, &words, read)
+    }
+
+    /// A list of so many numbers, each under the rule.
+    pub(super) fn numbers(&self, rule: &Rule, several: &Several) -> Option<Vec<f64>> {
+        let read = |item: &Node, pointer: &str| self.check(item, pointer, rule);
+        self.list(rule, several, &rule.range.words(), read)
+    }
+
+    /// A list of so many entries; `each` says what one may be.
+    fn list<T>(
+        &self,
+        rule: &Rule,
+        several: &Several,
+        each: &str,
+        read: impl Fn(&Node, &str) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let allowed = format!("{}, each {each}", several.words());
         let pointer = self.pointer_to(rule.key);
         let why = match self.member(rule.key) {
-            Some(Node::List(items)) if count.contains(&items.len()) => {
-                let vector = |(index, item): (usize, &Node)| {
-                    self.elements(item, &format!("{pointer}/{index}"), rule)
-                };
-                let vectors: Vec<_> = items.iter().enumerate().map(vector).collect();
-                return vectors.into_iter().collect();
+            Some(Node::List(items)) if several.count.contains(&items.len()) => {
+                let entry =
+                    |(index, item): (usize, &Node)| read(item, &format!("{pointer}/{index}"));
+                let entries: Vec<_> = items.iter().enumerate().map(entry).collect();
+                return entries.into_iter().collect();
             }
             Some(Node::List(items)) => {
-                format!("has {} points, not {least} to {most}", items.len())
+                format!(
+                    "has {} {}, not {}",
+                    items.len(),
+                    several.noun,
+                    several.words()
+                )
             }
-            Some(_) => "must be a list of points".to_owned(),
+            Some(_) => format!("must be a list of {}", several.noun),
             None => "is missing, and has no default".to_owned(),
         };
         self.report.refuse(&pointer, &allowed, rule.unit, &why);

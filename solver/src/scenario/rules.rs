@@ -24,6 +24,8 @@ pub(super) const QUATERNION_SLACK: f64 = 1e-3;
 /// sphero radius: coordinates typed with a few digits, and less than the
 /// overlap of a body at rest.
 pub(super) const TOUCHING: f64 = 1e-3;
+/// Times that a motion may be given at.
+pub(super) const MOTION_TIMES: RangeInclusive<usize> = 1..=1000;
 /// Points a polyhedron may be given by: rounding may make twice as many faces of
 /// them, and four times as many vertices.
 pub(super) const POLYHEDRON_VERTICES: RangeInclusive<usize> = 4..=32;
@@ -125,6 +127,7 @@ pub(super) const VELOCITY: Rule = Rule::new("velocity_m_s", closed(-1e3, 1e3))
 pub(super) const ANGULAR_VELOCITY: Rule = Rule::new("angular_velocity_rad_s", closed(-1e5, 1e5))
     .unit("rad/s")
     .default(0.0);
+pub(super) const MOTION_TIME: Rule = Rule::new("times_s", closed(0.0, 3600.0)).unit(SECOND);
 pub(super) const FRICTION: Rule = friction("friction", 0.4);
 pub(super) const RESTITUTION: Rule = restitution("restitution", 0.3);
 pub(super) const ROLLING_FRICTION: Rule = friction("rolling_friction", 0.0);

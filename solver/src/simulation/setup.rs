@@ -249,7 +249,7 @@ impl Setup {
         let duration = pace.substep * f64::from(pace.count);
         let body_travel = bodies
             .iter()
-            .map(|body| body.largest_speed() * duration)
+            .map(|body| body.speed_ahead() * duration)
             .fold(0.0, f64::max);
         // A step of a single sub-step may go beyond the flow's Courant number.
         let cells = flow.limits.flow_courant.max(flow.limits.courant);
@@ -405,9 +405,10 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
 }
 
 impl Setup {
-    /// What bodies move under.
-    pub(super) fn surroundings(&self) -> Surroundings<'_> {
+    /// What bodies move under from a time on [s].
+    pub(super) fn surroundings(&self, time: f64) -> Surroundings<'_> {
         Surroundings {
+            time,
             planes: &self.planes,
             gravity: self.gravity,
         }
@@ -423,7 +424,9 @@ fn guards(scenario: &Scenario) -> Guards {
     });
     let bodies = scenario.bodies.iter().enumerate().map(|(place, body)| {
         let radius = scenario.shape_of(place).bounding_radius();
-        let height = scenario.initial_pose(place).position.z + radius;
+        let motion = body.motion.as_ref().map(scenario::Motion::prescribed);
+        let rise = motion.map_or(0.0, |motion| motion.rise(scenario.duration_s));
+        let height = scenario.initial_pose(place).position.z + radius + rise;
         (height, body.thrown_m_s(radius))
     });
     let (highest, fastest) = bodies.fold((top, 0.0f64), |(top, speed), (height, thrown)| {

@@ -80,7 +80,7 @@ impl Simulation {
             return Ok(stability::pace_without_flow(longest, remaining));
         };
         let flow_speed = self.state.flow.fastest();
-        let body_speeds = self.state.bodies.iter().map(|body| body.largest_speed());
+        let body_speeds = self.state.bodies.iter().map(Body::speed_ahead);
         let body_speed = body_speeds.fold(0.0, f64::max);
         // A body faster than the flow must not jump over points either.
         let fastest = flow_speed.max(body_speed);
@@ -138,11 +138,14 @@ impl Simulation {
                 state.moments.momentum += from_outside.linear;
             }
             state.moments.momentum += from_bodies.linear;
+            for (body, on) in bodies.iter().zip(on_bodies) {
+                state.audit.give(body.work_against(&on.load, dt));
+            }
             state.moments.first_moment += state.moments.momentum * dt;
         }
         let on_bodies = state.flow.on_bodies();
         let flow = |body: usize| on_bodies.get(body).map_or_else(Load::default, |on| on.load);
-        let around = given.surroundings();
+        let around = given.surroundings(state.clock.time);
         let (bodies, meetings) = (&mut state.bodies, &mut state.meetings);
         let reports = &mut scratch.body_reports;
         island::advance(bodies, meetings, reports, flow, &around, dt);
@@ -150,6 +153,7 @@ impl Simulation {
             state.audit.exchange(&report.wall);
             state.audit.exchange(&report.barrier);
             state.audit.exchange(&report.gravity);
+            state.audit.give(report.work);
             state.audit.meet_solid(report.deepest_overlap_ratio);
         }
         for flow in on_bodies {

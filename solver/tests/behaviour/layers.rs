@@ -11,6 +11,7 @@ const LAYERS: [&[&str]; 8] = [
     &[
         "kernel",
         "material",
+        "motion",
         "shape",
         "contact::law",
         "contact::neighbours",

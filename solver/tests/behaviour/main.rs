@@ -19,6 +19,7 @@ mod layers;
 mod limits;
 mod plan;
 mod precisions;
+mod prescribed;
 mod reductions;
 mod same_bits;
 mod shapes;

@@ -171,6 +171,36 @@ pub struct BodyDocument {
     /// A fixed body is a barrier.
     #[schema(required = false)]
     pub fixed: bool,
+    /// How it moves whatever acts on it; null: it is free, or fixed.
+    pub motion: Option<MotionDocument>,
+}
+
+/// Prescribed motion of a body, in channel axes.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(untagged)]
+#[schema(as = Motion)]
+pub enum MotionDocument {
+    /// By a table: velocities are linear in time between its times, and constant before
+    /// the first and after the last one.
+    Table {
+        /// Times, each after the one before [s].
+        times_s: Vec<f64>,
+        /// Velocity of the centre at each of them [m/s].
+        #[schema(required = false)]
+        velocity_m_s: Vec<[f64; 3]>,
+        /// Angular velocity at each of them [rad/s].
+        #[schema(required = false)]
+        angular_velocity_rad_s: Vec<[f64; 3]>,
+    },
+    /// Always alike.
+    Constant {
+        /// Velocity of the centre [m/s].
+        #[schema(required = false)]
+        velocity_m_s: [f64; 3],
+        /// Angular velocity [rad/s].
+        #[schema(required = false)]
+        angular_velocity_rad_s: [f64; 3],
+    },
 }
 
 /// Shape of a body before it is rounded; its flats stay where they are.

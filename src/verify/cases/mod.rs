@@ -6,6 +6,7 @@ mod buried_body;
 mod column_collapse;
 mod cubes_and_column;
 mod dam_break;
+mod dragged_plate;
 mod dust_stream;
 mod elastic_bar;
 mod error_bars;
@@ -17,6 +18,7 @@ mod incline;
 mod mass;
 mod momentum_audit;
 mod plate_drag;
+mod pressed_plate;
 mod restitution;
 mod rotation;
 mod sliding_block;
@@ -24,6 +26,7 @@ mod source_paper;
 mod sphere_into_bed;
 mod torque_free;
 mod two_clocks;
+mod wall_bore;
 
 use super::Case;
 
@@ -47,6 +50,9 @@ pub const ALL: &[Case] = &[
     buried_body::CASE,
     plate_drag::CASE,
     two_clocks::CASE,
+    wall_bore::CASE,
+    dragged_plate::CASE,
+    pressed_plate::CASE,
     column_collapse::CASE,
     axisymmetric_collapse::CASE,
     dam_break::CASE,

@@ -1,12 +1,12 @@
 //! How many sub-steps of its own an island takes within one of the flow
 //! (docs/method.md, equations 20 and 48).
 
-use super::{Member, Met, Side, Surroundings, body_of, is_free, reach};
+use super::{Member, Met, Mover, Side, Surroundings, body_of, is_free, reach};
 use crate::contact::body_body::reduced_mass;
 use crate::contact::body_wall::deepest_overlap;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
-use crate::rigid::Body;
+use crate::rigid::{Body, Freedom};
 use crate::walls::Plane;
 
 /// Share of a contact's time scale √(m/k'), k' where it is deepest, taken per
@@ -26,6 +26,7 @@ pub const MOST_SUBSTEPS: f64 = 100_000.0;
 /// Number of body sub-steps that `dt` asks for, whole but kept as a float.
 pub(super) fn substeps(
     members: &[Member],
+    movers: &[Mover],
     meetings: &[Met],
     around: &Surroundings,
     dt: f64,
@@ -38,7 +39,7 @@ pub(super) fn substeps(
     });
     let met = meetings
         .iter()
-        .map(|met| substeps_met(members, met, &around.gravity, dt));
+        .map(|met| substeps_met(members, movers, met, &around.gravity, dt));
     let count = alone.chain(met).fold(0.0, f64::max);
     count.ceil().max(1.0)
 }
@@ -67,18 +68,21 @@ pub fn substeps_alone(
 }
 
 /// Sub-steps that two bodies ask for.
-fn substeps_met(members: &[Member], met: &Met, gravity: &Vec3, dt: f64) -> f64 {
-    let [first, second] = met.sides.map(|side| body_of(members, side));
-    let free = || [first, second].into_iter().filter(|body| is_free(body));
+fn substeps_met(members: &[Member], movers: &[Mover], met: &Met, gravity: &Vec3, dt: f64) -> f64 {
+    let both = met.sides.map(|side| body_of(members, movers, side));
+    let free = || both.into_iter().filter(|body| is_free(body));
+    let moving = both
+        .into_iter()
+        .filter(|body| body.freedom != Freedom::Fixed);
     let gained = met.sides.iter().map(|side| match side {
         Side::Member(place) => {
             let Member { body, flow, .. } = &members[*place];
             body.largest_acceleration(gravity, flow) * dt
         }
-        Side::Barrier(_) => 0.0,
+        Side::Barrier(_) | Side::Mover(_) => 0.0,
     });
-    let speed = gained.chain(free().map(Body::largest_speed)).sum();
-    let impact = impact_overlap(&met.law, reduced_mass(first, second), speed);
+    let speed = gained.chain(moving.map(Body::speed_ahead)).sum();
+    let impact = impact_overlap(&met.law, reduced_mass(both[0], both[1]), speed);
     let inverse: f64 = free().map(|body| 1.0 / lightest_effective_mass(body)).sum();
     let deepest = met.meeting.deepest.max(impact);
     if deepest > 0.0 {

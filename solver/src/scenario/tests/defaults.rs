@@ -23,7 +23,7 @@ fn the_minimal_scenario_has_the_documented_defaults() {
                     "angular_velocity_rad_s": [0.0, 0.0, 0.0],
                     "friction": 0.4, "restitution": 0.3, "rolling_friction": 0.0,
                     "flow_friction": 0.4, "flow_restitution": 0.0,
-                    "contact_modulus_pa": null, "fixed": false}],
+                    "contact_modulus_pa": null, "fixed": false, "motion": null}],
         "gravity_m_s2": 9.81, "duration_s": 3.0, "sample_interval_s": 0.01, "flow_snapshots": 6,
         "numerics": {"cell_size_m": null, "points_per_cell": 8, "sound_speed_m_s": null,
                      "courant": null, "flow_courant": null, "precision": "single",

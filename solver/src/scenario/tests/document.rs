@@ -12,7 +12,7 @@ use serde_json::Value;
 const DOCUMENT: &str = include_str!("../../../../docs/scenario.md");
 
 /// Every rule and the object it is read from.
-const RULES: [(&str, &[Rule]); 9] = [
+const RULES: [(&str, &[Rule]); 10] = [
     ("", &[GRAVITY, DURATION, SAMPLE_INTERVAL, FLOW_SNAPSHOTS]),
     (
         "channel.",
@@ -58,6 +58,10 @@ const RULES: [(&str, &[Rule]); 9] = [
         ],
     ),
     ("bodies[].position.", &[DOWNSTREAM, LATERAL, ELEVATION]),
+    (
+        "bodies[].motion.",
+        &[MOTION_TIME, VELOCITY, ANGULAR_VELOCITY],
+    ),
     (
         "numerics.",
         &[
@@ -154,6 +158,8 @@ fn counts_are_those_of_the_code() {
     let (least, most) = (POLYHEDRON_VERTICES.start(), POLYHEDRON_VERTICES.end());
     let points = format!("{least} to {most} points");
     assert!(row("bodies[].shape.polyhedron.vertices_m")[4].contains(&points));
+    let times = format!("{} to {} times", MOTION_TIMES.start(), MOTION_TIMES.end());
+    assert!(row("bodies[].motion.times_s")[4].contains(&times));
     assert!(row("bodies[].sphero_radius_m")[3].contains("1/20") && SIZE_PER_SPHERO_RADIUS == 20.0);
 }
 

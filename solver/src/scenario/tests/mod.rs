@@ -5,6 +5,7 @@ mod answers;
 mod defaults;
 mod document;
 mod fields;
+mod motion;
 mod placement;
 mod random;
 

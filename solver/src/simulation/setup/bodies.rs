@@ -6,8 +6,9 @@ use super::settle::settle;
 use crate::contact::body_wall::touch_walls;
 use crate::contact::law::{ContactLaw, Dampings};
 use crate::math::Vec3;
-use crate::rigid::{Body, BodyState, Freedom, Load};
-use crate::scenario::Scenario;
+use crate::motion::Velocities;
+use crate::rigid::{Body, BodyState, Freedom, Load, Prescribed};
+use crate::scenario::{self, Scenario};
 
 /// The bodies of a scenario, where they start.
 pub(in crate::simulation) fn bodies(scenario: &Scenario, given: &Setup) -> Vec<Body> {
@@ -48,7 +49,7 @@ fn body(
         state: BodyState {
             position: pose.position,
             orientation: pose.orientation,
-            momentum: Vec3::from(spec.velocity_m_s) * mass,
+            momentum: Vec3::zeros(),
             angular_momentum: Vec3::zeros(),
             springs: Vec::new(),
             rolling: Vec::new(),
@@ -66,17 +67,32 @@ fn body(
         wall_law,
         flow_law,
         rolling_friction: spec.rolling_friction,
-        freedom: if spec.fixed {
-            Freedom::Fixed
-        } else {
-            Freedom::Free
+        freedom: freedom(spec, pose.position),
+    };
+    let velocities = match body.prescribed() {
+        Some(prescribed) => prescribed.motion.velocities(0.0),
+        None => Velocities {
+            linear: Vec3::from(spec.velocity_m_s),
+            angular: Vec3::from(spec.angular_velocity_rad_s),
         },
     };
-    let spin = body.to_body(&Vec3::from(spec.angular_velocity_rad_s));
-    body.state.angular_momentum = body.to_world(&(body.inertia * spin));
+    body.set_velocities(&velocities);
     if spec.position.elevation_m.is_none() && body.freedom == Freedom::Free {
         settle(&mut body, &given.planes, &given.gravity);
     }
-    touch_walls(&mut body, &given.planes, 0.0);
+    if body.prescribed().is_none() {
+        touch_walls(&mut body, &given.planes, 0.0);
+    }
     body
+}
+
+fn freedom(spec: &scenario::Body, start: Vec3) -> Freedom {
+    match &spec.motion {
+        Some(motion) => Freedom::Prescribed(Prescribed {
+            start,
+            motion: motion.prescribed(),
+        }),
+        None if spec.fixed => Freedom::Fixed,
+        None => Freedom::Free,
+    }
 }

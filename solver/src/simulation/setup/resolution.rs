@@ -93,8 +93,11 @@ fn expected_speed(scenario: &Scenario) -> f64 {
         let channel = &scenario.channel;
         channel.fastest_flow(flow, scenario.gravity_m_s2)
     });
-    let bodies = scenario.bodies.iter();
-    let thrown = bodies.map(|body| Vec3::from(body.velocity_m_s).norm());
+    let bodies = scenario.bodies.iter().enumerate();
+    let thrown = bodies.map(|(place, body)| match body.motion {
+        Some(_) => body.thrown_m_s(scenario.shape_of(place).bounding_radius()),
+        None => Vec3::from(body.velocity_m_s).norm(),
+    });
     thrown.fold(of_flow, f64::max)
 }
 
@@ -111,6 +114,7 @@ struct Weighty {
     /// Of its start, and of a fall to the floor [m²/s²].
     speed_squared: f64,
     free: bool,
+    fixed: bool,
 }
 
 /// All bodies of a scenario, for how stiff their contacts have to be.
@@ -124,7 +128,10 @@ impl Crowd {
             let start = scenario.initial_pose(place).position;
             let faces = shape.faces().iter().map(|face| face.offset);
             let lowest = faces.fold(f64::INFINITY, f64::min) + shape.sphero_radius();
-            let falling = 2.0 * scenario.gravity_m_s2 * (start.z - lowest).max(0.0);
+            let falling = match body.motion {
+                Some(_) => 0.0,
+                None => 2.0 * scenario.gravity_m_s2 * (start.z - lowest).max(0.0),
+            };
             let bounding_radius = shape.bounding_radius();
             let thrown = body.thrown_m_s(bounding_radius);
             Weighty {
@@ -135,7 +142,8 @@ impl Crowd {
                 bounding_radius,
                 projected_area: std::f64::consts::PI * shape.shadow_radius().powi(2),
                 speed_squared: falling + thrown * thrown,
-                free: !body.fixed,
+                free: body.is_free(),
+                fixed: body.fixed,
             }
         };
         Self((0..scenario.bodies.len()).map(weighty).collect())
@@ -168,10 +176,11 @@ impl Crowd {
     /// Largest mass and squared speed of what may strike a body, or it strike.
     fn striking(&self, place: usize) -> (f64, f64) {
         let own = &self.0[place];
-        let others = self.0.iter().filter(|other| other.free);
+        let others = self.0.iter().filter(|other| !other.fixed);
         let alone = (own.moving_mass(), own.speed_squared);
         others.fold(alone, |(mass, speed), other| {
-            (mass.max(other.mass), speed.max(other.speed_squared))
+            let speed = speed.max(other.speed_squared);
+            (mass.max(other.moving_mass()), speed)
         })
     }
 }
@@ -186,7 +195,8 @@ impl Weighty {
         self.free && apart.z > 0.0 && apart.xy().norm() < reach + apart.z
     }
 
-    /// A fixed body presses on nothing and strikes nothing.
+    /// A body that no load moves presses on nothing, and what it strikes is not stopped
+    /// by its mass.
     fn moving_mass(&self) -> f64 {
         if self.free { self.mass } else { 0.0 }
     }
@@ -225,6 +235,7 @@ mod tests {
             projected_area: 0.01,
             speed_squared: 0.0,
             free: free || place > 0,
+            fixed: !free && place == 0,
         };
         Crowd(starts.iter().enumerate().map(weighty).collect())
     }

@@ -42,11 +42,11 @@ fn partner(scenario: &Scenario, bodies: &[Body], place: usize) -> Result<usize, 
             Ok(place)
         } else {
             Err(format!(
-                "body {place} starts with a motion out of the centre plane"
+                "body {place} moves out of the centre plane, or starts to"
             ))
         };
     }
-    if body.freedom == Freedom::Free {
+    if body.freedom != Freedom::Fixed {
         return Err(format!(
             "body {place} is not symmetric about the centre plane"
         ));
@@ -81,6 +81,9 @@ fn mirrored_onto(body: &Body, other: &Body) -> bool {
 }
 
 fn moves_in_plane(body: &Body) -> bool {
+    if let Some(prescribed) = body.prescribed() {
+        return prescribed.motion.stays_in_plane();
+    }
     let (linear, turning) = (body.velocity(), body.angular_velocity());
     linear.y == 0.0 && turning.x == 0.0 && turning.z == 0.0
 }
@@ -100,6 +103,10 @@ pub(super) fn uniform_across(
     let friction = scenario.channel.side_friction;
     if friction > 0.0 {
         return Err(format!("the side walls rub, with a friction of {friction}"));
+    }
+    let moved = |body: &Body| body.prescribed().is_some() && body.speed_ahead() > 0.0;
+    if let Some(place) = bodies.iter().position(moved) {
+        return Err(format!("body {place} has a prescribed motion"));
     }
     let near = |body: &&Body| columns.any_place(scenario, |x| near_body(body, lattice).holds(x));
     match bodies.iter().position(|body| near(&body)) {

@@ -97,6 +97,7 @@ fn rebound(turn: &Vec3, restitution: f64, at_a_body: bool) -> f64 {
     let around = Surroundings {
         planes: if at_a_body { &[] } else { &planes },
         gravity: Vec3::zeros(),
+        time: 0.0,
     };
     if !at_a_body {
         bodies.truncate(1);

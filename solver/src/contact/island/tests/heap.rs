@@ -77,6 +77,7 @@ fn a_heap_comes_to_rest_and_sleeps_until_touched() {
     let around = Surroundings {
         planes: &planes,
         gravity: GRAVITY,
+        time: 0.0,
     };
     let mut meetings = meet(&mut bodies);
     let energy =
@@ -154,6 +155,7 @@ fn any_number_of_threads_gives_the_same_bits() {
             let around = Surroundings {
                 planes: &planes,
                 gravity: GRAVITY,
+                time: 0.0,
             };
             let mut meetings = meet(&mut bodies);
             for _ in 0..200 {

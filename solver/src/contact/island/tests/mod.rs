@@ -43,6 +43,7 @@ fn alone(body: &mut Body, flow: &Load, dt: f64) -> BodyReport {
     let around = Surroundings {
         planes: &[floor()],
         gravity: GRAVITY,
+        time: 0.0,
     };
     let bodies = std::slice::from_mut(body);
     advance(bodies, &mut Vec::new(), |_| *flow, &around, dt)[0]
@@ -155,6 +156,7 @@ impl Numbers {
 const NOWHERE: Surroundings = Surroundings {
     planes: &[],
     gravity: Vec3::new(0.0, 0.0, 0.0),
+    time: 0.0,
 };
 
 // A nearly round body (a cube rounded with almost half its side) rolls down 10°;
@@ -179,6 +181,7 @@ fn rolling_resistance_holds_a_round_body_on_a_slope() {
             planes: &[floor()],
             // 10° of slope.
             gravity: 9.81 * Vec3::new(0.173_648, 0.0, -0.984_808),
+            time: 0.0,
         };
         let mut step = |count: usize| {
             for _ in 0..count {

@@ -1,0 +1,73 @@
+//! A free body of an island: what moves it, and what it reports.
+
+use super::{BodyReport, Member, STILL};
+use crate::math::Vec3;
+use crate::rigid::{Body, Load};
+
+impl<'a> Member<'a> {
+    pub(super) fn new(body: &'a mut Body, report: &'a mut BodyReport, flow: Load) -> Self {
+        Self {
+            start: body.state.position,
+            flow,
+            body,
+            report,
+        }
+    }
+
+    pub(super) fn half_kick(&mut self, gravity: &Vec3, dt: f64) {
+        let weight = gravity * self.body.mass;
+        let state = &self.body.state;
+        let position = state.position;
+        let (wall, barrier, others) = (state.wall_load, state.barrier_load, state.body_load);
+        // The flow's force keeps its line of action, so that points and body
+        // exchange equal and opposite angular momentum.
+        let shifted = self.flow.torque - (position - self.start).cross(&self.flow.force);
+        let mut total = Load {
+            force: wall.force + self.flow.force + weight,
+            torque: wall.torque + shifted,
+        };
+        let mut bodies = others;
+        bodies.add(&barrier);
+        total.add(&bodies);
+        self.body.kick(&total, dt);
+        let report = &mut *self.report;
+        report.wall.add_at(&position, &(wall.force * dt));
+        report.wall.angular += wall.torque * dt;
+        report.barrier.add_at(&position, &(barrier.force * dt));
+        report.barrier.angular += barrier.torque * dt;
+        report.gravity.add_at(&position, &(weight * dt));
+        for (sum, load) in [
+            (&mut report.wall_load, &wall),
+            (&mut report.body_load, &bodies),
+        ] {
+            sum.force += load.force * dt;
+            sum.torque += load.torque * dt;
+        }
+    }
+
+    /// Whether it has stood since the start, held by the walls, and nothing touches
+    /// it: steps would change nothing but its rounding.
+    pub(super) fn waits(&self) -> bool {
+        self.body.is_held() && self.flow == Load::default()
+    }
+
+    /// What it reports asleep: the loads that hold it.
+    pub(super) fn lie(&mut self) {
+        let state = &self.body.state;
+        self.report.wall_load = state.wall_load;
+        self.report.body_load = state.body_load;
+        self.report.body_load.add(&state.barrier_load);
+        self.report.substeps = 1;
+        self.report.substeps_supported = u32::from(self.body.is_supported());
+        let overlap = state.wall_overlap / self.body.shape.sphero_radius();
+        self.report.overlap(overlap);
+    }
+
+    pub(super) fn watch_rest(&mut self, dt: f64) {
+        if self.body.largest_speed() < STILL && self.flow == Load::default() {
+            self.body.state.still_for += dt;
+        } else {
+            self.body.state.still_for = 0.0;
+        }
+    }
+}

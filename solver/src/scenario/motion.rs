@@ -1,0 +1,124 @@
+//! The prescribed motion of a body: its description and its reader.
+
+use super::node::Node;
+use super::range::short;
+use super::reader::{Object, Several};
+use super::rules::{ANGULAR_VELOCITY, MOTION_TIME, MOTION_TIMES, VELOCITY};
+use crate::motion::{PrescribedMotion, Velocities};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// How a body moves whatever acts on it, as JSON `{"velocity_m_s": [0.1, 0, 0]}`, or with
+/// `times_s` and as many velocities.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Motion {
+    /// By a table: velocities are linear in time between its rows, and constant before
+    /// the first and after the last one.
+    Table {
+        /// Times of the rows, ascending [s].
+        times_s: Vec<f64>,
+        /// Velocity of the centre in each row [m/s].
+        velocity_m_s: Vec<[f64; 3]>,
+        /// Angular velocity in each row, world axes [rad/s].
+        angular_velocity_rad_s: Vec<[f64; 3]>,
+    },
+    /// Always alike.
+    Constant {
+        /// Velocity of the centre [m/s].
+        velocity_m_s: [f64; 3],
+        /// Angular velocity, world axes [rad/s].
+        angular_velocity_rad_s: [f64; 3],
+    },
+}
+
+impl Motion {
+    /// The motion in the solver's terms.
+    ///
+    /// # Panics
+    /// If the motion did not come from the parser, which refuses tables that are none.
+    pub fn prescribed(&self) -> PrescribedMotion {
+        let velocities = |linear: &[f64; 3], angular: &[f64; 3]| Velocities {
+            linear: Vector3::from(*linear),
+            angular: Vector3::from(*angular),
+        };
+        match self {
+            Self::Constant {
+                velocity_m_s,
+                angular_velocity_rad_s,
+            } => PrescribedMotion::constant(velocities(velocity_m_s, angular_velocity_rad_s)),
+            Self::Table {
+                times_s,
+                velocity_m_s,
+                angular_velocity_rad_s,
+            } => {
+                let rows = velocity_m_s.iter().zip(angular_velocity_rad_s);
+                let rows = rows.map(|(linear, angular)| velocities(linear, angular));
+                PrescribedMotion::table(times_s.iter().copied().zip(rows))
+            }
+        }
+    }
+}
+
+/// The motion of a body, if it is given; a refused one is `None`.
+pub(super) fn read_motion(body: &Object<'_>) -> Option<Option<Motion>> {
+    let node = match body.member("motion") {
+        None | Some(Node::Null) => return Some(None),
+        Some(node) => node,
+    };
+    let object = body.object(node, "motion")?;
+    let motion = match object.member(MOTION_TIME.key) {
+        None => read_constant(&object),
+        Some(_) => read_table(&object),
+    };
+    object.refuse_unknown();
+    motion.map(Some)
+}
+
+fn read_constant(object: &Object<'_>) -> Option<Motion> {
+    let velocity_m_s = object.vector(&VELOCITY);
+    let angular_velocity_rad_s = object.vector(&ANGULAR_VELOCITY);
+    Some(Motion::Constant {
+        velocity_m_s: velocity_m_s?,
+        angular_velocity_rad_s: angular_velocity_rad_s?,
+    })
+}
+
+fn read_table(object: &Object<'_>) -> Option<Motion> {
+    let times_s = object.numbers(&MOTION_TIME, &Several::new(MOTION_TIMES, "times"));
+    let times_s = times_s.filter(|times| times_ascend(object, times));
+    // How many velocities there have to be is known of sound times only.
+    let rows = |times: &Vec<f64>| times.len()..=times.len();
+    let any = 0..=*MOTION_TIMES.end();
+    let several = Several::new(times_s.as_ref().map_or(any, rows), "velocities");
+    let velocities = [&VELOCITY, &ANGULAR_VELOCITY].map(|rule| {
+        object.member(rule.key).map_or_else(
+            || Some(vec![[0.0; 3]; times_s.as_ref().map_or(0, Vec::len)]),
+            |_| object.vectors(rule, &several),
+        )
+    });
+    let [velocity_m_s, angular_velocity_rad_s] = velocities;
+    Some(Motion::Table {
+        times_s: times_s?,
+        velocity_m_s: velocity_m_s?,
+        angular_velocity_rad_s: angular_velocity_rad_s?,
+    })
+}
+
+/// Whether every time is after the one before; the first that is not is refused.
+fn times_ascend(object: &Object<'_>, times: &[f64]) -> bool {
+    let Some(before) = times.windows(2).position(|pair| pair[0] >= pair[1]) else {
+        return true;
+    };
+    let bound = short(times[before]);
+    let pointer = format!("{}/{}", object.pointer_to(MOTION_TIME.key), before + 1);
+    let why = format!(
+        "is {}, not after the time before it ({bound})",
+        short(times[before + 1])
+    );
+    let allowed = format!("x > {bound}");
+    object
+        .report
+        .refuse(&pointer, &allowed, MOTION_TIME.unit, &why);
+    false
+}

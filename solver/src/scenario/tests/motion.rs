@@ -1,0 +1,126 @@
+//! The prescribed motion of a body.
+
+use super::{accepted, check, with};
+use crate::motion::Velocities;
+use crate::scenario::{Motion, Scenario};
+use nalgebra::Vector3;
+use serde_json::{Value, json};
+
+const POINTER: &str = "/bodies/0/motion";
+
+fn motion(value: Value) -> Motion {
+    let scenario = accepted(&with(POINTER, value));
+    let text = scenario.to_json();
+    assert_eq!(Scenario::from_json(&text).as_ref(), Ok(&scenario));
+    scenario.bodies[0].motion.clone().expect("it was given")
+}
+
+#[test]
+fn velocities_may_stay_or_change() {
+    let constant = motion(json!({"velocity_m_s": [1, 0, -2]}));
+    let velocities = Velocities {
+        linear: Vector3::new(1.0, 0.0, -2.0),
+        angular: Vector3::zeros(),
+    };
+    assert_eq!(constant.prescribed().velocities(7.0), velocities);
+    let table = motion(json!({"times_s": [0.5, 1.5], "velocity_m_s": [[0, 0, 0], [2, 0, -4]]}));
+    assert_eq!(table.prescribed().velocities(1.0), velocities);
+    let turning = motion(json!({"times_s": [2], "angular_velocity_rad_s": [[0, 3, 0]]}));
+    assert_eq!(turning.prescribed().velocities(0.0).angular.y, 3.0);
+    let resting = motion(json!({}));
+    assert!(resting.prescribed().rests_from(0.0));
+    assert_eq!(accepted(&with(POINTER, Value::Null)).bodies[0].motion, None);
+}
+
+#[test]
+fn what_is_no_motion_is_refused() {
+    let table =
+        |times: Value, velocities: Value| json!({"times_s": times, "velocity_m_s": velocities});
+    check(&[
+        ("a number", POINTER, json!(3), POINTER, "an object"),
+        (
+            "an unknown key",
+            POINTER,
+            json!({"speed": 1}),
+            "/bodies/0/motion/speed",
+            "velocity_m_s",
+        ),
+        (
+            "too fast",
+            POINTER,
+            json!({"velocity_m_s": [2000, 0, 0]}),
+            "/bodies/0/motion/velocity_m_s/0",
+            "x <= 1000",
+        ),
+        (
+            "no times",
+            POINTER,
+            table(json!([]), json!([])),
+            "/bodies/0/motion/times_s",
+            "1 to 1000 times",
+        ),
+        (
+            "before the start",
+            POINTER,
+            table(json!([-1, 1]), json!([[0, 0, 0], [1, 0, 0]])),
+            "/bodies/0/motion/times_s/0",
+            "0 <= x <= 3600",
+        ),
+        (
+            "the same time twice",
+            POINTER,
+            table(json!([0, 1, 1]), json!([[0, 0, 0], [1, 0, 0], [2, 0, 0]])),
+            "/bodies/0/motion/times_s/2",
+            "x > 1",
+        ),
+        (
+            "a velocity too few",
+            POINTER,
+            table(json!([0, 1]), json!([[1, 0, 0]])),
+            "/bodies/0/motion/velocity_m_s",
+            "2 velocities, each a list of 3 numbers",
+        ),
+        (
+            "a number for a velocity",
+            POINTER,
+            table(json!([0, 1]), json!([[1, 0, 0], 0])),
+            "/bodies/0/motion/velocity_m_s/1",
+            "a list of 3 numbers",
+        ),
+    ]);
+}
+
+// Of a whole body, so that its other fields can be given besides.
+#[test]
+fn a_body_moves_in_one_way_only() {
+    let body = |key: &str, value: Value| {
+        let mut body = json!({"shape": {"cube": {"side_m": 0.04}},
+            "motion": {"velocity_m_s": [1, 0, 0]}});
+        body[key] = value;
+        body
+    };
+    check(&[
+        (
+            "fixed",
+            "/bodies/0",
+            body("fixed", json!(true)),
+            "/bodies/0/fixed",
+            "false while motion is given",
+        ),
+        (
+            "thrown",
+            "/bodies/0",
+            body("velocity_m_s", json!([0, 0, 1])),
+            "/bodies/0/velocity_m_s",
+            "[0, 0, 0]",
+        ),
+        (
+            "spun",
+            "/bodies/0",
+            body("angular_velocity_rad_s", json!([0, 0, 1])),
+            "/bodies/0/angular_velocity_rad_s",
+            "[0, 0, 0]",
+        ),
+    ]);
+    accepted(&with("/bodies/0", body("velocity_m_s", json!([0, 0, 0]))));
+}

@@ -1,0 +1,111 @@
+//! Plates that are moved through a bed as told, and the force on them.
+
+use super::blocks::{Block, elastic};
+use super::run::{Run, Trouble};
+use super::scenes::body;
+use scree_solver::contact::law::damping_number;
+use scree_solver::material::{Material, Yielding};
+use scree_solver::math::Vec3;
+use scree_solver::motion::{PrescribedMotion, Velocities};
+use scree_solver::rigid::{Freedom, Prescribed};
+use scree_solver::simulation::Scene;
+use serde_json::json;
+use std::ops::ControlFlow;
+
+/// Density of the beds [kg/m³].
+pub(super) const DENSITY: f64 = 1500.0;
+/// Poisson's ratio of the beds.
+pub(super) const POISSONS_RATIO: f64 = 0.3;
+/// Friction of the plates that are not smooth with the bed.
+pub(super) const FRICTION: f64 = 0.4;
+
+/// A bed with this friction at any rate (Drucker–Prager), in which sound is so fast [m/s].
+pub(super) fn bed_material(friction: f64, sound_speed: f64) -> Material {
+    let bulk_modulus = DENSITY * sound_speed * sound_speed;
+    let youngs_modulus = 3.0 * (1.0 - 2.0 * POISSONS_RATIO) * bulk_modulus;
+    Material {
+        yielding: Yielding::Granular {
+            static_friction: friction,
+            limiting_friction: friction,
+            reference_inertial_number: 0.279,
+            grain_diameter: 1e-3,
+            grain_density: 2600.0,
+        },
+        ..elastic(DENSITY, youngs_modulus, POISSONS_RATIO)
+    }
+}
+
+/// A plate among points.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plate {
+    /// Its lowest and highest corner, on nodes [m].
+    pub(super) corners: [Vec3; 2],
+    /// Friction with the bed.
+    pub(super) friction: f64,
+    /// Velocity after the ramp [m/s].
+    pub(super) velocity: Vec3,
+    /// How long it takes to get there from rest [s].
+    pub(super) ramp: f64,
+}
+
+impl Plate {
+    /// The bed of a block with the plate in it.
+    ///
+    /// # Errors
+    /// There is no such plate.
+    pub(super) fn within(&self, block: &Block) -> Result<Scene, Trouble> {
+        let mut scene = block.bed(POISSONS_RATIO);
+        let flow = scene.given.flow.as_ref();
+        let flow = flow.ok_or(Trouble::Never("there is no bed"))?;
+        let sphere = flow.sphere;
+        // Points that fill their room up to the corners' planes then just touch it.
+        let inset = Vec3::repeat(sphere.radius - 0.5 * sphere.spacing);
+        let [low, high] = [self.corners[0] + inset, self.corners[1] - inset];
+        let sides: [f64; 3] = (high - low).into();
+        let mut plate = body(&json!({
+            "shape": {"box": {"sides_m": sides}}, "sphero_radius_m": 0.1 * sphere.spacing,
+            "position": {"downstream_m": 0.0, "elevation_m": 0.5 * sides[2]}, "fixed": true,
+        }))?;
+        plate.flow_law = flow.contact_law(damping_number(0.0), self.friction);
+        let start = 0.5 * (low + high);
+        plate.state.position = start;
+        plate.freedom = Freedom::Prescribed(Prescribed {
+            start,
+            motion: self.motion(),
+        });
+        let outside = 0.5 * sphere.radius;
+        scene
+            .points
+            .retain(|point| plate.distance_to(&point.position) > outside);
+        scene.bodies.push(plate);
+        Ok(scene)
+    }
+
+    fn motion(&self) -> PrescribedMotion {
+        let moving = Velocities {
+            linear: self.velocity,
+            ..Velocities::NONE
+        };
+        PrescribedMotion::table([(0.0, Velocities::NONE), (self.ramp, moving)])
+    }
+}
+
+/// Mean force of the bed on the plate from now to a time [N].
+///
+/// # Errors
+/// The computation can't go on.
+pub(super) fn mean_force(run: &mut Run, to_s: f64) -> Result<Vec3, Trouble> {
+    let (mut impulse, mut duration) = (Vec3::zeros(), 0.0);
+    run.watch(to_s, |simulation, report| {
+        impulse += simulation.flow_load(0).load.force * report.substep_s;
+        duration += report.substep_s;
+        ControlFlow::Continue(())
+    })?;
+    if duration > 0.0 {
+        Ok(impulse / duration)
+    } else {
+        Err(Trouble::Never(
+            "no time passed while the force was measured",
+        ))
+    }
+}
