@@ -6,6 +6,7 @@ use crate::grid::{Grid, block_of};
 use crate::kernel::{Lattice, Stencil};
 use crate::rigid::fixture::{cuboid, of_shape};
 use crate::shape::{Feature, RegularSolid, SharpPolyhedron};
+use crate::walls::Plane;
 use nalgebra::UnitQuaternion;
 
 const SPHERE: PointSphere = PointSphere {
