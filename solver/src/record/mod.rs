@@ -3,9 +3,14 @@
 //! docs/method.md, section 9.
 
 mod bars;
+mod means;
+mod mode;
+mod motion;
 mod outcome;
 mod recorder;
 mod rest;
+mod sampling;
+mod snapshots;
 mod submergence;
 
 use crate::plan::Plan;
@@ -51,9 +56,10 @@ pub struct BodySample {
     pub body_force_n: [f64; 3],
     /// Torque of other bodies about the centre, mean since the last sample [N m].
     pub body_torque_nm: [f64; 3],
-    /// Material points in contact at the sample time.
+    /// Material points in contact in the sub-step that holds the sample time.
     pub touching_points: u32,
-    /// Share of the body's height below the surface of the flow round it, 0..1.
+    /// Share of the body's height below the surface of the flow round it, 0..1, at
+    /// the end of the step that holds the sample time.
     pub submerged_fraction: f64,
     /// How the body moves.
     pub mode: Mode,
@@ -89,9 +95,9 @@ pub const SNAPSHOT_POINTS: usize = 5_000;
 /// What the recorder hands on while a run goes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Record {
-    /// At every sample time, in order.
+    /// Of every sample time, in order.
     Sample(Sample),
-    /// At the snapshot times.
+    /// At the end of the step that holds a snapshot time.
     Snapshot(FlowSnapshot),
 }
 

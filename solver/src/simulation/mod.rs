@@ -90,8 +90,6 @@ pub struct SubstepReport {
     pub points: u64,
     /// Whether this sub-step ended a step: the points' own state is up to date.
     pub step_ended: bool,
-    /// Index k of the sample time reached (time = k · interval, or the end).
-    pub sample: Option<u64>,
 }
 
 /// Why a run came back.

@@ -20,6 +20,7 @@ mod plan;
 mod precisions;
 mod reductions;
 mod same_bits;
+mod samples;
 mod shapes;
 mod sliding_block;
 mod symmetry;
