@@ -1,8 +1,10 @@
 //! Turns what a run shows into records and an outcome.
 
+use super::motion::Motion;
 use super::outcome::{BodyHistory, flow_outcome, front, front_of};
 use super::rest::{Base, EndedEarly, Remaining, body_bound, front_rests};
 use super::sampling::Sampling;
+use super::scale::Scale;
 use super::snapshots::Snapshots;
 use super::{Audit, Cost, FlowSnapshot, Outcome, Record, Sample};
 use crate::plan::{self, Plan};
@@ -11,12 +13,10 @@ use crate::scenario::{Ending, Scenario};
 use crate::simulation::{Simulation, SubstepReport};
 use serde::{Deserialize, Serialize};
 
-/// Slower than this is at rest [m/s].
-pub(super) const REST_SPEED: f64 = 1e-3;
-/// A body at rest for so long without a break has come to rest [s].
-const RESTS_FOR: f64 = 0.1;
-/// Between two looks for whether anything can still move [s].
-const LOOK_INTERVAL: f64 = 0.01;
+/// Size of a scene without flow or bodies [m].
+const SIZE_OF_NOTHING: f64 = 1.0;
+/// Between two looks for whether anything can still move, over the scene's rest time.
+const LOOK_INTERVAL: f64 = 0.1;
 
 /// Watches a run: call [`Recorder::start`] once, [`Recorder::observe`] from the
 /// run's observer, and [`Recorder::outcome`] at the end.
@@ -31,6 +31,8 @@ pub struct Recorder {
     /// Of the run, unless it ends early [s].
     duration: f64,
     ending: Ending,
+    /// Of the flow, or of the smallest body without one.
+    scale: Scale,
     /// When it is next looked for whether anything can still move [s].
     next_look: f64,
     plan: Option<Plan>,
@@ -49,7 +51,8 @@ impl Recorder {
             base: Base::of(scenario),
             duration: scenario.duration_s,
             ending: scenario.numerics.ending,
-            next_look: LOOK_INTERVAL,
+            scale: Scale::of(size(scenario), scenario.gravity_m_s2),
+            next_look: 0.0,
             // What has no plan can't be set up either.
             plan: plan::of(scenario).ok(),
             ended_early: None,
@@ -58,18 +61,22 @@ impl Recorder {
 
     /// The records of time 0.
     pub fn start(&mut self, simulation: &Simulation) -> Vec<Record> {
-        self.histories = simulation.bodies().iter().map(BodyHistory::start).collect();
-        let samples = self.sampling.start(simulation);
+        let gravity = simulation.gravity().norm();
+        let bodies = simulation.bodies().iter();
+        self.histories = bodies
+            .map(|body| BodyHistory::start(body, gravity))
+            .collect();
+        let samples = self.sampling.start(simulation, &self.histories);
         in_order(samples, self.snapshots.due(simulation))
     }
 
     /// Takes one sub-step in; returns what there is to record where a step ends with
     /// it (mostly nothing).
     pub fn observe(&mut self, simulation: &Simulation, report: &SubstepReport) -> Vec<Record> {
+        self.sampling.take_in(simulation, report, &self.histories);
         for (place, body) in simulation.bodies().iter().enumerate() {
-            self.histories[place].take_in(body, report.time_s);
+            self.histories[place].observe(simulation, place, &Motion::of(body));
         }
-        self.sampling.take_in(simulation, report);
         if !report.step_ended {
             return Vec::new();
         }
@@ -85,20 +92,21 @@ impl Recorder {
         if time_s < self.next_look || time_s >= self.duration {
             return None;
         }
-        self.next_look = LOOK_INTERVAL * ((time_s / LOOK_INTERVAL).floor() + 1.0);
+        let interval = LOOK_INTERVAL * self.scale.rest_time();
+        self.next_look = interval * ((time_s / interval).floor() + 1.0);
         self.ended_early = Some(self.nothing_moves(simulation)?);
-        let samples = self.sampling.end(simulation);
+        let samples = self.sampling.end(simulation, &self.histories);
         Some(in_order(samples, self.snapshots.end(simulation)))
     }
 
     fn nothing_moves(&self, simulation: &Simulation) -> Option<EndedEarly> {
         let time_s = simulation.time_s();
         let rests = |(body, history): (&Body, &BodyHistory)| {
-            let turning = body.angular_velocity().norm() * body.shape.bounding_radius();
-            !body.is_free() || (turning < REST_SPEED && history.rests_for(RESTS_FOR, time_s))
+            !body.is_free() || history.rests_long(body, time_s)
         };
         let mut bodies = simulation.bodies().iter().zip(&self.histories);
-        if self.ending == Ending::Full || time_s < RESTS_FOR || !bodies.all(rests) {
+        let early = time_s < self.scale.rest_time();
+        if self.ending == Ending::Full || early || !bodies.all(rests) {
             return None;
         }
         let left = (self.duration - time_s).max(0.0);
@@ -163,6 +171,16 @@ impl Recorder {
             plan: self.plan.clone(),
             accuracy: None,
         }
+    }
+}
+
+/// Size of what a scene is about [m].
+fn size(scenario: &Scenario) -> f64 {
+    let bodies = 0..scenario.bodies.len();
+    let sizes = bodies.map(|body| scenario.shape_of(body).volume().cbrt());
+    match &scenario.flow {
+        Some(flow) => flow.release.height_m,
+        None => sizes.reduce(f64::min).unwrap_or(SIZE_OF_NOTHING),
     }
 }
 

@@ -1,10 +1,12 @@
 //! Samples at their own times, whatever steps a run takes.
 
+use super::bed::Bed;
 use super::means::Means;
-use super::mode::mode;
+use super::mode::{Movement, mode};
 use super::motion::Motion;
+use super::outcome::BodyHistory;
 use super::submergence::submerged_fraction;
-use super::{BodySample, Sample};
+use super::{BodySample, Mode, Sample};
 use crate::rigid::Body;
 use crate::scenario::Scenario;
 use crate::simulation::{Simulation, SubstepReport};
@@ -15,10 +17,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Sampling {
     times: Times,
+    bed: Bed,
     /// End of the last sub-step [s].
     time: f64,
-    /// Per body, then.
-    last: Vec<Motion>,
     /// Per body, since the last sample.
     means: Vec<Means>,
     /// Samples of the step in hand.
@@ -66,37 +67,46 @@ impl Sampling {
                 next: 0,
                 last: 0.0,
             },
+            bed: Bed::of(&scenario.channel),
             time: 0.0,
-            last: Vec::new(),
             means: vec![Means::default(); scenario.bodies.len()],
             waiting: Vec::new(),
         }
     }
 
     /// The sample of time 0.
-    pub(super) fn start(&mut self, simulation: &Simulation) -> Vec<Sample> {
-        self.last = simulation.bodies().iter().map(Motion::of).collect();
-        self.sample(simulation, 0.0, &self.last.clone());
+    pub(super) fn start(
+        &mut self,
+        simulation: &Simulation,
+        histories: &[BodyHistory],
+    ) -> Vec<Sample> {
+        self.sample(simulation, histories, 0.0, &now(simulation));
         self.finished(simulation)
     }
 
-    /// Takes one sub-step in, and the samples due within it.
-    pub(super) fn take_in(&mut self, simulation: &Simulation, report: &SubstepReport) {
-        let now: Vec<Motion> = simulation.bodies().iter().map(Motion::of).collect();
+    /// Takes one sub-step in, and the samples due within it; `histories` are those
+    /// before it.
+    pub(super) fn take_in(
+        &mut self,
+        simulation: &Simulation,
+        report: &SubstepReport,
+        histories: &[BodyHistory],
+    ) {
+        let now = now(simulation);
         let (start, dt) = (self.time, report.time_s - self.time);
         let mut taken = 0.0;
         while let Some(due) = self.times.next().filter(|due| *due <= report.time_s) {
             let passed = ((due - start) / dt).min(1.0);
             self.add_up(simulation, (passed - taken) * report.substep_s);
-            let pairs = self.last.iter().zip(&now);
+            let pairs = histories.iter().zip(&now);
             let between: Vec<Motion> = pairs
-                .map(|(last, now)| last.towards(now, passed, dt))
+                .map(|(history, now)| history.last().towards(now, passed, dt))
                 .collect();
-            self.sample(simulation, due, &between);
+            self.sample(simulation, histories, due, &between);
             taken = passed;
         }
         self.add_up(simulation, (1.0 - taken) * report.substep_s);
-        (self.time, self.last) = (report.time_s, now);
+        self.time = report.time_s;
     }
 
     /// The samples of a step that has ended.
@@ -116,9 +126,13 @@ impl Sampling {
 
     /// The sample of a run that ends now, between two steps; none if it has just been
     /// taken.
-    pub(super) fn end(&mut self, simulation: &Simulation) -> Vec<Sample> {
+    pub(super) fn end(
+        &mut self,
+        simulation: &Simulation,
+        histories: &[BodyHistory],
+    ) -> Vec<Sample> {
         if self.times.last < self.time {
-            self.sample(simulation, self.time, &self.last.clone());
+            self.sample(simulation, histories, self.time, &now(simulation));
         }
         self.finished(simulation)
     }
@@ -131,23 +145,46 @@ impl Sampling {
         }
     }
 
-    fn sample(&mut self, simulation: &Simulation, time_s: f64, motions: &[Motion]) {
-        let bodies = simulation.bodies().iter().zip(motions).zip(&mut self.means);
-        let sampled = bodies
-            .enumerate()
-            .map(|(place, ((body, motion), means))| BodySample {
-                touching_points: simulation.flow_load(place).touching_points,
-                ..body_sample(body, motion, &std::mem::take(means))
-            });
+    fn sample(
+        &mut self,
+        simulation: &Simulation,
+        histories: &[BodyHistory],
+        time_s: f64,
+        motions: &[Motion],
+    ) {
+        let weight = |body: &Body, motion: &Motion| {
+            let normal = self.bed.normal_at(motion.position.x);
+            normal * (-simulation.gravity().dot(&normal) * body.mass)
+        };
+        let pairs = simulation.bodies().iter().zip(motions).zip(histories);
+        let pairs = pairs.zip(&self.means).enumerate();
+        let sampled = pairs.map(|(place, (((body, motion), history), means))| BodySample {
+            touching_points: simulation.flow_load(place).touching_points,
+            mode: mode(
+                body,
+                &Movement {
+                    at_rest: history.is_at_rest(body, motion),
+                    rolls: history.rolls(),
+                    means,
+                    weight: weight(body, motion),
+                },
+            ),
+            ..body_sample(motion, means)
+        });
         let bodies = sampled.collect();
         self.waiting.push(Sample { time_s, bodies });
+        self.means.fill(Means::default());
         self.times.next += 1;
         self.times.last = time_s;
     }
 }
 
-/// What is known of a body without looking at the flow.
-fn body_sample(body: &Body, motion: &Motion, means: &Means) -> BodySample {
+fn now(simulation: &Simulation) -> Vec<Motion> {
+    simulation.bodies().iter().map(Motion::of).collect()
+}
+
+/// What motion and means alone tell.
+fn body_sample(motion: &Motion, means: &Means) -> BodySample {
     let q = motion.orientation;
     BodySample {
         position_m: motion.position.into(),
@@ -162,6 +199,6 @@ fn body_sample(body: &Body, motion: &Motion, means: &Means) -> BodySample {
         body_torque_nm: means.mean(&means.bodies.torque).into(),
         touching_points: 0,
         submerged_fraction: 0.0,
-        mode: mode(body, motion, means),
+        mode: Mode::Resting,
     }
 }

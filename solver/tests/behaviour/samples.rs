@@ -95,7 +95,11 @@ fn neither_samples_nor_snapshots_touch_the_run() {
     for scene in scenes() {
         let [fine, close, none] =
             INTERVALS.map(|interval| shown(&sampled(&scene, interval.max(1e-5), 0), &[]));
-        for (other, snapshots) in [(&close, 0), (&none, 0), (&shown(&sampled(&scene, 0.01, 50), &[]), 50)] {
+        for (other, snapshots) in [
+            (&close, 0),
+            (&none, 0),
+            (&shown(&sampled(&scene, 0.01, 50), &[]), 50),
+        ] {
             let bodies = |shown: &Shown| -> Vec<_> {
                 let bodies = shown.simulation.bodies().iter();
                 bodies.map(|body| body.state.clone()).collect()
@@ -121,7 +125,10 @@ fn samples_lie_at_multiples_of_their_interval() {
         for (k, time) in before.iter().enumerate() {
             assert_eq!(*time, k as f64 * interval);
         }
-        assert_eq!(times.len(), (DURATION / interval - 1e-9).ceil() as usize + 1);
+        assert_eq!(
+            times.len(),
+            (DURATION / interval - 1e-9).ceil() as usize + 1
+        );
     }
 }
 
@@ -144,7 +151,10 @@ fn a_body_is_at_one_place_at_a_time() {
 fn a_saved_run_loses_and_repeats_no_sample() {
     for scene in scenes() {
         let scenario = sampled(&scene, INTERVALS[0], 7);
-        let (whole, parts) = (shown(&scenario, &[]), shown(&scenario, &[0.011, 0.05, 0.12]));
+        let (whole, parts) = (
+            shown(&scenario, &[]),
+            shown(&scenario, &[0.011, 0.05, 0.12]),
+        );
         let bytes = |shown: &Shown| serde_json::to_string(&shown.records).expect("it is JSON");
         assert!(bytes(&whole) == bytes(&parts), "records differ");
         assert_eq!(whole.outcome, parts.outcome);
