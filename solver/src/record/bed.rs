@@ -28,4 +28,10 @@ impl Bed {
         let (sin, cos) = self.inclination_at(x).sin_cos();
         Vec3::new(sin, 0.0, cos)
     }
+
+    /// Unit vector downstream along it at x.
+    pub(super) fn downstream_at(&self, x: f64) -> Vec3 {
+        let (sin, cos) = self.inclination_at(x).sin_cos();
+        Vec3::new(cos, 0.0, -sin)
+    }
 }

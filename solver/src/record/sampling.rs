@@ -116,7 +116,7 @@ impl Sampling {
             return samples;
         }
         for (place, body) in simulation.bodies().iter().enumerate() {
-            let submerged_fraction = submerged_fraction(simulation, body);
+            let submerged_fraction = submerged_fraction(simulation, body, &self.bed);
             for sample in &mut samples {
                 sample.bodies[place].submerged_fraction = submerged_fraction;
             }

@@ -325,6 +325,14 @@ impl Simulation {
             .map_or(0.0, |flow| flow.sphere.radius)
     }
 
+    /// Distance of neighbouring points [m]; 0 without a flow.
+    pub fn point_spacing_m(&self) -> f64 {
+        self.given
+            .flow
+            .as_ref()
+            .map_or(0.0, |flow| flow.sphere.spacing)
+    }
+
     /// Calls `watch` whenever a verb of the step is done, for timing.
     pub fn watch_verbs(&mut self, watch: LapWatch) {
         self.scratch.laps.tell(watch);
