@@ -163,30 +163,49 @@ pub(super) fn flow_outcome(
 pub(super) fn front(simulation: &Simulation, open_end: f64) -> Option<f64> {
     let mut places = Vec::with_capacity(simulation.point_count());
     simulation.visit_points(None, |point| places.push((point.position.x, point.mass)));
-    front_of(simulation, places, open_end)
+    front_of(simulation, &places, open_end)
 }
 
 /// The same if each point (mass in kg) were at another x [m].
 pub(super) fn front_of(
     simulation: &Simulation,
-    mut ahead: Vec<(f64, f64)>,
+    places: &[(f64, f64)],
     open_end: f64,
 ) -> Option<f64> {
     let audit = simulation.audit();
-    let mut beyond = audit.mass_left();
-    let wanted = FRONT_SHARE * audit.released_mass;
+    let wanted = FRONT_SHARE * audit.released_mass - audit.mass_left();
     if audit.released_mass <= 0.0 {
         return None;
     }
-    if beyond >= wanted {
+    if wanted <= 0.0 {
         return Some(open_end);
     }
-    ahead.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
-    for (x, mass) in ahead {
-        beyond += mass;
-        if beyond >= wanted {
-            return Some(x);
+    beyond(places, simulation.point_spacing_m(), wanted)
+}
+
+/// The x beyond which this mass [kg] lies, each point's (at x, mass in kg) spread evenly
+/// over `spacing` [m]: the front may lie within a point.
+fn beyond(places: &[(f64, f64)], spacing: f64, wanted: f64) -> Option<f64> {
+    // From where on, going upstream, how much mass a metre comes in or ends [kg/m].
+    let ends = places.iter().flat_map(|&(x, mass)| {
+        let density = mass / spacing;
+        [(x + 0.5 * spacing, density), (x - 0.5 * spacing, -density)]
+    });
+    let mut ends: Vec<(f64, f64)> = ends.collect();
+    ends.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    let (mut last, mut density, mut mass) = (f64::INFINITY, 0.0, 0.0);
+    for (x, change) in ends {
+        let passed = if density > 0.0 {
+            density * (last - x)
+        } else {
+            0.0
+        };
+        if mass + passed >= wanted {
+            return Some(last - (wanted - mass) / density);
         }
+        mass += passed;
+        density += change;
+        last = x;
     }
     None
 }

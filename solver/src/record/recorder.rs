@@ -113,7 +113,7 @@ impl Recorder {
         let remaining = Remaining::of(simulation, &self.base, left);
         let body_bound_m = body_bound(simulation, &remaining, left)?;
         let front = front(simulation, self.open_end);
-        let farthest = front_of(simulation, remaining.reaches, self.open_end);
+        let farthest = front_of(simulation, &remaining.reaches, self.open_end);
         let front_bound_m = front
             .zip(farthest)
             .map(|(front, farthest)| farthest - front);
