@@ -26,7 +26,11 @@ impl Snapshots {
     /// The snapshot that is due, between two steps.
     pub(super) fn due(&mut self, simulation: &Simulation) -> Option<FlowSnapshot> {
         let mut due = false;
-        while self.times.pop_if(|time| *time <= simulation.time_s()).is_some() {
+        while self
+            .times
+            .pop_if(|time| *time <= simulation.time_s())
+            .is_some()
+        {
             due = true;
         }
         due.then(|| snapshot(simulation))
