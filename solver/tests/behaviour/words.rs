@@ -2,12 +2,18 @@
 
 use crate::scenes::Scene;
 use scree_solver::Simulation;
-use scree_solver::record::{BodyOutcome, Mode, Record, Recorder};
+use scree_solver::record::{BodyOutcome, BodySample, Mode, Record, Recorder};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 
 /// Modes of the first body, and its outcome, at the end of its run.
 fn told(scene: &Scene) -> (Vec<Mode>, BodyOutcome) {
+    let (samples, outcome) = sampled(scene);
+    (samples.iter().map(|sample| sample.mode).collect(), outcome)
+}
+
+/// Samples of the first body, and its outcome, at the end of its run.
+fn sampled(scene: &Scene) -> (Vec<BodySample>, BodyOutcome) {
     let scenario = scene.scenario();
     let mut simulation = Simulation::new(&scenario, 1).expect("the scene fits");
     let mut recorder = Recorder::new(&scenario);
@@ -18,12 +24,12 @@ fn told(scene: &Scene) -> (Vec<Mode>, BodyOutcome) {
             ControlFlow::Continue(())
         })
         .expect("it runs");
-    let modes = records.iter().filter_map(|record| match record {
-        Record::Sample(sample) => Some(sample.bodies[0].mode),
+    let samples = records.iter().filter_map(|record| match record {
+        Record::Sample(sample) => Some(sample.bodies[0]),
         Record::Snapshot(_) => None,
     });
     let outcome = recorder.outcome(&simulation, 1.0).bodies.remove(0);
-    (modes.collect(), outcome)
+    (samples.collect(), outcome)
 }
 
 /// A cube of 5 cm in a channel without a flow.
@@ -98,7 +104,7 @@ fn a_cube_borne_by_the_flow_is_carried() {
         .lasting(0.3);
     let (modes, outcome) = told(&scene);
     assert!(count(&modes, Mode::Carried) >= modes.len() - 4, "{modes:?}");
-    assert!(outcome.first_contact_time_s.is_some_and(|time| time < 0.01));
+    assert!(outcome.first_contact_time_s.is_some_and(|time| time < 0.05));
 }
 
 // Contacts that lose nothing: what the cube has left when it stands, it rings with.
@@ -109,10 +115,18 @@ fn a_cube_that_trembles_in_its_place_has_stopped() {
         &json!({"friction": 0.4, "restitution": 1.0, "position": {"downstream_m": 0.5},
                 "velocity_m_s": [0.5, 0.0, 0.0]}),
     );
-    let (modes, outcome) = told(&scene.lasting(1.0));
+    let (samples, outcome) = sampled(&scene.lasting(1.0));
     let stop = outcome.stop_time_s.expect("it goes nowhere");
-    assert!((stop - 0.5 / (0.4 * 9.81)).abs() < 0.03, "{stop}");
-    assert_eq!(modes.last(), Some(&Mode::Resting));
+    // Friction alone would take 0.127 s.
+    assert!(stop > 0.12 && stop < 0.25, "{stop}");
+    let [x, ..] = outcome.final_position_m;
+    for sample in &samples[30..] {
+        assert_eq!(sample.mode, Mode::Resting);
+        assert!((sample.position_m[0] - x).abs() < 2e-4);
+    }
+    let speed = |sample: &BodySample| sample.velocity_m_s[2].abs();
+    let fastest = samples[30..].iter().map(speed).fold(0.0, f64::max);
+    assert!(fastest > 2e-3, "it does not tremble: {fastest}");
 }
 
 #[test]
