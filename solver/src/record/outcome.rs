@@ -84,7 +84,7 @@ impl BodyHistory {
         let (before, now) = (way(&self.last), way(motion));
         let onset = self.scale.onset_distance();
         let share = (onset - before) / (now - before);
-        (now >= onset).then(|| self.time + share * (time_s - self.time))
+        (now >= onset).then_some(self.time + share * (time_s - self.time))
     }
 
     /// How the body moved at the end of the last sub-step.
