@@ -171,6 +171,8 @@ pub struct Audit {
     pub points_left: u64,
     /// Points put back out of a body's core.
     pub points_put_back: u64,
+    /// Times the sums were compared.
+    pub checks: u64,
     /// Largest residuals so far.
     pub mass_error: f64,
     /// Linear momentum, relative.
@@ -258,6 +260,7 @@ impl Audit {
     /// Compares what is with what should be, after a step; `contact_energy` is
     /// held between points and bodies [J].
     pub fn check(&mut self, flow: &Totals, bodies: &Totals, contact_energy: f64) {
+        self.checks += 1;
         let total = flow.plus(bodies);
         let off = |actual: &Vec3, expected: &Vec3, scale: f64| {
             (actual - expected).norm() / scale.max(f64::MIN_POSITIVE)

@@ -32,8 +32,8 @@ pub struct Pace {
     pub substep: f64,
     /// Sub-steps in the step.
     pub count: u32,
-    /// Whether the step ends at the time it was asked to respect.
-    pub reaches: bool,
+    /// Whether the run ends with it.
+    pub reaches_end: bool,
 }
 
 impl Limits {
@@ -61,8 +61,8 @@ impl Limits {
         self.substep(LARGEST_MACH_NUMBER * self.p_wave_speed)
     }
 
-    /// The next step: equal sub-steps, none longer than `longest` [s], the
-    /// fastest at `speed` [m/s], and none beyond `remaining` [s].
+    /// The next step: equal sub-steps of `longest` [s], the fastest at `speed`
+    /// [m/s], and none beyond `remaining` [s], when the run ends.
     pub fn pace(&self, longest: f64, speed: f64, remaining: f64) -> Pace {
         divide(remaining, longest, self.substeps_per_step(longest, speed))
     }
@@ -82,14 +82,19 @@ pub fn pace_without_flow(longest: f64, remaining: f64) -> Pace {
     divide(remaining, longest, 1.0)
 }
 
-/// Divides what remains into equal sub-steps and takes the first `allowed`.
+/// A step of `allowed` sub-steps of the longest size. What remains for the last two
+/// is divided evenly, so that no sub-step is cut short alone.
 fn divide(remaining: f64, longest: f64, allowed: f64) -> Pace {
     // A whole number but for rounding is that number.
     let needed = (remaining / longest - 1e-9).ceil().max(1.0);
     Pace {
-        substep: remaining / needed,
+        substep: if needed > 2.0 * allowed {
+            longest
+        } else {
+            remaining / needed
+        },
         count: allowed.min(needed) as u32,
-        reaches: needed <= allowed,
+        reaches_end: needed <= allowed,
     }
 }
 
@@ -116,16 +121,27 @@ mod tests {
         let pace = limits.pace(longest, 2.0, 1.0);
         let travel = 2.0 * pace.substep * f64::from(pace.count);
         assert!(travel <= 0.2 * 0.01 && travel > 0.15 * 0.01, "{travel}");
-        assert!(!pace.reaches);
+        assert_eq!((pace.substep, pace.reaches_end), (longest, false));
     }
 
     #[test]
-    fn steps_end_where_they_are_asked_to() {
+    fn the_last_step_ends_where_the_run_does() {
         let limits = limits();
         let longest = limits.substep(0.0);
         let pace = limits.pace(longest, 0.0, 3.5 * longest);
-        assert_eq!((pace.count, pace.reaches), (4, true));
+        assert_eq!((pace.count, pace.reaches_end), (4, true));
         assert!((pace.substep - 0.875 * longest).abs() < 1e-18);
+    }
+
+    // Of 8 sub-steps a step, 8.01 remain: nine, each a little shorter.
+    #[test]
+    fn no_sub_step_is_cut_short_alone() {
+        let longest = 1e-3;
+        let pace = divide(8.01 * longest, longest, 8.0);
+        assert_eq!((pace.count, pace.reaches_end), (8, false));
+        let last = divide(8.01 * longest - 8.0 * pace.substep, longest, 8.0);
+        assert_eq!((last.count, last.reaches_end), (1, true));
+        assert!((last.substep / pace.substep - 1.0).abs() < 1e-12);
     }
 
     #[test]

@@ -16,6 +16,9 @@ pub(super) fn outcome(outcome: &Outcome) -> String {
         text.push_str(&bodies(&outcome.bodies));
         text.push('\n');
     }
+    if outcome.flow.front_m.is_some() {
+        text.push_str(&missed(&outcome.bodies));
+    }
     text.push_str(&line("flow", &flow(&outcome.flow)));
     let [balances, points] = audit(&outcome.audit);
     text.push_str(&line("audit", &balances));
@@ -24,6 +27,21 @@ pub(super) fn outcome(outcome: &Outcome) -> String {
     text.push_str(&line("cost", &size));
     text.push_str(&line("", &time));
     text.trim_end().to_owned()
+}
+
+/// A line that names the bodies that the flow did not reach; empty if it reached all.
+fn missed(bodies: &[BodyOutcome]) -> String {
+    let bodies = bodies.iter().enumerate();
+    let missed = bodies.filter(|(_, body)| body.first_contact_time_s.is_none());
+    let places: Vec<String> = missed.map(|(place, _)| place.to_string()).collect();
+    match &places[..] {
+        [] => String::new(),
+        [place] => format!("note  the flow did not reach body {place} before the run ended\n"),
+        many => format!(
+            "note  the flow did not reach bodies {} before the run ended\n",
+            many.join(", ")
+        ),
+    }
 }
 
 fn flow(flow: &FlowOutcome) -> [Entry; 3] {
@@ -158,6 +176,7 @@ mod tests {
 
     fn body(onset_time_s: Option<f64>) -> BodyOutcome {
         BodyOutcome {
+            first_contact_time_s: onset_time_s,
             onset_time_s,
             peak_speed_m_s: 1.0796,
             peak_speed_time_s: onset_time_s.map(|onset| onset + 0.1),
@@ -174,6 +193,15 @@ mod tests {
                 principal_axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             },
         }
+    }
+
+    #[test]
+    fn bodies_that_the_flow_missed_are_named() {
+        assert_eq!(missed(&[body(Some(0.17))]), "");
+        let one = missed(&[body(Some(0.17)), body(None)]);
+        assert!(one.contains("did not reach body 1 before"), "{one}");
+        let both = missed(&[body(None), body(None)]);
+        assert!(both.contains("bodies 0, 1 before"), "{both}");
     }
 
     #[test]

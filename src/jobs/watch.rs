@@ -65,7 +65,7 @@ impl<'a, S: Sink> Watch<'a, S> {
         }
         self.pace.count(report);
         let mut records = self.recorder.observe(simulation, report);
-        if report.sample.is_some() && report.time_s < self.pace.duration_s {
+        if report.step_ended {
             records.extend(self.end_early(simulation));
         }
         // Asked once: a wish that comes in between is heard next time.

@@ -162,6 +162,7 @@ pub(super) fn scenario(bodies: Vec<Body>) -> Scenario {
 /// The outcome that belongs to [`sliding_samples`]`(1.0, 3.0)`.
 pub(super) fn slid() -> BodyOutcome {
     BodyOutcome {
+        first_contact_time_s: Some(0.02),
         onset_time_s: Some(0.0289),
         peak_speed_m_s: 0.6,
         peak_speed_time_s: Some(0.51),

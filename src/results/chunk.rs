@@ -160,13 +160,20 @@ fn mode_to_byte(mode: Mode) -> u8 {
         Mode::Sliding => 1,
         Mode::Rolling => 2,
         Mode::Saltating => 3,
+        Mode::Carried => 4,
     }
 }
 
 fn mode_from_byte(byte: u8) -> Option<Mode> {
-    [Mode::Resting, Mode::Sliding, Mode::Rolling, Mode::Saltating]
-        .get(usize::from(byte))
-        .copied()
+    [
+        Mode::Resting,
+        Mode::Sliding,
+        Mode::Rolling,
+        Mode::Saltating,
+        Mode::Carried,
+    ]
+    .get(usize::from(byte))
+    .copied()
 }
 
 #[cfg(test)]

@@ -217,8 +217,13 @@ pub(crate) mod tests {
             body_torque_nm: triple(11.0),
             touching_points: index * 10 + 9,
             submerged_fraction: 1.0 / (1.0 + f64::from(index)),
-            mode: [Mode::Resting, Mode::Sliding, Mode::Rolling, Mode::Saltating]
-                [index as usize % 4],
+            mode: [
+                Mode::Resting,
+                Mode::Sliding,
+                Mode::Rolling,
+                Mode::Saltating,
+                Mode::Carried,
+            ][index as usize % 5],
         }
     }
 

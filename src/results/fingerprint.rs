@@ -70,6 +70,7 @@ fn take_body(hasher: &mut Hasher, body: &BodySample) {
         Mode::Sliding => 1,
         Mode::Rolling => 2,
         Mode::Saltating => 3,
+        Mode::Carried => 4,
     };
     hasher.update(&[mode]);
 }

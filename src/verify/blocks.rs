@@ -108,10 +108,7 @@ impl Block {
         let walls = self.walls();
         Setup {
             identity: String::new(),
-            timing: Timing {
-                duration: self.duration,
-                sample_interval: self.duration,
-            },
+            timing: Timing::lasting(self.duration),
             gravity: Vec3::new(0.0, 0.0, -self.gravity),
             planes: walls.planes().copied().collect(),
             walls,

@@ -7,7 +7,7 @@ use crate::fast::rows::Tile as FastTile;
 use crate::grid::{BLOCK, BLOCK_NODES, Node, Tile};
 use crate::points::{Deformation, Point};
 use crate::scenario::{Ending, Precision, Scenario};
-use crate::simulation::{Columns, Outline, Share, Timing};
+use crate::simulation::{Columns, Outline, Share};
 use crate::stability::{self, Limits};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -112,34 +112,25 @@ fn stages(outline: &Outline, course: &Course, substeps: u64, end: f64) -> Vec<St
 
 /// Sub-steps and steps of the whole duration.
 fn steps(outline: &Outline, points: u64) -> (u64, u64) {
-    let timing = &outline.given.timing;
+    let duration = outline.given.timing.duration;
     let flow = outline.given.flow.as_ref().filter(|_| points > 0);
     let Some(flow) = flow else {
-        let substeps = over_samples(timing, stability::SUBSTEP_WITHOUT_FLOW, 1.0);
-        return (substeps.0, substeps.0);
+        return over(duration, stability::SUBSTEP_WITHOUT_FLOW, 1.0);
     };
     let longest = longest_substep(&flow.limits).min(flow.contact_substep(&outline.bodies));
     let allowed = flow.limits.substeps_per_step(longest, flow.limits.slow);
-    over_samples(timing, longest, allowed)
+    over(duration, longest, allowed)
 }
 
 fn longest_substep(limits: &Limits) -> f64 {
     limits.substep(limits.slow)
 }
 
-/// Sub-steps and steps from sample to sample, none longer than `longest` [s], so
-/// many in a step.
-fn over_samples(timing: &Timing, longest: f64, per_step: f64) -> (u64, u64) {
-    let between = |interval: f64| {
-        let substeps = (interval / longest - 1e-9).ceil().max(0.0);
-        (substeps as u64, (substeps / per_step).ceil() as u64)
-    };
-    let whole = (timing.duration / timing.sample_interval + 1e-9).floor();
-    let (substeps, steps) = between(timing.sample_interval);
-    let rest = timing.duration - whole * timing.sample_interval;
-    let (last_substeps, last_steps) = between(rest.max(0.0));
-    let whole = whole as u64;
-    (whole * substeps + last_substeps, whole * steps + last_steps)
+/// Sub-steps and steps of a duration [s], none longer than `longest` [s], so many in
+/// a step.
+fn over(duration: f64, longest: f64, per_step: f64) -> (u64, u64) {
+    let substeps = (duration / longest - 1e-9).ceil().max(0.0);
+    (substeps as u64, (substeps / per_step).ceil() as u64)
 }
 
 /// Of so many points, of which so many are computed.

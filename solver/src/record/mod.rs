@@ -3,10 +3,19 @@
 //! docs/method.md, section 9.
 
 mod bars;
+mod bed;
+mod means;
+mod mode;
+mod motion;
 mod outcome;
 mod recorder;
 mod rest;
+mod sampling;
+mod scale;
+mod settling;
+mod snapshots;
 mod submergence;
+mod turning;
 
 use crate::plan::Plan;
 pub use bars::{AccuracyReport, Band, Basis, BodyBars, FlowBars, Role, RunCost, TargetReport};
@@ -18,14 +27,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Mode {
-    /// Slower than 1 mm/s, rotation included.
+    /// At rest.
     Resting,
-    /// On a wall or another body, mostly translating.
+    /// On a wall or another body, and hardly turning over as it travels.
     Sliding,
-    /// On a wall or another body, turning about as fast as it travels.
+    /// On a wall or another body, turning over about as fast as it travels.
     Rolling,
     /// Off walls and other bodies most of the time since the last sample.
     Saltating,
+    /// Borne by the flow, more than by walls and other bodies.
+    Carried,
 }
 
 /// State of one body at one sample time.
@@ -51,9 +62,10 @@ pub struct BodySample {
     pub body_force_n: [f64; 3],
     /// Torque of other bodies about the centre, mean since the last sample [N m].
     pub body_torque_nm: [f64; 3],
-    /// Material points in contact at the sample time.
+    /// Material points in contact in the sub-step that holds the sample time.
     pub touching_points: u32,
-    /// Share of the body's height below the surface of the flow round it, 0..1.
+    /// Share of the body's height below the surface of the flow round it, 0..1, at
+    /// the end of the step that holds the sample time.
     pub submerged_fraction: f64,
     /// How the body moves.
     pub mode: Mode,
@@ -89,23 +101,25 @@ pub const SNAPSHOT_POINTS: usize = 5_000;
 /// What the recorder hands on while a run goes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Record {
-    /// At every sample time, in order.
+    /// Of every sample time, in order.
     Sample(Sample),
-    /// At the snapshot times.
+    /// At the end of the step that holds a snapshot time.
     Snapshot(FlowSnapshot),
 }
 
 /// Outcome of one body. What did not happen is `None` (null).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BodyOutcome {
-    /// First time the centre is 1 mm from where it started [s].
+    /// First time the flow touched it [s].
+    pub first_contact_time_s: Option<f64>,
+    /// First time the centre is a fortieth of the body's size from where it started [s].
     pub onset_time_s: Option<f64>,
     /// Largest speed of the centre [m/s].
     pub peak_speed_m_s: f64,
     /// When that was [s]; null for a body that never moved.
     pub peak_speed_time_s: Option<f64>,
-    /// From then to the end slower than 1 mm/s [s]; null if it still moves at
-    /// the end or never moved.
+    /// From then to the end at rest [s]; null if it still moves at the end or never
+    /// moved.
     pub stop_time_s: Option<f64>,
     /// Net horizontal displacement of the centre [m].
     pub displacement_m: f64,

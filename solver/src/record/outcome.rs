@@ -1,6 +1,9 @@
 //! How the outcome's quantities come about.
 
-use super::recorder::REST_SPEED;
+use super::motion::Motion;
+use super::scale::Scale;
+use super::settling::{Measure, Settling};
+use super::turning::Turning;
 use super::{BodyOutcome, FlowOutcome, MassProperties};
 use crate::math::Vec3;
 use crate::rigid::Body;
@@ -8,88 +11,126 @@ use crate::shape::PrincipalInertia;
 use crate::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 
-/// A body has set off when its centre is this far from where it started [m].
-const ONSET_DISTANCE: f64 = 1e-3;
 /// The front leaves this share of the mass beyond it.
 const FRONT_SHARE: f64 = 1e-3;
 
 /// What one body did so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct BodyHistory {
+    scale: Scale,
     start: Vec3,
-    last: Vec3,
-    orientation: [f64; 4],
+    /// At the end of the last sub-step, and when that was [s].
+    last: Motion,
+    time: f64,
+    /// End of the first sub-step in which the flow touched it [s].
+    first_contact: Option<f64>,
     onset_time: Option<f64>,
     peak_speed: f64,
     peak_speed_time: Option<f64>,
-    /// Since when it has been at rest without a break.
-    rest_since: Option<f64>,
+    settling: Settling,
+    turning: Turning,
     path_length: f64,
 }
 
 impl BodyHistory {
-    pub(super) fn start(body: &Body) -> Self {
-        let speed = body.velocity().norm();
+    /// At the start, under gravity [m/s²].
+    pub(super) fn start(body: &Body, gravity: f64) -> Self {
+        let (scale, motion) = (Scale::of_body(body, gravity), Motion::of(body));
+        let speed = motion.velocity.norm();
         Self {
-            start: body.state.position,
-            last: body.state.position,
-            orientation: orientation(body),
+            scale,
+            start: motion.position,
+            time: 0.0,
+            first_contact: None,
             onset_time: None,
             peak_speed: speed,
             peak_speed_time: (speed > 0.0).then_some(0.0),
-            rest_since: (speed < REST_SPEED).then_some(0.0),
+            settling: Settling::start(&motion, &measure(scale, body)),
+            turning: Turning::default(),
             path_length: 0.0,
+            last: motion,
         }
     }
 
-    pub(super) fn take_in(&mut self, body: &Body, time_s: f64) {
-        let position = body.state.position;
-        let speed = body.velocity().norm();
-        self.path_length += (position - self.last).norm();
-        self.last = position;
-        self.orientation = orientation(body);
-        if self.onset_time.is_none() && (position - self.start).norm() >= ONSET_DISTANCE {
-            self.onset_time = Some(time_s);
+    /// Takes in what a sub-step did to a body of a run.
+    pub(super) fn observe(&mut self, simulation: &Simulation, place: usize, motion: &Motion) {
+        let (body, time_s) = (&simulation.bodies()[place], simulation.time_s());
+        let report = simulation.body_report(place);
+        let (planes, dt) = (simulation.planes(), time_s - self.time);
+        if simulation.flow_load(place).touching_points > 0 {
+            self.first_contact.get_or_insert(time_s);
         }
+        self.turning.take_in((body, motion), &report, planes, dt);
+        self.take_in(body, motion, time_s);
+    }
+
+    /// Takes in how the body moves at the end of a sub-step.
+    fn take_in(&mut self, body: &Body, motion: &Motion, time_s: f64) {
+        let speed = motion.velocity.norm();
+        self.path_length += (motion.position - self.last.position).norm();
+        self.onset_time = self.onset_time.or(self.crossing(motion, time_s));
         if speed > self.peak_speed {
             self.peak_speed = speed;
             self.peak_speed_time = Some(time_s);
         }
-        if speed >= REST_SPEED {
-            self.rest_since = None;
-        } else {
-            self.rest_since.get_or_insert(time_s);
-        }
+        self.settling
+            .take_in(motion, &measure(self.scale, body), time_s);
+        (self.last, self.time) = (*motion, time_s);
     }
 
-    /// Whether it has been at rest for so long without a break [s].
-    pub(super) fn rests_for(&self, duration: f64, time_s: f64) -> bool {
-        self.rest_since
-            .is_some_and(|since| time_s - since >= duration)
+    /// When within this sub-step it set off [s], if it did.
+    fn crossing(&self, motion: &Motion, time_s: f64) -> Option<f64> {
+        let way = |motion: &Motion| (motion.position - self.start).norm();
+        let (before, now) = (way(&self.last), way(motion));
+        let onset = self.scale.onset_distance();
+        let share = (onset - before) / (now - before);
+        (now >= onset).then_some(self.time + share * (time_s - self.time))
     }
 
-    /// Beyond the trembling of a body at rest.
-    fn moved(&self) -> bool {
-        self.onset_time.is_some() || self.peak_speed >= REST_SPEED
+    /// How the body moved at the end of the last sub-step.
+    pub(super) fn last(&self) -> &Motion {
+        &self.last
+    }
+
+    /// Whether it rolls, if it is on anything.
+    pub(super) fn rolls(&self) -> bool {
+        self.turning.rolls()
+    }
+
+    /// Whether it has been at rest for the rest time until now [s].
+    pub(super) fn rests_long(&self, body: &Body, time_s: f64) -> bool {
+        self.settling.rests_long(&measure(self.scale, body), time_s)
+    }
+
+    /// Whether it is at rest when it moves like this.
+    pub(super) fn is_at_rest(&self, body: &Body, motion: &Motion) -> bool {
+        self.settling.rests() || measure(self.scale, body).is_slow(motion)
     }
 
     /// The outcome of `body`, whose history this is.
     pub(super) fn outcome(&self, body: &Body) -> BodyOutcome {
-        let way = self.last - self.start;
+        let way = self.last.position - self.start;
+        let moved = self.onset_time.is_some() || self.settling.moved();
+        let q = self.last.orientation;
         BodyOutcome {
+            first_contact_time_s: self.first_contact,
             onset_time_s: self.onset_time,
             peak_speed_m_s: self.peak_speed,
-            peak_speed_time_s: self.peak_speed_time.filter(|_| self.moved()),
-            // At rest since the start is not a stop.
-            stop_time_s: self.rest_since.filter(|since| *since > 0.0),
+            peak_speed_time_s: self.peak_speed_time.filter(|_| moved),
+            stop_time_s: self.settling.stop_time(),
             displacement_m: way.xy().norm(),
             path_length_m: self.path_length,
-            final_position_m: self.last.into(),
-            final_orientation: self.orientation,
+            final_position_m: self.last.position.into(),
+            final_orientation: [q.w, q.i, q.j, q.k],
             error_bars: None,
             mass_properties: mass_properties(body),
         }
     }
+}
+
+fn measure(scale: Scale, body: &Body) -> Measure {
+    let radius = body.shape.bounding_radius();
+    Measure { scale, radius }
 }
 
 fn mass_properties(body: &Body) -> MassProperties {
@@ -100,11 +141,6 @@ fn mass_properties(body: &Body) -> MassProperties {
         principal_moments_kg_m2: principal.moments,
         principal_axes: principal.axes.map(Into::into),
     }
-}
-
-fn orientation(body: &Body) -> [f64; 4] {
-    let q = body.state.orientation;
-    [q.w, q.i, q.j, q.k]
 }
 
 pub(super) fn flow_outcome(
@@ -127,30 +163,49 @@ pub(super) fn flow_outcome(
 pub(super) fn front(simulation: &Simulation, open_end: f64) -> Option<f64> {
     let mut places = Vec::with_capacity(simulation.point_count());
     simulation.visit_points(None, |point| places.push((point.position.x, point.mass)));
-    front_of(simulation, places, open_end)
+    front_of(simulation, &places, open_end)
 }
 
 /// The same if each point (mass in kg) were at another x [m].
 pub(super) fn front_of(
     simulation: &Simulation,
-    mut ahead: Vec<(f64, f64)>,
+    places: &[(f64, f64)],
     open_end: f64,
 ) -> Option<f64> {
     let audit = simulation.audit();
-    let mut beyond = audit.mass_left();
-    let wanted = FRONT_SHARE * audit.released_mass;
+    let wanted = FRONT_SHARE * audit.released_mass - audit.mass_left();
     if audit.released_mass <= 0.0 {
         return None;
     }
-    if beyond >= wanted {
+    if wanted <= 0.0 {
         return Some(open_end);
     }
-    ahead.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
-    for (x, mass) in ahead {
-        beyond += mass;
-        if beyond >= wanted {
-            return Some(x);
+    beyond(places, simulation.point_spacing_m(), wanted)
+}
+
+/// The x beyond which this mass [kg] lies, each point's (at x, mass in kg) spread evenly
+/// over `spacing` [m]: the front may lie within a point.
+fn beyond(places: &[(f64, f64)], spacing: f64, wanted: f64) -> Option<f64> {
+    // From where on, going upstream, how much mass a metre comes in or ends [kg/m].
+    let ends = places.iter().flat_map(|&(x, mass)| {
+        let density = mass / spacing;
+        [(x + 0.5 * spacing, density), (x - 0.5 * spacing, -density)]
+    });
+    let mut ends: Vec<(f64, f64)> = ends.collect();
+    ends.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    let (mut last, mut density, mut mass) = (f64::INFINITY, 0.0, 0.0);
+    for (x, change) in ends {
+        let passed = if density > 0.0 {
+            density * (last - x)
+        } else {
+            0.0
+        };
+        if mass + passed >= wanted {
+            return Some(last - (wanted - mass) / density);
         }
+        mass += passed;
+        density += change;
+        last = x;
     }
     None
 }

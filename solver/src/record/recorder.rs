@@ -1,85 +1,42 @@
 //! Turns what a run shows into records and an outcome.
 
+use super::motion::Motion;
 use super::outcome::{BodyHistory, flow_outcome, front, front_of};
 use super::rest::{Base, EndedEarly, Remaining, body_bound, front_rests};
-use super::submergence::submerged_fraction;
-use super::{
-    Audit, BodySample, Cost, FlowSnapshot, Mode, Outcome, Record, SNAPSHOT_POINTS, Sample,
-};
-use crate::contact::island::BodyReport;
-use crate::math::Vec3;
+use super::sampling::Sampling;
+use super::scale::Scale;
+use super::snapshots::Snapshots;
+use super::{Audit, Cost, FlowSnapshot, Outcome, Record, Sample};
 use crate::plan::{self, Plan};
-use crate::rigid::{Body, Freedom, Load};
+use crate::rigid::Body;
 use crate::scenario::{Ending, Scenario};
 use crate::simulation::{Simulation, SubstepReport};
 use serde::{Deserialize, Serialize};
 
-/// Slower than this is at rest [m/s].
-pub(super) const REST_SPEED: f64 = 1e-3;
-/// A body at rest for so long without a break has come to rest [s].
-const RESTS_FOR: f64 = 0.1;
-/// A body on walls and other bodies for less of the time than this saltates.
-const SUPPORTED_SHARE: f64 = 0.5;
-/// A surface speed from turning above this share of the centre's speed is rolling.
-const ROLLING_SHARE: f64 = 0.5;
+/// Size of a scene without flow or bodies [m].
+const SIZE_OF_NOTHING: f64 = 1.0;
+/// Between two looks for whether anything can still move, over the scene's rest time.
+const LOOK_INTERVAL: f64 = 0.1;
 
 /// Watches a run: call [`Recorder::start`] once, [`Recorder::observe`] from the
 /// run's observer, and [`Recorder::outcome`] at the end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recorder {
     histories: Vec<BodyHistory>,
-    /// Per body, since the last sample.
-    means: Vec<Means>,
-    /// Snapshot times still to come, last first [s].
-    snapshot_times: Vec<f64>,
+    sampling: Sampling,
+    snapshots: Snapshots,
     initial_toe: Option<f64>,
     open_end: f64,
     base: Base,
     /// Of the run, unless it ends early [s].
     duration: f64,
     ending: Ending,
+    /// Of the flow, or of the smallest body without one.
+    scale: Scale,
+    /// When it is next looked for whether anything can still move [s].
+    next_look: f64,
     plan: Option<Plan>,
     ended_early: Option<EndedEarly>,
-}
-
-/// Impulses and counts of one body since the last sample.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-struct Means {
-    duration: f64,
-    flow: Load,
-    wall: Load,
-    bodies: Load,
-    substeps: u64,
-    substeps_supported: u64,
-}
-
-impl Means {
-    fn take_in(&mut self, flow: &Load, report: &BodyReport, dt: f64) {
-        self.duration += dt;
-        self.flow.force += flow.force * dt;
-        self.flow.torque += flow.torque * dt;
-        self.wall.force += report.wall_load.force * dt;
-        self.wall.torque += report.wall_load.torque * dt;
-        self.bodies.force += report.body_load.force * dt;
-        self.bodies.torque += report.body_load.torque * dt;
-        self.substeps += u64::from(report.substeps);
-        self.substeps_supported += u64::from(report.substeps_supported);
-    }
-
-    fn mean(&self, impulse: &Vec3) -> [f64; 3] {
-        if self.duration > 0.0 {
-            (impulse / self.duration).into()
-        } else {
-            [0.0; 3]
-        }
-    }
-
-    fn supported(&self, body: &Body) -> bool {
-        if self.substeps == 0 {
-            return body.is_supported();
-        }
-        self.substeps_supported as f64 >= SUPPORTED_SHARE * self.substeps as f64
-    }
 }
 
 impl Recorder {
@@ -87,13 +44,15 @@ impl Recorder {
     pub fn new(scenario: &Scenario) -> Self {
         Self {
             histories: Vec::new(),
-            means: vec![Means::default(); scenario.bodies.len()],
-            snapshot_times: snapshot_times(scenario),
+            sampling: Sampling::of(scenario),
+            snapshots: Snapshots::of(scenario),
             initial_toe: scenario.release().map(|release| release.front_m),
             open_end: scenario.channel.runout_length_m,
             base: Base::of(scenario),
             duration: scenario.duration_s,
             ending: scenario.numerics.ending,
+            scale: Scale::of(size(scenario), scenario.gravity_m_s2),
+            next_look: 0.0,
             // What has no plan can't be set up either.
             plan: plan::of(scenario).ok(),
             ended_early: None,
@@ -102,59 +61,60 @@ impl Recorder {
 
     /// The records of time 0.
     pub fn start(&mut self, simulation: &Simulation) -> Vec<Record> {
-        self.histories = simulation.bodies().iter().map(BodyHistory::start).collect();
-        self.records_now(simulation)
+        let gravity = simulation.gravity().norm();
+        let bodies = simulation.bodies().iter();
+        self.histories = bodies
+            .map(|body| BodyHistory::start(body, gravity))
+            .collect();
+        let samples = self.sampling.start(simulation, &self.histories);
+        in_order(samples, self.snapshots.due(simulation))
     }
 
-    /// Takes one sub-step in; returns what is to be recorded then (mostly nothing).
+    /// Takes one sub-step in; returns what there is to record where a step ends with
+    /// it (mostly nothing).
     pub fn observe(&mut self, simulation: &Simulation, report: &SubstepReport) -> Vec<Record> {
+        self.sampling.take_in(simulation, report, &self.histories);
         for (place, body) in simulation.bodies().iter().enumerate() {
-            let flow = simulation.flow_load(place).load;
-            let walls = simulation.body_report(place);
-            self.means[place].take_in(&flow, &walls, report.substep_s);
-            self.histories[place].take_in(body, report.time_s);
+            self.histories[place].observe(simulation, place, &Motion::of(body));
         }
-        if report.sample.is_some() {
-            self.records_now(simulation)
-        } else {
-            Vec::new()
+        if !report.step_ended {
+            return Vec::new();
         }
+        let samples = self.sampling.finished(simulation);
+        in_order(samples, self.snapshots.due(simulation))
     }
 
-    /// Ends the run at this sample time if nothing can move a body or the front any
+    /// Ends the run where a step ended, if nothing can move a body or the front any
     /// more and the scenario does not forbid it: then returns the last records, and
-    /// the outcome says so.
+    /// the outcome says so. It is looked for at times of its own.
     pub fn end_early(&mut self, simulation: &Simulation) -> Option<Vec<Record>> {
-        let ended = self.nothing_moves(simulation)?;
-        self.ended_early = Some(ended);
-        let due = !self.snapshot_times.is_empty();
-        self.snapshot_times.clear();
-        Some(
-            due.then(|| Record::Snapshot(snapshot(simulation)))
-                .into_iter()
-                .collect(),
-        )
+        let time_s = simulation.time_s();
+        if time_s < self.next_look || time_s >= self.duration {
+            return None;
+        }
+        let interval = LOOK_INTERVAL * self.scale.rest_time();
+        self.next_look = interval * ((time_s / interval).floor() + 1.0);
+        self.ended_early = Some(self.nothing_moves(simulation)?);
+        let samples = self.sampling.end(simulation, &self.histories);
+        Some(in_order(samples, self.snapshots.end(simulation)))
     }
 
     fn nothing_moves(&self, simulation: &Simulation) -> Option<EndedEarly> {
         let time_s = simulation.time_s();
-        let rests = |(body, history): (&Body, &BodyHistory)| {
-            let turning = body.angular_velocity().norm() * body.shape.bounding_radius();
-            match body.prescribed() {
-                Some(prescribed) => prescribed.motion.rests_from(time_s),
-                None if !body.is_free() => true,
-                None => turning < REST_SPEED && history.rests_for(RESTS_FOR, time_s),
-            }
+        let rests = |(body, history): (&Body, &BodyHistory)| match body.prescribed() {
+            Some(prescribed) => prescribed.motion.rests_from(time_s),
+            None => !body.is_free() || history.rests_long(body, time_s),
         };
         let mut bodies = simulation.bodies().iter().zip(&self.histories);
-        if self.ending == Ending::Full || time_s < RESTS_FOR || !bodies.all(rests) {
+        let early = time_s < self.scale.rest_time();
+        if self.ending == Ending::Full || early || !bodies.all(rests) {
             return None;
         }
         let left = (self.duration - time_s).max(0.0);
         let remaining = Remaining::of(simulation, &self.base, left);
         let body_bound_m = body_bound(simulation, &remaining, left)?;
         let front = front(simulation, self.open_end);
-        let farthest = front_of(simulation, remaining.reaches, self.open_end);
+        let farthest = front_of(simulation, &remaining.reaches, self.open_end);
         let front_bound_m = front
             .zip(farthest)
             .map(|(front, farthest)| farthest - front);
@@ -213,106 +173,22 @@ impl Recorder {
             accuracy: None,
         }
     }
+}
 
-    fn records_now(&mut self, simulation: &Simulation) -> Vec<Record> {
-        let time_s = simulation.time_s();
-        let mut records = vec![Record::Sample(self.sample(simulation))];
-        let mut snapshot_due = false;
-        while self.snapshot_times.last().is_some_and(|due| *due <= time_s) {
-            self.snapshot_times.pop();
-            snapshot_due = true;
-        }
-        if snapshot_due {
-            records.push(Record::Snapshot(snapshot(simulation)));
-        }
-        records
-    }
-
-    fn sample(&mut self, simulation: &Simulation) -> Sample {
-        let bodies = simulation.bodies().iter().zip(&mut self.means);
-        let sampled = bodies.enumerate().map(|(place, (body, means))| {
-            let sample = body_sample(simulation, place, body, means);
-            *means = Means::default();
-            sample
-        });
-        Sample {
-            time_s: simulation.time_s(),
-            bodies: sampled.collect(),
-        }
+/// Size of what a scene is about [m].
+fn size(scenario: &Scenario) -> f64 {
+    let bodies = 0..scenario.bodies.len();
+    let sizes = bodies.map(|body| scenario.shape_of(body).volume().cbrt());
+    match &scenario.flow {
+        Some(flow) => flow.release.height_m,
+        None => sizes.reduce(f64::min).unwrap_or(SIZE_OF_NOTHING),
     }
 }
 
-fn body_sample(simulation: &Simulation, place: usize, body: &Body, means: &Means) -> BodySample {
-    let state = &body.state;
-    let q = state.orientation;
-    BodySample {
-        position_m: state.position.into(),
-        orientation: [q.w, q.i, q.j, q.k],
-        velocity_m_s: body.velocity().into(),
-        angular_velocity_rad_s: body.angular_velocity().into(),
-        flow_force_n: means.mean(&means.flow.force),
-        flow_torque_nm: means.mean(&means.flow.torque),
-        wall_force_n: means.mean(&means.wall.force),
-        wall_torque_nm: means.mean(&means.wall.torque),
-        body_force_n: means.mean(&means.bodies.force),
-        body_torque_nm: means.mean(&means.bodies.torque),
-        touching_points: simulation.flow_load(place).touching_points,
-        submerged_fraction: submerged_fraction(simulation, body),
-        mode: mode(body, means),
-    }
-}
-
-fn mode(body: &Body, means: &Means) -> Mode {
-    let speed = body.velocity().norm();
-    let turning = body.angular_velocity().norm() * body.shape.bounding_radius();
-    if body.freedom == Freedom::Fixed || speed.max(turning) < REST_SPEED {
-        Mode::Resting
-    } else if !means.supported(body) {
-        Mode::Saltating
-    } else if turning > ROLLING_SHARE * speed {
-        Mode::Rolling
-    } else {
-        Mode::Sliding
-    }
-}
-
-/// Snapshot times, spread evenly over the run, last first; each snapshot is
-/// taken at the first sample time at or after its own.
-fn snapshot_times(scenario: &Scenario) -> Vec<f64> {
-    let count = scenario.flow_snapshots;
-    let last = f64::from(count.saturating_sub(1).max(1));
-    (0..count)
-        .rev()
-        // A hair early, so that rounding does not shift one by an interval.
-        .map(|n| scenario.duration_s * (f64::from(n) / last) * (1.0 - 1e-12))
-        .collect()
-}
-
-/// The flow now, thinned evenly by identity.
-fn snapshot(simulation: &Simulation) -> FlowSnapshot {
-    let points = simulation.point_count();
-    let thinning = points.div_ceil(SNAPSHOT_POINTS).max(1) as u32;
-    let mut kept = Vec::new();
-    simulation.visit_points(None, |point| {
-        if point.id.is_multiple_of(thinning) {
-            kept.push(*point);
-        }
-    });
-    kept.sort_unstable_by_key(|point| point.id);
-    kept.truncate(SNAPSHOT_POINTS);
-    FlowSnapshot {
-        time_s: simulation.time_s(),
-        points: points as u64,
-        thinning,
-        position_m: kept
-            .iter()
-            .map(|point| point.position.map(|x| x as f32).into())
-            .collect(),
-        speed_m_s: kept
-            .iter()
-            .map(|point| point.velocity.norm() as f32)
-            .collect(),
-    }
+/// Records of a step, samples first: a snapshot shows the step's end.
+fn in_order(samples: Vec<Sample>, snapshot: Option<FlowSnapshot>) -> Vec<Record> {
+    let samples = samples.into_iter().map(Record::Sample);
+    samples.chain(snapshot.map(Record::Snapshot)).collect()
 }
 
 #[cfg(test)]

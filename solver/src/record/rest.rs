@@ -1,6 +1,7 @@
 //! Whether nothing can move a body or the front any more (docs/method.md,
 //! equations 61–63).
 
+use super::scale::Scale;
 use crate::math::Vec3;
 use crate::points::Point;
 use crate::rigid::Body;
@@ -9,10 +10,8 @@ use crate::simulation::Simulation;
 use crate::walls::Plane;
 use serde::{Deserialize, Serialize};
 
-/// Points slower than this are taken to stay [m/s].
+/// Points slower than this are taken to stay [√(g h), h the height of the release].
 const STILL: f64 = 1e-3;
-/// How far a body may still be moved [m].
-const BODY_BOUND: f64 = 1e-3;
 /// How far the front may still go [cells].
 const FRONT_BOUND: f64 = 0.1;
 /// The energy that reaches a body must stay below this share of what tips it over.
@@ -40,6 +39,8 @@ pub(super) struct Base {
     slope: f64,
     /// Whether friction at rest holds a flow on the incline.
     holds: bool,
+    /// Points slower than this are taken to stay [m/s].
+    still: f64,
 }
 
 impl Base {
@@ -47,11 +48,13 @@ impl Base {
         let channel = &scenario.channel;
         let slope = channel.inclination_rad().tan();
         let flow = scenario.flow.as_ref();
+        let height = flow.map_or(0.0, |flow| flow.release.height_m);
         let within = flow.map_or(f64::INFINITY, |flow| flow.material.static_friction);
         Self {
             friction: channel.base_friction,
             slope,
             holds: slope < channel.base_friction.min(within),
+            still: STILL * (scenario.gravity_m_s2 * height).sqrt(),
         }
     }
 
@@ -120,20 +123,23 @@ impl Remaining {
 /// bed under it (equation 61).
 fn specific_energy(point: &Point, simulation: &Simulation, base: &Base) -> f64 {
     let (x, speed) = (point.position.x, point.velocity.norm());
-    if speed < STILL && (base.holds || x >= 0.0) {
+    if speed < base.still && (base.holds || x >= 0.0) {
         return 0.0;
     }
     0.5 * speed * speed + simulation.gravity().norm() * base.bed_under(x)
 }
 
-/// How far any of these bodies could still get in `left` [s], by itself and pushed by
+/// How far any of these bodies, which are at rest, could still get in `left` [s], by itself and pushed by
 /// what of a flow gets as far as it is [m] (equation 62); `None` if too far, or if
 /// nothing says how far.
 pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f64) -> Option<f64> {
     let free = simulation.bodies().iter().filter(|body| body.is_free());
+    let gravity = simulation.gravity().norm();
     let mut largest = 0.0f64;
     for body in free {
-        let mut way = body.largest_speed() * left;
+        let scale = Scale::of_body(body, gravity);
+        // At rest: what trembles faster than that goes nowhere.
+        let mut way = body.largest_speed().min(scale.rest_speed()) * left;
         // What comes to rest more than a cell before the body does not touch it.
         let behind = body.shape.bounding_radius() + simulation.cell_size_m();
         let energy = remaining.energy_at(body.state.position.x - behind);
@@ -144,9 +150,12 @@ pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f
             }
             way += energy / footing.holding;
         }
+        if way > scale.onset_distance() {
+            return None;
+        }
         largest = largest.max(way);
     }
-    (largest <= BODY_BOUND).then_some(largest)
+    Some(largest)
 }
 
 /// Whether a front that could still go so far [m] counts as one at rest.

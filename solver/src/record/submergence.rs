@@ -1,39 +1,172 @@
 //! How deep a body is in the flow.
 
+use super::bed::Bed;
 use crate::contact::point_body::Around;
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::rigid::Body;
 use crate::simulation::Simulation;
 
 /// Sectors of the horizon looked at round a body.
 const SECTORS: usize = 8;
-/// Width of the ring looked at, in cells.
-const RING_CELLS: f64 = 1.0;
+/// Width of the ring looked at, in point spacings: there are a few points of every
+/// layer in each sector, round a body smaller than a cell, too.
+const RING: f64 = 3.0;
+/// A point higher than this above all others of its sector is not of the flow's body
+/// but thrown out of it, in point spacings.
+const GAP: f64 = 2.0;
 
-/// Share of the body's height below the surface of the flow round it, 0..1.
+/// Share of the body's height below the surface of the flow round it, 0..1, both along
+/// the normal of the bed under it.
 ///
-/// In each of eight sectors the surface is the highest point within the body's
-/// bounding radius and one cell; the share is the mean over the sectors, so
-/// that one splash does not drown a body.
-pub(super) fn submerged_fraction(simulation: &Simulation, body: &Body) -> f64 {
-    let centre = body.state.position;
-    let extent = |direction: Vec3| body.shape.extent_along(&body.to_body(&direction));
-    let (low, high) = (centre.z - extent(-Vec3::z()), centre.z + extent(Vec3::z()));
-    let ring = body.shape.bounding_radius() + RING_CELLS * simulation.cell_size_m();
-    let mut surface = [f64::NEG_INFINITY; SECTORS];
-    let around = Around::column(centre, ring);
-    simulation.visit_points(Some(&around), |point| {
-        let (x, y) = (point.position.x - centre.x, point.position.y - centre.y);
-        if x * x + y * y <= ring * ring {
-            let sector = &mut surface[sector(x, y)];
-            *sector = sector.max(point.position.z + simulation.point_radius_m());
+/// In each of eight sectors the surface lies half a point spacing above the highest
+/// point that others lead up to from the body's foot. The share is that of a plane
+/// through the sectors' shares where the body is: a slope of the surface does not count
+/// twice, and one splash does not drown a body. Sectors behind a side wall have no say.
+pub(super) fn submerged_fraction(simulation: &Simulation, body: &Body, bed: &Bed) -> f64 {
+    let view = View::of(simulation, body, bed);
+    let mut sectors: [Vec<Spot>; SECTORS] = Default::default();
+    simulation.visit_points(Some(&view.around()), |point| {
+        if let Some(spot) = view.spot(&point.position) {
+            sectors[sector(&spot)].push(spot);
         }
     });
-    let share = |top: &f64| ((top - low) / (high - low)).clamp(0.0, 1.0);
-    surface.iter().map(share).sum::<f64>() / SECTORS as f64
+    let within = sectors.iter_mut().enumerate();
+    let within = within.filter(|(sector, _)| view.has_room(simulation, *sector));
+    let shares: Vec<(Spot, f64)> = within
+        .map(|(sector, spots)| view.share(sector, spots))
+        .collect();
+    at_the_centre(&shares).clamp(0.0, 1.0)
 }
 
-fn sector(x: f64, y: f64) -> usize {
-    let turn = y.atan2(x) / std::f64::consts::TAU + 0.5;
+/// A place as it is seen from a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Spot {
+    /// Downstream along the bed [m].
+    along: f64,
+    /// Across [m].
+    across: f64,
+    /// Along the bed's normal [m].
+    height: f64,
+}
+
+/// A body's surroundings, in axes of the bed under it.
+#[derive(Debug, Clone, Copy)]
+struct View {
+    centre: Vec3,
+    downstream: Vec3,
+    normal: Vec3,
+    /// Lowest and highest place of the body [m].
+    low: f64,
+    high: f64,
+    /// Bounding radius of the body, and of the ring looked at [m].
+    radius: f64,
+    ring: f64,
+    /// Distance of points [m].
+    spacing: f64,
+}
+
+impl View {
+    fn of(simulation: &Simulation, body: &Body, bed: &Bed) -> Self {
+        let centre = body.state.position;
+        let normal = bed.normal_at(centre.x);
+        let extent = |direction: Vec3| body.shape.extent_along(&body.to_body(&direction));
+        let (radius, spacing) = (body.shape.bounding_radius(), simulation.point_spacing_m());
+        Self {
+            centre,
+            downstream: bed.downstream_at(centre.x),
+            normal,
+            low: -extent(-normal),
+            high: extent(normal),
+            radius,
+            ring: radius + RING * spacing,
+            spacing,
+        }
+    }
+
+    /// A box that holds all that is looked at.
+    fn around(&self) -> Around {
+        let tallest = self.high.max(-self.low) + GAP * self.spacing;
+        Around::column(self.centre, self.ring + self.normal.x.abs() * tallest)
+    }
+
+    /// A place if it is looked at.
+    fn spot(&self, place: &Vec3) -> Option<Spot> {
+        let arm = place - self.centre;
+        let spot = Spot {
+            along: arm.dot(&self.downstream),
+            across: arm.y,
+            height: arm.dot(&self.normal),
+        };
+        let gap = GAP * self.spacing;
+        let near = spot.along.hypot(spot.across) <= self.ring;
+        let beside = spot.height >= self.low - gap && spot.height <= self.high + gap;
+        (near && beside).then_some(spot)
+    }
+
+    /// The middle of a sector, a bounding radius off.
+    fn middle(&self, sector: usize) -> Spot {
+        let turn = std::f64::consts::TAU * ((sector as f64 + 0.5) / SECTORS as f64 - 0.5);
+        Spot {
+            along: self.radius * turn.cos(),
+            across: self.radius * turn.sin(),
+            height: 0.0,
+        }
+    }
+
+    /// Whether a sector lies between the side walls.
+    fn has_room(&self, simulation: &Simulation, sector: usize) -> bool {
+        let middle = self.middle(sector);
+        let place = self.centre + self.downstream * middle.along + Vec3::y() * middle.across;
+        let sides = simulation.planes().iter();
+        let mut sides = sides.filter(|plane| plane.normal.y.abs() > 0.5);
+        sides.all(|plane| plane.height(&place) > 0.0)
+    }
+
+    /// Where a sector's surface is found, and the body's share below it.
+    fn share(&self, sector: usize, spots: &mut [Spot]) -> (Spot, f64) {
+        spots.sort_unstable_by(|a, b| a.height.total_cmp(&b.height));
+        let mut level = self.low;
+        let mut top = None;
+        for spot in spots {
+            if spot.height > level + GAP * self.spacing {
+                break;
+            }
+            level = level.max(spot.height);
+            top = Some(*spot);
+        }
+        let Some(top) = top else {
+            return (self.middle(sector), 0.0);
+        };
+        let surface = top.height + 0.5 * self.spacing;
+        let share = (surface - self.low) / (self.high - self.low);
+        (top, share.clamp(0.0, 1.0))
+    }
+}
+
+fn sector(spot: &Spot) -> usize {
+    let turn = spot.across.atan2(spot.along) / std::f64::consts::TAU + 0.5;
     ((turn * SECTORS as f64) as usize).min(SECTORS - 1)
 }
+
+/// Value where the body is of the plane through these shares by least squares; their
+/// mean where they do not make out a plane.
+fn at_the_centre(shares: &[(Spot, f64)]) -> f64 {
+    let mut normal = Mat3::zeros();
+    let mut right = Vec3::zeros();
+    for (spot, share) in shares {
+        let row = Vec3::new(1.0, spot.along, spot.across);
+        normal += row * row.transpose();
+        right += row * *share;
+    }
+    let count = shares.len().max(1) as f64;
+    let mean = right.x / count;
+    let spread = normal[(1, 1)] * normal[(2, 2)] - normal[(1, 2)].powi(2);
+    let flat = spread <= 1e-6 * (normal[(1, 1)] + normal[(2, 2)]).powi(2);
+    match normal.lu().solve(&right).filter(|_| !flat) {
+        Some(plane) => plane.x,
+        None => mean,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -6,6 +6,7 @@
 mod accuracy;
 mod agreement;
 mod body;
+mod duration;
 mod fit;
 mod motion;
 mod node;

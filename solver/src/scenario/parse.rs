@@ -6,6 +6,7 @@ use super::accuracy::{
 };
 use super::agreement::{flow_carries_itself, samples_are_bounded, stiffness_is_given_once};
 use super::body::read_bodies;
+use super::duration::default_duration;
 use super::fit;
 use super::node::Node;
 use super::reader::Object;
@@ -77,13 +78,23 @@ struct Draft {
 
 impl Draft {
     fn read(object: &Object<'_>) -> Self {
+        let title = read_title(object);
+        let (channel, flow) = (read_channel(object), read_flow(object));
+        let bodies = read_bodies(object);
+        let gravity_m_s2 = object.number(&GRAVITY);
+        let lasts = match (&channel, &flow, gravity_m_s2) {
+            (Some(channel), Some(flow), Some(gravity)) => {
+                Some(default_duration(channel, flow.as_ref(), gravity))
+            }
+            _ => None,
+        };
         let draft = Self {
-            title: read_title(object),
-            channel: read_channel(object),
-            flow: read_flow(object),
-            bodies: read_bodies(object),
-            gravity_m_s2: object.number(&GRAVITY),
-            duration_s: object.number(&DURATION),
+            title,
+            channel,
+            flow,
+            bodies,
+            gravity_m_s2,
+            duration_s: object.number_or(&DURATION, lasts),
             sample_interval_s: object.number(&SAMPLE_INTERVAL),
             flow_snapshots: object.count(&FLOW_SNAPSHOTS),
             numerics: read_numerics(object),

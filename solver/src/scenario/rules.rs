@@ -10,6 +10,8 @@ use std::ops::RangeInclusive;
 
 /// Longest title [characters].
 pub(super) const TITLE_LENGTH: usize = 200;
+/// Longest run [s].
+pub(super) const LONGEST: f64 = 3600.0;
 /// Most bodies of one scenario.
 pub(super) const BODIES: usize = 256;
 /// Most samples of all bodies together: about 100 MB of trajectory.
@@ -72,9 +74,7 @@ const fn modulus(key: &'static str) -> Rule {
 pub(super) const GRAVITY: Rule = Rule::new("gravity_m_s2", closed(0.01, 1e3))
     .unit("m/s²")
     .default(9.81);
-pub(super) const DURATION: Rule = Rule::new("duration_s", closed(0.0, 3600.0))
-    .unit(SECOND)
-    .default(3.0);
+pub(super) const DURATION: Rule = Rule::new("duration_s", closed(0.0, LONGEST)).unit(SECOND);
 pub(super) const SAMPLE_INTERVAL: Rule = Rule::new("sample_interval_s", closed(1e-5, 3600.0))
     .unit(SECOND)
     .default(0.01);

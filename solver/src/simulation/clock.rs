@@ -1,6 +1,10 @@
-//! Simulated time, and how a run is divided.
+//! Simulated time, and what bounds a run.
 
 use serde::{Deserialize, Serialize};
+
+/// Sub-steps between two audits. Sums over all points are not free, and what
+/// they would show at a step's end shows at a later one as well.
+const AUDIT_INTERVAL: u64 = 64;
 
 /// Where a run stands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -13,8 +17,6 @@ pub(super) struct Clock {
     pub substeps: u64,
     /// Sub-steps summed over the points that took part.
     pub point_steps: u64,
-    /// Index of the next sample time.
-    pub next_sample: u64,
     /// Sub-steps at the last audit.
     pub last_audit: u64,
     /// Points at the start.
@@ -31,7 +33,6 @@ impl Clock {
             steps: 0,
             substeps: 0,
             point_steps: 0,
-            next_sample: 1,
             last_audit: 0,
             released_points,
             volume_left_out: 0.0,
@@ -39,24 +40,24 @@ impl Clock {
     }
 }
 
-/// Duration and sample times.
+/// Duration of a run, and what it is told of its steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
     /// End of the run [s].
     pub duration: f64,
-    /// Time between samples [s].
-    pub sample_interval: f64,
+    /// Longest sub-step [s]; infinite where stability alone bounds it.
+    pub longest_substep: f64,
+    /// Sub-steps between two audits; the step in which they are over ends in one.
+    pub audit_interval: u64,
 }
 
 impl Timing {
-    /// Sample time k [s]: k · interval, and the end.
-    pub(super) fn sample_time(&self, k: u64) -> f64 {
-        let time = k as f64 * self.sample_interval;
-        // The end may miss a whole number of intervals by rounding only.
-        if time >= self.duration - 1e-9 * self.sample_interval {
-            self.duration
-        } else {
-            time
+    /// A run of this duration [s] with sub-steps as long as is stable.
+    pub fn lasting(duration: f64) -> Self {
+        Self {
+            duration,
+            longest_substep: f64::INFINITY,
+            audit_interval: AUDIT_INTERVAL,
         }
     }
 }

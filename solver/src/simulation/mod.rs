@@ -31,9 +31,7 @@ use std::sync::Arc;
 pub use clock::Timing;
 pub use guards::Guards;
 pub use laps::{LapWatch, Verb};
-pub use setup::{
-    Columns, Expected, GivenFlow, Outline, Reductions, Scene, Setup, Share, Shares,
-};
+pub use setup::{Columns, Expected, GivenFlow, Outline, Reductions, Scene, Setup, Share, Shares};
 
 /// A run in progress: what is given, what changes, and scratch.
 #[derive(Debug)]
@@ -92,8 +90,6 @@ pub struct SubstepReport {
     pub points: u64,
     /// Whether this sub-step ended a step: the points' own state is up to date.
     pub step_ended: bool,
-    /// Index k of the sample time reached (time = k · interval, or the end).
-    pub sample: Option<u64>,
 }
 
 /// Why a run came back.
@@ -327,6 +323,14 @@ impl Simulation {
             .flow
             .as_ref()
             .map_or(0.0, |flow| flow.sphere.radius)
+    }
+
+    /// Distance of neighbouring points [m]; 0 without a flow.
+    pub fn point_spacing_m(&self) -> f64 {
+        self.given
+            .flow
+            .as_ref()
+            .map_or(0.0, |flow| flow.sphere.spacing)
     }
 
     /// Calls `watch` whenever a verb of the step is done, for timing.

@@ -72,7 +72,7 @@ pub struct Scene {
 pub struct Setup {
     /// Identity of the scene: a scenario's JSON.
     pub identity: String,
-    /// Duration and sample times.
+    /// Duration, and what bounds the steps.
     pub timing: Timing,
     /// [m/s²].
     pub gravity: Vec3,
@@ -211,10 +211,7 @@ impl Setup {
         });
         let given = Self {
             identity: scenario.to_json(),
-            timing: Timing {
-                duration: scenario.duration_s,
-                sample_interval: scenario.sample_interval_s,
-            },
+            timing: Timing::lasting(scenario.duration_s),
             gravity: Vec3::new(0.0, 0.0, -scenario.gravity_m_s2),
             lattice,
             planes: walls.planes().copied().collect(),

@@ -14,10 +14,6 @@ use crate::rigid::{Body, Load};
 use crate::sharing::Sharing;
 use crate::stability::{self, Pace};
 
-/// Sub-steps between two audits. Sums over all points are not free, and what
-/// they would show at a step's end shows at a later one as well.
-const AUDIT_INTERVAL: u64 = 64;
-
 /// A sub-step in which a body asked for more sub-steps of its own is shortened.
 const MANY_BODY_SUBSTEPS: f64 = 10_000.0;
 
@@ -40,10 +36,10 @@ impl Simulation {
         clock.point_steps += self.state.flow.computed() as u64;
         if step.done < step.pace.count {
             self.scratch.in_hand = Some(step);
-            return Ok(self.report(dt, None));
+            return Ok(self.report(dt));
         }
-        let sample = self.end_step(&step.pace)?;
-        Ok(self.report(dt, sample))
+        self.end_step(&step.pace)?;
+        Ok(self.report(dt))
     }
 
     fn begin_step(&mut self) -> Result<StepInHand, StepError> {
@@ -71,11 +67,11 @@ impl Simulation {
 
     /// Sub-steps at the speed of sound in one step of the flow.
     fn pace(&self) -> Result<Pace, StepError> {
-        let clock = &self.state.clock;
-        let remaining = self.given.timing.sample_time(clock.next_sample) - clock.time;
+        let (clock, timing) = (&self.state.clock, &self.given.timing);
+        let remaining = timing.duration - clock.time;
         let flow = self.given.flow.as_ref();
         let Some(flow) = flow.filter(|_| self.state.flow.count() > 0) else {
-            let longest = stability::SUBSTEP_WITHOUT_FLOW;
+            let longest = stability::SUBSTEP_WITHOUT_FLOW.min(timing.longest_substep);
             let longest = self.for_bodies(longest, longest);
             return Ok(stability::pace_without_flow(longest, remaining));
         };
@@ -87,7 +83,8 @@ impl Simulation {
         let substep = flow
             .limits
             .substep(fastest)
-            .min(flow.contact_substep(&self.state.bodies));
+            .min(flow.contact_substep(&self.state.bodies))
+            .min(timing.longest_substep);
         let step = flow.limits.substeps_per_step(substep, fastest) * substep;
         let substep = self.for_bodies(substep, step);
         let limit = flow.limits.shortest_substep();
@@ -162,9 +159,8 @@ impl Simulation {
         scratch.laps.done(Verb::Bodies);
     }
 
-    /// Hands the motion back to the points and checks what came of it; returns
-    /// the sample time reached, if any.
-    fn end_step(&mut self, pace: &Pace) -> Result<Option<u64>, StepError> {
+    /// Hands the motion back to the points and checks what came of it.
+    fn end_step(&mut self, pace: &Pace) -> Result<(), StepError> {
         let state = &mut self.state;
         let laps = &mut self.scratch.laps;
         let duration = pace.substep * f64::from(pace.count);
@@ -186,25 +182,23 @@ impl Simulation {
         state.moments.momentum += finished.spread.stopped.linear;
         let clock = &mut state.clock;
         clock.steps += 1;
-        let mut sample = None;
-        if pace.reaches {
-            sample = Some(clock.next_sample);
-            clock.time = self.given.timing.sample_time(clock.next_sample);
-            clock.next_sample += 1;
+        let timing = self.given.timing;
+        if pace.reaches_end {
+            clock.time = timing.duration;
         }
         self.look_for_culprits(finished.stuck.as_ref())?;
         self.remove_what_left();
         self.scratch.laps.done(Verb::Checks);
         let since = self.state.clock.substeps - self.state.clock.last_audit;
-        if sample.is_some() || since >= AUDIT_INTERVAL {
+        if pace.reaches_end || since >= timing.audit_interval {
             self.check_audit();
             self.look_at_energy()?;
             self.scratch.laps.done(Verb::Audit);
         }
-        Ok(sample)
+        Ok(())
     }
 
-    fn report(&self, substep_s: f64, sample: Option<u64>) -> SubstepReport {
+    fn report(&self, substep_s: f64) -> SubstepReport {
         let clock = &self.state.clock;
         SubstepReport {
             time_s: clock.time,
@@ -213,7 +207,6 @@ impl Simulation {
             steps: clock.steps,
             points: self.state.flow.computed() as u64,
             step_ended: self.scratch.in_hand.is_none(),
-            sample,
         }
     }
 

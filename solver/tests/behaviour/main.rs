@@ -12,6 +12,8 @@ mod balances;
 mod bodies_alone;
 mod bodies_together;
 mod column_at_rest;
+
+mod froude;
 mod grid_phase;
 mod guards;
 mod heap;
@@ -22,7 +24,9 @@ mod precisions;
 mod prescribed;
 mod reductions;
 mod same_bits;
+mod samples;
 mod shapes;
 mod sliding_block;
 mod symmetry;
 mod thin_flows;
+mod words;

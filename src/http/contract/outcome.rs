@@ -47,7 +47,11 @@ pub struct EndedEarlyDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = BodyOutcome)]
 pub struct BodyOutcomeDocument {
-    /// First time the centre is 1 mm from where it started [s].
+    /// First time the flow touched it [s]; null if it never did.
+    #[schema(required = true)]
+    pub first_contact_time_s: Option<f64>,
+    /// First time the centre is a fortieth of the body's size (cube root of its volume)
+    /// from where it started [s].
     #[schema(required = true)]
     pub onset_time_s: Option<f64>,
     /// Largest speed of the centre [m/s].
@@ -55,7 +59,7 @@ pub struct BodyOutcomeDocument {
     /// When that was [s].
     #[schema(required = true)]
     pub peak_speed_time_s: Option<f64>,
-    /// From then to the end slower than 1 mm/s [s].
+    /// From then to the end at rest [s]; null if it still moves or never moved.
     #[schema(required = true)]
     pub stop_time_s: Option<f64>,
     /// Net horizontal displacement of the centre [m].

@@ -56,14 +56,16 @@ pub struct TrajectoryColumnsSchema {
 #[serde(rename_all = "lowercase")]
 #[schema(as = Mode)]
 pub enum ModeSchema {
-    /// Slower than 1 mm/s, rotation included.
+    /// At rest, or fixed.
     Resting,
-    /// On a wall, mostly translating.
+    /// On a wall or another body, and hardly turning over as it travels.
     Sliding,
-    /// On a wall, turning about as fast as it travels.
+    /// On a wall or another body, turning over about as fast as it travels.
     Rolling,
-    /// Off the walls most of the time.
+    /// Off walls and other bodies most of the time since the last sample.
     Saltating,
+    /// Borne by the flow, more than by walls and other bodies.
+    Carried,
 }
 
 /// The flow at one instant.

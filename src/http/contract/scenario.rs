@@ -23,7 +23,7 @@ pub struct ScenarioDocument {
     /// Gravity [m/s²].
     #[schema(required = false)]
     pub gravity_m_s2: f64,
-    /// Simulated time [s].
+    /// Simulated time [s]; by default 3, or as long as the flow is expected to take.
     #[schema(required = false)]
     pub duration_s: f64,
     /// Time between samples [s]: they lie at k · interval and at the end.

@@ -174,5 +174,6 @@ fn word(mode: Mode) -> &'static str {
         Mode::Sliding => "sliding",
         Mode::Rolling => "rolling",
         Mode::Saltating => "saltating",
+        Mode::Carried => "carried",
     }
 }

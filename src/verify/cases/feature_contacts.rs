@@ -211,7 +211,7 @@ const APART: f64 = 0.09;
 fn flying(numbers: &mut Numbers, step: f64) -> Result<Scene, Trouble> {
     let mut scene = thrown_down(&json!({}))?;
     scene.given.planes.clear();
-    scene.given.timing.sample_interval = step;
+    scene.given.timing.longest_substep = step;
     scene.bodies = vec![cube(numbers.orientation())?, cube(numbers.orientation())?];
     tetrahedron(&mut scene.bodies[1])?;
     for body in &mut scene.bodies {

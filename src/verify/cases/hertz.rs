@@ -104,6 +104,6 @@ fn scene(step: f64) -> Result<Scene, Trouble> {
         "velocity_m_s": [0.0, 0.0, -SPEED], "contact_modulus_pa": MODULUS,
         "restitution": 1.0
     }))?;
-    scene.given.timing.sample_interval = step;
+    scene.given.timing.longest_substep = step;
     Ok(scene)
 }

@@ -133,7 +133,7 @@ fn scene(body: Body, step: f64, end: f64) -> Result<Scene, Trouble> {
     let mut scene = thrown_down(&json!({}))?;
     scene.bodies = vec![body];
     scene.given.planes.clear();
-    scene.given.timing.sample_interval = step;
+    scene.given.timing.longest_substep = step;
     scene.given.timing.duration = end;
     Ok(scene)
 }

@@ -10,41 +10,44 @@ fn at(x: f64, speed: f64) -> Body {
 }
 
 fn history(seen: &[(f64, f64, f64)]) -> BodyOutcome {
-    let mut history = BodyHistory::start(&at(0.0, 0.0));
+    let mut history = BodyHistory::start(&at(0.0, 0.0), 9.81);
     for &(time_s, x, speed) in seen {
-        history.take_in(&at(x, speed), time_s);
+        let body = at(x, speed);
+        history.take_in(&body, &Motion::of(&body), time_s);
     }
     history.outcome(&at(0.0, 0.0))
 }
 
 #[test]
 fn what_never_moved_has_no_times() {
-    let outcome = history(&[(0.1, 0.0, 0.0), (0.2, 5e-4, 5e-4)]);
+    let outcome = history(&[(0.1, 0.0, 0.0), (0.2, 5e-5, 5e-4)]);
     assert_eq!(outcome.onset_time_s, None);
     assert_eq!(outcome.stop_time_s, None);
-    assert_eq!(outcome.displacement_m, 5e-4);
-    let outcome = BodyHistory::start(&at(0.0, 0.0)).outcome(&at(0.0, 0.0));
+    assert_eq!(outcome.displacement_m, 5e-5);
+    let outcome = BodyHistory::start(&at(0.0, 0.0), 9.81).outcome(&at(0.0, 0.0));
     assert_eq!(
         (outcome.peak_speed_m_s, outcome.peak_speed_time_s),
         (0.0, None)
     );
 }
 
+// Onset is where the way crosses a millimetre between 0.5 and 2.
 #[test]
 fn onset_peak_and_stop_are_where_they_were_seen() {
     let outcome = history(&[
-        (0.1, 5e-4, 0.1),
-        (0.2, 2e-3, 0.5),
-        (0.3, 0.05, 0.4),
-        (0.4, 0.06, 5e-4),
-        (0.5, 0.055, 0.1),
-        (0.6, 0.05, 0.0),
-        (0.7, 0.05, 0.0),
+        (0.01, 5e-4, 0.1),
+        (0.02, 2e-3, 0.5),
+        (0.03, 0.05, 0.4),
+        (0.04, 0.06, 5e-4),
+        (0.05, 0.055, 0.1),
+        (0.06, 0.05, 0.0),
+        (0.3, 0.05, 0.0),
     ]);
-    assert_eq!(outcome.onset_time_s, Some(0.2));
+    let onset = outcome.onset_time_s.expect("it set off");
+    assert!((onset - 0.01333).abs() < 1e-4, "{onset}");
     assert!((outcome.peak_speed_m_s - 0.5).abs() < 1e-15);
-    assert_eq!(outcome.peak_speed_time_s, Some(0.2));
-    assert_eq!(outcome.stop_time_s, Some(0.6), "a pause is no stop");
+    assert_eq!(outcome.peak_speed_time_s, Some(0.02));
+    assert_eq!(outcome.stop_time_s, Some(0.06), "a pause is no stop");
     assert!((outcome.displacement_m - 0.05).abs() < 1e-15);
     assert!((outcome.path_length_m - 0.07).abs() < 1e-15);
 }
@@ -58,20 +61,22 @@ fn what_still_moves_has_not_stopped() {
 // Displacement is horizontal; the path is not.
 #[test]
 fn a_fall_is_no_displacement() {
-    let mut history = BodyHistory::start(&at(0.0, 0.0));
+    let mut history = BodyHistory::start(&at(0.0, 0.0), 9.81);
     let mut fallen = at(0.0, 0.0);
     fallen.state.position.z = -2.0;
-    history.take_in(&fallen, 0.5);
+    history.take_in(&fallen, &Motion::of(&fallen), 0.5);
     let outcome = history.outcome(&at(0.0, 0.0));
     assert_eq!((outcome.displacement_m, outcome.path_length_m), (0.0, 2.0));
-    assert_eq!(outcome.onset_time_s, Some(0.5));
+    assert!(outcome.onset_time_s.is_some_and(|onset| onset < 3e-4));
 }
 
 // Its longest side is along z, about which it resists turning least.
 #[test]
 fn mass_properties_are_those_of_the_body() {
     let body = cuboid([0.02, 0.04, 0.06]);
-    let properties = BodyHistory::start(&body).outcome(&body).mass_properties;
+    let properties = BodyHistory::start(&body, 9.81)
+        .outcome(&body)
+        .mass_properties;
     assert_eq!(properties.mass_kg, body.mass);
     assert_eq!(properties.volume_m3, body.shape.volume());
     let moments = [2, 1, 0].map(|axis| body.inertia[(axis, axis)]);
@@ -80,4 +85,26 @@ fn mass_properties_are_those_of_the_body() {
     }
     let [least, ..] = properties.principal_axes;
     assert!((Vec3::from(least) - Vec3::z()).norm() < 1e-12, "{least:?}");
+}
+
+/// Front of ten points a centimetre apart, the foremost at 0, each spread over that.
+fn front_beyond(share: f64) -> f64 {
+    let places: Vec<(f64, f64)> = (0..10).map(|k| (-0.01 * f64::from(k), 2.0)).collect();
+    beyond(&places, 0.01, 20.0 * share).expect("there is as much")
+}
+
+#[test]
+fn the_front_may_lie_within_a_point() {
+    for share in [1e-3, 0.05, 0.1, 0.25, 0.999] {
+        let found = front_beyond(share);
+        assert!(
+            (found - (0.005 - 0.1 * share)).abs() < 1e-12,
+            "{share}: {found}"
+        );
+    }
+    assert_eq!(beyond(&[(0.0, 1.0)], 0.01, 1.1), None);
+    let overlapping = [(0.0, 1.0), (0.002, 1.0)];
+    let found = beyond(&overlapping, 0.01, 0.4).expect("there is as much");
+    // 0.2 kg in the first 2 mm, then twice as dense.
+    assert!((found - 0.004).abs() < 1e-12, "{found}");
 }

@@ -3,6 +3,7 @@
 use super::{accepted, minimal, with};
 use crate::scenario::accuracy::QUANTITIES;
 use crate::scenario::body::REGULAR_SOLIDS;
+use crate::scenario::duration::LEAST;
 use crate::scenario::range::Rule;
 use crate::scenario::reader::choice_words;
 use crate::scenario::rules::*;
@@ -142,8 +143,10 @@ fn every_field_is_described_with_its_default() {
             constants += 1;
         }
     }
-    // All but the five required numbers and the two that follow the side.
-    assert_eq!(constants, fields.len() - 7);
+    // All but the five required numbers, the two that follow the side, and the
+    // duration.
+    assert_eq!(constants, fields.len() - 8);
+    assert!(row("duration_s")[3].starts_with(&format!("{LEAST}, or")));
 }
 
 #[test]

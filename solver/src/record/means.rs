@@ -1,0 +1,54 @@
+//! What acted on a body since the last sample.
+
+use crate::contact::island::BodyReport;
+use crate::math::Vec3;
+use crate::rigid::Load;
+use serde::{Deserialize, Serialize};
+
+/// Impulses on one body since the last sample.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct Means {
+    /// Time since then [s].
+    pub(super) duration: f64,
+    /// Of it on walls or other bodies [s].
+    pub(super) supported: f64,
+    /// Impulse of the flow.
+    pub(super) flow: Load,
+    /// Impulse of the walls.
+    pub(super) wall: Load,
+    /// Impulse of other bodies.
+    pub(super) bodies: Load,
+}
+
+impl Means {
+    /// Takes in what acted in `dt` [s] of a sub-step.
+    pub(super) fn take_in(&mut self, flow: &Load, report: &BodyReport, dt: f64) {
+        self.duration += dt;
+        self.supported += dt * supported_share(report);
+        for (sum, load) in [
+            (&mut self.flow, flow),
+            (&mut self.wall, &report.wall_load),
+            (&mut self.bodies, &report.body_load),
+        ] {
+            sum.force += load.force * dt;
+            sum.torque += load.torque * dt;
+        }
+    }
+
+    /// The mean of what this is the impulse of.
+    pub(super) fn mean(&self, impulse: &Vec3) -> Vec3 {
+        if self.duration > 0.0 {
+            impulse / self.duration
+        } else {
+            Vec3::zeros()
+        }
+    }
+}
+
+/// Share of a sub-step in which a body was on walls or other bodies.
+fn supported_share(report: &BodyReport) -> f64 {
+    match report.substeps {
+        0 => 0.0,
+        substeps => f64::from(report.substeps_supported) / f64::from(substeps),
+    }
+}

@@ -1,0 +1,125 @@
+//! Whether a body rolls on what it touches, or slides.
+
+use super::motion::Motion;
+use crate::contact::island::BodyReport;
+use crate::math::Vec3;
+use crate::rigid::Body;
+use crate::walls::Plane;
+use serde::{Deserialize, Serialize};
+
+/// From this turn on a body has left the face, edge or vertex it stood on [rad]; what
+/// contacts yield to is less than a degree.
+const TURN: f64 = 0.05;
+/// Travel of a body that slides while it turns by [`TURN`], over what the turn makes of
+/// its bounding radius.
+const TRAVEL: f64 = 2.0;
+
+/// Turn and travel of a body on what it touches, stretch by stretch: each ends with the
+/// turn of a body that rolls or with the travel of one that slides.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
+pub(super) struct Turning {
+    /// About axes in the plane of contact, in this stretch [rad].
+    turned: Vec3,
+    /// In this stretch [m].
+    travelled: Vec3,
+    /// Whether it rolled in the last stretch.
+    rolls: bool,
+}
+
+impl Turning {
+    /// Takes in a sub-step of `dt` [s]; what a body does in flight is neither.
+    pub(super) fn take_in(
+        &mut self,
+        (body, motion): (&Body, &Motion),
+        report: &BodyReport,
+        planes: &[Plane],
+        dt: f64,
+    ) {
+        let Some(normal) = contact_normal(body, report, planes) else {
+            return;
+        };
+        let spin = motion.angular_velocity;
+        self.turned += (spin - normal * spin.dot(&normal)) * dt;
+        self.travelled += motion.velocity * dt;
+        let slides_from = TRAVEL * TURN * body.shape.bounding_radius();
+        if self.turned.norm() >= TURN {
+            self.begin(true);
+        } else if self.travelled.norm() >= slides_from {
+            self.begin(false);
+        }
+    }
+
+    fn begin(&mut self, rolls: bool) {
+        *self = Self {
+            rolls,
+            ..Self::default()
+        };
+    }
+
+    /// Whether it rolls, if it is on anything.
+    pub(super) fn rolls(&self) -> bool {
+        self.rolls
+    }
+}
+
+/// Unit normal of what a body was on in a sub-step: the nearest wall if any touched it,
+/// else along the force of other bodies.
+fn contact_normal(body: &Body, report: &BodyReport, planes: &[Plane]) -> Option<Vec3> {
+    if report.wall_load.force == Vec3::zeros() {
+        return report.body_load.force.try_normalize(0.0);
+    }
+    let gap = |plane: &Plane| {
+        let deepest = body.shape.extent_along(&body.to_body(&-plane.normal));
+        plane.height(&body.state.position) - deepest
+    };
+    let nearest = planes.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)));
+    nearest.map(|plane| plane.normal)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rigid::Load;
+    use crate::rigid::fixture::cuboid;
+
+    /// Whether a cube rolls on the floor that travels and turns like this for so long.
+    fn rolls(velocity: Vec3, spin: Vec3, duration: f64) -> bool {
+        let body = cuboid([0.04; 3]);
+        let report = BodyReport {
+            wall_load: Load {
+                force: Vec3::new(0.3, 0.0, 1.0),
+                torque: Vec3::zeros(),
+            },
+            ..BodyReport::default()
+        };
+        let floor = [Plane {
+            name: "floor",
+            normal: Vec3::z(),
+            offset: -0.02,
+            flow_friction: 0.4,
+        }];
+        let motion = Motion {
+            velocity,
+            angular_velocity: spin,
+            ..Motion::of(&body)
+        };
+        let mut turning = Turning::default();
+        for _ in 0..(duration * 1e3) as u32 {
+            turning.take_in((&body, &motion), &report, &floor, 1e-3);
+        }
+        turning.rolls()
+    }
+
+    #[test]
+    fn rolling_is_turning_about_an_axis_in_the_plane_of_contact() {
+        let (along, across) = (Vec3::x(), Vec3::y());
+        assert!(rolls(along * 0.5, across * (0.5 / 0.02), 0.1));
+        assert!(rolls(Vec3::zeros(), across * 5.0, 0.1));
+        assert!(!rolls(along * 0.5, Vec3::z() * 20.0, 1.0), "spins upright");
+        assert!(!rolls(along * 0.5, across * 5.0, 1.0), "slides as it turns");
+        assert!(
+            !rolls(Vec3::zeros(), across * 0.015, 1.0),
+            "0.9° are no roll"
+        );
+    }
+}

@@ -1,0 +1,31 @@
+//! How long a run lasts that is not told.
+
+use super::{Channel, Flow};
+
+/// Shortest duration by default [s].
+pub(super) const LEAST: f64 = 3.0;
+/// How long what has slid spreads and settles, over √(h/g) of the release.
+const SETTLES_FOR: f64 = 4.5;
+
+/// Duration by default [s]: as long as the back of the release takes to slide to the
+/// foot, to be stopped by friction on the floor or to leave by the open end, and to
+/// settle; whole seconds, and no less than [`LEAST`].
+pub(super) fn default_duration(channel: &Channel, flow: Option<&Flow>, gravity_m_s2: f64) -> f64 {
+    let Some(flow) = flow.filter(|flow| flow.volume_m3 > 0.0) else {
+        return LEAST;
+    };
+    let (sin, cos) = channel.inclination_rad().sin_cos();
+    let along_slope = -channel.release_box(flow).back_m / cos;
+    let pull = gravity_m_s2 * (sin - channel.base_friction * cos).max(0.0);
+    let sliding = if pull > 0.0 {
+        (2.0 * along_slope / pull).sqrt()
+    } else {
+        0.0
+    };
+    let speed = channel.fastest_flow(flow, gravity_m_s2);
+    let stopping = speed / (channel.base_friction * gravity_m_s2);
+    let leaving = channel.runout_length_m / speed;
+    let settling = SETTLES_FOR * (flow.release.height_m / gravity_m_s2).sqrt();
+    let expected = sliding + stopping.min(leaving) + settling;
+    expected.ceil().clamp(LEAST, super::rules::LONGEST)
+}
