@@ -5,8 +5,8 @@ use scree_solver::record::{
     Sample,
 };
 use scree_solver::scenario::{
-    Accuracy, Approach, Body, Channel, Ending, Flow, Material, Numerics, Position, Precision,
-    Release,
+    Accuracy, Approach, Body, Channel, Coupling, Ending, Flow, Material, Numerics, Position,
+    Precision, Release,
 };
 use scree_solver::scenario::{Scenario, Shape, Symmetry};
 
@@ -146,6 +146,7 @@ pub(super) fn scenario(bodies: Vec<Body>) -> Scenario {
             precision: Precision::Single,
             symmetry: Symmetry::Auto,
             approach: Approach::Auto,
+            coupling: Coupling::default(),
             ending: Ending::Auto,
             threads: None,
         },

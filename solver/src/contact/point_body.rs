@@ -38,7 +38,7 @@ impl PointSphere {
 }
 
 /// Grid that points and bodies exchange momentum through.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub struct CouplingGrid<'a, N> {
     /// Its nodes.
     pub nodes: &'a N,
@@ -175,7 +175,7 @@ impl<P: Copy + Send + Sync> Loads<P> {
     pub fn evaluate<N: NodeAccess>(
         &mut self,
         points: &impl PointAccess<Place = P>,
-        grid: CouplingGrid<'_, N>,
+        grid: &CouplingGrid<'_, N>,
         bodies: &[Body],
         sphere: PointSphere,
         time: ContactTime,

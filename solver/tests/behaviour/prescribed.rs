@@ -259,7 +259,7 @@ fn no_run_ends_early_while_a_motion_lasts() {
         let mut ended = None;
         watch(&mut simulation, f64::INFINITY, |simulation, report| {
             recorder.observe(simulation, report);
-            if report.sample.is_some() && ended.is_none() {
+            if report.step_ended && ended.is_none() {
                 ended = recorder.end_early(simulation).map(|_| report.time_s);
             }
         })

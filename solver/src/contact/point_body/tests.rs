@@ -69,7 +69,7 @@ impl Cloud {
             partners: &[],
         };
         let time = ContactTime { dt: DT, passed };
-        loads.evaluate(self, grid, bodies, SPHERE, time);
+        loads.evaluate(self, &grid, bodies, SPHERE, time);
     }
 }
 

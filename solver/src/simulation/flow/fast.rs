@@ -302,7 +302,7 @@ impl Flow for FastFlow {
         };
         let time = ContactTime { dt, passed };
         self.loads
-            .evaluate(&access, grid, bodies, flow.sphere, time);
+            .evaluate(&access, &grid, bodies, flow.sphere, time);
         self.add_contact_forces();
         laps.done(Verb::Contact);
         self.nodes

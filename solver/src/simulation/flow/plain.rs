@@ -191,7 +191,7 @@ impl Flow for PlainFlow {
         };
         let time = ContactTime { dt, passed };
         self.loads
-            .evaluate(&access, grid, bodies, flow.sphere, time);
+            .evaluate(&access, &grid, bodies, flow.sphere, time);
         for (place, force) in &self.loads.on_points {
             self.contact_forces[place.point] += force;
         }
