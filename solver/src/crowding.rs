@@ -18,7 +18,8 @@ use std::ops::Range;
 const SHIFT: f64 = 1.0;
 /// Largest shift in a step [cells].
 pub const LARGEST_SHIFT: f64 = 0.1;
-/// Share of its own dilation a point exchanges for the mean per cell of travel.
+/// Share of its own compressive strain min(φ, 0) a point exchanges for the mean per cell
+/// of travel.
 const AVERAGING: f64 = 2.0;
 /// Relative rise of pressure per crowding and cell of travel.
 const PRESSING: f64 = 5.0;
@@ -81,7 +82,7 @@ impl Tending {
             1.0
         };
         let rise = degree * (self.pressing * seen.crowding).min(LARGEST_RISE);
-        let exchanged = self.averaging * (seen.mean_dilation - seen.dilation_at_transfer);
+        let exchanged = self.averaging * (seen.mean_compression - seen.compression_at_transfer);
         let averaged = seen.dilation + degree * exchanged;
         Tended {
             shift: (in_cells * shorter).component_mul(spacing),
@@ -96,10 +97,10 @@ impl Tending {
 pub struct Seen {
     /// V ρ_c/m − 1 now.
     pub dilation: f64,
-    /// The same at the transfer.
-    pub dilation_at_transfer: f64,
+    /// Its compressive part, min(φ, 0), at the transfer.
+    pub compression_at_transfer: f64,
     /// Its mean over the nodes.
-    pub mean_dilation: f64,
+    pub mean_compression: f64,
     /// Crowding of the nodes round the point.
     pub crowding: f64,
     /// Its gradient [1/m].
@@ -273,8 +274,8 @@ mod tests {
 
     const CROWDED: Seen = Seen {
         dilation: -0.01,
-        dilation_at_transfer: -0.01,
-        mean_dilation: -0.02,
+        compression_at_transfer: -0.01,
+        mean_compression: -0.02,
         crowding: 0.1,
         slope: Vec3::new(20.0, 0.0, 0.0),
     };

@@ -2,6 +2,9 @@
 
 /// Sub-step without a flow, where bodies choose their own [s].
 pub const SUBSTEP_WITHOUT_FLOW: f64 = 1e-3;
+/// Largest travel of a body in a sub-step [cells]: less than a point's spacing, so that
+/// it meets every point on its way.
+const BODY_TRAVEL: f64 = 0.4;
 /// A flow this many times faster than its own sound has blown up.
 const LARGEST_MACH_NUMBER: f64 = 20.0;
 
@@ -44,6 +47,12 @@ impl Limits {
         let crossing = self.cell_size / (self.p_wave_speed + speed);
         let lone_point = self.cell_size / (3f64.sqrt() * self.sound_speed);
         self.courant * crossing.min(lone_point)
+    }
+
+    /// Longest sub-step in which the fastest body does not jump over points [s]
+    /// (equation 26).
+    pub fn body_substep(&self, speed: f64) -> f64 {
+        BODY_TRAVEL * self.cell_size / speed
     }
 
     /// The speed of the fastest point [m/s], or the expected one if that is larger.

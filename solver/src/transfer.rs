@@ -79,9 +79,9 @@ pub fn hand_over_rest(points: &[Point], bulk_density: f64, grid: &mut Grid) {
                 let point = &points[place];
                 let (velocity, affine) = &missing[place];
                 let stencil = lattice.stencil(&point.position);
-                let dilation = point.volume * bulk_density / point.mass - 1.0;
+                let compressive = (point.volume * bulk_density / point.mass - 1.0).min(0.0);
                 let rest =
-                    Carried::with_motion(point.mass * dilation, point.mass, (velocity, affine));
+                    Carried::with_motion(point.mass * compressive, point.mass, (velocity, affine));
                 scatter_affine(block, &stencil, &rest, tile);
             }
         },
@@ -269,8 +269,8 @@ pub fn gather_motion(
             let dilation = |volume: f64| volume * material.bulk_density / point.mass - 1.0;
             let seen = Seen {
                 dilation: dilation(point.volume),
-                dilation_at_transfer: dilation(deformation.transfer_volume),
-                mean_dilation: moved.last,
+                compression_at_transfer: dilation(deformation.transfer_volume).min(0.0),
+                mean_compression: moved.last,
                 crowding: velocity.last,
                 slope: inverse_moment * velocity.last_first,
             };

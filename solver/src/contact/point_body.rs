@@ -114,6 +114,8 @@ pub struct Loads<P> {
     near: Vec<P>,
     /// Per body, the contacts of its candidates.
     contacts: Vec<Vec<Option<PointContact>>>,
+    /// Per body, their sum.
+    sums: Vec<ContactSum>,
     compliance: GridCompliance,
 }
 
@@ -125,6 +127,7 @@ impl<P> Default for Loads<P> {
             candidates: Vec::new(),
             near: Vec::new(),
             contacts: Vec::new(),
+            sums: Vec::new(),
             compliance: GridCompliance::default(),
         }
     }
@@ -184,7 +187,8 @@ impl<P: Copy + Send + Sync> Loads<P> {
         let contacts = self.contacts.iter().flatten().flatten();
         let stencils = contacts.map(|contact| &contact.stencil);
         self.compliance.gather(stencils, grid.nodes, grid.boundary);
-        self.add_forces(bodies, &self.contact_sums(grid.partners), time.dt);
+        self.sum_contacts(grid.partners);
+        self.add_forces(bodies, time.dt);
     }
 
     fn find_contacts(
@@ -214,31 +218,29 @@ impl<P: Copy + Send + Sync> Loads<P> {
             });
     }
 
-    /// Sums of the contacts of every body, those of its mirror image included.
-    fn contact_sums(&self, partners: &[usize]) -> Vec<ContactSum> {
-        let of_body = |contacts: &Vec<Option<PointContact>>| {
+    /// Sums up the contacts of every body, those of its mirror image included.
+    fn sum_contacts(&mut self, partners: &[usize]) {
+        let of_body = |body: usize| {
             let mut sum = ContactSum::default();
-            for contact in contacts.iter().flatten() {
+            for contact in self.contacts[body].iter().flatten() {
                 sum.add(contact.arm.norm());
             }
             sum
         };
-        let own: Vec<ContactSum> = self.contacts.iter().map(of_body).collect();
-        match partners {
-            [] => own,
-            partners => own
-                .iter()
-                .zip(partners)
-                .map(|(sum, partner)| sum.plus(own[*partner]))
-                .collect(),
-        }
+        self.sums.clear();
+        self.sums.extend(
+            (0..self.contacts.len()).map(|body| match partners.get(body) {
+                Some(partner) => of_body(body).plus(of_body(*partner)),
+                None => of_body(body),
+            }),
+        );
     }
 
     /// Adds the forces up in the order of the bodies and their candidates.
-    fn add_forces(&mut self, bodies: &[Body], sums: &[ContactSum], dt: f64) {
+    fn add_forces(&mut self, bodies: &[Body], dt: f64) {
         self.on_points.clear();
         let of_bodies = self.candidates.iter().zip(&self.contacts);
-        let on_bodies = bodies.iter().zip(sums).zip(&mut self.on_bodies);
+        let on_bodies = bodies.iter().zip(&self.sums).zip(&mut self.on_bodies);
         for ((candidates, contacts), ((body, sum), on_body)) in of_bodies.zip(on_bodies) {
             *on_body = FlowLoad::default();
             let of_body = sum.compliance(body);

@@ -266,7 +266,7 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
         let a = gradient(simd, &moments, law);
         let strained = stress::strain(simd, chunk, &a, law, dt);
         let [crowding, vx, vy, vz] = moments.zeroth.spread(simd);
-        let [mean_dilation, ux, uy, uz] = displacement.spread(simd);
+        let [mean_compression, ux, uy, uz] = displacement.spread(simd);
         let [_, tx, ty, tz] = twist.spread(simd);
         let on_displaced = strained.deformed.undone_at_most(simd, &a);
         // Of Σ w v_i (d_i + u_i − u_p)ᵀ only the skew part counts: what the
@@ -283,8 +283,9 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
         }
         let seen = Seen {
             dilation: strained.dilation,
-            dilation_at_transfer: f32x16::simd_from(simd, chunk.dilation),
-            mean_dilation,
+            compression_at_transfer: f32x16::simd_from(simd, chunk.dilation)
+                .min(f32x16::splat(simd, 0.0)),
+            mean_compression,
             crowding,
             slope: crowding_slope(simd, &moments),
         };
@@ -386,16 +387,16 @@ fn give_momentum<S: Simd>(simd: S, chunk: &Chunk, law: &Law, given: &mut Given) 
     }
 }
 
-/// m φ, and what of v and C the nodes do not show.
+/// m min(φ, 0), and what of v and C the nodes do not show.
 #[inline(always)]
 fn give_rest<S: Simd>(simd: S, chunk: &Chunk, law: &Law, moments: &Moments, given: &mut Given) {
     let none = f32x16::splat(simd, 0.0);
     let mass = f32x16::simd_from(simd, chunk.mass);
-    let dilation = f32x16::simd_from(simd, chunk.dilation);
+    let compressive = f32x16::simd_from(simd, chunk.dilation).min(none);
     let [_, vx, vy, vz] = moments.zeroth.spread(simd);
     let [x, y, z] = &chunk.velocity;
     given.constant.gathered([
-        mass * dilation,
+        mass * compressive,
         (f32x16::simd_from(simd, *x) - vx) * mass,
         (f32x16::simd_from(simd, *y) - vy) * mass,
         (f32x16::simd_from(simd, *z) - vz) * mass,

@@ -13,10 +13,10 @@ use fearless_simd::{f32x16, prelude::*};
 pub struct Seen<S: Simd> {
     /// V ρ_c/m − 1 now.
     pub dilation: f32x16<S>,
-    /// The same at the transfer.
-    pub dilation_at_transfer: f32x16<S>,
+    /// Its compressive part, min(φ, 0), at the transfer.
+    pub compression_at_transfer: f32x16<S>,
     /// Its mean over the nodes.
-    pub mean_dilation: f32x16<S>,
+    pub mean_compression: f32x16<S>,
     /// Crowding of the nodes round the point.
     pub crowding: f32x16<S>,
     /// Its gradient [1/cell].
@@ -59,7 +59,7 @@ pub fn tend<S: Simd>(
     let pressed = (splat(simd, tending.pressing) * seen.crowding).min(splat(simd, LARGEST_RISE));
     let rise = degree * pressed;
     let exchanged =
-        splat(simd, tending.averaging) * (seen.mean_dilation - seen.dilation_at_transfer);
+        splat(simd, tending.averaging) * (seen.mean_compression - seen.compression_at_transfer);
     let averaged = degree.mul_add(exchanged, seen.dilation);
     let compression = (none - averaged).max(none);
     Tended {

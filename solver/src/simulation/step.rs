@@ -83,6 +83,7 @@ impl Simulation {
         let substep = flow
             .limits
             .substep(fastest)
+            .min(flow.limits.body_substep(body_speed))
             .min(flow.contact_substep(&self.state.bodies))
             .min(timing.longest_substep);
         let step = flow.limits.substeps_per_step(substep, fastest) * substep;

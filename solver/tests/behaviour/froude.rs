@@ -22,6 +22,7 @@ fn struck(length: f64) -> (f64, BodyOutcome) {
         }))
         .set("numerics", "cell_size_m", metres(0.02))
         .precision("double")
+        .set("channel", "base_friction", 0.6)
         .lasting(1.5 * length.sqrt())
         .scenario();
     let mut simulation = Simulation::new(&scenario, 1).expect("the scene fits");

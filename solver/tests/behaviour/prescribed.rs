@@ -4,7 +4,7 @@
 use crate::scenes::{PRECISIONS, Scene, points_by_id, run, watch};
 use scree_solver::math::Vec3;
 use scree_solver::record::Recorder;
-use scree_solver::simulation::Outline;
+use scree_solver::simulation::{Outline, Scene as SolverScene};
 use scree_solver::{Simulation, StepError};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -75,10 +75,9 @@ fn a_changing_axis_is_of_second_order() {
         "angular_velocity_rad_s": [[6, 0, 0], [0, 6, 0]]});
     let end = |interval_s: f64| {
         let scene = alone(&motion);
-        let mut scenario = scene.scenario();
-        // Steps end at samples, and are no longer than 1 ms.
-        scenario.sample_interval_s = interval_s;
-        let mut simulation = Simulation::new(&scenario, 1).expect("the scene fits");
+        let mut scene = SolverScene::of(&scene.scenario()).expect("the scene fits");
+        scene.given.timing.longest_substep = interval_s;
+        let mut simulation = Simulation::of_scene(scene, 1).expect("a thread starts");
         run(&mut simulation, f64::INFINITY);
         simulation.bodies()[0].state.orientation
     };

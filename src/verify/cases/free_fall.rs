@@ -111,6 +111,9 @@ fn fall(precision: Precision, courant: f64) -> Result<Fall, Trouble> {
     }
     if let Some(flow) = &mut scene.given.flow {
         flow.limits.courant = courant;
+        // Equal sub-steps over the whole fall, so that their length tells the error.
+        let longest = flow.limits.substep(THROWN.norm() + GRAVITY * DURATION);
+        scene.given.timing.longest_substep = DURATION / (DURATION / longest).ceil();
     }
     let mut run = Run::start(scene)?;
     let start = mean_height(&run.simulation);

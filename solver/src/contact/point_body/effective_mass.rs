@@ -30,7 +30,8 @@ impl GridCompliance {
         if self.per_node.len() < count {
             self.per_node.resize(count, 0.0);
         }
-        for (place, weight) in stencils.flatten() {
+        // A node at the very edge of a kernel has no weight, and may have no mass.
+        for (place, weight) in stencils.flatten().filter(|(_, weight)| *weight > 0.0) {
             let sum = &mut self.per_node[*place as usize];
             if *sum == 0.0 {
                 self.loaded.push(*place);
