@@ -113,25 +113,28 @@ impl Block {
             planes: walls.planes().copied().collect(),
             walls,
             open_end: f64::MAX,
-            flow: Some(GivenFlow::new(
-                self.material,
-                &lattice,
-                self.point_volume(),
-                self.expected(),
-            )),
+            flow: Some(self.flow(self.material.bulk_density * self.expected_speed.powi(2))),
             lattice,
             partners: Vec::new(),
             guards: Guards::ANY_SPEED,
         }
     }
 
-    fn expected(&self) -> Expected {
+    /// The flow, which presses on bodies with so much at most [Pa].
+    pub(super) fn flow(&self, contact_pressure: f64) -> GivenFlow {
         let height = self.cell * f64::from(self.cells[2]);
-        Expected {
+        let expected = Expected {
             speed: self.expected_speed,
             pressing_speed: self.expected_speed,
+            contact_pressure,
             static_pressure: 0.5 * self.material.bulk_density * self.gravity * height,
-        }
+        };
+        GivenFlow::new(
+            self.material,
+            &self.lattice(),
+            self.point_volume(),
+            expected,
+        )
     }
 
     fn walls(&self) -> Walls {

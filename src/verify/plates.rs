@@ -55,8 +55,8 @@ impl Plate {
     /// There is no such plate.
     pub(super) fn within(&self, block: &Block) -> Result<Scene, Trouble> {
         let mut scene = block.bed(POISSONS_RATIO);
-        let flow = scene.given.flow.as_ref();
-        let flow = flow.ok_or(Trouble::Never("there is no bed"))?;
+        // Nothing bounds what a driven plate presses with.
+        let flow = scene.given.flow.insert(block.flow(f64::INFINITY));
         let sphere = flow.sphere;
         // Points that fill their room up to the corners' planes then just touch it.
         let inset = Vec3::repeat(sphere.radius - 0.5 * sphere.spacing);

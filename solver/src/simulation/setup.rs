@@ -269,8 +269,8 @@ impl GivenFlow {
         expected: Expected,
     ) -> Self {
         let spacing = point_volume.cbrt();
-        let pressure = material.bulk_density * expected.pressing_speed.powi(2);
-        let modulus = (pressure / REFERENCE_OVERLAP).min(material.p_wave_modulus() / 1.5);
+        let modulus = expected.contact_pressure / REFERENCE_OVERLAP;
+        let modulus = modulus.min(material.p_wave_modulus() / 1.5);
         // Hertz: (δ/δ_ref)^1.5 is the pressure over that at the reference overlap.
         let share = expected.static_pressure / (modulus * REFERENCE_OVERLAP);
         let at_rest = if share > 0.0 && share.is_finite() {

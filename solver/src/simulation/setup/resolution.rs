@@ -63,6 +63,9 @@ pub struct Expected {
     /// [m/s]: of the flow itself, of bodies that fall or slide into it, or of the
     /// weight of a body that lies on it.
     pub pressing_speed: f64,
+    /// Largest pressure expected between flow and bodies [Pa]; infinite where a body's
+    /// motion is prescribed, since nothing bounds what it presses with.
+    pub contact_pressure: f64,
     /// Mean pressure of the flow at rest [Pa].
     pub static_pressure: f64,
 }
@@ -79,9 +82,16 @@ pub(super) fn expected(scenario: &Scenario) -> Expected {
         body.speed_squared.max(weight / density)
     };
     let free = crowd.0.iter().filter(|body| body.free);
+    let pressing_squared = free.map(of_body).fold(speed * speed, f64::max);
+    let driven = scenario.bodies.iter().any(|body| body.motion.is_some());
     Expected {
         speed,
-        pressing_speed: free.map(of_body).fold(speed * speed, f64::max).sqrt(),
+        pressing_speed: pressing_squared.sqrt(),
+        contact_pressure: if driven {
+            f64::INFINITY
+        } else {
+            density * pressing_squared
+        },
         static_pressure: flow.map_or(0.0, weight),
     }
 }
