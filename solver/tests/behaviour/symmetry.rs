@@ -16,7 +16,7 @@ struct Bounds {
     precision: &'static str,
     /// Of lanes and channels [m] and [m/s].
     lanes: f64,
-    /// Of a body against its mirror image [m], [m/s] and [rad/s].
+    /// Of a body against its mirror image [m] and [m/s].
     mirror: f64,
 }
 
@@ -137,8 +137,8 @@ fn off_centre(side: f64) -> Scene {
         .first_body("yaw_deg", 20.0 * side)
 }
 
-/// Largest difference of a body from its mirror image, velocities in [m/s],
-/// turning in [rad/s].
+/// Largest difference of a body from its mirror image in place [m] and in the velocity of
+/// any of its places [m/s].
 fn mirror_broken(a: &Body, b: &Body) -> f64 {
     let mirrored = Vec3::new(1.0, -1.0, 1.0);
     // Turning is mirrored as a pseudo-vector.
@@ -146,7 +146,8 @@ fn mirror_broken(a: &Body, b: &Body) -> f64 {
     let place = a.state.position - b.state.position.component_mul(&mirrored);
     let velocity = a.velocity() - b.velocity().component_mul(&mirrored);
     let spin = a.angular_velocity() - b.angular_velocity().component_mul(&turned);
-    place.norm().max(velocity.norm()).max(spin.norm())
+    let turning = spin.norm() * a.shape.bounding_radius();
+    place.norm().max(velocity.norm()).max(turning)
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use crate::kernel::Lattice;
 use crate::math::Vec3;
-use crate::scenario::{Flow, Scenario};
+use crate::scenario::{Flow, Motion, Scenario};
 
 /// Cells across the thinnest body.
 const CELLS_PER_BODY: f64 = 4.0;
@@ -83,7 +83,9 @@ pub(super) fn expected(scenario: &Scenario) -> Expected {
     };
     let free = crowd.0.iter().filter(|body| body.free);
     let pressing_squared = free.map(of_body).fold(speed * speed, f64::max);
-    let driven = scenario.bodies.iter().any(|body| body.motion.is_some());
+    let moves = |motion: &Motion| motion.prescribed().fastest(1.0) > 0.0;
+    let bodies = scenario.bodies.iter();
+    let driven = bodies.filter_map(|body| body.motion.as_ref()).any(moves);
     Expected {
         speed,
         pressing_speed: pressing_squared.sqrt(),
