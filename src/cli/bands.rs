@@ -89,8 +89,11 @@ fn runs(report: &AccuracyReport) -> String {
             format!("{:.4} m{softer}{failed}", run.cell_size_m)
         })
         .collect();
+    let wall = report.extra_wall_cost.map_or_else(String::new, |extra| {
+        format!(", {:.0} % of its wall time", 100.0 * extra)
+    });
     format!(
-        "runs  cells of {}; {:.0} % on top of the answer's cost",
+        "runs  cells of {}; {:.0} % on top of the answer's point-steps{wall}",
         cells.join(", "),
         100.0 * report.extra_cost
     )
@@ -135,6 +138,7 @@ mod tests {
         let report = AccuracyReport {
             runs: Vec::new(),
             extra_cost: 0.0,
+            extra_wall_cost: None,
             target: Some(scree_solver::record::TargetReport {
                 quantity: scree_solver::scenario::Quantity::Displacement,
                 body: Some(0),

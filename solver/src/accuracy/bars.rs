@@ -1,6 +1,6 @@
 //! Bands of everything in an outcome, from the outcomes of its companions.
 
-use super::series::{Kind, Series};
+use super::series::{Kind, Scale, Series};
 use crate::record::{Band, BodyBars, BodyOutcome, FlowBars, Outcome};
 use crate::scenario::Quantity;
 
@@ -13,24 +13,28 @@ pub(super) struct Runs<'a> {
     pub(super) coarser: Vec<&'a Outcome>,
     /// With a softer material, and the one among the coarser of the same cells.
     pub(super) softer: Option<[&'a Outcome; 2]>,
+    /// Width of the thinnest body, or the thickness of the release without bodies [m].
+    pub(super) across_m: f64,
 }
 
 impl Runs<'_> {
     /// Bands of a body's quantities.
     pub(super) fn body(&self, index: usize) -> BodyBars {
+        let way_m = self.answer.bodies[index].displacement_m;
         let band = |kind: Kind, of: fn(&BodyOutcome) -> Option<f64>| {
-            self.band(kind, |outcome| of(&outcome.bodies[index]))
+            self.band(kind, way_m, |outcome| of(&outcome.bodies[index]))
         };
         let place = |axis: usize| {
-            self.band(Kind::Place, |outcome| {
+            let kind = [Kind::Along, Kind::Across, Kind::Up][axis];
+            self.band(kind, way_m, |outcome| {
                 Some(outcome.bodies[index].final_position_m[axis])
             })
         };
         BodyBars {
-            onset_time_s: band(Kind::Amount, |body| body.onset_time_s),
-            peak_speed_m_s: band(Kind::Amount, |body| Some(body.peak_speed_m_s)),
-            peak_speed_time_s: band(Kind::Amount, |body| body.peak_speed_time_s),
-            stop_time_s: band(Kind::Amount, |body| body.stop_time_s),
+            onset_time_s: band(Kind::Moment, |body| body.onset_time_s),
+            peak_speed_m_s: band(Kind::Speed, |body| Some(body.peak_speed_m_s)),
+            peak_speed_time_s: band(Kind::Moment, |body| body.peak_speed_time_s),
+            stop_time_s: band(Kind::Stop, |body| body.stop_time_s),
             displacement_m: band(Kind::Length, |body| Some(body.displacement_m)),
             path_length_m: band(Kind::Length, |body| Some(body.path_length_m)),
             final_position_m: [0, 1, 2].map(place),
@@ -39,20 +43,26 @@ impl Runs<'_> {
 
     /// Bands of the flow's quantities.
     pub(super) fn flow(&self) -> FlowBars {
+        let way_m = self.answer.flow.runout_m.map_or(0.0, f64::abs);
+        let band = |kind: Kind, of: fn(&Outcome) -> Option<f64>| self.band(kind, way_m, of);
         FlowBars {
-            front_m: self.band(Kind::Place, |outcome| outcome.flow.front_m),
-            runout_m: self.band(Kind::Place, |outcome| outcome.flow.runout_m),
-            mass_left_kg: self.band(Kind::Amount, |outcome| Some(outcome.flow.mass_left_kg)),
+            front_m: band(Kind::Reach, |outcome| outcome.flow.front_m),
+            runout_m: band(Kind::Reach, |outcome| outcome.flow.runout_m),
+            mass_left_kg: band(Kind::Mass, |outcome| Some(outcome.flow.mass_left_kg)),
         }
     }
 
-    fn band(&self, kind: Kind, of: impl Fn(&Outcome) -> Option<f64>) -> Band {
+    fn band(&self, kind: Kind, way_m: f64, of: impl Fn(&Outcome) -> Option<f64>) -> Band {
         let place = |outcome: &Outcome| (outcome.cost.cell_size_m, of(outcome));
         let mut places = vec![place(self.answer)];
         places.extend(self.coarser.iter().map(|outcome| place(outcome)));
         let softer = self.softer.map(|pair| pair.map(&of));
         Series {
             kind,
+            scale: Scale {
+                across_m: self.across_m,
+                way_m,
+            },
             places,
             softer,
         }

@@ -1,16 +1,13 @@
 //! The runs that an answer needs, one after the other, and the answer they make.
 
 use super::bars::{Runs, band_of, relative, value_of};
-use super::companions::{self, Extent, Rung, SOFTER, scenario_of};
+use super::companions::{self, Extent, FARTHEST, Rung, SOFTER, scenario_of};
 use super::target::{self, Next, Progress};
 use crate::error::SetupError;
-use crate::record::{AccuracyReport, Outcome, Role, RunCost, TargetReport};
+use crate::record::{AccuracyReport, Cost, Outcome, Role, RunCost, TargetReport};
 use crate::scenario::Scenario;
 use std::collections::VecDeque;
 
-/// Cells of a companion over those of the answer, at most: a little more than those of the
-/// coarsest that is made on purpose.
-const FARTHEST: f64 = 2.6;
 /// Companions that a band rests on, at least.
 const FEWEST_NEAR: usize = 2;
 
@@ -56,7 +53,7 @@ impl Campaign {
         };
         let to_do = match (accuracy.target, accuracy.error_bars) {
             (Some(_), _) => target::pilots(&extent),
-            (None, true) => [companions::companions(&extent), vec![plain]].concat(),
+            (None, true) => [companions::companions(&extent, &[]), vec![plain]].concat(),
             (None, false) => vec![plain],
         };
         Ok(Self {
@@ -156,7 +153,8 @@ impl Campaign {
             let runs = Runs {
                 answer,
                 coarser: coarser.to_vec(),
-                softer: self.softer(),
+                softer: self.softer().next_back(),
+                across_m: self.extent.across_m(),
             };
             for (index, body) in banded.bodies.iter_mut().enumerate() {
                 body.error_bars = Some(runs.body(index));
@@ -166,40 +164,52 @@ impl Campaign {
         Some(banded)
     }
 
-    /// The softer run and the one it is to be compared with.
-    fn softer(&self) -> Option<[&Outcome; 2]> {
+    /// Every softer run and the one it is to be compared with, in turn.
+    fn softer(&self) -> impl DoubleEndedIterator<Item = [&Outcome; 2]> {
         let is_softer = |done: &&Done| done.rung.role == Role::Softer;
-        let softer = self.done.iter().rfind(is_softer)?;
-        let beside = self.done.iter().find(|done| {
-            done.rung.role != Role::Softer && done.rung.cell_size_m == softer.rung.cell_size_m
-        })?;
-        Some([softer.outcome.as_ref().ok()?, beside.outcome.as_ref().ok()?])
+        self.done.iter().filter(is_softer).filter_map(|softer| {
+            let beside = self.done.iter().find(|done| {
+                done.rung.role != Role::Softer && done.rung.cell_size_m == softer.rung.cell_size_m
+            })?;
+            Some([softer.outcome.as_ref().ok()?, beside.outcome.as_ref().ok()?])
+        })
     }
 
     /// What half the sound speed changes of the quantity that a target is about, over
-    /// its value.
-    fn softness(&self, answer: &Outcome) -> f64 {
+    /// its value, by every softer run in turn.
+    fn softness(&self, answer: &Outcome) -> Vec<f64> {
         let accuracy = &self.given.accuracy;
-        let share = || {
-            let (_, quantity) = accuracy.goal()?;
-            let value = |outcome: &Outcome| value_of(outcome, quantity, accuracy.body);
-            let [softer, beside] = self.softer()?.map(value);
+        let Some((_, quantity)) = accuracy.goal() else {
+            return Vec::new();
+        };
+        let value = |outcome: &Outcome| value_of(outcome, quantity, accuracy.body);
+        let share = |pair: [&Outcome; 2]| {
+            let [softer, beside] = pair.map(value);
             Some(((softer? - beside?) / value(answer)?).abs())
         };
-        share().filter(|share| share.is_finite()).unwrap_or(0.0)
+        let shares = self.softer().filter_map(share);
+        shares.filter(|share| share.is_finite()).collect()
     }
 
     fn report(&self, answer: &Outcome) -> AccuracyReport {
-        let point_steps = |done: &Done| done.outcome.as_ref().map_or(0, |o| o.cost.point_steps);
-        let all: u64 = self.done.iter().map(point_steps).sum();
-        let own = answer.cost.point_steps;
+        let costs = || {
+            self.done
+                .iter()
+                .filter_map(|done| done.outcome.as_ref().ok())
+        };
+        let over_its_own = |of: fn(&Cost) -> f64| {
+            let all: f64 = costs().map(|outcome| of(&outcome.cost)).sum();
+            let own = of(&answer.cost);
+            (own > 0.0).then(|| (all - own) / own)
+        };
         AccuracyReport {
             runs: self
                 .done
                 .iter()
                 .map(|done| self.cost_of(done, answer))
                 .collect(),
-            extra_cost: (all - own) as f64 / own.max(1) as f64,
+            extra_cost: over_its_own(|cost| cost.point_steps as f64).unwrap_or(0.0),
+            extra_wall_cost: over_its_own(|cost| cost.wall_s),
             target: self.verdict(answer),
         }
     }
@@ -274,7 +284,8 @@ impl Campaign {
                     cell_size_m,
                     ..self.extent
                 };
-                self.to_do.extend(companions::companions(&extent));
+                let done: Vec<Rung> = self.done.iter().map(|done| done.rung).collect();
+                self.to_do.extend(companions::companions(&extent, &done));
                 self.to_do.push_back(Rung {
                     role: Role::Answer,
                     cell_size_m,

@@ -5,12 +5,29 @@ use crate::record::Role;
 use crate::scenario::{Accuracy, Scenario};
 use crate::simulation::Simulation;
 
-/// Cell sizes of the companions over the answer's, largest first: with the softer run
-/// together 0.23 of the answer's cost. Close together, because what has to be seen is
-/// how much values scatter, not only how they tend.
-const FACTORS: [f64; 3] = [2.5, 2.0, 1.75];
-/// Which of them is also run with a softer material.
-const SOFTER_AT: f64 = 2.0;
+/// A companion's cell size over the answer's, and the range within which one that is done
+/// already serves as well.
+struct Place {
+    factor: f64,
+    least: f64,
+    most: f64,
+}
+
+/// Cells of a companion over those of the answer, at most.
+pub(super) const FARTHEST: f64 = 2.7;
+/// Largest cells first: with the softer run together 0.19 of the answer's cost. More of
+/// them make bands no narrower.
+const COARSE: Place = Place {
+    factor: 2.5,
+    least: 2.1,
+    most: FARTHEST,
+};
+/// The finer companion, beside which there is a softer run.
+const FINE: Place = Place {
+    factor: 1.75,
+    least: 1.45,
+    most: 2.1,
+};
 /// Sound speed of the softer run over the answer's: it costs half as much.
 pub(super) const SOFTER: f64 = 0.5;
 /// Cells across the thinnest body, at least.
@@ -82,40 +99,59 @@ impl Extent {
             .min(self.width_m)
     }
 
+    /// What its cells are to be compared with [m]: the width of the thinnest body, or the
+    /// thickness of the release without bodies.
+    pub(super) fn across_m(&self) -> f64 {
+        self.thinnest_m.unwrap_or(self.release_m)
+    }
+
     /// Cells across the thinnest body.
     pub(super) fn cells_per_body(&self, cell_size_m: f64) -> Option<f64> {
         self.thinnest_m.map(|thinnest| thinnest / cell_size_m)
     }
 }
 
-/// The companions of an answer, cheap ones first. Those with too large cells are
-/// left out, but the finest never is.
-pub(super) fn companions(extent: &Extent) -> Vec<Rung> {
-    let coarser = |factor: &f64| Rung {
+/// The companions that an answer needs beside runs that are done, cheap ones first. One
+/// with too large cells is left out, but the finer never is.
+pub(super) fn companions(extent: &Extent, done: &[Rung]) -> Vec<Rung> {
+    let coarser = |cell_size_m: f64| Rung {
         role: Role::Coarser,
-        cell_size_m: factor * extent.cell_size_m,
+        cell_size_m,
     };
-    let coarsest = extent.coarsest();
-    let (last, others) = (&FACTORS[FACTORS.len() - 1], &FACTORS[..FACTORS.len() - 1]);
-    let mut rungs: Vec<Rung> = others
-        .iter()
-        .map(coarser)
-        .filter(|rung| rung.cell_size_m <= coarsest)
-        .collect();
-    rungs.push(coarser(last));
-    if !extent.stiffness_is_given {
-        let mut softer = rungs
-            .iter()
-            .copied()
-            .filter(|rung| rung.cell_size_m <= (SOFTER_AT + 1e-9) * extent.cell_size_m);
-        if let Some(beside) = softer.next() {
-            rungs.push(Rung {
-                role: Role::Softer,
-                ..beside
-            });
-        }
+    let mut rungs = Vec::new();
+    let size = COARSE.factor * extent.cell_size_m;
+    if size <= extent.coarsest() && COARSE.among(done, extent).is_none() {
+        rungs.push(coarser(size));
+    }
+    let fine = FINE.among(done, extent).unwrap_or_else(|| {
+        let fine = coarser(FINE.factor * extent.cell_size_m);
+        rungs.push(fine);
+        fine
+    });
+    if !extent.stiffness_is_given && !has_a_softer(done, extent) {
+        rungs.push(Rung {
+            role: Role::Softer,
+            ..fine
+        });
     }
     rungs
+}
+
+impl Place {
+    /// A done run that serves here.
+    fn among(&self, done: &[Rung], extent: &Extent) -> Option<Rung> {
+        let serves = |rung: &&Rung| {
+            let factor = rung.cell_size_m / extent.cell_size_m;
+            rung.role != Role::Softer && (self.least..=self.most).contains(&factor)
+        };
+        done.iter().find(serves).copied()
+    }
+}
+
+/// Whether a softer run is done whose cells are near enough: it tells of a small share.
+fn has_a_softer(done: &[Rung], extent: &Extent) -> bool {
+    let mut softer = done.iter().filter(|rung| rung.role == Role::Softer);
+    softer.any(|rung| rung.cell_size_m <= FARTHEST * extent.cell_size_m)
 }
 
 /// Whether a run's records may be those of the answer: of all runs that a target

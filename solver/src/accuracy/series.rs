@@ -4,12 +4,6 @@
 use super::fit::{Line, observed_order};
 use crate::record::{Band, Basis};
 
-/// How much of the scatter is added to the trend: chosen, with the next one, on scenes
-/// that served for nothing else.
-const SCATTER: f64 = 2.5;
-/// How far a band goes against the trend, over how far with it: finer cells mostly
-/// change a value as the coarser ones did.
-const BACK: f64 = 0.5;
 /// Half the width over the only difference there is.
 const SAFETY_OF_ONE: f64 = 3.0;
 /// Observed orders that are plausible.
@@ -20,15 +14,89 @@ const FLOOR_CELLS: f64 = 0.01;
 /// The same as a share of the value.
 const FLOOR_SHARE: f64 = 0.002;
 
-/// What a quantity is, for the smallest width of its band and its natural bounds.
+/// What a quantity is: how its band is made, and its natural bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// A time, a speed or a mass: not negative.
-    Amount,
-    /// A length: not negative.
+    /// When something begins or is at its height: not negative.
+    Moment,
+    /// When something has come to rest: not negative.
+    Stop,
+    /// A speed: not negative.
+    Speed,
+    /// A length of a body's way: not negative.
     Length,
-    /// A coordinate.
-    Place,
+    /// A coordinate along the channel.
+    Along,
+    /// A coordinate across it.
+    Across,
+    /// A height.
+    Up,
+    /// Where the front of a flow is, or how far it went.
+    Reach,
+    /// A mass: not negative.
+    Mass,
+}
+
+/// Weights of a band's shares (equation 72).
+#[derive(Debug)]
+struct Weights {
+    /// How much of the trend is followed.
+    trend: f64,
+    /// How far the rest reaches against the trend, over how far with it.
+    against: f64,
+    /// Of the scatter.
+    scatter: f64,
+    /// Error to be expected at one cell across the thinnest body, over the scale.
+    across: f64,
+    /// The same at a way of one cell.
+    way: f64,
+}
+
+impl Weights {
+    const fn of([trend, against, scatter, across, way]: [f64; 5]) -> Self {
+        Self {
+            trend,
+            against,
+            scatter,
+            across,
+            way,
+        }
+    }
+}
+
+impl Kind {
+    /// Fitted to scenes that served for nothing else (decision 24), and rounded.
+    const fn weights(self) -> Weights {
+        Weights::of(match self {
+            Self::Moment => [0.0, 1.0, 2.0, 0.15, 0.2],
+            Self::Stop => [1.0, 1.0, 2.5, 0.025, 0.0],
+            Self::Speed => [1.0, 0.4, 2.0, 0.1, 0.8],
+            Self::Length | Self::Along => [1.0, 0.5, 2.0, 0.1, 0.4],
+            Self::Across => [0.0, 1.0, 2.0, 0.05, 0.0],
+            Self::Up => [0.0, 1.0, 2.5, 0.0125, 0.0],
+            Self::Reach => [1.0, 1.0, 2.0, 0.25, 0.2],
+            // Nothing was fitted: as far as a first-order line leads.
+            Self::Mass => [1.0, 1.0, 2.5, 0.0, 0.0],
+        })
+    }
+
+    const fn is_a_length(self) -> bool {
+        self.is_a_place() || matches!(self, Self::Length)
+    }
+
+    /// A coordinate's origin says nothing, so its errors go with the way.
+    const fn is_a_place(self) -> bool {
+        matches!(self, Self::Along | Self::Across | Self::Up | Self::Reach)
+    }
+}
+
+/// What the cells of the answer are to be compared with.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scale {
+    /// Width of the thinnest body, or the thickness of the release without bodies [m].
+    pub(super) across_m: f64,
+    /// How far the body got, or the flow [m].
+    pub(super) way_m: f64,
 }
 
 /// A quantity at several cell sizes.
@@ -36,6 +104,8 @@ pub(super) enum Kind {
 pub(super) struct Series {
     /// What it is.
     pub(super) kind: Kind,
+    /// What its cells are to be compared with.
+    pub(super) scale: Scale,
     /// Cell size [m] and value, those of the answer first, then ever larger cells;
     /// no value where it did not happen.
     pub(super) places: Vec<(f64, Option<f64>)>,
@@ -95,22 +165,45 @@ impl Series {
 
     fn about(&self, happened: &[(f64, f64)], basis: Basis, order: Option<f64>) -> Band {
         let (size, value) = happened[0];
-        let (trend, off_it) = match happened {
+        let weights = self.kind.weights();
+        let (trend, scatter) = match happened {
             [_, (_, other)] => (0.0, SAFETY_OF_ONE * (value - other).abs()),
             _ => {
                 let line = Line::through(happened);
-                (-line.slope * size, SCATTER * line.scatter)
+                let scatter = weights.scatter * line.scatter;
+                (-weights.trend * line.slope * size, scatter)
             }
         };
-        let [down, up] = [-trend, trend].map(|way| way.max(-BACK * way));
-        let around = off_it + self.of_softness() + self.floor(size, value);
+        let expected = match basis {
+            Basis::Same => 0.0,
+            _ => self.expected(&weights, size, value),
+        };
+        let around = scatter.hypot(expected).hypot(self.of_softness());
+        let [down, up] = [-trend, trend].map(|way| {
+            let beyond = if way < 0.0 { weights.against } else { 1.0 };
+            way.max(0.0) + beyond * around + self.floor(size, value)
+        });
         Band {
             value: Some(value),
-            low: Some(self.not_below(value - down - around)),
-            high: Some(value + up + around),
+            low: Some(self.not_below(value - down)),
+            high: Some(value + up),
             order,
             basis,
         }
+    }
+
+    /// The error that scenes at large have at such cells, whatever these values show.
+    fn expected(&self, weights: &Weights, size: f64, value: f64) -> f64 {
+        let Scale { across_m, way_m } = self.scale;
+        let scale = if self.kind.is_a_place() {
+            way_m
+        } else {
+            value.abs()
+        };
+        let across = weights.across * size / across_m;
+        // A way of less than a cell is as uncertain as one of a cell.
+        let way = weights.way * size / way_m.max(size);
+        scale * across.hypot(way)
     }
 
     /// What half the sound speed changes (equation 73).
@@ -122,16 +215,18 @@ impl Series {
     }
 
     fn floor(&self, size: f64, value: f64) -> f64 {
-        match self.kind {
-            Kind::Length | Kind::Place => FLOOR_CELLS * size,
-            Kind::Amount => FLOOR_SHARE * value.abs(),
+        if self.kind.is_a_length() {
+            FLOOR_CELLS * size
+        } else {
+            FLOOR_SHARE * value.abs()
         }
     }
 
     fn not_below(&self, low: f64) -> f64 {
-        match self.kind {
-            Kind::Place => low,
-            Kind::Amount | Kind::Length => low.max(0.0),
+        if self.kind.is_a_place() {
+            low
+        } else {
+            low.max(0.0)
         }
     }
 }
@@ -143,7 +238,11 @@ mod tests {
     fn series(values: &[Option<f64>]) -> Series {
         let sizes = [0.01, 0.015, 0.02, 0.025];
         Series {
-            kind: Kind::Amount,
+            kind: Kind::Speed,
+            scale: Scale {
+                across_m: 0.03,
+                way_m: 0.2,
+            },
             places: sizes.into_iter().zip(values.iter().copied()).collect(),
             softer: None,
         }
@@ -158,15 +257,59 @@ mod tests {
     }
 
     #[test]
-    fn values_on_a_line_get_a_band_that_reaches_their_limit() {
-        let band = happened(&[1.1, 1.15, 1.2, 1.25]).band();
+    fn values_on_a_line_get_a_band_that_follows_them() {
+        let series = happened(&[1.1, 1.15, 1.2, 1.25]);
+        let band = series.band();
         assert_eq!(band.basis, Basis::Converging);
         assert!((band.order.unwrap() - 1.0).abs() < 0.05, "{band:?}");
-        // The limit is 1.0, and half of that way lies on the other side.
-        let ends = [band.low.unwrap(), band.high.unwrap()];
+        let weights = Kind::Speed.weights();
+        // Without scatter what is left is what scenes at large have.
+        let around = 1.1 * (weights.across / 3.0).hypot(weights.way / 20.0);
         let floor = 1.1 * FLOOR_SHARE;
-        assert!((ends[0] - (1.0 - floor)).abs() < 1e-12, "{band:?}");
-        assert!((ends[1] - (1.15 + floor)).abs() < 1e-12, "{band:?}");
+        // The limit is 1.0.
+        let low = 1.1 - 0.1 * weights.trend - around - floor;
+        let high = 1.1 + weights.against * around + floor;
+        let ends = [band.low.unwrap() - low, band.high.unwrap() - high];
+        assert!(ends.iter().all(|off| off.abs() < 1e-12), "{band:?}");
+        assert!(band.low.unwrap() < 1.0, "{band:?}");
+    }
+
+    #[test]
+    fn finer_cells_and_longer_ways_make_narrower_bands() {
+        let width = |cells: f64, way_m: f64, kind: Kind| {
+            let values = [1.0 + cells, 1.0 + 1.75 * cells, 1.0 + 2.5 * cells];
+            let places = [0.01, 0.0175, 0.025].map(|size| cells * size);
+            let places = places.into_iter().zip(values.map(Some)).collect();
+            let scale = Scale {
+                across_m: 0.03,
+                way_m,
+            };
+            half_width(
+                &Series {
+                    kind,
+                    scale,
+                    places,
+                    softer: None,
+                }
+                .band(),
+            )
+        };
+        for kind in [
+            Kind::Moment,
+            Kind::Stop,
+            Kind::Speed,
+            Kind::Length,
+            Kind::Reach,
+        ] {
+            assert!(
+                width(0.5, 0.2, kind) < 0.8 * width(1.0, 0.2, kind),
+                "{kind:?}"
+            );
+        }
+        assert!(width(1.0, 0.4, Kind::Speed) < width(1.0, 0.2, Kind::Speed));
+        assert!(width(1.0, 0.4, Kind::Across) > width(1.0, 0.2, Kind::Across));
+        // Less than a cell of way is no less certain than a cell, and none at all has an end.
+        assert_eq!(width(1.0, 0.0, Kind::Speed), width(1.0, 0.01, Kind::Speed));
     }
 
     #[test]
@@ -182,7 +325,7 @@ mod tests {
         assert_eq!(band.basis, Basis::Same);
         assert!((half_width(&band) - FLOOR_SHARE).abs() < 1e-12, "{band:?}");
         let mut of_length = happened(&[1.0; 4]);
-        of_length.kind = Kind::Length;
+        of_length.kind = Kind::Along;
         let band = of_length.band();
         assert!(
             (half_width(&band) - 0.01 * FLOOR_CELLS).abs() < 1e-12,
@@ -216,20 +359,25 @@ mod tests {
     }
 
     #[test]
-    fn softness_widens_the_band_by_what_it_changes() {
+    fn softness_widens_the_band_as_an_error_of_its_own() {
         let mut values = happened(&[1.1, 1.15, 1.2, 1.25]);
-        let before = half_width(&values.band());
-        values.softer = Some([Some(1.3), Some(1.2)]);
-        assert!((half_width(&values.band()) - before - 0.1).abs() < 1e-12);
+        let before = values.band();
+        let around = |band: &Band| 1.1 - 0.1 * values.kind.weights().trend - band.low.unwrap();
+        let around_before = around(&before) - 1.1 * FLOOR_SHARE;
+        let mut softer = values.clone();
+        softer.softer = Some([Some(1.3), Some(1.2)]);
+        let around_after = around(&softer.band()) - 1.1 * FLOOR_SHARE;
+        assert!((around_after - around_before.hypot(0.1)).abs() < 1e-12);
         values.softer = Some([None, Some(1.2)]);
-        assert_eq!(half_width(&values.band()), before);
+        assert_eq!(values.band(), before);
     }
 
     #[test]
     fn what_cannot_be_negative_has_no_negative_band() {
         let mut values = happened(&[0.1, 0.4, 0.2, 0.6]);
         assert_eq!(values.band().low, Some(0.0));
-        values.kind = Kind::Place;
+        values.kind = Kind::Along;
+        values.scale.way_m = 0.4;
         assert!(values.band().low.unwrap() < 0.0);
     }
 }

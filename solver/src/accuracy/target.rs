@@ -12,7 +12,7 @@ const PILOTS: [f64; 3] = [1.0, 0.8, 0.64];
 /// A band is expected to narrow with this power of the cell size.
 const ORDER: f64 = 1.0;
 /// Cost of an answer with its companions over its own.
-const WITH_COMPANIONS: f64 = 1.3;
+const WITH_COMPANIONS: f64 = 1.2;
 /// Aims below the target, so that a guess a little off still meets it.
 const AIM: f64 = 0.9;
 /// Least and largest ratio of two cell sizes that follow each other: less is not
@@ -44,8 +44,9 @@ pub(super) struct Progress {
     pub(super) asked: f64,
     /// The band so far.
     pub(super) band: Option<Band>,
-    /// Its share that finer cells don't narrow: the softness of the material.
-    pub(super) softness: f64,
+    /// Its share that finer cells don't narrow, the softness of the material, by every
+    /// softer run so far in turn.
+    pub(super) softness: Vec<f64>,
     /// Cells of the finest run [m].
     pub(super) cell_size_m: f64,
     /// Its point-steps.
@@ -82,14 +83,18 @@ pub(super) fn next(progress: &Progress, given: &Scenario) -> Next {
         return Next::GiveUp("it did not happen, so there is nothing to be relative to".to_owned());
     }
     let (least, most) = RATIOS;
-    let of_cells = AIM * progress.asked - progress.softness;
-    if of_cells <= 0.0 {
+    let aim = AIM * progress.asked;
+    if is_too_soft(&progress.softness, aim) {
         return Next::GiveUp(too_soft(progress));
     }
-    // Without a band of two ends nothing can be foreseen but that it takes more.
-    let wanted = reached.map_or(least, |reached| {
-        ((reached - progress.softness) / of_cells).powf(1.0 / ORDER)
-    });
+    let softness = progress.softness.last().copied().unwrap_or(0.0);
+    let of_cells = |all: f64| (all * all - softness * softness).max(0.0).sqrt();
+    let wanted = match reached {
+        Some(reached) if softness < aim => (of_cells(reached) / of_cells(aim)).powf(1.0 / ORDER),
+        Some(_) => most,
+        // Without a band of two ends nothing can be foreseen but that it takes more.
+        None => least,
+    };
     let affordable = (progress.left / (WITH_COMPANIONS * progress.cost)).powf(0.25);
     if affordable < least {
         return Next::GiveUp(out_of_budget(progress, wanted));
@@ -103,10 +108,20 @@ pub(super) fn next(progress: &Progress, given: &Scenario) -> Next {
     }
 }
 
+/// Whether no cells meet the target. A single softer run, of the first and coarsest
+/// cells, shows how much these scatter rather than how soft the material is.
+fn is_too_soft(softness: &[f64], aim: f64) -> bool {
+    softness.len() > 1 && softness.iter().all(|share| *share >= aim)
+}
+
 fn too_soft(progress: &Progress) -> String {
+    let least = progress
+        .softness
+        .iter()
+        .copied()
+        .fold(f64::INFINITY, f64::min);
     format!(
-        "the softness of the material makes {:.3} of it alone: raise numerics.sound_speed_m_s",
-        progress.softness
+        "the softness of the material makes {least:.3} of it alone: raise numerics.sound_speed_m_s"
     )
 }
 

@@ -76,6 +76,9 @@ pub struct AccuracyReport {
     pub runs: Vec<RunCost>,
     /// Point-steps of all runs but the answer's, over those of the answer's.
     pub extra_cost: f64,
+    /// The same of their wall times; null if the answer took no time. Larger in small
+    /// scenes, where a step costs more than its points.
+    pub extra_wall_cost: Option<f64>,
     /// What came of the target; null if none was given.
     pub target: Option<TargetReport>,
 }

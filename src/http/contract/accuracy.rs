@@ -136,6 +136,10 @@ pub struct AccuracyReportDocument {
     pub runs: Vec<RunCostDocument>,
     /// Point-steps of all runs but the answer's, over those of the answer's.
     pub extra_cost: f64,
+    /// The same of their wall times; null if the answer took no time. Larger in small
+    /// scenes, where a step costs more than its points.
+    #[schema(required = true)]
+    pub extra_wall_cost: Option<f64>,
     /// What came of the target; null if none was given.
     #[schema(required = true)]
     pub target: Option<TargetReportDocument>,

@@ -36,7 +36,7 @@ const QUICK: (usize, f64) = (4, 1.6);
 const FINER: f64 = 0.5;
 /// Share of values that may lie outside.
 const OUTSIDE: f64 = 0.1;
-/// Extra cost of error bars.
+/// Point-steps of companions over those of the answer.
 const EXTRA_COST: f64 = 0.35;
 /// Quantile of the normal distribution for an interval of 95 %.
 const TWO_SIDED_95: f64 = 1.96;
@@ -244,20 +244,24 @@ fn converging(trials: &[Trial], findings: &mut Findings) {
 }
 
 fn extra_cost(pairs: &[Pair], findings: &mut Findings) {
-    let cost = |pair: &Pair| {
-        pair.answer
-            .accuracy
-            .as_ref()
-            .map_or(f64::NAN, |all| all.extra_cost)
+    let of = |pair: &Pair| {
+        let report = pair.answer.accuracy.as_ref();
+        report.map_or([f64::NAN; 2], |all| {
+            [all.extra_cost, all.extra_wall_cost.unwrap_or(f64::NAN)]
+        })
     };
-    let question = Question::new("extra cost, median", "of the answer's", 0.0);
+    let point_steps = Question::new("extra point-steps, median", "of the answer's", 0.0);
+    let wall = Question::new("extra wall time, median", "of the answer's", 0.0);
     let answer = Answer {
-        values: [median(pairs.iter().map(cost))],
+        values: [0, 1].map(|place| median(pairs.iter().map(|pair| of(pair)[place]))),
         cost: Cost::default(),
     };
     let resolution = Resolution::named(format!("{} scenes", pairs.len()));
-    let question = question.by(Error::Absolute).within(EXTRA_COST);
-    findings.take(&resolution, [question], Ok(answer));
+    let questions = [
+        point_steps.by(Error::Absolute).within(EXTRA_COST),
+        wall.by(Error::Absolute),
+    ];
+    findings.take(&resolution, questions, Ok(answer));
 }
 
 /// Wilson's interval of 95 % for a share of which so many of so many were seen.

@@ -116,6 +116,7 @@ fn the_answer_keeps_its_values_and_gets_bands_round_them() {
     assert_eq!(body.displacement_m, linear(0.01));
     assert_eq!(bars.displacement_m.basis, Basis::Converging);
     assert!(bars.displacement_m.low.unwrap() <= linear(0.0));
+    assert!(bars.displacement_m.high.unwrap() > linear(0.01));
     assert_eq!(bars.stop_time_s.basis, Basis::NeverHappened);
     assert_eq!(bars.final_position_m[2].value, Some(0.02));
     assert!(answer.flow.error_bars.is_some());
@@ -251,9 +252,67 @@ fn softness_beyond_the_target_is_not_met_by_finer_cells() {
         campaign.take(Ok(outcome(&scenario, linear(rung.cell_size_m) + softer)));
         runs += 1;
     }
-    assert!(runs < 6, "{runs} runs");
-    let verdict = campaign.finish().unwrap().accuracy.unwrap().target.unwrap();
+    assert!(runs < 9, "{runs} runs");
+    let report = campaign.finish().unwrap().accuracy.unwrap();
+    // Once more with finer cells, since the first are so coarse.
+    let softer = report.runs.iter().filter(|run| run.role == Role::Softer);
+    assert_eq!(softer.count(), 2, "{:?}", report.runs);
+    let verdict = report.target.unwrap();
     assert!(!verdict.met);
     let reason = verdict.reason.unwrap();
     assert!(reason.contains("sound_speed_m_s"), "{reason}");
+}
+
+/// Values that go on turning, so that a target takes many runs.
+fn turning(cell_size_m: f64) -> f64 {
+    0.4 + 4.0 * cell_size_m + 0.2 * cell_size_m * (1e3 * cell_size_m).sin()
+}
+
+#[test]
+fn a_target_makes_no_run_twice() {
+    for displacement_m in [linear, turning] {
+        for target in [0.5, 0.2, 0.1, 0.05] {
+            let accuracy = json!({"target": target, "quantity": "displacement_m",
+                                  "budget_point_steps": 1e13});
+            let report = carried_out(&accuracy, displacement_m).accuracy.unwrap();
+            let sizes = |softer: bool| -> Vec<f64> {
+                let runs = report.runs.iter();
+                let mut sizes: Vec<f64> = runs
+                    .filter(|run| (run.role == Role::Softer) == softer)
+                    .map(|run| run.cell_size_m)
+                    .collect();
+                sizes.sort_by(f64::total_cmp);
+                sizes
+            };
+            let ratio = |sizes: &[f64]| -> f64 {
+                let ratios = sizes.windows(2).map(|pair| pair[1] / pair[0]);
+                ratios.fold(f64::INFINITY, f64::min)
+            };
+            let (grids, softer) = (sizes(false), sizes(true));
+            assert!(ratio(&grids) > 1.05, "{target}: {grids:?}");
+            assert!(ratio(&softer) > 1.25, "{target}: {softer:?}");
+        }
+    }
+}
+
+#[test]
+fn every_answer_of_a_target_has_companions_in_the_useful_range() {
+    let accuracy = json!({"target": 0.05, "quantity": "displacement_m",
+                          "budget_point_steps": 1e13});
+    let report = carried_out(&accuracy, linear).accuracy.unwrap();
+    let grids = || report.runs.iter().filter(|run| run.role != Role::Softer);
+    let finest = grids()
+        .map(|run| run.cell_size_m)
+        .fold(f64::INFINITY, f64::min);
+    let ratios = grids().map(|run| run.cell_size_m / finest);
+    let near = ratios.filter(|ratio| (1.2..=FARTHEST).contains(ratio));
+    assert!(near.count() >= FEWEST_NEAR, "{:?}", report.runs);
+}
+
+#[test]
+fn what_companions_cost_is_told_by_wall_time_too() {
+    let answer = carried_out(&json!({"error_bars": true}), linear);
+    let report = answer.accuracy.unwrap();
+    // Every run made up took a second.
+    assert_eq!(report.extra_wall_cost, Some(3.0), "{:?}", report.runs);
 }
