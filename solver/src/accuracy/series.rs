@@ -69,7 +69,7 @@ impl Kind {
     const fn weights(self) -> Weights {
         Weights::of(match self {
             Self::Moment => [0.0, 1.0, 2.0, 0.15, 0.2],
-            Self::Stop => [1.0, 1.0, 2.5, 0.025, 0.0],
+            Self::Stop => [1.0, 1.0, 2.5, 0.1, 0.0],
             Self::Speed => [1.0, 0.4, 2.0, 0.1, 0.8],
             Self::Length | Self::Along => [1.0, 0.5, 2.0, 0.1, 0.4],
             Self::Across => [0.0, 1.0, 2.0, 0.05, 0.0],
