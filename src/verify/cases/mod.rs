@@ -15,6 +15,7 @@ mod free_fall;
 mod hertz;
 mod hydrostatic;
 mod incline;
+mod limits;
 mod mass;
 mod momentum_audit;
 mod plate_drag;
@@ -61,4 +62,5 @@ pub const ALL: &[Case] = &[
     source_paper::CASE,
     cubes_and_column::CASE,
     error_bars::CASE,
+    limits::CASE,
 ];
