@@ -16,6 +16,7 @@ pub mod work;
 
 mod banded;
 mod beads;
+mod before_after;
 mod blocks;
 mod columns;
 mod dice;

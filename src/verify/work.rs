@@ -5,7 +5,7 @@ use super::columns::{Column, Grains};
 use super::findings::Findings;
 use super::limit::extrapolated;
 use super::run::{Answer, Trouble};
-use super::{Effort, paper, verify};
+use super::{Effort, before_after, paper, verify};
 use serde_json::{Value, json};
 
 /// A picture's worth of runs.
@@ -17,6 +17,8 @@ pub struct Diagram {
     pub title: String,
     /// What errors are counted from.
     pub against: String,
+    /// Which time recorded runs took, in words; none: wall time, here and now.
+    pub recorded: Option<String>,
     /// One for every choice.
     pub series: Vec<Series>,
 }
@@ -26,7 +28,7 @@ pub struct Diagram {
 pub struct Series {
     /// The choice they share.
     pub name: String,
-    /// Wall time [s] and size of the relative error, coarse ones first.
+    /// Time [s] and size of the relative error, coarse ones first.
     pub places: Vec<(f64, f64)>,
 }
 
@@ -34,6 +36,7 @@ pub struct Series {
 pub fn diagrams(effort: Effort) -> Vec<Diagram> {
     let mut all = vec![known(effort), collapse(effort)];
     all.extend(cube(effort));
+    all.push(before_after::diagram());
     all
 }
 
@@ -55,6 +58,7 @@ fn known(effort: Effort) -> Diagram {
         name: "work-known",
         title: "Elastic bar and column at rest".to_owned(),
         against: "frequency and stress off the exact ones; dots: cells twice as fine".to_owned(),
+        recorded: None,
         series: vec![
             series(&bar, "angular frequency", "bar, double"),
             series(&column, "σ_zz off, L2, double", "column, double"),
@@ -91,6 +95,7 @@ fn collapse(effort: Effort) -> Diagram {
             "off {finest} cells over L0, 8 points per cell: {reference:.3}; dots: {} cells",
             listed(cells)
         ),
+        recorded: None,
         series: [1, 8, 27].map(series).to_vec(),
     }
 }
@@ -140,6 +145,7 @@ fn cube(effort: Effort) -> [Diagram; 2] {
                 "off the {what}: {reference:.3} {unit}; dots: {} cells a side",
                 listed(cells)
             ),
+            recorded: None,
             series: runs.iter().map(series).collect(),
         }
     };
@@ -206,12 +212,12 @@ fn points_per_cell(points: u32) -> String {
 }
 
 /// Size of the error, as a share.
-fn off(value: f64, reference: f64) -> f64 {
+pub(super) fn off(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()
 }
 
 /// Numbers one after the other.
-fn listed(numbers: &[impl ToString]) -> String {
+pub(super) fn listed(numbers: &[impl ToString]) -> String {
     let words: Vec<String> = numbers.iter().map(ToString::to_string).collect();
     words.join(", ")
 }

@@ -43,10 +43,12 @@ fn chart(diagram: &Diagram, machine: &str) -> Chart {
         name: series.name.clone(),
         points: series.places.clone(),
     };
+    let time = diagram.recorded.clone();
+    let time = time.unwrap_or_else(|| format!("wall time [s]; {machine}"));
     Chart {
         title: diagram.title.clone(),
         subtitle: diagram.against.clone(),
-        x: axis(format!("wall time [s]; {machine}")),
+        x: axis(time),
         y: axis("relative error".to_owned()),
         curves: diagram.series.iter().map(curve).collect(),
     }
