@@ -334,3 +334,14 @@ fn plates_moved_through_a_bed() {
         assert!(forces[1] > grows_by * forces[0], "{name}: {forces:?}");
     }
 }
+
+// Its bars are of the full version; the small one has to answer every question.
+#[test]
+fn limits() {
+    let found = verified("limits").found;
+    assert!(!found.values.is_empty());
+    for finding in &found.values {
+        let measured = finding.measured.expect("both phases were computed");
+        assert!(measured.is_finite(), "{finding:#?}");
+    }
+}
