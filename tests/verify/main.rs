@@ -337,8 +337,8 @@ fn plates_moved_through_a_bed() {
 
 // Its bars are of the full version; the small one has to answer every question.
 #[test]
-fn limits() {
-    let found = verified("limits").found;
+fn coarse_cells() {
+    let found = verified("coarse-cells").found;
     assert!(!found.values.is_empty());
     for finding in &found.values {
         let measured = finding.measured.expect("both phases were computed");

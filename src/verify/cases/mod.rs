@@ -3,6 +3,7 @@
 mod axisymmetric_collapse;
 mod bagnold;
 mod buried_body;
+mod coarse_cells;
 mod column_collapse;
 mod cubes_and_column;
 mod dam_break;
@@ -15,7 +16,6 @@ mod free_fall;
 mod hertz;
 mod hydrostatic;
 mod incline;
-mod limits;
 mod mass;
 mod momentum_audit;
 mod plate_drag;
@@ -62,5 +62,5 @@ pub const ALL: &[Case] = &[
     source_paper::CASE,
     cubes_and_column::CASE,
     error_bars::CASE,
-    limits::CASE,
+    coarse_cells::CASE,
 ];

@@ -18,7 +18,7 @@ use crate::verify::{Case, Effort, How};
 use serde_json::{Value, json};
 
 pub(super) const CASE: Case = Case {
-    name: "limits",
+    name: "coarse-cells",
     number: "19",
     title: "bodies in coarse cells against their own limit",
     source: "the mean over two grid phases of the same scene in the finest cells",
