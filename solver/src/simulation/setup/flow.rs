@@ -1,0 +1,152 @@
+//! Flow of a run: its material, the bounds of its steps and its contacts with bodies.
+
+use super::resolution::{self, Expected};
+use crate::contact::law::ContactLaw;
+use crate::contact::point_body::PointSphere;
+use crate::kernel::Lattice;
+use crate::material::{Material, Yielding};
+use crate::rigid::Body;
+use crate::scenario::{self, Coupling, Scenario};
+use crate::stability::Limits;
+
+/// Default Courant number of the sub-step: a lone point is stable up to 1, a flow up to
+/// about 2 (docs/decisions/0021-what-a-step-costs.md).
+const COURANT: f64 = 0.8;
+/// Default travel of the fastest point per step, in cells.
+const FLOW_COURANT: f64 = 0.2;
+/// A flow slower than this share of its expected speed is transferred as
+/// often as if it had that speed.
+const SLOW: f64 = 1.0;
+/// Sound speed over the speed whose dynamic pressure is the largest one expected:
+/// density varies by its inverse square under steady load.
+const STIFFNESS_FACTOR: f64 = 10.0;
+/// Overlap of a point and a body, over the point spacing, that carries the largest
+/// pressure expected; at this overlap a contact is no stiffer than the material
+/// between two points.
+const REFERENCE_OVERLAP: f64 = 0.1;
+/// Share of a body's own contact time scale allowed per sub-step.
+const BODY_CONTACT_SHARE: f64 = 0.5;
+
+/// What a run with a flow is given besides.
+#[derive(Debug, Clone)]
+pub struct GivenFlow {
+    /// What it is made of.
+    pub material: Material,
+    /// What bounds its steps.
+    pub limits: Limits,
+    /// Spheres that points are to bodies.
+    pub sphere: PointSphere,
+    /// Pressure over relative overlap δ/l at the reference overlap [Pa].
+    contact_modulus: f64,
+}
+
+impl GivenFlow {
+    /// A flow of points of this volume [m³] on a lattice, where such speeds and pressures
+    /// are expected, at the default Courant numbers.
+    pub fn new(
+        material: Material,
+        lattice: &Lattice,
+        point_volume: f64,
+        expected: Expected,
+    ) -> Self {
+        let spacing = point_volume.cbrt();
+        let modulus = expected.contact_pressure / REFERENCE_OVERLAP;
+        let modulus = modulus.min(material.p_wave_modulus() / 1.5);
+        // Hertz: (δ/δ_ref)^1.5 is the pressure over that at the reference overlap.
+        let share = expected.static_pressure / (modulus * REFERENCE_OVERLAP);
+        let at_rest = if share > 0.0 && share.is_finite() {
+            REFERENCE_OVERLAP * share.powf(2.0 / 3.0)
+        } else {
+            0.0
+        };
+        Self {
+            limits: Limits {
+                p_wave_speed: material.p_wave_speed(),
+                sound_speed: (material.bulk_modulus / material.bulk_density).sqrt(),
+                cell_size: lattice.finest_spacing(),
+                courant: COURANT,
+                flow_courant: FLOW_COURANT,
+                body_contact_share: BODY_CONTACT_SHARE,
+                slow: SLOW * expected.speed,
+            },
+            sphere: PointSphere {
+                radius: (0.5 + at_rest) * spacing,
+                spacing,
+            },
+            contact_modulus: modulus,
+            material,
+        }
+    }
+
+    /// Chooses the formulation of contacts between points and bodies.
+    pub(super) fn couple(&mut self, coupling: Coupling, point_volume: f64) {
+        match coupling {
+            Coupling::HalfSpacing => {}
+            Coupling::SourcePaper => {
+                self.sphere.radius = (3.0 * point_volume / (4.0 * std::f64::consts::PI)).cbrt();
+                self.contact_modulus = self.material.p_wave_modulus() / 1.5;
+            }
+        }
+    }
+
+    /// Relative change of density under the largest pressure that a scenario makes
+    /// expect.
+    pub fn density_change(&self, scenario: &Scenario) -> f64 {
+        let pressing_speed = resolution::expected(scenario).pressing_speed;
+        (pressing_speed / self.limits.sound_speed).powi(2)
+    }
+
+    /// Law of a body's contacts with points: at the reference overlap a point carries
+    /// the largest pressure expected on its cross-section l² (equation 22).
+    pub fn contact_law(&self, damping: f64, friction: f64) -> ContactLaw {
+        let spacing = self.sphere.spacing;
+        let overlap = REFERENCE_OVERLAP * spacing;
+        ContactLaw {
+            stiffness: self.contact_modulus * spacing / overlap.sqrt(),
+            ..ContactLaw::damped(0.0, 1.0, damping, friction)
+        }
+    }
+
+    /// Longest sub-step at which a free body covered with points does not ring
+    /// against them unstably [s] (docs/method.md, equation 26).
+    pub fn contact_substep(&self, bodies: &[Body]) -> f64 {
+        let overlap = REFERENCE_OVERLAP * self.sphere.spacing;
+        let of_body = |body: &Body| {
+            let points = self.sphere.most_touching(body);
+            let stiffness = body.flow_law.tangent_stiffness(overlap) * points;
+            self.limits.body_contact_share * (body.mass / stiffness).sqrt()
+        };
+        bodies
+            .iter()
+            .filter(|body| body.is_free())
+            .map(of_body)
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Granular material with the stiffness asked for, or a sound speed of
+/// [`STIFFNESS_FACTOR`] times the speed of the largest dynamic pressure expected.
+pub(super) fn material(scenario: &Scenario, given: &scenario::Material) -> Material {
+    let nu = given.poissons_ratio;
+    let density = given.bulk_density_kg_m3;
+    let bulk_modulus = match (given.youngs_modulus_pa, scenario.numerics.sound_speed_m_s) {
+        (Some(youngs_modulus), _) => youngs_modulus / (3.0 * (1.0 - 2.0 * nu)),
+        (None, Some(sound_speed)) => density * sound_speed.powi(2),
+        (None, None) => {
+            let pressing_speed = resolution::expected(scenario).pressing_speed;
+            density * (STIFFNESS_FACTOR * pressing_speed).powi(2)
+        }
+    };
+    Material {
+        bulk_density: density,
+        bulk_modulus,
+        shear_modulus: bulk_modulus * 1.5 * (1.0 - 2.0 * nu) / (1.0 + nu),
+        yielding: Yielding::Granular {
+            static_friction: given.static_friction,
+            limiting_friction: given.limiting_friction,
+            reference_inertial_number: given.reference_inertial_number,
+            grain_diameter: given.grain_diameter_m,
+            grain_density: given.grain_density_kg_m3,
+        },
+    }
+}
