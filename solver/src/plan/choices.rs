@@ -110,13 +110,13 @@ fn stiffness(scenario: &Scenario, outline: &Outline) -> Choice {
         Some(flow) if given || modulus.is_some() => Err(format!(
             "the stiffness is given: where the flow or a body presses hardest, density \
              varies by about {:.2} %",
-            100.0 * flow.density_change(scenario)
+            100.0 * flow.density_change()
         )),
         Some(flow) => Ok(format!(
             "sound at {:.2} m/s: where the flow or a body presses hardest, density varies \
              by about {:.2} %",
             flow.limits.sound_speed,
-            100.0 * flow.density_change(scenario)
+            100.0 * flow.density_change()
         )),
     };
     choice(

@@ -24,9 +24,9 @@ mod symmetry;
 
 use bodies::bodies;
 pub use flow::GivenFlow;
-use flow::material;
 pub use reductions::Reductions;
 pub use release::Columns;
+use resolution::Crowd;
 pub use resolution::Expected;
 pub use share::{Share, Shares};
 pub(super) use symmetry::near_body;
@@ -95,16 +95,15 @@ impl Outline {
     /// # Errors
     /// Too many points for one run, or a reduction that the scene does not allow.
     pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
-        let (given, columns) = Setup::of(scenario)?;
-        let mut bodies = bodies(scenario, &given);
-        let reductions = Reductions::of(scenario, &given, columns.as_ref(), &bodies)?;
-        reductions.confine(&mut bodies);
-        Ok(Self {
-            given,
-            bodies,
-            columns,
-            reductions,
-        })
+        let mut outline = Self::whole(scenario)?;
+        outline.reductions = Reductions::of(
+            scenario,
+            &outline.given,
+            outline.columns.as_ref(),
+            &outline.bodies,
+        )?;
+        outline.reductions.confine(&mut outline.bodies);
+        Ok(outline)
     }
 
     /// The same with all of it computed, whatever the scenario says.
@@ -112,9 +111,11 @@ impl Outline {
     /// # Errors
     /// Too many points for one run.
     pub fn whole(scenario: &Scenario) -> Result<Self, SetupError> {
-        let (given, columns) = Setup::of(scenario)?;
+        let crowd = Crowd::of(scenario);
+        let expected = resolution::expected(scenario, &crowd);
+        let (given, columns) = Setup::of(scenario, expected)?;
         Ok(Self {
-            bodies: bodies(scenario, &given),
+            bodies: bodies(scenario, &given, &crowd, &expected),
             given,
             columns,
             reductions: Reductions::none(),
@@ -160,7 +161,7 @@ impl Scene {
 
 impl Setup {
     /// What the run of a scenario is given, and how its release is divided.
-    fn of(scenario: &Scenario) -> Result<(Self, Option<Columns>), SetupError> {
+    fn of(scenario: &Scenario, expected: Expected) -> Result<(Self, Option<Columns>), SetupError> {
         let channel = &scenario.channel;
         let lattice = resolution::lattice(scenario);
         let walls = walls(channel, &lattice);
@@ -169,15 +170,13 @@ impl Setup {
         let columns = columns.transpose()?;
         let flow = scenario.flow.as_ref().zip(columns.as_ref());
         let flow = flow.map(|(flow, columns)| {
-            let material = material(scenario, &flow.material);
-            let expected = resolution::expected(scenario);
-            let coupling = scenario.numerics.coupling;
-            let mut flow = GivenFlow::new(material, &lattice, columns.volume, expected);
-            flow.couple(coupling, columns.volume);
-            let (numerics, limits) = (&scenario.numerics, &mut flow.limits);
-            limits.courant = numerics.courant.unwrap_or(limits.courant);
-            limits.flow_courant = numerics.flow_courant.unwrap_or(limits.flow_courant);
-            flow
+            GivenFlow::of(
+                &flow.material,
+                &scenario.numerics,
+                &lattice,
+                columns.volume,
+                expected,
+            )
         });
         let given = Self {
             identity: scenario.to_json(),

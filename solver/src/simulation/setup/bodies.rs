@@ -1,7 +1,7 @@
 //! The bodies of a scenario at its start.
 
 use super::Setup;
-use super::resolution::{Crowd, contact_modulus};
+use super::resolution::{Crowd, Expected, contact_modulus};
 use super::settle::settle;
 use crate::contact::body_wall::touch_walls;
 use crate::contact::law::{ContactLaw, Dampings};
@@ -11,11 +11,18 @@ use crate::rigid::{Body, BodyState, Freedom, Load, Prescribed};
 use crate::scenario::{self, Scenario};
 
 /// The bodies of a scenario, where they start.
-pub(in crate::simulation) fn bodies(scenario: &Scenario, given: &Setup) -> Vec<Body> {
-    let crowd = Crowd::of(scenario);
+pub(super) fn bodies(
+    scenario: &Scenario,
+    given: &Setup,
+    crowd: &Crowd,
+    expected: &Expected,
+) -> Vec<Body> {
     let mut dampings = Dampings::default();
     (0..scenario.bodies.len())
-        .map(|place| body(scenario, given, place, &crowd, &mut dampings))
+        .map(|place| {
+            let modulus = || contact_modulus(crowd, place, expected.speed, scenario.gravity_m_s2);
+            body(scenario, given, place, modulus, &mut dampings)
+        })
         .collect()
 }
 
@@ -23,7 +30,7 @@ fn body(
     scenario: &Scenario,
     given: &Setup,
     place: usize,
-    crowd: &Crowd,
+    automatic_modulus: impl FnOnce() -> f64,
     dampings: &mut Dampings,
 ) -> Body {
     let spec = &scenario.bodies[place];
@@ -31,9 +38,7 @@ fn body(
     let pose = scenario.initial_pose(place);
     let mass = spec.density_kg_m3 * shape.volume();
     let inertia = shape.unit_inertia() * spec.density_kg_m3;
-    let modulus = spec
-        .contact_modulus_pa
-        .unwrap_or_else(|| contact_modulus(scenario, place, crowd));
+    let modulus = spec.contact_modulus_pa.unwrap_or_else(automatic_modulus);
     let wall_law = ContactLaw::damped(
         modulus,
         shape.sphero_radius(),

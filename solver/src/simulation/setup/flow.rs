@@ -1,12 +1,12 @@
 //! Flow of a run: its material, the bounds of its steps and its contacts with bodies.
 
-use super::resolution::{self, Expected};
+use super::resolution::Expected;
 use crate::contact::law::ContactLaw;
 use crate::contact::point_body::PointSphere;
 use crate::kernel::Lattice;
 use crate::material::{Material, Yielding};
 use crate::rigid::Body;
-use crate::scenario::{self, Coupling, Scenario};
+use crate::scenario::{self, Coupling, Numerics};
 use crate::stability::Limits;
 
 /// Default Courant number of the sub-step: a lone point is stable up to 1, a flow up to
@@ -38,9 +38,28 @@ pub struct GivenFlow {
     pub sphere: PointSphere,
     /// Pressure over relative overlap δ/l at the reference overlap [Pa].
     contact_modulus: f64,
+    /// Speeds and pressures that its material and contacts are chosen for.
+    expected: Expected,
 }
 
 impl GivenFlow {
+    /// A scenario's flow, of points of this volume [m³] on a lattice.
+    pub(super) fn of(
+        given: &scenario::Material,
+        numerics: &Numerics,
+        lattice: &Lattice,
+        point_volume: f64,
+        expected: Expected,
+    ) -> Self {
+        let material = material(given, numerics.sound_speed_m_s, &expected);
+        let mut flow = Self::new(material, lattice, point_volume, expected);
+        flow.couple(numerics.coupling, point_volume);
+        let limits = &mut flow.limits;
+        limits.courant = numerics.courant.unwrap_or(limits.courant);
+        limits.flow_courant = numerics.flow_courant.unwrap_or(limits.flow_courant);
+        flow
+    }
+
     /// A flow of points of this volume [m³] on a lattice, where such speeds and pressures
     /// are expected, at the default Courant numbers.
     pub fn new(
@@ -74,12 +93,13 @@ impl GivenFlow {
                 spacing,
             },
             contact_modulus: modulus,
+            expected,
             material,
         }
     }
 
     /// Chooses the formulation of contacts between points and bodies.
-    pub(super) fn couple(&mut self, coupling: Coupling, point_volume: f64) {
+    fn couple(&mut self, coupling: Coupling, point_volume: f64) {
         match coupling {
             Coupling::HalfSpacing => {}
             Coupling::SourcePaper => {
@@ -89,11 +109,9 @@ impl GivenFlow {
         }
     }
 
-    /// Relative change of density under the largest pressure that a scenario makes
-    /// expect.
-    pub fn density_change(&self, scenario: &Scenario) -> f64 {
-        let pressing_speed = resolution::expected(scenario).pressing_speed;
-        (pressing_speed / self.limits.sound_speed).powi(2)
+    /// Relative change of density under the largest pressure expected.
+    pub fn density_change(&self) -> f64 {
+        (self.expected.pressing_speed / self.limits.sound_speed).powi(2)
     }
 
     /// Law of a body's contacts with points: at the reference overlap a point carries
@@ -126,16 +144,13 @@ impl GivenFlow {
 
 /// Granular material with the stiffness asked for, or a sound speed of
 /// [`STIFFNESS_FACTOR`] times the speed of the largest dynamic pressure expected.
-pub(super) fn material(scenario: &Scenario, given: &scenario::Material) -> Material {
+fn material(given: &scenario::Material, sound_speed: Option<f64>, expected: &Expected) -> Material {
     let nu = given.poissons_ratio;
     let density = given.bulk_density_kg_m3;
-    let bulk_modulus = match (given.youngs_modulus_pa, scenario.numerics.sound_speed_m_s) {
+    let bulk_modulus = match (given.youngs_modulus_pa, sound_speed) {
         (Some(youngs_modulus), _) => youngs_modulus / (3.0 * (1.0 - 2.0 * nu)),
         (None, Some(sound_speed)) => density * sound_speed.powi(2),
-        (None, None) => {
-            let pressing_speed = resolution::expected(scenario).pressing_speed;
-            density * (STIFFNESS_FACTOR * pressing_speed).powi(2)
-        }
+        (None, None) => density * (STIFFNESS_FACTOR * expected.pressing_speed).powi(2),
     };
     Material {
         bulk_density: density,

@@ -71,12 +71,11 @@ pub struct Expected {
 }
 
 /// Speeds and pressures that are expected in a scenario (equations 31 and 31a).
-pub(super) fn expected(scenario: &Scenario) -> Expected {
+pub(super) fn expected(scenario: &Scenario, crowd: &Crowd) -> Expected {
     let speed = expected_speed(scenario);
     let flow = scenario.flow.as_ref();
     let density = flow.map_or(f64::INFINITY, |flow| flow.material.bulk_density_kg_m3);
     let weight = |flow: &Flow| 0.5 * density * scenario.gravity_m_s2 * flow.release.height_m;
-    let crowd = Crowd::of(scenario);
     let of_body = |body: &Weighty| {
         let weight = body.mass * scenario.gravity_m_s2 / body.projected_area;
         body.speed_squared.max(weight / density)
@@ -218,11 +217,16 @@ impl Weighty {
 /// on one vertex overlaps 1 % of the sphero radius, and an impact on one vertex
 /// at the largest speed expected 20 %; among other bodies, where both yield and
 /// both are round, of the least radius, for what may lie on it and what may strike it.
-pub(super) fn contact_modulus(scenario: &Scenario, place: usize, crowd: &Crowd) -> f64 {
+pub(super) fn contact_modulus(
+    crowd: &Crowd,
+    place: usize,
+    expected_speed: f64,
+    gravity_m_s2: f64,
+) -> f64 {
     let radius = crowd.least_radius();
     let (striking, speed_squared) = crowd.striking(place);
-    let speed_squared = speed_squared.max(expected_speed(scenario).powi(2));
-    let pressed = crowd.carried_by(place) * scenario.gravity_m_s2;
+    let speed_squared = speed_squared.max(expected_speed.powi(2));
+    let pressed = crowd.carried_by(place) * gravity_m_s2;
     let (gain, softer) = match crowd.0.len() {
         1 => (1.0, 1.0),
         _ => (crowd.gain(), TWO_LIKE_ONE),
