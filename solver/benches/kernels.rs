@@ -18,7 +18,7 @@ use scree_solver::kernel::Lattice;
 use scree_solver::material::{Material, Yielding};
 use scree_solver::math::{Mat3, Sym3, Vec3};
 use scree_solver::points::{self, Deformation, Point};
-use scree_solver::rigid::{Body, BodyState, Freedom, Load};
+use scree_solver::rigid::{Body, BodyState, Freedom, InverseInertia, Load};
 use scree_solver::shape::{RegularSolid, SharpPolyhedron, SpheroPolyhedron};
 use scree_solver::transfer;
 use scree_solver::walls::Plane;
@@ -289,7 +289,7 @@ fn resting_cube(place: Vec3) -> Body {
     Body {
         mass: 2000.0 * shape.volume(),
         inertia,
-        inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
+        inverse_inertia: InverseInertia::of(&inertia).expect("a solid has inertia"),
         wall_law: law,
         flow_law: law,
         rolling_friction: 0.0,

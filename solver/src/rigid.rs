@@ -7,6 +7,10 @@ use crate::shape::SpheroPolyhedron;
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 
+mod inertia;
+
+pub use inertia::InverseInertia;
+
 /// What moves a body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Freedom {
@@ -40,7 +44,7 @@ pub struct Body {
     /// Inertia tensor in the body frame [kg m²].
     pub inertia: Mat3,
     /// Its inverse.
-    pub inverse_inertia: Mat3,
+    pub inverse_inertia: InverseInertia,
     /// Law of its contacts with walls.
     pub wall_law: ContactLaw,
     /// Law of its contacts with material points.

@@ -1,6 +1,6 @@
 //! Bodies for tests.
 
-use super::{Body, BodyState, Freedom, Load};
+use super::{Body, BodyState, Freedom, InverseInertia, Load};
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
 use crate::shape::{ConvexPolyhedron, SpheroPolyhedron};
@@ -34,7 +34,7 @@ pub(crate) fn of_shape(shape: SpheroPolyhedron) -> Body {
     Body {
         mass: 1000.0 * shape.volume(),
         inertia,
-        inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
+        inverse_inertia: InverseInertia::of(&inertia).expect("a solid has inertia"),
         wall_law: law,
         flow_law: law,
         rolling_friction: 0.0,

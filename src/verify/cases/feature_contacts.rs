@@ -24,7 +24,7 @@ use crate::verify::{Case, Effort, How};
 use scree_solver::contact::body_body::{Meeting, Separation, pair_law};
 use scree_solver::contact::law::ContactLaw;
 use scree_solver::math::Vec3;
-use scree_solver::rigid::Body;
+use scree_solver::rigid::{Body, InverseInertia};
 use scree_solver::shape::{ConvexPolyhedron, SpheroPolyhedron};
 use scree_solver::simulation::{Scene, Simulation};
 use serde_json::json;
@@ -238,7 +238,7 @@ fn tetrahedron(body: &mut Body) -> Result<(), Trouble> {
     body.shape = SpheroPolyhedron::from_core(core, RADIUS).map_err(refused)?;
     body.mass = density * body.shape.volume();
     body.inertia = body.shape.unit_inertia() * density;
-    let inverse = body.inertia.try_inverse();
+    let inverse = InverseInertia::of(&body.inertia);
     body.inverse_inertia = inverse.ok_or(Trouble::Never("a solid without inertia"))?;
     Ok(())
 }

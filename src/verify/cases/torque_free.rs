@@ -120,7 +120,7 @@ fn body() -> Result<Body, Trouble> {
     body.mass = density * shape.volume();
     body.inertia = shape.unit_inertia() * density;
     let inverse = body.inertia.diagonal().map(|inertia| 1.0 / inertia);
-    body.inverse_inertia = Mat3::from_diagonal(&inverse);
+    body.inverse_inertia = Mat3::from_diagonal(&inverse).into();
     body.shape = shape;
     body.state.momentum = Vec3::zeros();
     body.state.springs.clear();

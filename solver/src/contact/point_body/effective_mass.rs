@@ -100,10 +100,9 @@ impl ContactSum {
         if !body.is_free() {
             return BodyCompliance::default();
         }
-        let turning = body.inverse_inertia.symmetric_eigenvalues().max();
         BodyCompliance {
             translation: self.count / body.mass,
-            rotation: turning * self.levers,
+            rotation: body.inverse_inertia.largest() * self.levers,
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::contact::body_wall::touch_walls;
 use crate::contact::law::{ContactLaw, Dampings};
 use crate::math::Vec3;
 use crate::motion::Velocities;
-use crate::rigid::{Body, BodyState, Freedom, Load, Prescribed};
+use crate::rigid::{Body, BodyState, Freedom, InverseInertia, Load, Prescribed};
 use crate::scenario::{self, Scenario};
 
 /// The bodies of a scenario, where they start.
@@ -50,7 +50,7 @@ fn body(
         None => wall_law,
     };
     let mut body = Body {
-        inverse_inertia: inertia.try_inverse().expect("a solid has inertia"),
+        inverse_inertia: InverseInertia::of(&inertia).expect("a solid has inertia"),
         state: BodyState {
             position: pose.position,
             orientation: pose.orientation,

@@ -4,6 +4,7 @@ mod collisions;
 mod heap;
 
 use super::*;
+use crate::rigid::InverseInertia;
 use crate::rigid::fixture::cuboid;
 use nalgebra::UnitQuaternion;
 use pace::substeps_alone;
@@ -167,7 +168,7 @@ fn rolling_resistance_holds_a_round_body_on_a_slope() {
     let mut round = cuboid([0.04; 3]);
     round.mass = 1000.0 * shape.volume();
     round.inertia = shape.unit_inertia() * 1000.0;
-    round.inverse_inertia = round.inertia.try_inverse().expect("a solid has inertia");
+    round.inverse_inertia = InverseInertia::of(&round.inertia).expect("a solid has inertia");
     round.shape = shape;
     round.wall_law = ContactLaw::hertz(1e5, 0.0199, 0.3, 2.0);
     // Standing on one vertex of its tiny core.
