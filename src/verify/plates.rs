@@ -1,13 +1,14 @@
 //! Plates that are moved through a bed as told, and the force on them.
 
-use super::blocks::{Block, elastic};
+use super::blocks::{Block, PER_CELL, elastic};
 use super::run::{Run, Trouble};
-use super::scenes::body;
+use super::scenes::{GRAVITY, body};
 use scree_solver::contact::law::damping_number;
 use scree_solver::material::{Material, Yielding};
 use scree_solver::math::Vec3;
 use scree_solver::motion::{PrescribedMotion, Velocities};
 use scree_solver::rigid::{Freedom, Prescribed};
+use scree_solver::scenario::Precision;
 use scree_solver::simulation::Scene;
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -17,7 +18,13 @@ pub(super) const DENSITY: f64 = 1500.0;
 /// Poisson's ratio of the beds.
 pub(super) const POISSONS_RATIO: f64 = 0.3;
 /// Friction of the plates that are not smooth with the bed.
-pub(super) const FRICTION: f64 = 0.4;
+const FRICTION: f64 = 0.4;
+/// Side of a plate that is pushed [m].
+pub(super) const SIDE: f64 = 0.1;
+/// Travel over which the force on it is averaged, over its side.
+pub(super) const WINDOW: [f64; 2] = [0.5, 0.8];
+/// Travel at full speed in the time that its ramp takes, over its side.
+const RAMP: f64 = 0.2;
 
 /// A bed with this friction at any rate (Drucker–Prager), in which sound is so fast [m/s].
 pub(super) fn bed_material(friction: f64, sound_speed: f64) -> Material {
@@ -87,6 +94,73 @@ impl Plate {
             ..Velocities::NONE
         };
         PrescribedMotion::table([(0.0, Velocities::NONE), (self.ramp, moving)])
+    }
+}
+
+/// A rough plate of side [`SIDE`] that is pushed through an endless bed at constant speed
+/// after a ramp.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Push {
+    /// Cells over the side.
+    pub(super) cells: u32,
+    /// Length, width and depth of the bed, in sides.
+    pub(super) bed: [u32; 3],
+    /// Material of the bed.
+    pub(super) material: Material,
+    /// Speed after the ramp [m/s].
+    pub(super) speed: f64,
+    /// Unit vector along which the plate moves.
+    pub(super) direction: Vec3,
+}
+
+impl Push {
+    /// The bed.
+    pub(super) fn block(&self) -> Block {
+        Block {
+            cell: SIDE / f64::from(self.cells),
+            at: [0, 0, 0],
+            cells: self.bed.map(|sides| sides * self.cells),
+            cells_across: self.bed[1] * self.cells,
+            per_cell: PER_CELL,
+            endless: true,
+            material: self.material,
+            gravity: GRAVITY,
+            expected_speed: 2.0 * self.speed,
+            precision: Precision::Single,
+            duration: self.time_of(WINDOW[1]),
+        }
+    }
+
+    /// Height of the bed's surface [m].
+    pub(super) fn surface(&self) -> f64 {
+        f64::from(self.bed[2]) * SIDE
+    }
+
+    /// Mean force over the window [N] on a plate that starts between these corners, and
+    /// the run that it was measured in.
+    ///
+    /// # Errors
+    /// There is no such plate, or the computation can't go on.
+    pub(super) fn force(&self, corners: [Vec3; 2]) -> Result<(Run, Vec3), Trouble> {
+        let plate = Plate {
+            corners,
+            friction: FRICTION,
+            velocity: self.direction * self.speed,
+            ramp: self.ramp(),
+        };
+        let mut run = Run::start(plate.within(&self.block())?)?;
+        run.to(self.time_of(WINDOW[0]))?;
+        let force = mean_force(&mut run, self.time_of(WINDOW[1]))?;
+        Ok((run, force))
+    }
+
+    fn ramp(&self) -> f64 {
+        RAMP * SIDE / self.speed
+    }
+
+    /// Time at which the plate has travelled so many sides [s]: half of the ramp is lost.
+    fn time_of(&self, travel: f64) -> f64 {
+        travel * SIDE / self.speed + 0.5 * self.ramp()
     }
 }
 

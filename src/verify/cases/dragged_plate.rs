@@ -13,14 +13,12 @@
 //! 1.8 h ahead of its foot at μ = 0.6 if it is plane (tan(45° + φ/2)), and side walls are
 //! 2.5 h off.
 
-use crate::verify::blocks::{Block, PER_CELL};
 use crate::verify::findings::{Findings, Question, Resolution};
-use crate::verify::plates::{DENSITY, FRICTION, Plate, bed_material, mean_force};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::plates::{DENSITY, Push, SIDE, bed_material};
+use crate::verify::run::{Answer, Trouble};
 use crate::verify::scenes::GRAVITY;
 use crate::verify::{Case, Effort, How};
 use scree_solver::math::Vec3;
-use scree_solver::scenario::Precision;
 
 pub(super) const CASE: Case = Case {
     name: "dragged-plate",
@@ -30,8 +28,6 @@ pub(super) const CASE: Case = Case {
     how: How::Runs(run),
 };
 
-/// Depth and width of the plate [m].
-const SIDE: f64 = 0.1;
 /// Friction of the bed, and the range of F / (½ ρ g w h²).
 const RANGES: [(f64, [f64; 2]); 3] = [(0.4, [6.0, 7.1]), (0.6, [20.6, 24.7]), (0.5, [11.5, 13.7])];
 /// Cells over the depth.
@@ -40,8 +36,6 @@ const CELLS: [u32; 3] = [4, 6, 8];
 const BED: [u32; 3] = [8, 6, 2];
 /// Over √(g h).
 const SPEED: f64 = 0.35;
-/// Travel over which the force is averaged, over h.
-const WINDOW: [f64; 2] = [0.5, 0.8];
 /// Sound speed over √(g h): the stress on the plate yields the bed by a few hundredths.
 const SOUND: f64 = 20.0;
 
@@ -63,36 +57,19 @@ fn run(effort: Effort, findings: &mut Findings) {
 fn drag(friction: f64, cells: u32) -> Result<Answer<1>, Trouble> {
     let wave = (GRAVITY * SIDE).sqrt();
     let speed = SPEED * wave;
-    let ramp = 0.2 * SIDE / speed;
-    // Half of the ramp is lost.
-    let after = |travel: f64| travel * SIDE / speed + 0.5 * ramp;
-    let block = Block {
-        cell: SIDE / f64::from(cells),
-        at: [0, 0, 0],
-        cells: BED.map(|sides| sides * cells),
-        cells_across: BED[1] * cells,
-        per_cell: PER_CELL,
-        endless: true,
+    let push = Push {
+        cells,
+        bed: BED,
         material: bed_material(friction, SOUND * wave),
-        gravity: GRAVITY,
-        expected_speed: 2.0 * speed,
-        precision: Precision::Single,
-        duration: after(WINDOW[1]),
+        speed,
+        direction: Vec3::x(),
     };
-    let surface = f64::from(BED[2]) * SIDE;
+    let surface = push.surface();
     let back = 2.0 * SIDE;
-    let plate = Plate {
-        corners: [
-            Vec3::new(back, -0.5 * SIDE, surface - SIDE),
-            Vec3::new(back + 0.5 * SIDE, 0.5 * SIDE, surface + SIDE),
-        ],
-        friction: FRICTION,
-        velocity: Vec3::new(speed, 0.0, 0.0),
-        ramp,
-    };
-    let mut run = Run::start(plate.within(&block)?)?;
-    run.to(after(WINDOW[0]))?;
-    let force = -mean_force(&mut run, after(WINDOW[1]))?.x;
+    let (run, force) = push.force([
+        Vec3::new(back, -0.5 * SIDE, surface - SIDE),
+        Vec3::new(back + 0.5 * SIDE, 0.5 * SIDE, surface + SIDE),
+    ])?;
     let scale = 0.5 * DENSITY * GRAVITY * SIDE.powi(3);
-    Ok(run.answer([force / scale]))
+    Ok(run.answer([-force.x / scale]))
 }

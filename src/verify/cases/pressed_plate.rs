@@ -12,14 +12,12 @@
 //! 7 L long (where it ends, it begins again), 7 L wide and 3 L deep: side walls and the
 //! plate's next image are 3 L and 6 L off, the floor 2.2 L at the end.
 
-use crate::verify::blocks::{Block, PER_CELL};
 use crate::verify::findings::{Findings, Question, Resolution};
-use crate::verify::plates::{DENSITY, FRICTION, Plate, bed_material, mean_force};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::plates::{DENSITY, Push, SIDE, WINDOW, bed_material};
+use crate::verify::run::{Answer, Trouble};
 use crate::verify::scenes::GRAVITY;
 use crate::verify::{Case, Effort, How};
 use scree_solver::math::Vec3;
-use scree_solver::scenario::Precision;
 
 pub(super) const CASE: Case = Case {
     name: "pressed-plate",
@@ -29,8 +27,6 @@ pub(super) const CASE: Case = Case {
     how: How::Runs(run),
 };
 
-/// Side of the plate [m].
-const SIDE: f64 = 0.1;
 /// Friction of the bed, and σ/(ρ g z).
 const STRESSES: [(f64, f64); 2] = [(0.4, 27.2), (0.6, 94.2)];
 const BAR: f64 = 0.09;
@@ -40,8 +36,6 @@ const CELLS: [u32; 3] = [4, 6, 8];
 const BED: [u32; 3] = [7, 7, 3];
 /// Over √(g L).
 const SPEED: f64 = 0.3;
-/// Depths between which the force is averaged, over L.
-const WINDOW: [f64; 2] = [0.5, 0.8];
 /// Sound speed over √(g L) and over √(σ/ρ): the bed yields by a few hundredths.
 const SOUND: f64 = 20.0;
 const STIFF: f64 = 4.0;
@@ -63,35 +57,19 @@ fn run(effort: Effort, findings: &mut Findings) {
 fn press(friction: f64, expected: f64, cells: u32) -> Result<Answer<1>, Trouble> {
     let wave = (GRAVITY * SIDE).sqrt();
     let speed = SPEED * wave;
-    let ramp = 0.2 * SIDE / speed;
-    let after = |depth: f64| depth * SIDE / speed + 0.5 * ramp;
-    let block = Block {
-        cell: SIDE / f64::from(cells),
-        at: [0, 0, 0],
-        cells: BED.map(|sides| sides * cells),
-        cells_across: BED[1] * cells,
-        per_cell: PER_CELL,
-        endless: true,
+    let push = Push {
+        cells,
+        bed: BED,
         material: bed_material(friction, SOUND.max(STIFF * expected.sqrt()) * wave),
-        gravity: GRAVITY,
-        expected_speed: 2.0 * speed,
-        precision: Precision::Single,
-        duration: after(WINDOW[1]),
+        speed,
+        direction: Vec3::new(0.0, 0.0, -1.0),
     };
-    let surface = f64::from(BED[2]) * SIDE;
-    let middle = block.middle();
-    let plate = Plate {
-        corners: [
-            Vec3::new(middle.x - 0.5 * SIDE, -0.5 * SIDE, surface),
-            Vec3::new(middle.x + 0.5 * SIDE, 0.5 * SIDE, surface + 0.5 * SIDE),
-        ],
-        friction: FRICTION,
-        velocity: Vec3::new(0.0, 0.0, -speed),
-        ramp,
-    };
-    let mut run = Run::start(plate.within(&block)?)?;
-    run.to(after(WINDOW[0]))?;
-    let force = mean_force(&mut run, after(WINDOW[1]))?.z;
+    let surface = push.surface();
+    let middle = push.block().middle();
+    let (run, force) = push.force([
+        Vec3::new(middle.x - 0.5 * SIDE, -0.5 * SIDE, surface),
+        Vec3::new(middle.x + 0.5 * SIDE, 0.5 * SIDE, surface + 0.5 * SIDE),
+    ])?;
     let depth = 0.5 * (WINDOW[0] + WINDOW[1]) * SIDE;
-    Ok(run.answer([force / (DENSITY * GRAVITY * depth * SIDE * SIDE)]))
+    Ok(run.answer([force.z / (DENSITY * GRAVITY * depth * SIDE * SIDE)]))
 }
