@@ -8,6 +8,7 @@
 //! those of the break itself.
 
 use super::columns::Way;
+use super::upright::Meets;
 use super::{Plane, Walls};
 use crate::kernel::{Lattice, share_above};
 use crate::math::Vec3;
@@ -30,11 +31,15 @@ impl Surface {
         }
     }
 
-    /// The same on the back wall, where only the vertical is left to move in.
-    pub(super) fn at_back_wall(self) -> Self {
-        Self {
-            normal: Vec3::z(),
-            ..self
+    /// The same for nodes that meet the back wall so: on it, only the vertical is left to
+    /// move in.
+    pub(super) fn beside(self, back: Meets) -> Self {
+        match back {
+            Meets::On { .. } => Self {
+                normal: Vec3::z(),
+                ..self
+            },
+            Meets::Not | Meets::Near { .. } => self,
         }
     }
 

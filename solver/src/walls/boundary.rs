@@ -244,8 +244,7 @@ impl Walls {
             });
         let back = self.upright.meets_back(index);
         let side = self.upright.meets_side(index);
-        let on_back_wall = matches!(back, Meets::On { .. });
-        let surfaces = self.surfaces_over(index, on_back_wall, nodes.lattice());
+        let surfaces = self.surfaces_over(index, back, nodes.lattice());
         let alone = boundary.members.len() == start + 1;
         let group = boundary.groups.len() as u32;
         let known = boundary.rungs.len();
@@ -303,7 +302,7 @@ impl Walls {
     fn surfaces_over(
         &self,
         index: [i32; 3],
-        on_back_wall: bool,
+        back: Meets,
         lattice: &Lattice,
     ) -> [Option<Surface>; 2] {
         let x = lattice.position(index);
@@ -316,11 +315,7 @@ impl Walls {
                 .filter(|(_, plane)| Way::of(plane) == way && plane.height(&x) <= rounding)
                 .max_by(|one, other| other.1.height(&x).total_cmp(&one.1.height(&x)))?;
             let surface = self.surface_at(plane, way, index[0], lattice);
-            Some(if on_back_wall {
-                surface.at_back_wall()
-            } else {
-                surface
-            })
+            Some(surface.beside(back))
         })
     }
 }

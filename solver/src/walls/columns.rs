@@ -92,8 +92,8 @@ impl Column {
         gap: f64,
     ) -> Option<Self> {
         let group = |rung: &Rung| &groups[rung.group as usize];
-        let against_back_wall = matches!(group(&all[rungs.start]).back, Meets::On { .. });
-        let way = all[rungs.start].way;
+        let Rung { way, .. } = all[rungs.start];
+        let surface = surface.beside(group(&all[rungs.start]).back);
         let held = |rung: &Rung| matches!(group(rung).back, Meets::On { .. });
         if way == Way::Lying && all[rungs.clone()].iter().any(held) {
             return None;
@@ -114,11 +114,7 @@ impl Column {
         let determinant = mass * mass * spread;
         Some(Self {
             rungs,
-            surface: if against_back_wall {
-                surface.at_back_wall()
-            } else {
-                surface
-            },
+            surface,
             mobility: [bb, -ab, aa].map(|of| of / determinant),
             at_base: shares(gap),
         })
