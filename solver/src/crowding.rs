@@ -39,7 +39,7 @@ pub const DEEPEST: f64 = 0.25;
 pub struct Tending {
     /// Shift over −h² ∇crowding.
     pub shift: f64,
-    /// Share of the mean dilation.
+    /// Share of its own compressive strain that a point exchanges for the mean.
     pub averaging: f64,
     /// Relative rise of pressure per crowding.
     pub pressing: f64,

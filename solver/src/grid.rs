@@ -40,8 +40,8 @@ pub struct Node {
     pub force: Vec3,
     /// Volume of points over room for them, at the transfer.
     pub fullness: f64,
-    /// Mean dilation of its points at the transfer.
-    pub dilation: f64,
+    /// Mean compressive volumetric strain min(φ, 0) of its points at the transfer.
+    pub compressive_strain: f64,
     /// Mean strain rate of its points at the transfer [1/s].
     pub strain_rate: Sym3,
 }
@@ -54,7 +54,7 @@ impl Node {
         displacement: Vec3::new(0.0, 0.0, 0.0),
         force: Vec3::new(0.0, 0.0, 0.0),
         fullness: 0.0,
-        dilation: 0.0,
+        compressive_strain: 0.0,
         strain_rate: Sym3 {
             xx: 0.0,
             yy: 0.0,

@@ -54,7 +54,7 @@ pub fn scatter_momentum(points: &[Point], grid: &mut Grid) {
     );
 }
 
-/// Hands over what the first scatter lost, and the dilation: the nodes' motion
+/// Hands over what the first scatter lost, and the compressive strain: the nodes' motion
 /// seen at the points falls short of the points' own, and what is missing goes to
 /// the nodes as well (equations 8a and 39).
 pub fn hand_over_rest(points: &[Point], bulk_density: f64, grid: &mut Grid) {
@@ -85,12 +85,12 @@ pub fn hand_over_rest(points: &[Point], bulk_density: f64, grid: &mut Grid) {
                 scatter_affine(block, &stencil, &rest, tile);
             }
         },
-        |node, [dilation, px, py, pz]| {
+        |node, [compressive, px, py, pz]| {
             if node.mass > 0.0 {
                 node.velocity += Vec3::new(px, py, pz) / node.mass;
-                node.dilation = dilation / node.mass;
+                node.compressive_strain = compressive / node.mass;
             }
-            node.fullness = (node.mass + dilation) / room;
+            node.fullness = (node.mass + compressive) / room;
         },
     );
 }
@@ -251,7 +251,7 @@ pub fn gather_motion(
                 node.displacement.x,
                 node.displacement.y,
                 node.displacement.z,
-                node.dilation,
+                node.compressive_strain,
             ]
         });
         let deformations = &deformations[block.points.clone()];

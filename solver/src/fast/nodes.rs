@@ -48,7 +48,7 @@ pub struct Nodes {
     /// velocity since the transfer [m/s]: without that the same small change,
     /// added again and again, would be rounded the same way again and again.
     remainder: Vec<NodeBlock>,
-    /// Mean dilation at the transfer, and displacement since then [m].
+    /// Mean compressive strain at the transfer, and displacement since then [m].
     displacement: Vec<NodeBlock>,
     /// Mean strain rate at the transfer [1/s], part by part.
     strain_rate: [Vec<NodeBlock>; 2],
@@ -89,7 +89,7 @@ impl Nodes {
         });
     }
 
-    /// Takes what was missing of the momentum, and the dilations, from the tiles;
+    /// Takes what was missing of the momentum, and the compressive strains, from the tiles;
     /// `room` is the mass that fills a kernel, ρ_c h³ [kg].
     pub fn take_rest(&mut self, tiles: &[Tile], room: f32, level: Level) {
         self.for_each_block(|block, sources| {
@@ -170,7 +170,7 @@ impl Nodes {
         fill(simd, self.layout.reach(block), strain_rate, tile);
     }
 
-    /// Mean dilation and displacement of the nodes that a block of points touches.
+    /// Mean compressive strain and displacement of the nodes that a block of points touches.
     #[inline(always)]
     pub fn displacement_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
         fill(simd, self.layout.reach(block), &self.displacement, tile);
@@ -278,13 +278,13 @@ impl NodeAccess for Nodes {
         }
     }
 
-    fn dilation(&self, place: usize) -> f64 {
+    fn compressive_strain(&self, place: usize) -> f64 {
         let node = self.displacement[place / BLOCK_NODES].node(place % BLOCK_NODES);
         f64::from(node[0])
     }
 
-    fn set_dilation(&mut self, place: usize, dilation: f64) {
-        self.displacement[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)] = dilation as f32;
+    fn set_compressive_strain(&mut self, place: usize, strain: f64) {
+        self.displacement[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)] = strain as f32;
     }
 
     fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64) {
@@ -453,7 +453,7 @@ fn advance<S: Simd>(simd: S, forces: &NodeBlock, push: &Push, block: WholeBlock)
         if mass > 0.0 {
             let left = &mut remainder.0[here.clone()];
             let moved = &mut displacement.0[here.clone()];
-            let (fullness, dilation) = (left[0], moved[0]);
+            let (fullness, compressive) = (left[0], moved[0]);
             let force = f32x4::from_slice(simd, &forces.0[here]);
             let before = f32x4::from_slice(simd, moving);
             let owed = fall + f32x4::from_slice(simd, left);
@@ -464,7 +464,7 @@ fn advance<S: Simd>(simd: S, forces: &NodeBlock, push: &Push, block: WholeBlock)
             let displaced = velocity.mul_add(dt, f32x4::from_slice(simd, moved));
             displaced.store_slice(moved);
             velocity.store_slice(moving);
-            (moving[0], left[0], moved[0]) = (mass, fullness, dilation);
+            (moving[0], left[0], moved[0]) = (mass, fullness, compressive);
         }
     }
 }

@@ -19,7 +19,7 @@ use fearless_simd::{f32x16, prelude::*};
 pub struct EndTiles {
     /// Crowding and velocity.
     pub motion: Tile,
-    /// Mean dilation and displacement.
+    /// Mean compressive strain and displacement.
     pub displacement: Tile,
     /// Fullness at first, then displacement × velocity.
     pub twist: Tile,
@@ -177,7 +177,7 @@ pub fn share_strain_rates<S: Simd>(simd: S, block: &mut Block, shown: &Shown, sh
     }
 }
 
-/// Gives a tile the dilations and what the nodes' `motion` is short of the
+/// Gives a tile the compressive strains and what the nodes' `motion` is short of the
 /// points' own, and another the force of stress (equations 9 and 39); starts the
 /// deformation anew.
 #[inline(always)]

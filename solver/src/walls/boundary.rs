@@ -65,7 +65,7 @@ pub struct Boundary {
 
 impl Boundary {
     /// Where walls leave less room, the same volume of points fills more of it;
-    /// a node and its images share theirs, and their mean dilation.
+    /// a node and its images share theirs, and their mean compressive strain.
     pub fn leave_less_room(&self, nodes: &mut impl NodeAccess) {
         for (place, room) in &self.cut {
             let place = *place as usize;
@@ -80,7 +80,7 @@ impl Boundary {
             for member in members {
                 nodes.set_fullness(member.place as usize, fullness);
             }
-            share_dilation(members, nodes);
+            share_compressive_strain(members, nodes);
         }
     }
 
@@ -135,9 +135,9 @@ impl Boundary {
     }
 }
 
-/// A node and its images have the dilation that the points round all of them have on
-/// the mean.
-fn share_dilation(members: &[Member], nodes: &mut impl NodeAccess) {
+/// A node and its images have the compressive strain that the points round all of them
+/// have on the mean.
+fn share_compressive_strain(members: &[Member], nodes: &mut impl NodeAccess) {
     if members.len() < 2 {
         return;
     }
@@ -145,11 +145,11 @@ fn share_dilation(members: &[Member], nodes: &mut impl NodeAccess) {
     for member in members {
         let place = member.place as usize;
         mass += nodes.mass(place);
-        sum += nodes.mass(place) * nodes.dilation(place);
+        sum += nodes.mass(place) * nodes.compressive_strain(place);
     }
     if mass > 0.0 {
         for member in members {
-            nodes.set_dilation(member.place as usize, sum / mass);
+            nodes.set_compressive_strain(member.place as usize, sum / mass);
         }
     }
 }

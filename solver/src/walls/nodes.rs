@@ -29,10 +29,10 @@ pub trait NodeAccess: Sync {
     fn strain_rate(&self, place: usize) -> Sym3;
     /// Changes it.
     fn set_strain_rate(&mut self, place: usize, strain_rate: &Sym3);
-    /// Mean dilation of its points at the transfer.
-    fn dilation(&self, place: usize) -> f64;
+    /// Mean compressive volumetric strain min(φ, 0) of its points at the transfer.
+    fn compressive_strain(&self, place: usize) -> f64;
     /// Changes it.
-    fn set_dilation(&mut self, place: usize, dilation: f64);
+    fn set_compressive_strain(&mut self, place: usize, strain: f64);
 }
 
 impl NodeAccess for Grid {
@@ -80,11 +80,11 @@ impl NodeAccess for Grid {
         self.node_mut(place).strain_rate = *strain_rate;
     }
 
-    fn dilation(&self, place: usize) -> f64 {
-        self.nodes()[place].dilation
+    fn compressive_strain(&self, place: usize) -> f64 {
+        self.nodes()[place].compressive_strain
     }
 
-    fn set_dilation(&mut self, place: usize, dilation: f64) {
-        self.node_mut(place).dilation = dilation;
+    fn set_compressive_strain(&mut self, place: usize, strain: f64) {
+        self.node_mut(place).compressive_strain = strain;
     }
 }

@@ -175,8 +175,8 @@ impl FastFlow {
         }
     }
 
-    /// Hands over what the nodes do not show of the points' motion, the dilations
-    /// and the first forces, and shares strain rates.
+    /// Hands over what the nodes do not show of the points' motion, the compressive
+    /// strains and the first forces, and shares strain rates.
     fn hand_over_rest(&mut self, given: &Setup, sharing: &Sharing) {
         let room = self.packing.material.bulk_density * given.lattice.spacing.product();
         let (nodes, law, level) = (&self.nodes, &self.law, self.level);
