@@ -1,12 +1,14 @@
 //! Rules between numbers that have nothing to do with the geometry.
 
+use super::fit::fastest_driven;
 use super::range::{Rule, rounded_up, short};
 use super::reader::Object;
-use super::report::Report;
+use super::report::{Report, field_name};
 use super::rules::{
-    BODY_SAMPLES, SAMPLE_INTERVAL, SLOWEST_SOUND, SOFTEST, SOUND_SPEED, YOUNGS_MODULUS,
+    BODY_SAMPLES, SAMPLE_INTERVAL, SLOWEST_SOUND, SLOWEST_SOUND_DRIVEN, SOFTEST, SOUND_SPEED,
+    YOUNGS_MODULUS,
 };
-use super::{Channel, Flow, Numerics};
+use super::{Body, Channel, Flow, Numerics};
 
 /// The second field must not be below the first.
 pub(super) fn ascend(
@@ -54,33 +56,32 @@ pub(super) fn samples_are_bounded(
 }
 
 /// A release must not be crushed by its own weight, p = ρ g H presses a bulk of sound
-/// speed c together by g H/c², nor a flow where it strikes a wall.
-pub(super) fn flow_carries_itself(
+/// speed c together by g H/c², nor a flow where it strikes a wall or a body is driven into
+/// it.
+pub(super) fn flow_is_stiff_enough(
     report: &Report,
     channel: &Channel,
     flow: &Flow,
+    bodies: &[Option<Body>],
     numerics: &Numerics,
     gravity_m_s2: f64,
 ) {
-    let material = &flow.material;
-    let for_weight = SOFTEST * (gravity_m_s2 * flow.release.height_m).sqrt();
-    let fastest = channel.fastest_flow(flow, gravity_m_s2);
-    let slowest = for_weight.max(SLOWEST_SOUND * fastest);
-    let reason = if slowest > for_weight {
-        format!(
-            "that the flow, which may reach {} m/s, would be more than twice as fast as its \
-             own sound",
-            short(fastest)
-        )
-    } else {
-        "that the release's own weight would press it together by a third or more".to_owned()
-    };
-    let why = |value: f64| format!("is {}, so soft {reason}", short(value));
+    let others = [
+        Some(for_speed(channel, flow, gravity_m_s2)),
+        for_driven_bodies(channel, bodies),
+    ];
+    let most = others
+        .into_iter()
+        .flatten()
+        .fold(for_weight(flow, gravity_m_s2), Need::or_more);
+    let why = |value: f64| format!("is {}, so soft {}", short(value), most.reason);
+    let slowest = most.sound_speed;
     if let Some(speed) = numerics.sound_speed_m_s.filter(|&speed| speed < slowest) {
         let allowed = format!("x >= {}, or null", short(rounded_up(slowest)));
         let pointer = format!("/numerics/{}", SOUND_SPEED.key);
         report.refuse(&pointer, &allowed, SOUND_SPEED.unit, &why(speed));
     }
+    let material = &flow.material;
     let softest =
         3.0 * (1.0 - 2.0 * material.poissons_ratio) * material.bulk_density_kg_m3 * slowest.powi(2);
     if let Some(modulus) = material.youngs_modulus_pa.filter(|&given| given < softest) {
@@ -88,6 +89,57 @@ pub(super) fn flow_carries_itself(
         let pointer = format!("/flow/material/{}", YOUNGS_MODULUS.key);
         report.refuse(&pointer, &allowed, YOUNGS_MODULUS.unit, &why(modulus));
     }
+}
+
+/// Least sound speed that something asks for.
+struct Need {
+    /// [m/s].
+    sound_speed: f64,
+    /// Consequence of a lower one.
+    reason: String,
+}
+
+impl Need {
+    fn or_more(self, other: Self) -> Self {
+        if other.sound_speed > self.sound_speed {
+            other
+        } else {
+            self
+        }
+    }
+}
+
+fn for_weight(flow: &Flow, gravity_m_s2: f64) -> Need {
+    Need {
+        sound_speed: SOFTEST * (gravity_m_s2 * flow.release.height_m).sqrt(),
+        reason: "that the release's own weight would press it together by a third or more"
+            .to_owned(),
+    }
+}
+
+fn for_speed(channel: &Channel, flow: &Flow, gravity_m_s2: f64) -> Need {
+    let fastest = channel.fastest_flow(flow, gravity_m_s2);
+    Need {
+        sound_speed: SLOWEST_SOUND * fastest,
+        reason: format!(
+            "that the flow, which may reach {} m/s, would be more than twice as fast as its \
+             own sound",
+            short(fastest)
+        ),
+    }
+}
+
+fn for_driven_bodies(channel: &Channel, bodies: &[Option<Body>]) -> Option<Need> {
+    let (pointer, fastest) = fastest_driven(channel, bodies)?;
+    Some(Need {
+        sound_speed: SLOWEST_SOUND_DRIVEN * fastest,
+        reason: format!(
+            "that {}.motion, which reaches {} m/s, would press the flow together by a third \
+             or more",
+            field_name(&pointer),
+            short(fastest)
+        ),
+    })
 }
 
 /// Sound speed and Young's modulus are two names of one stiffness.

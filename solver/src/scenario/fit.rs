@@ -105,6 +105,18 @@ fn placed<'a>(channel: &Channel, bodies: &'a [Option<Body>]) -> Vec<Placed<'a>> 
     bodies.iter().enumerate().filter_map(place).collect()
 }
 
+/// Pointer and largest speed [m/s] of the fastest body with a prescribed motion, its
+/// turning included.
+pub(super) fn fastest_driven(channel: &Channel, bodies: &[Option<Body>]) -> Option<(String, f64)> {
+    let driven = placed(channel, bodies).into_iter();
+    let driven = driven.filter(|placed| placed.body.motion.is_some());
+    let speeds = driven.map(|placed| {
+        let speed = placed.body.thrown_m_s(placed.shape.bounding_radius());
+        (placed.pointer, speed)
+    });
+    speeds.max_by(|one, other| one.1.total_cmp(&other.1))
+}
+
 /// No body reaches into a wall, the bed, out of the open end or into another.
 pub(super) fn bodies_fit(report: &Report, channel: &Channel, bodies: &[Option<Body>]) {
     let placed = placed(channel, bodies);

@@ -4,7 +4,7 @@ use super::accuracy::{
     bands_can_be_made, body_is_there, cells_are_chosen_once, read_accuracy,
     target_is_about_something,
 };
-use super::agreement::{flow_carries_itself, samples_are_bounded, stiffness_is_given_once};
+use super::agreement::{flow_is_stiff_enough, samples_are_bounded, stiffness_is_given_once};
 use super::body::read_bodies;
 use super::duration::default_duration;
 use super::fit;
@@ -114,7 +114,7 @@ impl Draft {
         if let (Some(flow), Some(numerics)) = (flow, &self.numerics) {
             stiffness_is_given_once(report, flow, numerics);
             if let (Some(channel), Some(gravity)) = (&self.channel, self.gravity_m_s2) {
-                flow_carries_itself(report, channel, flow, numerics, gravity);
+                flow_is_stiff_enough(report, channel, flow, bodies, numerics, gravity);
             }
         }
         self.check_accuracy(report);

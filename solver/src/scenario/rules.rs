@@ -40,6 +40,10 @@ pub(super) const SOFTEST: f64 = std::f64::consts::SQRT_2;
 /// Least sound speed over the speed that the flow may reach: what strikes a wall head-on at
 /// half its own sound loses half its volume; at twice it, it need not be head-on.
 pub(super) const SLOWEST_SOUND: f64 = 0.5;
+/// Least sound speed over the speed of a prescribed motion, √6: a wall of that speed v that
+/// is driven into the flow sends off a shock of speed U, U (U − v) = c² by (3), behind which
+/// a third of the volume is gone at U = 3 v.
+pub(super) const SLOWEST_SOUND_DRIVEN: f64 = 2.449_489_742_783_178;
 /// Largest overlap of a body at rest on one vertex, over its sphero radius.
 pub(super) const DEEPEST_AT_REST: f64 = 0.5;
 /// Largest overlap of a body that strikes with one vertex as fast as it starts or

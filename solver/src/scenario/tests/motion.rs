@@ -1,6 +1,6 @@
 //! The prescribed motion of a body.
 
-use super::{accepted, check, with};
+use super::{accepted, check, refused, set, with};
 use crate::motion::Velocities;
 use crate::scenario::{Motion, Scenario};
 use nalgebra::Vector3;
@@ -123,4 +123,35 @@ fn a_body_moves_in_one_way_only() {
         ),
     ]);
     accepted(&with("/bodies/0", body("velocity_m_s", json!([0, 0, 0]))));
+}
+
+// Driven at 1/√6 of its sound a wall takes a third of the volume of what is before it: 2.5 m/s
+// at 6.12 m/s, or at E = 3 (1 − 2ν) ρ c² = 67.5 kPa. It may move as fast as it likes where
+// the stiffness is left to the program, or without a flow.
+#[test]
+fn a_motion_is_slower_than_sound() {
+    const SOUND: &str = "/numerics/sound_speed_m_s";
+    let driven = |pointer: &str, value: Value| {
+        let mut scenario = with(pointer, value);
+        let times = json!({"times_s": [0, 0.1], "velocity_m_s": [[0, 0, 0], [1.5, 0, -2]]});
+        set(&mut scenario, "/bodies/0/motion", times);
+        scenario
+    };
+    let found = refused(&driven(SOUND, json!(6.12)));
+    assert_eq!((found.len(), found[0].pointer.as_str()), (1, SOUND));
+    assert_eq!(found[0].allowed, "x >= 6.12373, or null");
+    assert_eq!(found[0].unit.as_deref(), Some("m/s"));
+    let detail = &found[0].detail;
+    assert!(
+        detail.contains("bodies[0].motion, which reaches 2.5 m/s"),
+        "{detail}"
+    );
+    accepted(&driven(SOUND, json!(6.13)));
+    let modulus = "/flow/material/youngs_modulus_pa";
+    assert_eq!(refused(&driven(modulus, json!(6.7e4)))[0].pointer, modulus);
+    accepted(&driven(modulus, json!(6.8e4)));
+    accepted(&driven(SOUND, json!(null)));
+    let mut alone = driven(SOUND, json!(0.1));
+    set(&mut alone, "/flow", json!(null));
+    accepted(&alone);
 }
