@@ -34,7 +34,7 @@ pub const KEPT_OFF: f64 = 0.5;
 /// Depth behind a base plane from which on no point is moved farther behind [cells].
 pub const DEEPEST: f64 = 0.25;
 
-/// What a step's length makes of the rates.
+/// Rates of a step, by its length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tending {
     /// Shift over −h² ∇crowding.
@@ -66,8 +66,7 @@ impl Tending {
         }
     }
 
-    /// What becomes of a point that travelled `travel` cells, where the nodes
-    /// say this of it.
+    /// Change of a point that travelled `travel` cells, where the nodes say this of it.
     pub fn of(&self, seen: &Seen, travel: f64, spacing: &Vec3) -> Tended {
         let degree = if travel < self.full_travel {
             (travel / self.full_travel).powi(2)
@@ -92,7 +91,7 @@ impl Tending {
     }
 }
 
-/// What a point has and what the nodes tell it.
+/// State of a point, and of the nodes as it sees them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seen {
     /// V ρ_c/m − 1 now.
@@ -107,10 +106,10 @@ pub struct Seen {
     pub slope: Vec3,
 }
 
-/// What becomes of a point.
+/// Change of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tended {
-    /// Where it moves to, from where it is [m].
+    /// Shift from where it is [m].
     pub shift: Vec3,
     /// Its dilation.
     pub dilation: f64,
@@ -145,7 +144,7 @@ pub fn not_into_wall(
     shift
 }
 
-/// What changes a velocity [m/s] so that a point deep behind a base plane goes no deeper
+/// Change of a velocity [m/s] so that a point deep behind a base plane goes no deeper
 /// (equation 42c).
 pub fn stop_behind_wall(velocity: &Vec3, position: &Vec3, base: &[Plane], spacing: &Vec3) -> Vec3 {
     let mut change = Vec3::zeros();
@@ -159,14 +158,14 @@ pub fn stop_behind_wall(velocity: &Vec3, position: &Vec3, base: &[Plane], spacin
     change
 }
 
-/// What tending points does to their sums. A shift leaves the velocity.
+/// Changes of the points' sums by tending them. A shift leaves the velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Spread {
     /// Σ m δx [kg m].
     pub first_moment: Vec3,
     /// Σ m δx × v [N m s].
     pub angular: Vec3,
-    /// What walls gave those deep behind them.
+    /// Impulse of walls on those deep behind them.
     pub stopped: Impulse,
 }
 
@@ -249,7 +248,7 @@ fn make_room_for(body: &Body, nodes: &mut impl NodeAccess) {
     }
 }
 
-/// Where those of the blocks are, which come sorted, that lie between two along x: a large
+/// Range of those of the blocks, which come sorted, that lie between two along x: a large
 /// body holds millions of cells, most of them without a point near.
 fn blocks_along(blocks: &[BlockKey], first: i32, last: i32) -> Range<usize> {
     let start = blocks.partition_point(|block| block[0] < first);

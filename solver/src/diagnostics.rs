@@ -165,7 +165,7 @@ pub struct Audit {
     expected: Impulse,
     /// Accumulated sizes of those impulses, linear and angular.
     exchanged: (f64, f64),
-    /// What left by the open end.
+    /// Totals that left by the open end.
     left: Totals,
     /// Points that left by the open end.
     pub points_left: u64,
@@ -292,9 +292,9 @@ impl Audit {
         self.largest_rise
     }
 
-    /// What a rise is to be compared with where little moves: the size of the start's
-    /// energy, heights counted from the floor, the largest kinetic energy, and what
-    /// prescribed motions gave and took [J].
+    /// Energy that a rise is to be compared with where little moves: the size of the
+    /// start's energy, heights counted from the floor, the largest kinetic energy, and
+    /// what prescribed motions gave and took [J].
     pub fn energy_scale(&self) -> f64 {
         self.start_energy.abs() + self.largest_kinetic_energy + self.given_size
     }

@@ -1,4 +1,4 @@
-//! What can go wrong once a scenario is legal.
+//! Errors of a scenario that is legal.
 
 use std::fmt;
 use thiserror::Error;
@@ -23,7 +23,7 @@ pub enum SetupError {
     NotReducible {
         /// Which of the numerics.
         key: &'static str,
-        /// What it was asked to be.
+        /// Word that was to be read.
         word: &'static str,
         /// Why it can't.
         why: String,
@@ -139,7 +139,7 @@ pub enum StepError {
         limit_j: f64,
         /// Who moves fastest.
         mover: Mover,
-        /// How fast [m/s].
+        /// Speed [m/s].
         speed_m_s: f64,
     },
     /// A point is denser than its material can be.
@@ -256,7 +256,7 @@ pub enum RestoreError {
     /// The state belongs to another scenario.
     #[error("the saved state belongs to another scenario ({what} differs)")]
     OtherScenario {
-        /// What differs.
+        /// Thing that differs.
         what: &'static str,
     },
 }

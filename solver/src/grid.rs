@@ -21,7 +21,7 @@ pub const TILE: usize = BLOCK + WIDTH - 1;
 /// Nodes of a tile.
 pub const TILE_NODES: usize = TILE * TILE * TILE;
 
-/// What the points of one block give to each node they touch.
+/// Shares that the points of one block give to each node they touch.
 pub type Tile = [[f64; 4]; TILE_NODES];
 
 /// Index of a block along x, y, z.
@@ -122,7 +122,7 @@ impl Grid {
         }
     }
 
-    /// Where the nodes lie.
+    /// Lattice of the nodes.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }

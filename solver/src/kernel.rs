@@ -23,7 +23,7 @@ pub struct Stencil {
     pub offset: [[f64; WIDTH]; 3],
 }
 
-/// Where the nodes lie: node (i, j, k) at origin + (i hx, j hy, k hz).
+/// Lattice of the nodes: node (i, j, k) at origin + (i hx, j hy, k hz).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lattice {
     /// Node (0, 0, 0) [m].

@@ -40,13 +40,13 @@ pub struct Material {
 }
 
 impl Material {
-    /// Whether it is made of grains, which may part.
+    /// True if it is made of grains, which may part.
     pub fn is_granular(&self) -> bool {
         matches!(self.yielding, Yielding::Granular { .. })
     }
 
-    /// What it can't be denser than [kg/m³]: its grains, or twice the bulk at rest
-    /// if that is more; no bound for a solid.
+    /// Density that it can't exceed [kg/m³]: its grains, or twice the bulk at rest if
+    /// that is more; no bound for a solid.
     pub fn densest(&self) -> f64 {
         match self.yielding {
             Yielding::Granular { grain_density, .. } => grain_density.max(2.0 * self.bulk_density),

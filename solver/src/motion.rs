@@ -147,7 +147,7 @@ impl PrescribedMotion {
         rise
     }
 
-    /// Whether nothing moves from a time on.
+    /// True if nothing moves from a time on.
     pub fn rests_from(&self, time: f64) -> bool {
         let later = self.knots.iter().filter(|knot| knot.time > time);
         let later = later.map(|knot| knot.velocities);
@@ -156,7 +156,7 @@ impl PrescribedMotion {
             .all(|velocities| velocities == Velocities::NONE)
     }
 
-    /// Whether it never leaves the plane y = 0 nor turns out of it.
+    /// True if it never leaves the plane y = 0 nor turns out of it.
     pub fn stays_in_plane(&self) -> bool {
         self.knots.iter().all(|knot| {
             let Velocities { linear, angular } = &knot.velocities;

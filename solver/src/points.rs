@@ -90,7 +90,7 @@ pub struct Deformation {
     pub velocity_gradient: Mat3,
     /// Volume at the transfer [m³].
     pub transfer_volume: f64,
-    /// What it feels besides its own strain rate [1/s], a deviator.
+    /// Strain rate that it feels besides its own [1/s], a deviator.
     pub shared: Sym3,
 }
 

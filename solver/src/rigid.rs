@@ -11,7 +11,7 @@ mod inertia;
 
 pub use inertia::InverseInertia;
 
-/// What moves a body.
+/// Freedom of a body to move.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Freedom {
     /// Loads do.
@@ -30,7 +30,7 @@ pub enum Freedom {
 pub struct Prescribed {
     /// Centre at time 0 [m].
     pub start: Vec3,
-    /// How it moves from there.
+    /// Motion from there.
     pub motion: PrescribedMotion,
 }
 
@@ -52,13 +52,13 @@ pub struct Body {
     /// Rolling resistance: the torque of a contact is at most this × its
     /// equivalent radius × its normal force.
     pub rolling_friction: f64,
-    /// What moves it.
+    /// Freedom to move.
     pub freedom: Freedom,
-    /// How it stands.
+    /// State.
     pub state: BodyState,
 }
 
-/// How a body stands.
+/// State of a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BodyState {
     /// Centre of mass [m].
@@ -74,19 +74,19 @@ pub struct BodyState {
     pub springs: Vec<Vec3>,
     /// The same of their rolling springs; empty without rolling resistance.
     pub rolling: Vec<Vec3>,
-    /// What the walls do to it now.
+    /// Present load of the walls.
     pub wall_load: Load,
     /// Energy its wall contacts hold now [J].
     pub wall_energy: f64,
     /// Its deepest overlap with a wall now [m]; 0 off all walls.
     pub wall_overlap: f64,
-    /// What other free bodies do to it now.
+    /// Present load of other free bodies.
     pub body_load: Load,
-    /// What fixed bodies, and those with a prescribed motion, do to it now.
+    /// Present load of fixed bodies, and of those with a prescribed motion.
     pub barrier_load: Load,
-    /// How many bodies it touches now.
+    /// Number of bodies it touches now.
     pub touching_bodies: u32,
-    /// How long it has hardly moved, without a flow on it [s]; infinite while it
+    /// Time for which it has hardly moved, without a flow on it [s]; infinite while it
     /// stands as it did at the start, held by the walls.
     pub still_for: f64,
 }
@@ -164,7 +164,7 @@ impl Body {
         if self.is_free() { 1.0 / self.mass } else { 0.0 }
     }
 
-    /// Whether loads move it.
+    /// True if loads move it.
     pub fn is_free(&self) -> bool {
         match self.freedom {
             Freedom::Free | Freedom::InPlane => true,
@@ -228,12 +228,12 @@ impl Body {
         0.5 * (self.state.momentum.norm_squared() / self.mass + spinning)
     }
 
-    /// Whether it stands as it did at the start, held by the walls alone.
+    /// True if it stands as it did at the start, held by the walls alone.
     pub fn is_held(&self) -> bool {
         self.state.still_for == f64::INFINITY
     }
 
-    /// Whether a wall or another body touches it.
+    /// True if a wall or another body touches it.
     pub fn is_supported(&self) -> bool {
         self.state.wall_energy > 0.0 || self.state.touching_bodies > 0
     }
@@ -268,8 +268,8 @@ impl Body {
         }
     }
 
-    /// What no place of it exceeds while its momenta last, however it turns, or ever by
-    /// a prescribed motion [m/s]; 0 for a fixed body.
+    /// Speed that no place of it exceeds while its momenta last, however it turns, or
+    /// ever by a prescribed motion [m/s]; 0 for a fixed body.
     pub fn speed_bound(&self) -> f64 {
         match self.freedom {
             Freedom::Fixed => 0.0,

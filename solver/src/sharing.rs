@@ -1,10 +1,10 @@
 //! Strain rates shared with the points around (docs/method.md, equation 42a).
 //!
-//! Where points lie unevenly, the velocity gradient that each of them sees is off,
-//! by 3 % in steady shear with eight points a cell. Shear stress follows the
-//! direction of the strain rate, so part of it does not point against the flow, and
-//! friction comes out too weak. What the points around see is off another way: so a
-//! point feels a mixture of its own strain rate and their mean.
+//! Strain rates shared between points. Where these lie unevenly, the velocity gradient
+//! that each of them sees is off, by 3 % in steady shear with eight points a cell. Shear
+//! stress follows the direction of the strain rate, so part of it does not point against
+//! the flow, and friction comes out too weak. What the points around see is off another
+//! way: so a point feels a mixture of its own strain rate and their mean.
 
 use crate::math::Sym3;
 
@@ -14,7 +14,7 @@ const SHARE: f64 = 0.5;
 /// only trembles is left alone.
 const SLOW: f64 = 0.2;
 
-/// How strain rates are shared in a step.
+/// Sharing of strain rates in a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sharing {
     /// Share of the mean.
@@ -38,7 +38,7 @@ impl Sharing {
         }
     }
 
-    /// What a point of this speed [m/s] feels besides its own strain rate [1/s], a
+    /// Strain rate [1/s] that a point of this speed [m/s] feels besides its own, a
     /// deviator, where its nodes say that of the points around is `mean`.
     pub fn of(&self, own: &Sym3, mean: &Sym3, speed: f64) -> Sym3 {
         let degree = (speed / self.full_speed).min(1.0).powi(2);

@@ -1,4 +1,4 @@
-//! How far one sub-step and one step may go (docs/method.md, equations 25 and 27).
+//! Bounds of one sub-step and one step (docs/method.md, equations 25 and 27).
 
 /// Sub-step without a flow, where bodies choose their own [s].
 pub const SUBSTEP_WITHOUT_FLOW: f64 = 1e-3;
@@ -8,7 +8,7 @@ const BODY_TRAVEL: f64 = 0.4;
 /// A flow this many times faster than its own sound has blown up.
 const LARGEST_MACH_NUMBER: f64 = 20.0;
 
-/// What bounds the steps of a run.
+/// Bounds of a run's steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Limits {
     /// P-wave speed √(M/ρ) [m/s].
@@ -35,7 +35,7 @@ pub struct Pace {
     pub substep: f64,
     /// Sub-steps in the step.
     pub count: u32,
-    /// Whether the run ends with it.
+    /// True if the run ends with it.
     pub reaches_end: bool,
 }
 

@@ -145,7 +145,7 @@ fn scatter_means(
     );
 }
 
-/// What every point feels besides its own strain rate (equation 42a).
+/// Finds the strain rate that every point feels besides its own (equation 42a).
 pub fn share_strain_rates(
     grid: &Grid,
     points: &[Point],

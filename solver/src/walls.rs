@@ -23,7 +23,7 @@ pub use upright::{Ends, Upright};
 /// A wall's surface; the channel lies on the side its normal points to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
-    /// What people call it.
+    /// Name for people.
     pub name: &'static str,
     /// Unit normal into the channel.
     pub normal: Vec3,
@@ -73,8 +73,8 @@ impl Impulse {
         }
     }
 
-    /// What so many images together give, which lie symmetrically about the plane
-    /// y = 0: twice as much of two, and nothing across. One alone is what it is.
+    /// Sum over so many images, which lie symmetrically about the plane y = 0: twice as
+    /// much of two, and nothing across. One alone is what it is.
     pub fn of_images(&self, count: f64) -> Self {
         if count == 1.0 {
             return *self;
@@ -86,7 +86,7 @@ impl Impulse {
     }
 }
 
-/// What is left of a vector and its mirror images in the plane y = 0.
+/// Part that is left of a vector and its mirror images in the plane y = 0.
 pub fn in_plane(v: &Vec3) -> Vec3 {
     Vec3::new(v.x, 0.0, v.z)
 }

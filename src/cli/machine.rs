@@ -13,7 +13,7 @@ pub(super) struct Machine {
     pub(super) cores: usize,
     /// The best instruction set the fast path has code for.
     pub(super) instructions: String,
-    /// Whether the program was built without optimisation.
+    /// True if the program was built without optimisation.
     pub(super) debug_build: bool,
 }
 

@@ -44,13 +44,13 @@ impl Scope {
 }
 
 impl Token {
-    /// Whether `hash` is that of this token; takes equally long for any.
+    /// True if `hash` is that of this token; takes equally long for any.
     pub fn is(&self, hash: &blake3::Hash) -> bool {
         // Comparing hashes takes constant time; reading ours tells nothing.
         blake3::Hash::from_hex(&self.blake3).is_ok_and(|own| own == *hash)
     }
 
-    /// Whether it is good for this.
+    /// True if it is good for this.
     pub fn may(&self, scope: Scope) -> bool {
         self.scopes.contains(&scope)
     }

@@ -184,7 +184,7 @@ impl Jobs {
         self.store.last_event().await
     }
 
-    /// Whether the service stops.
+    /// True if the service stops.
     pub fn is_closing(&self) -> bool {
         self.bench.submissions().is_none()
     }
@@ -197,7 +197,7 @@ impl Jobs {
         self.store.census().await
     }
 
-    /// Whether a job could be taken in now: really writes.
+    /// Checks that a job could be taken in now: really writes.
     ///
     /// # Errors
     /// It could not.
@@ -205,7 +205,7 @@ impl Jobs {
         self.store.probe().await
     }
 
-    /// Whether the database answers.
+    /// Checks that the database answers.
     ///
     /// # Errors
     /// It does not.

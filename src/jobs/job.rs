@@ -77,7 +77,7 @@ impl JobStatus {
         }
     }
 
-    /// Whether a job never leaves it.
+    /// True if a job never leaves it.
     pub fn is_final(self) -> bool {
         matches!(self, Self::Successful | Self::Failed | Self::Dismissed)
     }

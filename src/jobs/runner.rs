@@ -27,8 +27,8 @@ pub trait Sink: Send {
     /// The sink's own; the run ends.
     fn progress(&mut self, progress: &Progress) -> Result<(), Self::Error>;
 
-    /// Whether it is time to save the run's state. Asked wherever that can be
-    /// done; a sink that keeps no states never wants one.
+    /// True if it is time to save the run's state. Asked wherever that can be done; a
+    /// sink that keeps no states never wants one.
     fn wants_state(&mut self) -> bool {
         false
     }
@@ -75,7 +75,7 @@ impl StopFlag {
         [Stop::AtTheEnd, Stop::OnceSaved, Stop::AtOnce][usize::from(self.0.load(Ordering::Relaxed))]
     }
 
-    /// Whether a stop was asked for.
+    /// True if a stop was asked for.
     pub fn is_raised(&self) -> bool {
         self.asked() > Stop::AtTheEnd
     }

@@ -20,7 +20,7 @@ pub(super) struct Watch<'a, S: Sink> {
     stop: &'a StopFlag,
     sink: &'a mut S,
     refused: Option<S::Error>,
-    /// Whether nothing can move any more.
+    /// True if nothing can move any more.
     ended_early: bool,
 }
 
@@ -41,7 +41,7 @@ impl<'a, S: Sink> Watch<'a, S> {
         }
     }
 
-    /// Whether the run ended because nothing can move any more.
+    /// True if the run ended because nothing can move any more.
     pub(super) fn ended_early(&self) -> bool {
         self.ended_early
     }

@@ -1,4 +1,4 @@
-//! What of the flow one sees from above.
+//! Flow as one sees it from above.
 
 use scree_solver::record::FlowSnapshot;
 use std::collections::BTreeMap;

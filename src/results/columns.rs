@@ -55,7 +55,7 @@ impl TrajectoryColumns {
         self.time_s.len()
     }
 
-    /// Whether no sample is held.
+    /// True if no sample is held.
     pub fn is_empty(&self) -> bool {
         self.time_s.is_empty()
     }

@@ -72,7 +72,7 @@ impl<'a> PlaneReader<'a> {
         Some(rows)
     }
 
-    /// Whether every byte was taken.
+    /// True if every byte was taken.
     pub(super) fn is_done(&self) -> bool {
         self.bytes.is_empty()
     }

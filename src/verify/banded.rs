@@ -25,7 +25,7 @@ pub(super) fn answer(document: &Value) -> Result<Outcome, Trouble> {
     answer.ok_or(Trouble::Never("none of the runs could be computed"))
 }
 
-/// What one run of a scenario comes to.
+/// Outcome of one run of a scenario.
 fn outcome(scenario: &Scenario) -> Result<Outcome, Trouble> {
     let mut run = Run::start(Scene::of(scenario)?)?;
     let mut recorder = Recorder::new(scenario);

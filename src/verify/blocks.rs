@@ -25,9 +25,9 @@ pub(super) struct Block {
     pub(super) cells_across: u32,
     /// Points per cell and axis.
     pub(super) per_cell: u32,
-    /// Whether it runs round instead of having a back wall and a front.
+    /// True if it runs round instead of having a back wall and a front.
     pub(super) endless: bool,
-    /// What it is made of.
+    /// Material.
     pub(super) material: Material,
     /// [m/s²], downward.
     pub(super) gravity: f64,

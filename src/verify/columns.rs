@@ -21,11 +21,11 @@ const LONGEST: f64 = 10.0;
 /// The front leaves this share of the mass beyond it.
 const FRONT_SHARE: f64 = 1e-3;
 
-/// What a column is made of. Densities and grain size are those of the beads: a
-/// run-out is free of the first, and friction without a rate of the second.
+/// Grains of a column. Densities and grain size are those of the beads: a run-out is free
+/// of the first, and friction without a rate of the second.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Grains {
-    /// What they are.
+    /// Name.
     pub(super) name: &'static str,
     /// Static and limiting friction. Grains yield before they slip on the floor:
     /// its friction is the limiting one.
@@ -51,7 +51,7 @@ impl Grains {
 pub(super) struct Column {
     /// Height over half width or radius.
     pub(super) aspect: f64,
-    /// What it is made of.
+    /// Grains that it is made of.
     pub(super) grains: Grains,
     /// Cells over half width or radius.
     pub(super) cells: u32,
@@ -67,7 +67,7 @@ pub(super) fn runout(grains: Grains, aspect: f64) -> String {
     format!("run-out, {}, a = {aspect}", grains.name)
 }
 
-/// How a column came to rest.
+/// Deposit of a column that came to rest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Deposit {
     /// (L∞ − L0)/L0 at the front.
@@ -92,8 +92,7 @@ impl Column {
         }
     }
 
-    /// What is asked of [`Column::answer`], an `oracle` standing beside every
-    /// run-out.
+    /// Questions to [`Column::answer`], an `oracle` standing beside every run-out.
     pub(super) fn questions(&self, oracle: f64) -> [Question; 4] {
         let of = format!("{}, a = {}", self.grains.name, self.aspect);
         let about = |words: &str| Question::new(format!("{words}, {of}"), "", oracle);

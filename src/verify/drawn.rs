@@ -10,7 +10,7 @@ const DURATION: f64 = 1.0;
 /// A scene and how fine it is to be computed.
 #[derive(Debug, Clone)]
 pub(super) struct Drawn {
-    /// What it is, in words.
+    /// Label in words.
     pub(super) label: String,
     /// The scenario, without a cell size.
     pub(super) scenario: Value,

@@ -1,4 +1,4 @@
-//! What a case finds: measured against oracle, and the verdict.
+//! Findings of a case: measured against oracle, and the verdict.
 
 use super::limit::Limit;
 use super::order::Order;
@@ -8,19 +8,19 @@ use serde::Serialize;
 /// Question, answer by the oracle, and what is asked of the computation.
 #[derive(Debug, Clone, Serialize)]
 pub struct Question {
-    /// What is measured.
+    /// Quantity that is measured.
     pub quantity: String,
     /// Its unit.
     pub unit: &'static str,
     /// The right answer.
     pub oracle: f64,
-    /// How the error is counted.
+    /// Way in which the error is counted.
     pub error: Error,
     /// Largest error allowed; none if it is only reported.
     pub bar: Option<f64>,
 }
 
-/// How an error is counted.
+/// Way in which an error is counted.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Error {
@@ -30,7 +30,7 @@ pub enum Error {
     Absolute,
     /// As a share of something else.
     Over {
-        /// What it is called.
+        /// Name.
         of: &'static str,
         /// Its size, in the quantity's unit.
         size: f64,
@@ -74,7 +74,7 @@ impl Question {
     }
 }
 
-/// How fine something was computed.
+/// Resolution of a computation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Resolution {
     /// In words.
@@ -102,7 +102,7 @@ impl Resolution {
     }
 }
 
-/// What error and bar say.
+/// Verdict by error and bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -128,12 +128,12 @@ impl Verdict {
 /// One measured value.
 #[derive(Debug, Clone, Serialize)]
 pub struct Finding {
-    /// What was asked.
+    /// Question that was asked.
     #[serde(flatten)]
     pub question: Question,
-    /// How fine it was computed.
+    /// Resolution of the computation.
     pub resolution: Resolution,
-    /// What came out; none if the run failed.
+    /// Value that came out; none if the run failed.
     pub measured: Option<f64>,
     /// Its error as the question counts it; none if the run failed.
     pub measured_error: Option<f64>,
@@ -141,7 +141,7 @@ pub struct Finding {
     pub failure: Option<String>,
     /// Computed from error and bar.
     pub verdict: Verdict,
-    /// What it cost.
+    /// Cost.
     pub cost: Cost,
 }
 
@@ -222,7 +222,7 @@ impl Findings {
         self.limits.push(limit);
     }
 
-    /// How many verdicts of each kind.
+    /// Number of verdicts of each kind.
     pub fn count(&self) -> Count {
         let verdicts = self.values.iter().map(|finding| finding.verdict);
         let orders = self.orders.iter().map(|order| order.verdict);
@@ -244,7 +244,7 @@ impl Findings {
     }
 }
 
-/// How many verdicts of each kind.
+/// Number of verdicts of each kind.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Count {
     /// Within the bar.

@@ -1,4 +1,4 @@
-//! Where a quantity goes as cells get finer, from its three finest values.
+//! Limit of a quantity as cells get finer, from its three finest values.
 
 use super::findings::Finding;
 use serde::Serialize;
@@ -21,7 +21,7 @@ pub struct Limit {
     pub found: Option<Extrapolated>,
 }
 
-/// What value = limit + C · sizeᵒʳᵈᵉʳ gives through three values.
+/// Extrapolation by value = limit + C · sizeᵒʳᵈᵉʳ through three values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Extrapolated {
     /// Observed order.
@@ -52,8 +52,8 @@ impl Limit {
     }
 }
 
-/// Where these sizes and values go; the finest value where they don't settle, no
-/// number where there is none.
+/// Limit of these sizes and values; the finest value where they don't settle, no number
+/// where there is none.
 pub(super) fn limit_or_finest(places: &[(f64, f64)]) -> f64 {
     let finest = places.last().map_or(f64::NAN, |place| place.1);
     extrapolated(places).map_or(finest, |found| found.limit)

@@ -31,7 +31,7 @@ mod stream;
 use findings::{Count, Findings};
 use serde::{Serialize, Serializer};
 
-/// How much to compute.
+/// Amount of computation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Effort {
@@ -54,20 +54,20 @@ impl Effort {
 /// A case with a trusted answer.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Case {
-    /// What it is called on the command line.
+    /// Name on the command line.
     pub name: &'static str,
     /// Its number in the list of cases.
     pub number: &'static str,
-    /// What it is, in one line.
+    /// Title in one line.
     pub title: &'static str,
-    /// Where the answer comes from.
+    /// Source of the answer.
     pub source: &'static str,
-    /// How it is computed.
+    /// Way in which it is computed.
     #[serde(rename = "not_yet_expressible", serialize_with = "reason")]
     pub how: How,
 }
 
-/// How a case is computed.
+/// Way in which a case is computed.
 #[derive(Debug, Clone, Copy)]
 pub enum How {
     /// By this.
@@ -89,7 +89,7 @@ fn reason<S: Serializer>(how: &How, serializer: S) -> Result<S::Ok, S::Error> {
 pub struct Verified {
     /// Which case.
     pub case: Case,
-    /// What was found.
+    /// Findings.
     pub found: Findings,
 }
 

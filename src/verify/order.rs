@@ -6,7 +6,7 @@ use serde::Serialize;
 /// Resolutions an order is taken over, at least.
 const FEWEST: usize = 3;
 
-/// How fast the error of a quantity shrinks with the size of cells or steps.
+/// Rate at which the error of a quantity shrinks with the size of cells or steps.
 #[derive(Debug, Clone, Serialize)]
 pub struct Order {
     /// Whose error.

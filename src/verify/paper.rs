@@ -26,7 +26,7 @@ pub(super) fn scene(cells: f64) -> Value {
     scene
 }
 
-/// What the solver chooses for the steps of the scene.
+/// Limits that the solver chooses for the steps of the scene.
 ///
 /// # Errors
 /// The scene is refused.

@@ -51,7 +51,7 @@ pub(super) struct Plate {
     pub(super) friction: f64,
     /// Velocity after the ramp [m/s].
     pub(super) velocity: Vec3,
-    /// How long it takes to get there from rest [s].
+    /// Time that it takes to get there from rest [s].
     pub(super) ramp: f64,
 }
 

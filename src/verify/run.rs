@@ -37,7 +37,7 @@ pub struct Answer<const N: usize> {
     pub cost: Cost,
 }
 
-/// What a measurement cost.
+/// Cost of a measurement.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Cost {
     /// Wall time [s].
@@ -49,7 +49,7 @@ pub struct Cost {
 /// A simulation with a clock beside it.
 #[derive(Debug)]
 pub struct Run {
-    /// What runs.
+    /// Simulation that runs.
     pub simulation: Simulation,
     started: Instant,
 }

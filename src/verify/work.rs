@@ -11,11 +11,11 @@ use serde_json::{Value, json};
 /// A picture's worth of runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagram {
-    /// What it is called as a file.
+    /// Name as a file.
     pub name: &'static str,
-    /// What is shown.
+    /// Quantity that is shown.
     pub title: String,
-    /// What errors are counted from.
+    /// Values that errors are counted from.
     pub against: String,
     /// Which time recorded runs took, in words; none: wall time, here and now.
     pub recorded: Option<String>,
@@ -154,7 +154,7 @@ fn cube(effort: Effort) -> [Diagram; 2] {
 
 type Motion = Result<Answer<4>, Trouble>;
 
-/// How the cube's scene is computed.
+/// Choices by which the cube's scene is computed.
 #[derive(Debug, Clone, Copy)]
 struct Choice {
     /// Sound speed over what the solver chooses, which is ten times the flow's.

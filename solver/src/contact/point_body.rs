@@ -60,11 +60,11 @@ pub struct ContactTime {
 
 /// The points of a flow as bodies meet them within a step.
 pub trait PointAccess: Sync {
-    /// Where a point is kept, from one transfer to the next.
+    /// Place of a point in memory, from one transfer to the next.
     type Place: Copy + Send + Sync;
     /// Finds the points that were within a box at the transfer.
     fn find_within(&self, around: &Around, found: &mut Vec<Self::Place>);
-    /// Where a point was at the transfer [m].
+    /// Position of a point at the transfer [m].
     fn resting(&self, place: Self::Place) -> Vec3;
     /// Nodes that a point exchanges momentum with until the next transfer.
     fn stencil(&self, place: Self::Place) -> PointStencil;
@@ -84,14 +84,14 @@ pub struct Moving {
 /// A point that may touch a body within the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate<P> {
-    /// Where the point is kept.
+    /// Place of the point in memory.
     pub place: P,
     /// Share of the step before which it is too far off to touch.
     earliest: f64,
 }
 
-/// How far off a point can be at a transfer and still touch a body before the
-/// next one.
+/// Distance at which a point can be at a transfer and still touch a body before the next
+/// one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach {
     /// Radius of a point's sphere [m].
@@ -103,7 +103,7 @@ pub struct Reach {
 /// Contact forces of one sub-step, on points that are kept at places `P`.
 #[derive(Debug)]
 pub struct Loads<P> {
-    /// What the flow does to every body.
+    /// Loads of the flow on every body.
     pub on_bodies: Vec<FlowLoad>,
     /// Points in touch and the force on them [N]; one of several bodies comes
     /// several times.
@@ -133,7 +133,7 @@ impl<P> Default for Loads<P> {
     }
 }
 
-/// What the flow does to one body.
+/// Load of the flow on one body.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FlowLoad {
     /// Force, and torque about the centre of mass.

@@ -19,12 +19,12 @@ const DISORDER: u32 = 8;
 /// indices of its nodes stay whole numbers: it is far outside of every channel.
 const FARTHEST: i32 = i32::MAX / (4 * BLOCK as i32);
 
-/// What is known of a block's points since they were last moved.
+/// Knowledge of a block's points since they were last moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct End {
     /// Speed of the fastest [m/s].
     pub fastest: f32,
-    /// Whether every number is a number.
+    /// True if every number is a number.
     pub finite: bool,
     /// V ρ_c/m − 1 of the densest, at most 0.
     pub lowest_dilation: f32,
@@ -55,12 +55,12 @@ pub struct Block {
     /// last sort.
     runs: u32,
     sorted_runs: u32,
-    /// What the last pass found.
+    /// Findings of the last pass.
     #[serde(skip)]
     end: End,
     #[serde(skip)]
     spread: Spread,
-    /// Whether some of its points may have left it.
+    /// True if some of its points may have left it.
     #[serde(skip)]
     left: bool,
 }
@@ -121,7 +121,7 @@ impl Block {
         );
     }
 
-    /// What is known of its points since they were last moved.
+    /// Knowledge of its points since they were last moved.
     pub fn end(&self) -> End {
         self.end
     }
@@ -131,7 +131,7 @@ impl Block {
         (self.end, self.spread) = (end, spread);
     }
 
-    /// What spreading its points did to their sums.
+    /// Changes of its points' sums by spreading them.
     pub fn spread(&self) -> Spread {
         self.spread
     }
@@ -258,7 +258,7 @@ impl Pool {
     }
 }
 
-/// Whether a coordinate belongs to the block [cells].
+/// True if a coordinate belongs to the block [cells].
 fn is_settled(x: f32) -> bool {
     x >= 0.5 && x < BLOCK as f32 + 0.5
 }

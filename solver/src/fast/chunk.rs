@@ -30,8 +30,8 @@ pub struct Chunk {
     pub mass: Lanes,
     /// Identity, kept for life.
     pub id: [u32; LANES],
-    /// What a point feels besides its own strain rate within a step, as the
-    /// deviator [1/s].
+    /// Strain rate that a point feels besides its own within a step, as the deviator
+    /// [1/s].
     #[serde(skip)]
     pub shared: [Lanes; 6],
 }

@@ -1,5 +1,5 @@
-//! What a sub-step of one point costs, counted from the formulas: for judging how
-//! close to the machine's limits the fast path comes.
+//! Cost of a sub-step of one point, counted from the formulas: for judging how close to
+//! the machine's limits the fast path comes.
 
 /// Floating point operations of one point in one sub-step; a fused multiply-add
 /// counts two, the fourth node of a row (weight zero) does not count.

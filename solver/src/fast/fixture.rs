@@ -1,4 +1,4 @@
-//! What the tests of the fast path share.
+//! Fixtures that the tests of the fast path share.
 
 use super::instructions::Instructions;
 use crate::kernel::Lattice;

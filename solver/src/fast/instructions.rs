@@ -8,7 +8,7 @@ use std::fmt;
 /// differ in the last place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Instructions {
-    /// What every processor of this kind has.
+    /// Instructions that every processor of this kind has.
     Baseline,
     /// AVX2 and FMA.
     Avx2,
@@ -38,8 +38,8 @@ impl Instructions {
         Self::Baseline
     }
 
-    /// Whether they round once where a product is added, or twice: a run goes on with
-    /// the same bits under instructions that do alike.
+    /// True if they round once where a product is added, false if twice: a run goes on with the
+    /// same bits under instructions that do alike.
     pub fn fuse(self) -> bool {
         self > Self::Baseline
     }

@@ -301,7 +301,7 @@ impl NodeAccess for Nodes {
     }
 }
 
-/// What a sub-step adds to every node with mass.
+/// Changes that a sub-step adds to every node with mass.
 struct Push {
     /// Δt g, after a zero [m/s].
     fall: [f32; 4],

@@ -8,12 +8,12 @@ use crate::material::Material;
 use crate::math::{Mat3, Sym3, Vec3};
 use crate::points::Point;
 
-/// What the numbers of a block refer to.
+/// Scales that the numbers of a block refer to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Packing {
-    /// Where the nodes lie.
+    /// Lattice of the nodes.
     pub lattice: Lattice,
-    /// What the points are made of.
+    /// Material of the points.
     pub material: Material,
 }
 

@@ -1,5 +1,5 @@
-//! What a block of points does: give mass, momentum and force to its tile, take
-//! a sub-step, take the motion back.
+//! Passes over a block of points: give mass, momentum and force to its tile, take a
+//! sub-step, take the motion back.
 
 use super::blocks::Block;
 use super::chunk::{Chunk, LANES, Lanes};
@@ -50,16 +50,16 @@ impl EndTiles {
     }
 }
 
-/// How a step ends.
+/// End of a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Ending<'a> {
-    /// What the points are made of.
+    /// Law of the points' material.
     pub law: &'a Law,
-    /// Where the nodes lie.
+    /// Lattice of the nodes.
     pub lattice: &'a Lattice,
     /// Length of the last sub-step [s].
     pub dt: f32,
-    /// How the points are kept evenly spread.
+    /// Rates at which the points are kept evenly spread.
     pub tending: &'a Tending,
     /// The base planes.
     pub shelters: &'a [Shelter],
@@ -94,7 +94,7 @@ pub enum Part {
 /// Both of them.
 pub const PARTS: [Part; 2] = [Part::First, Part::Second];
 
-/// What nodes show a block of points at a transfer.
+/// Motion that nodes show a block of points at a transfer.
 pub struct Shown {
     /// Mass and velocity.
     pub motion: Tile,
@@ -145,8 +145,8 @@ pub fn give_strain_rates<S: Simd>(simd: S, block: &mut Block, part: Part, tile: 
     }
 }
 
-/// What the points feel besides their own strain rates (equation 42a;
-/// `sharing.rs`).
+/// Finds the strain rates that the points feel besides their own strain rates (equation
+/// 42a; `sharing.rs`).
 #[inline(always)]
 pub fn share_strain_rates<S: Simd>(simd: S, block: &mut Block, shown: &Shown, sharing: &Sharing) {
     let (mut first, mut second) = (Quads::EMPTY, Quads::EMPTY);

@@ -327,7 +327,7 @@ fn loaded<S: Simd>(simd: S, tile: &Tile, base: u32) -> Rows<S> {
     rows
 }
 
-/// What sixteen points give to their nodes: constant + Σ slope δ, weighted.
+/// Shares that sixteen points give to their nodes: constant + Σ slope δ, weighted.
 pub struct Given {
     /// Independent of the node.
     pub constant: Quads,

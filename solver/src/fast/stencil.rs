@@ -65,7 +65,7 @@ impl Stencils {
         runs
     }
 
-    /// How many lanes from `lane` on, below `end`, have its lowest node.
+    /// Number of lanes from `lane` on that, below `end`, have its lowest node.
     #[inline(always)]
     pub fn run(&self, lane: usize, end: usize) -> usize {
         let base = self.base[lane];

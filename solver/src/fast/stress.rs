@@ -234,7 +234,7 @@ impl<S: Simd> Deformed<S> {
     }
 }
 
-/// What a sub-step made of sixteen points.
+/// Result of a sub-step of sixteen points.
 pub struct Strained<S: Simd> {
     /// F̂ after it.
     pub deformed: Deformed<S>,

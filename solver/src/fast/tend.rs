@@ -8,8 +8,8 @@ use crate::math::Vec3;
 use crate::walls::{Impulse, Plane};
 use fearless_simd::{f32x16, prelude::*};
 
-/// What points have and what the nodes tell them; as in `crowding.rs`, but the
-/// slope per cell.
+/// State of points, and of the nodes as they see them; as in `crowding.rs`, but the slope
+/// per cell.
 pub struct Seen<S: Simd> {
     /// V ρ_c/m − 1 now.
     pub dilation: f32x16<S>,
@@ -23,9 +23,9 @@ pub struct Seen<S: Simd> {
     pub slope: [f32x16<S>; 3],
 }
 
-/// What becomes of points.
+/// Changes of points.
 pub struct Tended<S: Simd> {
-    /// Where they move to, from where they are [cells].
+    /// Shift from where they are [cells].
     pub shift: [f32x16<S>; 3],
     /// Their dilation.
     pub dilation: f32x16<S>,
@@ -33,7 +33,7 @@ pub struct Tended<S: Simd> {
     pub rise: f32x16<S>,
 }
 
-/// What becomes of points that travelled so far [cells].
+/// Changes of points that travelled so far [cells].
 #[inline(always)]
 pub fn tend<S: Simd>(
     simd: S,
@@ -159,7 +159,7 @@ impl Shelter {
     }
 }
 
-/// What tending the points of a block does to their sums, chunk by chunk.
+/// Changes of a block's sums by tending its points, chunk by chunk.
 pub struct SpreadSums {
     first_moment: [Lanes; 3],
     angular: [Lanes; 3],

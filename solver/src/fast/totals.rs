@@ -115,8 +115,7 @@ fn add_elastic(sums: &mut Sums, chunk: &Chunk, packing: &Packing) {
     }
 }
 
-/// What is to be known of a block's points between two steps, found chunk by
-/// chunk.
+/// Knowledge of a block's points between two steps, found chunk by chunk.
 pub struct EndSums {
     squared: Lanes,
     flaw: Lanes,
@@ -150,7 +149,7 @@ impl EndSums {
         }
     }
 
-    /// What was found.
+    /// Findings.
     #[inline(always)]
     pub fn end(self) -> End {
         End {
@@ -161,7 +160,7 @@ impl EndSums {
     }
 }
 
-/// What is to be known of a block's points between two steps.
+/// Knowledge of a block's points between two steps.
 pub fn end_of(block: &Block) -> End {
     let mut sums = EndSums::NONE;
     for (chunk, _) in block.chunks() {

@@ -1,4 +1,4 @@
-//! What of a scene could be left out, and whether it is.
+//! Parts of a scene that could be left out, and those that are.
 
 use crate::contact::island;
 use crate::scenario::{Ending, Scenario};
@@ -11,13 +11,13 @@ const ROUNDING: &str = "exact but for rounding";
 /// Something that could be left out of a computation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
-    /// What would be done.
+    /// Thing that would be done.
     pub what: String,
-    /// Whether it is.
+    /// True if it is done.
     pub taken: bool,
     /// Why, or why not.
     pub why: String,
-    /// What error it makes.
+    /// Error that it makes.
     pub error: String,
     /// The field that decides otherwise, as a JSON pointer; null: there is none.
     pub decided_by: Option<String>,

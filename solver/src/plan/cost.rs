@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 /// Blocks a flow comes to occupy while it spreads, over those of its release.
 const SPREADING: f64 = 2.0;
 
-/// What a run will cost.
+/// Cost of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
     /// Cell size [m].

@@ -1,4 +1,4 @@
-//! How a flow is expected to go: roughly, for what a run will cost.
+//! Course that a flow is expected to take: roughly, for what a run will cost.
 
 use crate::rigid::Body;
 use crate::scenario::Scenario;
@@ -6,10 +6,10 @@ use crate::simulation::Outline;
 
 /// Acceleration of a front that collapses, over gravity.
 const COLLAPSE: f64 = 0.25;
-/// How long a release that does not slide collapses, over √(h/g).
+/// Time that a release that does not slide takes to collapse, over √(h/g).
 const COLLAPSES_FOR: f64 = 4.5;
 
-/// What is expected of a flow: a block that slides on the incline and is stopped by
+/// Course expected of a flow: a block that slides on the incline and is stopped by
 /// friction on the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Course {

@@ -1,5 +1,5 @@
-//! What a run will cost, and what of its scene it computes, found out before
-//! anything runs (docs/method.md, section 12; docs/plan.md).
+//! Cost of a run, and the parts of its scene that it computes, found out before anything
+//! runs (docs/method.md, section 12; docs/plan.md).
 
 mod choices;
 mod cost;
@@ -13,12 +13,13 @@ use crate::scenario::Scenario;
 use crate::simulation::Outline;
 use serde::{Deserialize, Serialize};
 
-/// What a run will compute, what it will leave out and why, and what it will cost.
+/// Plan of a run: what it will compute, what it will leave out and why, and what it will
+/// cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// Each thing that could be left out.
     pub choices: Vec<Choice>,
-    /// What the run will cost.
+    /// Cost of the run.
     pub cost: Cost,
 }
 
@@ -35,7 +36,7 @@ pub fn of(scenario: &Scenario) -> Result<Plan, SetupError> {
     })
 }
 
-/// What a scenario's run will cost.
+/// Cost of a scenario's run.
 ///
 /// # Errors
 /// As for [`of`].

@@ -15,11 +15,11 @@ pub struct Band {
     pub high: Option<f64>,
     /// Order at which the values were seen to converge; null if they don't.
     pub order: Option<f64>,
-    /// What the band rests on.
+    /// Basis of the band.
     pub basis: Basis,
 }
 
-/// What a band rests on.
+/// Basis of a band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Basis {
@@ -79,14 +79,14 @@ pub struct AccuracyReport {
     /// The same of their wall times; null if the answer took no time. Larger in small
     /// scenes, where a step costs more than its points.
     pub extra_wall_cost: Option<f64>,
-    /// What came of the target; null if none was given.
+    /// Report on the target; null if none was given.
     pub target: Option<TargetReport>,
 }
 
 /// One of the runs behind a band.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunCost {
-    /// What it was for.
+    /// Role of the run.
     pub role: Role,
     /// Cell size [m].
     pub cell_size_m: f64,
@@ -102,7 +102,7 @@ pub struct RunCost {
     pub failure: Option<String>,
 }
 
-/// What a run is for.
+/// Role of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
@@ -114,18 +114,18 @@ pub enum Role {
     Answer,
 }
 
-/// Whether the target was met.
+/// Report on a target: the error asked for and the one reached.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TargetReport {
     /// The quantity it is about.
     pub quantity: Quantity,
     /// Index of the body whose quantity that is; null for the flow's.
     pub body: Option<u32>,
-    /// How far the band may reach from the value, over it, as asked.
+    /// Distance that the band may reach from the value, over it, as asked.
     pub asked: f64,
     /// The same, as reached; null if the band has an open end or the value is 0.
     pub reached: Option<f64>,
-    /// Whether it is no more than asked.
+    /// True if it is no more than asked.
     pub met: bool,
     /// Why it was not met; null if it was.
     pub reason: Option<String>,

@@ -1,4 +1,4 @@
-//! What acted on a body since the last sample.
+//! Loads on a body since the last sample.
 
 use crate::contact::island::BodyReport;
 use crate::math::Vec3;

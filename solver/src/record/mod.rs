@@ -1,6 +1,5 @@
-//! What a run leaves behind: samples of every body, snapshots of the flow, and
-//! the outcome. Serialised, these are the JSON of the service. Definitions:
-//! docs/method.md, section 9.
+//! Records of a run: samples of every body, snapshots of the flow, and the outcome.
+//! Serialised, these are the JSON of the service. Definitions: docs/method.md, section 9.
 
 mod bars;
 mod bed;
@@ -23,7 +22,7 @@ pub use recorder::Recorder;
 pub use rest::EndedEarly;
 use serde::{Deserialize, Serialize};
 
-/// How a body moves.
+/// Mode of a body's motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Mode {
@@ -67,7 +66,7 @@ pub struct BodySample {
     /// Share of the body's height below the surface of the flow round it, 0..1, at
     /// the end of the step that holds the sample time.
     pub submerged_fraction: f64,
-    /// How the body moves.
+    /// Mode of the body's motion.
     pub mode: Mode,
 }
 
@@ -98,7 +97,7 @@ pub struct FlowSnapshot {
 /// Largest number of points a [`FlowSnapshot`] keeps.
 pub const SNAPSHOT_POINTS: usize = 5_000;
 
-/// What the recorder hands on while a run goes.
+/// Record that the recorder hands on while a run goes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Record {
     /// Of every sample time, in order.
@@ -131,7 +130,7 @@ pub struct BodyOutcome {
     pub final_orientation: [f64; 4],
     /// Bands of all but the orientation; `None` unless asked for.
     pub error_bars: Option<BodyBars>,
-    /// What it weighs and how it resists turning.
+    /// Mass and resistance to turning.
     pub mass_properties: MassProperties,
 }
 
@@ -165,7 +164,7 @@ pub struct FlowOutcome {
     pub error_bars: Option<FlowBars>,
 }
 
-/// Whether the run can be trusted.
+/// Audit of a run, which says how far it can be trusted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Audit {
     /// |mass now + mass left − mass released| / mass released.
@@ -195,7 +194,7 @@ pub struct Audit {
     pub points_lost: u64,
 }
 
-/// What the answer cost.
+/// Cost of the answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
     /// Material points at the start.
@@ -225,14 +224,14 @@ pub struct Outcome {
     pub bodies: Vec<BodyOutcome>,
     /// The flow.
     pub flow: FlowOutcome,
-    /// Whether to trust it.
+    /// Audit, which says how far to trust it.
     pub audit: Audit,
-    /// What it cost, runs behind bands apart.
+    /// Cost, runs behind bands apart.
     pub cost: Cost,
     /// That the run ended before its duration; null if it did not.
     pub ended_early: Option<EndedEarly>,
-    /// What was computed, what was left out and why, as planned before the run.
+    /// Plan made before the run: what was computed, what was left out and why.
     pub plan: Option<Plan>,
-    /// What the bands rest on; `None` unless asked for.
+    /// Basis of the bands; `None` unless asked for.
     pub accuracy: Option<AccuracyReport>,
 }

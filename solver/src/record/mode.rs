@@ -1,4 +1,4 @@
-//! How a body moves, in a word.
+//! Mode of a body's motion, in a word.
 
 use super::Mode;
 use super::means::Means;
@@ -10,14 +10,14 @@ const SUPPORTED_SHARE: f64 = 0.5;
 /// The flow carries a body of which it bears this share of the weight.
 const CARRIED_SHARE: f64 = 0.5;
 
-/// What is known of how a body moves at a sample time.
+/// Knowledge of a body's motion at a sample time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Movement<'a> {
-    /// Whether it is at rest.
+    /// True if it is at rest.
     pub(super) at_rest: bool,
-    /// Whether it rolls, if it is on anything.
+    /// True if it rolls, if it is on anything.
     pub(super) rolls: bool,
-    /// What acted on it since the last sample.
+    /// Loads on it since the last sample.
     pub(super) means: &'a Means,
     /// Its weight along the normal of the bed, which points up [N].
     pub(super) weight: Vec3,
@@ -39,7 +39,7 @@ pub(super) fn mode(body: &Body, movement: &Movement) -> Mode {
     }
 }
 
-/// Whether the flow bears a body, and more of it than walls and other bodies do.
+/// True if the flow bears a body, and more of it than walls and other bodies do.
 fn is_carried(means: &Means, weight: &Vec3) -> bool {
     let borne = |impulse: &Vec3| means.mean(impulse).dot(weight) / weight.norm_squared();
     let flow = borne(&means.flow.force);
@@ -60,8 +60,8 @@ mod tests {
     use crate::rigid::Load;
     use crate::rigid::fixture::cuboid;
 
-    /// What acted for a second on a body of 1 N, on something for such a share of it,
-    /// its weight borne by flow and walls in these shares.
+    /// Means over a second of a body of 1 N, on something for such a share of it, its
+    /// weight borne by flow and walls in these shares.
     fn acted(supported: f64, [flow, walls]: [f64; 2]) -> Means {
         let up = |force: f64| Load {
             force: Vec3::z() * force,

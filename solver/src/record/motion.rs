@@ -1,11 +1,11 @@
-//! How a body stands and moves at one instant, between two sub-steps too.
+//! State of a body at one instant, between two sub-steps too.
 
 use crate::math::Vec3;
 use crate::rigid::Body;
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 
-/// How a body stands and moves.
+/// State and motion of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Motion {
     /// Centre [m].

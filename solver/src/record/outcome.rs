@@ -1,4 +1,4 @@
-//! How the outcome's quantities come about.
+//! Quantities of the outcome.
 
 use super::motion::Motion;
 use super::scale::Scale;
@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// The front leaves this share of the mass beyond it.
 const FRONT_SHARE: f64 = 1e-3;
 
-/// What one body did so far.
+/// History of one body so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct BodyHistory {
     scale: Scale,
@@ -87,22 +87,22 @@ impl BodyHistory {
         (now >= onset).then_some(self.time + share * (time_s - self.time))
     }
 
-    /// How the body moved at the end of the last sub-step.
+    /// Motion of the body at the end of the last sub-step.
     pub(super) fn last(&self) -> &Motion {
         &self.last
     }
 
-    /// Whether it rolls, if it is on anything.
+    /// True if it rolls, if it is on anything.
     pub(super) fn rolls(&self) -> bool {
         self.turning.rolls()
     }
 
-    /// Whether it has been at rest for the rest time until now [s].
+    /// True if it has been at rest for the rest time until now [s].
     pub(super) fn rests_long(&self, body: &Body, time_s: f64) -> bool {
         self.settling.rests_long(&measure(self.scale, body), time_s)
     }
 
-    /// Whether it is at rest when it moves like this.
+    /// True if it is at rest when it moves like this.
     pub(super) fn is_at_rest(&self, body: &Body, motion: &Motion) -> bool {
         self.settling.rests() || measure(self.scale, body).is_slow(motion)
     }

@@ -1,4 +1,4 @@
-//! Whether nothing can move a body or the front any more (docs/method.md,
+//! Criterion that nothing can move a body or the front any more (docs/method.md,
 //! equations 61–63).
 
 use super::scale::Scale;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 /// Points slower than this are taken to stay [√(g h), h the height of the release].
 const STILL: f64 = 1e-3;
-/// How far the front may still go [cells].
+/// Way that the front may still go [cells].
 const FRONT_BOUND: f64 = 0.1;
 /// The energy that reaches a body must stay below this share of what tips it over.
 const TIPPING_SHARE: f64 = 0.5;
@@ -24,20 +24,20 @@ pub struct EndedEarly {
     pub time_s: f64,
     /// Why.
     pub reason: String,
-    /// How far a body could still have been moved [m].
+    /// Bound of how far a body could still have been moved [m].
     pub body_bound_m: f64,
-    /// How far the front could still have gone [m]; null without a flow.
+    /// Bound of how far the front could still have gone [m]; null without a flow.
     pub front_bound_m: Option<f64>,
 }
 
-/// What the flow slides on.
+/// Surfaces that the flow slides on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Base {
     /// Friction of the flow.
     friction: f64,
     /// Rise of the incline per length.
     slope: f64,
-    /// Whether friction at rest holds a flow on the incline.
+    /// True if friction at rest holds a flow on the incline.
     holds: bool,
     /// Points slower than this are taken to stay [m/s].
     still: f64,
@@ -64,25 +64,25 @@ impl Base {
     }
 }
 
-/// What the moving part of a flow could still do.
+/// Energies and reaches that the moving part of a flow still has.
 pub(super) struct Remaining {
-    /// Where each point comes to rest at the farthest [m], with its mass [kg].
+    /// Farthest place where each point comes to rest [m], with its mass [kg].
     pub(super) reaches: Vec<(f64, f64)>,
     moving: Vec<Sliding>,
 }
 
 /// A point that moves.
 struct Sliding {
-    /// Where it is, along the channel [m].
+    /// Place along the channel [m].
     x: f64,
-    /// How far friction lets it get from there [m].
+    /// Way that friction lets it go from there [m].
     way: f64,
     /// Of motion, and of height on the incline [J].
     energy: f64,
 }
 
 impl Sliding {
-    /// What friction has left of the energy when it gets to x [J].
+    /// Energy that friction has left when it gets to x [J].
     fn energy_at(&self, x: f64) -> f64 {
         let spent = ((x - self.x) / self.way).clamp(0.0, 1.0);
         self.energy * (1.0 - spent)
@@ -119,8 +119,8 @@ impl Remaining {
     }
 }
 
-/// What a point that moves could still spend [J/kg]: its speed, and the height of the
-/// bed under it (equation 61).
+/// Energy that a point that moves could still spend [J/kg]: its speed, and the height of
+/// the bed under it (equation 61).
 fn specific_energy(point: &Point, simulation: &Simulation, base: &Base) -> f64 {
     let (x, speed) = (point.position.x, point.velocity.norm());
     if speed < base.still && (base.holds || x >= 0.0) {
@@ -129,9 +129,9 @@ fn specific_energy(point: &Point, simulation: &Simulation, base: &Base) -> f64 {
     0.5 * speed * speed + simulation.gravity().norm() * base.bed_under(x)
 }
 
-/// How far any of these bodies, which are at rest, could still get in `left` [s], by itself and pushed by
-/// what of a flow gets as far as it is [m] (equation 62); `None` if too far, or if
-/// nothing says how far.
+/// Distance that any of these bodies, which are at rest, could still get in `left` [s], by itself and
+/// pushed by what of a flow gets as far as it is [m] (equation 62); `None` if too far, or if nothing says
+/// how far.
 pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f64) -> Option<f64> {
     let free = simulation.bodies().iter().filter(|body| body.is_free());
     let gravity = simulation.gravity().norm();
@@ -158,12 +158,12 @@ pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f
     Some(largest)
 }
 
-/// Whether a front that could still go so far [m] counts as one at rest.
+/// True if a front that could still go so far [m] counts as one at rest.
 pub(super) fn front_rests(simulation: &Simulation, bound: f64) -> bool {
     bound <= FRONT_BOUND * simulation.cell_size_m()
 }
 
-/// How a body stands on a wall.
+/// Footing of a body on a wall.
 struct Footing {
     /// Force along the wall that friction leaves over [N].
     holding: f64,
@@ -204,8 +204,8 @@ impl Footing {
     }
 }
 
-/// How far inside the hull of some places a place is, seen along `normal` [m];
-/// `None` outside.
+/// Depth of a place inside the hull of some places, seen along `normal` [m]; `None`
+/// outside.
 fn inside_by(places: &[Vec3], place: &Vec3, normal: &Vec3) -> Option<f64> {
     let mut least = f64::INFINITY;
     for a in places {

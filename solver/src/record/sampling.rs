@@ -183,7 +183,7 @@ fn now(simulation: &Simulation) -> Vec<Motion> {
     simulation.bodies().iter().map(Motion::of).collect()
 }
 
-/// What motion and means alone tell.
+/// Parts of a sample that motion and means alone tell.
 fn body_sample(motion: &Motion, means: &Means) -> BodySample {
     let q = motion.orientation;
     BodySample {

@@ -34,7 +34,7 @@ impl Scale {
         Self::of(body.shape.volume().cbrt(), gravity)
     }
 
-    /// How far from its start a body has set off [m].
+    /// Distance from its start at which a body has set off [m].
     pub(super) fn onset_distance(&self) -> f64 {
         ONSET_DISTANCE * self.size
     }
@@ -49,7 +49,7 @@ impl Scale {
         REST_TIME * self.size / self.speed
     }
 
-    /// What the rest speed makes of the rest time [m].
+    /// Distance that the rest speed makes of the rest time [m].
     pub(super) fn rest_distance(&self) -> f64 {
         self.rest_speed() * self.rest_time()
     }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// trembles on its contacts is fast and goes nowhere.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Settling {
-    /// Where it was when it last left its place, and when [s].
+    /// Motion and time [s] when it last left its place.
     place: Motion,
     came: f64,
     /// First time in this place that it was slow [s].
@@ -17,11 +17,11 @@ pub(super) struct Settling {
     slow_since: Option<f64>,
     /// Since when it has been at rest [s].
     rests_since: Option<f64>,
-    /// Whether it was ever not at rest.
+    /// True if it was ever not at rest.
     moved: bool,
 }
 
-/// What a body's rest is measured by.
+/// Measure of a body's rest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
     pub(super) scale: Scale,
@@ -30,13 +30,13 @@ pub(super) struct Measure {
 }
 
 impl Measure {
-    /// Whether no place of a body that moves like this is faster than one at rest.
+    /// True if no place of a body that moves like this is faster than one at rest.
     pub(super) fn is_slow(&self, motion: &Motion) -> bool {
         let turning = motion.angular_velocity.norm() * self.radius;
         motion.velocity.norm() + turning < self.scale.rest_speed()
     }
 
-    /// Whether a body has left its place.
+    /// True if a body has left its place.
     fn has_left(&self, place: &Motion, motion: &Motion) -> bool {
         let turned = place.orientation.angle_to(&motion.orientation) * self.radius;
         let gone = (motion.position - place.position).norm();
@@ -81,18 +81,18 @@ impl Settling {
         }
     }
 
-    /// Whether it is at rest.
+    /// True if it is at rest.
     pub(super) fn rests(&self) -> bool {
         self.rests_since.is_some()
     }
 
-    /// Whether it has been at rest for the rest time.
+    /// True if it has been at rest for the rest time.
     pub(super) fn rests_long(&self, measure: &Measure, time_s: f64) -> bool {
         let long = |since: f64| time_s - since >= measure.scale.rest_time();
         self.rests_since.is_some_and(long)
     }
 
-    /// Whether it was ever not at rest.
+    /// True if it was ever not at rest.
     pub(super) fn moved(&self) -> bool {
         self.moved
     }

@@ -1,4 +1,4 @@
-//! How deep a body is in the flow.
+//! Submergence of a body in the flow.
 
 use super::bed::Bed;
 use crate::contact::point_body::Around;
@@ -113,7 +113,7 @@ impl View {
         }
     }
 
-    /// Whether a sector lies between the side walls.
+    /// True if a sector lies between the side walls.
     fn has_room(&self, simulation: &Simulation, sector: usize) -> bool {
         let middle = self.middle(sector);
         let place = self.centre + self.downstream * middle.along + Vec3::y() * middle.across;
@@ -122,7 +122,7 @@ impl View {
         sides.all(|plane| plane.height(&place) > 0.0)
     }
 
-    /// Where a sector's surface is found, and the body's share below it.
+    /// Place where a sector's surface is found, and the body's share below it.
     fn share(&self, sector: usize, spots: &mut [Spot]) -> (Spot, f64) {
         spots.sort_unstable_by(|a, b| a.height.total_cmp(&b.height));
         let mut level = self.low;

@@ -1,4 +1,4 @@
-//! Whether a body rolls on what it touches, or slides.
+//! Criterion by which a body rolls on what it touches, or slides.
 
 use super::motion::Motion;
 use crate::contact::island::BodyReport;
@@ -22,7 +22,7 @@ pub(super) struct Turning {
     turned: Vec3,
     /// In this stretch [m].
     travelled: Vec3,
-    /// Whether it rolled in the last stretch.
+    /// True if it rolled in the last stretch.
     rolls: bool,
 }
 
@@ -56,7 +56,7 @@ impl Turning {
         };
     }
 
-    /// Whether it rolls, if it is on anything.
+    /// True if it rolls, if it is on anything.
     pub(super) fn rolls(&self) -> bool {
         self.rolls
     }
@@ -82,7 +82,7 @@ mod tests {
     use crate::rigid::Load;
     use crate::rigid::fixture::cuboid;
 
-    /// Whether a cube rolls on the floor that travels and turns like this for so long.
+    /// True if a cube rolls on the floor that travels and turns like this for so long.
     fn rolls(velocity: Vec3, spin: Vec3, duration: f64) -> bool {
         let body = cuboid([0.04; 3]);
         let report = BodyReport {

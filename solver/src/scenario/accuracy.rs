@@ -1,4 +1,4 @@
-//! How good an answer has to be, and whether it shows how good it is.
+//! Accuracy asked of an answer, and error bars.
 
 use super::reader::{Object, choice_words};
 use super::report::Report;
@@ -6,13 +6,13 @@ use super::rules::{BUDGET, CELL_SIZE, TARGET, TARGET_BODY};
 use super::{Flow, Numerics};
 use serde::{Deserialize, Serialize};
 
-/// What is asked of the answer's accuracy.
+/// Demands on the answer's accuracy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// Every quantity of the outcome gets a band (docs/error-bars.md).
     pub error_bars: bool,
-    /// How far the band of `quantity` may reach from its value, over it; to be met by
-    /// the choice of cells; `None`: the cells are those of `numerics`.
+    /// Distance that the band of `quantity` may reach from its value, over it; to be met
+    /// by the choice of cells; `None`: the cells are those of `numerics`.
     pub target: Option<f64>,
     /// The quantity that `target` is about.
     pub quantity: Option<Quantity>,
@@ -23,7 +23,7 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// Whether the answer takes more than one run.
+    /// True if the answer takes more than one run.
     pub fn takes_several_runs(&self) -> bool {
         self.error_bars || self.target.is_some()
     }
@@ -71,7 +71,7 @@ pub(super) const QUANTITIES: [(&str, Quantity); 8] = [
 ];
 
 impl Quantity {
-    /// Whether it is a body's; else it is the flow's.
+    /// True if it is a body's; else it is the flow's.
     pub fn is_of_a_body(self) -> bool {
         !matches!(self, Self::Front | Self::Runout)
     }
@@ -84,7 +84,7 @@ impl Quantity {
 }
 
 impl Accuracy {
-    /// Whether more than the plain answer is asked for.
+    /// True if more than the plain answer is asked for.
     pub fn is_asked_for(&self) -> bool {
         self.error_bars || self.target.is_some()
     }

@@ -244,7 +244,7 @@ fn moves_one_way(object: &Object<'_>, body: &Body) {
     }
 }
 
-/// Whether the shape can be rounded so; refused if it can't.
+/// True if the shape can be rounded so; refused if it can't.
 fn rounding_fits(object: &Object<'_>, shape: Option<&Shape>, radius: Option<f64>) -> bool {
     let (Some(shape), Some(radius)) = (shape, radius) else {
         return false;

@@ -1,10 +1,10 @@
-//! How long a run lasts that is not told.
+//! Duration of a run that is not told one.
 
 use super::{Channel, Flow};
 
 /// Shortest duration by default [s].
 pub(super) const LEAST: f64 = 3.0;
-/// How long what has slid spreads and settles, over √(h/g) of the release.
+/// Time in which what has slid spreads and settles, over √(h/g) of the release.
 const SETTLES_FOR: f64 = 4.5;
 
 /// Duration by default [s]: as long as the back of the release takes to slide to the

@@ -79,7 +79,7 @@ struct Placed<'a> {
 }
 
 impl Placed<'_> {
-    /// How far the body reaches from its centre in a channel direction [m].
+    /// Reach of the body from its centre in a channel direction [m].
     fn reach(&self, direction: &Vector3<f64>) -> f64 {
         let direction = self.pose.orientation.inverse_transform_vector(direction);
         self.shape.extent_along(&direction)

@@ -52,7 +52,7 @@ pub struct Scenario {
     pub flow_snapshots: u32,
     /// Numerical choices.
     pub numerics: Numerics,
-    /// How good the answer has to be.
+    /// Accuracy asked for.
     pub accuracy: Accuracy,
 }
 
@@ -78,9 +78,9 @@ pub struct Channel {
 pub struct Flow {
     /// Released volume [m³].
     pub volume_m3: f64,
-    /// Where it is released.
+    /// Release.
     pub release: Release,
-    /// What it is made of.
+    /// Material.
     pub material: Material,
 }
 
@@ -124,7 +124,7 @@ pub struct Body {
     pub sphero_radius_m: f64,
     /// Density [kg/m³].
     pub density_kg_m3: f64,
-    /// Where its centre starts.
+    /// Position of its centre at the start.
     pub position: Position,
     /// Turn about the normal of its support [°].
     pub yaw_deg: f64,
@@ -150,7 +150,7 @@ pub struct Body {
     pub contact_modulus_pa: Option<f64>,
     /// A fixed body is a barrier.
     pub fixed: bool,
-    /// How it moves whatever acts on it; `None`: it is fixed or free.
+    /// Prescribed motion, whatever acts on it; `None`: it is fixed or free.
     pub motion: Option<Motion>,
 }
 
@@ -209,9 +209,9 @@ pub struct Numerics {
     pub flow_courant: Option<f64>,
     /// Arithmetic of points and grid.
     pub precision: Precision,
-    /// Whether a symmetric scene is computed by halves.
+    /// Use of a scene's symmetry: to compute it by halves.
     pub symmetry: Symmetry,
-    /// How a flow is computed before it varies across the channel.
+    /// Computation of a flow before it varies across the channel.
     pub approach: Approach,
     /// Formulation of contacts between points and bodies.
     pub coupling: Coupling,
@@ -254,7 +254,7 @@ pub struct Violation {
     /// The value received (null if missing; long texts cut, of large objects and
     /// lists only the size).
     pub value: serde_json::Value,
-    /// What is allowed, in words or as a range such as "0 < x <= 89".
+    /// Allowed values, in words or as a range such as "0 < x <= 89".
     pub allowed: String,
     /// Unit of value and range, if it has one.
     pub unit: Option<String>,

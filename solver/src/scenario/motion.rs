@@ -8,7 +8,7 @@ use crate::motion::{PrescribedMotion, Velocities};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// How a body moves whatever acts on it, as JSON `{"velocity_m_s": [0.1, 0, 0]}`, or with
+/// Motion of a body whatever acts on it, as JSON `{"velocity_m_s": [0.1, 0, 0]}`, or with
 /// `times_s` and as many velocities.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -105,7 +105,7 @@ fn read_table(object: &Object<'_>) -> Option<Motion> {
     })
 }
 
-/// Whether every time is after the one before; the first that is not is refused.
+/// True if every time is after the one before; the first that is not is refused.
 fn times_ascend(object: &Object<'_>, times: &[f64]) -> bool {
     let Some(before) = times.windows(2).position(|pair| pair[0] >= pair[1]) else {
         return true;

@@ -76,9 +76,9 @@ impl Node {
         }
     }
 
-    /// What a JSON pointer leads to, and its place: the index of the child at
-    /// every level, the end of its parent for what is missing. Comparing places
-    /// sorts pointers into document order.
+    /// Node that a JSON pointer leads to, and its place: the index of the child at every
+    /// level, the end of its parent for what is missing. Comparing places sorts pointers
+    /// into document order.
     pub(super) fn find(&self, pointer: &str) -> (Vec<usize>, Option<&Self>) {
         let mut place = Vec::new();
         let mut here = Some(self);

@@ -1,4 +1,4 @@
-//! Where bodies and release start, from what the scenario says about them.
+//! Start of bodies and release, from what the scenario says about them.
 
 use super::{Body, Channel, Flow, RegularSolid, Scenario, Shape};
 use crate::shape::{ShapeError, SharpPolyhedron, SpheroPolyhedron};
@@ -20,7 +20,7 @@ impl Pose {
     }
 }
 
-/// What a body starts on.
+/// Support that a body starts on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Support {
     /// It rests on the horizontal floor.
@@ -93,7 +93,7 @@ impl Channel {
         (sliding + gravity_m_s2 * flow.release.height_m).sqrt()
     }
 
-    /// Where a flow is released.
+    /// Box of a flow's release.
     pub(super) fn release_box(&self, flow: &Flow) -> ReleaseBox {
         let vertical_thickness_m = flow.release.height_m / self.inclination_rad().cos();
         let front_m = -flow.release.toe_distance_m;
@@ -108,7 +108,7 @@ impl Channel {
 }
 
 impl Shape {
-    /// How large it is.
+    /// Size.
     pub(super) fn size(&self) -> Result<Size, ShapeError> {
         let sharp = match self {
             Self::Cube { side_m } => return Ok(Size::of_box([*side_m; 3])),
@@ -144,7 +144,7 @@ fn sharp_hull(vertices_m: &[[f64; 3]]) -> Result<SharpPolyhedron, ShapeError> {
     SharpPolyhedron::hull_of(&vertices)
 }
 
-/// How large a shape is; of a cube both are its side.
+/// Size of a shape; of a cube both are its side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Size {
     /// Diameter of the largest ball inside [m].
@@ -164,7 +164,7 @@ impl Size {
 }
 
 impl Body {
-    /// Whether loads move it.
+    /// True if loads move it.
     pub fn is_free(&self) -> bool {
         !self.fixed && self.motion.is_none()
     }
@@ -221,7 +221,7 @@ impl Scenario {
         self.bodies[body].pose(&self.shape_of(body), &self.channel)
     }
 
-    /// What a body starts on.
+    /// Support that a body starts on.
     ///
     /// # Panics
     /// If there is no such body.
@@ -245,7 +245,7 @@ impl Scenario {
         built.expect("the parser refuses dimensions that make no solid")
     }
 
-    /// Where the flow is released; `None` if there is none, or none of it.
+    /// Box of the flow's release; `None` if there is none, or none of it.
     pub fn release(&self) -> Option<ReleaseBox> {
         let flow = self.flow.as_ref().filter(|flow| flow.volume_m3 > 0.0)?;
         Some(self.channel.release_box(flow))

@@ -1,6 +1,6 @@
 //! Ranges of numbers, and how they are put into words.
 
-/// What one number field may be.
+/// Values that one number field may have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rule {
     /// Key of the field.
@@ -41,7 +41,7 @@ pub(super) const fn positive_up_to(high: f64) -> Range {
 }
 
 impl Range {
-    /// Whether a value lies inside; no number never does.
+    /// True if a value lies inside; no number never does.
     pub(super) fn contains(&self, value: f64) -> bool {
         let above = if self.low_is_open {
             value > self.low

@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
-/// How many entries a list has, and what they are called.
+/// Number of entries of a list, and their name.
 pub(super) struct Several {
     count: RangeInclusive<usize>,
     noun: &'static str,

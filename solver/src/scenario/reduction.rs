@@ -1,8 +1,8 @@
-//! What of a scene need not be computed: the words that decide it.
+//! Parts of a scene that need not be computed: the words that decide it.
 
 use serde::{Deserialize, Serialize};
 
-/// Whether a scene that is symmetric about the centre plane is computed by halves.
+/// Use of a scene's symmetry about the centre plane: to compute it by halves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Symmetry {
@@ -15,7 +15,7 @@ pub enum Symmetry {
     Mirror,
 }
 
-/// How a flow is computed in which nothing varies across the channel yet.
+/// Computation of a flow in which nothing varies across the channel yet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Approach {

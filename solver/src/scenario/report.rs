@@ -1,4 +1,4 @@
-//! Where violations are collected.
+//! Report in which violations are collected.
 
 use super::Violation;
 use super::node::{Node, unescaped};

@@ -7,9 +7,9 @@ use nalgebra::Vector3;
 /// Distances below this fraction of the solid's size count as zero: far above
 /// the rounding of f64 coordinates (1e-16), far below any feature that matters.
 const FLATNESS: f64 = 1e-9;
-/// How far a vertex must lie behind a face it is not part of, as a fraction of
-/// the solid's size. Much less than the flatness, so that a vertex whose
-/// coordinates leave it in doubt may be taken into a face or not.
+/// Distance that a vertex must lie behind a face it is not part of, as a fraction of the
+/// solid's size. Much less than the flatness, so that a vertex whose coordinates leave it
+/// in doubt may be taken into a face or not.
 const BEHIND: f64 = 1e-12;
 
 /// Indices exist and no loop repeats one; coordinates are numbers.

@@ -16,7 +16,7 @@ pub enum Feature {
     Face(usize),
 }
 
-/// What of a core is nearest to a point x.
+/// Part of a core that is nearest to a point x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closest {
     /// The feature nearest to x; inside, the nearest face.

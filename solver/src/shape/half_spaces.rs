@@ -30,8 +30,8 @@ pub(super) struct HalfSpaces {
 }
 
 impl HalfSpaces {
-    /// What lies behind all planes round some points [m]. Planes turned against
-    /// each other by less than [`ONE_FACE`] are one.
+    /// Region behind all planes round some points [m]. Planes turned against each other
+    /// by less than [`ONE_FACE`] are one.
     ///
     /// # Errors
     /// Points that enclose nothing.
@@ -108,7 +108,7 @@ impl HalfSpaces {
         radius
     }
 
-    /// What is left when every plane moves in by `depth` [m]. Faces, edges and
+    /// Solid that is left when every plane moves in by `depth` [m]. Faces, edges and
     /// vertices may vanish, and vertices split in which more than three meet.
     ///
     /// # Errors
@@ -127,7 +127,7 @@ impl HalfSpaces {
         hull::hull_of(&places)
     }
 
-    /// Where three planes moved in by `depth` meet [m], and how sharply, if that is
+    /// Place where three planes moved in by `depth` meet [m], and how sharply, if that is
     /// behind all others.
     fn crossing(&self, triple: [usize; 3], depth: f64) -> Option<(f64, Vector3<f64>)> {
         let [a, b, c] = triple.map(|plane| self.planes[plane].0);

@@ -168,7 +168,7 @@ impl Candidates {
     }
 }
 
-/// Whether some points lie along one line, within `near` [m].
+/// True if some points lie along one line, within `near` [m].
 fn in_line(points: &[Vector3<f64>], near: f64) -> bool {
     let Some(first) = points.first() else {
         return true;
@@ -211,8 +211,8 @@ impl Flat {
         rim
     }
 
-    /// Whether a point of the rim lies inside the line that joins its neighbours,
-    /// or is between them and sticks out by no more than `least` [m].
+    /// True if a point of the rim lies inside the line that joins its neighbours, or is
+    /// between them and sticks out by no more than `least` [m].
     fn is_dull(&self, points: &[Vector3<f64>], rim: &[usize], k: usize, least: f64) -> bool {
         let at = |k: usize| points[rim[k % rim.len()]];
         let (before, after) = (at(k + rim.len() - 1) - at(k), at(k + 1) - at(k));

@@ -48,7 +48,7 @@ pub struct SpheroPolyhedron {
     bounding_radius: f64,
 }
 
-/// How the nearest feature of the core is found.
+/// Way in which the nearest feature of the core is found.
 #[derive(Debug, Clone, PartialEq)]
 enum Nearest {
     /// In closed form, the core being a box.
@@ -176,8 +176,8 @@ impl SpheroPolyhedron {
         (self.surface / (2.0 * PI)).sqrt().min(self.bounding_radius)
     }
 
-    /// How far the rounded solid reaches from the origin along a unit
-    /// direction [m] (support function; for other lengths it scales with them).
+    /// Reach of the rounded solid from the origin along a unit direction [m] (support
+    /// function; for other lengths it scales with them).
     pub fn extent_along(&self, direction: &Vector3<f64>) -> f64 {
         let reach = self.core.vertices().iter().map(|v| v.dot(direction));
         reach.fold(f64::NEG_INFINITY, f64::max) + self.sphero_radius * direction.norm()

@@ -49,7 +49,7 @@ fn widest_gap(a: &ConvexPolyhedron, b: &ConvexPolyhedron, b_in_a: &Isometry3<f64
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// How far `b` begins beyond the end of `a` in a direction.
+/// Distance by which `b` begins beyond the end of `a` in a direction.
 fn gap_along(a: &[Vector3<f64>], b: &[Vector3<f64>], direction: &Vector3<f64>) -> f64 {
     let end = |v: &Vector3<f64>| v.dot(direction);
     let end_of_a = a.iter().map(end).fold(f64::NEG_INFINITY, f64::max);

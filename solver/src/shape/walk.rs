@@ -56,8 +56,8 @@ struct Side {
     rails: [usize; 2],
 }
 
-/// Where the walk stands: a feature, the place on it nearest to x, and the square
-/// of its distance from x.
+/// Stand of the walk: a feature, the place on it nearest to x, and the square of its
+/// distance from x.
 #[derive(Debug, Clone, Copy)]
 struct Stand {
     feature: Feature,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// they would show at a step's end shows at a later one as well.
 const AUDIT_INTERVAL: u64 = 64;
 
-/// Where a run stands.
+/// Time of a run and the numbers of its steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Clock {
     /// Simulated time [s].

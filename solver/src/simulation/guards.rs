@@ -1,4 +1,4 @@
-//! What ends a run that has gone wrong (docs/method.md, section 10). Nothing here
+//! Guards that end a run that has gone wrong (docs/method.md, section 10). Nothing here
 //! changes a run that goes well.
 
 use super::Simulation;
@@ -18,12 +18,12 @@ const FASTER: f64 = 10.0;
 /// Share of the energy scale that the mechanical energy may rise by.
 const ENERGY_MADE: f64 = 0.1;
 
-/// What a run may not go beyond, known at its start.
+/// Bounds that a run may not go beyond, known at its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guards {
     /// Speed that a fall from the highest place and the fastest throw give [m/s].
     pub speed_given: f64,
-    /// Whether the energy is bounded: not where gravity drives a flow that runs round.
+    /// True if the energy is bounded: not where gravity drives a flow that runs round.
     pub energy: bool,
 }
 
@@ -34,8 +34,8 @@ impl Guards {
         energy: false,
     };
 
-    /// Where things fall from `highest` [m] at most, under `gravity` [m/s²], and
-    /// bodies start with `thrown` [m/s] at most, their turning included.
+    /// Guards of a run in which things fall from `highest` [m] at most, under `gravity`
+    /// [m/s²], and bodies start with `thrown` [m/s] at most, their turning included.
     pub fn of(gravity: f64, highest: f64, thrown: f64) -> Self {
         let given = 2.0 * gravity * highest + thrown * thrown;
         Self {
@@ -46,7 +46,7 @@ impl Guards {
 }
 
 impl Simulation {
-    /// Whether the bodies' own sub-steps were as short as they have to be.
+    /// Checks that the bodies' own sub-steps were as short as they have to be.
     pub(super) fn look_at_body_steps(&self, substep_s: f64) -> Result<(), StepError> {
         let time_s = self.state.clock.time;
         let reports = self.scratch.body_reports.iter().enumerate();
@@ -135,7 +135,7 @@ impl Simulation {
         }
     }
 
-    /// Whether anything is faster than it can have become.
+    /// Checks that nothing is faster than it can have become.
     fn look_at_speeds(&self) -> Result<(), StepError> {
         let limit_m_s = FASTER * self.given.guards.speed_given;
         let bodies = self.state.bodies.iter().map(Body::largest_speed);
@@ -152,7 +152,7 @@ impl Simulation {
         })
     }
 
-    /// Whether there is more energy than there was, after an audit.
+    /// Checks that there is no more energy than there was, after an audit.
     pub(super) fn look_at_energy(&self) -> Result<(), StepError> {
         let audit = &self.state.audit;
         let limit_j = ENERGY_MADE * audit.energy_scale();

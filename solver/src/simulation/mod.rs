@@ -44,20 +44,20 @@ pub struct Simulation {
     failed: Option<StepError>,
 }
 
-/// What a checkpoint holds.
+/// State that a checkpoint holds.
 #[derive(Debug)]
 struct State {
     clock: Clock,
     flow: Box<dyn Flow>,
     bodies: Vec<Body>,
-    /// What the contacts between bodies remember.
+    /// Memory of the contacts between bodies.
     meetings: Vec<Meeting>,
     audit: Audit,
     /// Sums of the flow, followed from audit to audit for gravity's torque.
     moments: FlowMoments,
 }
 
-/// What a step works on; between two steps nothing of it counts.
+/// Memory that a step works on; between two steps nothing of it counts.
 #[derive(Debug)]
 struct Scratch {
     body_reports: Vec<BodyReport>,
@@ -75,7 +75,7 @@ struct StepInHand {
     done: u32,
 }
 
-/// What one acoustic sub-step did.
+/// Report of one acoustic sub-step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SubstepReport {
     /// Simulated time at its end [s].
@@ -88,7 +88,7 @@ pub struct SubstepReport {
     pub steps: u64,
     /// Points computed in it.
     pub points: u64,
-    /// Whether this sub-step ended a step: the points' own state is up to date.
+    /// True if this sub-step ended a step: the points' own state is up to date.
     pub step_ended: bool,
 }
 
@@ -124,7 +124,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Whether a scenario can be set up, found out without doing it.
+    /// Checks that a scenario can be set up, without doing it.
     ///
     /// # Errors
     /// Too many points for one run.
@@ -230,12 +230,12 @@ impl Simulation {
         points
     }
 
-    /// How many material points there are.
+    /// Number of material points.
     pub fn point_count(&self) -> usize {
         self.state.flow.count()
     }
 
-    /// How many of them are computed; the others are their images.
+    /// Number of them that are computed; the others are their images.
     pub fn computed_points(&self) -> usize {
         self.state.flow.computed()
     }
@@ -261,7 +261,7 @@ impl Simulation {
         &self.state.bodies
     }
 
-    /// What the flow does to a body in the present sub-step.
+    /// Load of the flow on a body in the present sub-step.
     pub fn flow_load(&self, body: usize) -> FlowLoad {
         self.state
             .flow
@@ -271,12 +271,12 @@ impl Simulation {
             .unwrap_or_default()
     }
 
-    /// What the present sub-step did to a body.
+    /// Report of the present sub-step on a body.
     pub fn body_report(&self, body: usize) -> BodyReport {
         self.scratch.body_reports[body]
     }
 
-    /// What the contacts between bodies remember: which touch, and how deep.
+    /// Memory of the contacts between bodies: which touch, and how deep.
     pub fn meetings(&self) -> &[Meeting] {
         &self.state.meetings
     }

@@ -11,7 +11,7 @@ use crate::rigid::BodyState;
 use crate::scenario::Scenario;
 use serde::{Deserialize, Serialize};
 
-/// What a saved state holds, in this order.
+/// Parts of a saved state, in this order.
 #[derive(Serialize, Deserialize)]
 struct Saved {
     version: String,

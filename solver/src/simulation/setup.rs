@@ -35,7 +35,7 @@ pub(super) use symmetry::near_body;
 /// builds one without a scenario answers for it: nothing here is validated.
 #[derive(Debug)]
 pub struct Scene {
-    /// What does not change.
+    /// Set-up, which does not change.
     pub given: Setup,
     /// The bodies at the start.
     pub bodies: Vec<Body>,
@@ -50,7 +50,7 @@ pub struct Scene {
     pub shares: Option<Shares>,
 }
 
-/// What a run is given; it does not change.
+/// Set-up of a run; it does not change.
 #[derive(Debug, Clone)]
 pub struct Setup {
     /// Identity of the scene: a scenario's JSON.
@@ -59,7 +59,7 @@ pub struct Setup {
     pub timing: Timing,
     /// [m/s²].
     pub gravity: Vec3,
-    /// Where the nodes lie.
+    /// Lattice of the nodes.
     pub lattice: Lattice,
     /// The walls as the flow meets them.
     pub walls: Walls,
@@ -72,20 +72,20 @@ pub struct Setup {
     pub open_end: f64,
     /// The flow, if there is one.
     pub flow: Option<GivenFlow>,
-    /// What it may not go beyond.
+    /// Guards, which it may not go beyond.
     pub guards: Guards,
 }
 
 /// A scene without its points: what can be known of a run before it is set up.
 #[derive(Debug)]
 pub struct Outline {
-    /// What does not change.
+    /// Set-up, which does not change.
     pub given: Setup,
     /// The bodies at the start.
     pub bodies: Vec<Body>,
-    /// How the release is divided into points; `None` without a flow.
+    /// Columns of points that the release is divided into; `None` without a flow.
     pub columns: Option<Columns>,
-    /// What of it need not be computed.
+    /// Parts of it that need not be computed.
     pub reductions: Reductions,
 }
 
@@ -160,7 +160,7 @@ impl Scene {
 }
 
 impl Setup {
-    /// What the run of a scenario is given, and how its release is divided.
+    /// Set-up of a scenario's run, and the division of its release.
     fn of(scenario: &Scenario, expected: Expected) -> Result<(Self, Option<Columns>), SetupError> {
         let channel = &scenario.channel;
         let lattice = resolution::lattice(scenario);
@@ -203,7 +203,7 @@ impl Setup {
         }
     }
 
-    /// How far from a body a point can be at a transfer and still touch it
+    /// Distance from a body at which a point can be at a transfer and still touch it
     /// before the next one [m].
     pub(super) fn contact_reach(&self, bodies: &[Body], pace: &Pace) -> Reach {
         let Some(flow) = &self.flow else {
@@ -260,7 +260,7 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
 }
 
 impl Setup {
-    /// What bodies move under from a time on [s].
+    /// Surroundings that bodies move in from a time on [s].
     pub(super) fn surroundings(&self, time: f64) -> Surroundings<'_> {
         Surroundings {
             time,
@@ -270,7 +270,7 @@ impl Setup {
     }
 }
 
-/// What can fall from where, and what is thrown how fast.
+/// Guards by what can fall from where, and what is thrown how fast.
 fn guards(scenario: &Scenario) -> Guards {
     let channel = &scenario.channel;
     let release = scenario.release();

@@ -22,7 +22,7 @@ pub(super) struct Member {
     pub(super) place: u32,
     /// +1, or −1 where the image is mirrored, for x and y.
     pub(super) sign: [f64; 2],
-    /// Where it lies at the transfer [m].
+    /// Position at the transfer [m].
     pub(super) resting: Vec3,
 }
 
@@ -59,13 +59,14 @@ pub struct Boundary {
     pub(super) columns: Vec<Column>,
     /// Velocities of the first two nodes of each column of a kind.
     pub(super) ends: Vec<[Vec3; 2]>,
-    /// What a sub-step does to each group.
+    /// Changes of each group by a sub-step.
     pub(super) answers: Vec<Answer>,
 }
 
 impl Boundary {
-    /// Where walls leave less room, the same volume of points fills more of it;
-    /// a node and its images share theirs, and their mean compressive strain.
+    /// Makes nodes fuller where walls leave less room: there the same volume of points
+    /// fills more of it; a node and its images share theirs, and their mean compressive
+    /// strain.
     pub fn leave_less_room(&self, nodes: &mut impl NodeAccess) {
         for (place, room) in &self.cut {
             let place = *place as usize;
@@ -197,7 +198,7 @@ impl Walls {
             .resize(boundary.groups.len(), Answer::default());
     }
 
-    /// Whether walls may act on a node of the block that starts at `first`.
+    /// True if walls may act on a node of the block that starts at `first`.
     fn may_act_in(&self, lattice: &Lattice, first: [i32; 3]) -> bool {
         let last = first.map(|along| along + BLOCK as i32 - 1);
         let ends = match self.upright.ends {

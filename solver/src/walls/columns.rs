@@ -139,7 +139,7 @@ impl Column {
         self.moved_by(momentum)
     }
 
-    /// What the base makes of them: no inflow at its place, and friction there.
+    /// Velocities that the base leaves them: no inflow at its place, and friction there.
     fn stopped(&self, ends: [Vec3; 2]) -> [Vec3; 2] {
         let [a, b] = self.at_base;
         let arriving = ends[0] * a + ends[1] * b;
@@ -180,7 +180,7 @@ impl Walls {
         })
     }
 
-    /// Where a column meets the base: the plane, how far behind the first node in
+    /// Place where a column meets the base: the plane, how far behind the first node in
     /// the channel [node distances], and that node's index.
     fn foot(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<(usize, f64, i32)> {
         let axis = way.axis();

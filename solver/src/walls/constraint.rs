@@ -1,4 +1,4 @@
-//! What walls do to the motion of nodes.
+//! Constraints of walls on the motion of nodes.
 
 use super::bed::Surface;
 use super::boundary::{Boundary, Group, Member};
@@ -11,14 +11,14 @@ use rayon::prelude::*;
 /// Groups of nodes one task takes.
 const TASK: usize = 128;
 
-/// What walls do to a group.
+/// Answer of walls to the motion of a group.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Answer {
     /// Velocity in the frame of the first member [m/s].
     pub(super) velocity: Vec3,
     /// Impulse given.
     impulse: Impulse,
-    /// Whether it is another velocity than before.
+    /// True if it is another velocity than before.
     changed: bool,
 }
 
@@ -170,7 +170,7 @@ impl Answer {
     }
 }
 
-/// What a node and its images carry together.
+/// Mass and momentum that a node and its images carry together.
 struct Folded {
     mass: f64,
     /// Momentum, the images' mirrored back.

@@ -7,7 +7,7 @@ use crate::math::{Sym3, Vec3};
 /// The nodes of a grid, by their places: block by block, within a block along z
 /// first.
 pub trait NodeAccess: Sync {
-    /// Where the nodes lie.
+    /// Lattice of the nodes.
     fn lattice(&self) -> &Lattice;
     /// The blocks of nodes.
     fn blocks(&self) -> &[BlockKey];

@@ -8,7 +8,7 @@ use std::iter::once;
 /// index 0 and half of `halves_across` along y.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Upright {
-    /// What is at index 0 along x.
+    /// Bounds at index 0 along x.
     pub ends: Ends,
     /// The side walls.
     pub sides: [Plane; 2],
@@ -17,7 +17,7 @@ pub struct Upright {
     pub halves_across: i32,
 }
 
-/// What bounds the flow along x.
+/// Bounds of the flow along x.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ends {
     /// A wall at the back; the front is open.
@@ -30,8 +30,8 @@ pub enum Ends {
     },
 }
 
-/// How a group of nodes meets an upright wall; `inward` is the sign of the
-/// wall's normal along its axis.
+/// Meeting of a group of nodes with an upright wall; `inward` is the sign of the wall's
+/// normal along its axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meets {
     Not,
@@ -77,7 +77,7 @@ impl Upright {
         [i, j, k]
     }
 
-    /// Whether a node has images that the kernel can reach.
+    /// True if a node has images that the kernel can reach.
     pub(super) fn has_images(&self, [i, j, _]: [i32; 3]) -> bool {
         let along = match self.ends {
             Ends::BackWall(_) => i == 1,
@@ -91,7 +91,7 @@ impl Upright {
         self.halves_across - j
     }
 
-    /// Whether the kernel can reach the image of row `j` in the second side.
+    /// True if the kernel can reach the image of row `j` in the second side.
     fn is_before_far_side(&self, j: i32) -> bool {
         (1..=2).contains(&(self.halves_across - 2 * j))
     }
@@ -141,7 +141,7 @@ impl Upright {
         }
     }
 
-    /// Whether what leaves comes in again.
+    /// True if what leaves comes in again.
     pub fn has_seam(&self) -> bool {
         matches!(self.ends, Ends::Seam { .. })
     }
@@ -175,7 +175,7 @@ fn across_seam(i: i32, cells: i32) -> impl Iterator<Item = i32> {
     alike.filter(move |alike| *alike != i && (-1..=cells + 1).contains(alike))
 }
 
-/// How a node so many halves of a cell from a wall meets it.
+/// Meeting of a wall with a node so many halves of a cell from it.
 fn meets(halves: i32, inward: f64) -> Meets {
     match halves {
         0 => Meets::On { inward },

@@ -35,7 +35,7 @@ pub(super) struct Collapse {
     pub(super) points: u32,
     /// In 64 bits instead of 32.
     pub(super) double: bool,
-    /// Whether the flow is transferred at every sub-step, not when it has moved.
+    /// True if the flow is transferred at every sub-step, not when it has moved.
     pub(super) every_substep: bool,
 }
 

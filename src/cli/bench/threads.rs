@@ -19,7 +19,7 @@ const EVERY_NUMBER: usize = 8;
 #[derive(Debug, Serialize)]
 pub(super) struct Scaling {
     points: usize,
-    /// Whether all runs ended in the same bits.
+    /// True if all runs ended in the same bits.
     same_bits: bool,
     runs: Vec<Run>,
 }

@@ -1,4 +1,4 @@
-//! Whether the database is well, and how much is in it.
+//! Health of the database, and how much is in it.
 
 use super::{Store, StoreError};
 use crate::jobs::job::JobStatus;
@@ -61,7 +61,7 @@ const SQLITE_FULL: i32 = 13;
 const UNAVAILABLE: [i32; 7] = [5, 6, 8, 10, 11, 14, 26];
 
 impl Store {
-    /// Whether the database answers.
+    /// Checks that the database answers.
     ///
     /// # Errors
     /// It does not.
@@ -70,8 +70,7 @@ impl Store {
         Ok(())
     }
 
-    /// Whether a job could be taken in: takes the room for one, and writes to
-    /// the disk.
+    /// Checks that a job could be taken in: takes the room for one, and writes to the disk.
     ///
     /// # Errors
     /// It could not.

@@ -26,7 +26,7 @@ pub fn trajectory_json(job_id: Option<&str>, body: usize, columns: &TrajectoryCo
 pub(super) struct JsonWriter {
     head: String,
     fields: Vec<Field>,
-    /// Whether the column in hand has a row already.
+    /// True if the column in hand has a row already.
     has_rows: bool,
 }
 

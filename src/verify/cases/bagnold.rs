@@ -46,7 +46,7 @@ const WINDOWS: [[f64; 2]; 3] = [[2.0, 2.5], [2.5, 3.0], [5.5, 6.0]];
 const QUICK_WINDOWS: [[f64; 2]; 2] = [[1.0, 1.25], [1.25, 1.5]];
 /// Too flat [°].
 const FLAT: f64 = 20.0;
-/// How long a layer has to stay or come to rest [s].
+/// Time that a layer has to stay or come to rest [s].
 const RESTING: f64 = 2.0;
 const COMING_TO_REST: f64 = 3.0;
 
@@ -76,7 +76,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-/// What is asked of a window, and the bars.
+/// Quantities that are asked of a window, and the bars.
 fn quantities(slope: f64, [from, to]: &[f64; 2]) -> [(String, f64); 3] {
     let named = |what: &str| format!("{what}, {slope}°, {from}–{to} s");
     [

@@ -5,11 +5,11 @@
 //! from cubes of 30 mm, over 0.4 s. What the cubes have with each other and with the
 //! floor is ours. There are no figures to compare with, so the case is qualitative.
 //!
-//! What must hold: until the sand arrives no cube moves sideways by more than a
-//! hundredth of its sphero radius (the upper three sink in to where they are carried);
-//! and momentum is kept to 1e-6, as in case 14. Shown without a bar: how many of the
-//! six are driven on by a tenth of their side or more; the least and the
-//! largest way; and the deepest overlap of two bodies, or of a body and the floor.
+//! Conditions that must hold: until the sand arrives no cube moves sideways by more than
+//! a hundredth of its sphero radius (the upper three sink in to where they are carried);
+//! and momentum is kept to 1e-6, as in case 14. Shown without a bar: how many of the six
+//! are driven on by a tenth of their side or more; the least and the largest way; and the
+//! deepest overlap of two bodies, or of a body and the floor.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble, scene_of};

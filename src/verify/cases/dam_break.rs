@@ -79,7 +79,7 @@ impl Theory {
         2.0 * self.c0 * self.time + 0.5 * self.m * self.time.powi(2)
     }
 
-    /// Where the front leaves its share of the mass beyond it: at a distance s from
+    /// Place where the front leaves its share of the mass beyond it: at a distance s from
     /// the tip, h = (s/t)²/(9 g cos θ).
     fn front_of_mass(&self) -> f64 {
         let beyond = FRONT_SHARE * f64::from(LENGTH) * HEIGHT * HEIGHT;

@@ -48,7 +48,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-/// Where the drag goes, or its finest value.
+/// Limit of the drag, or its finest value.
 fn limit(cells: &[u32], drags: &[Drag], window: usize) -> f64 {
     let place = |(cells, drag): (&u32, &Drag)| {
         let drag = drag.as_ref().ok()?.values[window];

@@ -54,7 +54,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     influences(cells, findings);
 }
 
-/// Where each quantity goes, or its finest value.
+/// Limit of each quantity, or its finest value.
 fn limits(cells: &[f64], motions: &[Motion]) -> [f64; 4] {
     [0, 1, 2, 3].map(|quantity: usize| {
         let place = |(cells, motion): (&f64, &Motion)| {
@@ -85,7 +85,7 @@ fn resolved(cells: f64, oracles: &[f64; 4], motion: Motion, findings: &mut Findi
     findings.take(&resolution, questions, motion);
 }
 
-/// What else the cube's motion depends on, against the scene as it is.
+/// Finds the influences of other things on the cube's motion, against the scene as it is.
 fn influences(cells: f64, findings: &mut Findings) {
     let oracles = match motion(&scene(cells)) {
         Ok(answer) => answer.values,

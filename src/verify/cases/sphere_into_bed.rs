@@ -46,7 +46,7 @@ struct Drop {
     fall: f64,
 }
 
-/// What the others differ from in one quantity.
+/// Drop that the others differ from in one quantity.
 const BASE: Drop = Drop {
     density: 2500.0,
     diameter: 0.02,
@@ -92,7 +92,7 @@ fn scaled(drop: &Drop) -> f64 {
     depth / drop.diameter
 }
 
-/// What the prefactor is multiplied by [m].
+/// Depth that the prefactor is multiplied by [m].
 fn over_prefactor(drop: &Drop, depth: f64) -> f64 {
     let density = (drop.density / beads::BULK_DENSITY).sqrt();
     let drop = drop.diameter.powf(2.0 / 3.0) * (drop.fall + depth).cbrt();

@@ -15,7 +15,7 @@ use trial::{Trial, Tried};
 /// Scenes of one kind.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Family {
-    /// What it is called on the command line.
+    /// Name on the command line.
     pub name: &'static str,
     /// Why it is hard.
     pub reason: &'static str,
@@ -34,7 +34,7 @@ pub enum Member {
 }
 
 impl Member {
-    /// What it is called within its family.
+    /// Name within its family.
     pub fn name(&self) -> &str {
         match self {
             Self::Scene(trial) => &trial.name,

@@ -1,4 +1,4 @@
-//! How far the step of a scene is from an unstable one.
+//! Distance of a scene's step from an unstable one.
 
 use super::trial::Trial;
 use scree_solver::Simulation;

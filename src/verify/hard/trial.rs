@@ -28,7 +28,7 @@ const BODY_OVERLAP: f64 = 0.9;
 const SPEED: f64 = 2.0;
 /// A point of single precision lies on the surface but for this, in cells.
 const ROUNDING: f64 = 1e-4;
-/// What a sub-step and one of a body cost, in point-steps.
+/// Costs of a sub-step and of one of a body, in point-steps.
 const OF_ITSELF: u64 = 300;
 const OF_A_BODY: u64 = 200;
 /// A step is broken off once so many budgets are spent.
@@ -39,20 +39,20 @@ const LOOKS: u32 = 8;
 /// A scene and what may be spent on it.
 #[derive(Debug, Clone)]
 pub struct Trial {
-    /// What it is called within its family.
+    /// Name within its family.
     pub name: String,
     /// The scenario.
     pub scenario: Value,
     /// Changes to the scene that no scenario can express.
     pub alter: Option<fn(&mut Scene)>,
-    /// How it has to end.
+    /// End that is asked for.
     pub asked: Asked,
     /// Point-steps it may take, sub-steps and those of bodies counted as so many; none:
     /// as many as it needs.
     pub budget: Option<u64>,
 }
 
-/// How a scene has to end.
+/// End that is asked of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Asked {
     /// Finished.
@@ -103,7 +103,7 @@ impl Trial {
     }
 }
 
-/// How a run ended.
+/// End of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ended {
     /// At the end of its duration, or of its budget.
@@ -117,7 +117,7 @@ pub enum Ended {
 }
 
 impl Ended {
-    /// Whether nothing went wrong.
+    /// True if nothing went wrong.
     pub fn is_finished(&self) -> bool {
         *self == Self::Finished
     }
@@ -140,7 +140,7 @@ impl Serialize for Ended {
     }
 }
 
-/// What was found by looking.
+/// Figures found by looking.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Figures {
     /// Points at the start.
@@ -169,7 +169,7 @@ pub struct Figures {
     pub lost: u64,
     /// Largest speed over the largest that falling and throwing give.
     pub speed: f64,
-    /// Whether every place and velocity is a number.
+    /// True if every place and velocity is a number.
     pub finite: bool,
 }
 
@@ -177,18 +177,18 @@ pub struct Figures {
 /// a bound.
 #[derive(Debug, Clone)]
 pub struct Special {
-    /// How its runs ended.
+    /// Ends of its runs.
     pub ended: Ended,
-    /// What was compared.
+    /// Comparisons made.
     pub compared: Vec<Compared>,
 }
 
 /// A figure with its bound.
 #[derive(Debug, Clone, Serialize)]
 pub struct Compared {
-    /// What it is.
+    /// Quantity compared.
     pub what: String,
-    /// What came out.
+    /// Value that came out.
     pub found: f64,
     /// Largest size allowed; none: it is told only.
     pub bound: Option<f64>,
@@ -199,22 +199,22 @@ pub struct Compared {
 pub struct Tried {
     /// Family and name.
     pub case: String,
-    /// How it ended.
+    /// End.
     pub ended: Ended,
-    /// What was found; none if it did not start.
+    /// Figures found; none if it did not start.
     pub figures: Option<Figures>,
     /// Largest stable step over the chosen one; at least that, if it is the last tried.
     pub safety: Option<f64>,
-    /// What a comparison found.
+    /// Findings of comparisons.
     pub compared: Vec<Compared>,
     /// Wall time [s].
     pub wall_s: f64,
-    /// What it breaks; nothing if it is sound.
+    /// Rules that it breaks; nothing if it is sound.
     pub broken: Vec<String>,
 }
 
 impl Tried {
-    /// Whether nothing is broken.
+    /// True if nothing is broken.
     pub fn is_sound(&self) -> bool {
         self.broken.is_empty()
     }
@@ -356,7 +356,7 @@ fn close_books(simulation: &Simulation, figures: &mut Figures) {
     figures.lost = simulation.released_points().abs_diff(present);
 }
 
-/// What a run breaks.
+/// Rules that a run breaks.
 fn broken(asked: Asked, ended: &Ended, figures: Option<&Figures>) -> Vec<String> {
     let mut broken = Vec::new();
     let as_asked = match (asked, ended) {

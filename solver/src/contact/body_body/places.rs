@@ -1,6 +1,6 @@
-//! Where two cores are near each other, each place once: the terms of the
-//! contact potential of two bodies and its gradient (docs/method.md, equations
-//! 43 and 44; docs/decisions/0010).
+//! Places where two cores are near each other, each place once: the terms of the contact
+//! potential of two bodies and its gradient (docs/method.md, equations 43 and 44;
+//! docs/decisions/0010).
 
 use super::segments::{crossing, nearest_on};
 use super::separation::Separation;
@@ -39,9 +39,9 @@ pub(super) struct Near {
 pub(super) struct Contact {
     /// Which features.
     pub(super) between: Between,
-    /// How they overlap.
+    /// Overlap of both.
     pub(super) near: Near,
-    /// What is left of it when other contacts took their part, above 0, at most 1.
+    /// Share that is left of it when other contacts took their part, above 0, at most 1.
     pub(super) share: f64,
 }
 
@@ -137,7 +137,7 @@ impl Contacts {
     }
 }
 
-/// What of a core can be in touch with the other, in world axes, from the first
+/// Parts of a core that can be in touch with the other, in world axes, from the first
 /// body's centre [m].
 #[derive(Debug, Default)]
 struct Nearby {
@@ -290,7 +290,7 @@ impl Bounds {
         self
     }
 
-    /// Whether the box round `places` meets this one.
+    /// True if the box round `places` meets this one.
     fn meets(&self, places: &[Vec3]) -> bool {
         let other = Self::of(places);
         (0..3).all(|axis| other.low[axis] < self.high[axis] && other.high[axis] > self.low[axis])

@@ -1,4 +1,4 @@
-//! What keeps two bodies apart: the face normals of both cores.
+//! Directions that keep two bodies apart: the face normals of both cores.
 
 use super::places::corners;
 use crate::math::Vec3;
@@ -10,13 +10,13 @@ pub(super) struct Gap {
     pub(super) width: f64,
     /// From the first to the second.
     pub(super) direction: Vec3,
-    /// Where along it the first core ends, and the second begins.
+    /// Places along it at which the first core ends, and the second begins.
     pub(super) first_to: f64,
     pub(super) second_from: f64,
 }
 
-/// What is known of the gap of two bodies from the last look. It saves work and
-/// changes no contact: bodies that are skipped do not touch.
+/// Bound of the gap of two bodies from the last look. It saves work and changes no
+/// contact: bodies that are skipped do not touch.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Separation {
     /// The face that showed the widest gap: the first's faces, then the second's.
@@ -26,7 +26,7 @@ pub struct Separation {
 }
 
 impl Separation {
-    /// Whether they are still apart when they came nearer by at most `by` [m].
+    /// True if they are still apart when they came nearer by at most `by` [m].
     pub fn outlasts(&mut self, by: f64) -> bool {
         self.gap -= by;
         self.gap > 0.0

@@ -6,7 +6,7 @@ use crate::contact::body_body::{Meeting, Separation, pair_law};
 use crate::contact::law::ContactLaw;
 use crate::rigid::{Body, Load};
 
-/// Where a body is when the islands are made.
+/// Place of a body when the islands are made.
 #[derive(Clone, Copy)]
 enum Seat<'a> {
     /// In an island, at a place among its members.

@@ -45,13 +45,13 @@ impl<'a> Member<'a> {
         }
     }
 
-    /// Whether it has stood since the start, held by the walls, and nothing touches
-    /// it: steps would change nothing but its rounding.
+    /// True if it has stood since the start, held by the walls, and nothing touches it:
+    /// steps would change nothing but its rounding.
     pub(super) fn waits(&self) -> bool {
         self.body.is_held() && self.flow == Load::default()
     }
 
-    /// What it reports asleep: the loads that hold it.
+    /// Report of a body asleep: the loads that hold it.
     pub(super) fn lie(&mut self) {
         let state = &self.body.state;
         self.report.wall_load = state.wall_load;

@@ -30,7 +30,7 @@ impl Mover {
         }
     }
 
-    /// Whether it never moves.
+    /// True if it never moves.
     pub(super) fn stands(&self) -> bool {
         self.body.speed_ahead() == 0.0
     }

@@ -54,12 +54,12 @@ impl Around {
         self
     }
 
-    /// Whether a place is in it.
+    /// True if a place is in it.
     pub fn holds(&self, x: &Vec3) -> bool {
         (0..3).all(|axis| self.low[axis] <= x[axis] && x[axis] <= self.high[axis])
     }
 
-    /// Whether it meets the box of a block of points.
+    /// True if it meets the box of a block of points.
     pub fn meets(&self, lattice: &Lattice, block: &BlockKey) -> bool {
         let first = lattice.position(block.map(|k| k * BLOCK as i32));
         let last = lattice.position(block.map(|k| (k + 1) * BLOCK as i32));

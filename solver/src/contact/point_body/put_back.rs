@@ -5,7 +5,7 @@ use crate::rigid::Body;
 use crate::shape::Face;
 use crate::walls::Plane;
 
-/// What becomes of a point that ended a step inside a body's core.
+/// Fate of a point that ended a step inside a body's core.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PutBack {
     /// It belongs there.
@@ -39,8 +39,8 @@ impl Stuck {
     }
 }
 
-/// Where a point belongs that ended a step inside a body's core: over the nearest
-/// face above which there is room between the `walls`. `None` if it is outside.
+/// Place of a point that ended a step inside a body's core: over the nearest face above
+/// which there is room between the `walls`. `None` if it is outside.
 pub fn put_back(position: &Vec3, body: &Body, walls: &[Plane]) -> Option<PutBack> {
     let arm = body.to_body(&(position - body.state.position));
     let distance = body.shape.closest_feature(&arm).distance;

@@ -3,7 +3,7 @@ use crate::fast::fixture::Spread;
 use crate::fast::totals::end_of;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Where a point is, in cells from the origin: exact in f64.
+/// Position of a point, in cells from the origin: exact in f64.
 fn absolute(key: &BlockKey, position: &[f32; 3]) -> [f64; 3] {
     [0, 1, 2].map(|axis| f64::from(key[axis]) * BLOCK as f64 + f64::from(position[axis]))
 }
@@ -36,7 +36,7 @@ fn runs(block: &Block) -> (usize, usize) {
     )
 }
 
-/// What holds of settled blocks.
+/// Asserts the rules that settled blocks keep.
 fn assert_in_order(blocks: &Blocks) {
     let keys: Vec<BlockKey> = blocks.occupied().iter().map(|block| block.key).collect();
     assert!(keys.windows(2).all(|pair| pair[0] < pair[1]), "{keys:?}");
@@ -77,7 +77,7 @@ fn random_points(spread: &mut Spread, count: u32) -> Vec<(BlockKey, Packed)> {
     (0..count).map(point).collect()
 }
 
-/// How far a point goes along an axis [cells].
+/// Way of a point along an axis [cells].
 fn moved(spread: &mut Spread, x: f32) -> f32 {
     let rims = [0.5f32, 4.5, 1.5, 8.5];
     let rim = rims[spread.between(0.0, 3.99) as usize];

@@ -103,7 +103,7 @@ fn gathering_is_a_sum_over_27_nodes() {
     }
 }
 
-/// What the first `count` points of `given` add to a tile, in f64.
+/// Shares that the first `count` points of `given` add to a tile, in f64.
 fn exactly_given(
     given: &Given,
     stencils: &Stencils,

@@ -16,8 +16,8 @@ struct State {
     nodes: [[f32; 3]; 3],
 }
 
-/// What a sub-step makes of a state: deviator, pressure [Pa], E, dilation, and
-/// the factor of w δ in the force [N].
+/// State after a sub-step: deviator, pressure [Pa], E, dilation, and the factor of w δ in
+/// the force [N].
 #[derive(Debug, Clone, Copy)]
 struct After {
     deviator: [f64; 6],

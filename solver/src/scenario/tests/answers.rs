@@ -1,4 +1,4 @@
-//! How a refusal is put.
+//! Wording of refusals.
 
 use super::{minimal, refused, set, violations, with};
 use crate::scenario::{Scenario, ScenarioError};

@@ -81,7 +81,7 @@ fn by_quadrature(body: &SpheroPolyhedron, count: u32) -> (f64, Vector3<f64>, Mat
     (volume, first, second)
 }
 
-/// Where the line (x, y, ·) enters and leaves the rounded solid.
+/// Places where the line (x, y, ·) enters and leaves the rounded solid.
 fn row(body: &SpheroPolyhedron, x: f64, y: f64, reach: f64) -> Option<(f64, f64)> {
     let depth =
         |z: f64| body.closest_feature(&Vector3::new(x, y, z)).distance - body.sphero_radius();

@@ -1,4 +1,4 @@
-//! What is refused.
+//! Shapes that are refused.
 
 use super::{SpheroPolyhedron, prism, tetrahedron};
 use crate::shape::{ConvexPolyhedron, ShapeError};

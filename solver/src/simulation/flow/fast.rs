@@ -35,13 +35,14 @@ use access::{Access, Place};
 pub(in crate::simulation) struct FastFlow {
     blocks: Blocks,
     nodes: Nodes,
-    /// What each block gives its nodes at a transfer: mass and momentum, then the
+    /// Shares that each block gives its nodes at a transfer: mass and momentum, then the
     /// rest of it.
     momentum: Vec<Tile>,
     /// Forces of the present sub-step, for the next.
     forces: Vec<Tile>,
     boundary: Boundary,
-    /// What joining nodes with their images gave at the transfer, until it is told.
+    /// Impulse that joining nodes with their images gave at the transfer, until it is
+    /// told.
     from_joining: Impulse,
     loads: Loads<Place>,
     packing: Packing,
@@ -50,7 +51,7 @@ pub(in crate::simulation) struct FastFlow {
     level: Level,
     /// Speed of the fastest point [m/s].
     fastest: f64,
-    /// Whether some point has a quantity that is no number.
+    /// True if some point has a quantity that is no number.
     flawed: bool,
     /// V ρ_c/m − 1 of the densest point.
     lowest_dilation: f64,

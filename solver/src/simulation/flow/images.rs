@@ -1,4 +1,4 @@
-//! Where the images of a computed share of the flow lie.
+//! Places of the images of a computed share of the flow.
 
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::math::{Mat3, Vec3};
@@ -6,7 +6,7 @@ use crate::points::Point;
 use crate::rigid::Load;
 use crate::simulation::setup::{Columns, Setup, Share};
 
-/// How the whole flow follows from a share of it.
+/// Images that make the whole flow of a share of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Images {
     share: Share,
@@ -37,7 +37,7 @@ impl Images {
         }
     }
 
-    /// How many of them, the share itself included.
+    /// Number of them, the share itself included.
     pub(super) fn count(&self) -> u32 {
         match self.share {
             Share::Whole => 1,
@@ -55,7 +55,7 @@ impl Images {
         }
     }
 
-    /// Where to look for the points whose images `which` lie there.
+    /// Box in which to look for the points whose images `which` lie there.
     pub(super) fn around(&self, which: u32, around: &Around) -> Around {
         match (which, self.share) {
             (0, _) | (_, Share::Whole) => *around,
@@ -95,8 +95,8 @@ impl Images {
     }
 }
 
-/// What a half flow and its image do to a body, by what the half does to it and to
-/// the body's own image.
+/// Load of a half flow and its image on a body, by what the half does to it and to the
+/// body's own image.
 pub(super) fn load_of_both(own: &FlowLoad, of_image: &FlowLoad) -> FlowLoad {
     let mirrored = Load {
         force: of_image

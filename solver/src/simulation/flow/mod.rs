@@ -58,8 +58,8 @@ pub(super) trait Flow: Debug + Send + Sync {
         laps: &mut Laps,
     ) -> Impulse;
 
-    /// What the flow does to each body in the present sub-step; nothing yet
-    /// before the first.
+    /// Load of the flow on each body in the present sub-step; nothing yet before the
+    /// first.
     fn on_bodies(&self) -> &[FlowLoad];
 
     /// Ends a step: hands the motion back to the points, spreads them evenly, and
@@ -85,7 +85,7 @@ pub(super) trait Flow: Debug + Send + Sync {
     /// own.
     fn visit(&self, within: Option<&Around>, visit: &mut dyn FnMut(&Point));
 
-    /// What a checkpoint holds of it.
+    /// Part of it that a checkpoint holds.
     fn saved(&self) -> SavedFlow;
 
     /// Lets it use no better instructions than these.
@@ -98,9 +98,9 @@ pub(super) trait Flow: Debug + Send + Sync {
 /// The start of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StepStart {
-    /// How far from bodies points are looked at.
+    /// Distance from bodies within which points are looked at.
     pub reach: Reach,
-    /// How points share their strain rates in it.
+    /// Sharing of the points' strain rates in it.
     pub sharing: Sharing,
 }
 
@@ -111,7 +111,7 @@ pub(super) struct Substep {
     pub dt: f64,
     /// Share of its step that is over, 0..1.
     pub passed: f64,
-    /// Whether its step ends with it.
+    /// True if its step ends with it.
     pub last: bool,
 }
 
@@ -120,33 +120,33 @@ pub(super) struct Substep {
 pub(super) struct StepEnd {
     /// Length of its last sub-step [s].
     pub dt: f64,
-    /// How points are kept evenly spread after it.
+    /// Rates at which points are kept evenly spread after it.
     pub tending: Tending,
 }
 
-/// What ending a step did to points besides moving them with the nodes.
+/// Changes of points at the end of a step besides moving them with the nodes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Finished {
     /// Points put back to a body's surface.
     pub put_back: u64,
     /// The deepest point that stays inside a body for want of room.
     pub stuck: Option<Stuck>,
-    /// What spreading the points did to their sums.
+    /// Changes of the points' sums by spreading them.
     pub spread: Spread,
 }
 
-/// What points have to keep to.
+/// Bounds that points have to keep to.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds<'a> {
     /// The walls.
     pub planes: &'a [Plane],
-    /// How far behind one a point may be [m].
+    /// Distance behind one that a point may be [m].
     pub tolerance: f64,
     /// Largest density [kg/m³].
     pub densest: f64,
 }
 
-/// What is wrong with a point.
+/// Fault of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Culprit {
     /// A quantity of it is no number.
@@ -162,7 +162,7 @@ pub(super) enum Culprit {
         point: u32,
         /// Name of the wall.
         wall: &'static str,
-        /// How far [m].
+        /// Depth [m].
         depth_m: f64,
     },
     /// It is too dense.
@@ -175,7 +175,7 @@ pub(super) enum Culprit {
 }
 
 impl Culprit {
-    /// What is wrong with a point, if anything is.
+    /// Fault of a point, if it has any.
     fn of(point: &Point, bounds: &Bounds) -> Option<Self> {
         if let Some(quantity) = point.non_finite() {
             return Some(Self::NonFinite {

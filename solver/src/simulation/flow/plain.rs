@@ -24,14 +24,15 @@ pub(in crate::simulation) struct PlainFlow {
     deformations: Vec<Deformation>,
     grid: Grid,
     boundary: Boundary,
-    /// What joining nodes with their images gave at the transfer, until it is told.
+    /// Impulse that joining nodes with their images gave at the transfer, until it is
+    /// told.
     from_joining: Impulse,
     loads: Loads<Place>,
     /// Force of bodies on every point [N].
     contact_forces: Vec<Vec3>,
 }
 
-/// Where a point is kept.
+/// Place of a point in memory.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     point: usize,

@@ -19,7 +19,7 @@ pub(in crate::simulation) struct SharedFlow {
     flow: Box<dyn Flow>,
     shares: Shares,
     share: Share,
-    /// What the share is given: narrower walls.
+    /// Set-up of the share: narrower walls.
     given: Setup,
     /// All that bound it, its own mirror included.
     planes: Vec<Plane>,
@@ -72,7 +72,7 @@ impl SharedFlow {
         }
     }
 
-    /// Whether the flow has come so near to a body that it begins to vary across.
+    /// True if the flow has come so near to a body that it begins to vary across.
     fn meets_a_body(&self, bodies: &[Body]) -> bool {
         bodies.iter().any(|body| {
             let mut any = false;
@@ -104,7 +104,7 @@ impl SharedFlow {
             .for_each(|best| self.limit_instructions(best));
     }
 
-    /// What the whole flow does to the bodies.
+    /// Sums up the loads of the whole flow on the bodies.
     fn sum_up_loads(&mut self) {
         let own = self.flow.on_bodies();
         self.on_bodies.clear();

@@ -27,12 +27,12 @@ const REFERENCE_OVERLAP: f64 = 0.1;
 /// Share of a body's own contact time scale allowed per sub-step.
 const BODY_CONTACT_SHARE: f64 = 0.5;
 
-/// What a run with a flow is given besides.
+/// Flow of a run.
 #[derive(Debug, Clone)]
 pub struct GivenFlow {
-    /// What it is made of.
+    /// Material.
     pub material: Material,
-    /// What bounds its steps.
+    /// Bounds of its steps.
     pub limits: Limits,
     /// Spheres that points are to bodies.
     pub sphere: PointSphere,

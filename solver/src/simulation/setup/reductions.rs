@@ -1,4 +1,4 @@
-//! What of a scene is left out of the computation, and why or why not.
+//! Parts of a scene that are left out of the computation, and why or why not.
 
 use super::symmetry::{Why, partners, uniform_across};
 use super::{Columns, Setup, Share, Shares};
@@ -6,19 +6,19 @@ use crate::error::SetupError;
 use crate::rigid::{Body, Freedom};
 use crate::scenario::{Approach, Scenario, Symmetry};
 
-/// What of a scene is left out.
+/// Parts of a scene that are left out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reductions {
-    /// Whether half of it is computed, or why not.
+    /// Computation of one half only, or why not.
     pub mirror: Result<(), String>,
-    /// Whether it begins with a slab, or why not.
+    /// Beginning with a slab, or why not.
     pub slab: Result<(), String>,
-    /// What follows for the flow; `None`: all of it is computed.
+    /// Shares of the flow that are computed; `None`: all of it is.
     pub shares: Option<Shares>,
 }
 
 impl Reductions {
-    /// What can be left out of a scene, and is not forbidden to be.
+    /// Reductions that a scene allows, and that are not forbidden.
     ///
     /// # Errors
     /// Something asked for that this scene does not allow.
@@ -142,7 +142,7 @@ fn without_flow() -> Why {
     "there is no flow".to_owned()
 }
 
-/// What was found; an error if more was asked for.
+/// Findings; an error if more was asked for.
 fn insist<T>(
     found: Result<T, Why>,
     asked: bool,

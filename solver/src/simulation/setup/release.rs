@@ -83,7 +83,7 @@ impl Columns {
         Vec3::new(x, y, channel.bed_elevation_m(x) + self.along(k, 2))
     }
 
-    /// Whether a place of the release is among those, its place across aside.
+    /// True if a place of the release is among those, its place across aside.
     pub(super) fn any_place(&self, scenario: &Scenario, among: impl Fn(&Vec3) -> bool) -> bool {
         let Some(release) = scenario.release() else {
             return false;

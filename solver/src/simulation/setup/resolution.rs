@@ -18,7 +18,7 @@ const OVERLAP_AT_REST: f64 = 0.01;
 /// Overlap of an impact on one vertex at the expected speed, over the sphero
 /// radius.
 const OVERLAP_AT_IMPACT: f64 = 0.2;
-/// How much stiffer a body is on a rigid wall than on its like: E*/2 and r/2.
+/// Stiffness of a body on a rigid wall over that on its like: E*/2 and r/2.
 const TWO_LIKE_ONE: f64 = 2.0 * std::f64::consts::SQRT_2;
 
 /// The lattice of a scenario: its cells divide the width evenly, so that both
@@ -112,12 +112,12 @@ fn expected_speed(scenario: &Scenario) -> f64 {
     thrown.fold(of_flow, f64::max)
 }
 
-/// What a body brings to its contacts.
+/// Properties that a body brings to its contacts.
 struct Weighty {
     mass: f64,
     sphero_radius: f64,
     restitution: f64,
-    /// Where its centre starts [m].
+    /// Position of its centre at the start [m].
     start: Vec3,
     bounding_radius: f64,
     /// [m²].
@@ -197,9 +197,9 @@ impl Crowd {
 }
 
 impl Weighty {
-    /// Whether its weight can come to rest on another body: it starts higher, and
-    /// not farther aside than both reach and it is higher. What falls, rolls or is
-    /// stacked hands its weight down no flatter than at 45°.
+    /// True if its weight can come to rest on another body: it starts higher, and not
+    /// farther aside than both reach and it is higher. What falls, rolls or is stacked
+    /// hands its weight down no flatter than at 45°.
     fn can_rest_on(&self, other: &Self) -> bool {
         let apart = self.start - other.start;
         let reach = self.bounding_radius + other.bounding_radius;

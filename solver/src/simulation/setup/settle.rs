@@ -37,7 +37,7 @@ pub(super) fn settle(body: &mut Body, planes: &[Plane], gravity: &Vec3) {
     }
 }
 
-/// Where the vertices that touch a plane stand on it, seen from the centre: ahead
+/// Places where the vertices that touch a plane stand on it, seen from the centre: ahead
 /// and to the left [m], in the axes of [`along`].
 fn carriers(body: &Body, plane: &Plane) -> Vec<[f64; 2]> {
     let reach = body.shape.sphero_radius() * TOUCHING;
@@ -65,9 +65,9 @@ struct Footing<'a> {
 }
 
 impl Footing<'_> {
-    /// How far the body sinks [m] and tips ahead and to the left \[rad\] until
-    /// forces k δ^1.5 and their torques balance: the minimum of ⅖ Σ k δ^2.5 less
-    /// the load's work, by Newton's method from an even sinking. An even one stays
+    /// Way that the body sinks [m] and angles by which it tips ahead and to the left
+    /// \[rad\] until forces k δ^1.5 and their torques balance: the minimum of ⅖ Σ k δ^2.5
+    /// less the load's work, by Newton's method from an even sinking. An even one stays
     /// as it is.
     fn balance(&self, even: f64) -> Option<Vec3> {
         let mut pose = Vec3::new(even, 0.0, 0.0);

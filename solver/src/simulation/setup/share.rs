@@ -57,7 +57,7 @@ pub struct Shares {
     pub first: Share,
     /// Once the flow has come near a body.
     pub last: Share,
-    /// How the whole release is divided into points.
+    /// Division of the whole release into points.
     pub columns: Columns,
     /// Which body is the mirror image of each, where half of the flow is computed.
     pub partners: Vec<usize>,

@@ -1,4 +1,4 @@
-//! What of a scene need not be computed, because something else tells it.
+//! Parts of a scene that need not be computed, because something else tells them.
 
 use super::Columns;
 use crate::contact::point_body::Around;
@@ -60,7 +60,7 @@ fn partner(scenario: &Scenario, bodies: &[Body], place: usize) -> Result<usize, 
         .ok_or_else(|| format!("the fixed body {place} has no mirror image"))
 }
 
-/// Whether one body stands where the mirror image of the other would.
+/// True if one body stands where the mirror image of the other would.
 fn mirrored_onto(body: &Body, other: &Body) -> bool {
     let size = body.shape.bounding_radius();
     let near = |a: &Vec3, b: &Vec3| (a - b).norm() <= ROUNDING * size;
@@ -93,7 +93,7 @@ fn mirrored(x: &Vec3) -> Vec3 {
     Vec3::new(x.x, -x.y, x.z)
 }
 
-/// Whether nothing of a flow varies across the channel at the start.
+/// True if nothing of a flow varies across the channel at the start.
 pub(super) fn uniform_across(
     scenario: &Scenario,
     columns: &Columns,
@@ -117,7 +117,7 @@ pub(super) fn uniform_across(
     }
 }
 
-/// Where a flow that knows of no body must not be, at any place across.
+/// Region in which a flow that knows of no body must not be, at any place across.
 pub(in crate::simulation) fn near_body(body: &Body, lattice: &Lattice) -> Around {
     Around::body(body, CLEAR_CELLS * lattice.spacing.max()).all_across()
 }

@@ -14,7 +14,7 @@ pub(super) const FAMILY: Family = Family {
     members,
 };
 
-/// How far [m].
+/// Distance [m].
 const FAR: f64 = 100.0;
 /// A collapse moves its mass centre by centimetres; what differs may be a
 /// thousandth of that, since rounding alone changes which point goes where.

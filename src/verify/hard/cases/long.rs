@@ -25,8 +25,8 @@ const CREEP: f64 = 0.01;
 /// [s].
 const SHEAR: f64 = 10.0;
 const QUICK_SHEAR: f64 = 3.0;
-/// What height and shear stress may change from the fourth to the last tenth: a layer
-/// that starts with its profile takes a second to settle.
+/// Change that height and shear stress may show from the fourth to the last tenth: a
+/// layer that starts with its profile takes a second to settle.
 const DRIFT: f64 = 0.02;
 
 fn members(effort: Effort) -> Vec<Member> {
@@ -126,7 +126,7 @@ fn go(simulation: &mut Simulation, substeps: u64) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// Where every point and body is, by identity [m].
+/// Position of every point and body, by identity [m].
 fn places(simulation: &Simulation) -> Vec<(u32, [f64; 3])> {
     let mut places = Vec::with_capacity(simulation.point_count());
     simulation.visit_points(None, |point| places.push((point.id, point.position.into())));

@@ -39,7 +39,7 @@ pub const ALL: &[Family] = &[
 
 /// Cells of the small scenes [m].
 const CELL: f64 = 0.02;
-/// How long they last [s]: until the flow has struck the cube and gone round it.
+/// Duration [s]: until the flow has struck the cube and gone round it.
 const DURATION: f64 = 0.4;
 
 /// Two litres on a slope and a cube of 40 mm at its foot, coarse and narrow; all of

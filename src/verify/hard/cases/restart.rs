@@ -50,7 +50,7 @@ fn told(what: &str, found: f64, bound: Option<f64>) -> Compared {
     }
 }
 
-/// How many states, and how many of them end otherwise than the run they are of.
+/// Number of states, and of those that end otherwise than the run they are of.
 fn differing() -> Result<(f64, f64), String> {
     let in_words = |error: &dyn std::fmt::Display| error.to_string();
     let scenario = scenario_of(&places::ten_cubes()).map_err(|error| in_words(&error))?;

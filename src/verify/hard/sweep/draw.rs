@@ -40,7 +40,7 @@ pub(super) fn scenario(dice: &mut Dice) -> Value {
     })
 }
 
-/// Whether a draw is cut into few enough points for a short run.
+/// True if a draw is cut into few enough points for a short run.
 pub(super) fn is_small(scenario: &Value) -> bool {
     let numerics = &scenario["numerics"];
     let per_cell = number(numerics, "points_per_cell");

@@ -18,7 +18,7 @@ const BUDGET: u64 = 60_000;
 /// Draws until one is legal.
 const MOST_DRAWS: u32 = 400;
 
-/// What a sweep found.
+/// Findings of a sweep.
 #[derive(Debug, Default, Serialize)]
 pub struct Swept {
     /// Scenarios run.
@@ -34,7 +34,7 @@ pub struct Swept {
     pub substeps: u64,
     /// Points of all of them.
     pub points: u64,
-    /// What failed, by seed.
+    /// Failures, by seed.
     pub failures: Vec<Failing>,
 }
 
@@ -45,7 +45,7 @@ pub struct Failing {
     pub seed: u64,
     /// In which way.
     pub kind: String,
-    /// What happened.
+    /// Event in words.
     pub words: String,
     /// As small as it could be made.
     pub scenario: Value,

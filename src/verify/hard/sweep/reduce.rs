@@ -90,7 +90,7 @@ fn simpler(scenario: &Value) -> Vec<Value> {
     all
 }
 
-/// What two runs that fail alike have in common.
+/// Kind of failure, the same for two runs that fail alike.
 pub(super) fn kind(tried: &Tried) -> String {
     match &tried.ended {
         super::Ended::Failed(error) => {

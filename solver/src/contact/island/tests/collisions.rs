@@ -1,4 +1,4 @@
-//! What bodies keep in a collision, and what they give back.
+//! Momentum and energy that bodies keep in a collision, and the energy they give back.
 
 use super::*;
 use crate::rigid::fixture::tetrahedron;

@@ -7,7 +7,7 @@ use crate::fast::packing::Packing;
 use crate::kernel::PointStencil;
 use crate::math::Vec3;
 
-/// Where a point is kept.
+/// Place of a point in memory.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) block: u32,
