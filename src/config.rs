@@ -1,6 +1,6 @@
-//! What the operator decides: strict, unit-suffixed, checked before anything
-//! is started. Later sources win: built-in values, the TOML file, the
-//! environment (`SCREE_LISTEN`, `SCREE_WORKERS__COUNT`, …).
+//! Configuration by the operator: strict, unit-suffixed, checked before anything is
+//! started. Later sources win: built-in values, the TOML file, the environment
+//! (`SCREE_LISTEN`, `SCREE_WORKERS__COUNT`, …).
 
 use figment::providers::{Env, Format, Serialized, Toml};
 use figment::{Figment, Provider};
@@ -33,13 +33,13 @@ pub struct ServiceConfig {
     pub workers: Workers,
     /// Who may have a job for how long.
     pub queue: Queue,
-    /// What a client may ask of the service.
+    /// Limits of what a client may ask of the service.
     pub limits: Limits,
-    /// How results reach the database while a job runs.
+    /// Recording of results in the database while a job runs.
     pub recording: Recording,
-    /// What is kept for how long.
+    /// Retention of what is kept.
     pub retention: Retention,
-    /// How the log is written.
+    /// Writing of the log.
     pub log: Log,
     /// Access tokens; without any, nobody is asked for one.
     pub tokens: Vec<Token>,
@@ -71,7 +71,7 @@ pub struct Limits {
     pub request_timeout_s: f64,
     /// Connections served at the same time; more wait in the listen queue.
     pub connections: usize,
-    /// How long requests in hand may go on once the service stops [s].
+    /// Time that requests in hand may take once the service stops [s].
     pub drain_timeout_s: f64,
     /// Most jobs that may wait; more are refused with 429.
     pub queued_jobs: u32,
@@ -289,7 +289,7 @@ impl Limits {
         Duration::from_secs_f64(self.request_timeout_s)
     }
 
-    /// How long requests in hand may go on once the service stops.
+    /// Time that requests in hand may take once the service stops.
     pub fn drain_timeout(&self) -> Duration {
         Duration::from_secs_f64(self.drain_timeout_s)
     }

@@ -46,7 +46,7 @@ pub struct RunningService {
 }
 
 impl RunningService {
-    /// Where it listens; with port 0 asked for, the port it got.
+    /// Address that it listens at; with port 0 asked for, the port it got.
     pub fn address(&self) -> SocketAddr {
         self.address
     }

@@ -4,7 +4,7 @@ use super::columns::table;
 use scree_solver::record::{AccuracyReport, Band, Basis, Outcome, Role};
 use std::fmt::Write as _;
 
-/// What stands for an end that is open, or an order there is none of.
+/// Sign for an end that is open, or an order there is none of.
 const NOTHING: &str = "–";
 
 /// The bands of an outcome and what they rest on; nothing if none were asked for.

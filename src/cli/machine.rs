@@ -1,4 +1,4 @@
-//! What it was measured on.
+//! Machine that it was measured on.
 
 use scree_solver::Instructions;
 use serde::Serialize;

@@ -63,7 +63,7 @@ impl OutputDirectory {
         self.write("aerial.svg", aerial.as_bytes())
     }
 
-    /// Where the files are, for people.
+    /// Places of the files, for people.
     pub(super) fn summary(&self) -> String {
         let names = self.written.join(", ");
         format!("written to {}: {names}", self.path.display())

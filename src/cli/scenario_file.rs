@@ -48,7 +48,7 @@ fn name(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// What is wrong with a scenario, for people.
+/// Faults of a scenario, for people.
 fn explain(error: &ScenarioError, name: &str) -> String {
     match error {
         ScenarioError::Malformed { .. } => format!("{name} is {error}"),

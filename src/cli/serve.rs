@@ -49,7 +49,7 @@ fn configuration(options: &ServeOptions) -> Result<ServiceConfig, Failure> {
     Ok(config)
 }
 
-/// What keeps a service from starting, by who has to act.
+/// Failure that keeps a service from starting, by who has to act.
 pub(super) fn not_started(error: &StartError) -> Failure {
     match error {
         StartError::Config(error) => Failure::Input(error.to_string()),

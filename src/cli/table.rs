@@ -3,7 +3,7 @@
 use scree_solver::record::{Audit, BodyOutcome, Cost, FlowOutcome, Outcome};
 use std::fmt::Write as _;
 
-/// What stands for something that did not happen.
+/// Sign for something that did not happen.
 const NEVER: &str = "–";
 
 /// A named value with its unit.

@@ -19,7 +19,7 @@ pub(super) fn validate(options: &ValidateOptions) -> Result<(), Failure> {
     Ok(console::answer(&facts(&scenario, &simulation))?)
 }
 
-/// What the scenario comes to with all defaults in place.
+/// Facts that the scenario comes to with all defaults in place.
 fn facts(scenario: &Scenario, simulation: &Simulation) -> String {
     let mut facts = vec![
         ("title".to_owned(), format!("{:?}", scenario.title)),
@@ -113,7 +113,7 @@ fn recorded(scenario: &Scenario) -> String {
     )
 }
 
-/// What the numerical choices come to, automatic ones included.
+/// Numerical choices, automatic ones included.
 fn numerics(scenario: &Scenario, simulation: &Simulation) -> String {
     let automatic = |given: Option<f64>| if given.is_none() { " (automatic)" } else { "" };
     let numerics = &scenario.numerics;

@@ -11,7 +11,7 @@ pub struct Queue {
     /// Name of this service among those that share a database. Its next start
     /// takes back at once what it left running.
     pub name: String,
-    /// How long a claimed job stays a worker's without a sign of life [s].
+    /// Time that a claimed job stays a worker's without a sign of life [s].
     pub lease_s: f64,
     /// Between two signs of life [s].
     pub heartbeat_interval_s: f64,
@@ -36,7 +36,7 @@ impl Queue {
         Ok(())
     }
 
-    /// How long a claimed job stays a worker's without a sign of life.
+    /// Time that a claimed job stays a worker's without a sign of life.
     pub fn lease(&self) -> Duration {
         Duration::from_secs_f64(self.lease_s)
     }

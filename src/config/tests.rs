@@ -1,4 +1,4 @@
-//! What a configuration may be.
+//! Rules of a configuration.
 
 use super::*;
 

@@ -3,7 +3,7 @@
 use super::{ConfigError, not_allowed};
 use serde::{Deserialize, Serialize};
 
-/// What a token lets its holder do.
+/// Scope of what a token lets its holder do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scope {
@@ -24,7 +24,7 @@ pub struct Token {
     /// BLAKE3 of the token, 64 hexadecimal digits. A token is long and random
     /// (`scree token` makes one), so a fast hash is enough.
     pub blake3: String,
-    /// What it is good for.
+    /// Scopes that it is good for.
     pub scopes: Vec<Scope>,
     /// Most of its jobs that may wait or run at a time; `None`: as many as the
     /// queue takes.

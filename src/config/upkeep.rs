@@ -1,10 +1,10 @@
-//! What is kept for how long, and what the log looks like.
+//! Retention of what is kept, and the look of the log.
 
 use super::{ConfigError, not_allowed};
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// What is kept for how long.
+/// Time for which things are kept.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Retention {
@@ -12,7 +12,7 @@ pub struct Retention {
     pub ended_jobs_d: Option<f64>,
 }
 
-/// How the log is written.
+/// Look of the log.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Log {
@@ -43,7 +43,7 @@ impl Retention {
         }
     }
 
-    /// How long a job that has ended is kept.
+    /// Time for which a job that has ended is kept.
     pub fn ended_jobs(&self) -> Option<Duration> {
         self.ended_jobs_d
             .map(|days| Duration::from_secs_f64(days * 86_400.0))

@@ -135,7 +135,7 @@ impl Runs {
     }
 }
 
-/// What becomes of a run's records.
+/// Fate of a run's records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Fate {
     /// A companion's: nobody wants them.

@@ -1,4 +1,4 @@
-//! What time it is.
+//! Present time.
 
 use jiff::Timestamp;
 use std::fmt::Debug;

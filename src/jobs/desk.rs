@@ -14,8 +14,8 @@ use tokio::sync::Mutex;
 use tokio::task::spawn_blocking;
 use tokio::time::{Instant, sleep, timeout};
 
-/// How long a dismissal waits for the run to end, so that its answer shows the
-/// job as it stays. A run stops after the sub-step in hand, well within this.
+/// Time that a dismissal waits for the run to end, so that its answer shows the job as it
+/// stays. A run stops after the sub-step in hand, well within this.
 const STOP_WAIT: Duration = Duration::from_millis(450);
 
 /// Between two looks whether a job has ended.
@@ -46,7 +46,7 @@ pub enum PlanError {
     BrokenOff(String),
 }
 
-/// What became of a wish to dismiss a job.
+/// Fate of a wish to dismiss a job.
 #[derive(Debug, Clone)]
 pub enum Dismissed {
     /// There is no such job.
@@ -82,7 +82,7 @@ impl Jobs {
         submit::admit(scenario, &means, labels)
     }
 
-    /// What a job of this scenario would compute and how long it would take.
+    /// Plan of a job of this scenario, and how long it would take.
     ///
     /// # Errors
     /// It is no scenario, or its first steps can't be taken.

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
 
-/// What one request brings.
+/// Contents of one request.
 #[derive(Debug, Clone, Copy)]
 pub struct Intake<'a> {
     /// Its jobs.

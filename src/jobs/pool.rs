@@ -16,8 +16,8 @@ use std::time::{Duration, Instant};
 use tokio::runtime::Handle;
 use tokio::sync::watch;
 
-/// How long an idle worker sleeps before it looks for work unasked, in case
-/// a job had to wait after a setback.
+/// Time that an idle worker sleeps before it looks for work unasked, in case a job had to
+/// wait after a setback.
 const IDLE_LOOK: Duration = Duration::from_secs(1);
 
 /// The workers of a service.
@@ -29,7 +29,7 @@ pub struct Pool {
     _keeper: Keeper,
 }
 
-/// What a worker needs to work.
+/// Equipment that a worker needs to work.
 #[derive(Debug, Clone)]
 pub(super) struct Equipment {
     pub(super) store: Store,
@@ -42,7 +42,7 @@ pub(super) struct Equipment {
     pub(super) retention: Retention,
 }
 
-/// Where workers wait for work, and where running jobs can be stopped.
+/// Bench where workers wait for work, and where running jobs can be stopped.
 #[derive(Debug, Default)]
 pub struct Bench {
     state: Mutex<State>,
@@ -110,7 +110,7 @@ impl Pool {
         Ok(pool)
     }
 
-    /// Where the workers wait.
+    /// Bench where the workers wait.
     pub fn bench(&self) -> Arc<Bench> {
         Arc::clone(&self.bench)
     }

@@ -66,7 +66,7 @@ impl Jobs {
         }))
     }
 
-    /// How many samples the stretch has.
+    /// Number of samples of the stretch.
     ///
     /// # Errors
     /// The store's own.

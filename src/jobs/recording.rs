@@ -16,8 +16,8 @@ use thiserror::Error;
 use tokio::runtime::Handle;
 use tracing::warn;
 
-/// How long a database may refuse results before the run is given up. Until
-/// then they are kept in memory: a full disk is often soon seen to.
+/// Time that a database may refuse results before the run is given up. Until then they
+/// are kept in memory: a full disk is often soon seen to.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Saving states takes at most one in so many parts of the time.

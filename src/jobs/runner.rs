@@ -10,7 +10,7 @@ use scree_solver::{Ending, SetupError, Simulation, StepError};
 use std::sync::atomic::{AtomicU8, Ordering};
 use thiserror::Error;
 
-/// Where a run's records and progress go.
+/// Sink of a run's records and progress.
 pub trait Sink: Send {
     /// Why the sink can't take any more; ends the run.
     type Error: Send;
@@ -70,7 +70,7 @@ impl StopFlag {
         self.0.fetch_max(stop as u8, Ordering::Relaxed);
     }
 
-    /// What was asked for.
+    /// Stop that was asked for.
     pub fn asked(&self) -> Stop {
         [Stop::AtTheEnd, Stop::OnceSaved, Stop::AtOnce][usize::from(self.0.load(Ordering::Relaxed))]
     }
@@ -81,7 +81,7 @@ impl StopFlag {
     }
 }
 
-/// How a run ended well.
+/// Good end of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RunEnd {
     /// The simulated time is over.
@@ -90,7 +90,7 @@ pub enum RunEnd {
     Stopped,
 }
 
-/// How a run ended badly.
+/// Bad end of a run.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError<E> {
     /// The solver can't set the scenario up.

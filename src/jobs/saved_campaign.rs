@@ -6,10 +6,10 @@ use scree_solver::record::{Outcome, Record};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// What is known besides the run in hand.
+/// Knowledge of a campaign besides the run in hand.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct SavedCampaign<'a> {
-    /// What came of each run before, in turn.
+    /// Outcome of each run before, in turn.
     pub done: Vec<Result<Outcome, String>>,
     /// Records of the finest run before, if it may be the answer.
     pub kept: Cow<'a, [Record]>,

@@ -11,7 +11,7 @@ use thiserror::Error;
 /// Commit this program was built from.
 pub const COMMIT: &str = env!("BUILD_COMMIT");
 
-/// What a run has cost so far.
+/// Cost of a run so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Spent {
     /// Wall time [s].
@@ -20,7 +20,7 @@ pub struct Spent {
     pub point_steps: u64,
 }
 
-/// What stands before the simulation's own bytes.
+/// Head before the simulation's own bytes.
 #[derive(Serialize, Deserialize)]
 struct Head {
     /// Another build may round otherwise.

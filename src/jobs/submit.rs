@@ -37,7 +37,7 @@ pub fn label(text: &str) -> Option<String> {
     is_legal.then(|| text.to_owned())
 }
 
-/// What a service has for a job.
+/// Means of a service for a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Means {
     /// Solver threads of a worker.

@@ -9,11 +9,11 @@ use scree_solver::{Simulation, SubstepReport};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// How often a sink hears of progress at most: often enough for a progress
-/// bar, rare enough to cost nothing.
+/// Least time between two reports of progress to a sink: often enough for a progress bar,
+/// rare enough to cost nothing.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
-/// What stands between a running simulation and the sink.
+/// Watch between a running simulation and the sink.
 pub(super) struct Watch<'a, S: Sink> {
     recorder: Recorder,
     pace: Pace,

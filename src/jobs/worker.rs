@@ -18,7 +18,7 @@ use uuid::Uuid;
 /// Between two tries to write how a job ended.
 const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
-/// How one run ended, as far as the job is concerned.
+/// End of one run, as far as the job is concerned.
 enum Verdict {
     Successful(Box<Outcome>, String),
     Failed(Failure),
@@ -147,7 +147,7 @@ fn carried_through(
     set_up(equipment, hold, what, sink, ways)?.go(stop, sink)
 }
 
-/// How a run is made from its saved state, and how at its start.
+/// Ways in which a run is made from its saved state, and at its start.
 type Ways<T> = (
     fn(&Scenario, usize, &[u8]) -> Result<T, SavedRunError>,
     fn(&Scenario, usize) -> Result<T, SetupError>,
@@ -220,7 +220,7 @@ fn restored<T>(
     }
 }
 
-/// What a raised flag asks for.
+/// Verdict that a raised flag asks for.
 fn stopped(stop: &StopFlag) -> Verdict {
     match stop.asked() {
         Stop::OnceSaved => Verdict::HandedBack,

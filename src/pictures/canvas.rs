@@ -17,7 +17,7 @@ pub(super) type Plane<'a> =
 /// to whole units; a quarter of a pixel keeps curves smooth and dots in place.
 const DEVICE_PER_PX: f64 = 4.0;
 
-/// What the library multiplies a font size with before it writes the SVG.
+/// Factor by which the library multiplies a font size before it writes the SVG.
 const FONT_SIZE_FACTOR: f64 = 1.24;
 
 /// Ink of axes and texts.

@@ -28,7 +28,7 @@ struct Field {
 /// Curves that share two axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
-    /// What is shown.
+    /// Title.
     pub title: String,
     /// Under which circumstances.
     pub subtitle: String,
@@ -45,11 +45,11 @@ pub struct Chart {
 pub struct Axis {
     /// Quantity and unit.
     pub title: String,
-    /// How values lie on it.
+    /// Scale of its values.
     pub scale: Scale,
 }
 
-/// How values lie on an axis.
+/// Scale of values on an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Evenly, from zero.

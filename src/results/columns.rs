@@ -33,7 +33,7 @@ pub struct TrajectoryColumns {
     pub touching_points: Vec<u32>,
     /// Share of the height below the surface of the flow, 0..1.
     pub submerged_fraction: Vec<f64>,
-    /// How the body moves.
+    /// Modes of the body's motion.
     pub mode: Vec<Mode>,
 }
 

@@ -1,7 +1,6 @@
-//! What a run recorded, in the forms it takes: columns in memory ([`columns`]),
-//! compressed chunks in the database ([`chunk`], [`flow`]), and what clients get
-//! ([`table`], [`vtk`]). Knows the recorder's data types, and
-//! neither the database nor HTTP.
+//! Records of a run, in the forms they take: columns in memory ([`columns`]), compressed
+//! chunks in the database ([`chunk`], [`flow`]), and what clients get ([`table`],
+//! [`vtk`]). Knows the recorder's data types, and neither the database nor HTTP.
 
 pub mod chunk;
 pub mod columns;

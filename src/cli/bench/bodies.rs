@@ -1,4 +1,4 @@
-//! What bodies in the flow cost.
+//! Cost of bodies in the flow.
 
 use super::Effort;
 use super::scenes::{self, IN_THE_FLOW_S};

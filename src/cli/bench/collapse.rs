@@ -12,7 +12,7 @@ use serde::Serialize;
 /// Sub-steps of a quick lap, in single and in double precision.
 const QUICK_LAP: (u64, u64) = (64, 8);
 
-/// How fast the collapse goes each way.
+/// Speeds of the collapse, each way.
 #[derive(Debug, Serialize)]
 pub(super) struct Speeds {
     points: usize,

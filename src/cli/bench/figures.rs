@@ -1,4 +1,4 @@
-//! What was measured, as pictures.
+//! Figures of what was measured.
 
 use super::Report;
 use super::plan::{Saving, Savings};

@@ -1,4 +1,4 @@
-//! How far forecasts of wall time are off: ten scenes that nothing was tuned with.
+//! Errors of forecasts of wall time: ten scenes that nothing was tuned with.
 
 use super::Effort;
 use super::plan::timed;

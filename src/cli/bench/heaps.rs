@@ -1,4 +1,4 @@
-//! What bodies cost that lie on each other, without a flow.
+//! Cost of bodies that lie on each other, without a flow.
 
 use super::Effort;
 use super::scenes;

@@ -24,7 +24,7 @@ use std::io::IsTerminal;
 /// Cell size of the channel, quick and full [m].
 const CHANNEL_CELLS_M: (f64, f64) = (0.0125, 0.01);
 
-/// How long to measure.
+/// Time to measure.
 #[derive(Debug, Serialize)]
 struct Effort {
     /// The whole of each scene, and the largest.
@@ -35,7 +35,7 @@ struct Effort {
     points: u32,
 }
 
-/// What was measured; what was not is left out.
+/// Report of what was measured; what was not is left out.
 #[derive(Debug, Serialize)]
 struct Report {
     solver_version: &'static str,

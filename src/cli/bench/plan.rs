@@ -1,4 +1,4 @@
-//! What each reduction saves on the source paper's scene, and what it changes.
+//! Savings of each reduction on the source paper's scene, and what it changes.
 
 use super::Effort;
 use super::scenes;

@@ -90,8 +90,7 @@ pub(super) fn measure(effort: &Effort) -> Result<Rooflines, Failure> {
     })
 }
 
-/// What so many threads do together: `work` gives what one of them does in a
-/// second.
+/// Work of so many threads together in a second: `work` gives that of one of them.
 fn on(threads: usize, work: impl Fn() -> f64 + Sync) -> f64 {
     std::thread::scope(|scope| {
         let workers: Vec<_> = (0..threads).map(|_| scope.spawn(&work)).collect();

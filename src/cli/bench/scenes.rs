@@ -28,7 +28,7 @@ const SMALL_CUBES_M: (f64, f64) = (0.03, 0.02);
 /// Small cubes side by side in the channel.
 const ABREAST: usize = 5;
 
-/// How a collapse is computed.
+/// Way in which a collapse is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Collapse {
     /// Points, about.

@@ -16,7 +16,7 @@ const WORK: u32 = 20_000_000;
 /// Sub-steps of a lap at least: a transfer comes once in so many.
 const FEWEST_SUBSTEPS: u32 = 20;
 
-/// How the speed depends on the number of points.
+/// Speeds by the number of points.
 #[derive(Debug, Serialize)]
 pub(super) struct Sizes {
     sizes: Vec<Size>,

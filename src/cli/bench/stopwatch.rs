@@ -11,7 +11,7 @@ use std::time::Instant;
 /// Sub-steps taken before the first lap.
 const WARM_UP: u64 = 16;
 
-/// How far a lap goes; it always ends with a step.
+/// Length of a lap; it always ends with a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Length {
     /// So many sub-steps or a few more.
@@ -20,7 +20,7 @@ pub(super) enum Length {
     Simulated(f64),
 }
 
-/// What a lap, or several, did and took.
+/// Counts and times of a lap, or of several.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub(super) struct Lap {
     /// Wall time [s].

@@ -15,7 +15,7 @@ const COMPARED: [usize; 4] = [1, 2, 3, 7];
 /// Up to here every number of threads is timed, beyond it every doubling.
 const EVERY_NUMBER: usize = 8;
 
-/// How the speed depends on the number of threads.
+/// Speeds by the number of threads.
 #[derive(Debug, Serialize)]
 pub(super) struct Scaling {
     points: usize,

@@ -12,7 +12,7 @@ const NUMERICAL: &str = "urn:scree:failure:numerical";
 /// Kind of failure that is the scenario's: too large to set up.
 const SETUP: &str = "urn:scree:failure:setup";
 
-/// What the demo reads of a job.
+/// Fields of a job that the demo reads.
 #[derive(Debug, Deserialize)]
 pub(super) struct Job {
     pub(super) id: String,
@@ -31,7 +31,7 @@ struct Problem {
 }
 
 impl Job {
-    /// How the job ended; none while it has not.
+    /// End of the job; none while it has not ended.
     pub(super) fn end(self) -> Option<Result<Outcome, Failure>> {
         if matches!(self.status.as_str(), "accepted" | "running") {
             return None;
@@ -54,7 +54,7 @@ struct Trajectory {
     columns: TrajectoryColumns,
 }
 
-/// What a run recorded, put together from the service's documents.
+/// Records of a run, put together from the service's documents.
 #[derive(Debug, Default)]
 pub(super) struct Recorded {
     pub(super) samples: Vec<Sample>,

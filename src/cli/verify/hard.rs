@@ -128,7 +128,7 @@ fn verdict(tried: &Tried) -> String {
     }
 }
 
-/// How a case ended if it did not just finish, and what a comparison found.
+/// End of a case that did not just finish, and findings of a comparison.
 fn notes(tried: &Tried) -> Vec<String> {
     let mut lines = Vec::new();
     if !tried.ended.is_finished() {

@@ -1,4 +1,4 @@
-//! What was found, as a part of a document in Markdown.
+//! Findings as a part of a document in Markdown.
 
 use super::{NOTHING, Report, limit_in_words, order_in_words, row};
 use crate::cli::failure::Failure;
@@ -47,7 +47,7 @@ fn failed(file: &Path, why: &dyn std::fmt::Display) -> Failure {
     Failure::Other(format!("{}: {why}", file.display()))
 }
 
-/// What stands before and after the marks.
+/// Text before and after the marks.
 fn parted(text: &str) -> Option<(&str, &str)> {
     let (before, rest) = text.split_once(BEGIN)?;
     let (_, after) = rest.split_once(END)?;

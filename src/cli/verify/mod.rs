@@ -21,7 +21,7 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::IsTerminal;
 
-/// What stands where there is nothing.
+/// Sign for nothing.
 const NOTHING: &str = "–";
 
 /// All that was verified.
@@ -100,7 +100,7 @@ fn tell_of(name: &str) {
     }
 }
 
-/// What is to be run.
+/// Cases to be run.
 struct Asked {
     cases: Vec<&'static Case>,
     families: Vec<&'static Family>,

@@ -1,16 +1,16 @@
-//! How running jobs end, or go back to where they came from.
+//! Ends of running jobs, and their ways back to where they came from.
 
 use super::history::end_attempt;
 use super::{Hold, Store, StoreError};
 use crate::jobs::failure::Failure;
 use sqlx::sqlite::SqliteConnection;
 
-/// How many setbacks in a row a job may have before it fails: what takes the
+/// Number of setbacks in a row that a job may have before it fails: what takes the
 /// service down must not do so for ever.
 pub const TOLERATED_SETBACKS: u32 = 3;
 
-/// How long a job waits after its first, second, … setback [ms], and how long a service
-/// has to have been up before it takes the job up again.
+/// Times that a job waits after its first, second, … setback [ms], and that a service has
+/// to have been up before it takes the job up again.
 pub(super) const BACK_OFF_MS: [i64; 2] = [2_000, 8_000];
 
 /// Longest wait after a setback [ms]. A job that seems to wait longer does so
@@ -28,7 +28,7 @@ pub enum Setback {
     Infrastructure(String),
 }
 
-/// What became of a job that an attempt gave back.
+/// Fate of a job that an attempt gave back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Returned {
     /// It waits for another attempt.

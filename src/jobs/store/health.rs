@@ -6,7 +6,7 @@ use crate::jobs::job::JobStatus;
 /// A database that has no room for this much can't take a job in [bytes].
 const PROBED_ROOM: u32 = 65_536;
 
-/// What keeps the database from answering, by who has to act.
+/// Trouble that keeps the database from answering, by who has to act.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Trouble {
     /// The disk, or the database's own limit, is full.
@@ -17,7 +17,7 @@ pub enum Trouble {
     Defect,
 }
 
-/// How many jobs there are.
+/// Numbers of jobs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Census {
     /// Jobs of each state, in the order of [`JobStatus::ALL`].
@@ -26,12 +26,12 @@ pub struct Census {
     pub attempts: Vec<(String, u64)>,
     /// Length of the database [bytes].
     pub database_bytes: u64,
-    /// How long the oldest waiting job has waited [s]; 0 if none waits.
+    /// Time that the oldest waiting job has waited [s]; 0 if none waits.
     pub oldest_waiting_s: f64,
 }
 
 impl StoreError {
-    /// What is the matter.
+    /// Kind of trouble.
     pub fn trouble(&self) -> Trouble {
         let Self::Database(error) = self else {
             return match self {

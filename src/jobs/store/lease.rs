@@ -8,7 +8,7 @@ use crate::jobs::job::JobStatus;
 use crate::jobs::progress::Progress;
 use std::time::Duration;
 
-/// What a heartbeat brings back.
+/// Answer to a heartbeat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Renewal {
     /// The job is still this hold's, for another lease.

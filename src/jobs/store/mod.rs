@@ -1,5 +1,5 @@
-//! Where jobs and results are kept: one SQLite file. All SQL of the project is
-//! in this folder, behind [`JobStore`], and nothing here knows HTTP or the solver.
+//! Store of jobs and results: one SQLite file. All SQL of the project is in this folder,
+//! behind [`JobStore`], and nothing here knows HTTP or the solver.
 //!
 //! One connection writes, in transactions that take the write lock at once; a
 //! few read-only ones read beside it (write-ahead log). Every commit reaches
@@ -50,8 +50,8 @@ use thiserror::Error;
 /// Connections that read. More would only wait for the same disk.
 const READERS: u32 = 4;
 
-/// How long a connection waits for a lock that another holds. Only a backup
-/// tool could hold one for long.
+/// Time that a connection waits for a lock that another holds. Only a backup tool could
+/// hold one for long.
 const BUSY_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Length to which the write-ahead log is cut back [bytes].

@@ -13,11 +13,11 @@ use std::time::Duration;
 pub struct Claimant {
     /// Name of the service; its next start takes back at once what it left.
     pub owner: String,
-    /// How long a claim holds unless it is renewed.
+    /// Time that a claim holds unless it is renewed.
     pub lease: Duration,
     /// Program that runs the jobs.
     pub solver: Solver,
-    /// How long the service has been up.
+    /// Time that the service has been up.
     pub up_for: Duration,
 }
 
@@ -43,7 +43,7 @@ pub struct Claim {
     pub setbacks: u32,
 }
 
-/// What became of a wish to dismiss a job.
+/// Fate of a wish to dismiss a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dismissal {
     /// There is no such job.

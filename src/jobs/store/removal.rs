@@ -6,7 +6,7 @@ use crate::jobs::job::JobId;
 /// Jobs removed at one go: a long list must not hold up those who submit.
 const REMOVED_AT_ONCE: u32 = 20;
 
-/// What became of a wish to remove a job.
+/// Fate of a wish to remove a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Removal {
     /// There is no such job.

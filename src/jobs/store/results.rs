@@ -29,14 +29,14 @@ pub struct NewChunk {
     pub block: Block,
 }
 
-/// What a run adds to the database at one go.
+/// Results that a run adds to the database at one go.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct NewResults {
     /// Chunks of trajectories.
     pub chunks: Vec<NewChunk>,
     /// Snapshots of the flow.
     pub snapshots: Vec<StoredSnapshot>,
-    /// How far the run is.
+    /// Progress of the run.
     pub progress: Progress,
     /// The run's state after all that.
     pub state: Option<StoredState>,
@@ -126,7 +126,7 @@ impl Store {
             .map_err(|source| StoreError::Block { job, source })
     }
 
-    /// How many samples of a body's trajectory there are.
+    /// Number of samples of a body's trajectory.
     ///
     /// # Errors
     /// The database's own.

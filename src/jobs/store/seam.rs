@@ -77,7 +77,7 @@ seam! {
     fn state(job: JobId) -> Option<StoredState>;
     /// The first chunk from a sample on that reaches into a range.
     fn chunk(job: JobId, body: usize, from_sample: i64, selection: &Selection) -> Option<StoredChunk>;
-    /// How many samples of a body's trajectory there are.
+    /// Number of samples of a body's trajectory.
     fn samples(job: JobId, body: usize) -> usize;
     /// The times of all snapshots so far [s].
     fn snapshot_times(job: JobId) -> Vec<f64>;

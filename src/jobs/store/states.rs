@@ -11,7 +11,7 @@ use sqlx::sqlite::SqliteConnection;
 /// Bytes of one stored piece.
 const PIECE_BYTES: usize = 8 << 20;
 
-/// Where a saved state stands in what its run recorded.
+/// Mark of a saved state in what its run recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mark {
     /// Simulated time [s].
@@ -25,7 +25,7 @@ pub struct Mark {
 /// A run's state, compressed and checksummed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredState {
-    /// Where it stands.
+    /// Mark in the run's records.
     pub mark: Mark,
     /// Length of the state [bytes].
     pub bytes: usize,
@@ -33,7 +33,7 @@ pub struct StoredState {
     pub block: Block,
 }
 
-/// Where an attempt begins.
+/// Beginning of an attempt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Beginning {
     /// At the start: whatever was recorded before is removed.

@@ -6,7 +6,7 @@ use crate::jobs::job::JobId;
 use crate::jobs::submit::NewJob;
 use sqlx::sqlite::SqliteConnection;
 
-/// What one request brings.
+/// Contents of one request.
 #[derive(Debug, Clone, Copy)]
 pub struct Submission<'a> {
     /// Its jobs, to be run in this order.
@@ -15,7 +15,7 @@ pub struct Submission<'a> {
     pub submitter: Option<&'a str>,
     /// Its Idempotency-Key.
     pub key: Option<Key<'a>>,
-    /// How many jobs may wait.
+    /// Room for jobs that wait.
     pub room: Room,
 }
 
@@ -28,7 +28,7 @@ pub struct Key<'a> {
     pub body_hash: [u8; 32],
 }
 
-/// How many jobs may wait, those of the request included.
+/// Number of jobs that may wait, those of the request included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Room {
     /// Of all submitters together.
@@ -37,7 +37,7 @@ pub struct Room {
     pub submitter: Option<u32>,
 }
 
-/// What became of a submission.
+/// Fate of a submission.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Submitted {
     /// Its jobs wait.

@@ -44,8 +44,8 @@ pub(super) fn choose<'a>(samples: &[Sample], snapshots: &'a [FlowSnapshot]) -> V
     progress.spread(&times).into_iter().map(at).collect()
 }
 
-/// How far a run has come: partly in time, partly in the bodies' travel, so
-/// that most panels show something happen.
+/// Progress of a run: partly in time, partly in the bodies' travel, so that most panels
+/// show something happen.
 struct Progress {
     /// Time [s] and share of the way, both increasing.
     shares: Vec<(f64, f64)>,

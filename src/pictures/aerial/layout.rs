@@ -1,4 +1,4 @@
-//! Where the panels of the aerial view lie.
+//! Layout of the panels of the aerial view.
 
 use super::instants::Instant;
 use super::panel::Scene;

@@ -20,7 +20,7 @@ const INCLINE: RGBColor = RGBColor(240, 241, 243);
 /// Radius of a dot in sides of its square: neighbours overlap a little.
 const DOT_RADIUS_BINS: f64 = 0.85;
 
-/// What all panels share.
+/// Scene that all panels share.
 #[derive(Debug)]
 pub(super) struct Scene<'a> {
     pub scenario: &'a Scenario,
@@ -62,7 +62,7 @@ impl<'a> Scene<'a> {
         (low - margin).max(whole.start - beyond)..(high + margin).min(whole.end + beyond)
     }
 
-    /// Where bodies reach at most, at both sides of their centres.
+    /// Extents of bodies at both sides of their centres.
     fn body_extents(&self, sample: &'a Sample) -> impl Iterator<Item = f64> + Clone {
         let bodies = self.shapes.iter().zip(&sample.bodies);
         bodies.flat_map(|(shape, state)| {

@@ -1,4 +1,4 @@
-//! What the motion picture shows of one body.
+//! Track of one body in the motion picture.
 
 use crate::pictures::format::significant;
 use crate::pictures::palette::body_color;
@@ -9,7 +9,7 @@ use scree_solver::scenario::Scenario;
 /// Most points one curve is drawn with: more than two a pixel show nothing.
 const CURVE_POINTS: usize = 2_000;
 
-/// What a panel shows.
+/// Quantity that a panel shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Quantity {
     /// Net horizontal displacement [m].
@@ -21,7 +21,7 @@ pub(super) enum Quantity {
 }
 
 impl Quantity {
-    /// What there is to show, from above.
+    /// Parts of a scene that can be shown, from above.
     pub(super) fn of(scenario: &Scenario) -> Vec<Self> {
         let mut shown = vec![Self::Displacement, Self::Speed];
         if scenario.flow.is_some() {
@@ -40,7 +40,7 @@ impl Quantity {
     }
 }
 
-/// Where the text of a mark stands, to keep clear of the curve.
+/// Placement of the text of a mark, to keep clear of the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Placement {
     /// Above the mark: the curve is level there, or falls to both sides.
@@ -56,9 +56,9 @@ pub(super) enum Placement {
 pub(super) struct Note {
     /// Time [s] and value.
     pub at: (f64, f64),
-    /// What it is, in words.
+    /// Text in words.
     pub text: String,
-    /// Where that stands.
+    /// Placement of the text.
     pub placement: Placement,
 }
 

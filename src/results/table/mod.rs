@@ -31,7 +31,7 @@ pub enum Format {
 
 /// Writes a trajectory: for each pass `begin`, `rows` for every chunk, `end`.
 pub trait Writer: Send {
-    /// How often the trajectory has to be gone over.
+    /// Number of times that the trajectory has to be gone over.
     fn passes(&self) -> usize;
 
     /// Begins a pass.
@@ -79,7 +79,7 @@ impl Format {
         }
     }
 
-    /// What writes it.
+    /// Writer of it.
     pub fn writer(self, heading: &Heading, fields: Vec<Field>) -> Box<dyn Writer> {
         match self {
             Self::Json => Box::new(json::JsonWriter::new(heading, fields)),

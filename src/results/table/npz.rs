@@ -46,7 +46,7 @@ impl Writer for NpzWriter {
     }
 }
 
-/// What stands before an array's numbers: NPY format, version 1.0.
+/// Head before an array's numbers: NPY format, version 1.0.
 fn array_head(field: Field, rows: usize) -> Vec<u8> {
     let shape = match field.parts().len() {
         0 => format!("({rows},)"),

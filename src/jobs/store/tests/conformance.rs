@@ -1,5 +1,5 @@
-//! What any driver of the job store must hold to, one rule a test. Another
-//! driver adds itself to [`conformance!`]'s list.
+//! Rules that any driver of the job store must hold to, one a test. Another driver adds
+//! itself to [`conformance!`]'s list.
 
 use super::*;
 use crate::jobs::failure::Failure;

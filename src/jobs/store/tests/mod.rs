@@ -19,7 +19,7 @@ use scree_solver::record::FlowSnapshot;
 use std::sync::Mutex;
 use tempfile::TempDir;
 
-/// How long claims hold in these tests.
+/// Time that claims hold in these tests.
 const LEASE: Duration = Duration::from_secs(30);
 
 /// A clock that stands until it is set.
@@ -95,7 +95,7 @@ impl<S: JobStore> Fixture<S> {
         self.job(id).await.summary.status
     }
 
-    /// How the attempts at a job ended, in words; "" for one that goes on.
+    /// Ends of the attempts at a job, in words; "" for one that goes on.
     async fn endings(&self, id: JobId) -> Vec<String> {
         let attempts = self.job(id).await.attempts;
         attempts

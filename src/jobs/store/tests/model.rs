@@ -42,7 +42,7 @@ fn event() -> impl Strategy<Value = Event> {
     ]
 }
 
-/// What is known of a job without looking into the database.
+/// Knowledge of a job without a look into the database.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct ModelJob {
     status: Option<JobStatus>,

@@ -1,5 +1,5 @@
-//! What only the SQLite driver has: rules that the database itself enforces,
-//! one file, one lock.
+//! Rules of the SQLite driver alone: those that the database itself enforces, one file,
+//! one lock.
 
 use super::*;
 use crate::jobs::failure::Failure;
