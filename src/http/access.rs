@@ -67,7 +67,7 @@ impl Caller {
         }
     }
 
-    /// Whether it may do this.
+    /// True if it may do this.
     fn may(&self, scope: Scope) -> bool {
         match self {
             Self::Anyone => true,
@@ -75,7 +75,7 @@ impl Caller {
         }
     }
 
-    /// Whether it may change a job that `submitter` brought.
+    /// Checks that it may change a job that `submitter` brought.
     ///
     /// # Errors
     /// The job is another's, and the token none of an administrator.
@@ -117,7 +117,7 @@ pub(super) async fn check(State(gate): State<Gate>, mut request: Request, next: 
     next.run(request).await
 }
 
-/// Whether anyone may ask for this.
+/// True if anyone may ask for this.
 pub(super) fn is_open(path: &str) -> bool {
     OPEN.contains(&path)
 }

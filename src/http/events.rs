@@ -117,7 +117,7 @@ impl Follower {
         }
     }
 
-    /// Whether the one job that is followed has ended and all is told. No answer
+    /// True if the one job that is followed has ended and all is told. No answer
     /// if the database does not give one.
     async fn has_ended(&mut self) -> Option<bool> {
         let Some(job) = self.job else {

@@ -19,7 +19,7 @@ pub(super) fn json(asked: &HeaderMap, document: &impl Serialize) -> Result<Respo
     Ok((tag_header, json, body).into_response())
 }
 
-/// Whether `If-None-Match` names this tag, as RFC 9110 compares: weakly.
+/// True if `If-None-Match` names this tag, as RFC 9110 compares: weakly.
 fn names(asked: &HeaderMap, tag: &str) -> bool {
     let lists = asked.get_all(header::IF_NONE_MATCH).into_iter();
     lists.filter_map(|list| list.to_str().ok()).any(|list| {

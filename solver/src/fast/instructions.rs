@@ -38,8 +38,8 @@ impl Instructions {
         Self::Baseline
     }
 
-    /// True if they round once where a product is added, false if twice: a run goes on with the
-    /// same bits under instructions that do alike.
+    /// True if they round once where a product is added, false if twice: a run goes on
+    /// with the same bits under instructions that do alike.
     pub fn fuse(self) -> bool {
         self > Self::Baseline
     }

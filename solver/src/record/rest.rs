@@ -129,9 +129,9 @@ fn specific_energy(point: &Point, simulation: &Simulation, base: &Base) -> f64 {
     0.5 * speed * speed + simulation.gravity().norm() * base.bed_under(x)
 }
 
-/// Distance that any of these bodies, which are at rest, could still get in `left` [s], by itself and
-/// pushed by what of a flow gets as far as it is [m] (equation 62); `None` if too far, or if nothing says
-/// how far.
+/// Distance that any of these bodies, which are at rest, could still get in `left` [s],
+/// by itself and pushed by what of a flow gets as far as it is [m] (equation 62); `None`
+/// if too far, or if nothing says how far.
 pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f64) -> Option<f64> {
     let free = simulation.bodies().iter().filter(|body| body.is_free());
     let gravity = simulation.gravity().norm();
