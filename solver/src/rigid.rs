@@ -1,5 +1,6 @@
 //! Rigid bodies: sphero-polyhedra that move (docs/method.md, equations 15 and 16).
 
+use crate::contact::friction::Spring;
 use crate::contact::law::ContactLaw;
 use crate::math::{Mat3, Vec3};
 use crate::motion::{PrescribedMotion, Velocities};
@@ -69,11 +70,11 @@ pub struct BodyState {
     pub momentum: Vec3,
     /// Angular momentum about the centre of mass, world axes [kg m²/s].
     pub angular_momentum: Vec3,
-    /// Stretch of the tangential spring of every pair of core vertex and wall
-    /// [m], vertex by vertex; zero where they are apart.
-    pub springs: Vec<Vec3>,
-    /// The same of their rolling springs; empty without rolling resistance.
-    pub rolling: Vec<Vec3>,
+    /// Tangential spring of every pair of core vertex and wall, vertex by vertex; new
+    /// where they are apart.
+    pub springs: Vec<Spring>,
+    /// Their springs against rolling; empty without rolling resistance.
+    pub rolling: Vec<Spring>,
     /// Present load of the walls.
     pub wall_load: Load,
     /// Energy its wall contacts hold now [J].
@@ -151,6 +152,13 @@ impl Body {
     /// [m/s²].
     pub fn acceleration_at(&self, load: &Load, arm: &Vec3) -> Vec3 {
         load.force / self.mass + self.angular_acceleration(&load.torque).cross(arm)
+    }
+
+    /// F·F/m + T·I⁻¹T [W/s]: the power of a load against the accelerations that it gives,
+    /// over the time they last.
+    pub fn response(&self, load: &Load) -> f64 {
+        let turning = load.torque.dot(&self.angular_acceleration(&load.torque));
+        load.force.norm_squared() / self.mass + turning
     }
 
     /// Angular acceleration that a torque gives to a body that does not turn yet
@@ -240,7 +248,18 @@ impl Body {
 
     /// Largest speed of any of its places [m/s].
     pub fn largest_speed(&self) -> f64 {
-        self.velocity().norm() + self.angular_velocity().norm() * self.shape.bounding_radius()
+        self.fastest_place(&self.velocity(), &self.angular_velocity())
+    }
+
+    /// Largest speed of a place, for these velocities in world axes.
+    fn fastest_place(&self, linear: &Vec3, angular: &Vec3) -> f64 {
+        self.shape
+            .fastest_place(&self.to_body(linear), &self.to_body(angular))
+    }
+
+    /// Least mass that resists a force anywhere on its surface [kg].
+    pub fn least_effective_mass(&self) -> f64 {
+        self.mass / (1.0 + self.shape.turning_compliance())
     }
 
     /// Largest speed to reckon with in a step that begins now [m/s]: the present one, or
@@ -254,16 +273,14 @@ impl Body {
         }
     }
 
-    /// Bound of the acceleration of any of its places under gravity [m/s²] and a load, its
-    /// present turning left out [m/s²]; 0 for a body that no load moves.
+    /// Largest acceleration of a place under gravity [m/s²] and a load, its present turning
+    /// left out [m/s²]; 0 for a body that no load moves.
     pub fn largest_acceleration(&self, gravity: &Vec3, load: &Load) -> f64 {
         match self.freedom {
             Freedom::Fixed | Freedom::Prescribed(_) => 0.0,
             Freedom::Free | Freedom::InPlane => {
-                let turning = self.inverse_inertia.norm() * load.torque.norm();
-                gravity.norm()
-                    + load.force.norm() / self.mass
-                    + turning * self.shape.bounding_radius()
+                let linear = gravity + load.force / self.mass;
+                self.fastest_place(&linear, &self.angular_acceleration(&load.torque))
             }
         }
     }

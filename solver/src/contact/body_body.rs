@@ -1,6 +1,8 @@
 //! Bodies on bodies: what two of them do to each other, and what their
 //! contacts remember (docs/method.md, equations 43–47).
 
+use crate::contact::dissipation::{Damping, stopping};
+use crate::contact::friction::{Held, Spring, viscous_part};
 use crate::contact::law::{ContactLaw, mass_seen};
 use crate::math::Vec3;
 use crate::rigid::{Body, Freedom, Load};
@@ -10,7 +12,8 @@ mod places;
 mod segments;
 mod separation;
 
-use places::{Between, Contact, contacts};
+pub use places::Contacts;
+use places::{Between, Contact, Near, contacts};
 pub use separation::{Separation, least_gap};
 
 /// What the contacts of two bodies remember from one body sub-step to the next.
@@ -18,23 +21,23 @@ pub use separation::{Separation, least_gap};
 pub struct Meeting {
     /// Places of the two in the list of bodies, the lower first.
     pub bodies: [usize; 2],
-    springs: Vec<Spring>,
+    springs: Vec<FeatureSprings>,
     /// Deepest overlap now [m]; 0 when apart.
     pub deepest: f64,
     /// Energy their contacts hold now [J].
     pub energy: f64,
 }
 
-/// The tangential spring of one contact.
+/// The springs of one contact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct Spring {
+struct FeatureSprings {
     between: Between,
     /// Where the contact is, from the first body's centre [m].
     place: Vec3,
-    /// How far the second body slid on the first [m].
-    stretch: Vec3,
-    /// How far it rolled on it, as an angle × the equivalent radius [m].
-    rolling: Vec3,
+    /// How far the second body slid on the first.
+    sliding: Spring,
+    /// How far it rolled on it, as an angle × the equivalent radius.
+    rolling: Spring,
 }
 
 /// What two bodies do to each other.
@@ -62,61 +65,104 @@ impl Meeting {
         self.deepest > 0.0
     }
 
-    /// Renews springs and forces after a drift of `dt`, and what is known of the gap.
+    /// Finds the contacts of the two after a drift, and what is known of the gap.
+    pub fn find(
+        &mut self,
+        [first, second]: [&Body; 2],
+        law: &ContactLaw,
+        separation: &mut Separation,
+    ) -> Contacts {
+        let found = contacts(first, second, law, separation);
+        let overlaps = found.places.iter().map(|contact| contact.near.overlap);
+        self.deepest = overlaps.fold(0.0, f64::max);
+        found
+    }
+
+    /// Renews springs and forces of the contacts found after a drift of `dt`.
     pub fn touch(
         &mut self,
         [first, second]: [&Body; 2],
         law: &ContactLaw,
+        found: &Contacts,
         dt: f64,
-        separation: &mut Separation,
     ) -> Exchange {
-        let found = contacts(first, second, law, separation);
-        let pair = Pair::new(first, second, &found.push);
-        let before = std::mem::take(&mut self.springs);
-        let mut push = found.push;
-        self.energy = found.energy;
-        self.deepest = 0.0;
-        for contact in &found.places {
-            let mut spring = remembered(&before, contact, pair.radii);
-            let felt = pair.felt(contact, law);
-            let (force, held) = felt.resist(&mut spring.stretch, dt);
-            push.add_at(&contact.near.place, &force);
-            self.energy += held;
-            if pair.rolling > 0.0 {
-                let (couple, held) = felt.resist_rolling(&mut spring.rolling, dt);
-                push.torque += couple;
-                self.energy += held;
-            }
-            self.deepest = self.deepest.max(contact.near.overlap);
-            self.springs.push(spring);
+        if found.places.is_empty() {
+            self.springs.clear();
+            self.energy = found.energy;
+            return Exchange::of(&found.push, &(second.state.position - first.state.position));
         }
+        let pair = Pair::new(first, second, law, &found.push);
+        self.springs = take_over(&self.springs, &found.places, &pair);
+        let pressed = pair.press(&found.places, dt);
+        let rubbed = pair.rub(&pressed, &mut self.springs, dt);
+        self.energy = found.energy + rubbed.energy;
+        let mut push = found.push;
+        for pressed in &pressed {
+            let Near { place, normal, .. } = &pressed.contact.near;
+            push.add_at(place, &(normal * pressed.damping));
+        }
+        push.add(&rubbed.load);
         Exchange::of(&push, &pair.apart)
     }
 }
 
-/// A contact's spring so far. One that comes up where another was, as when a
-/// vertex slides over a rim, takes that one's stretch over.
-fn remembered(before: &[Spring], contact: &Contact, reach: f64) -> Spring {
-    let distance = |spring: &Spring| (spring.place - contact.near.place).norm();
+/// The springs of the contacts found, from those `before`. A contact that comes up where
+/// another was, as when a vertex slides over a rim, takes that one's stretch over.
+/// Together they hold no more energy than those before.
+fn take_over(
+    before: &[FeatureSprings],
+    contacts: &[Contact],
+    pair: &Pair,
+) -> Vec<FeatureSprings> {
+    let mut springs: Vec<FeatureSprings> = contacts
+        .iter()
+        .map(|contact| {
+            let heir_of = heir_of(before, contact, pair.radii);
+            let stiffness = pair.law.tangential_stiffness(contact.near.overlap);
+            let spring = |of: fn(&FeatureSprings) -> Spring| Spring {
+                stretch: heir_of.map_or_else(Vec3::zeros, |spring| of(spring).stretch),
+                stiffness: contact.share * stiffness,
+            };
+            FeatureSprings {
+                between: contact.between,
+                place: contact.near.place,
+                sliding: spring(|springs| springs.sliding),
+                rolling: spring(|springs| springs.rolling),
+            }
+        })
+        .collect();
+    let factor = |of: fn(&FeatureSprings) -> &Spring| {
+        let held = Held::by(before.iter().map(of));
+        Held::by(springs.iter().map(of)).relaxed(&held)
+    };
+    let (sliding, rolling) = (factor(|of| &of.sliding), factor(|of| &of.rolling));
+    for spring in &mut springs {
+        spring.sliding.stretch *= sliding;
+        spring.rolling.stretch *= rolling;
+    }
+    springs
+}
+
+/// The springs that a contact takes over: its own, or the nearest within `reach`.
+fn heir_of<'a>(
+    before: &'a [FeatureSprings],
+    contact: &Contact,
+    reach: f64,
+) -> Option<&'a FeatureSprings> {
+    let distance = |springs: &FeatureSprings| (springs.place - contact.near.place).norm();
     let own = before
         .iter()
-        .find(|spring| spring.between == contact.between);
-    let nearest = || {
-        let near = before.iter().filter(|spring| distance(spring) < reach);
+        .find(|springs| springs.between == contact.between);
+    own.or_else(|| {
+        let near = before.iter().filter(|springs| distance(springs) < reach);
         near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-    };
-    let heir_of = own.or_else(nearest);
-    Spring {
-        between: contact.between,
-        place: contact.near.place,
-        stretch: heir_of.map_or_else(Vec3::zeros, |spring| spring.stretch),
-        rolling: heir_of.map_or_else(Vec3::zeros, |spring| spring.rolling),
-    }
+    })
 }
 
 /// Two bodies, and what does not depend on the contact.
 struct Pair<'a> {
     bodies: [&'a Body; 2],
+    law: &'a ContactLaw,
     /// From the first's centre to the second's.
     apart: Vec3,
     /// Sum of the sphero radii.
@@ -129,23 +175,34 @@ struct Pair<'a> {
     rolling: f64,
 }
 
-/// One contact with the motion in it.
-struct Felt<'a> {
+/// One contact that the two press on.
+struct Pressed<'a> {
     contact: &'a Contact,
-    law: &'a ContactLaw,
-    /// Velocity of the second body there relative to the first's.
+    /// Velocity of the second body there relative to the first's [m/s].
     velocity: Vec3,
     /// Mass that it has to stop [kg].
     mass: f64,
-    pair: &'a Pair<'a>,
+    /// Normal force of the whole contact [N].
+    force: f64,
+    /// The part of damping in that, with the contact's share [N].
+    damping: f64,
+}
+
+/// What friction and rolling resistance do to the second body, the torque being about the
+/// first's centre.
+struct Rubbed {
+    load: Load,
+    /// What their springs hold [J].
+    energy: f64,
 }
 
 impl<'a> Pair<'a> {
-    fn new(first: &'a Body, second: &'a Body, push: &Load) -> Self {
+    fn new(first: &'a Body, second: &'a Body, law: &'a ContactLaw, push: &Load) -> Self {
         let apart = second.state.position - first.state.position;
         let exchange = Exchange::of(push, &apart);
         Self {
             bodies: [first, second],
+            law,
             apart,
             radii: first.shape.sphero_radius() + second.shape.sphero_radius(),
             velocities: [first, second].map(Motion::velocity),
@@ -180,20 +237,89 @@ impl<'a> Pair<'a> {
         a * b / (a + b)
     }
 
-    fn felt(&'a self, contact: &'a Contact, law: &'a ContactLaw) -> Felt<'a> {
-        let near = &contact.near;
-        let parting = self.relative(&self.accelerations, &near.place);
-        Felt {
-            contact,
-            law,
-            velocity: self.relative(&self.velocities, &near.place),
-            mass: mass_seen(
-                law.elastic_force(near.overlap),
-                parting.dot(&near.normal),
-                self.reduced_mass,
-            ),
-            pair: self,
+    /// Normal forces, with the share of damping that takes energy (equation 18b).
+    fn press(&self, contacts: &'a [Contact], dt: f64) -> Vec<Pressed<'a>> {
+        let (mut damping, mut sum) = (Damping::default(), Load::default());
+        let mut pressed: Vec<Pressed> = contacts
+            .iter()
+            .map(|contact| {
+                let near = &contact.near;
+                let elastic = self.law.elastic_force(near.overlap);
+                let parting = self.relative(&self.accelerations, &near.place);
+                let mass = mass_seen(elastic, parting.dot(&near.normal), self.reduced_mass);
+                let velocity = self.relative(&self.velocities, &near.place);
+                let approach = -velocity.dot(&near.normal);
+                let force = self.law.normal_force(near.overlap, approach, mass);
+                let part = contact.share * (force - elastic);
+                damping.power -= part * approach;
+                sum.add_at(&near.place, &(near.normal * part));
+                Pressed {
+                    contact,
+                    velocity,
+                    mass,
+                    force,
+                    damping: part,
+                }
+            })
+            .collect();
+        damping.stopping = self.stopping(&sum);
+        let share = damping.share(dt);
+        for pressed in &mut pressed {
+            let left_out = (1.0 - share) * pressed.damping;
+            pressed.damping -= left_out;
+            pressed.force -= left_out / pressed.contact.share;
         }
+        pressed
+    }
+
+    /// Friction and rolling resistance, with the share of damping that takes energy.
+    fn rub(&self, pressed: &[Pressed], springs: &mut [FeatureSprings], dt: f64) -> Rubbed {
+        let mut rubbed = Rubbed {
+            load: Load::default(),
+            energy: 0.0,
+        };
+        let radius = self.equivalent_radius();
+        let (mut damping, mut sum) = (Damping::default(), Load::default());
+        for (pressed, springs) in pressed.iter().zip(springs) {
+            let near = &pressed.contact.near;
+            let share = pressed.contact.share;
+            let viscous = share * self.law.tangential_damping(near.overlap, pressed.mass);
+            let across = |v: &Vec3| v - near.normal * v.dot(&near.normal);
+            let mut resist = |spring: &mut Spring, velocity: Vec3, friction: f64| {
+                let cap = friction * pressed.force * share;
+                spring.turn(&self.turning(), &near.normal, dt);
+                let elastic = spring.slide(&(velocity * dt), cap);
+                let part = viscous_part(&elastic, viscous, &velocity, cap);
+                rubbed.energy += spring.energy();
+                damping.power += part.dot(&velocity);
+                [elastic, part]
+            };
+            let sliding = across(&pressed.velocity);
+            let [elastic, part] = resist(&mut springs.sliding, sliding, self.law.friction);
+            rubbed.load.add_at(&near.place, &elastic);
+            sum.add_at(&near.place, &part);
+            if self.rolling > 0.0 {
+                let turning = across(&self.spin()) * radius;
+                let [elastic, part] = resist(&mut springs.rolling, turning, self.rolling);
+                rubbed.load.torque += elastic * radius;
+                sum.torque += part * radius;
+            }
+        }
+        damping.stopping = self.stopping(&sum);
+        let share = damping.share(dt);
+        rubbed.load.add(&Load {
+            force: sum.force * share,
+            torque: sum.torque * share,
+        });
+        rubbed
+    }
+
+    /// D W D of damping forces on the second body and their opposites on the first, the
+    /// torque being about the first's centre.
+    fn stopping(&self, forces: &Load) -> f64 {
+        let exchange = Exchange::of(forces, &self.apart);
+        let [first, second] = self.bodies;
+        stopping(first, &exchange.on_first) + stopping(second, &exchange.on_second)
     }
 }
 
@@ -211,55 +337,6 @@ impl Exchange {
                 torque: push.torque - apart.cross(&push.force),
             },
         }
-    }
-}
-
-impl Felt<'_> {
-    /// Damping and friction on the second body [N], and the energy the spring
-    /// holds [J].
-    fn resist(&self, stretch: &mut Vec3, dt: f64) -> (Vec3, f64) {
-        let near = &self.contact.near;
-        let along = self.velocity.dot(&near.normal);
-        let normal_force = self.law.normal_force(near.overlap, -along, self.mass);
-        let damping = normal_force - self.law.elastic_force(near.overlap);
-        let sliding = self.velocity - near.normal * along;
-        self.turn(stretch, dt);
-        *stretch += sliding * dt;
-        let tangential =
-            self.law
-                .tangential_force(stretch, &sliding, (near.overlap, normal_force, self.mass));
-        let stretched = self.law.stretched_energy(stretch, near.overlap);
-        let share = self.contact.share;
-        (
-            (near.normal * damping + tangential) * share,
-            stretched * share,
-        )
-    }
-}
-
-impl Felt<'_> {
-    /// A spring turns with the bodies, and stays in the contact's plane.
-    fn turn(&self, stretch: &mut Vec3, dt: f64) {
-        let normal = &self.contact.near.normal;
-        *stretch += self.pair.turning().cross(stretch) * dt;
-        *stretch -= normal * stretch.dot(normal);
-    }
-
-    /// Couple against rolling on the second body [N m], and the energy its spring
-    /// holds [J].
-    fn resist_rolling(&self, stretch: &mut Vec3, dt: f64) -> (Vec3, f64) {
-        let near = &self.contact.near;
-        let along = self.velocity.dot(&near.normal);
-        let pressed = self.law.normal_force(near.overlap, -along, self.mass);
-        let spin = self.pair.spin();
-        let spin = spin - near.normal * spin.dot(&near.normal);
-        self.turn(stretch, dt);
-        let resistance = (self.pair.rolling, self.pair.equivalent_radius());
-        let state = (near.overlap, pressed, self.mass);
-        let (couple, held) = self
-            .law
-            .rolling_couple(resistance, stretch, &spin, dt, state);
-        (couple * self.contact.share, held * self.contact.share)
     }
 }
 

@@ -1,9 +1,11 @@
 //! Bodies on walls: sphere-swept vertices of a convex body against planes
 //! (docs/method.md, equations 17–19).
 
+use crate::contact::dissipation::{Damping, stopping};
+use crate::contact::friction::{Spring, viscous_part};
 use crate::contact::law::mass_seen;
 use crate::math::Vec3;
-use crate::rigid::{Body, Load};
+use crate::rigid::{Body, BodyState, Load};
 use crate::walls::Plane;
 
 /// Deepest overlap of the body with a wall [m]; negative when apart.
@@ -37,49 +39,164 @@ fn overlaps<'a>(
 /// Renews the body's wall load and its springs after a drift of `dt`.
 pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
     let count = body.shape.core_vertices().len() * planes.len();
-    let mut springs = std::mem::take(&mut body.state.springs);
-    let mut rolling = std::mem::take(&mut body.state.rolling);
-    springs.resize(count, Vec3::zeros());
+    body.state.springs.resize(count, Spring::NEW);
     if body.rolling_friction > 0.0 {
-        rolling.resize(count, Vec3::zeros());
+        body.state.rolling.resize(count, Spring::NEW);
     }
-    if body.state.wall_overlap == 0.0 && clear_of(body, planes) {
-        body.state.springs = springs;
-        body.state.rolling = rolling;
-        body.state.wall_load = Load::default();
-        body.state.wall_energy = 0.0;
+    let apart = body.state.wall_overlap == 0.0;
+    body.state.wall_load = Load::default();
+    body.state.wall_energy = 0.0;
+    if apart && clear_of(body, planes) {
         return;
     }
-    let push = elastic_push(body, planes);
-    let mut load = Load::default();
-    let mut energy = 0.0;
-    let mut deepest: f64 = 0.0;
-    for (place, arm, overlap) in overlaps(body, planes) {
-        deepest = deepest.max(overlap);
-        if overlap <= 0.0 {
-            springs[place] = Vec3::zeros();
-            if let Some(stretch) = rolling.get_mut(place) {
-                *stretch = Vec3::zeros();
+    let touches = touches(body, planes);
+    body.state.wall_overlap = deepest_of(&touches);
+    forget_what_is_apart(&mut body.state, &touches);
+    if touches.is_empty() {
+        return;
+    }
+    let push = elastic_push(body, &touches);
+    let pressed = press(body, &touches, &push, dt);
+    let (mut springs, mut rolling) = (
+        std::mem::take(&mut body.state.springs),
+        std::mem::take(&mut body.state.rolling),
+    );
+    let rubbed = rub(body, &pressed, [&mut springs, &mut rolling], dt);
+    let elastic = pressed
+        .iter()
+        .map(|pressed| body.wall_law.elastic_energy(pressed.touch.overlap));
+    body.state.wall_energy = elastic.sum::<f64>() + rubbed.energy;
+    for pressed in &pressed {
+        let Touch { arm, normal, .. } = &pressed.touch;
+        body.state.wall_load.add_at(arm, &(normal * pressed.force));
+    }
+    body.state.wall_load.add(&rubbed.load);
+    (body.state.springs, body.state.rolling) = (springs, rolling);
+}
+
+/// Every vertex that overlaps a wall.
+fn touches(body: &Body, planes: &[Plane]) -> Vec<Touch> {
+    overlaps(body, planes)
+        .filter(|(_, _, overlap)| *overlap > 0.0)
+        .map(|(place, arm, overlap)| {
+            Touch::of(body, (place, &planes[place % planes.len()]), &arm, overlap)
+        })
+        .collect()
+}
+
+fn deepest_of(touches: &[Touch]) -> f64 {
+    let overlaps = touches.iter().map(|touch| touch.overlap);
+    overlaps.fold(0.0, f64::max)
+}
+
+fn forget_what_is_apart(state: &mut BodyState, touches: &[Touch]) {
+    for springs in [&mut state.springs, &mut state.rolling] {
+        let mut touching = touches.iter().map(|touch| touch.place).peekable();
+        for (place, spring) in springs.iter_mut().enumerate() {
+            if touching.next_if_eq(&place).is_none() {
+                *spring = Spring::NEW;
             }
-            continue;
-        }
-        let touch = Touch::of(body, &planes[place % planes.len()], &arm, overlap);
-        let mass = mass_on(body, &push, &touch);
-        let (force, held) = wall_force(body, &touch, mass, dt, &mut springs[place]);
-        load.add_at(&touch.arm, &force);
-        energy += held;
-        if let Some(stretch) = rolling.get_mut(place) {
-            let pressed = force.dot(&touch.normal);
-            let (couple, held) = wall_couple(body, &touch, (pressed, mass), dt, stretch);
-            load.torque += couple;
-            energy += held;
         }
     }
-    body.state.springs = springs;
-    body.state.rolling = rolling;
-    body.state.wall_load = load;
-    body.state.wall_energy = energy;
-    body.state.wall_overlap = deepest;
+}
+
+/// The elastic forces of all walls together.
+fn elastic_push(body: &Body, touches: &[Touch]) -> Load {
+    let mut push = Load::default();
+    for touch in touches {
+        let force = touch.normal * body.wall_law.elastic_force(touch.overlap);
+        push.add_at(&touch.arm, &force);
+    }
+    push
+}
+
+/// A vertex that a wall presses.
+struct Pressed<'a> {
+    touch: &'a Touch,
+    /// Mass that the contact has to stop (equation 46) [kg].
+    mass: f64,
+    /// Normal force [N].
+    force: f64,
+}
+
+/// Normal forces, with the share of damping that takes energy (equation 18b).
+fn press<'a>(body: &Body, touches: &'a [Touch], push: &Load, dt: f64) -> Vec<Pressed<'a>> {
+    let law = &body.wall_law;
+    let (mut damping, mut sum) = (Damping::default(), Load::default());
+    let mut pressed: Vec<Pressed> = touches
+        .iter()
+        .map(|touch| {
+            let elastic = law.elastic_force(touch.overlap);
+            let acceleration = body.acceleration_at(push, &touch.arm).dot(&touch.normal);
+            let mass = mass_seen(elastic, acceleration, body.mass);
+            let approach = -body.velocity_at(&touch.arm).dot(&touch.normal);
+            let force = law.normal_force(touch.overlap, approach, mass);
+            damping.power -= (force - elastic) * approach;
+            sum.add_at(&touch.arm, &(touch.normal * (force - elastic)));
+            Pressed { touch, mass, force }
+        })
+        .collect();
+    damping.stopping = stopping(body, &sum);
+    let share = damping.share(dt);
+    for pressed in &mut pressed {
+        let elastic = law.elastic_force(pressed.touch.overlap);
+        pressed.force = elastic + share * (pressed.force - elastic);
+    }
+    pressed
+}
+
+/// What friction and rolling resistance do.
+struct Rubbed {
+    load: Load,
+    /// What their springs hold [J].
+    energy: f64,
+}
+
+/// Friction and rolling resistance, with the share of damping that takes energy.
+fn rub(
+    body: &Body,
+    pressed: &[Pressed],
+    [springs, rolling]: [&mut [Spring]; 2],
+    dt: f64,
+) -> Rubbed {
+    let law = &body.wall_law;
+    let spin = body.angular_velocity();
+    let radius = body.shape.sphero_radius();
+    let mut rubbed = Rubbed {
+        load: Load::default(),
+        energy: 0.0,
+    };
+    let (mut damping, mut sum) = (Damping::default(), Load::default());
+    for Pressed { touch, mass, force } in pressed {
+        let stiffness = law.tangential_stiffness(touch.overlap);
+        let viscous = law.tangential_damping(touch.overlap, *mass);
+        let across = |v: &Vec3| v - touch.normal * v.dot(&touch.normal);
+        let mut resist = |spring: &mut Spring, velocity: Vec3, cap: f64| {
+            spring.stiffen(stiffness);
+            let elastic = spring.slide(&(velocity * dt), cap);
+            let part = viscous_part(&elastic, viscous, &velocity, cap);
+            rubbed.energy += spring.energy();
+            damping.power += part.dot(&velocity);
+            [elastic, part]
+        };
+        let sliding = across(&body.velocity_at(&touch.arm));
+        let [elastic, part] = resist(&mut springs[touch.place], sliding, law.friction * force);
+        rubbed.load.add_at(&touch.arm, &elastic);
+        sum.add_at(&touch.arm, &part);
+        if let Some(spring) = rolling.get_mut(touch.place) {
+            let turning = across(&spin) * radius;
+            let [elastic, part] = resist(spring, turning, body.rolling_friction * force);
+            rubbed.load.torque += elastic * radius;
+            sum.torque += part * radius;
+        }
+    }
+    damping.stopping = stopping(body, &sum);
+    let share = damping.share(dt);
+    rubbed.load.add(&Load {
+        force: sum.force * share,
+        torque: sum.torque * share,
+    });
+    rubbed
 }
 
 /// Whether no wall comes as near as the bounding ball.
@@ -91,75 +208,25 @@ fn clear_of(body: &Body, planes: &[Plane]) -> bool {
         .all(|height| height > radius)
 }
 
-/// The elastic forces of all walls together.
-fn elastic_push(body: &Body, planes: &[Plane]) -> Load {
-    let mut push = Load::default();
-    for (place, arm, overlap) in overlaps(body, planes) {
-        if overlap > 0.0 {
-            let touch = Touch::of(body, &planes[place % planes.len()], &arm, overlap);
-            let force = touch.normal * body.wall_law.elastic_force(overlap);
-            push.add_at(&touch.arm, &force);
-        }
-    }
-    push
-}
-
-/// Couple against rolling on a wall, and the energy its spring holds.
-fn wall_couple(
-    body: &Body,
-    touch: &Touch,
-    (pressed, mass): (f64, f64),
-    dt: f64,
-    stretch: &mut Vec3,
-) -> (Vec3, f64) {
-    let spin = body.angular_velocity();
-    let rolling = spin - touch.normal * spin.dot(&touch.normal);
-    let resistance = (body.rolling_friction, body.shape.sphero_radius());
-    let state = (touch.overlap, pressed, mass);
-    body.wall_law
-        .rolling_couple(resistance, stretch, &rolling, dt, state)
-}
-
 /// One vertex on one wall.
 struct Touch {
+    /// Where its springs are.
+    place: usize,
+    /// Middle of the overlap, from the centre of mass [m].
     arm: Vec3,
     normal: Vec3,
     overlap: f64,
 }
 
 impl Touch {
-    /// In the middle of the overlap.
-    fn of(body: &Body, plane: &Plane, vertex: &Vec3, overlap: f64) -> Self {
+    fn of(body: &Body, (place, plane): (usize, &Plane), vertex: &Vec3, overlap: f64) -> Self {
         Self {
+            place,
             arm: vertex - plane.normal * (body.shape.sphero_radius() - 0.5 * overlap),
             normal: plane.normal,
             overlap,
         }
     }
-}
-
-/// Mass that a contact has to stop, of what all walls stop together (equation 46) [kg].
-fn mass_on(body: &Body, push: &Load, touch: &Touch) -> f64 {
-    let force = body.wall_law.elastic_force(touch.overlap);
-    let acceleration = body.acceleration_at(push, &touch.arm).dot(&touch.normal);
-    mass_seen(force, acceleration, body.mass)
-}
-
-/// Force on the body [N] and the energy the contact holds [J].
-fn wall_force(body: &Body, touch: &Touch, mass: f64, dt: f64, spring: &mut Vec3) -> (Vec3, f64) {
-    let law = &body.wall_law;
-    let velocity = body.velocity_at(&touch.arm);
-    let along = velocity.dot(&touch.normal);
-    let normal_force = law.normal_force(touch.overlap, -along, mass);
-    let sliding = velocity - touch.normal * along;
-    *spring += sliding * dt;
-    let tangential = law.tangential_force(spring, &sliding, (touch.overlap, normal_force, mass));
-    let elastic = law.elastic_energy(touch.overlap);
-    let stretched = law.stretched_energy(spring, touch.overlap);
-    (
-        touch.normal * normal_force + tangential,
-        elastic + stretched,
-    )
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The bodies' own sub-steps: bodies that may meet within a sub-step of the flow
 //! form an island and move together (docs/method.md, equations 15, 20 and 48).
 
-use crate::contact::body_body::{Meeting, Separation, least_gap};
+use crate::contact::body_body::{Contacts, Meeting, Separation, least_gap};
 use crate::contact::body_wall::touch_walls;
 use crate::contact::law::ContactLaw;
 use crate::contact::neighbours::{Ball, overlapping};
@@ -18,7 +18,9 @@ mod pace;
 use division::islands;
 use mover::Mover;
 use pace::substeps;
-pub use pace::{MOST_SUBSTEPS, substeps_alone};
+#[cfg(test)]
+use pace::substeps_alone;
+pub use pace::{MOST_SUBSTEPS, substeps_ahead};
 
 /// A body none of whose places is faster is still [m/s].
 const STILL: f64 = 1e-5;
@@ -154,6 +156,7 @@ pub fn meet(bodies: &mut [Body]) -> Vec<Meeting> {
             movers,
             meetings: met,
         } = &mut island;
+        find_contacts(members, movers, met, 0.0);
         touch_bodies(members, movers, met, 0.0);
         meetings.extend(island.meetings.into_iter().map(|met| met.meeting));
     }
@@ -251,6 +254,8 @@ struct Met<'a> {
     law: ContactLaw,
     sides: [Side<'a>; 2],
     separation: Separation,
+    /// As found after the last drift.
+    contacts: Contacts,
 }
 
 #[derive(Clone, Copy)]
@@ -315,6 +320,9 @@ fn advance_together(
         for member in members.iter_mut() {
             member.half_kick(&around.gravity, 0.5 * h);
             member.body.drift(h);
+        }
+        find_contacts(members, movers, meetings, h);
+        for member in members.iter_mut() {
             touch_walls(member.body, around.planes, h);
         }
         touch_bodies(members, movers, meetings, h);
@@ -348,6 +356,39 @@ fn body_of<'a>(members: &'a [Member], movers: &'a [Mover], side: Side<'a>) -> &'
     }
 }
 
+/// Finds where bodies touch after a drift of `dt`, and counts how many touch each.
+fn find_contacts(members: &mut [Member], movers: &mut [Mover], meetings: &mut [Met], dt: f64) {
+    let members_bodies = members.iter_mut().map(|member| &mut *member.body);
+    for body in members_bodies.chain(movers.iter_mut().map(|mover| &mut mover.body)) {
+        body.state.touching_bodies = 0;
+    }
+    for met in meetings {
+        let [first, second] = met.sides.map(|side| body_of(members, movers, side));
+        let approach = dt * (first.speed_bound() + second.speed_bound());
+        if met.separation.outlasts(approach) {
+            met.contacts = Contacts::default();
+            continue;
+        }
+        met.contacts = met
+            .meeting
+            .find([first, second], &met.law, &mut met.separation);
+        if met.meeting.touches() {
+            let smaller = f64::min(first.shape.sphero_radius(), second.shape.sphero_radius());
+            let ratio = met.meeting.deepest / smaller;
+            for side in met.sides {
+                match side {
+                    Side::Member(place) => {
+                        members[place].body.state.touching_bodies += 1;
+                        members[place].report.overlap(ratio);
+                    }
+                    Side::Mover(place) => movers[place].body.state.touching_bodies += 1,
+                    Side::Barrier(_) => {}
+                }
+            }
+        }
+    }
+}
+
 /// Renews what bodies do to each other after a drift of `dt`.
 fn touch_bodies(members: &mut [Member], movers: &mut [Mover], meetings: &mut [Met], dt: f64) {
     let members_bodies = members.iter_mut().map(|member| &mut *member.body);
@@ -355,25 +396,11 @@ fn touch_bodies(members: &mut [Member], movers: &mut [Mover], meetings: &mut [Me
         let state = &mut body.state;
         state.body_load = Load::default();
         state.barrier_load = Load::default();
-        state.touching_bodies = 0;
     }
     for met in meetings {
-        let [first, second] = met.sides.map(|side| body_of(members, movers, side));
-        let approach = dt * (first.speed_bound() + second.speed_bound());
-        if met.separation.outlasts(approach) {
-            continue;
-        }
-        let exchange = met
-            .meeting
-            .touch([first, second], &met.law, dt, &mut met.separation);
+        let both = met.sides.map(|side| body_of(members, movers, side));
+        let exchange = met.meeting.touch(both, &met.law, &met.contacts, dt);
         if met.meeting.touches() {
-            let smaller = f64::min(first.shape.sphero_radius(), second.shape.sphero_radius());
-            let ratio = met.meeting.deepest / smaller;
-            for side in met.sides {
-                if let Side::Member(place) = side {
-                    members[place].report.overlap(ratio);
-                }
-            }
             let [one, other] = met.sides;
             take(members, movers, [one, other], &exchange.on_first);
             take(members, movers, [other, one], &exchange.on_second);
@@ -388,7 +415,6 @@ fn take(members: &mut [Member], movers: &mut [Mover], [to, from]: [Side; 2], loa
         Side::Mover(place) => &mut movers[place].body.state,
         Side::Barrier(_) => return,
     };
-    state.touching_bodies += 1;
     match from {
         Side::Member(_) => state.body_load.add(load),
         Side::Barrier(_) | Side::Mover(_) => state.barrier_load.add(load),

@@ -1,7 +1,6 @@
 //! The contact law of two rounded surfaces: numbers in, force out
 //! (docs/method.md, equations 17–19).
 
-use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// Hertz stiffness with damping and Coulomb friction for one kind of contact.
@@ -16,7 +15,7 @@ pub struct ContactLaw {
 }
 
 /// Tangential over normal stiffness, 2(1−ν)/(2−ν) at ν = 0.3 (Mindlin 1949).
-pub const TANGENTIAL_STIFFNESS_RATIO: f64 = 0.82;
+const TANGENTIAL_STIFFNESS_RATIO: f64 = 0.82;
 
 impl ContactLaw {
     /// Law of a contact modulus E* [Pa], an equivalent radius R* [m], a
@@ -68,54 +67,14 @@ impl ContactLaw {
         1.5 * self.stiffness * overlap.max(0.0).sqrt()
     }
 
-    /// Tangential force [N] of a spring stretched by `stretch` [m] and sliding
-    /// at `velocity` [m/s], capped at friction × normal force; where the cap
-    /// binds, the spring is shortened to what the cap can hold.
-    pub fn tangential_force(
-        &self,
-        stretch: &mut Vec3,
-        velocity: &Vec3,
-        (overlap, normal_force, mass): (f64, f64, f64),
-    ) -> Vec3 {
-        let stiffness = TANGENTIAL_STIFFNESS_RATIO * self.tangent_stiffness(overlap);
-        let damping = TANGENTIAL_STIFFNESS_RATIO * self.damping_coefficient(overlap, mass);
-        let trial = -*stretch * stiffness - velocity * damping;
-        let cap = self.friction * normal_force;
-        let size = trial.norm();
-        if size <= cap {
-            return trial;
-        }
-        let force = trial * (cap / size);
-        if stiffness > 0.0 {
-            *stretch = -force / stiffness;
-        }
-        force
+    /// k_t = 0.82 · 1.5 k √δ [N/m].
+    pub fn tangential_stiffness(&self, overlap: f64) -> f64 {
+        TANGENTIAL_STIFFNESS_RATIO * self.tangent_stiffness(overlap)
     }
 
-    /// Couple [N m] on a body that rolls at `spin` [rad/s] on a contact of this
-    /// equivalent radius [m], and the energy its spring holds [J]: friction (18) of
-    /// the speed radius × spin, capped at `rolling` × radius × normal force.
-    pub fn rolling_couple(
-        &self,
-        (rolling, radius): (f64, f64),
-        stretch: &mut Vec3,
-        spin: &Vec3,
-        dt: f64,
-        state: (f64, f64, f64),
-    ) -> (Vec3, f64) {
-        let law = Self {
-            friction: rolling,
-            ..*self
-        };
-        let speed = spin * radius;
-        *stretch += speed * dt;
-        let force = law.tangential_force(stretch, &speed, state);
-        (force * radius, law.stretched_energy(stretch, state.0))
-    }
-
-    /// Energy of a tangential spring [J].
-    pub fn stretched_energy(&self, stretch: &Vec3, overlap: f64) -> f64 {
-        0.5 * TANGENTIAL_STIFFNESS_RATIO * self.tangent_stiffness(overlap) * stretch.norm_squared()
+    /// c_t = 0.82 η √(m k) δ^¼ [N s/m].
+    pub fn tangential_damping(&self, overlap: f64, mass: f64) -> f64 {
+        TANGENTIAL_STIFFNESS_RATIO * self.damping_coefficient(overlap, mass)
     }
 
     /// Law of the contacts of two bodies from those of each on a rigid wall, with
@@ -312,15 +271,5 @@ mod tests {
         };
         let on_smooth = ContactLaw::of_pair([&law, &smooth], [0.01, 0.01]);
         assert_eq!(on_smooth.friction, 0.0);
-    }
-
-    #[test]
-    fn friction_is_capped_and_the_spring_forgets_what_slid() {
-        let law = ContactLaw::hertz(1e6, 0.01, 1.0, 0.5);
-        let mut stretch = Vec3::new(1.0, 0.0, 0.0);
-        let force = law.tangential_force(&mut stretch, &Vec3::zeros(), (1e-4, 2.0, 1.0));
-        assert!((force.x + 1.0).abs() < 1e-12);
-        let again = law.tangential_force(&mut stretch, &Vec3::zeros(), (1e-4, 2.0, 1.0));
-        assert!((again - force).norm() < 1e-9);
     }
 }

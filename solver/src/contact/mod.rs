@@ -2,6 +2,8 @@
 
 pub mod body_body;
 pub mod body_wall;
+pub mod dissipation;
+pub mod friction;
 pub mod island;
 pub mod law;
 pub mod neighbours;

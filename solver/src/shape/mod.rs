@@ -46,6 +46,7 @@ pub struct SpheroPolyhedron {
     surface: f64,
     unit_inertia: Matrix3<f64>,
     bounding_radius: f64,
+    turning_compliance: f64,
 }
 
 /// Way in which the nearest feature of the core is found.
@@ -120,10 +121,13 @@ impl SpheroPolyhedron {
             .iter()
             .map(Vector3::norm)
             .fold(0.0, f64::max);
+        let volume = steiner_volume(&core, sphero_radius);
+        let unit_inertia = Moments::of_dilated(&core, sphero_radius).inertia();
         Self {
-            volume: steiner_volume(&core, sphero_radius),
+            volume,
             surface: steiner_surface(&core, sphero_radius),
-            unit_inertia: Moments::of_dilated(&core, sphero_radius).inertia(),
+            unit_inertia,
+            turning_compliance: volume * turning_compliance(&core, sphero_radius, &unit_inertia),
             bounding_radius: farthest + sphero_radius,
             core,
             nearest,
@@ -169,6 +173,22 @@ impl SpheroPolyhedron {
         self.bounding_radius
     }
 
+    /// How much more than the whole body a place of its surface yields to a force because
+    /// the body turns, at most: the mass that resists a force anywhere is at least
+    /// m/(1 + this).
+    pub fn turning_compliance(&self) -> f64 {
+        self.turning_compliance
+    }
+
+    /// Largest speed of a place of the rounded solid that moves with `linear` at its
+    /// centre and turns with `angular`, both in its own axes: of the vertices, since
+    /// speed is a convex function of the place, and as much more as the rounding adds.
+    pub fn fastest_place(&self, linear: &Vector3<f64>, angular: &Vector3<f64>) -> f64 {
+        let vertices = self.core.vertices().iter();
+        let speeds = vertices.map(|vertex| (linear + angular.cross(vertex)).norm_squared());
+        speeds.fold(0.0, f64::max).sqrt() + self.sphero_radius * angular.norm()
+    }
+
     /// Radius of a disc no smaller than the solid's shadow from any side [m]: that of
     /// the bounding ball, or one with half the surface, which no shadow of a convex
     /// solid exceeds.
@@ -207,6 +227,24 @@ impl SpheroPolyhedron {
             Nearest::Walk(walk) => walk.closest(x),
         }
     }
+}
+
+/// Largest compliance by turning alone of a place within the sphero radius of a vertex, for
+/// density 1: the largest eigenvalue of −[c]× I⁻¹ [c]×.
+fn turning_compliance(
+    core: &ConvexPolyhedron,
+    sphero_radius: f64,
+    unit_inertia: &Matrix3<f64>,
+) -> f64 {
+    let inverse = unit_inertia.try_inverse().unwrap_or_else(Matrix3::zeros);
+    let of_vertex = |vertex: &Vector3<f64>| {
+        let place = vertex + vertex.normalize() * sphero_radius;
+        let cross = place.cross_matrix();
+        (cross * inverse * cross.transpose())
+            .symmetric_eigenvalues()
+            .max()
+    };
+    core.vertices().iter().map(of_vertex).fold(0.0, f64::max)
 }
 
 fn positive(quantity: &'static str, value: f64) -> Result<(), ShapeError> {

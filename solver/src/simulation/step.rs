@@ -3,7 +3,6 @@
 
 use super::flow::{StepEnd, StepStart, Substep};
 use super::laps::Verb;
-use super::setup::Setup;
 use super::{Simulation, StepInHand, SubstepReport};
 use crate::contact::island;
 use crate::contact::point_body::impulse_on_flow;
@@ -103,15 +102,9 @@ impl Simulation {
     /// A sub-step no longer than this [s] in which no body asks for too many of its own,
     /// be it at the end of a `step` [s] that starts now.
     fn for_bodies(&self, longest: f64, step: f64) -> f64 {
-        let free = self.state.bodies.iter().filter(|body| body.is_free());
-        let Setup {
-            planes, gravity, ..
-        } = &self.given;
-        let asked = free.map(|body| {
-            let falling = body.largest_acceleration(gravity, &Load::default());
-            island::substeps_alone(body, planes, falling, longest, step)
-        });
-        let most = asked.fold(0.0, f64::max);
+        let around = self.given.surroundings(self.state.clock.time);
+        let (bodies, meetings) = (&self.state.bodies, &self.state.meetings);
+        let most = island::substeps_ahead(bodies, meetings, &around, longest, step);
         if most > MANY_BODY_SUBSTEPS {
             longest * (MANY_BODY_SUBSTEPS / most)
         } else {

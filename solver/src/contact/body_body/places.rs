@@ -47,7 +47,7 @@ pub(super) struct Contact {
 
 /// Every contact of two bodies, and the elastic forces of them together.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Contacts {
+pub struct Contacts {
     /// The places, in an order that follows from the bodies alone.
     pub(super) places: Vec<Contact>,
     /// Elastic force on the second body, and its torque about the *first's*

@@ -2,7 +2,7 @@
 
 use super::mover::Mover;
 use super::{BodyReport, Island, Member, Met, Side, is_free};
-use crate::contact::body_body::{Meeting, Separation, pair_law};
+use crate::contact::body_body::{Contacts, Meeting, Separation, pair_law};
 use crate::contact::law::ContactLaw;
 use crate::rigid::{Body, Load};
 
@@ -59,6 +59,7 @@ pub(super) fn islands<'a>(
                 law,
                 sides,
                 separation: Separation::default(),
+                contacts: Contacts::default(),
             });
         }
     }

@@ -1,12 +1,12 @@
 //! How many sub-steps of its own an island takes within one of the flow
 //! (docs/method.md, equations 20 and 48).
 
-use super::{Member, Met, Mover, Side, Surroundings, body_of, is_free, reach};
-use crate::contact::body_body::reduced_mass;
+use super::{Member, Met, Mover, Side, Surroundings, body_of, is_free, near_pairs, reach};
+use crate::contact::body_body::{Meeting, pair_law, reduced_mass};
 use crate::contact::body_wall::deepest_overlap;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
-use crate::rigid::{Body, Freedom};
+use crate::rigid::{Body, Freedom, Load};
 use crate::walls::Plane;
 
 /// Share of a contact's time scale √(m/k'), k' where it is deepest, taken per
@@ -46,7 +46,7 @@ pub(super) fn substeps(
 
 /// Sub-steps that a body needs within `dt` for its spin and for the walls that it may
 /// touch in the time `ahead` [s], under this acceleration [m/s²].
-pub fn substeps_alone(
+pub(super) fn substeps_alone(
     body: &Body,
     planes: &[Plane],
     acceleration: f64,
@@ -60,20 +60,40 @@ pub fn substeps_alone(
     let contacts = if deepest + reach(body, acceleration, ahead) > 0.0 {
         let law = &body.wall_law;
         let impact = impact_overlap(law, body.mass, speed);
-        dt / longest(law, deepest.max(impact), lightest_effective_mass(body))
+        dt / longest(law, deepest.max(impact), body.least_effective_mass())
     } else {
         0.0
     };
     turns.max(contacts)
 }
 
+/// Sub-steps that bodies ask for within `dt`, falling freely, for their spin and for
+/// everything that they may touch in a `step` [s] that begins now.
+pub fn substeps_ahead(
+    bodies: &[Body],
+    meetings: &[Meeting],
+    around: &Surroundings,
+    dt: f64,
+    step: f64,
+) -> f64 {
+    let falling =
+        |body: &Body| body.largest_acceleration(&around.gravity, &Load::default());
+    let free = bodies.iter().filter(|body| is_free(body));
+    let alone = free.map(|body| substeps_alone(body, around.planes, falling(body), dt, step));
+    let pairs = near_pairs(bodies, |place| falling(&bodies[place]), step);
+    let met = pairs.into_iter().map(|pair| {
+        let both = pair.map(|place| &bodies[place]);
+        let known = meetings.iter().find(|meeting| meeting.bodies == pair);
+        let deepest = known.map_or(0.0, |meeting| meeting.deepest);
+        let gained = both.into_iter().map(|body| falling(body) * dt).sum();
+        substeps_of_pair(both, &pair_law(both[0], both[1]), deepest, gained, dt)
+    });
+    alone.chain(met).fold(0.0, f64::max)
+}
+
 /// Sub-steps that two bodies ask for.
 fn substeps_met(members: &[Member], movers: &[Mover], met: &Met, gravity: &Vec3, dt: f64) -> f64 {
     let both = met.sides.map(|side| body_of(members, movers, side));
-    let free = || both.into_iter().filter(|body| is_free(body));
-    let moving = both
-        .into_iter()
-        .filter(|body| body.freedom != Freedom::Fixed);
     let gained = met.sides.iter().map(|side| match side {
         Side::Member(place) => {
             let Member { body, flow, .. } = &members[*place];
@@ -81,12 +101,29 @@ fn substeps_met(members: &[Member], movers: &[Mover], met: &Met, gravity: &Vec3,
         }
         Side::Barrier(_) | Side::Mover(_) => 0.0,
     });
-    let speed = gained.chain(moving.map(Body::speed_ahead)).sum();
-    let impact = impact_overlap(&met.law, reduced_mass(both[0], both[1]), speed);
-    let inverse: f64 = free().map(|body| 1.0 / lightest_effective_mass(body)).sum();
-    let deepest = met.meeting.deepest.max(impact);
+    substeps_of_pair(both, &met.law, met.meeting.deepest, gained.sum(), dt)
+}
+
+/// Sub-steps that two bodies ask for whose contacts are so deep [m], and whose speed
+/// towards each other grows by `gained` [m/s] at most.
+fn substeps_of_pair(
+    both: [&Body; 2],
+    law: &ContactLaw,
+    deepest: f64,
+    gained: f64,
+    dt: f64,
+) -> f64 {
+    let speeds = both.into_iter().map(|body| match body.freedom {
+        Freedom::Fixed => 0.0,
+        Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => body.speed_ahead(),
+    });
+    let speed = gained + speeds.sum::<f64>();
+    let impact = impact_overlap(law, reduced_mass(both[0], both[1]), speed);
+    let free = both.into_iter().filter(|body| is_free(body));
+    let inverse: f64 = free.map(|body| 1.0 / body.least_effective_mass()).sum();
+    let deepest = deepest.max(impact);
     if deepest > 0.0 {
-        dt / longest(&met.law, deepest, 1.0 / inverse)
+        dt / longest(law, deepest, 1.0 / inverse)
     } else {
         0.0
     }
@@ -102,11 +139,4 @@ fn longest(law: &ContactLaw, deepest: f64, mass: f64) -> f64 {
 /// Depth of a Hertz impact [m].
 fn impact_overlap(law: &ContactLaw, mass: f64, speed: f64) -> f64 {
     (1.25 * mass * speed * speed / law.stiffness).powf(0.4)
-}
-
-/// A lower bound of the effective mass at any place of the body [kg].
-fn lightest_effective_mass(body: &Body) -> f64 {
-    let radius = body.shape.bounding_radius();
-    let turning = body.inverse_inertia.norm() * radius * radius;
-    1.0 / (1.0 / body.mass + turning)
 }

@@ -7,7 +7,6 @@ use super::*;
 use crate::rigid::InverseInertia;
 use crate::rigid::fixture::cuboid;
 use nalgebra::UnitQuaternion;
-use pace::substeps_alone;
 
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
 
