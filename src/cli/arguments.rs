@@ -1,6 +1,7 @@
 //! What can be asked on the command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use scree::verify::hard::sweep::Field;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
@@ -185,14 +186,25 @@ pub(super) enum SuiteWord {
     Hard,
     /// Scenarios drawn at random from all that is legal
     Sweep,
-    /// All three
+    /// Bodies without a flow drawn at random, whose contacts make no energy
+    Bodies,
+    /// Standard, hard and sweep
     All,
 }
 
 impl SuiteWord {
-    /// Whether a part of it is asked for.
+    /// True if a part of it is asked for.
     pub(super) fn takes(self, part: Self) -> bool {
-        self == part || self == Self::All
+        self == part || self == Self::All && part != Self::Bodies
+    }
+
+    /// Where the scenarios of its sweep are drawn from; `None` if it has none.
+    pub(super) fn sweeps(self) -> Option<Field> {
+        match self {
+            Self::Standard | Self::Hard => None,
+            Self::Sweep | Self::All => Some(Field::Everything),
+            Self::Bodies => Some(Field::BodiesAlone),
+        }
     }
 }
 

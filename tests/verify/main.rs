@@ -2,6 +2,7 @@
 //! known miss is asked for what holds. Figures are in the command's own tables.
 
 use scree::verify::findings::{Finding, Verdict};
+use scree::verify::hard::sweep::{self, Field, sweep};
 use scree::verify::{Case, Effort, Verified, cases, hard, verify};
 use std::collections::BTreeSet;
 
@@ -51,10 +52,19 @@ fn hard_limits_and_restart() {
 // Some hundred scenarios as they come, and two runs of the same one.
 #[test]
 fn a_sweep_is_sound() {
-    let swept = hard::sweep::sweep(1_000_000, 60, &|_| {});
+    let field = Field::Everything;
+    let swept = sweep(field, 1_000_000, 60, &|_| {});
     assert_eq!(swept.run, 60);
     assert!(swept.failures.is_empty(), "{:#?}", swept.failures);
-    assert_eq!(hard::sweep::scenario(7), hard::sweep::scenario(7));
+    assert_eq!(sweep::scenario(field, 7), sweep::scenario(field, 7));
+}
+
+// Bodies of all shapes, frictions and restitutions on each other.
+#[test]
+fn contacts_of_bodies_make_no_energy() {
+    let swept = sweep(Field::BodiesAlone, 1_000_000, 40, &|_| {});
+    assert_eq!(swept.run, 40);
+    assert!(swept.failures.is_empty(), "{:#?}", swept.failures);
 }
 
 // Scenarios of sweeps that once failed: what lay in the foot was lifted out of it (decision
@@ -63,8 +73,9 @@ fn a_sweep_is_sound() {
 #[test]
 fn what_sweeps_found_stays_mended() {
     for seed in [224, 447, 471, 2770, 3040, 2430, 3797, 2735, 3733] {
-        let (scenario, _) = hard::sweep::scenario(seed).expect("the seed has a scenario");
-        let tried = hard::sweep::run(&scenario);
+        let (scenario, _) =
+            sweep::scenario(Field::Everything, seed).expect("the seed has a scenario");
+        let tried = sweep::run(Field::Everything, &scenario);
         assert!(tried.is_sound(), "seed {seed}: {tried:#?}");
     }
 }

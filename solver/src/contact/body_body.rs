@@ -109,11 +109,7 @@ impl Meeting {
 /// The springs of the contacts found, from those `before`. A contact that comes up where
 /// another was, as when a vertex slides over a rim, takes that one's stretch over.
 /// Together they hold no more energy than those before.
-fn take_over(
-    before: &[FeatureSprings],
-    contacts: &[Contact],
-    pair: &Pair,
-) -> Vec<FeatureSprings> {
+fn take_over(before: &[FeatureSprings], contacts: &[Contact], pair: &Pair) -> Vec<FeatureSprings> {
     let mut springs: Vec<FeatureSprings> = contacts
         .iter()
         .map(|contact| {

@@ -139,7 +139,9 @@ mod tests {
                 spring.stiffness = stiffness;
             }
             let factor = Held::by(springs.iter()).relaxed(&held);
-            springs.iter_mut().for_each(|spring| spring.stretch *= factor);
+            springs
+                .iter_mut()
+                .for_each(|spring| spring.stretch *= factor);
             let now = Held::by(springs.iter());
             assert!(now.energy <= held.energy * (1.0 + 1e-15), "{stiffnesses:?}");
         }

@@ -179,13 +179,15 @@ fn sweep_in_words(swept: &Swept) -> String {
         substeps,
         points,
         longest,
+        most_energy,
         ..
     } = swept;
     let failed = swept.failures.len();
     let mut text = format!(
         "sweep: {run} scenarios run ({refused} draws refused on the way), {finished} finished, \
-         {failed} failed; {points} points, {substeps} sub-steps; the longest took {:.1} s (seed {})",
-        longest.0, longest.1
+         {failed} failed; {points} points, {substeps} sub-steps; the longest took {:.1} s (seed {}); \
+         most energy made {:.0e} (seed {})",
+        longest.0, longest.1, most_energy.0, most_energy.1
     );
     for (kind, count) in kinds {
         let _ = write!(text, "\n  {count} × {kind}");

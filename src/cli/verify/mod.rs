@@ -10,7 +10,7 @@ use super::console;
 use super::failure::Failure;
 use super::machine::Machine;
 use scree::verify::findings::{Count, Error, Finding, Verdict};
-use scree::verify::hard::sweep::{Swept, sweep};
+use scree::verify::hard::sweep::{Field, Swept, sweep};
 use scree::verify::hard::trial::Tried;
 use scree::verify::hard::{self as hard_cases, Family, try_family};
 use scree::verify::limit::Limit;
@@ -62,7 +62,7 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     let tell = |failing: &_| console::note(&hard::in_words(failing));
     let swept = asked
         .sweep
-        .then(|| sweep(options.seed, options.count, &tell));
+        .map(|field| sweep(field, options.seed, options.count, &tell));
     let report = Report {
         solver_version: VERSION,
         machine: Machine::here(),
@@ -104,7 +104,7 @@ fn tell_of(name: &str) {
 struct Asked {
     cases: Vec<&'static Case>,
     families: Vec<&'static Family>,
-    sweep: bool,
+    sweep: Option<Field>,
 }
 
 impl Asked {
@@ -134,7 +134,7 @@ impl Asked {
             families: families
                 .filter(|family| asked(family.name, SuiteWord::Hard))
                 .collect(),
-            sweep: names.is_empty() && suite.takes(SuiteWord::Sweep),
+            sweep: suite.sweeps().filter(|_| names.is_empty()),
         })
     }
 }

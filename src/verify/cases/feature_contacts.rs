@@ -126,12 +126,9 @@ impl Slide {
         let across = if along_rim { RIM } else { 0.3 * RIM };
         self.above.state.position = Vec3::new(RIM + beyond, across, self.height);
         let mut meeting = Meeting::new([0, 1]);
-        let exchange = meeting.touch(
-            [&self.below, &self.above],
-            &self.law,
-            0.0,
-            &mut Separation::default(),
-        );
+        let both = [&self.below, &self.above];
+        let found = meeting.find(both, &self.law, &mut Separation::default());
+        let exchange = meeting.touch(both, &self.law, &found, 0.0);
         (
             meeting.energy / self.law.elastic_energy(OVERLAP),
             exchange.on_second.force / self.law.elastic_force(OVERLAP),

@@ -50,6 +50,9 @@ pub struct Trial {
     /// Point-steps it may take, sub-steps and those of bodies counted as so many; none:
     /// as many as it needs.
     pub budget: Option<u64>,
+    /// Rise of the mechanical energy that it may show, over what there was at the start
+    /// and the largest kinetic energy.
+    pub energy_made: f64,
 }
 
 /// End that is asked of a scene.
@@ -72,6 +75,7 @@ impl Trial {
             alter: None,
             asked: Asked::Finish,
             budget: None,
+            energy_made: ENERGY,
         }
     }
 
@@ -227,7 +231,7 @@ pub fn run(family: &str, trial: &Trial) -> Tried {
     let (ended, figures) = outcome.unwrap_or_else(|panic| (Ended::Panicked(words(&*panic)), None));
     Tried {
         case: format!("{family}: {}", trial.name),
-        broken: broken(trial.asked, &ended, figures.as_ref()),
+        broken: broken((trial.asked, trial.energy_made), &ended, figures.as_ref()),
         ended,
         figures,
         safety: None,
@@ -244,7 +248,7 @@ pub fn compared(family: &str, name: &str, compare: fn() -> Special) -> Tried {
         ended: Ended::Panicked(words(&*panic)),
         compared: Vec::new(),
     });
-    let mut broken = broken(Asked::Finish, &special.ended, None);
+    let mut broken = broken((Asked::Finish, ENERGY), &special.ended, None);
     for one in &special.compared {
         let within = one.bound.is_none_or(|bound| one.found.abs() <= bound);
         if !within || !one.found.is_finite() {
@@ -356,8 +360,12 @@ fn close_books(simulation: &Simulation, figures: &mut Figures) {
     figures.lost = simulation.released_points().abs_diff(present);
 }
 
-/// Rules that a run breaks.
-fn broken(asked: Asked, ended: &Ended, figures: Option<&Figures>) -> Vec<String> {
+/// Rules broken by a run that has to end so, and may make so much energy.
+fn broken(
+    (asked, energy_made): (Asked, f64),
+    ended: &Ended,
+    figures: Option<&Figures>,
+) -> Vec<String> {
     let mut broken = Vec::new();
     let as_asked = match (asked, ended) {
         (_, Ended::Panicked(_)) => false,
@@ -375,7 +383,7 @@ fn broken(asked: Asked, ended: &Ended, figures: Option<&Figures>) -> Vec<String>
     let bounds = [
         ("mass", found.mass, MASS),
         ("momentum", found.momentum, MOMENTUM),
-        ("energy", found.energy, ENERGY),
+        ("energy", found.energy, energy_made),
         ("points inside a body", found.inside as f64, 0.0),
         ("points lost", found.lost as f64, 0.0),
         ("overlap of points", found.overlap, OVERLAP),

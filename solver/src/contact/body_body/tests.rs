@@ -279,7 +279,13 @@ fn friction_goes_on_while_a_contact_changes_its_features() {
     for n in 0..steps {
         let x = -0.004 + step * f64::from(n);
         above.state.position = Vec3::new(x, 0.0, 0.02 + reach - 2e-4);
-        let exchange = touch(&mut meeting, [&below, &above], &law, step, &mut Separation::default());
+        let exchange = touch(
+            &mut meeting,
+            [&below, &above],
+            &law,
+            step,
+            &mut Separation::default(),
+        );
         forces.push(exchange.on_second.force);
         kinds.push(
             meeting

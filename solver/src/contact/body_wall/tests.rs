@@ -21,7 +21,12 @@ fn springs_forget_once_apart() {
     let mut body = cube_at(0.0199);
     body.state.momentum = Vec3::new(body.mass, 0.0, 0.0);
     touch_walls(&mut body, &[floor()], 1e-5);
-    assert!(body.state.springs.iter().any(|spring| spring.stretch.x > 0.0));
+    assert!(
+        body.state
+            .springs
+            .iter()
+            .any(|spring| spring.stretch.x > 0.0)
+    );
     assert!(
         body.state.wall_load.force.x < 0.0,
         "friction is against the sliding"

@@ -76,8 +76,7 @@ pub fn substeps_ahead(
     dt: f64,
     step: f64,
 ) -> f64 {
-    let falling =
-        |body: &Body| body.largest_acceleration(&around.gravity, &Load::default());
+    let falling = |body: &Body| body.largest_acceleration(&around.gravity, &Load::default());
     let free = bodies.iter().filter(|body| is_free(body));
     let alone = free.map(|body| substeps_alone(body, around.planes, falling(body), dt, step));
     let pairs = near_pairs(bodies, |place| falling(&bodies[place]), step);
@@ -106,13 +105,7 @@ fn substeps_met(members: &[Member], movers: &[Mover], met: &Met, gravity: &Vec3,
 
 /// Sub-steps that two bodies ask for whose contacts are so deep [m], and whose speed
 /// towards each other grows by `gained` [m/s] at most.
-fn substeps_of_pair(
-    both: [&Body; 2],
-    law: &ContactLaw,
-    deepest: f64,
-    gained: f64,
-    dt: f64,
-) -> f64 {
+fn substeps_of_pair(both: [&Body; 2], law: &ContactLaw, deepest: f64, gained: f64, dt: f64) -> f64 {
     let speeds = both.into_iter().map(|body| match body.freedom {
         Freedom::Fixed => 0.0,
         Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => body.speed_ahead(),

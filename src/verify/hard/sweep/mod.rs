@@ -1,10 +1,12 @@
-//! A sweep over all that is legal: scenarios drawn at random, coarse, each run for a
-//! fraction of a second. What fails is made smaller until only what it takes is left.
+//! A sweep over all that is legal, or over bodies alone: scenarios drawn at random, each
+//! run for a fraction of a second. What fails is made smaller until only what it takes is
+//! left.
 
+mod bodies_alone;
 mod draw;
 mod reduce;
 
-use super::trial::{self, Ended, Tried};
+use super::trial::{self, Ended, Trial, Tried};
 use crate::verify::dice::Dice;
 use crate::verify::on_all_cores::side_by_side;
 use crate::verify::run::scenario_of;
@@ -18,6 +20,18 @@ const BUDGET: u64 = 60_000;
 /// Draws until one is legal.
 const MOST_DRAWS: u32 = 400;
 
+/// Energy that contacts of bodies may make, over the start's and the largest kinetic.
+const ENERGY_OF_CONTACTS: f64 = 1e-3;
+
+/// Field that the scenarios of a sweep are drawn from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Field {
+    /// All that is legal, coarse, each within a budget of computing.
+    Everything,
+    /// Bodies without a flow, each to its end; their contacts make no energy.
+    BodiesAlone,
+}
+
 /// Findings of a sweep.
 #[derive(Debug, Default, Serialize)]
 pub struct Swept {
@@ -30,6 +44,8 @@ pub struct Swept {
     pub finished: u64,
     /// Wall time of the longest run [s], and its seed.
     pub longest: (f64, u64),
+    /// Most energy made in a run over what there was, and its seed.
+    pub most_energy: (f64, u64),
     /// Sub-steps of all of them.
     pub substeps: u64,
     /// Points of all of them.
@@ -52,10 +68,13 @@ pub struct Failing {
 }
 
 /// A legal scenario of this seed, and how many draws were refused before it.
-pub fn scenario(seed: u64) -> Option<(Value, u64)> {
+pub fn scenario(field: Field, seed: u64) -> Option<(Value, u64)> {
     let mut dice = Dice::of(seed.wrapping_add(1));
     for refused in 0..MOST_DRAWS {
-        let drawn = draw::scenario(&mut dice);
+        let drawn = match field {
+            Field::Everything => draw::scenario(&mut dice),
+            Field::BodiesAlone => bodies_alone::scenario(&mut dice),
+        };
         let legal = scenario_of(&drawn).is_ok_and(|scenario| Simulation::check(&scenario).is_ok());
         if legal && draw::is_small(&drawn) {
             return Some((drawn, u64::from(refused)));
@@ -64,16 +83,21 @@ pub fn scenario(seed: u64) -> Option<(Value, u64)> {
     None
 }
 
-/// Runs a scenario within the budget of a sweep.
-pub fn run(scenario: &Value) -> Tried {
-    trial::run("sweep", &reduce::trial(scenario, BUDGET))
+/// Runs a scenario of a field.
+pub fn run(field: Field, scenario: &Value) -> Tried {
+    let mut trial = Trial::new("", scenario.clone());
+    match field {
+        Field::Everything => trial.budget = Some(BUDGET),
+        Field::BodiesAlone => trial.energy_made = ENERGY_OF_CONTACTS,
+    }
+    trial::run("sweep", &trial)
 }
 
-/// Runs `count` scenarios, those of the seeds from `first` on, on all cores.
-pub fn sweep(first: u64, count: u64, tell: &(impl Fn(&Failing) + Sync)) -> Swept {
+/// Runs `count` scenarios of a field, those of the seeds from `first` on, on all cores.
+pub fn sweep(field: Field, first: u64, count: u64, tell: &(impl Fn(&Failing) + Sync)) -> Swept {
     let swept = Mutex::new(Swept::default());
     let seeds: Vec<u64> = (first..first + count).collect();
-    side_by_side(&seeds, |seed| take(&swept, *seed, tell));
+    side_by_side(&seeds, |seed| take(field, &swept, *seed, tell));
     let mut swept = swept
         .into_inner()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -81,12 +105,12 @@ pub fn sweep(first: u64, count: u64, tell: &(impl Fn(&Failing) + Sync)) -> Swept
     swept
 }
 
-fn take(swept: &Mutex<Swept>, seed: u64, tell: &(impl Fn(&Failing) + Sync)) {
-    let Some((scenario, refused)) = scenario(seed) else {
+fn take(field: Field, swept: &Mutex<Swept>, seed: u64, tell: &(impl Fn(&Failing) + Sync)) {
+    let Some((scenario, refused)) = scenario(field, seed) else {
         return;
     };
-    let tried = run(&scenario);
-    let failing = (!tried.is_sound()).then(|| failing(seed, &scenario, &tried));
+    let tried = run(field, &scenario);
+    let failing = (!tried.is_sound()).then(|| failing(field, seed, &scenario, &tried));
     if let Some(failing) = &failing {
         tell(failing);
     }
@@ -100,17 +124,20 @@ fn take(swept: &Mutex<Swept>, seed: u64, tell: &(impl Fn(&Failing) + Sync)) {
     }
     swept.finished += u64::from(tried.ended == Ended::Finished);
     if let Some(figures) = tried.figures {
+        if figures.energy > swept.most_energy.0 {
+            swept.most_energy = (figures.energy, seed);
+        }
         swept.substeps += figures.substeps;
         swept.points += figures.points;
     }
     swept.failures.extend(failing);
 }
 
-fn failing(seed: u64, scenario: &Value, tried: &Tried) -> Failing {
+fn failing(field: Field, seed: u64, scenario: &Value, tried: &Tried) -> Failing {
     let kind = reduce::kind(tried);
     let mut last = tried.clone();
     let scenario = reduce::reduced(scenario, &mut |simpler| {
-        let again = run(simpler);
+        let again = run(field, simpler);
         let alike = !again.is_sound() && reduce::kind(&again) == kind;
         if alike {
             last = again;

@@ -1,6 +1,6 @@
 //! A failing scenario made smaller, as long as it fails the same way.
 
-use crate::verify::hard::trial::{Trial, Tried};
+use crate::verify::hard::trial::Tried;
 use serde_json::Value;
 
 /// Most runs spent on one scenario.
@@ -103,13 +103,6 @@ pub(super) fn kind(tried: &Tried) -> String {
         }
         _ => tried.broken.join(", "),
     }
-}
-
-/// The same scenario to be run with that budget.
-pub(super) fn trial(scenario: &Value, budget: u64) -> Trial {
-    let mut trial = Trial::new("", scenario.clone());
-    trial.budget = Some(budget);
-    trial
 }
 
 #[cfg(test)]
