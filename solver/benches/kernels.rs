@@ -294,6 +294,7 @@ fn resting_cube(place: Vec3) -> Body {
         flow_law: law,
         rolling_friction: 0.0,
         freedom: Freedom::Free,
+        wall_touches: Vec::new(),
         state: BodyState {
             position: place,
             orientation: UnitQuaternion::identity(),

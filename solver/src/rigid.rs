@@ -1,5 +1,6 @@
 //! Rigid bodies: sphero-polyhedra that move (docs/method.md, equations 15 and 16).
 
+use crate::contact::body_wall::WallTouch;
 use crate::contact::friction::Spring;
 use crate::contact::law::ContactLaw;
 use crate::math::{Mat3, Vec3};
@@ -55,6 +56,8 @@ pub struct Body {
     pub rolling_friction: f64,
     /// Freedom to move.
     pub freedom: Freedom,
+    /// Its contacts with walls, as last found; kept so that none is allocated anew.
+    pub wall_touches: Vec<WallTouch>,
     /// State.
     pub state: BodyState,
 }

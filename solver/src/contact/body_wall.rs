@@ -49,47 +49,42 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
     if apart && clear_of(body, planes) {
         return;
     }
-    let touches = touches(body, planes);
+    let mut touches = std::mem::take(&mut body.wall_touches);
+    touches.clear();
+    touches.extend(touches_of(body, planes));
     body.state.wall_overlap = deepest_of(&touches);
     forget_what_is_apart(&mut body.state, &touches);
-    if touches.is_empty() {
-        return;
+    if !touches.is_empty() {
+        press(body, &mut touches, dt);
+        rub(body, &touches, dt);
     }
-    let push = elastic_push(body, &touches);
-    let pressed = press(body, &touches, &push, dt);
-    let (mut springs, mut rolling) = (
-        std::mem::take(&mut body.state.springs),
-        std::mem::take(&mut body.state.rolling),
-    );
-    let rubbed = rub(body, &pressed, [&mut springs, &mut rolling], dt);
-    let elastic = pressed
-        .iter()
-        .map(|pressed| body.wall_law.elastic_energy(pressed.touch.overlap));
-    body.state.wall_energy = elastic.sum::<f64>() + rubbed.energy;
-    for pressed in &pressed {
-        let Touch { arm, normal, .. } = &pressed.touch;
-        body.state.wall_load.add_at(arm, &(normal * pressed.force));
-    }
-    body.state.wall_load.add(&rubbed.load);
-    (body.state.springs, body.state.rolling) = (springs, rolling);
+    body.wall_touches = touches;
 }
 
 /// Every vertex that overlaps a wall.
-fn touches(body: &Body, planes: &[Plane]) -> Vec<Touch> {
+fn touches_of<'a>(body: &'a Body, planes: &'a [Plane]) -> impl Iterator<Item = WallTouch> + 'a {
+    let radius = body.shape.sphero_radius();
     overlaps(body, planes)
         .filter(|(_, _, overlap)| *overlap > 0.0)
-        .map(|(place, arm, overlap)| {
-            Touch::of(body, (place, &planes[place % planes.len()]), &arm, overlap)
+        .map(move |(place, vertex, overlap)| {
+            let normal = planes[place % planes.len()].normal;
+            WallTouch {
+                place,
+                arm: vertex - normal * (radius - 0.5 * overlap),
+                normal,
+                overlap,
+                mass: body.mass,
+                force: 0.0,
+            }
         })
-        .collect()
 }
 
-fn deepest_of(touches: &[Touch]) -> f64 {
+fn deepest_of(touches: &[WallTouch]) -> f64 {
     let overlaps = touches.iter().map(|touch| touch.overlap);
     overlaps.fold(0.0, f64::max)
 }
 
-fn forget_what_is_apart(state: &mut BodyState, touches: &[Touch]) {
+fn forget_what_is_apart(state: &mut BodyState, touches: &[WallTouch]) {
     for springs in [&mut state.springs, &mut state.rolling] {
         let mut touching = touches.iter().map(|touch| touch.place).peekable();
         for (place, spring) in springs.iter_mut().enumerate() {
@@ -100,103 +95,82 @@ fn forget_what_is_apart(state: &mut BodyState, touches: &[Touch]) {
     }
 }
 
-/// The elastic forces of all walls together.
-fn elastic_push(body: &Body, touches: &[Touch]) -> Load {
+/// Normal forces, with the share of damping that takes energy (equation 18b); they are
+/// the first part of the wall's load.
+fn press(body: &mut Body, touches: &mut [WallTouch], dt: f64) {
+    let law = body.wall_law;
     let mut push = Load::default();
-    for touch in touches {
-        let force = touch.normal * body.wall_law.elastic_force(touch.overlap);
+    for touch in &*touches {
+        let force = touch.normal * law.elastic_force(touch.overlap);
         push.add_at(&touch.arm, &force);
     }
-    push
-}
-
-/// A vertex that a wall presses.
-struct Pressed<'a> {
-    touch: &'a Touch,
-    /// Mass that the contact has to stop (equation 46) [kg].
-    mass: f64,
-    /// Normal force [N].
-    force: f64,
-}
-
-/// Normal forces, with the share of damping that takes energy (equation 18b).
-fn press<'a>(body: &Body, touches: &'a [Touch], push: &Load, dt: f64) -> Vec<Pressed<'a>> {
-    let law = &body.wall_law;
     let (mut damping, mut sum) = (Damping::default(), Load::default());
-    let mut pressed: Vec<Pressed> = touches
-        .iter()
-        .map(|touch| {
-            let elastic = law.elastic_force(touch.overlap);
-            let acceleration = body.acceleration_at(push, &touch.arm).dot(&touch.normal);
-            let mass = mass_seen(elastic, acceleration, body.mass);
-            let approach = -body.velocity_at(&touch.arm).dot(&touch.normal);
-            let force = law.normal_force(touch.overlap, approach, mass);
-            damping.power -= (force - elastic) * approach;
-            sum.add_at(&touch.arm, &(touch.normal * (force - elastic)));
-            Pressed { touch, mass, force }
-        })
-        .collect();
+    for touch in &mut *touches {
+        let elastic = law.elastic_force(touch.overlap);
+        let acceleration = body.acceleration_at(&push, &touch.arm).dot(&touch.normal);
+        touch.mass = mass_seen(elastic, acceleration, body.mass);
+        let approach = -body.velocity_at(&touch.arm).dot(&touch.normal);
+        touch.force = law.normal_force(touch.overlap, approach, touch.mass);
+        damping.power -= (touch.force - elastic) * approach;
+        sum.add_at(&touch.arm, &(touch.normal * (touch.force - elastic)));
+    }
     damping.stopping = stopping(body, &sum);
     let share = damping.share(dt);
-    for pressed in &mut pressed {
-        let elastic = law.elastic_force(pressed.touch.overlap);
-        pressed.force = elastic + share * (pressed.force - elastic);
+    for touch in touches {
+        let elastic = law.elastic_force(touch.overlap);
+        touch.force = elastic + share * (touch.force - elastic);
+        body.state.wall_energy += law.elastic_energy(touch.overlap);
+        let force = touch.normal * touch.force;
+        body.state.wall_load.add_at(&touch.arm, &force);
     }
-    pressed
 }
 
-/// What friction and rolling resistance do.
-struct Rubbed {
-    load: Load,
-    /// What their springs hold [J].
-    energy: f64,
-}
-
-/// Friction and rolling resistance, with the share of damping that takes energy.
-fn rub(
-    body: &Body,
-    pressed: &[Pressed],
-    [springs, rolling]: [&mut [Spring]; 2],
-    dt: f64,
-) -> Rubbed {
+/// Friction and rolling resistance, with the share of damping that takes energy; they are
+/// the second part of the wall's load.
+fn rub(body: &mut Body, touches: &[WallTouch], dt: f64) {
+    let (mut springs, mut rolling) = (
+        std::mem::take(&mut body.state.springs),
+        std::mem::take(&mut body.state.rolling),
+    );
     let law = &body.wall_law;
     let spin = body.angular_velocity();
     let radius = body.shape.sphero_radius();
-    let mut rubbed = Rubbed {
-        load: Load::default(),
-        energy: 0.0,
-    };
+    let (mut load, mut energy) = (Load::default(), 0.0);
     let (mut damping, mut sum) = (Damping::default(), Load::default());
-    for Pressed { touch, mass, force } in pressed {
+    for touch in touches {
         let stiffness = law.tangential_stiffness(touch.overlap);
-        let viscous = law.tangential_damping(touch.overlap, *mass);
+        let viscous = law.tangential_damping(touch.overlap, touch.mass);
         let across = |v: &Vec3| v - touch.normal * v.dot(&touch.normal);
         let mut resist = |spring: &mut Spring, velocity: Vec3, cap: f64| {
             spring.stiffen(stiffness);
             let elastic = spring.slide(&(velocity * dt), cap);
             let part = viscous_part(&elastic, viscous, &velocity, cap);
-            rubbed.energy += spring.energy();
+            energy += spring.energy();
             damping.power += part.dot(&velocity);
             [elastic, part]
         };
         let sliding = across(&body.velocity_at(&touch.arm));
-        let [elastic, part] = resist(&mut springs[touch.place], sliding, law.friction * force);
-        rubbed.load.add_at(&touch.arm, &elastic);
+        let cap = law.friction * touch.force;
+        let [elastic, part] = resist(&mut springs[touch.place], sliding, cap);
+        load.add_at(&touch.arm, &elastic);
         sum.add_at(&touch.arm, &part);
         if let Some(spring) = rolling.get_mut(touch.place) {
             let turning = across(&spin) * radius;
-            let [elastic, part] = resist(spring, turning, body.rolling_friction * force);
-            rubbed.load.torque += elastic * radius;
+            let cap = body.rolling_friction * touch.force;
+            let [elastic, part] = resist(spring, turning, cap);
+            load.torque += elastic * radius;
             sum.torque += part * radius;
         }
     }
     damping.stopping = stopping(body, &sum);
     let share = damping.share(dt);
-    rubbed.load.add(&Load {
+    load.add(&Load {
         force: sum.force * share,
         torque: sum.torque * share,
     });
-    rubbed
+    body.state.wall_load.add(&load);
+    body.state.wall_energy += energy;
+    (body.state.springs, body.state.rolling) = (springs, rolling);
 }
 
 /// Whether no wall comes as near as the bounding ball.
@@ -208,25 +182,20 @@ fn clear_of(body: &Body, planes: &[Plane]) -> bool {
         .all(|height| height > radius)
 }
 
-/// One vertex on one wall.
-struct Touch {
-    /// Where its springs are.
+/// A vertex that overlaps a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallTouch {
+    /// Place of its springs.
     place: usize,
     /// Middle of the overlap, from the centre of mass [m].
     arm: Vec3,
     normal: Vec3,
+    /// δ [m].
     overlap: f64,
-}
-
-impl Touch {
-    fn of(body: &Body, (place, plane): (usize, &Plane), vertex: &Vec3, overlap: f64) -> Self {
-        Self {
-            place,
-            arm: vertex - plane.normal * (body.shape.sphero_radius() - 0.5 * overlap),
-            normal: plane.normal,
-            overlap,
-        }
-    }
+    /// Mass that the contact has to stop (equation 46) [kg].
+    mass: f64,
+    /// Normal force [N].
+    force: f64,
 }
 
 #[cfg(test)]

@@ -39,6 +39,7 @@ pub(crate) fn of_shape(shape: SpheroPolyhedron) -> Body {
         flow_law: law,
         rolling_friction: 0.0,
         freedom: Freedom::Free,
+        wall_touches: Vec::new(),
         state: BodyState {
             position: Vec3::zeros(),
             orientation: UnitQuaternion::identity(),

@@ -73,6 +73,7 @@ fn body(
         flow_law,
         rolling_friction: spec.rolling_friction,
         freedom: freedom(spec, pose.position),
+        wall_touches: Vec::new(),
     };
     let velocities = match body.prescribed() {
         Some(prescribed) => prescribed.motion.velocities(0.0),

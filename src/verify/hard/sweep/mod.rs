@@ -76,7 +76,8 @@ pub fn scenario(field: Field, seed: u64) -> Option<(Value, u64)> {
             Field::BodiesAlone => bodies_alone::scenario(&mut dice),
         };
         let legal = scenario_of(&drawn).is_ok_and(|scenario| Simulation::check(&scenario).is_ok());
-        if legal && draw::is_small(&drawn) {
+        let small = field == Field::BodiesAlone || draw::is_small(&drawn);
+        if legal && small {
             return Some((drawn, u64::from(refused)));
         }
     }
