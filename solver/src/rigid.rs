@@ -1,8 +1,8 @@
 //! Rigid bodies: sphero-polyhedra that move (docs/method.md, equations 15 and 16).
 
-use crate::contact::body_wall::WallTouch;
 use crate::contact::friction::Spring;
 use crate::contact::law::ContactLaw;
+use crate::contact::wall_touch::WallTouch;
 use crate::math::{Mat3, Vec3};
 use crate::motion::{PrescribedMotion, Velocities};
 use crate::shape::SpheroPolyhedron;

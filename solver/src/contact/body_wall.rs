@@ -4,6 +4,7 @@
 use crate::contact::dissipation::{Damping, stopping};
 use crate::contact::friction::{Spring, viscous_part};
 use crate::contact::law::mass_seen;
+use crate::contact::wall_touch::WallTouch;
 use crate::math::Vec3;
 use crate::rigid::{Body, BodyState, Load};
 use crate::walls::Plane;
@@ -180,22 +181,6 @@ fn clear_of(body: &Body, planes: &[Plane]) -> bool {
     heights
         .map(|plane| plane.height(&body.state.position))
         .all(|height| height > radius)
-}
-
-/// A vertex that overlaps a wall.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WallTouch {
-    /// Place of its springs.
-    place: usize,
-    /// Middle of the overlap, from the centre of mass [m].
-    arm: Vec3,
-    normal: Vec3,
-    /// δ [m].
-    overlap: f64,
-    /// Mass that the contact has to stop (equation 46) [kg].
-    mass: f64,
-    /// Normal force [N].
-    force: f64,
 }
 
 #[cfg(test)]

@@ -8,3 +8,4 @@ pub mod island;
 pub mod law;
 pub mod neighbours;
 pub mod point_body;
+pub mod wall_touch;

@@ -6,18 +6,21 @@ use std::path::{Path, PathBuf};
 
 /// Layers, lowest first. The scenario is a description that knows of shapes
 /// alone; the simulation reads it.
-const LAYERS: [&[&str]; 8] = [
+const LAYERS: [&[&str]; 9] = [
     &["math", "error", "stability"],
     &[
         "kernel",
         "material",
         "motion",
         "shape",
+        "contact::friction",
         "contact::law",
         "contact::neighbours",
+        "contact::wall_touch",
     ],
     &["grid", "scenario", "sharing"],
     &["points", "rigid", "walls"],
+    &["contact::dissipation"],
     &[
         "contact::body_body",
         "contact::body_wall",
