@@ -11,8 +11,8 @@ pub(super) struct Settling {
     /// Motion and time [s] when it last left its place.
     place: Motion,
     came: f64,
-    /// First time in this place that it was slow [s].
-    first_slow: Option<f64>,
+    /// When it stopped if it stays in this place [s].
+    stopped: Option<f64>,
     /// Since when it has been slow without a break [s].
     slow_since: Option<f64>,
     /// Since when it has been at rest [s].
@@ -36,11 +36,20 @@ impl Measure {
         motion.velocity.norm() + turning < self.scale.rest_speed()
     }
 
+    /// Distance of a body from its place, turning included [m].
+    fn distance(&self, place: &Motion, motion: &Motion) -> f64 {
+        let turned = place.orientation.angle_to(&motion.orientation) * self.radius;
+        (motion.position - place.position).norm() + turned
+    }
+
     /// True if a body has left its place.
     fn has_left(&self, place: &Motion, motion: &Motion) -> bool {
-        let turned = place.orientation.angle_to(&motion.orientation) * self.radius;
-        let gone = (motion.position - place.position).norm();
-        gone + turned > self.scale.rest_distance()
+        self.distance(place, motion) > self.scale.rest_distance()
+    }
+
+    /// True if a body came so far from its place in `time` [s] that it was not at rest.
+    fn travelled(&self, place: &Motion, motion: &Motion, time: f64) -> bool {
+        self.distance(place, motion) >= self.scale.rest_speed() * time
     }
 }
 
@@ -51,7 +60,7 @@ impl Settling {
         Self {
             place: *motion,
             came: 0.0,
-            first_slow: slow,
+            stopped: slow,
             slow_since: slow,
             rests_since: slow,
             moved: slow.is_none(),
@@ -60,13 +69,16 @@ impl Settling {
 
     /// Takes in how a body moves at the end of a sub-step.
     pub(super) fn take_in(&mut self, motion: &Motion, measure: &Measure, time_s: f64) {
+        let stayed = time_s - self.came;
         if measure.is_slow(motion) {
-            self.first_slow.get_or_insert(time_s);
             self.slow_since.get_or_insert(time_s);
+            // What trembles is slow at its turning points, and stopped when it came.
+            let travelled = measure.travelled(&self.place, motion, stayed);
+            let stopped = if travelled { time_s } else { self.came };
+            self.stopped.get_or_insert(stopped);
         } else {
             self.slow_since = None;
         }
-        let stayed = time_s - self.came;
         let long = stayed >= measure.scale.rest_time();
         if measure.has_left(&self.place, motion) {
             // What takes so long to leave its place creeps, and counts as at rest.
@@ -75,9 +87,9 @@ impl Settling {
                 self.moved = true;
             }
             (self.place, self.came) = (*motion, time_s);
-            self.first_slow = self.slow_since.map(|_| time_s);
+            self.stopped = self.slow_since.map(|_| time_s);
         } else if long && self.rests_since.is_none() {
-            self.rests_since = Some(self.first_slow.unwrap_or(self.came));
+            self.rests_since = Some(self.stopped.unwrap_or(self.came));
         }
     }
 
