@@ -18,7 +18,7 @@ mod upright;
 
 pub use boundary::{Boundary, filled};
 pub use nodes::NodeAccess;
-pub use upright::{Ends, Upright};
+pub use upright::{Bound, Ends, Upright};
 
 /// A wall's surface; the channel lies on the side its normal points to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,10 +95,11 @@ impl Walls {
     /// Every plane a body can touch.
     pub fn planes(&self) -> impl Iterator<Item = &Plane> {
         let back = match &self.upright.ends {
-            Ends::BackWall(plane) => Some(plane),
+            Ends::Back(bound) => Some(bound.plane()),
             Ends::Seam { .. } => None,
         };
-        self.base.iter().chain(back).chain(&self.upright.sides)
+        let sides = self.upright.sides.iter().map(Bound::plane);
+        self.base.iter().chain(back).chain(sides)
     }
 }
 

@@ -7,7 +7,7 @@ use scree_solver::math::{Mat3, Sym3, Vec3};
 use scree_solver::points::Point;
 use scree_solver::scenario::Precision;
 use scree_solver::simulation::{Expected, GivenFlow, Guards, Scene, Setup, Timing};
-use scree_solver::walls::{Ends, Plane, Upright, Walls};
+use scree_solver::walls::{Bound, Ends, Plane, Upright, Walls};
 
 /// Points per cell and axis, as a scenario has them by default.
 pub(super) const PER_CELL: u32 = 2;
@@ -126,6 +126,7 @@ impl Block {
         let expected = Expected {
             speed: self.expected_speed,
             pressing_speed: self.expected_speed,
+            impact_speed: 0.0,
             contact_pressure,
             static_pressure: 0.5 * self.material.bulk_density * self.gravity * height,
         };
@@ -138,11 +139,13 @@ impl Block {
     }
 
     fn walls(&self) -> Walls {
-        let smooth = |name, normal, distance: f64| Plane {
-            name,
-            normal,
-            offset: -distance,
-            flow_friction: 0.0,
+        let symmetry = |normal, distance: f64| {
+            Bound::Symmetry(Plane {
+                name: "plane of symmetry",
+                normal,
+                offset: -distance,
+                flow_friction: 0.0,
+            })
         };
         let half_width = 0.5 * self.cell * f64::from(self.cells_across);
         let ends = if self.endless {
@@ -150,15 +153,21 @@ impl Block {
                 cells: self.cells[0] as i32,
             }
         } else {
-            Ends::BackWall(smooth("back wall", Vec3::x(), 0.0))
+            Ends::Back(symmetry(Vec3::x(), 0.0))
+        };
+        let floor = Plane {
+            name: "floor",
+            normal: Vec3::z(),
+            offset: 0.0,
+            flow_friction: 0.0,
         };
         Walls {
-            base: vec![smooth("floor", Vec3::z(), 0.0)],
+            base: vec![floor],
             upright: Upright {
                 ends,
                 sides: [
-                    smooth("right side wall", Vec3::y(), half_width),
-                    smooth("left side wall", -Vec3::y(), half_width),
+                    symmetry(Vec3::y(), half_width),
+                    symmetry(-Vec3::y(), half_width),
                 ],
                 halves_across: 2 * self.cells_across as i32,
             },

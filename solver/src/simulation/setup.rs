@@ -11,7 +11,7 @@ use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::{self, Precision, Scenario};
 use crate::stability::Pace;
-use crate::walls::{Ends, Plane, Upright, Walls};
+use crate::walls::{Bound, Ends, Plane, Upright, Walls};
 
 mod bodies;
 mod flow;
@@ -249,10 +249,14 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
     Walls {
         base: planes,
         upright: Upright {
-            ends: Ends::BackWall(upright("back wall", Vec3::x(), channel.incline_length_m)),
+            ends: Ends::Back(Bound::Wall(upright(
+                "back wall",
+                Vec3::x(),
+                channel.incline_length_m,
+            ))),
             sides: [
-                upright("right side wall", Vec3::y(), half_width),
-                upright("left side wall", -Vec3::y(), half_width),
+                Bound::Wall(upright("right side wall", Vec3::y(), half_width)),
+                Bound::Wall(upright("left side wall", -Vec3::y(), half_width)),
             ],
             halves_across: 2 * (channel.width_m / lattice.spacing.y).round() as i32,
         },

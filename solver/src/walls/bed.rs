@@ -8,7 +8,6 @@
 //! those of the break itself.
 
 use super::columns::Way;
-use super::upright::Meets;
 use super::{Plane, Walls};
 use crate::kernel::{Lattice, share_above};
 use crate::math::Vec3;
@@ -28,18 +27,6 @@ impl Surface {
         Self {
             normal: plane.normal,
             friction: plane.flow_friction,
-        }
-    }
-
-    /// The same for nodes that meet the back wall so: on it, only the vertical is left to
-    /// move in.
-    pub(super) fn beside(self, back: Meets) -> Self {
-        match back {
-            Meets::On { .. } => Self {
-                normal: Vec3::z(),
-                ..self
-            },
-            Meets::Not | Meets::Near { .. } => self,
         }
     }
 

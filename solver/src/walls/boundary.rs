@@ -44,6 +44,16 @@ impl Group {
     pub(super) fn is_upright(&self) -> bool {
         self.back != Meets::Not || self.side != Meets::Not
     }
+
+    /// Stops a velocity into a wall that the group lies on.
+    pub(super) fn keep_out_of_walls(&self, velocity: &mut Vec3) {
+        for (axis, meets) in [(0, self.back), (1, self.side)] {
+            match meets {
+                Meets::On { inward } if velocity[axis] * inward < 0.0 => velocity[axis] = 0.0,
+                Meets::On { .. } | Meets::Near { .. } | Meets::Not => {}
+            }
+        }
+    }
 }
 
 /// The nodes of one step that walls act on.
@@ -202,7 +212,7 @@ impl Walls {
     fn may_act_in(&self, lattice: &Lattice, first: [i32; 3]) -> bool {
         let last = first.map(|along| along + BLOCK as i32 - 1);
         let ends = match self.upright.ends {
-            Ends::BackWall(_) => first[0] <= 1,
+            Ends::Back(_) => first[0] <= 1,
             Ends::Seam { cells } => first[0] <= 1 || last[0] >= cells - 1,
         };
         let upright = ends || first[1] <= 1 || 2 * last[1] >= self.upright.halves_across - 2;
@@ -245,7 +255,7 @@ impl Walls {
             });
         let back = self.upright.meets_back(index);
         let side = self.upright.meets_side(index);
-        let surfaces = self.surfaces_over(index, back, nodes.lattice());
+        let surfaces = self.surfaces_over(index, nodes.lattice());
         let alone = boundary.members.len() == start + 1;
         let group = boundary.groups.len() as u32;
         let known = boundary.rungs.len();
@@ -300,12 +310,7 @@ impl Walls {
 
     /// Surfaces of the bed that a node is on or below: of vertical columns the mean
     /// bed there, of horizontal ones their plane.
-    fn surfaces_over(
-        &self,
-        index: [i32; 3],
-        back: Meets,
-        lattice: &Lattice,
-    ) -> [Option<Surface>; 2] {
+    fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2] {
         let x = lattice.position(index);
         // A node that lies on the plane but for rounding belongs to it.
         let rounding = 1e-9 * (1.0 + x.norm());
@@ -315,8 +320,7 @@ impl Walls {
             let (plane, _) = of_way
                 .filter(|(_, plane)| Way::of(plane) == way && plane.height(&x) <= rounding)
                 .max_by(|one, other| other.1.height(&x).total_cmp(&one.1.height(&x)))?;
-            let surface = self.surface_at(plane, way, index[0], lattice);
-            Some(surface.beside(back))
+            Some(self.surface_at(plane, way, index[0], lattice))
         })
     }
 }

@@ -93,7 +93,6 @@ impl Column {
     ) -> Option<Self> {
         let group = |rung: &Rung| &groups[rung.group as usize];
         let Rung { way, .. } = all[rungs.start];
-        let surface = surface.beside(group(&all[rungs.start]).back);
         let held = |rung: &Rung| matches!(group(rung).back, Meets::On { .. });
         if way == Way::Lying && all[rungs.clone()].iter().any(held) {
             return None;
@@ -257,7 +256,9 @@ impl Walls {
             for (column, [a, b]) in alike.iter().zip(ends.iter()) {
                 for rung in &rungs[column.rungs.clone()] {
                     let shares = shares(f64::from(rung.depth));
-                    answers[rung.group as usize].velocity = a * shares[0] + b * shares[1];
+                    let mut velocity = a * shares[0] + b * shares[1];
+                    groups[rung.group as usize].keep_out_of_walls(&mut velocity);
+                    answers[rung.group as usize].velocity = velocity;
                 }
             }
         }

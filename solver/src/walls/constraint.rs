@@ -16,6 +16,9 @@ const TASK: usize = 128;
 pub(super) struct Answer {
     /// Velocity in the frame of the first member [m/s].
     pub(super) velocity: Vec3,
+    /// True along x and y if the group leaves the wall across: its images move along
+    /// with it instead of mirrored.
+    leaves: [bool; 2],
     /// Impulse given.
     impulse: Impulse,
     /// True if it is another velocity than before.
@@ -27,12 +30,11 @@ impl Walls {
     /// they will in the first sub-step. What it takes from the nodes' momentum the
     /// rest of the transfer gives back, so it is no impulse.
     pub fn reflect(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) {
-        self.propose(boundary, nodes, Self::joint_velocity);
+        self.propose(boundary, nodes, Self::joint_motion);
         self.line_up(boundary, false);
         for (answer, group) in boundary.answers.iter().zip(&boundary.groups) {
             for member in &boundary.members[group.members.clone()] {
-                let velocity = mirrored(&answer.velocity, member.sign);
-                nodes.set_velocity(member.place as usize, &velocity, 0.0);
+                nodes.set_velocity(member.place as usize, &answer.velocity_of(member), 0.0);
             }
         }
     }
@@ -46,7 +48,7 @@ impl Walls {
         nodes: &mut impl NodeAccess,
         dt: f64,
     ) -> Impulse {
-        self.propose(boundary, nodes, Self::velocity_of);
+        self.propose(boundary, nodes, Self::constrained_motion);
         self.line_up(boundary, true);
         Self::give(boundary, nodes, dt)
     }
@@ -55,7 +57,7 @@ impl Walls {
     /// which goes to each of them alone: bodies meet the flow's motion before the
     /// first sub-step's [`constrain`](Self::constrain). Returns the impulse given.
     pub fn join(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) -> Impulse {
-        self.propose(boundary, nodes, Self::joint_velocity);
+        self.propose(boundary, nodes, Self::joint_motion);
         Self::give(boundary, nodes, 0.0)
     }
 
@@ -83,19 +85,18 @@ impl Walls {
             given.linear += answer.impulse.linear;
             given.angular += answer.impulse.angular;
             for member in &members[group.members.clone()] {
-                let velocity = mirrored(&answer.velocity, member.sign);
-                nodes.set_velocity(member.place as usize, &velocity, dt);
+                nodes.set_velocity(member.place as usize, &answer.velocity_of(member), dt);
             }
         }
         given
     }
 
-    /// Finds for every group the velocity it would have without its column.
+    /// Finds for every group the motion it would have without its column.
     fn propose<N: NodeAccess>(
         &self,
         boundary: &mut Boundary,
         nodes: &N,
-        velocity: impl Fn(&Self, &Group, &[Member], &N) -> Vec3 + Sync,
+        motion: impl Fn(&Self, &Group, &[Member], &N) -> Motion + Sync,
     ) {
         let Boundary {
             members,
@@ -109,41 +110,59 @@ impl Walls {
             .with_min_len(TASK)
             .for_each(|(answer, group)| {
                 let members = &members[group.members.clone()];
-                answer.velocity = velocity(self, group, members, nodes);
+                let motion = motion(self, group, members, nodes);
+                (answer.velocity, answer.leaves) = (motion.velocity, motion.leaves);
             });
     }
 
-    /// Common velocity of a group in the frame of its first member, but for the
-    /// base.
-    fn joint_velocity(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Vec3 {
+    /// Common motion of a group in the frame of its first member, but for the base.
+    fn joint_motion(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Motion {
         match members {
-            [only] if !group.is_upright() => nodes.velocity(only.place as usize),
+            [only] if !group.is_upright() => Motion {
+                velocity: nodes.velocity(only.place as usize),
+                leaves: [false; 2],
+            },
             _ => self.between_uprights(group, members, nodes),
         }
     }
 
     /// The same with the base planes that act on it alone.
-    fn velocity_of(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Vec3 {
-        let mut velocity = self.joint_velocity(group, members, nodes);
+    fn constrained_motion(
+        &self,
+        group: &Group,
+        members: &[Member],
+        nodes: &impl NodeAccess,
+    ) -> Motion {
+        let mut motion = self.joint_motion(group, members, nodes);
         for surface in group.surfaces.iter().flatten() {
-            constrain_to(surface, &mut velocity);
+            constrain_to(surface, &mut motion.velocity);
         }
-        velocity
+        motion
     }
 
-    /// Common velocity of a group that meets an upright wall, but for the base.
-    fn between_uprights(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Vec3 {
+    /// Common motion of a group that meets an upright wall, but for the base.
+    fn between_uprights(
+        &self,
+        group: &Group,
+        members: &[Member],
+        nodes: &impl NodeAccess,
+    ) -> Motion {
         let folded = Folded::of(members, nodes);
         let mut velocity = folded.momentum / folded.mass;
+        let mut leaves = [false; 2];
         for (axis, meets) in [(0, group.back), (1, group.side)] {
-            let inward = match meets {
-                Meets::Not => continue,
-                Meets::Near { inward } => inward,
-                Meets::On { inward } => {
-                    velocity[axis] = 0.0;
-                    inward
-                }
+            let (Meets::Near { inward } | Meets::On { inward }) = meets else {
+                continue;
             };
+            leaves[axis] =
+                folded.unfolded[axis] * inward > 0.0 && self.upright.lets_go(axis, inward);
+            if leaves[axis] {
+                velocity[axis] = folded.unfolded[axis] / folded.mass;
+                continue;
+            }
+            if let Meets::On { .. } = meets {
+                velocity[axis] = 0.0;
+            }
             let friction = self.upright.friction(axis, inward);
             let after = velocity[axis] * folded.signed_mass[axis];
             let pressed = (after - folded.unfolded[axis]) * inward;
@@ -151,18 +170,38 @@ impl Walls {
                 rub(axis, friction * pressed / folded.mass, &mut velocity);
             }
         }
-        velocity
+        Motion { velocity, leaves }
     }
 }
 
+/// Motion of a group in the frame of its first member.
+struct Motion {
+    /// [m/s].
+    velocity: Vec3,
+    /// True along x and y if the group leaves the wall across.
+    leaves: [bool; 2],
+}
+
 impl Answer {
+    /// Velocity of one of the group [m/s].
+    fn velocity_of(&self, member: &Member) -> Vec3 {
+        let sign = |axis: usize| {
+            if self.leaves[axis] {
+                1.0
+            } else {
+                member.sign[axis]
+            }
+        };
+        mirrored(&self.velocity, [sign(0), sign(1)])
+    }
+
     /// Finds the impulse that the velocity takes.
     fn account_for(&mut self, members: &[Member], nodes: &impl NodeAccess, dt: f64) {
         self.impulse = Impulse::default();
         self.changed = false;
         for member in members {
             let place = member.place as usize;
-            let change = mirrored(&self.velocity, member.sign) - nodes.velocity(place);
+            let change = self.velocity_of(member) - nodes.velocity(place);
             self.changed |= change != Vec3::zeros();
             let present = member.resting + nodes.displacement(place, dt);
             self.impulse.add_at(&present, &(change * nodes.mass(place)));

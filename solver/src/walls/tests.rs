@@ -19,10 +19,15 @@ pub(super) fn channel(cells_across: i32, base_friction: f64, side_friction: f64)
     Walls {
         base: vec![plane("floor", Vec3::z(), 0.0, base_friction)],
         upright: Upright {
-            ends: Ends::BackWall(plane("back wall", Vec3::x(), 0.0, side_friction)),
+            ends: Ends::Back(Bound::Wall(plane(
+                "back wall",
+                Vec3::x(),
+                0.0,
+                side_friction,
+            ))),
             sides: [
-                plane("right side wall", Vec3::y(), 0.0, side_friction),
-                plane("left side wall", -Vec3::y(), -width, side_friction),
+                Bound::Wall(plane("right side wall", Vec3::y(), 0.0, side_friction)),
+                Bound::Wall(plane("left side wall", -Vec3::y(), -width, side_friction)),
             ],
             halves_across: 2 * cells_across,
         },

@@ -11,7 +11,7 @@ pub struct Upright {
     /// Bounds at index 0 along x.
     pub ends: Ends,
     /// The side walls.
-    pub sides: [Plane; 2],
+    pub sides: [Bound; 2],
     /// Cells between the side walls, twice; odd where the second is a mirror halfway
     /// between two nodes.
     pub halves_across: i32,
@@ -20,8 +20,8 @@ pub struct Upright {
 /// Bounds of the flow along x.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ends {
-    /// A wall at the back; the front is open.
-    BackWall(Plane),
+    /// A bound at the back; the front is open.
+    Back(Bound),
     /// None: what leaves after `cells` cells comes in at the back. Energy and
     /// angular momentum of such a flow can't be audited.
     Seam {
@@ -29,6 +29,33 @@ pub enum Ends {
         cells: i32,
     },
 }
+
+/// Upright bound of the flow.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Bound {
+    /// A wall, which flow can leave.
+    Wall(Plane),
+    /// A plane of symmetry, with the rest of the flow behind it.
+    Symmetry(Plane),
+}
+
+impl Bound {
+    /// The plane of either.
+    pub fn plane(&self) -> &Plane {
+        match self {
+            Bound::Wall(plane) | Bound::Symmetry(plane) => plane,
+        }
+    }
+
+    /// True of a wall.
+    fn is_wall(&self) -> bool {
+        matches!(self, Bound::Wall(_))
+    }
+}
+
+/// Cells across the whole channel from which on flow can leave its sides: then no node
+/// has images in both bounds of the half that is computed.
+const SIDES_APART: i32 = 6;
 
 /// Meeting of a group of nodes with an upright wall; `inward` is the sign of the wall's
 /// normal along its axis.
@@ -39,7 +66,7 @@ pub(super) enum Meets {
     Near {
         inward: f64,
     },
-    /// On the wall's plane: it has no normal velocity.
+    /// On the wall's plane.
     On {
         inward: f64,
     },
@@ -66,7 +93,7 @@ impl Upright {
             j
         };
         let i = match self.ends {
-            Ends::BackWall(_) => i.abs(),
+            Ends::Back(_) => i.abs(),
             Ends::Seam { cells } => {
                 let there = |i: &i32| nodes.place_of([*i, j, k]).is_some();
                 let first = i.rem_euclid(cells);
@@ -80,7 +107,7 @@ impl Upright {
     /// True if a node has images that the kernel can reach.
     pub(super) fn has_images(&self, [i, j, _]: [i32; 3]) -> bool {
         let along = match self.ends {
-            Ends::BackWall(_) => i == 1,
+            Ends::Back(_) => i == 1,
             Ends::Seam { cells } => across_seam(i, cells).next().is_some(),
         };
         along || j == 1 || self.is_before_far_side(j)
@@ -103,7 +130,7 @@ impl Upright {
         mut visit: impl FnMut([i32; 3], [f64; 2]),
     ) {
         let (mirror, period) = match self.ends {
-            Ends::BackWall(_) => ((i == 1).then_some((-i, -1.0)), None),
+            Ends::Back(_) => ((i == 1).then_some((-i, -1.0)), None),
             Ends::Seam { cells } => (None, Some(cells)),
         };
         let repeats = period.into_iter().flat_map(|cells| across_seam(i, cells));
@@ -127,7 +154,7 @@ impl Upright {
 
     pub(super) fn meets_back(&self, [i, ..]: [i32; 3]) -> Meets {
         match self.ends {
-            Ends::BackWall(_) => meets(2 * i, 1.0),
+            Ends::Back(_) => meets(2 * i, 1.0),
             Ends::Seam { .. } => Meets::Not,
         }
     }
@@ -159,11 +186,31 @@ impl Upright {
     /// Friction of the wall across an axis whose normal has this sign.
     pub(super) fn friction(&self, axis: usize, inward: f64) -> f64 {
         match (&self.ends, axis) {
-            (Ends::BackWall(plane), 0) => plane.flow_friction,
+            (Ends::Back(bound), 0) => bound.plane().flow_friction,
             (Ends::Seam { .. }, 0) => 0.0,
-            _ if inward > 0.0 => self.sides[0].flow_friction,
-            _ => self.sides[1].flow_friction,
+            _ => self.side(inward).plane().flow_friction,
         }
+    }
+
+    /// True if flow can leave the bound across an axis whose normal has this sign.
+    pub(super) fn lets_go(&self, axis: usize, inward: f64) -> bool {
+        match (&self.ends, axis) {
+            (Ends::Back(bound), 0) => bound.is_wall(),
+            (Ends::Seam { .. }, 0) => false,
+            _ => self.side(inward).is_wall() && self.cells_across() >= SIDES_APART,
+        }
+    }
+
+    /// Cells across the whole channel.
+    fn cells_across(&self) -> i32 {
+        match &self.sides[1] {
+            Bound::Wall(_) => self.halves_across / 2,
+            Bound::Symmetry(_) => self.halves_across,
+        }
+    }
+
+    fn side(&self, inward: f64) -> &Bound {
+        &self.sides[usize::from(inward < 0.0)]
     }
 }
 

@@ -58,7 +58,7 @@ impl SharedFlow {
         };
         let given = whole.between(share.walls(whole), partners);
         let mut planes = whole.planes.clone();
-        planes.push(given.walls.upright.sides[1]);
+        planes.push(*given.walls.upright.sides[1].plane());
         Self {
             planes,
             flow: plainly(Vec::new(), &given, precision),

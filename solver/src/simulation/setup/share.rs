@@ -2,7 +2,7 @@
 
 use super::{Columns, Setup};
 use crate::math::Vec3;
-use crate::walls::{Plane, Walls};
+use crate::walls::{Bound, Plane, Walls};
 use serde::{Deserialize, Serialize};
 
 /// Share of the flow that is computed; the rest are its images.
@@ -39,12 +39,12 @@ impl Share {
         if halves < walls.upright.halves_across {
             let lattice = &whole.lattice;
             walls.upright.halves_across = halves;
-            walls.upright.sides[1] = Plane {
-                name: "mirror",
+            walls.upright.sides[1] = Bound::Symmetry(Plane {
+                name: "plane of symmetry",
                 normal: -Vec3::y(),
                 offset: -(lattice.origin.y + 0.5 * f64::from(halves) * lattice.spacing.y),
                 flow_friction: 0.0,
-            };
+            });
         }
         walls
     }
