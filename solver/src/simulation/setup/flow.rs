@@ -109,9 +109,11 @@ impl GivenFlow {
         }
     }
 
-    /// Relative change of density under the largest pressure expected.
+    /// Relative change of density under the largest pressure expected: the dynamic one,
+    /// or that of a body's impact on a bed at rest, ρ c v.
     pub fn density_change(&self) -> f64 {
-        (self.expected.pressing_speed / self.limits.sound_speed).powi(2)
+        let dynamic = (self.expected.pressing_speed / self.limits.sound_speed).powi(2);
+        dynamic.max(self.expected.impact_speed / self.limits.sound_speed)
     }
 
     /// Law of a body's contacts with points: at the reference overlap a point carries

@@ -18,6 +18,10 @@ const OVERLAP_AT_REST: f64 = 0.01;
 /// Overlap of an impact on one vertex at the expected speed, over the sphero
 /// radius.
 const OVERLAP_AT_IMPACT: f64 = 0.2;
+/// Stiffness that weights ask for, over what would do for a flow's dynamic pressure. A
+/// laid body settles by its pressure over the shear modulus, several times that near the
+/// bearing capacity: without this a steel cube on sand settles by a sixteenth of its side.
+const WEIGHT_FACTOR: f64 = 16.0;
 /// Stiffness of a body on a rigid wall over that on its like: E*/2 and r/2.
 const TWO_LIKE_ONE: f64 = 2.0 * std::f64::consts::SQRT_2;
 
@@ -60,9 +64,11 @@ pub struct Expected {
     /// Speed of the flow, or of the fastest body at the start [m/s].
     pub speed: f64,
     /// Speed whose dynamic pressure ρ_c v² is the largest pressure expected in the flow
-    /// [m/s]: of the flow itself, of bodies that fall or slide into it, or of the
-    /// weight of a body that lies on it.
+    /// [m/s]: of the flow itself, of bodies that fall or slide into it, or sixteen
+    /// times the weight of a body that lies on it.
     pub pressing_speed: f64,
+    /// Speed with which the fastest body may meet a bed at rest [m/s].
+    pub impact_speed: f64,
     /// Largest pressure expected between flow and bodies [Pa]; infinite where a body's
     /// motion is prescribed, since nothing bounds what it presses with.
     pub contact_pressure: f64,
@@ -78,16 +84,18 @@ pub(super) fn expected(scenario: &Scenario, crowd: &Crowd) -> Expected {
     let weight = |flow: &Flow| 0.5 * density * scenario.gravity_m_s2 * flow.release.height_m;
     let of_body = |body: &Weighty| {
         let weight = body.mass * scenario.gravity_m_s2 / body.projected_area;
-        body.speed_squared.max(weight / density)
+        body.speed_squared.max(WEIGHT_FACTOR * weight / density)
     };
-    let free = crowd.0.iter().filter(|body| body.free);
-    let pressing_squared = free.map(of_body).fold(speed * speed, f64::max);
+    let free = || crowd.0.iter().filter(|body| body.free);
+    let pressing_squared = free().map(of_body).fold(speed * speed, f64::max);
+    let impacts = free().map(|body| body.speed_squared);
     let moves = |motion: &Motion| motion.prescribed().fastest(1.0) > 0.0;
     let bodies = scenario.bodies.iter();
     let driven = bodies.filter_map(|body| body.motion.as_ref()).any(moves);
     Expected {
         speed,
         pressing_speed: pressing_squared.sqrt(),
+        impact_speed: impacts.fold(0.0, f64::max).sqrt(),
         contact_pressure: if driven {
             f64::INFINITY
         } else {
