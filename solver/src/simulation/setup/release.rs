@@ -1,7 +1,7 @@
 //! The release: points on a lattice that follows the slope, near equilibrium
 //! (docs/method.md, equation 34).
 
-use super::{Setup, Share, resting_point};
+use super::{GivenFlow, Setup, Share, resting_point};
 use crate::error::SetupError;
 use crate::kernel::Lattice;
 use crate::material::Material;
@@ -66,6 +66,7 @@ impl Columns {
                     let depth = release.vertical_thickness_m - self.along(k, 2);
                     let mut point = resting_point(id, position, mass, self.volume);
                     start.press(&mut point, depth);
+                    point.position += flow.way_to_bear(&point, bodies);
                     points.push(point);
                 }
             }
@@ -163,6 +164,45 @@ impl Setup {
         let has_room =
             place == position || (bodies.iter().all(beside) && self.planes.iter().all(between));
         has_room.then_some(place)
+    }
+}
+
+/// Farthest that a point of the release is moved so that its contact bears its stress
+/// [point spacings]; what is farther off lies there on purpose.
+const FARTHEST: f64 = 0.1;
+
+impl GivenFlow {
+    /// Way [m] of a point that touches, or nearly touches, a body to where the contact
+    /// presses as the point's stress does. The stand-off holds for the mean pressure of
+    /// the flow; without this, bodies would press with that pressure at first, whatever
+    /// the depth and the direction.
+    fn way_to_bear(&self, point: &Point, bodies: &[Body]) -> Vec3 {
+        let mut way = Vec3::zeros();
+        let mut touched = 0;
+        for body in bodies {
+            let arm = body.to_body(&(point.position - body.state.position));
+            let reach = self.sphere.radius + FARTHEST * self.sphere.spacing;
+            if arm.norm() > body.shape.bounding_radius() + reach {
+                continue;
+            }
+            let closest = body.shape.closest_feature(&arm);
+            let distance = closest.distance - body.shape.sphero_radius();
+            if distance > reach {
+                continue;
+            }
+            let normal = body.to_world(&closest.normal);
+            let pressed = (-normal.dot(&(point.stress.matrix() * normal))).max(0.0);
+            let load = pressed * self.sphere.spacing.powi(2);
+            let overlap = (load / self.contact_law(0.0, 0.0).stiffness).powf(2.0 / 3.0);
+            way = normal * (self.sphere.radius - overlap - distance);
+            touched += 1;
+        }
+        // Between two bodies no place suits both.
+        if touched == 1 && way.norm() <= FARTHEST * self.sphere.spacing {
+            way
+        } else {
+            Vec3::zeros()
+        }
     }
 }
 
