@@ -8,4 +8,5 @@ pub mod island;
 pub mod law;
 pub mod neighbours;
 pub mod point_body;
+pub mod screening;
 pub mod wall_touch;

@@ -1,6 +1,7 @@
 //! Material points on bodies: each point's sphere against the body's rounded
 //! surface at the closest feature (docs/method.md, equations 21–24).
 
+use crate::contact::screening::{screening_bodies, screens};
 use crate::kernel::PointStencil;
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
@@ -112,6 +113,8 @@ pub struct Loads<P> {
     pub candidates: Vec<Vec<Candidate<P>>>,
     /// Points in a body's box.
     near: Vec<P>,
+    /// Per body, the others that may lie between it and a point.
+    screening: Vec<Vec<usize>>,
     /// Per body, the contacts of its candidates.
     contacts: Vec<Vec<Option<PointContact>>>,
     /// Per body, their sum.
@@ -126,6 +129,7 @@ impl<P> Default for Loads<P> {
             on_points: Vec::new(),
             candidates: Vec::new(),
             near: Vec::new(),
+            screening: Vec::new(),
             contacts: Vec::new(),
             sums: Vec::new(),
             compliance: GridCompliance::default(),
@@ -158,6 +162,7 @@ impl<P: Copy + Send + Sync> Loads<P> {
         self.on_bodies.clear();
         self.on_bodies.resize(bodies.len(), FlowLoad::default());
         self.candidates.resize_with(bodies.len(), Vec::new);
+        screening_bodies(bodies, reach.sphere + reach.travel, &mut self.screening);
         let near = &mut self.near;
         for (body, candidates) in bodies.iter().zip(&mut self.candidates) {
             near.clear();
@@ -202,13 +207,19 @@ impl<P: Copy + Send + Sync> Loads<P> {
         bodies
             .par_iter()
             .zip(&self.candidates)
+            .zip(&self.screening)
             .zip(&mut self.contacts)
-            .for_each(|((body, candidates), contacts)| {
+            .for_each(|(((body, candidates), screening), contacts)| {
                 let find = |candidate: &Candidate<P>| {
                     let in_reach = candidate.earliest <= passed;
                     in_reach
                         .then(|| PointContact::find(points, candidate.place, body, stand_off))
                         .flatten()
+                        .filter(|contact| {
+                            let (from, to) = contact.ends(body);
+                            let mut between = screening.iter();
+                            !between.any(|other| screens(&bodies[*other], &from, &to))
+                        })
                 };
                 candidates
                     .par_iter()

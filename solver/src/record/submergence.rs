@@ -2,6 +2,7 @@
 
 use super::bed::Bed;
 use crate::contact::point_body::Around;
+use crate::contact::screening::screens;
 use crate::math::{Mat3, Vec3};
 use crate::rigid::Body;
 use crate::simulation::Simulation;
@@ -21,21 +22,39 @@ const GAP: f64 = 2.0;
 /// In each of eight sectors the surface lies half a point spacing above the highest
 /// point that others lead up to from the body's foot. The share is that of a plane
 /// through the sectors' shares where the body is: a slope of the surface does not count
-/// twice, and one splash does not drown a body. Sectors behind a side wall have no say.
+/// twice, and one splash does not drown a body. Sectors behind a side wall or another
+/// body have no say, nor have points there.
 pub(super) fn submerged_fraction(simulation: &Simulation, body: &Body, bed: &Bed) -> f64 {
     let view = View::of(simulation, body, bed);
+    let others = others_near(simulation.bodies(), body, view.ring);
+    let hidden = |place: &Vec3| {
+        let mut others = others.iter();
+        others.any(|other| screens(other, place, &body.state.position))
+    };
     let mut sectors: [Vec<Spot>; SECTORS] = Default::default();
     simulation.visit_points(Some(&view.around()), |point| {
-        if let Some(spot) = view.spot(&point.position) {
+        let spot = view.spot(&point.position);
+        if let Some(spot) = spot.filter(|_| !hidden(&point.position)) {
             sectors[sector(&spot)].push(spot);
         }
     });
     let within = sectors.iter_mut().enumerate();
-    let within = within.filter(|(sector, _)| view.has_room(simulation, *sector));
+    let has_say =
+        |sector: usize| view.has_room(simulation, sector) && !hidden(&view.middle_place(sector));
+    let within = within.filter(|(sector, _)| has_say(*sector));
     let shares: Vec<(Spot, f64)> = within
         .map(|(sector, spots)| view.share(sector, spots))
         .collect();
     at_the_centre(&shares).clamp(0.0, 1.0)
+}
+
+/// The other bodies that reach into a ring round one.
+fn others_near<'a>(bodies: &'a [Body], body: &Body, ring: f64) -> Vec<&'a Body> {
+    let near = |other: &&Body| {
+        let apart = (other.state.position - body.state.position).norm();
+        apart > 0.0 && apart < ring + other.shape.bounding_radius()
+    };
+    bodies.iter().filter(near).collect()
 }
 
 /// A place as it is seen from a body.
@@ -113,10 +132,14 @@ impl View {
         }
     }
 
+    fn middle_place(&self, sector: usize) -> Vec3 {
+        let middle = self.middle(sector);
+        self.centre + self.downstream * middle.along + Vec3::y() * middle.across
+    }
+
     /// True if a sector lies between the side walls.
     fn has_room(&self, simulation: &Simulation, sector: usize) -> bool {
-        let middle = self.middle(sector);
-        let place = self.centre + self.downstream * middle.along + Vec3::y() * middle.across;
+        let place = self.middle_place(sector);
         let sides = simulation.planes().iter();
         let mut sides = sides.filter(|plane| plane.normal.y.abs() > 0.5);
         sides.all(|plane| plane.height(&place) > 0.0)

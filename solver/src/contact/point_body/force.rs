@@ -64,6 +64,13 @@ impl PointContact {
         })
     }
 
+    /// Places of the point, and of the body's surface where it touches [m].
+    pub(super) fn ends(&self, body: &Body) -> (Vec3, Vec3) {
+        let point = body.state.position + self.arm;
+        let stand_off = self.overlap / self.overlap_ratio - body.shape.sphero_radius();
+        (point, point - self.normal * (stand_off - self.overlap))
+    }
+
     /// Force of this contact in a sub-step of `dt` [s], where this effective mass [kg]
     /// resists it.
     pub(super) fn force(&self, law: &ContactLaw, effective_mass: f64, dt: f64) -> PointForce {
