@@ -15,6 +15,10 @@ use nalgebra::Vector3;
 /// Rounding of a length computed from the scenario's own numbers.
 const ROUNDING: f64 = 1e-9;
 
+/// Least volume of a flow with points [m³], a cube of ten micrometres: masses of nodes
+/// vanish in rounding below.
+const LEAST_VOLUME: f64 = 1e-15;
+
 /// The release lies on the incline.
 pub(super) fn release_fits(report: &Report, channel: &Channel, flow: &Flow) {
     let incline = channel.incline_length_m;
@@ -28,6 +32,16 @@ pub(super) fn release_fits(report: &Report, channel: &Channel, flow: &Flow) {
         let pointer = format!("/flow/release/{}", TOE_DISTANCE.key);
         let allowed = format!("0 <= x < {}", short(incline));
         report.refuse(&pointer, &allowed, TOE_DISTANCE.unit, &why);
+        return;
+    }
+    if flow.volume_m3 > 0.0 && flow.volume_m3 < LEAST_VOLUME {
+        let why = format!(
+            "is {}, less than what can be computed",
+            short(flow.volume_m3)
+        );
+        let pointer = format!("/flow/{}", VOLUME.key);
+        let allowed = format!("0, or {} <= x", short(LEAST_VOLUME));
+        report.refuse(&pointer, &allowed, VOLUME.unit, &why);
         return;
     }
     let release = channel.release_box(flow);
