@@ -6,7 +6,7 @@ use super::query::Query;
 use super::scenario_body::{ScenarioText, malformed};
 use super::submission::{LABEL_RULE, key};
 use crate::jobs::job::JobId;
-use crate::jobs::submit::{LABELS_AT_MOST, NewJob, ScenarioError, label};
+use crate::jobs::submit::{LABELS_AT_MOST, NewJob, ScenarioError, excerpt, label};
 use crate::jobs::{Intake, Jobs};
 use axum::Json;
 use axum::extract::{RawQuery, State};
@@ -107,7 +107,7 @@ fn read_batch(text: &str) -> Result<BatchDocument, Problem> {
             StatusCode::UNPROCESSABLE_ENTITY,
             "invalid-batch",
             "Invalid batch",
-            error.to_string(),
+            without_long_texts(&error),
         )
     })?;
     if batch.jobs.is_empty() {
@@ -115,6 +115,13 @@ fn read_batch(text: &str) -> Result<BatchDocument, Problem> {
         return Err(Problem::invalid_scenario(vec![none]));
     }
     Ok(batch)
+}
+
+/// The parser's words, which repeat a wrong key or text in full.
+fn without_long_texts(error: &serde_json::Error) -> String {
+    let position = format!(" at line {} column {}", error.line(), error.column());
+    let message = error.to_string().replace(&position, "");
+    format!("{}{position}", excerpt(&message))
 }
 
 /// Checks every scenario and every label; all that is wrong is named at once.
