@@ -47,10 +47,10 @@ pub(super) struct FieldError {
     /// JSON pointer (RFC 6901) into the body, "" for the whole document.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pointer: Option<String>,
-    /// Name of the query parameter.
+    /// Name of the query parameter, or of the header.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parameter: Option<String>,
-    /// The value received; null if it is missing.
+    /// The value received, of a long text the beginning; null if it is missing.
     pub value: Value,
     /// What is allowed, in words or as a range.
     pub allowed: String,
