@@ -1,23 +1,8 @@
-//! Rules that any driver of the job store must hold to, one a test. Another driver adds
-//! itself to [`conformance!`]'s list.
+//! Rules that any driver of the job store must hold to, one a test.
 
 use super::*;
 use crate::jobs::failure::Failure;
 use crate::results::columns::Selection;
-
-macro_rules! conformance {
-    ($($rule:ident)*) => {
-        mod sqlite {
-            use super::Fixture;
-            $(
-                #[tokio::test]
-                async fn $rule() {
-                    super::$rule(&Fixture::sqlite().await).await;
-                }
-            )*
-        }
-    };
-}
 
 conformance! {
     jobs_are_claimed_in_the_order_of_submission_and_once
@@ -28,6 +13,7 @@ conformance! {
     a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed
     a_lease_that_is_renewed_does_not_run_out
     a_lease_that_ran_out_is_another_s_to_take
+    a_saved_job_whose_lease_ran_out_is_taken_at_once
     a_former_self_s_jobs_are_taken_back_at_once_and_no_others
     the_third_setback_in_a_row_is_the_last
     a_job_cut_off_waits_until_the_service_has_lived_as_long
@@ -221,6 +207,33 @@ async fn a_lease_that_ran_out_is_another_s_to_take<S: JobStore>(fixture: &Fixtur
     assert_eq!((new.job, new.attempt), (id, 2));
     assert!(!fixture.store.keep(old, &results(3)).await.unwrap());
     assert_eq!(fixture.endings(id).await, ["expired", ""]);
+}
+
+async fn a_saved_job_whose_lease_ran_out_is_taken_at_once<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    let at_once = |owner: &str| Claimant {
+        up_for: Duration::ZERO,
+        ..claimant(owner)
+    };
+    for (own, other) in [("a", "b"), ("b", "a")].repeat(TOLERATED_SETBACKS as usize) {
+        let claim = fixture.store.claim(&at_once(own)).await.unwrap();
+        let claim = claim.expect("what has got on waits for nothing");
+        assert_eq!((claim.hold.job, claim.setbacks), (id, 0));
+        let kept = results_and_state(3);
+        assert!(fixture.store.keep(claim.hold, &kept).await.unwrap());
+        fixture.pass(LEASE);
+        let taken = fixture.store.take_back_expired(other, LEASE).await;
+        assert_eq!(taken.unwrap(), 1);
+    }
+    let others = fixture.submit().await;
+    fixture.claim("a").await;
+    assert_eq!(fixture.claim("a").await.job, others);
+    fixture.pass(LEASE);
+    assert_eq!(
+        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
+        2
+    );
+    assert_eq!(fixture.try_claim("b").await, None, "these saved nothing");
 }
 
 async fn a_former_self_s_jobs_are_taken_back_at_once_and_no_others<S: JobStore>(
