@@ -92,7 +92,7 @@ fn what_is_no_motion_is_refused() {
         (
             "no times",
             POINTER,
-            table(json!([]), json!([])),
+            table(json!([]), json!([[0, 0, 0]])),
             "/bodies/0/motion/times_s",
             "1 to 1000 times",
         ),
