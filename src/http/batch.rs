@@ -41,7 +41,7 @@ pub(super) struct BatchJob {
     labels: Vec<String>,
 }
 
-/// What came of a batch: its jobs, in its order.
+/// Fate of a batch: its jobs, in its order.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = BatchAnswer)]
 pub(super) struct BatchAnswer {

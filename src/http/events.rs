@@ -97,7 +97,7 @@ pub(super) async fn events(
 /// Start of a stream.
 struct Start {
     after: i64,
-    /// What tells a client that its number is of another past.
+    /// Message to a client whose number is of another past.
     reset: Option<String>,
 }
 
