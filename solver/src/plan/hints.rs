@@ -61,8 +61,8 @@ fn thin_bodies(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
     let thin: Vec<usize> = thin.collect();
     let thinnest = thin.iter().map(|body| width(*body)).reduce(f64::min)?;
     let detail = format!(
-        "{} thinner than a cell ({thinnest:.4} m, cells of {cell:.4} m): the flow does not \
-         resolve what goes round it; four cells across would be {:.4} m",
+        "{} thinner than a cell ({thinnest:.4} m, cells of {cell:.4} m), too coarse for the flow \
+         round such a body; four cells across would be {:.4} m",
         subject(&thin),
         0.25 * thinnest
     );
