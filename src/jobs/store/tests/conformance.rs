@@ -21,8 +21,6 @@ conformance! {
     a_saved_state_comes_back_and_ends_the_row_of_setbacks
     an_attempt_begins_at_its_saved_state_or_afresh
     a_job_handed_back_keeps_its_state_and_has_no_setback
-    a_clock_set_back_holds_up_neither_waiting_nor_lost_jobs
-    a_clock_set_forward_costs_a_lease_and_nothing_else
 }
 
 async fn jobs_are_claimed_in_the_order_of_submission_and_once<S: JobStore>(fixture: &Fixture<S>) {
@@ -387,43 +385,4 @@ async fn a_job_handed_back_keeps_its_state_and_has_no_setback<S: JobStore>(fixtu
     assert_eq!(job.summary.status, JobStatus::Accepted);
     assert_eq!(job.summary.started, None);
     assert_eq!(job.summary.progress.fraction, 0.5, "it goes on from there");
-}
-
-async fn a_clock_set_back_holds_up_neither_waiting_nor_lost_jobs<S: JobStore>(
-    fixture: &Fixture<S>,
-) {
-    let waiting = fixture.submit().await;
-    let hold = fixture.claim("a").await;
-    let setback = Setback::Infrastructure("x".to_owned());
-    fixture.store.set_back(hold, &setback).await.unwrap();
-    let lost = fixture.submit().await;
-    assert_eq!(fixture.claim("a").await.job, lost, "the other one waits");
-    fixture.clock.jump(SignedDuration::from_hours(-24));
-    assert_eq!(
-        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
-        1
-    );
-    fixture.pass(Duration::from_secs(2));
-    assert_eq!(fixture.claim("b").await.job, waiting);
-    assert_eq!(fixture.claim("b").await.job, lost);
-}
-
-async fn a_clock_set_forward_costs_a_lease_and_nothing_else<S: JobStore>(fixture: &Fixture<S>) {
-    let id = fixture.submit().await;
-    let old = fixture.claim("a").await;
-    fixture.clock.jump(SignedDuration::from_hours(24));
-    assert_eq!(fixture.store.take_back_own("b").await.unwrap(), 0);
-    assert_eq!(
-        fixture.store.take_back_expired("a", LEASE).await.unwrap(),
-        0
-    );
-    let progress = Progress::default();
-    let renewed = fixture.store.renew(old, LEASE, &progress).await.unwrap();
-    assert_eq!(renewed, Renewal::Held, "nobody was faster");
-    assert_eq!(
-        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
-        0
-    );
-    assert!(fixture.store.succeed(old, "{}", FINGERPRINT).await.unwrap());
-    assert_eq!(fixture.endings(id).await, ["successful"]);
 }

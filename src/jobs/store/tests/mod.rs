@@ -1,5 +1,5 @@
 //! The job store under test: what any driver must hold to ([`conformance`],
-//! [`retention`], [`races`], [`model`]), and what only SQLite has ([`sqlite`]).
+//! [`clocks`], [`races`], [`model`]), and what only SQLite has ([`sqlite`]).
 
 /// Makes each rule a test of every driver; another driver adds itself here.
 macro_rules! conformance {
@@ -16,10 +16,10 @@ macro_rules! conformance {
     };
 }
 
+mod clocks;
 mod conformance;
 mod model;
 mod races;
-mod retention;
 mod sqlite;
 
 use super::*;
