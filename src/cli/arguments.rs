@@ -1,4 +1,4 @@
-//! What can be asked on the command line.
+//! Arguments of the command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use scree::verify::hard::sweep::Field;
@@ -56,7 +56,7 @@ pub(super) struct ServeOptions {
 pub(super) struct TokenOptions {
     /// Whose it is; jobs are kept under this name
     pub(super) name: String,
-    /// What it is good for; may be given several times
+    /// Scope of the token; may be given several times
     #[arg(long, value_name = "SCOPE", value_enum, required = true)]
     pub(super) scope: Vec<ScopeWord>,
     /// Most of its jobs that may wait or run [default: as the queue takes]
@@ -64,7 +64,7 @@ pub(super) struct TokenOptions {
     pub(super) active_jobs: Option<u32>,
 }
 
-/// What a token can be good for.
+/// Scopes of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum ScopeWord {
     /// Submit jobs; dismiss and remove one's own
@@ -114,7 +114,7 @@ pub(super) struct ValidateOptions {
 
 #[derive(Debug, Args)]
 pub(super) struct DemoOptions {
-    /// Where outcome, trajectories and pictures go
+    /// Directory for outcome, trajectories and pictures
     #[arg(long, value_name = "DIR", default_value = "scree-out/demo")]
     pub(super) out: PathBuf,
     /// Another scenario than the source paper's
@@ -149,13 +149,13 @@ pub(super) struct BenchOptions {
 
 #[derive(Debug, Args)]
 pub(super) struct VerifyOptions {
-    /// Which cases
+    /// Cases to run
     #[arg(long, value_name = "NAME", value_enum, default_value = "standard")]
     pub(super) suite: SuiteWord,
     /// Run this case alone; may be given several times [default: all of the suite]
     #[arg(long, value_name = "NAME")]
     pub(super) case: Vec<String>,
-    /// Scenarios of a sweep
+    /// Scenarios of each sweep
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     pub(super) count: u64,
     /// Seed of a sweep's first scenario; each takes the next one
@@ -177,7 +177,7 @@ pub(super) struct VerifyOptions {
     pub(super) json: bool,
 }
 
-/// What `scree verify` can run.
+/// Suites of `scree verify`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum SuiteWord {
     /// Cases whose answer is known
@@ -188,27 +188,28 @@ pub(super) enum SuiteWord {
     Sweep,
     /// Bodies without a flow drawn at random, whose contacts make no energy
     Bodies,
-    /// Standard, hard and sweep
+    /// Standard, hard, sweep and bodies
     All,
 }
 
 impl SuiteWord {
     /// True if a part of it is asked for.
     pub(super) fn takes(self, part: Self) -> bool {
-        self == part || self == Self::All && part != Self::Bodies
+        self == part || self == Self::All
     }
 
-    /// Where the scenarios of its sweep are drawn from; `None` if it has none.
-    pub(super) fn sweeps(self) -> Option<Field> {
+    /// Fields that the scenarios of its sweeps are drawn from.
+    pub(super) fn sweeps(self) -> &'static [Field] {
         match self {
-            Self::Standard | Self::Hard => None,
-            Self::Sweep | Self::All => Some(Field::Everything),
-            Self::Bodies => Some(Field::BodiesAlone),
+            Self::Standard | Self::Hard => &[],
+            Self::Sweep => &[Field::Everything],
+            Self::Bodies => &[Field::BodiesAlone],
+            Self::All => &[Field::Everything, Field::BodiesAlone],
         }
     }
 }
 
-/// What `scree bench` can measure.
+/// Measurements of `scree bench`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Measurement {
     /// A block of 200,000 points collapses: each precision and instruction set,

@@ -1,4 +1,4 @@
-//! Why a command could not do what it was asked.
+//! Reasons that a command could not do what it was asked.
 
 use super::console;
 use scree::pictures::PictureError;

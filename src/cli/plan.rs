@@ -5,7 +5,7 @@ use super::failure::{Failure, not_set_up};
 use super::machine::cores;
 use super::{console, scenario_file};
 use scree::jobs::forecast::{ForecastError, Planned, PlannedCompanion, WallTime, forecast};
-use scree_solver::plan::{Choice, Cost, Stage};
+use scree_solver::plan::{Choice, Cost, Hint, Stage};
 use scree_solver::record::Role;
 
 /// Prints the plan of a scenario's run.
@@ -23,19 +23,30 @@ pub(super) fn plan(options: &PlanOptions) -> Result<(), Failure> {
     let answer = if options.json {
         serde_json::to_string_pretty(&planned)?
     } else {
-        in_words(&planned)
+        in_words(&planned, scenario.accuracy.target.is_some())
     };
     Ok(console::answer(&answer)?)
 }
 
-fn in_words(planned: &Planned) -> String {
+fn in_words(planned: &Planned, by_target: bool) -> String {
     let choices = planned.plan.choices.iter().map(choice);
     let mut lines: Vec<String> = choices.collect();
-    lines.push(cost(&planned.plan.cost));
+    let (of_cost, of_companion) = if by_target {
+        ("cost if there were no target:", "first for the target:")
+    } else {
+        ("cost", "for error bars:")
+    };
+    lines.push(format!("{of_cost} {}", cost(&planned.plan.cost)));
     lines.extend(planned.plan.cost.stages.iter().map(stage));
-    lines.extend(planned.companions.iter().map(companion));
+    let companions = planned.companions.iter().map(companion);
+    lines.extend(companions.map(|run| format!("{of_companion} {run}")));
     lines.push(wall_time(&planned.wall_time));
+    lines.extend(planned.plan.hints.iter().map(hint));
     lines.join("\n")
+}
+
+fn hint(hint: &Hint) -> String {
+    format!("hint {}: {}", hint.field, hint.detail)
 }
 
 fn choice(choice: &Choice) -> String {
@@ -49,7 +60,7 @@ fn choice(choice: &Choice) -> String {
 
 fn cost(cost: &Cost) -> String {
     format!(
-        "cost {} points in cells of {:.4} m, {} steps, {} sub-steps, {:.3e} point-steps, {:.0} MB; \
+        "{} points in cells of {:.4} m, {} steps, {} sub-steps, {:.3e} point-steps, {:.0} MB; \
          expected to end at {:.2} s",
         cost.points,
         cost.cell_size_m,
@@ -77,7 +88,7 @@ fn companion(run: &PlannedCompanion) -> String {
         Role::Coarser | Role::Answer => "",
     };
     format!(
-        "for error bars: cells of {:.4} m{softer}, {:.3e} point-steps, {:.1} s",
+        "cells of {:.4} m{softer}, {:.3e} point-steps, {:.1} s",
         run.cell_size_m, run.point_steps as f64, run.expected_s
     )
 }

@@ -6,7 +6,7 @@ use super::query::Query;
 use super::scenario_body::{ScenarioText, malformed};
 use super::submission::{LABEL_RULE, key};
 use crate::jobs::job::JobId;
-use crate::jobs::submit::{LABELS_AT_MOST, NewJob, ScenarioError, label};
+use crate::jobs::submit::{LABELS_AT_MOST, NewJob, ScenarioError, excerpt, label};
 use crate::jobs::{Intake, Jobs};
 use axum::Json;
 use axum::extract::{RawQuery, State};
@@ -41,7 +41,7 @@ pub(super) struct BatchJob {
     labels: Vec<String>,
 }
 
-/// What came of a batch: its jobs, in its order.
+/// Fate of a batch: its jobs, in its order.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = BatchAnswer)]
 pub(super) struct BatchAnswer {
@@ -107,7 +107,7 @@ fn read_batch(text: &str) -> Result<BatchDocument, Problem> {
             StatusCode::UNPROCESSABLE_ENTITY,
             "invalid-batch",
             "Invalid batch",
-            error.to_string(),
+            without_long_texts(&error),
         )
     })?;
     if batch.jobs.is_empty() {
@@ -115,6 +115,13 @@ fn read_batch(text: &str) -> Result<BatchDocument, Problem> {
         return Err(Problem::invalid_scenario(vec![none]));
     }
     Ok(batch)
+}
+
+/// The parser's words, which repeat a wrong key or text in full.
+fn without_long_texts(error: &serde_json::Error) -> String {
+    let position = format!(" at line {} column {}", error.line(), error.column());
+    let message = error.to_string().replace(&position, "");
+    format!("{}{position}", excerpt(&message))
 }
 
 /// Checks every scenario and every label; all that is wrong is named at once.

@@ -1,4 +1,4 @@
-//! What the service answers with.
+//! Documents that the service answers with.
 
 use super::contract::{OutcomeDocument, PlanDocument, ScenarioDocument};
 use crate::jobs::failure::Failure;
@@ -18,16 +18,16 @@ pub(super) struct JobDocument {
     pub id: String,
     /// State.
     pub status: JobStatus,
-    /// When it was accepted (RFC 3339).
+    /// Time of acceptance (RFC 3339).
     #[schema(format = "date-time")]
     pub created: String,
-    /// When a worker last took it up; null while it waits.
+    /// Time at which a worker last took it up; null while it waits.
     #[schema(required = true, format = "date-time")]
     pub started: Option<String>,
-    /// When it ended; null before.
+    /// Time of its end; null before.
     #[schema(required = true, format = "date-time")]
     pub finished: Option<String>,
-    /// How often a worker took it up.
+    /// Number of times that a worker took it up.
     pub attempt: u32,
     /// Those times, the first first.
     pub attempts: Vec<AttemptDocument>,
@@ -36,21 +36,21 @@ pub(super) struct JobDocument {
     /// Name of the access token it came with; null where no token is asked for.
     #[schema(required = true)]
     pub submitter: Option<String>,
-    /// What the answer comes from.
+    /// Provenance of the answer.
     pub provenance: Provenance,
     /// The scenario with every default filled in.
     #[schema(value_type = ScenarioDocument)]
     pub scenario: Box<RawValue>,
-    /// What it was planned to compute and cost when it was accepted; null for jobs
+    /// Plan of what to compute and its cost, made when it was accepted; null for jobs
     /// accepted by an older version.
     #[schema(required = true, value_type = Option<PlanDocument>)]
     pub plan: Option<Box<RawValue>>,
-    /// How far it is.
+    /// Progress so far.
     pub progress: Progress,
     /// The answer; null unless successful.
     #[schema(required = true, value_type = Option<OutcomeDocument>)]
     pub outcome: Option<Box<RawValue>>,
-    /// Why it failed; null unless failed.
+    /// Reason that it failed; null unless failed.
     #[schema(required = true, value_type = Option<Failure>)]
     pub problem: Option<Box<RawValue>>,
 }
@@ -63,17 +63,17 @@ pub(super) struct AttemptDocument {
     pub attempt: u32,
     /// Service whose worker it was.
     pub owner: String,
-    /// When it began (RFC 3339).
+    /// Time of its beginning (RFC 3339).
     #[schema(format = "date-time")]
     pub started: String,
     /// Simulated time of the saved state it went on from [s]; null: from the
     /// start.
     #[schema(required = true)]
     pub resumed_from_s: Option<f64>,
-    /// When it ended; null while it goes on.
+    /// Time of its end; null while it goes on.
     #[schema(required = true, format = "date-time")]
     pub ended: Option<String>,
-    /// How it ended: successful, failed, dismissed, handed-back (the service
+    /// Kind of its end: successful, failed, dismissed, handed-back (the service
     /// stopped), cut-off (it died), expired (it gave no sign of life),
     /// infrastructure (it could not run the job); null while it goes on.
     #[schema(required = true)]
@@ -94,16 +94,16 @@ pub(super) struct JobSummaryDocument {
     pub status: JobStatus,
     /// The scenario's title.
     pub title: String,
-    /// When it was accepted (RFC 3339).
+    /// Time of acceptance (RFC 3339).
     #[schema(format = "date-time")]
     pub created: String,
-    /// When a worker took it up; null before.
+    /// Time at which a worker took it up; null before.
     #[schema(required = true, format = "date-time")]
     pub started: Option<String>,
-    /// When it ended; null before.
+    /// Time of its end; null before.
     #[schema(required = true, format = "date-time")]
     pub finished: Option<String>,
-    /// How far it is.
+    /// Progress so far.
     pub progress: Progress,
     /// Its labels, in order.
     pub labels: Vec<String>,

@@ -12,6 +12,7 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
 use std::convert::Infallible;
+use std::ops::RangeInclusive;
 use std::time::Duration;
 use tokio::time::{Instant, sleep};
 
@@ -21,6 +22,9 @@ const LOOK_PAUSE: Duration = Duration::from_millis(200);
 /// After so long without news a comment shows both ends that the other is there.
 const LONGEST_SILENCE: Duration = Duration::from_secs(10);
 
+/// Numbers that an event may have, and 0 for "before the first".
+const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
+
 /// Follow jobs
 ///
 /// Server-sent events, one for each change of a job's state: `event: status`,
@@ -28,20 +32,25 @@ const LONGEST_SILENCE: Duration = Duration::from_secs(10);
 /// `Last-Event-ID` (or `after`) it begins with what came after that event;
 /// without, events of one job come from its first, those of all from now on. The
 /// stream of one job ends with the job.
+///
+/// After a number that no event has had (the database was put back from a backup) the
+/// stream begins with `event: reset`, `id: 0`, `data:` an object with `after`, the number
+/// that came, and `last`, the number of the last event; then come all events from the
+/// first. What a client knew from before may be wrong by then.
 #[utoipa::path(
     get,
     path = "/v1/events",
     tag = "jobs",
     params(
         ("job" = Option<String>, Query, description = "Only events of this job"),
-        ("after" = Option<u32>, Query, description = "Only events after this number"),
-        ("Last-Event-ID" = Option<String>, Header, description = "The same; wins over `after`"),
+        ("after" = Option<i64>, Query, minimum = 0, description = "Only events after this number"),
+        ("Last-Event-ID" = Option<i64>, Header, minimum = 0, description = "The same; wins over `after`"),
     ),
     responses(
         (status = 200, description = "The events", body = String, content_type = "text/event-stream"),
         (status = 204, description = "The job has ended, and nothing is to be told any more"),
         (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A parameter or `Last-Event-ID` is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn events(
@@ -51,27 +60,26 @@ pub(super) async fn events(
 ) -> Result<Response, Problem> {
     let mut query = Query::new(query.as_deref());
     let job: Option<JobId> = query.word("job", "a job's id", |text| text.parse().ok());
-    let after = query.whole("after", 0..=u32::MAX).map(i64::from);
+    let after = query.whole("after", NUMBERS);
+    let seen = headers.get("last-event-id").and_then(|number| {
+        let text = String::from_utf8_lossy(number.as_bytes());
+        query.whole_of("Last-Event-ID", &text, &NUMBERS)
+    });
     query.finish()?;
-    let last = headers.get("last-event-id");
-    let last = last.and_then(|id| id.to_str().ok()?.parse().ok());
-    let after = match (last.or(after), job) {
-        (Some(after), _) => after,
-        (None, Some(_)) => 0,
-        (None, None) => jobs.last_event().await?,
-    };
-    let first = jobs.events(after, job).await?;
+    let start = Start::after(seen.or(after), job, jobs.last_event().await?);
+    let first = jobs.events(start.after, job).await?;
     if let Some(id) = job {
         let status = jobs.status(id).await?;
         let status = status.ok_or_else(|| super::jobs::unknown_job(&id.to_string()))?;
-        if first.is_empty() && status.is_final() {
+        if first.is_empty() && start.reset.is_none() && status.is_final() {
             return Ok(StatusCode::NO_CONTENT.into_response());
         }
     }
     let follower = Follower {
         jobs,
         job,
-        after,
+        after: start.after,
+        reset: start.reset,
         ready: first,
         spoke: Instant::now(),
     };
@@ -86,11 +94,32 @@ pub(super) async fn events(
     Ok((kind, Body::from_stream(pieces)).into_response())
 }
 
+/// Start of a stream.
+struct Start {
+    after: i64,
+    /// Message to a client whose number is of another past.
+    reset: Option<String>,
+}
+
+impl Start {
+    /// By the number that a client has, if it has one.
+    fn after(number: Option<i64>, job: Option<JobId>, last: i64) -> Self {
+        let (after, reset) = match (number, job) {
+            (Some(number), _) if number > last => (0, Some(reset(number, last))),
+            (Some(number), _) => (number, None),
+            (None, Some(_)) => (0, None),
+            (None, None) => (last, None),
+        };
+        Self { after, reset }
+    }
+}
+
 /// One client's place in the stream.
 struct Follower {
     jobs: Jobs,
     job: Option<JobId>,
     after: i64,
+    reset: Option<String>,
     ready: Vec<Event>,
     spoke: Instant,
 }
@@ -98,6 +127,9 @@ struct Follower {
 impl Follower {
     /// The next piece of text; none at the stream's end.
     async fn next(mut self) -> Option<(String, Self)> {
+        if let Some(reset) = self.reset.take() {
+            return Some((reset, self));
+        }
         loop {
             if let Some(last) = self.ready.last() {
                 self.after = last.sequence;
@@ -129,6 +161,11 @@ impl Follower {
         self.ready = self.jobs.events(self.after, self.job).await.ok()?;
         Some(ended && self.ready.is_empty())
     }
+}
+
+/// Its id makes a client that is cut off right after it begin at the first event.
+fn reset(after: i64, last: i64) -> String {
+    format!("id: 0\nevent: reset\ndata: {{\"after\":{after},\"last\":{last}}}\n\n")
 }
 
 fn text(event: &Event) -> String {

@@ -8,7 +8,7 @@ use super::query::Query;
 use super::tagged;
 use crate::jobs::job::{Job, JobId, JobStatus};
 use crate::jobs::store::{Page, Removal};
-use crate::jobs::submit::label;
+use crate::jobs::submit::{excerpt, label};
 use crate::jobs::{Dismissed, Jobs};
 use axum::Json;
 use axum::extract::{RawQuery, State};
@@ -181,7 +181,7 @@ fn parse_id(id: &str) -> Result<JobId, Problem> {
 }
 
 pub(super) fn unknown_job(id: &str) -> Problem {
-    Problem::not_found("unknown-job", format!("there is no job {id}"))
+    Problem::not_found("unknown-job", format!("there is no job {}", excerpt(id)))
 }
 
 fn read_page(query: Option<&str>) -> Result<Page, Problem> {

@@ -16,13 +16,13 @@ use utoipa::ToSchema;
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Planned)]
 pub(super) struct PlannedDocument {
-    /// What would be computed and left out, and what it would cost.
+    /// Work to be computed and left out, and its cost.
     #[schema(value_type = PlanDocument)]
     pub plan: Value,
     /// Runs that would be made before the answer; with a target, the first ones.
     #[schema(value_type = Vec<PlannedCompanionDocument>)]
     pub companions: Value,
-    /// How long everything would take on a worker of this service.
+    /// Time that everything would take on a worker of this service.
     pub wall_time: WallTime,
 }
 

@@ -17,17 +17,17 @@ const MEDIA_TYPE: HeaderValue = HeaderValue::from_static(MEDIA_TYPE_TEXT);
 /// After so many seconds a database may be there again.
 const RETRY_AFTER_S: u8 = 5;
 
-/// Why a request did not get what it asked for (RFC 9457).
+/// Reason that a request did not get what it asked for (RFC 9457).
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub(super) struct Problem {
-    /// What kind of problem, as a stable name.
+    /// Kind of problem, as a stable name.
     #[serde(rename = "type")]
     pub kind: String,
     /// The kind in words.
     pub title: &'static str,
     /// HTTP status.
     pub status: u16,
-    /// What happened this time.
+    /// Cause, this time.
     pub detail: String,
     /// All that is wrong with the request, field by field.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -41,18 +41,18 @@ pub(super) struct Problem {
     pub error_id: Option<String>,
 }
 
-/// What is wrong with one field of the body or one parameter of the query.
+/// Fault of one field of the body or one parameter of the query.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub(super) struct FieldError {
     /// JSON pointer (RFC 6901) into the body, "" for the whole document.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pointer: Option<String>,
-    /// Name of the query parameter.
+    /// Name of the query parameter, or of the header.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parameter: Option<String>,
-    /// The value received; null if it is missing.
+    /// The value received, of a long text the beginning; null if it is missing.
     pub value: Value,
-    /// What is allowed, in words or as a range.
+    /// Allowed values, in words or as a range.
     pub allowed: String,
     /// Unit of value and range; null if there is none.
     #[schema(required = true)]

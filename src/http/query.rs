@@ -2,8 +2,11 @@
 //! all named at once.
 
 use super::problem::{FieldError, Problem};
+use crate::jobs::submit::excerpt;
 use serde_json::Value;
+use std::fmt::Display;
 use std::ops::RangeInclusive;
+use std::str::FromStr;
 
 /// A query string being read, parameter by parameter.
 #[derive(Debug)]
@@ -34,15 +37,27 @@ impl Query {
     }
 
     /// A whole number in a range.
-    pub(super) fn whole(&mut self, name: &str, allowed: RangeInclusive<u32>) -> Option<u32> {
+    pub(super) fn whole<T: FromStr + PartialOrd + Display>(
+        &mut self,
+        name: &str,
+        allowed: RangeInclusive<T>,
+    ) -> Option<T> {
         let text = self.take(name)?;
-        let number: Option<u32> = text.parse().ok().filter(|number| allowed.contains(number));
+        self.whole_of(name, &text, &allowed)
+    }
+
+    /// A whole number in a range, from a text that came by another way than the query.
+    pub(super) fn whole_of<T: FromStr + PartialOrd + Display>(
+        &mut self,
+        name: &str,
+        text: &str,
+        allowed: &RangeInclusive<T>,
+    ) -> Option<T> {
+        let number: Option<T> = text.parse().ok().filter(|number| allowed.contains(number));
         if number.is_none() {
-            let range = match *allowed.end() {
-                u32::MAX => format!("a whole number, x >= {}", allowed.start()),
-                end => format!("a whole number, {} <= x <= {end}", allowed.start()),
-            };
-            self.refuse(name, &text, &range, None);
+            let (least, most) = (allowed.start(), allowed.end());
+            let range = format!("a whole number, {least} <= x <= {most}");
+            self.refuse(name, text, &range, None);
         }
         number
     }
@@ -86,10 +101,11 @@ impl Query {
 
     /// Refuses a parameter for a reason of the caller's.
     pub(super) fn refuse(&mut self, name: &str, value: &str, allowed: &str, unit: Option<&str>) {
+        let (name, value) = (excerpt(name), excerpt(value));
         self.errors.push(FieldError {
             pointer: None,
-            parameter: Some(name.to_owned()),
-            value: Value::from(value),
+            parameter: Some(name.clone()),
+            value: Value::from(value.as_str()),
             allowed: allowed.to_owned(),
             unit: unit.map(str::to_owned),
             detail: format!("{name} = \"{value}\" is not allowed: {allowed}"),
@@ -144,6 +160,35 @@ mod tests {
             .filter_map(|error| error.parameter.as_deref())
             .collect();
         assert_eq!(named, ["from_s", "to_s", "stride", "body", "spam"]);
+    }
+
+    #[test]
+    fn what_is_long_is_not_repeated_in_full() {
+        let (name, value) = ("n".repeat(5_000), "v".repeat(5_000));
+        let query = format!("stride={value}&{name}=1");
+        let mut query = Query::new(Some(&query));
+        assert_eq!(query.whole("stride", 1..=u32::MAX), None);
+        let problem = query.finish().unwrap_err();
+        let start = format!("{}… (5000 characters)", "v".repeat(80));
+        assert_eq!(problem.errors[0].value, start.as_str());
+        let text = serde_json::to_string(&problem).unwrap();
+        assert!(text.len() < 2_000, "{} bytes: {text}", text.len());
+    }
+
+    #[test]
+    fn the_range_that_is_told_is_the_range() {
+        let mut query = Query::new(Some("stride=4294967296&after=-1"));
+        assert_eq!(query.whole("stride", 1..=u32::MAX), None);
+        assert_eq!(query.whole("after", 0..=i64::MAX), None);
+        let problem = query.finish().unwrap_err();
+        let told = problem.errors.iter().map(|error| error.allowed.as_str());
+        let wanted = [
+            "a whole number, 1 <= x <= 4294967295",
+            "a whole number, 0 <= x <= 9223372036854775807",
+        ];
+        assert_eq!(told.collect::<Vec<_>>(), wanted);
+        let mut query = Query::new(Some("after=9223372036854775807"));
+        assert_eq!(query.whole("after", 0..=i64::MAX), Some(i64::MAX));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Which request goes where, and what goes round all of them.
+//! Routes of requests, and what goes round all of them.
 
 use super::access::{self, Gate};
 use super::metrics::{self, RequestCounts};

@@ -6,7 +6,7 @@ use axum::extract::{FromRequest, Request};
 use axum::http::{HeaderMap, StatusCode, header};
 use tokio::time::{Instant, timeout_at};
 
-/// When the body of a request has to be there.
+/// Deadline for the body of a request.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BodyDeadline(pub(super) Instant);
 

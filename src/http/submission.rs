@@ -84,7 +84,7 @@ pub(super) async fn submit(
     answer(&jobs, StatusCode::ACCEPTED, *id).await
 }
 
-/// What a label looks like, for people.
+/// Rule of a label, for people.
 pub(super) const LABEL_RULE: &str = "1 to 64 letters, digits or any of . _ : = / -";
 
 async fn answer(jobs: &Jobs, status: StatusCode, id: JobId) -> Result<Response, Problem> {

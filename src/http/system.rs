@@ -4,6 +4,7 @@ use super::documents::HealthDocument;
 use super::problem::Problem;
 use crate::jobs::Jobs;
 use crate::jobs::store::StoreError;
+use crate::jobs::submit::excerpt;
 use axum::Json;
 use axum::extract::State;
 use axum::http::{Method, StatusCode, Uri};
@@ -60,7 +61,7 @@ fn unavailable(error: StoreError) -> Problem {
 pub(super) async fn no_such_route(uri: Uri) -> Problem {
     Problem::not_found(
         "unknown-route",
-        format!("there is nothing at {}", uri.path()),
+        format!("there is nothing at {}", excerpt(uri.path())),
     )
 }
 
@@ -69,6 +70,10 @@ pub(super) async fn wrong_method(method: Method, uri: Uri) -> Problem {
         StatusCode::METHOD_NOT_ALLOWED,
         "method-not-allowed",
         "Method not allowed",
-        format!("{} can't be asked to {method}", uri.path()),
+        format!(
+            "{} can't be asked to {}",
+            excerpt(uri.path()),
+            excerpt(method.as_str())
+        ),
     )
 }

@@ -18,7 +18,7 @@ use futures_util::stream;
 /// Samples that fit an archive without ZIP64: 4 GiB of 269 bytes, and heads.
 const LARGEST_ARCHIVE: usize = 15_000_000;
 
-/// What a client wants of a trajectory.
+/// Part of a trajectory that a client wants.
 struct Wish {
     body: usize,
     selection: Selection,
@@ -91,7 +91,7 @@ struct Reading {
     stretch: Stretch,
     writer: Box<dyn Writer>,
     pass: usize,
-    /// Where the pass is; none before it has begun.
+    /// Place of the pass; none before it has begun.
     place: Option<(i64, Selector)>,
 }
 

@@ -2,7 +2,7 @@
 
 use super::job::JobId;
 use scree_solver::scenario::Scenario;
-pub use scree_solver::scenario::{ScenarioError, Violation};
+pub use scree_solver::scenario::{ScenarioError, Violation, excerpt};
 use scree_solver::{SetupError, Simulation, plan};
 use serde_json::{Value, json};
 

@@ -44,6 +44,68 @@ fn the_time_lies_within_its_bounds() {
 }
 
 #[test]
+fn hints_are_told_in_words_and_in_json() {
+    let mut steep = tiny();
+    steep["channel"]["inclination_deg"] = json!(0.698);
+    let hints = planned(&steep)["plan"]["hints"].clone();
+    assert_eq!(hints[0]["field"], "/channel/inclination_deg");
+    let answer = ask_with_input(&["plan", "-", "--threads", "1"], &steep.to_string());
+    let line = format!(
+        "hint /channel/inclination_deg: {}",
+        hints[0]["detail"].as_str().unwrap()
+    );
+    assert!(
+        answer.stdout.lines().any(|told| told == line),
+        "{}",
+        answer.stdout
+    );
+}
+
+#[test]
+fn a_plan_with_a_target_does_not_pass_for_one_of_its_runs() {
+    let mut scene = tiny();
+    scene["accuracy"] = json!({"target": 0.1, "quantity": "displacement_m"});
+    if let Some(numerics) = scene["numerics"].as_object_mut() {
+        numerics.remove("cell_size_m");
+    }
+    let answer = ask_with_input(&["plan", "-", "--threads", "1"], &scene.to_string());
+    let told = |start: &str| {
+        answer
+            .stdout
+            .lines()
+            .filter(|line| line.starts_with(start))
+            .count()
+    };
+    assert_eq!(
+        told("cost if there were no target: "),
+        1,
+        "{}",
+        answer.stdout
+    );
+    assert_eq!(
+        told("hint /accuracy/target: the target of 0.1 for displacement_m chooses"),
+        1
+    );
+    assert!(
+        told("first for the target: cells of ") >= 3,
+        "{}",
+        answer.stdout
+    );
+    assert_eq!(told("for error bars"), 0);
+}
+
+#[test]
+fn a_scene_of_nothing_keeps_no_nodes() {
+    let mut empty = tiny();
+    empty["flow"] = Value::Null;
+    empty["bodies"] = json!([]);
+    assert!(!taken(
+        &planned(&empty),
+        "nodes are kept only where points are"
+    ));
+}
+
+#[test]
 fn what_a_scene_does_not_allow_is_said() {
     let mut askew = tiny();
     askew["bodies"][0]["yaw_deg"] = json!(20);

@@ -1,6 +1,6 @@
 //! Following jobs: tags, waiting, events; and what tells of the service itself.
 
-use crate::app::{TestApp, endless_scene, is_running, tiny_scene};
+use crate::app::{Answer, TestApp, endless_scene, is_running, tiny_scene};
 use reqwest::{Response, StatusCode};
 use std::time::Instant;
 
@@ -82,6 +82,82 @@ async fn events_come_in_order_and_again_for_who_was_away() {
     assert_eq!(status, StatusCode::NOT_FOUND);
     let (status, _) = events(&app, "?job=1&after=x&spam=1", None).await;
     assert_eq!(status, StatusCode::UNPROCESSABLE_ENTITY);
+    app.stop().await;
+}
+
+// A database put back from a backup has fewer events than its clients have seen.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_client_of_another_past_is_told_so_and_hears_everything_again() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    app.wait_for_success(&job).await;
+    let query = format!("?job={}", job.rsplit('/').next().unwrap());
+    let reset = "id: 0\nevent: reset\ndata: {\"after\":999,\"last\":3}\n\n";
+    let (status, text) = events(&app, &query, Some("999")).await;
+    assert_eq!(status, StatusCode::OK);
+    assert!(text.starts_with(reset), "{text}");
+    assert_eq!(statuses(&text), ["accepted", "running", "successful"]);
+    let (_, again) = events(&app, &format!("{query}&after=999"), None).await;
+    assert_eq!(again, text);
+
+    let url = app.url("/v1/events?after=999");
+    let response = app.client.get(url).send().await.unwrap();
+    let (all, directory) = tokio::join!(response.text(), app.stop());
+    assert_eq!(all.unwrap(), text, "the stream of all jobs");
+
+    // Events of a job that was removed are no other past.
+    let app = TestApp::start_in(directory, |_| {}).await;
+    app.delete(&format!("{job}?remove=ended")).await;
+    let job = app.submit(&tiny_scene()).await;
+    let query = format!("?job={}", job.rsplit('/').next().unwrap());
+    let (_, text) = events(&app, &query, Some("3")).await;
+    assert_eq!(statuses(&text), ["accepted", "running", "successful"]);
+    assert!(!text.contains("reset"), "{text}");
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_removed_job_s_events_count_as_seen() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    app.wait_for_success(&job).await;
+    app.delete(&format!("{job}?remove=ended")).await;
+    let url = app.url("/v1/events?after=3");
+    let response = app.client.get(url).send().await.unwrap();
+    let (text, _directory) = tokio::join!(response.text(), app.stop());
+    assert_eq!(text.unwrap(), "", "nothing came after the third");
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn after_and_last_event_id_take_the_same_numbers() {
+    let app = TestApp::start().await;
+    for number in ["-1", "x", "1.5", "9223372036854775808", ""] {
+        let mut refused = Vec::new();
+        for (query, header, name) in [
+            (format!("?after={number}"), None, "after"),
+            (String::new(), Some(number), "Last-Event-ID"),
+        ] {
+            let mut request = app.client.get(app.url(&format!("/v1/events{query}")));
+            if let Some(number) = header {
+                request = request.header("last-event-id", number);
+            }
+            let answer = Answer::read(request.send().await.unwrap()).await;
+            answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
+            assert_eq!(answer.wrong_fields(), [name]);
+            let error = &answer.body["errors"][0];
+            refused.push((error["value"].clone(), error["allowed"].clone()));
+        }
+        assert_eq!(refused[0], refused[1], "{number}");
+    }
+    let job = app.submit(&tiny_scene()).await;
+    app.wait_for_success(&job).await;
+    let query = format!("?job={}", job.rsplit('/').next().unwrap());
+    for number in ["4294967296", "9223372036854775807"] {
+        let (status, text) = events(&app, &format!("{query}&after={number}"), None).await;
+        assert_eq!(status, StatusCode::OK, "{text}");
+        let header = events(&app, &query, Some(number)).await;
+        assert_eq!(header, (status, text));
+    }
     app.stop().await;
 }
 

@@ -31,7 +31,7 @@ pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Vec<Choice> {
         no_bodies(outline),
         asleep(outline),
         stiffness(scenario, outline),
-        blocks(),
+        blocks(outline),
         ending(scenario),
     ]
 }
@@ -127,13 +127,16 @@ fn stiffness(scenario: &Scenario, outline: &Outline) -> Choice {
     )
 }
 
-fn blocks() -> Choice {
-    let why = "a node without points near it does nothing";
+fn blocks(outline: &Outline) -> Choice {
+    let found = match outline.columns {
+        Some(_) => Ok("a node without points near it does nothing"),
+        None => Err("there is no flow: there are neither points nor nodes"),
+    };
     choice(
         "nodes are kept only where points are",
         "exact",
         None,
-        Ok(why.to_owned()),
+        found.map(str::to_owned).map_err(str::to_owned),
     )
 }
 

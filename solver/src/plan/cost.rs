@@ -122,7 +122,7 @@ fn steps(outline: &Outline, points: u64) -> (u64, u64) {
     over(duration, longest, allowed)
 }
 
-fn longest_substep(limits: &Limits) -> f64 {
+pub(super) fn longest_substep(limits: &Limits) -> f64 {
     limits.substep(limits.slow)
 }
 

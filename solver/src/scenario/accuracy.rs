@@ -143,17 +143,19 @@ pub(super) fn target_is_about_something(report: &Report, accuracy: &Accuracy) {
     report.refuse("/accuracy/quantity", &allowed, None, why);
 }
 
-/// The body that a target is about is there.
+/// The body that a target is, or would be, about is there. Without bodies 0 stands for
+/// none.
 pub(super) fn body_is_there(report: &Report, accuracy: &Accuracy, bodies: usize) {
     let of_a_body = accuracy.quantity.is_some_and(Quantity::is_of_a_body);
-    if of_a_body && accuracy.body as usize >= bodies {
+    let unused = !of_a_body && accuracy.body == 0;
+    if !unused && accuracy.body as usize >= bodies {
         let (allowed, why) = match bodies.checked_sub(1) {
             Some(last) => (
                 format!("0 <= x <= {last}, whole"),
-                format!("is {}, beyond the last of {bodies} bodies", accuracy.body),
+                format!("is {}, beyond the last body, {last}", accuracy.body),
             ),
             None => (
-                "nothing: there is no body".to_owned(),
+                if of_a_body { "nothing" } else { "0" }.to_owned() + ": there is no body",
                 "is the index of a body, but there is none".to_owned(),
             ),
         };

@@ -135,7 +135,7 @@ fn read_regular(object: &Object<'_>) -> Option<Shape> {
 
 /// A polyhedron that encloses something.
 fn read_polyhedron(object: &Object<'_>) -> Option<Shape> {
-    let points = Several::new(POLYHEDRON_VERTICES, "points");
+    let points = Several::new(POLYHEDRON_VERTICES, ["point", "points"]);
     let vertices_m = object.vectors(&VERTICES, &points)?;
     let shape = Shape::Polyhedron { vertices_m };
     let why = match shape.size() {

@@ -24,6 +24,7 @@ mod tests;
 pub use crate::shape::RegularSolid;
 pub use accuracy::{Accuracy, Quantity};
 pub use motion::Motion;
+pub use node::excerpt;
 pub use placement::{Pose, ReleaseBox, Support};
 pub use reduction::{Approach, Ending, Symmetry};
 

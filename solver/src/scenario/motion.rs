@@ -67,12 +67,23 @@ pub(super) fn read_motion(body: &Object<'_>) -> Option<Option<Motion>> {
         Some(node) => node,
     };
     let object = body.object(node, "motion")?;
-    let motion = match object.member(MOTION_TIME.key) {
-        None => read_constant(&object),
-        Some(_) => read_table(&object),
+    // Rows without times are a table, too: one that lacks its times.
+    let motion = if object.member(MOTION_TIME.key).is_some() || has_rows(&object) {
+        read_table(&object)
+    } else {
+        read_constant(&object)
     };
     object.refuse_unknown();
     motion.map(Some)
+}
+
+/// True if a velocity is a list of lists.
+fn has_rows(object: &Object<'_>) -> bool {
+    let is_list = |node: &Node| matches!(node, Node::List(_));
+    [&VELOCITY, &ANGULAR_VELOCITY].iter().any(|rule| {
+        let node = object.member(rule.key);
+        matches!(node, Some(Node::List(items)) if items.iter().any(is_list))
+    })
 }
 
 fn read_constant(object: &Object<'_>) -> Option<Motion> {
@@ -85,12 +96,14 @@ fn read_constant(object: &Object<'_>) -> Option<Motion> {
 }
 
 fn read_table(object: &Object<'_>) -> Option<Motion> {
-    let times_s = object.numbers(&MOTION_TIME, &Several::new(MOTION_TIMES, "times"));
+    let times_s = object.numbers(&MOTION_TIME, &Several::new(MOTION_TIMES, ["time", "times"]));
     let times_s = times_s.filter(|times| times_ascend(object, times));
     // How many velocities there have to be is known of sound times only.
     let rows = |times: &Vec<f64>| times.len()..=times.len();
-    let any = 0..=*MOTION_TIMES.end();
-    let several = Several::new(times_s.as_ref().map_or(any, rows), "velocities");
+    let several = Several::new(
+        times_s.as_ref().map_or(MOTION_TIMES, rows),
+        ["velocity", "velocities"],
+    );
     let velocities = [&VELOCITY, &ANGULAR_VELOCITY].map(|rule| {
         object.member(rule.key).map_or_else(
             || Some(vec![[0.0; 3]; times_s.as_ref().map_or(0, Vec::len)]),

@@ -5,8 +5,8 @@ use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Number, Value};
 use std::fmt;
 
-/// Texts longer than this are cut in a violation [characters].
-const LONG_TEXT: usize = 300;
+/// Texts longer than this are cut in an error [characters].
+const LONG_TEXT: usize = 80;
 /// Lists and objects of more values than this are not repeated in a violation.
 const MANY_VALUES: usize = 100;
 
@@ -39,28 +39,24 @@ impl Node {
     /// lists and objects only the size, lest an answer outgrow the question.
     pub(super) fn excerpt(&self) -> Value {
         match self {
-            Self::Text(text) if text.chars().count() > LONG_TEXT => {
-                let start: String = text.chars().take(LONG_TEXT).collect();
-                Value::String(start + "…")
-            }
             Self::List(_) | Self::Object(_) if self.count() > MANY_VALUES => {
                 Value::String(format!("… ({} values)", self.count()))
             }
-            _ => self.to_value(),
+            _ => self.short_value(),
         }
     }
 
     /// Of repeated keys the last counts.
-    fn to_value(&self) -> Value {
+    fn short_value(&self) -> Value {
         match self {
             Self::Null => Value::Null,
             Self::Bool(flag) => Value::Bool(*flag),
             Self::Number(number) => Value::Number(number.clone()),
-            Self::Text(text) => Value::String(text.clone()),
-            Self::List(items) => items.iter().map(Self::to_value).collect(),
+            Self::Text(text) => Value::String(excerpt(text)),
+            Self::List(items) => items.iter().map(Self::short_value).collect(),
             Self::Object(members) => members
                 .iter()
-                .map(|(key, node)| (key.clone(), node.to_value()))
+                .map(|(key, node)| (excerpt(key), node.short_value()))
                 .collect(),
         }
     }
@@ -106,6 +102,17 @@ impl Node {
         };
         found.map_or((usize::MAX, None), |(index, node)| (index, Some(node)))
     }
+}
+
+/// A text as an error repeats it: of a long one the beginning and the length, lest an
+/// answer outgrow the question.
+pub fn excerpt(text: &str) -> String {
+    let length = text.chars().count();
+    if length <= LONG_TEXT {
+        return text.to_owned();
+    }
+    let start: String = text.chars().take(LONG_TEXT).collect();
+    format!("{start}… ({length} characters)")
 }
 
 /// A key as one token of a JSON pointer (RFC 6901).

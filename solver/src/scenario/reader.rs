@@ -8,25 +8,31 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
-/// Number of entries of a list, and their name.
+/// Number of entries of a list, and the name of one and of many.
 pub(super) struct Several {
     count: RangeInclusive<usize>,
-    noun: &'static str,
+    nouns: [&'static str; 2],
 }
 
 impl Several {
-    pub(super) const fn new(count: RangeInclusive<usize>, noun: &'static str) -> Self {
-        Self { count, noun }
+    pub(super) const fn new(count: RangeInclusive<usize>, nouns: [&'static str; 2]) -> Self {
+        Self { count, nouns }
     }
 
     /// In words: "4 to 32 points".
     fn words(&self) -> String {
-        let (least, most) = (self.count.start(), self.count.end());
+        let (least, most) = (*self.count.start(), *self.count.end());
         if least == most {
-            format!("{most} {}", self.noun)
+            self.counted(most)
         } else {
-            format!("{least} to {most} {}", self.noun)
+            format!("{least} to {}", self.counted(most))
         }
+    }
+
+    /// So many of them, in words.
+    fn counted(&self, number: usize) -> String {
+        let [one, many] = self.nouns;
+        format!("{number} {}", if number == 1 { one } else { many })
     }
 }
 
@@ -259,6 +265,18 @@ impl<'a> Object<'a> {
         several: &Several,
     ) -> Option<Vec<[f64; N]>> {
         let words = list_words::<N>(&rule.range);
+        if let Some(Node::List(items)) = self.member(rule.key)
+            && !items.is_empty()
+            && items.iter().all(|item| matches!(item, Node::Number(_)))
+        {
+            let (one, numbers) = (several.nouns[0], items.len());
+            let s = if numbers == 1 { "" } else { "s" };
+            let why = format!("is a list of {numbers} number{s}, not of lists, one a {one}");
+            let allowed = format!("{}, each {words}", several.words());
+            let pointer = self.pointer_to(rule.key);
+            self.report.refuse(&pointer, &allowed, rule.unit, &why);
+            return None;
+        }
         let read = |item: &Node, pointer: &str| self.elements(item, pointer, rule);
         self.list(rule, several, &words, read)
     }
@@ -288,13 +306,12 @@ impl<'a> Object<'a> {
             }
             Some(Node::List(items)) => {
                 format!(
-                    "has {} {}, not {}",
-                    items.len(),
-                    several.noun,
+                    "has {}, not {}",
+                    several.counted(items.len()),
                     several.words()
                 )
             }
-            Some(_) => format!("must be a list of {}", several.noun),
+            Some(_) => format!("must be a list of {}", several.nouns[1]),
             None => "is missing, and has no default".to_owned(),
         };
         self.report.refuse(&pointer, &allowed, rule.unit, &why);

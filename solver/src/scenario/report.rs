@@ -1,7 +1,7 @@
 //! Report in which violations are collected.
 
 use super::Violation;
-use super::node::{Node, unescaped};
+use super::node::{Node, excerpt, unescaped};
 use super::rules::VIOLATIONS;
 use serde_json::Value;
 use std::cell::RefCell;
@@ -52,7 +52,7 @@ impl Report {
 pub(super) fn field_name(pointer: &str) -> String {
     let mut name = String::new();
     for token in pointer.split('/').skip(1) {
-        let token = unescaped(token);
+        let token = excerpt(&unescaped(token));
         if token.parse::<usize>().is_ok() {
             name.push_str(&format!("[{token}]"));
         } else {

@@ -25,7 +25,7 @@ struct Foretold {
     expected_s: f64,
     /// Median of the runs.
     took_s: f64,
-    /// When the run was expected to end, and when it did: simulated time [s].
+    /// Expected and actual end of the run: simulated time [s].
     expected_end_s: f64,
     ended_s: f64,
 }

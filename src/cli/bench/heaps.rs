@@ -12,7 +12,7 @@ use std::time::Instant;
 /// Bodies dropped into a pit.
 const COUNTS: [usize; 3] = [1, 10, 100];
 
-/// When all lie on each other or the floor, but none sleeps yet, and how long is
+/// Time at which all lie on each other or the floor, but none sleeps yet, and how long is
 /// measured, quick and full [s].
 const TOUCHING_S: (f64, [f64; 2]) = (0.3, [0.02, 0.05]);
 

@@ -20,7 +20,7 @@ const NEVER_S: f64 = 100.0;
 /// A flow Courant number at which the flow is transferred at every sub-step.
 const EVERY_SUBSTEP: f64 = 1e-3;
 
-/// When the channel's flow is about the cube: from when, how long [s].
+/// Time at which the channel's flow is about the cube: from when, how long [s].
 pub(super) const IN_THE_FLOW_S: (f64, f64) = (0.25, 0.1);
 
 /// Distance of the small cubes' centres and their side [m].

@@ -1,4 +1,4 @@
-//! Which verb of the step takes which share.
+//! Shares of the step that its verbs take.
 
 use super::Effort;
 use super::scenes::{self, Collapse, IN_THE_FLOW_S};

@@ -22,7 +22,7 @@ pub(super) struct Job {
     problem: Option<Problem>,
 }
 
-/// Why a job failed.
+/// Reason that a job failed.
 #[derive(Debug, Deserialize)]
 struct Problem {
     #[serde(rename = "type")]

@@ -3,7 +3,7 @@
 use super::{NOTHING, Report};
 use crate::cli::columns::table;
 use scree::verify::hard::cases;
-use scree::verify::hard::sweep::{Failing, Swept};
+use scree::verify::hard::sweep::{Failing, Field, Swept};
 use scree::verify::hard::trial::{Compared, Figures, Tried};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -43,7 +43,7 @@ pub(super) fn tables(report: &Report) -> String {
     if !report.hard.is_empty() {
         let _ = write!(text, "\n{}", in_all(&report.hard));
     }
-    if let Some(swept) = &report.sweep {
+    for swept in &report.sweeps {
         let _ = write!(text, "\n{}", sweep_in_words(swept));
     }
     text
@@ -76,8 +76,8 @@ pub(super) fn markdown(report: &Report) -> String {
             let _ = writeln!(text, "| {} | {} |", family.name, family.reason);
         }
     }
-    if let Some(swept) = &report.sweep {
-        let _ = write!(text, "\n{}", sweep_in_words(swept));
+    for swept in &report.sweeps {
+        let _ = writeln!(text, "\n{}", sweep_in_words(swept));
     }
     text
 }
@@ -172,7 +172,12 @@ fn sweep_in_words(swept: &Swept) -> String {
     for failing in &swept.failures {
         *kinds.entry(&failing.kind).or_default() += 1;
     }
+    let of = match swept.field {
+        Field::Everything => "all that is legal",
+        Field::BodiesAlone => "bodies alone",
+    };
     let Swept {
+        asked,
         run,
         refused,
         finished,
@@ -184,11 +189,18 @@ fn sweep_in_words(swept: &Swept) -> String {
     } = swept;
     let failed = swept.failures.len();
     let mut text = format!(
-        "sweep: {run} scenarios run ({refused} draws refused on the way), {finished} finished, \
+        "sweep of {of}: {run} scenarios run ({refused} draws refused on the way), {finished} finished, \
          {failed} failed; {points} points, {substeps} sub-steps; the longest took {:.1} s (seed {}); \
          most energy made {:.0e} (seed {})",
         longest.0, longest.1, most_energy.0, most_energy.1
     );
+    if swept.not_run() > 0 {
+        let _ = write!(
+            text,
+            "\n  {} of {asked} NOT RUN: no draw of these seeds was legal",
+            swept.not_run()
+        );
+    }
     for (kind, count) in kinds {
         let _ = write!(text, "\n  {count} × {kind}");
     }

@@ -56,7 +56,7 @@ fn parted(text: &str) -> Option<(&str, &str)> {
 
 fn tables(report: &Report) -> String {
     let mut text = report.heading();
-    if !report.hard.is_empty() || report.sweep.is_some() {
+    if !report.hard.is_empty() || !report.sweeps.is_empty() {
         text.push_str("\n\n");
         text.push_str(&super::hard::markdown(report));
     }

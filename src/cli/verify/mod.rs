@@ -33,7 +33,7 @@ struct Report {
     count: Count,
     cases: Vec<Verified>,
     hard: Vec<Tried>,
-    sweep: Option<Swept>,
+    sweeps: Vec<Swept>,
 }
 
 /// Runs the cases asked for and prints what was found.
@@ -60,9 +60,8 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
         tried.extend(try_family(family, effort, options.full));
     }
     let tell = |failing: &_| console::note(&hard::in_words(failing));
-    let swept = asked
-        .sweep
-        .map(|field| sweep(field, options.seed, options.count, &tell));
+    let fields = asked.sweeps.iter();
+    let swept = fields.map(|field| sweep(*field, options.seed, options.count, &tell));
     let report = Report {
         solver_version: VERSION,
         machine: Machine::here(),
@@ -70,7 +69,7 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
         count: count(&verified),
         cases: verified,
         hard: tried,
-        sweep: swept,
+        sweeps: swept.collect(),
     };
     let answer = if options.json {
         serde_json::to_string_pretty(&report)?
@@ -104,7 +103,7 @@ fn tell_of(name: &str) {
 struct Asked {
     cases: Vec<&'static Case>,
     families: Vec<&'static Family>,
-    sweep: Option<Field>,
+    sweeps: &'static [Field],
 }
 
 impl Asked {
@@ -134,17 +133,23 @@ impl Asked {
             families: families
                 .filter(|family| asked(family.name, SuiteWord::Hard))
                 .collect(),
-            sweep: suite.sweeps().filter(|_| names.is_empty()),
+            sweeps: if names.is_empty() {
+                suite.sweeps()
+            } else {
+                &[]
+            },
         })
     }
 }
 
 impl Report {
-    /// Bars missed, hard cases that broke something, and failures of a sweep.
+    /// Bars missed, hard cases that broke something, and of sweeps the failures and what
+    /// was not run.
     fn missed(&self) -> usize {
         let broken = self.hard.iter().filter(|tried| !tried.is_sound()).count();
-        let failures = self.sweep.as_ref().map_or(0, |swept| swept.failures.len());
-        self.count.missed + broken + failures
+        let of_sweep = |swept: &Swept| swept.failures.len() + swept.not_run() as usize;
+        let of_sweeps: usize = self.sweeps.iter().map(of_sweep).sum();
+        self.count.missed + broken + of_sweeps
     }
 
     /// Version, machine and effort.
@@ -329,11 +334,52 @@ mod tests {
             count: Count::default(),
             cases: vec![verified],
             hard: Vec::new(),
-            sweep: None,
+            sweeps: Vec::new(),
         };
         let text = report.tables();
         assert!(text.contains("not yet expressible: friction is not negative"));
         assert!(text.ends_with("cases not yet expressible: 1"), "{text}");
         assert!(!text.contains("verdict"), "{text}");
+    }
+
+    // Once a seed without a legal draw was passed over in silence.
+    #[test]
+    fn a_sweep_that_ran_less_than_asked_has_missed() {
+        let swept = |run: u64| Report {
+            solver_version: VERSION,
+            machine: Machine::here(),
+            effort: Effort::Quick,
+            count: Count::default(),
+            cases: Vec::new(),
+            hard: Vec::new(),
+            sweeps: vec![Swept {
+                asked: 10,
+                run,
+                ..Swept::default()
+            }],
+        };
+        assert_eq!(swept(10).missed(), 0);
+        assert!(!swept(10).tables().contains("NOT RUN"));
+        assert_eq!(swept(8).missed(), 2);
+        let text = swept(8).tables();
+        assert!(text.contains("2 of 10 NOT RUN"), "{text}");
+    }
+
+    #[test]
+    fn all_suites_are_all() {
+        use clap::ValueEnum;
+        let parts = SuiteWord::value_variants().iter();
+        for part in parts.filter(|part| **part != SuiteWord::All) {
+            assert!(
+                part.sweeps()
+                    .iter()
+                    .all(|field| SuiteWord::All.sweeps().contains(field)),
+                "{part:?}"
+            );
+            assert!(
+                !part.sweeps().is_empty() || SuiteWord::All.takes(*part),
+                "{part:?}"
+            );
+        }
     }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// How good the answer has to be, and whether it shows how good it is.
+/// Demands on the answer's accuracy, and whether it shows its own.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 #[schema(as = Accuracy)]
@@ -11,7 +11,7 @@ pub struct AccuracyDocument {
     /// Every quantity of the outcome gets a band.
     #[schema(required = false)]
     pub error_bars: bool,
-    /// How far the band of `quantity` may reach from its value, over it; to be met by
+    /// Distance that the band of `quantity` may reach from its value, over it; to be met by
     /// the choice of cells; null: the cells are those of `numerics`.
     pub target: Option<f64>,
     /// The quantity that `target` is about.
@@ -34,7 +34,7 @@ pub enum QuantityDocument {
     /// Largest speed of a body's centre.
     #[serde(rename = "peak_speed_m_s")]
     PeakSpeed,
-    /// When that was.
+    /// Time of that.
     #[serde(rename = "peak_speed_time_s")]
     PeakTime,
     /// Since when a body has been at rest.
@@ -70,11 +70,11 @@ pub struct BandDocument {
     /// Order at which the values were seen to converge; null if they don't.
     #[schema(required = true)]
     pub order: Option<f64>,
-    /// What the band rests on.
+    /// Basis of the band.
     pub basis: BasisDocument,
 }
 
-/// What a band rests on.
+/// Basis of a band.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Basis)]
@@ -140,7 +140,7 @@ pub struct AccuracyReportDocument {
     /// scenes, where a step costs more than its points.
     #[schema(required = true)]
     pub extra_wall_cost: Option<f64>,
-    /// What came of the target; null if none was given.
+    /// Fate of the target; null if none was given.
     #[schema(required = true)]
     pub target: Option<TargetReportDocument>,
 }
@@ -149,7 +149,7 @@ pub struct AccuracyReportDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = RunCost)]
 pub struct RunCostDocument {
-    /// What it was for.
+    /// Purpose of the run.
     pub role: RoleDocument,
     /// Cell size [m].
     pub cell_size_m: f64,
@@ -164,12 +164,12 @@ pub struct RunCostDocument {
     /// Wall time [s]; null if it failed.
     #[schema(required = true)]
     pub wall_s: Option<f64>,
-    /// Why it could not be computed; null if it was.
+    /// Reason that it could not be computed; null if it was.
     #[schema(required = true)]
     pub failure: Option<String>,
 }
 
-/// What a run is for.
+/// Purpose of a run.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Role)]
@@ -182,7 +182,7 @@ pub enum RoleDocument {
     Answer,
 }
 
-/// Whether the target was met.
+/// Verdict on the target.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = TargetReport)]
 pub struct TargetReportDocument {
@@ -191,14 +191,14 @@ pub struct TargetReportDocument {
     /// Index of the body whose quantity that is; null for the flow's.
     #[schema(required = true)]
     pub body: Option<u32>,
-    /// How far the band may reach from the value, over it, as asked.
+    /// Distance that the band may reach from the value, over it, as asked.
     pub asked: f64,
     /// The same, as reached; null if the band has an open end or the value is 0.
     #[schema(required = true)]
     pub reached: Option<f64>,
-    /// Whether it is no more than asked.
+    /// True if it is no more than asked.
     pub met: bool,
-    /// Why it was not met; null if it was.
+    /// Reason that it was not met; null if it was.
     #[schema(required = true)]
     pub reason: Option<String>,
 }

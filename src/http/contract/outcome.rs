@@ -13,17 +13,17 @@ pub struct OutcomeDocument {
     pub bodies: Vec<BodyOutcomeDocument>,
     /// The flow.
     pub flow: FlowOutcomeDocument,
-    /// Whether to trust it.
+    /// Checks that tell whether to trust it.
     pub audit: AuditDocument,
-    /// What it cost, runs behind bands apart.
+    /// Cost of the run, runs behind bands apart.
     pub cost: CostDocument,
     /// That the run ended before its duration; null if it did not.
     #[schema(required = true)]
     pub ended_early: Option<EndedEarlyDocument>,
-    /// What was computed and what was left out, as planned before the run.
+    /// Plan of the run: computed and left out, as decided before it.
     #[schema(required = true)]
     pub plan: Option<PlanDocument>,
-    /// What the bands rest on; null unless asked for.
+    /// Runs that the bands rest on; null unless asked for.
     #[schema(required = true)]
     pub accuracy: Option<AccuracyReportDocument>,
 }
@@ -32,13 +32,13 @@ pub struct OutcomeDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = EndedEarly)]
 pub struct EndedEarlyDocument {
-    /// When [s].
+    /// Time [s].
     pub time_s: f64,
-    /// Why.
+    /// Reason.
     pub reason: String,
-    /// How far a body could still have been moved [m].
+    /// Distance that a body could still have been moved [m].
     pub body_bound_m: f64,
-    /// How far the front could still have gone [m]; null without a flow.
+    /// Distance that the front could still have gone [m]; null without a flow.
     #[schema(required = true)]
     pub front_bound_m: Option<f64>,
 }
@@ -56,7 +56,7 @@ pub struct BodyOutcomeDocument {
     pub onset_time_s: Option<f64>,
     /// Largest speed of the centre [m/s].
     pub peak_speed_m_s: f64,
-    /// When that was [s].
+    /// Time of that [s].
     #[schema(required = true)]
     pub peak_speed_time_s: Option<f64>,
     /// From then to the end at rest [s]; null if it still moves or never moved.
@@ -73,7 +73,7 @@ pub struct BodyOutcomeDocument {
     /// Bands of all but the orientation; null unless asked for.
     #[schema(required = true)]
     pub error_bars: Option<BodyBarsDocument>,
-    /// What it weighs and how it resists turning.
+    /// Mass, and resistance to turning.
     pub mass_properties: MassPropertiesDocument,
 }
 
@@ -111,7 +111,7 @@ pub struct FlowOutcomeDocument {
     pub error_bars: Option<FlowBarsDocument>,
 }
 
-/// Whether the run can be trusted.
+/// Checks that tell whether the run can be trusted.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Audit)]
 pub struct AuditDocument {
@@ -139,7 +139,7 @@ pub struct AuditDocument {
     pub points_lost: u64,
 }
 
-/// What the answer cost.
+/// Cost of the answer.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Cost)]
 pub struct CostDocument {

@@ -4,13 +4,16 @@ use super::accuracy::RoleDocument;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// What a run computes, what it leaves out and why, and what it costs.
+/// Plan of a run: what it computes, what it leaves out and why, and what it costs.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Plan)]
 pub struct PlanDocument {
     /// Each thing that could be left out.
     pub choices: Vec<ChoiceDocument>,
-    /// What the run will cost.
+    /// Things to look at once more before it runs; absent from plans of an older version.
+    #[schema(required = false)]
+    pub hints: Vec<HintDocument>,
+    /// Cost of the run.
     pub cost: PlannedCostDocument,
 }
 
@@ -18,13 +21,13 @@ pub struct PlanDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Choice)]
 pub struct ChoiceDocument {
-    /// What would be done.
+    /// Thing that would be done.
     pub what: String,
-    /// Whether it is.
+    /// True if it is.
     pub taken: bool,
-    /// Why, or why not.
+    /// Reason for or against.
     pub why: String,
-    /// What error it makes.
+    /// Error that it makes.
     pub error: String,
     /// The field of the scenario that decides otherwise, as a JSON pointer; null:
     /// there is none.
@@ -32,7 +35,18 @@ pub struct ChoiceDocument {
     pub decided_by: Option<String>,
 }
 
-/// What a run will cost.
+/// Something that whoever wrote a scenario may want to look at once more: it is allowed,
+/// but probably not meant, or costs more than it looks.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Hint)]
+pub struct HintDocument {
+    /// The field that it is about, as a JSON pointer.
+    pub field: String,
+    /// One sentence for people.
+    pub detail: String,
+}
+
+/// Cost of a run.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = PlannedCost)]
 pub struct PlannedCostDocument {
@@ -48,7 +62,7 @@ pub struct PlannedCostDocument {
     pub point_steps: u64,
     /// Memory for points and grid once the flow has spread [bytes].
     pub memory_bytes: u64,
-    /// When the run is expected to end [s].
+    /// Time at which the run is expected to end [s].
     pub expected_end_s: f64,
     /// Shares of the flow that are computed, one after the other.
     pub stages: Vec<StageDocument>,
@@ -58,7 +72,7 @@ pub struct PlannedCostDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Stage)]
 pub struct StageDocument {
-    /// Which share.
+    /// Share of the flow.
     pub share: ShareDocument,
     /// Points of it.
     pub points: u64,
@@ -85,12 +99,12 @@ pub enum ShareDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = PlannedCompanion)]
 pub struct PlannedCompanionDocument {
-    /// What it is for.
+    /// Purpose.
     pub role: RoleDocument,
     /// Cell size [m].
     pub cell_size_m: f64,
     /// Sub-steps summed over its points, to the end of the duration.
     pub point_steps: u64,
-    /// How long it will take [s].
+    /// Time it will take [s].
     pub expected_s: f64,
 }

@@ -47,11 +47,11 @@ pub struct TrajectoryColumnsSchema {
     pub touching_points: Vec<u32>,
     /// Share of the body's height below the surface of the flow, 0..1.
     pub submerged_fraction: Vec<f64>,
-    /// How the body moves.
+    /// Mode of motion.
     pub mode: Vec<ModeSchema>,
 }
 
-/// How a body moves.
+/// Mode of motion of a body.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "lowercase")]
 #[schema(as = Mode)]

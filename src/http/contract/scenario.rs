@@ -35,7 +35,7 @@ pub struct ScenarioDocument {
     /// Numerical choices.
     #[schema(required = false)]
     pub numerics: NumericsDocument,
-    /// How good the answer has to be.
+    /// Demands on the answer's accuracy.
     #[schema(required = false)]
     pub accuracy: AccuracyDocument,
 }
@@ -70,10 +70,10 @@ pub struct ChannelDocument {
 pub struct FlowDocument {
     /// Released volume [m³].
     pub volume_m3: f64,
-    /// Where it is released.
+    /// Place and shape of the release.
     #[schema(required = false)]
     pub release: ReleaseDocument,
-    /// What it is made of.
+    /// Material.
     #[schema(required = false)]
     pub material: MaterialDocument,
 }
@@ -135,7 +135,7 @@ pub struct BodyDocument {
     /// Density [kg/m³].
     #[schema(required = false)]
     pub density_kg_m3: f64,
-    /// Where its centre starts.
+    /// Place of its centre at the start.
     #[schema(required = false)]
     pub position: PositionDocument,
     /// Turn about the normal of its support [°].
@@ -171,7 +171,7 @@ pub struct BodyDocument {
     /// A fixed body is a barrier.
     #[schema(required = false)]
     pub fixed: bool,
-    /// How it moves whatever acts on it; null: it is free, or fixed.
+    /// Motion whatever acts on it; null: it is free, or fixed.
     pub motion: Option<MotionDocument>,
 }
 
@@ -220,7 +220,7 @@ pub enum ShapeDocument {
     },
     /// A regular solid, lying on a face of which an edge runs along y.
     Regular {
-        /// Which one.
+        /// Kind of solid.
         solid: RegularSolidDocument,
         /// Length of its edges before they are rounded [m].
         size_m: f64,
@@ -284,17 +284,17 @@ pub struct NumericsDocument {
     /// Arithmetic of points and grid.
     #[schema(required = false)]
     pub precision: PrecisionDocument,
-    /// Whether a scene that is symmetric about the centre plane is computed by
+    /// Use of a scene's symmetry about the centre plane: to be computed by
     /// halves.
     #[schema(required = false)]
     pub symmetry: SymmetryDocument,
-    /// How a flow is computed before it varies across the channel.
+    /// Computation of a flow before it varies across the channel.
     #[schema(required = false)]
     pub approach: ApproachDocument,
     /// Formulation of contacts between points and bodies.
     #[schema(required = false)]
     pub coupling: CouplingDocument,
-    /// When the run ends.
+    /// End of the run.
     #[schema(required = false)]
     pub ending: EndingDocument,
     /// Solver threads; at most those of a worker.
@@ -312,7 +312,7 @@ pub enum PrecisionDocument {
     Double,
 }
 
-/// How a scene is computed that is symmetric about the centre plane.
+/// Computation of a scene that is symmetric about the centre plane.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Symmetry)]
@@ -325,7 +325,7 @@ pub enum SymmetryDocument {
     Mirror,
 }
 
-/// How a flow is computed in which nothing varies across the channel yet.
+/// Computation of a flow in which nothing varies across the channel yet.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Approach)]
@@ -349,7 +349,7 @@ pub enum CouplingDocument {
     SourcePaper,
 }
 
-/// When a run ends.
+/// End of a run.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Ending)]

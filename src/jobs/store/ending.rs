@@ -163,7 +163,8 @@ pub(super) async fn set_back_row(
         return Ok(Returned::Lost);
     };
     end_attempt(connection, hold, now_ms, (setback.word(), setback.detail())).await?;
-    if got_on && *setback == Setback::CutOff {
+    let by_death = matches!(setback, Setback::CutOff | Setback::Expired);
+    if got_on && by_death {
         // It ran well for a while, and goes on from there.
         put_back_row(connection, hold, 0, now_ms).await?;
         return Ok(Returned::Waiting);

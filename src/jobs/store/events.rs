@@ -53,13 +53,15 @@ impl Store {
         rows.into_iter().map(EventRow::read).collect()
     }
 
-    /// Number of the last event there was; 0 before the first.
+    /// Number of the last event there ever was, one whose job is removed included; 0
+    /// before the first.
     ///
     /// # Errors
     /// The database's own.
     pub async fn last_event(&self) -> Result<i64, StoreError> {
-        let last = sqlx::query_scalar("SELECT coalesce(max(sequence), 0) FROM events");
-        Ok(last.fetch_one(&self.readers).await?)
+        let last = sqlx::query_scalar("SELECT seq FROM sqlite_sequence WHERE name = 'events'");
+        let last: Option<i64> = last.fetch_optional(&self.readers).await?;
+        Ok(last.unwrap_or(0))
     }
 }
 

@@ -45,15 +45,29 @@ impl Store {
     /// Removes some of the jobs that ended at least this long ago [ms]; how
     /// many. To be called again until there are none left.
     ///
+    /// A job that ended by an evidently wrong clock counts as ended now, as soon as the
+    /// clock is not evidently wrong any more.
+    ///
     /// # Errors
     /// The database's own.
     pub async fn remove_ended(&self, age_ms: i64) -> Result<u64, StoreError> {
+        let now_ms = self.now_ms();
         let mut transaction = self.begin_write().await?;
+        sqlx::query(
+            "UPDATE jobs SET kept_since_ms = ?1
+             WHERE finished_ms IS NOT NULL AND kept_since_ms IS NULL
+               AND ?1 >= (SELECT max(created_ms) FROM jobs)
+               AND ?1 >= (SELECT max(finished_ms) FROM jobs WHERE finished_ms IS NOT NULL)",
+        )
+        .bind(now_ms)
+        .execute(&mut *transaction)
+        .await?;
         let done = sqlx::query(
             "DELETE FROM jobs WHERE id IN (
-                 SELECT id FROM jobs WHERE finished_ms <= ?1 ORDER BY finished_ms LIMIT ?2)",
+                 SELECT id FROM jobs WHERE finished_ms IS NOT NULL AND kept_since_ms <= ?1
+                 ORDER BY kept_since_ms LIMIT ?2)",
         )
-        .bind(self.now_ms() - age_ms)
+        .bind(now_ms - age_ms)
         .bind(REMOVED_AT_ONCE)
         .execute(&mut *transaction)
         .await?;

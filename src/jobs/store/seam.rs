@@ -65,7 +65,7 @@ seam! {
     fn status(id: JobId) -> Option<JobStatus>;
     /// The next events after a number.
     fn events(after: i64, job: Option<JobId>) -> Vec<Event>;
-    /// Number of the last event.
+    /// Number of the last event there ever was.
     fn last_event() -> i64;
     /// Counts jobs.
     fn census() -> Census;

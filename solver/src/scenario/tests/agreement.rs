@@ -177,6 +177,13 @@ fn what_accuracy_asks_for_has_to_make_sense() {
             "0 <= x <= 0, whole",
         ),
         (
+            "the fourth of one body, about nothing",
+            "/accuracy/body",
+            json!(3),
+            "/accuracy/body",
+            "0 <= x <= 0, whole",
+        ),
+        (
             "bars of a word",
             "/accuracy/error_bars",
             json!("yes"),
@@ -192,6 +199,8 @@ fn what_accuracy_asks_for_has_to_make_sense() {
     assert_eq!(refused(&scenario)[0].pointer, "/accuracy/body");
     set(&mut scenario, "/accuracy/quantity", json!("front_m"));
     accepted(&scenario);
+    set(&mut scenario, "/accuracy/body", json!(1));
+    assert_eq!(refused(&scenario)[0].pointer, "/accuracy/body");
 }
 
 #[test]

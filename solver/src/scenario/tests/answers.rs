@@ -139,7 +139,14 @@ fn answers_stay_small() {
     assert!(found[500].detail.contains("500 further"));
 
     let found = refused(&with("/numerics/precision", json!("x".repeat(100_000))));
-    assert!(found[0].detail.chars().count() < 400);
+    assert!(found[0].detail.chars().count() < 200);
+    let start = format!("{}… (100000 characters)", "x".repeat(80));
+    assert_eq!(found[0].value, start.as_str());
+
+    let found = refused(&with(&format!("/{}", "k".repeat(5_000)), json!(1)));
+    assert!(found[0].detail.chars().count() < 200);
+    let found = refused(&with("/title", json!(["x".repeat(5_000)])));
+    assert!(found[0].value.to_string().len() < 200);
 
     let found = refused(&with("/title", json!(vec![1; 20_001])));
     assert_eq!((found.len(), found[0].pointer.as_str()), (1, ""));

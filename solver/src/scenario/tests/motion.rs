@@ -33,6 +33,43 @@ fn velocities_may_stay_or_change() {
 }
 
 #[test]
+fn what_is_wrong_with_a_table_is_told() {
+    let first = |motion: Value| {
+        let found = refused(&with(POINTER, motion));
+        let violation = found.into_iter().next().expect("one at least");
+        format!("{} [{}]", violation.detail, violation.allowed)
+    };
+    let each = "each a list of 3 numbers, each -1000 <= x <= 1000";
+    let velocity = "bodies[0].motion.velocity_m_s";
+    assert_eq!(
+        first(json!({"times_s": [0, 1], "velocity_m_s": [1, 0, 0]})),
+        format!(
+            "{velocity} is a list of 3 numbers, not of lists, one a velocity. [2 velocities, {each}]"
+        )
+    );
+    assert_eq!(
+        first(json!({"times_s": [0, 1], "velocity_m_s": [[1, 0, 0]]})),
+        format!("{velocity} has 1 velocity, not 2 velocities. [2 velocities, {each}]")
+    );
+    assert_eq!(
+        first(json!({"times_s": [0], "velocity_m_s": []})),
+        format!("{velocity} has 0 velocities, not 1 velocity. [1 velocity, {each}]")
+    );
+    let found = refused(&with(POINTER, json!({"times_s": 1, "velocity_m_s": []})));
+    assert_eq!(
+        found[1].detail,
+        format!("{velocity} has 0 velocities, not 1 to 1000 velocities.")
+    );
+    for key in ["velocity_m_s", "angular_velocity_rad_s"] {
+        let lacks = first(json!({key: [[1, 0, 0], [2, 0, 0]]}));
+        assert!(
+            lacks.starts_with("bodies[0].motion.times_s is missing"),
+            "{lacks}"
+        );
+    }
+}
+
+#[test]
 fn what_is_no_motion_is_refused() {
     let table =
         |times: Value, velocities: Value| json!({"times_s": times, "velocity_m_s": velocities});
@@ -55,7 +92,7 @@ fn what_is_no_motion_is_refused() {
         (
             "no times",
             POINTER,
-            table(json!([]), json!([])),
+            table(json!([]), json!([[0, 0, 0]])),
             "/bodies/0/motion/times_s",
             "1 to 1000 times",
         ),

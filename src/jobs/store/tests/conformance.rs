@@ -1,23 +1,8 @@
-//! Rules that any driver of the job store must hold to, one a test. Another driver adds
-//! itself to [`conformance!`]'s list.
+//! Rules that any driver of the job store must hold to, one a test.
 
 use super::*;
 use crate::jobs::failure::Failure;
 use crate::results::columns::Selection;
-
-macro_rules! conformance {
-    ($($rule:ident)*) => {
-        mod sqlite {
-            use super::Fixture;
-            $(
-                #[tokio::test]
-                async fn $rule() {
-                    super::$rule(&Fixture::sqlite().await).await;
-                }
-            )*
-        }
-    };
-}
 
 conformance! {
     jobs_are_claimed_in_the_order_of_submission_and_once
@@ -28,6 +13,7 @@ conformance! {
     a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed
     a_lease_that_is_renewed_does_not_run_out
     a_lease_that_ran_out_is_another_s_to_take
+    a_saved_job_whose_lease_ran_out_is_taken_at_once
     a_former_self_s_jobs_are_taken_back_at_once_and_no_others
     the_third_setback_in_a_row_is_the_last
     a_job_cut_off_waits_until_the_service_has_lived_as_long
@@ -35,8 +21,6 @@ conformance! {
     a_saved_state_comes_back_and_ends_the_row_of_setbacks
     an_attempt_begins_at_its_saved_state_or_afresh
     a_job_handed_back_keeps_its_state_and_has_no_setback
-    a_clock_set_back_holds_up_neither_waiting_nor_lost_jobs
-    a_clock_set_forward_costs_a_lease_and_nothing_else
 }
 
 async fn jobs_are_claimed_in_the_order_of_submission_and_once<S: JobStore>(fixture: &Fixture<S>) {
@@ -223,6 +207,33 @@ async fn a_lease_that_ran_out_is_another_s_to_take<S: JobStore>(fixture: &Fixtur
     assert_eq!(fixture.endings(id).await, ["expired", ""]);
 }
 
+async fn a_saved_job_whose_lease_ran_out_is_taken_at_once<S: JobStore>(fixture: &Fixture<S>) {
+    let id = fixture.submit().await;
+    let at_once = |owner: &str| Claimant {
+        up_for: Duration::ZERO,
+        ..claimant(owner)
+    };
+    for (own, other) in [("a", "b"), ("b", "a")].repeat(TOLERATED_SETBACKS as usize) {
+        let claim = fixture.store.claim(&at_once(own)).await.unwrap();
+        let claim = claim.expect("what has got on waits for nothing");
+        assert_eq!((claim.hold.job, claim.setbacks), (id, 0));
+        let kept = results_and_state(3);
+        assert!(fixture.store.keep(claim.hold, &kept).await.unwrap());
+        fixture.pass(LEASE);
+        let taken = fixture.store.take_back_expired(other, LEASE).await;
+        assert_eq!(taken.unwrap(), 1);
+    }
+    let others = fixture.submit().await;
+    fixture.claim("a").await;
+    assert_eq!(fixture.claim("a").await.job, others);
+    fixture.pass(LEASE);
+    assert_eq!(
+        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
+        2
+    );
+    assert_eq!(fixture.try_claim("b").await, None, "these saved nothing");
+}
+
 async fn a_former_self_s_jobs_are_taken_back_at_once_and_no_others<S: JobStore>(
     fixture: &Fixture<S>,
 ) {
@@ -374,43 +385,4 @@ async fn a_job_handed_back_keeps_its_state_and_has_no_setback<S: JobStore>(fixtu
     assert_eq!(job.summary.status, JobStatus::Accepted);
     assert_eq!(job.summary.started, None);
     assert_eq!(job.summary.progress.fraction, 0.5, "it goes on from there");
-}
-
-async fn a_clock_set_back_holds_up_neither_waiting_nor_lost_jobs<S: JobStore>(
-    fixture: &Fixture<S>,
-) {
-    let waiting = fixture.submit().await;
-    let hold = fixture.claim("a").await;
-    let setback = Setback::Infrastructure("x".to_owned());
-    fixture.store.set_back(hold, &setback).await.unwrap();
-    let lost = fixture.submit().await;
-    assert_eq!(fixture.claim("a").await.job, lost, "the other one waits");
-    fixture.clock.jump(SignedDuration::from_hours(-24));
-    assert_eq!(
-        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
-        1
-    );
-    fixture.pass(Duration::from_secs(2));
-    assert_eq!(fixture.claim("b").await.job, waiting);
-    assert_eq!(fixture.claim("b").await.job, lost);
-}
-
-async fn a_clock_set_forward_costs_a_lease_and_nothing_else<S: JobStore>(fixture: &Fixture<S>) {
-    let id = fixture.submit().await;
-    let old = fixture.claim("a").await;
-    fixture.clock.jump(SignedDuration::from_hours(24));
-    assert_eq!(fixture.store.take_back_own("b").await.unwrap(), 0);
-    assert_eq!(
-        fixture.store.take_back_expired("a", LEASE).await.unwrap(),
-        0
-    );
-    let progress = Progress::default();
-    let renewed = fixture.store.renew(old, LEASE, &progress).await.unwrap();
-    assert_eq!(renewed, Renewal::Held, "nobody was faster");
-    assert_eq!(
-        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
-        0
-    );
-    assert!(fixture.store.succeed(old, "{}", FINGERPRINT).await.unwrap());
-    assert_eq!(fixture.endings(id).await, ["successful"]);
 }

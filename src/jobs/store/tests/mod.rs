@@ -1,6 +1,22 @@
 //! The job store under test: what any driver must hold to ([`conformance`],
-//! [`races`], [`model`]), and what only SQLite has ([`sqlite`]).
+//! [`clocks`], [`races`], [`model`]), and what only SQLite has ([`sqlite`]).
 
+/// Makes each rule a test of every driver; another driver adds itself here.
+macro_rules! conformance {
+    ($($rule:ident)*) => {
+        mod sqlite {
+            use super::Fixture;
+            $(
+                #[tokio::test]
+                async fn $rule() {
+                    super::$rule(&Fixture::sqlite().await).await;
+                }
+            )*
+        }
+    };
+}
+
+mod clocks;
 mod conformance;
 mod model;
 mod races;

@@ -66,6 +66,14 @@ struct Model {
 
 const LEASE_MS: i64 = 30_000;
 
+/// Why a job is set back.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Why {
+    CutOff,
+    Expired,
+    Infrastructure,
+}
+
 impl Model {
     fn is(job: &ModelJob, status: JobStatus) -> bool {
         job.status == Some(status)
@@ -102,15 +110,15 @@ impl Model {
         job.not_before_ms = not_before_ms;
     }
 
-    fn set_back(job: &mut ModelJob, now_ms: i64, at_once: bool) -> Returned {
-        if at_once && job.saved_now {
+    fn set_back(job: &mut ModelJob, now_ms: i64, why: Why) -> Returned {
+        if why != Why::Infrastructure && job.saved_now {
             Self::put_back(job, now_ms);
             return Returned::Waiting;
         }
-        let wait_ms = match (at_once, job.setbacks) {
-            (true, _) => 0,
-            (false, 0) => 2_000,
-            (false, _) => 8_000,
+        let wait_ms = match (why, job.setbacks) {
+            (Why::CutOff, _) => 0,
+            (_, 0) => 2_000,
+            (_, _) => 8_000,
         };
         job.setbacks += 1;
         if job.setbacks == 3 {
@@ -122,12 +130,12 @@ impl Model {
     }
 
     /// Sets back every running job that `lost` says; how many.
-    fn take_back(&mut self, at_once: bool, lost: impl Fn(&ModelJob, i64) -> bool) -> usize {
+    fn take_back(&mut self, why: Why, lost: impl Fn(&ModelJob, i64) -> bool) -> usize {
         let now = self.now_ms;
         let mut count = 0;
         for job in self.jobs.values_mut() {
             if Self::is(job, JobStatus::Running) && lost(job, now) {
-                Self::set_back(job, now, at_once);
+                Self::set_back(job, now, why);
                 count += 1;
             }
         }
@@ -157,12 +165,14 @@ impl Pair {
             Event::Claim(owner) => self.claim(owner).await,
             Event::Dismiss(pick) if !self.ids.is_empty() => self.dismiss(pick).await,
             Event::Crash(owner) => {
-                let expected = self.model.take_back(true, |job, _| job.owner == owner);
+                let expected = self
+                    .model
+                    .take_back(Why::CutOff, |job, _| job.owner == owner);
                 let taken = self.fixture.store.take_back_own(OWNERS[owner]).await;
                 assert_eq!(taken.unwrap(), expected);
             }
             Event::TakeBackExpired(owner) => {
-                let expected = self.model.take_back(false, |job, now| {
+                let expected = self.model.take_back(Why::Expired, |job, now| {
                     let expires = job.expires_ms;
                     job.owner != owner && (expires <= now || expires > now + 2 * LEASE_MS)
                 });
@@ -246,7 +256,7 @@ impl Pair {
             }
             Event::SetBack(pick) => {
                 let expected = match model.running(number(pick)) {
-                    Some(job) => Model::set_back(job, now, false),
+                    Some(job) => Model::set_back(job, now, Why::Infrastructure),
                     None => Returned::Lost,
                 };
                 let setback = Setback::Infrastructure("x".to_owned());

@@ -24,9 +24,11 @@ const MOST_DRAWS: u32 = 400;
 const ENERGY_OF_CONTACTS: f64 = 1e-3;
 
 /// Field that the scenarios of a sweep are drawn from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Field {
     /// All that is legal, coarse, each within a budget of computing.
+    #[default]
     Everything,
     /// Bodies without a flow, each to its end; their contacts make no energy.
     BodiesAlone,
@@ -35,6 +37,10 @@ pub enum Field {
 /// Findings of a sweep.
 #[derive(Debug, Default, Serialize)]
 pub struct Swept {
+    /// Field that they were drawn from.
+    pub field: Field,
+    /// Scenarios asked for.
+    pub asked: u64,
     /// Scenarios run.
     pub run: u64,
     /// Draws that validation or the set-up refused on the way, or that would have been
@@ -67,6 +73,13 @@ pub struct Failing {
     pub scenario: Value,
 }
 
+impl Swept {
+    /// Scenarios asked for and not run: of their seeds no draw was legal.
+    pub fn not_run(&self) -> u64 {
+        self.asked.saturating_sub(self.run)
+    }
+}
+
 /// A legal scenario of this seed, and how many draws were refused before it.
 pub fn scenario(field: Field, seed: u64) -> Option<(Value, u64)> {
     let mut dice = Dice::of(seed.wrapping_add(1));
@@ -96,7 +109,11 @@ pub fn run(field: Field, scenario: &Value) -> Tried {
 
 /// Runs `count` scenarios of a field, those of the seeds from `first` on, on all cores.
 pub fn sweep(field: Field, first: u64, count: u64, tell: &(impl Fn(&Failing) + Sync)) -> Swept {
-    let swept = Mutex::new(Swept::default());
+    let swept = Mutex::new(Swept {
+        field,
+        asked: count,
+        ..Swept::default()
+    });
     let seeds: Vec<u64> = (first..first + count).collect();
     side_by_side(&seeds, |seed| take(field, &swept, *seed, tell));
     let mut swept = swept

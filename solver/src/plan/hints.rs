@@ -1,0 +1,161 @@
+//! Hints: what a scenario allows and is probably not meant, or costs more than it looks.
+
+use super::cost::longest_substep;
+use crate::scenario::Scenario;
+use crate::simulation::Outline;
+use serde::{Deserialize, Serialize};
+
+/// An inclination below this may have been meant in radians [°].
+const MEANT_IN_RADIANS_DEG: f64 = 2.0;
+/// Sub-steps that a light body takes, over those of the flow, from which on it is told.
+const MANY_TIMES: f64 = 1.5;
+/// Bodies that a hint names.
+const NAMED_BODIES: usize = 3;
+
+/// Something that whoever wrote a scenario may want to look at once more.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Hint {
+    /// The field that it is about, as a JSON pointer.
+    pub field: String,
+    /// One sentence for people.
+    pub detail: String,
+}
+
+/// All hints at a scenario.
+pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Vec<Hint> {
+    let hints = [
+        inclination_in_radians(scenario),
+        thin_bodies(scenario, outline),
+        unreached_bodies(scenario),
+        light_bodies(scenario, outline),
+        cells_by_target(scenario, outline),
+    ];
+    hints.into_iter().flatten().collect()
+}
+
+fn hint(field: &str, detail: String) -> Hint {
+    Hint {
+        field: field.to_owned(),
+        detail,
+    }
+}
+
+/// An inclination so small that it looks like radians.
+fn inclination_in_radians(scenario: &Scenario) -> Option<Hint> {
+    let given = scenario.channel.inclination_deg;
+    (given > 0.0 && given < MEANT_IN_RADIANS_DEG).then(|| {
+        let detail = format!(
+            "an inclination of {given}° is next to none: in degrees? {given} rad are {:.1}°",
+            given.to_degrees()
+        );
+        hint("/channel/inclination_deg", detail)
+    })
+}
+
+/// Bodies thinner than a cell, which the flow hardly sees.
+fn thin_bodies(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
+    outline.columns?;
+    let cell = outline.given.lattice.spacing.x;
+    let width = |body: usize| scenario.shape_of(body).least_width();
+    let thin = bodies(scenario).filter(|body| width(*body) < cell);
+    let thin: Vec<usize> = thin.collect();
+    let thinnest = thin.iter().map(|body| width(*body)).reduce(f64::min)?;
+    let detail = format!(
+        "{} thinner than a cell ({thinnest:.4} m, cells of {cell:.4} m), too coarse for the flow \
+         round such a body; four cells across would be {:.4} m",
+        subject(&thin),
+        0.25 * thinnest
+    );
+    Some(hint("/numerics/cell_size_m", detail))
+}
+
+/// Bodies at rest that lie farther away than the flow's energy lasts: what starts at its
+/// highest place has lost all height to friction by then.
+fn unreached_bodies(scenario: &Scenario) -> Option<Hint> {
+    let release = scenario.release()?;
+    let friction = scenario.flow.as_ref().map(|flow| {
+        let within = flow.material.static_friction;
+        within.min(scenario.channel.base_friction)
+    })?;
+    let top = scenario.channel.bed_elevation_m(release.back_m) + release.vertical_thickness_m;
+    let reach = release.front_m + top / friction;
+    let beyond = |body: &usize| {
+        let given = &scenario.bodies[*body];
+        let waits = given.motion.is_none() && given.velocity_m_s == [0.0; 3];
+        let back = given.position.downstream_m - scenario.shape_of(*body).bounding_radius();
+        waits && back > reach
+    };
+    let missed: Vec<usize> = bodies(scenario).filter(beyond).collect();
+    let first = missed.first()?;
+    let detail = format!(
+        "the flow probably does not come as far as {}: from {top:.3} m above the floor, friction \
+         {friction} stops it before x = {reach:.2} m",
+        names(&missed)
+    );
+    let field = format!("/bodies/{first}/position/downstream_m");
+    Some(hint(&field, detail))
+}
+
+/// Bodies so light that their contacts with the flow take short sub-steps (equation 26).
+fn light_bodies(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
+    outline.columns.filter(|columns| columns.points() > 0)?;
+    let flow = outline.given.flow.as_ref()?;
+    let own = longest_substep(&flow.limits);
+    let taken = |body: usize| own / flow.contact_substep(&outline.bodies[body..=body]);
+    let light: Vec<usize> = bodies(scenario)
+        .filter(|body| taken(*body) > MANY_TIMES)
+        .collect();
+    let lightest = light.iter().copied();
+    let lightest = lightest.max_by(|a, b| taken(*a).total_cmp(&taken(*b)))?;
+    let duration = outline.given.timing.duration;
+    let detail = format!(
+        "{} light against the flow: with a density of {} kg/m³, where the bulk has {}, body \
+         {lightest} alone takes {:.0} sub-steps instead of {:.0} (equation 26)",
+        subject(&light),
+        scenario.bodies[lightest].density_kg_m3,
+        flow.material.bulk_density,
+        (taken(lightest) * duration / own).ceil(),
+        (duration / own).ceil()
+    );
+    Some(hint(&format!("/bodies/{lightest}/density_kg_m3"), detail))
+}
+
+/// Cells of a plan that the run will not have.
+fn cells_by_target(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
+    let (target, quantity) = scenario.accuracy.goal()?;
+    let cell = outline.given.lattice.spacing.x;
+    let detail = format!(
+        "the target of {target} for {} chooses the cells, by its first runs: this cost is that \
+         of the cells a run without a target takes ({cell:.4} m)",
+        quantity.key()
+    );
+    Some(hint("/accuracy/target", detail))
+}
+
+fn bodies(scenario: &Scenario) -> std::ops::Range<usize> {
+    0..scenario.bodies.len()
+}
+
+/// "body 0", "bodies 0 and 2", "bodies 0, 1, 2 and 5 more".
+fn names(bodies: &[usize]) -> String {
+    let named = bodies.iter().take(NAMED_BODIES).map(usize::to_string);
+    let mut named: Vec<String> = named.collect();
+    let last = match bodies.len().checked_sub(NAMED_BODIES) {
+        Some(more) if more > 0 => Some(format!("{more} more")),
+        _ => named.pop(),
+    };
+    let last = last.unwrap_or_default();
+    if named.is_empty() {
+        format!("body {last}")
+    } else {
+        format!("bodies {} and {last}", named.join(", "))
+    }
+}
+
+fn subject(bodies: &[usize]) -> String {
+    let is = if bodies.len() == 1 { "is" } else { "are" };
+    format!("{} {is}", names(bodies))
+}
+
+#[cfg(test)]
+mod tests;
