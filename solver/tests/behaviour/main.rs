@@ -23,6 +23,7 @@ mod plan;
 mod precisions;
 mod prescribed;
 mod reductions;
+mod reported;
 mod same_bits;
 mod samples;
 mod shapes;
