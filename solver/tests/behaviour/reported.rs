@@ -88,7 +88,10 @@ fn small_cubes_meet_in_the_air() {
     let told = Told::named(include_str!("reported/small_cubes_meet_in_the_air.json"));
     let last = told.samples.last().expect("it has samples");
     let [one, other] = [0, 1].map(|body: usize| last[body].velocity_m_s[0]);
-    assert!(one.abs() < 2e-3 && (other / 2.0 - 1.0).abs() < 1e-3, "{one} {other}");
+    assert!(
+        one.abs() < 2e-3 && (other / 2.0 - 1.0).abs() < 1e-3,
+        "{one} {other}"
+    );
 }
 
 // Damping at restitution 0 turned motions round, and its share of friction was kept in
@@ -115,7 +118,11 @@ fn restitution_0_makes_no_energy() {
 #[test]
 fn a_steel_cube_laid_on_a_bed_lies_still() {
     let told = Told::named(include_str!("reported/steel_cube_laid_on_bed.json"));
-    let heights: Vec<f64> = told.samples.iter().map(|all| all[0].position_m[2]).collect();
+    let heights: Vec<f64> = told
+        .samples
+        .iter()
+        .map(|all| all[0].position_m[2])
+        .collect();
     let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
     let end = heights[heights.len() - 1];
     assert!(heights[0] - lowest < 2.5e-3, "{lowest}");

@@ -18,10 +18,11 @@ const OVERLAP_AT_REST: f64 = 0.01;
 /// Overlap of an impact on one vertex at the expected speed, over the sphero
 /// radius.
 const OVERLAP_AT_IMPACT: f64 = 0.2;
-/// Stiffness that weights ask for, over what would do for a flow's dynamic pressure. A
-/// laid body settles by its pressure over the shear modulus, several times that near the
-/// bearing capacity: without this a steel cube on sand settles by a sixteenth of its side.
-const WEIGHT_FACTOR: f64 = 16.0;
+/// Stiffness that the weight of a body laid on the flow asks for, over what would do for
+/// a flow's dynamic pressure. It settles by its pressure over the shear modulus, several
+/// times that near the bearing capacity: without this a steel cube on sand settles by a
+/// sixteenth of its side. What falls from higher buries itself by more than it settles.
+const SETTLEMENT_FACTOR: f64 = 16.0;
 /// Stiffness of a body on a rigid wall over that on its like: E*/2 and r/2.
 const TWO_LIKE_ONE: f64 = 2.0 * std::f64::consts::SQRT_2;
 
@@ -64,8 +65,8 @@ pub struct Expected {
     /// Speed of the flow, or of the fastest body at the start [m/s].
     pub speed: f64,
     /// Speed whose dynamic pressure ρ_c v² is the largest pressure expected in the flow
-    /// [m/s]: of the flow itself, of bodies that fall or slide into it, or sixteen
-    /// times the weight of a body that lies on it.
+    /// [m/s]: of the flow itself, of bodies that fall or slide into it, or of their
+    /// weight, sixteen times that of a body laid on it.
     pub pressing_speed: f64,
     /// Speed with which the fastest body may meet a bed at rest [m/s].
     pub impact_speed: f64,
@@ -84,7 +85,12 @@ pub(super) fn expected(scenario: &Scenario, crowd: &Crowd) -> Expected {
     let weight = |flow: &Flow| 0.5 * density * scenario.gravity_m_s2 * flow.release.height_m;
     let of_body = |body: &Weighty| {
         let weight = body.mass * scenario.gravity_m_s2 / body.projected_area;
-        body.speed_squared.max(WEIGHT_FACTOR * weight / density)
+        let factor = if body.lies_on_flow {
+            SETTLEMENT_FACTOR
+        } else {
+            1.0
+        };
+        body.speed_squared.max(factor * weight / density)
     };
     let free = || crowd.0.iter().filter(|body| body.free);
     let pressing_squared = free().map(of_body).fold(speed * speed, f64::max);
@@ -132,6 +138,8 @@ struct Weighty {
     projected_area: f64,
     /// Of its start, and of a fall to the floor [m²/s²].
     speed_squared: f64,
+    /// True if it starts on or in the release, or less than its own height above.
+    lies_on_flow: bool,
     free: bool,
     fixed: bool,
 }
@@ -161,6 +169,12 @@ impl Crowd {
                 bounding_radius,
                 projected_area: std::f64::consts::PI * shape.shadow_radius().powi(2),
                 speed_squared: falling + thrown * thrown,
+                lies_on_flow: scenario.release().is_some_and(|release| {
+                    let bed = scenario.channel.bed_elevation_m(start.x);
+                    let above = start.z - 3.0 * lowest - bed;
+                    let over = release.back_m <= start.x && start.x <= release.front_m;
+                    over && above < release.vertical_thickness_m
+                }),
                 free: body.is_free(),
                 fixed: body.fixed,
             }
