@@ -17,6 +17,7 @@ mod nodes;
 mod upright;
 
 pub use boundary::{Boundary, filled};
+pub use constraint::WallPace;
 pub use nodes::NodeAccess;
 pub use upright::{Bound, Ends, Upright};
 

@@ -11,7 +11,7 @@ use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::{self, Precision, Scenario};
 use crate::stability::Pace;
-use crate::walls::{Bound, Ends, Plane, Upright, Walls};
+use crate::walls::{Bound, Ends, Plane, Upright, WallPace, Walls};
 
 mod bodies;
 mod flow;
@@ -264,6 +264,15 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
 }
 
 impl Setup {
+    /// Length of a sub-step of `dt` [s], as walls need it.
+    pub(super) fn wall_pace(&self, dt: f64) -> WallPace {
+        let sound = |flow: &GivenFlow| self.lattice.spacing.min() / flow.material.p_wave_speed();
+        WallPace {
+            dt,
+            crossing: self.flow.as_ref().map_or(0.0, sound) / dt,
+        }
+    }
+
     /// Surroundings that bodies move in from a time on [s].
     pub(super) fn surroundings(&self, time: f64) -> Surroundings<'_> {
         Surroundings {

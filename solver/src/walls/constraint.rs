@@ -11,6 +11,25 @@ use rayon::prelude::*;
 /// Groups of nodes one task takes.
 const TASK: usize = 128;
 
+/// Length of a sub-step, as walls need it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallPace {
+    /// [s].
+    pub dt: f64,
+    /// Sub-steps in which sound crosses a cell.
+    pub crossing: f64,
+}
+
+/// State of a group before the forces of a sub-step.
+#[derive(Debug, Clone, Copy)]
+struct Before {
+    /// Momentum along x and y [N s].
+    momentum: [f64; 2],
+    /// Sub-steps in which sound crosses a cell. What is pressed with p expands off a wall at
+    /// up to p/(ρ c) without letting go: as long as p could stop it within that time.
+    crossing: f64,
+}
+
 /// Answer of walls to the motion of a group.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Answer {
@@ -19,6 +38,8 @@ pub(super) struct Answer {
     /// True along x and y if the group leaves the wall across: its images move along
     /// with it instead of mirrored.
     leaves: [bool; 2],
+    /// Momentum of the group along x and y after it, as it lies on the grid [N s].
+    left: [f64; 2],
     /// Impulse given.
     impulse: Impulse,
     /// True if it is another velocity than before.
@@ -30,7 +51,9 @@ impl Walls {
     /// they will in the first sub-step. What it takes from the nodes' momentum the
     /// rest of the transfer gives back, so it is no impulse.
     pub fn reflect(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) {
-        self.propose(boundary, nodes, Self::joint_motion);
+        self.propose(boundary, nodes, |walls, group, members, nodes, _| {
+            walls.joint_motion(group, members, nodes, None)
+        });
         self.line_up(boundary, false);
         for (answer, group) in boundary.answers.iter().zip(&boundary.groups) {
             for member in &boundary.members[group.members.clone()] {
@@ -39,25 +62,32 @@ impl Walls {
         }
     }
 
-    /// Makes node velocities obey the walls for a sub-step of `dt` [s]: mirrors
-    /// at the upright ones, no inflow and free separation at the base, Coulomb
+    /// Makes node velocities obey the walls for a sub-step: mirrors at the upright ones, no inflow and free separation at the base, Coulomb
     /// friction at both. Returns the impulse given to the flow.
     pub fn constrain(
         &self,
         boundary: &mut Boundary,
         nodes: &mut impl NodeAccess,
-        dt: f64,
+        pace: WallPace,
     ) -> Impulse {
-        self.propose(boundary, nodes, Self::constrained_motion);
+        self.propose(boundary, nodes, |walls, group, members, nodes, left| {
+            let before = Before {
+                momentum: left,
+                crossing: pace.crossing,
+            };
+            walls.constrained_motion(group, members, nodes, before)
+        });
         self.line_up(boundary, true);
-        Self::give(boundary, nodes, dt)
+        Self::give(boundary, nodes, pace.dt)
     }
 
     /// Makes nodes and their images move as one again after the rest of a transfer,
     /// which goes to each of them alone: bodies meet the flow's motion before the
     /// first sub-step's [`constrain`](Self::constrain). Returns the impulse given.
     pub fn join(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) -> Impulse {
-        self.propose(boundary, nodes, Self::joint_motion);
+        self.propose(boundary, nodes, |walls, group, members, nodes, _| {
+            walls.joint_motion(group, members, nodes, None)
+        });
         Self::give(boundary, nodes, 0.0)
     }
 
@@ -96,7 +126,7 @@ impl Walls {
         &self,
         boundary: &mut Boundary,
         nodes: &N,
-        motion: impl Fn(&Self, &Group, &[Member], &N) -> Motion + Sync,
+        motion: impl Fn(&Self, &Group, &[Member], &N, [f64; 2]) -> Motion + Sync,
     ) {
         let Boundary {
             members,
@@ -110,19 +140,26 @@ impl Walls {
             .with_min_len(TASK)
             .for_each(|(answer, group)| {
                 let members = &members[group.members.clone()];
-                let motion = motion(self, group, members, nodes);
+                let motion = motion(self, group, members, nodes, answer.left);
                 (answer.velocity, answer.leaves) = (motion.velocity, motion.leaves);
             });
     }
 
     /// Common motion of a group in the frame of its first member, but for the base.
-    fn joint_motion(&self, group: &Group, members: &[Member], nodes: &impl NodeAccess) -> Motion {
+    /// `before` is there if the forces of a sub-step have acted.
+    fn joint_motion(
+        &self,
+        group: &Group,
+        members: &[Member],
+        nodes: &impl NodeAccess,
+        before: Option<Before>,
+    ) -> Motion {
         match members {
             [only] if !group.is_upright() => Motion {
                 velocity: nodes.velocity(only.place as usize),
                 leaves: [false; 2],
             },
-            _ => self.between_uprights(group, members, nodes),
+            _ => self.between_uprights(group, members, nodes, before),
         }
     }
 
@@ -132,8 +169,9 @@ impl Walls {
         group: &Group,
         members: &[Member],
         nodes: &impl NodeAccess,
+        before: Before,
     ) -> Motion {
-        let mut motion = self.joint_motion(group, members, nodes);
+        let mut motion = self.joint_motion(group, members, nodes, Some(before));
         for surface in group.surfaces.iter().flatten() {
             constrain_to(surface, &mut motion.velocity);
         }
@@ -146,6 +184,7 @@ impl Walls {
         group: &Group,
         members: &[Member],
         nodes: &impl NodeAccess,
+        before: Option<Before>,
     ) -> Motion {
         let folded = Folded::of(members, nodes);
         let mut velocity = folded.momentum / folded.mass;
@@ -154,8 +193,12 @@ impl Walls {
             let (Meets::Near { inward } | Meets::On { inward }) = meets else {
                 continue;
             };
-            leaves[axis] =
-                folded.unfolded[axis] * inward > 0.0 && self.upright.lets_go(axis, inward);
+            let momentum = folded.unfolded[axis] * inward;
+            let pressed = before.map_or(0.0, |before| {
+                let lost = (before.momentum[axis] * inward - momentum).max(0.0);
+                lost * before.crossing * meets.share_of_pressure()
+            });
+            leaves[axis] = momentum > pressed && self.upright.lets_go(axis, inward);
             if leaves[axis] {
                 velocity[axis] = folded.unfolded[axis] / folded.mass;
                 continue;
@@ -199,9 +242,14 @@ impl Answer {
     fn account_for(&mut self, members: &[Member], nodes: &impl NodeAccess, dt: f64) {
         self.impulse = Impulse::default();
         self.changed = false;
+        self.left = [0.0; 2];
         for member in members {
             let place = member.place as usize;
-            let change = self.velocity_of(member) - nodes.velocity(place);
+            let velocity = self.velocity_of(member);
+            for axis in 0..2 {
+                self.left[axis] += velocity[axis] * nodes.mass(place);
+            }
+            let change = velocity - nodes.velocity(place);
             self.changed |= change != Vec3::zeros();
             let present = member.resting + nodes.displacement(place, dt);
             self.impulse.add_at(&present, &(change * nodes.mass(place)));

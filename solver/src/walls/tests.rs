@@ -3,6 +3,10 @@ use crate::grid::{Grid, block_of};
 use crate::kernel::Lattice;
 
 pub(super) const H: f64 = 0.01;
+const PACE: WallPace = WallPace {
+    dt: 1e-3,
+    crossing: 1.0,
+};
 
 pub(super) fn plane(name: &'static str, normal: Vec3, offset: f64, flow_friction: f64) -> Plane {
     Plane {
@@ -73,7 +77,7 @@ pub(super) fn constrained(walls: &Walls, grid: &mut Grid) -> Impulse {
     let before = momentum(grid);
     let mut boundary = Boundary::default();
     walls.find_boundary(grid, &mut boundary);
-    let given = walls.constrain(&mut boundary, grid, 1e-3);
+    let given = walls.constrain(&mut boundary, grid, PACE);
     let after = momentum(grid);
     assert!((after.linear - before.linear - given.linear).norm() < 1e-14);
     assert!((after.angular - before.angular - given.angular).norm() < 1e-14);

@@ -73,6 +73,15 @@ pub(super) enum Meets {
 }
 
 impl Meets {
+    /// Pressure's impulse on the nodes on the wall over that on these, by their masses: the
+    /// kernel gives 3/4 of it to half a cell, and 1/4 to a cell and its image.
+    pub(super) fn share_of_pressure(self) -> f64 {
+        match self {
+            Meets::Near { .. } => 6.0,
+            Meets::Not | Meets::On { .. } => 1.0,
+        }
+    }
+
     /// Share of the kernel on the channel's side, images counted with it.
     pub(super) fn room(self) -> f64 {
         match self {

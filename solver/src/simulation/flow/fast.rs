@@ -309,9 +309,10 @@ impl Flow for FastFlow {
         self.nodes
             .advance(&self.forces, &given.gravity, dt, self.level);
         laps.done(Verb::Nodes);
-        let from_walls = given
-            .walls
-            .constrain(&mut self.boundary, &mut self.nodes, dt);
+        let from_walls =
+            given
+                .walls
+                .constrain(&mut self.boundary, &mut self.nodes, given.wall_pace(dt));
         laps.done(Verb::Walls);
         if !last {
             self.pass(dt);

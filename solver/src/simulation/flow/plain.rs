@@ -205,9 +205,10 @@ impl Flow for PlainFlow {
         );
         self.grid.advance_momentum(given.gravity, dt);
         laps.done(Verb::Nodes);
-        let from_walls = given
-            .walls
-            .constrain(&mut self.boundary, &mut self.grid, dt);
+        let from_walls =
+            given
+                .walls
+                .constrain(&mut self.boundary, &mut self.grid, given.wall_pace(dt));
         laps.done(Verb::Walls);
         self.grid.displace(dt);
         transfer::gather_gradient(&self.grid, &self.points, dt, &mut self.deformations);
