@@ -273,6 +273,7 @@ mod tests {
             projected_area: 0.01,
             speed_squared: 0.0,
             free: free || place > 0,
+            lies_on_flow: false,
             fixed: !free && place == 0,
         };
         Crowd(starts.iter().enumerate().map(weighty).collect())
