@@ -6,9 +6,10 @@ use crate::contact::wall_touch::WallTouch;
 use crate::math::{Mat3, Vec3};
 use crate::motion::{PrescribedMotion, Velocities};
 use crate::shape::SpheroPolyhedron;
-use nalgebra::UnitQuaternion;
+use nalgebra::{Quaternion, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
+mod free_turning;
 mod inertia;
 
 pub use inertia::InverseInertia;
@@ -312,18 +313,25 @@ impl Body {
         }
     }
 
-    /// Moves and turns freely for `dt`: the midpoint rule for the orientation,
-    /// at constant angular momentum.
+    /// Moves and turns freely for `dt`, at constant momentum and angular momentum. The
+    /// turning is reversible and symplectic: its energy stays near that of the start.
     pub fn drift(&mut self, dt: f64) {
         self.state.position += self.velocity() * dt;
-        let start = self.state.orientation;
-        let angular_momentum = self.state.angular_momentum;
-        let at_start = self.inverse_inertia_times(&start, &angular_momentum);
-        let middle = UnitQuaternion::from_scaled_axis(at_start * (0.5 * dt)) * start;
-        let at_middle = self.inverse_inertia_times(&middle, &angular_momentum);
-        let mut end = UnitQuaternion::from_scaled_axis(at_middle * dt) * start;
-        end.renormalize();
-        self.state.orientation = end;
+        self.state.orientation = if self.freedom == Freedom::InPlane {
+            self.turned_in_plane(dt)
+        } else {
+            let state = &self.state;
+            self.inverse_inertia
+                .turned_freely(&state.orientation, &state.angular_momentum, dt)
+        };
+    }
+
+    /// Orientation after `dt` of turning about the direction of y, which is a principal
+    /// axis but for rounding: that would turn it out of the plane.
+    fn turned_in_plane(&self, dt: f64) -> UnitQuaternion<f64> {
+        let (sin, cos) = (0.5 * self.angular_velocity().y * dt).sin_cos();
+        let turn = Quaternion::new(cos, 0.0, sin, 0.0);
+        UnitQuaternion::new_normalize(turn * self.state.orientation.into_inner())
     }
 
     /// Name of the first quantity that is no number, if any.
