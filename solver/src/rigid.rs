@@ -117,6 +117,19 @@ impl Load {
         self.force += force;
         self.torque += arm.cross(force);
     }
+
+    /// A share of it, or its multiple.
+    pub fn times(&self, factor: f64) -> Self {
+        Self {
+            force: self.force * factor,
+            torque: self.torque * factor,
+        }
+    }
+
+    /// Power at these velocities of the body that it acts on [W].
+    pub fn power(&self, at: &Velocities) -> f64 {
+        self.force.dot(&at.linear) + self.torque.dot(&at.angular)
+    }
 }
 
 impl Body {
@@ -128,6 +141,19 @@ impl Body {
     /// Angular velocity in world axes [rad/s].
     pub fn angular_velocity(&self) -> Vec3 {
         self.inverse_inertia_times(&self.state.orientation, &self.state.angular_momentum)
+    }
+
+    /// Both, in world axes.
+    pub fn velocities(&self) -> Velocities {
+        self.velocities_with(&self.state.momentum, &self.state.angular_momentum)
+    }
+
+    /// The same with other momenta, as it stands.
+    pub fn velocities_with(&self, momentum: &Vec3, angular_momentum: &Vec3) -> Velocities {
+        Velocities {
+            linear: momentum / self.mass,
+            angular: self.inverse_inertia_times(&self.state.orientation, angular_momentum),
+        }
     }
 
     /// Velocity of the place at `arm` from the centre of mass [m/s].
@@ -219,10 +245,7 @@ impl Body {
     /// if it has no such motion.
     pub fn work_against(&self, load: &Load, dt: f64) -> f64 {
         match self.freedom {
-            Freedom::Prescribed(_) => {
-                let turning = load.torque.dot(&self.angular_velocity());
-                -(load.force.dot(&self.velocity()) + turning) * dt
-            }
+            Freedom::Prescribed(_) => -load.power(&self.velocities()) * dt,
             Freedom::Free | Freedom::InPlane | Freedom::Fixed => 0.0,
         }
     }
@@ -302,8 +325,10 @@ impl Body {
         }
     }
 
-    /// Changes momentum and angular momentum by `load` over `dt`.
-    pub fn kick(&mut self, load: &Load, dt: f64) {
+    /// Changes momentum and angular momentum by `load` over `dt`; the mean velocities
+    /// meanwhile, at which the load does the work that the kinetic energy changes by.
+    pub fn kick(&mut self, load: &Load, dt: f64) -> Velocities {
+        let before = (self.state.momentum, self.state.angular_momentum);
         self.state.momentum += load.force * dt;
         self.state.angular_momentum += load.torque * dt;
         if self.freedom == Freedom::InPlane {
@@ -311,6 +336,8 @@ impl Body {
             self.state.angular_momentum.x = 0.0;
             self.state.angular_momentum.z = 0.0;
         }
+        let after = (self.state.momentum, self.state.angular_momentum);
+        self.velocities_with(&(0.5 * (before.0 + after.0)), &(0.5 * (before.1 + after.1)))
     }
 
     /// Moves and turns freely for `dt`, at constant momentum and angular momentum. The

@@ -3,18 +3,22 @@
 
 use crate::contact::body_body::{Contacts, Meeting, Separation, least_gap};
 use crate::contact::body_wall::touch_walls;
+use crate::contact::dissipation::Taken;
 use crate::contact::law::ContactLaw;
 use crate::contact::neighbours::{Ball, overlapping};
 use crate::math::Vec3;
+use crate::motion::Velocities;
 use crate::rigid::{Body, Freedom, Load};
 use crate::walls::{Impulse, Plane};
 use rayon::prelude::*;
 
+mod balance;
 mod division;
 mod member;
 mod mover;
 mod pace;
 
+pub use balance::EnergyReport;
 use division::islands;
 use mover::Mover;
 use pace::substeps;
@@ -42,6 +46,8 @@ pub struct BodyReport {
     pub body_load: Load,
     /// Work that a prescribed motion did on other bodies [J].
     pub work: f64,
+    /// Balance of its energy.
+    pub energy: EnergyReport,
     /// Body sub-steps.
     pub substeps: u32,
     /// Body sub-steps that contacts and spin ask for; none are taken if they are more
@@ -246,6 +252,10 @@ struct Member<'a> {
     flow: Load,
     /// Where its centre is at the start of the flow's sub-step [m].
     start: Vec3,
+    /// Mean velocities in the last half kick.
+    mean: Velocities,
+    /// What its contacts with walls took in the last sub-step.
+    taken: Taken,
 }
 
 /// Two bodies of which one at least is a member.
@@ -256,6 +266,8 @@ struct Met<'a> {
     separation: Separation,
     /// As found after the last drift.
     contacts: Contacts,
+    /// What they took in the last sub-step.
+    taken: Taken,
 }
 
 #[derive(Clone, Copy)]
@@ -313,31 +325,28 @@ fn advance_together(
         return;
     }
     let h = dt / asked;
+    balance::begin(members, meetings);
     for done in 1..=asked as u32 {
+        half_kick(members, movers, meetings, around, 0.5 * h);
         for mover in movers.iter_mut() {
             mover.follow(around.time, f64::from(done) * h);
         }
         for member in members.iter_mut() {
-            member.half_kick(&around.gravity, 0.5 * h);
             member.body.drift(h);
         }
         find_contacts(members, movers, meetings, h);
         for member in members.iter_mut() {
-            touch_walls(member.body, around.planes, h);
+            member.taken = touch_walls(member.body, around.planes, h);
         }
         touch_bodies(members, movers, meetings, h);
         for mover in movers.iter_mut() {
             mover.take_in(h);
         }
-        for member in members.iter_mut() {
-            member.half_kick(&around.gravity, 0.5 * h);
-            member.report.substeps += 1;
-            member.report.substeps_supported += u32::from(member.body.is_supported());
-            let state = &member.body.state;
-            let radius = member.body.shape.sphero_radius();
-            member.report.overlap(state.wall_overlap / radius);
-        }
+        half_kick(members, movers, meetings, around, 0.5 * h);
+        balance::take_in_losses(members, movers, meetings, h);
+        members.iter_mut().for_each(Member::count_substep);
     }
+    balance::end(members, meetings, &around.gravity);
     for member in members {
         let report = &mut *member.report;
         for load in [&mut report.wall_load, &mut report.body_load] {
@@ -346,6 +355,19 @@ fn advance_together(
         }
         member.watch_rest(dt);
     }
+}
+
+fn half_kick(
+    members: &mut [Member],
+    movers: &[Mover],
+    meetings: &[Met],
+    around: &Surroundings,
+    dt: f64,
+) {
+    for member in members.iter_mut() {
+        member.half_kick(&around.gravity, dt);
+    }
+    balance::take_in_work(members, movers, meetings, dt);
 }
 
 fn body_of<'a>(members: &'a [Member], movers: &'a [Mover], side: Side<'a>) -> &'a Body {
@@ -399,8 +421,9 @@ fn touch_bodies(members: &mut [Member], movers: &mut [Mover], meetings: &mut [Me
     }
     for met in meetings {
         let both = met.sides.map(|side| body_of(members, movers, side));
-        let exchange = met.meeting.touch(both, &met.law, &met.contacts, dt);
+        met.taken = met.meeting.touch(both, &met.law, &met.contacts, dt);
         if met.meeting.touches() {
+            let exchange = met.meeting.exchange(both);
             let [one, other] = met.sides;
             take(members, movers, [one, other], &exchange.on_first);
             take(members, movers, [other, one], &exchange.on_second);
