@@ -22,7 +22,7 @@ use crate::verify::{Case, Effort, How};
 use scree_solver::math::{Mat3, Vec3};
 use scree_solver::rigid::Body;
 use scree_solver::shape::SpheroPolyhedron;
-use scree_solver::simulation::Scene;
+use scree_solver::simulation::{Guards, Scene};
 use serde_json::json;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
@@ -153,6 +153,7 @@ fn scene(body: Body, step: f64, end: f64) -> Result<Scene, Trouble> {
     let mut scene = thrown_down(&json!({}))?;
     scene.bodies = vec![body];
     scene.given.planes.clear();
+    scene.given.guards = Guards::ANY_SPEED;
     scene.given.timing.longest_substep = step;
     scene.given.timing.duration = end;
     Ok(scene)
