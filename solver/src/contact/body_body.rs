@@ -5,13 +5,15 @@ use crate::contact::dissipation::{Damping, Taken, stopping};
 use crate::contact::friction::{Held, Spring, viscous_part};
 use crate::contact::law::{ContactLaw, mass_seen};
 use crate::math::Vec3;
-use crate::rigid::{Body, Freedom, Load};
+use crate::rigid::{Body, Load};
 use serde::{Deserialize, Serialize};
 
+mod motion;
 mod places;
 mod segments;
 mod separation;
 
+use motion::Motion;
 pub use places::Contacts;
 use places::{Between, Contact, Near, contacts};
 pub use separation::{Separation, least_gap};
@@ -366,45 +368,6 @@ impl Exchange {
                 torque: push.torque - apart.cross(&push.force),
             },
         }
-    }
-}
-
-/// How a body moves, or begins to: at its centre, and turning.
-struct Motion {
-    linear: Vec3,
-    angular: Vec3,
-}
-
-impl Motion {
-    const NONE: Self = Self {
-        linear: Vec3::new(0.0, 0.0, 0.0),
-        angular: Vec3::new(0.0, 0.0, 0.0),
-    };
-
-    /// A fixed body has none.
-    fn velocity(body: &Body) -> Self {
-        match body.freedom {
-            Freedom::Fixed => Self::NONE,
-            Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => Self {
-                linear: body.velocity(),
-                angular: body.angular_velocity(),
-            },
-        }
-    }
-
-    /// What a load gives a body that does not turn yet.
-    fn acceleration(body: &Body, load: &Load) -> Self {
-        match body.freedom {
-            Freedom::Fixed | Freedom::Prescribed(_) => Self::NONE,
-            Freedom::Free | Freedom::InPlane => Self {
-                linear: load.force / body.mass,
-                angular: body.angular_acceleration(&load.torque),
-            },
-        }
-    }
-
-    fn at(&self, arm: &Vec3) -> Vec3 {
-        self.linear + self.angular.cross(arm)
     }
 }
 

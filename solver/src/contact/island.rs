@@ -17,6 +17,7 @@ mod division;
 mod member;
 mod mover;
 mod pace;
+mod touching;
 
 pub use balance::EnergyReport;
 use division::islands;
@@ -25,6 +26,7 @@ use pace::substeps;
 #[cfg(test)]
 use pace::substeps_alone;
 pub use pace::{MOST_SUBSTEPS, substeps_ahead};
+use touching::{find_contacts, touch_bodies};
 
 /// A body none of whose places is faster is still [m/s].
 const STILL: f64 = 1e-5;
@@ -375,72 +377,6 @@ fn body_of<'a>(members: &'a [Member], movers: &'a [Mover], side: Side<'a>) -> &'
         Side::Member(place) => members[place].body,
         Side::Barrier(body) => body,
         Side::Mover(place) => &movers[place].body,
-    }
-}
-
-/// Finds where bodies touch after a drift of `dt`, and counts how many touch each.
-fn find_contacts(members: &mut [Member], movers: &mut [Mover], meetings: &mut [Met], dt: f64) {
-    let members_bodies = members.iter_mut().map(|member| &mut *member.body);
-    for body in members_bodies.chain(movers.iter_mut().map(|mover| &mut mover.body)) {
-        body.state.touching_bodies = 0;
-    }
-    for met in meetings {
-        let [first, second] = met.sides.map(|side| body_of(members, movers, side));
-        let approach = dt * (first.speed_bound() + second.speed_bound());
-        if met.separation.outlasts(approach) {
-            met.contacts = Contacts::default();
-            continue;
-        }
-        met.contacts = met
-            .meeting
-            .find([first, second], &met.law, &mut met.separation);
-        if met.meeting.touches() {
-            let smaller = f64::min(first.shape.sphero_radius(), second.shape.sphero_radius());
-            let ratio = met.meeting.deepest / smaller;
-            for side in met.sides {
-                match side {
-                    Side::Member(place) => {
-                        members[place].body.state.touching_bodies += 1;
-                        members[place].report.overlap(ratio);
-                    }
-                    Side::Mover(place) => movers[place].body.state.touching_bodies += 1,
-                    Side::Barrier(_) => {}
-                }
-            }
-        }
-    }
-}
-
-/// Renews what bodies do to each other after a drift of `dt`.
-fn touch_bodies(members: &mut [Member], movers: &mut [Mover], meetings: &mut [Met], dt: f64) {
-    let members_bodies = members.iter_mut().map(|member| &mut *member.body);
-    for body in members_bodies.chain(movers.iter_mut().map(|mover| &mut mover.body)) {
-        let state = &mut body.state;
-        state.body_load = Load::default();
-        state.barrier_load = Load::default();
-    }
-    for met in meetings {
-        let both = met.sides.map(|side| body_of(members, movers, side));
-        met.taken = met.meeting.touch(both, &met.law, &met.contacts, dt);
-        if met.meeting.touches() {
-            let exchange = met.meeting.exchange(both);
-            let [one, other] = met.sides;
-            take(members, movers, [one, other], &exchange.on_first);
-            take(members, movers, [other, one], &exchange.on_second);
-        }
-    }
-}
-
-/// Takes in what the second side does to the first.
-fn take(members: &mut [Member], movers: &mut [Mover], [to, from]: [Side; 2], load: &Load) {
-    let state = match to {
-        Side::Member(place) => &mut members[place].body.state,
-        Side::Mover(place) => &mut movers[place].body.state,
-        Side::Barrier(_) => return,
-    };
-    match from {
-        Side::Member(_) => state.body_load.add(load),
-        Side::Barrier(_) | Side::Mover(_) => state.barrier_load.add(load),
     }
 }
 

@@ -41,20 +41,20 @@ pub(super) fn run(findings: &mut Findings) {
         zero("slender: angular momentum drift", "kg m²/s", 1e-12)
             .by(over("of it", angular_momentum)),
     ];
-    findings.take(&resolution, questions, spin(start));
+    findings.take(&resolution, questions, spin(&start));
 }
 
 fn body() -> Result<Body, Trouble> {
     Ok(spinning(free_box([0.01, 0.01, 0.2], 0.001)?, SPIN))
 }
 
-fn spin(start: Body) -> Result<Answer<3>, Trouble> {
+fn spin(start: &Body) -> Result<Answer<3>, Trouble> {
     let mut run = Run::start(scene(start.clone(), STEP, END)?)?;
     run.to(END)?;
     let body = &run.simulation.bodies()[0];
     let energy = body.kinetic_energy() - start.kinetic_energy();
     let momentum = body.state.angular_momentum - start.state.angular_momentum;
-    Ok(run.answer([off(&start, body), energy.abs(), momentum.norm()]))
+    Ok(run.answer([off(start, body), energy.abs(), momentum.norm()]))
 }
 
 /// Largest angle by which two of its axes are off [rad].

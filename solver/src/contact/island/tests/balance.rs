@@ -74,7 +74,6 @@ fn what_a_bouncing_body_loses_is_accounted_for() {
             let mut body = [thrown(shape.clone(), restitution)];
             let balance = balances(&mut body, 1000, |_| {})[0];
             let share = share(&balance, &body[0]);
-            println!("restitution {restitution}: {share:e}, {balance:?}");
             assert!(balance.dissipated > 0.1 * balance.start);
             assert!(share.abs() < RESOLVED, "{share:e}");
         }
@@ -98,7 +97,6 @@ fn what_bodies_exchange_adds_up() {
     assert_eq!(found[0].body_work, -found[1].body_work);
     for (balance, body) in found.iter().zip(&bodies) {
         let share = share(balance, body);
-        println!("{share:e}, {balance:?}");
         assert!(share.abs() < RESOLVED, "{share:e}");
     }
 }
@@ -113,7 +111,6 @@ fn a_standing_stack_makes_nothing() {
     }
     for (balance, body) in balances(&mut bodies, 1000, |_| {}).iter().zip(&bodies) {
         let share = share(balance, body);
-        println!("{share:e}, {balance:?}");
         assert!(share.abs() < 1e-5, "{share:e}");
     }
 }
@@ -133,7 +130,6 @@ fn energy_out_of_nothing_is_found_and_named() {
     let found = balances(&mut bodies, 2000, |bodies| {
         bodies[0].wall_law.stiffness *= 4.0;
     });
-    println!("{:e} {:e}; {:e}", found[0].made, 3.0 * held, found[1].made);
     assert!((found[0].rise() / (3.0 * held) - 1.0).abs() < 0.05);
     assert!(found[1].made.abs() < 1e-3 * held);
 }
