@@ -9,8 +9,6 @@ use crate::walls::{Impulse, in_plane};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-pub mod body_energy;
-
 /// Points summed by one task; fixed, so that sums do not depend on threads.
 const CHUNK: usize = 1024;
 

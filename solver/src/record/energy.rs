@@ -1,7 +1,7 @@
 //! Energy of a body in the outcome.
 
 use super::BodyEnergy;
-use crate::diagnostics::body_energy::{potential, stored};
+use crate::body_energy::{potential, stored};
 use crate::simulation::Simulation;
 
 /// Balance of a body's energy so far; none if no load moves it.

@@ -9,10 +9,10 @@ mod saved;
 mod setup;
 mod step;
 
+use crate::body_energy::BodyEnergy;
 use crate::contact::body_body::Meeting;
 use crate::contact::island::{self, BodyReport};
 use crate::contact::point_body::{Around, FlowLoad};
-use crate::diagnostics::body_energy::BodyEnergy;
 use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::{RestoreError, SaveError, SetupError, StepError};
 use crate::fast::instructions::Instructions;

@@ -4,10 +4,10 @@
 use super::flow::{StepEnd, StepStart, Substep};
 use super::laps::Verb;
 use super::{Simulation, StepInHand, SubstepReport};
+use crate::body_energy::BodyEnergy;
 use crate::contact::island;
 use crate::contact::point_body::impulse_on_flow;
 use crate::crowding::Tending;
-use crate::diagnostics::body_energy::BodyEnergy;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
 use crate::rigid::{Body, Load};

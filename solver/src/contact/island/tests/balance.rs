@@ -1,7 +1,7 @@
 //! Balance of bodies' energies.
 
 use super::*;
-use crate::diagnostics::body_energy::{BodyEnergy, potential, stored};
+use crate::body_energy::{BodyEnergy, potential, stored};
 use crate::rigid::fixture::tetrahedron;
 
 /// Balances of bodies that move for so many milliseconds over a floor.
