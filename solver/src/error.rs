@@ -142,6 +142,20 @@ pub enum StepError {
         /// Speed [m/s].
         speed_m_s: f64,
     },
+    /// A body has energy that nothing gave it: its contacts made it.
+    #[error(
+        "t = {time_s:.6} s: the contacts of body {body} have made {made_j:.4e} J, more than {limit_j:.4e} J"
+    )]
+    BodyEnergyMade {
+        /// Simulated time [s].
+        time_s: f64,
+        /// Index of the body in the scenario.
+        body: usize,
+        /// Rise of what was made above its running minimum [J].
+        made_j: f64,
+        /// Largest rise accepted [J].
+        limit_j: f64,
+    },
     /// A point is denser than its material can be.
     #[error(
         "t = {time_s:.6} s: point {point} is crushed to {density_kg_m3:.0} kg/m³, more than {limit_kg_m3:.0} kg/m³: the material is too soft for its weight or its speed (sound_speed_m_s, youngs_modulus_pa)"
@@ -226,6 +240,7 @@ impl StepError {
             | Self::BodyStepCollapse { time_s, .. }
             | Self::SpeedRunaway { time_s, .. }
             | Self::EnergyRunaway { time_s, .. }
+            | Self::BodyEnergyMade { time_s, .. }
             | Self::Crushed { time_s, .. }
             | Self::PointInsideBody { time_s, .. }
             | Self::PointBehindWall { time_s, .. } => time_s,

@@ -10,6 +10,7 @@
 //! incline), y across (0 on the centre line), z up (0 on the floor).
 
 pub mod accuracy;
+pub mod body_energy;
 pub mod contact;
 pub mod crowding;
 pub mod diagnostics;

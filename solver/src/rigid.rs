@@ -6,9 +6,10 @@ use crate::contact::wall_touch::WallTouch;
 use crate::math::{Mat3, Vec3};
 use crate::motion::{PrescribedMotion, Velocities};
 use crate::shape::SpheroPolyhedron;
-use nalgebra::UnitQuaternion;
+use nalgebra::{Quaternion, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
+mod free_turning;
 mod inertia;
 
 pub use inertia::InverseInertia;
@@ -116,6 +117,19 @@ impl Load {
         self.force += force;
         self.torque += arm.cross(force);
     }
+
+    /// A share of it, or its multiple.
+    pub fn times(&self, factor: f64) -> Self {
+        Self {
+            force: self.force * factor,
+            torque: self.torque * factor,
+        }
+    }
+
+    /// Power at these velocities of the body that it acts on [W].
+    pub fn power(&self, at: &Velocities) -> f64 {
+        self.force.dot(&at.linear) + self.torque.dot(&at.angular)
+    }
 }
 
 impl Body {
@@ -127,6 +141,19 @@ impl Body {
     /// Angular velocity in world axes [rad/s].
     pub fn angular_velocity(&self) -> Vec3 {
         self.inverse_inertia_times(&self.state.orientation, &self.state.angular_momentum)
+    }
+
+    /// Both, in world axes.
+    pub fn velocities(&self) -> Velocities {
+        self.velocities_with(&self.state.momentum, &self.state.angular_momentum)
+    }
+
+    /// The same with other momenta, as it stands.
+    pub fn velocities_with(&self, momentum: &Vec3, angular_momentum: &Vec3) -> Velocities {
+        Velocities {
+            linear: momentum / self.mass,
+            angular: self.inverse_inertia_times(&self.state.orientation, angular_momentum),
+        }
     }
 
     /// Velocity of the place at `arm` from the centre of mass [m/s].
@@ -218,10 +245,7 @@ impl Body {
     /// if it has no such motion.
     pub fn work_against(&self, load: &Load, dt: f64) -> f64 {
         match self.freedom {
-            Freedom::Prescribed(_) => {
-                let turning = load.torque.dot(&self.angular_velocity());
-                -(load.force.dot(&self.velocity()) + turning) * dt
-            }
+            Freedom::Prescribed(_) => -load.power(&self.velocities()) * dt,
             Freedom::Free | Freedom::InPlane | Freedom::Fixed => 0.0,
         }
     }
@@ -301,8 +325,10 @@ impl Body {
         }
     }
 
-    /// Changes momentum and angular momentum by `load` over `dt`.
-    pub fn kick(&mut self, load: &Load, dt: f64) {
+    /// Changes momentum and angular momentum by `load` over `dt`; the mean velocities
+    /// meanwhile, at which the load does the work that the kinetic energy changes by.
+    pub fn kick(&mut self, load: &Load, dt: f64) -> Velocities {
+        let before = (self.state.momentum, self.state.angular_momentum);
         self.state.momentum += load.force * dt;
         self.state.angular_momentum += load.torque * dt;
         if self.freedom == Freedom::InPlane {
@@ -310,20 +336,29 @@ impl Body {
             self.state.angular_momentum.x = 0.0;
             self.state.angular_momentum.z = 0.0;
         }
+        let after = (self.state.momentum, self.state.angular_momentum);
+        self.velocities_with(&(0.5 * (before.0 + after.0)), &(0.5 * (before.1 + after.1)))
     }
 
-    /// Moves and turns freely for `dt`: the midpoint rule for the orientation,
-    /// at constant angular momentum.
+    /// Moves and turns freely for `dt`, at constant momentum and angular momentum. The
+    /// turning is reversible and symplectic: its energy stays near that of the start.
     pub fn drift(&mut self, dt: f64) {
         self.state.position += self.velocity() * dt;
-        let start = self.state.orientation;
-        let angular_momentum = self.state.angular_momentum;
-        let at_start = self.inverse_inertia_times(&start, &angular_momentum);
-        let middle = UnitQuaternion::from_scaled_axis(at_start * (0.5 * dt)) * start;
-        let at_middle = self.inverse_inertia_times(&middle, &angular_momentum);
-        let mut end = UnitQuaternion::from_scaled_axis(at_middle * dt) * start;
-        end.renormalize();
-        self.state.orientation = end;
+        self.state.orientation = if self.freedom == Freedom::InPlane {
+            self.turned_in_plane(dt)
+        } else {
+            let state = &self.state;
+            self.inverse_inertia
+                .turned_freely(&state.orientation, &state.angular_momentum, dt)
+        };
+    }
+
+    /// Orientation after `dt` of turning about the direction of y, which is a principal
+    /// axis but for rounding: that would turn it out of the plane.
+    fn turned_in_plane(&self, dt: f64) -> UnitQuaternion<f64> {
+        let (sin, cos) = (0.5 * self.angular_velocity().y * dt).sin_cos();
+        let turn = Quaternion::new(cos, 0.0, sin, 0.0);
+        UnitQuaternion::new_normalize(turn * self.state.orientation.into_inner())
     }
 
     /// Name of the first quantity that is no number, if any.

@@ -192,6 +192,7 @@ mod tests {
                 principal_moments_kg_m2: [1e-5; 3],
                 principal_axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             },
+            energy: None,
         }
     }
 

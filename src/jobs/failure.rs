@@ -178,6 +178,12 @@ fn step_numbers(error: &StepError) -> Value {
                 "time_s": time_s, "rise_j": rise_j, "limit_j": limit_j, "speed_m_s": speed_m_s
             }),
         ),
+        StepError::BodyEnergyMade {
+            time_s,
+            body,
+            made_j,
+            limit_j,
+        } => json!({"time_s": time_s, "body": body, "made_j": made_j, "limit_j": limit_j}),
         StepError::Crushed {
             time_s,
             point,

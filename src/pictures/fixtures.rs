@@ -179,6 +179,7 @@ pub(super) fn slid() -> BodyOutcome {
             principal_moments_kg_m2: [3.36e-5; 3],
             principal_axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         },
+        energy: None,
     }
 }
 

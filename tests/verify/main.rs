@@ -118,6 +118,21 @@ fn cube_on_incline() {
     holds("cube-on-incline");
 }
 
+// The more sides, the less they lose; six have not yet lost as much as eight on this way.
+#[test]
+fn rolling_prisms() {
+    holds("rolling-prisms");
+    let found = verified("rolling-prisms").found;
+    let taken: Vec<f64> = found
+        .of("taken by contacts, over what gravity gave")
+        .map(|finding| finding.measured.expect("it was measured"))
+        .collect();
+    assert!(
+        taken.len() == 4 && taken[1..].is_sorted_by(|few, many| few > many),
+        "{taken:?}"
+    );
+}
+
 #[test]
 fn elastic_bar() {
     holds("elastic-bar");

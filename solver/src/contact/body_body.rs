@@ -1,17 +1,19 @@
 //! Bodies on bodies: what two of them do to each other, and what their
 //! contacts remember (docs/method.md, equations 43–47).
 
-use crate::contact::dissipation::{Damping, stopping};
+use crate::contact::dissipation::{Damping, Taken, stopping};
 use crate::contact::friction::{Held, Spring, viscous_part};
 use crate::contact::law::{ContactLaw, mass_seen};
 use crate::math::Vec3;
-use crate::rigid::{Body, Freedom, Load};
+use crate::rigid::{Body, Load};
 use serde::{Deserialize, Serialize};
 
+mod motion;
 mod places;
 mod segments;
 mod separation;
 
+use motion::Motion;
 pub use places::Contacts;
 use places::{Between, Contact, Near, contacts};
 pub use separation::{Separation, least_gap};
@@ -26,6 +28,8 @@ pub struct Meeting {
     pub deepest: f64,
     /// Energy their contacts hold now [J].
     pub energy: f64,
+    /// What they do to the second now, the torque being about the first's centre.
+    pub push: Load,
 }
 
 /// The springs of one contact.
@@ -57,6 +61,7 @@ impl Meeting {
             springs: Vec::new(),
             deepest: 0.0,
             energy: 0.0,
+            push: Load::default(),
         }
     }
 
@@ -78,32 +83,55 @@ impl Meeting {
         found
     }
 
-    /// Renews springs and forces of the contacts found after a drift of `dt`.
+    /// Renews springs and forces of the contacts found after a drift of `dt`; what they
+    /// take for good.
     pub fn touch(
         &mut self,
         [first, second]: [&Body; 2],
         law: &ContactLaw,
         found: &Contacts,
         dt: f64,
-    ) -> Exchange {
+    ) -> Taken {
+        let held = energy_of(&self.springs);
+        self.push = found.push;
+        self.energy = found.energy;
         if found.places.is_empty() {
             self.springs.clear();
-            self.energy = found.energy;
-            return Exchange::of(&found.push, &(second.state.position - first.state.position));
+            return Taken {
+                lost: held,
+                ..Taken::default()
+            };
         }
         let pair = Pair::new(first, second, law, &found.push);
         self.springs = take_over(&self.springs, &found.places, &pair);
+        let mut taken = Taken {
+            lost: (held - energy_of(&self.springs)).max(0.0),
+            ..Taken::default()
+        };
         let pressed = pair.press(&found.places, dt);
-        let rubbed = pair.rub(&pressed, &mut self.springs, dt);
-        self.energy = found.energy + rubbed.energy;
-        let mut push = found.push;
         for pressed in &pressed {
             let Near { place, normal, .. } = &pressed.contact.near;
-            push.add_at(place, &(normal * pressed.damping));
+            taken.damping.add_at(place, &(normal * pressed.damping));
         }
-        push.add(&rubbed.load);
-        Exchange::of(&push, &pair.apart)
+        self.push.add(&taken.damping);
+        let rubbed = pair.rub(&pressed, &mut self.springs, dt);
+        self.energy += rubbed.energy;
+        self.push.add(&rubbed.load);
+        taken.damping.add(&rubbed.taken.damping);
+        taken.lost += rubbed.taken.lost;
+        taken
     }
+
+    /// What the two do to each other now.
+    pub fn exchange(&self, pair: [&Body; 2]) -> Exchange {
+        Exchange::between(pair, &self.push)
+    }
+}
+
+/// What springs hold [J].
+fn energy_of(springs: &[FeatureSprings]) -> f64 {
+    let of_contact = |springs: &FeatureSprings| springs.sliding.energy() + springs.rolling.energy();
+    springs.iter().map(of_contact).sum()
 }
 
 /// The springs of the contacts found, from those `before`. A contact that comes up where
@@ -190,6 +218,8 @@ struct Rubbed {
     load: Load,
     /// What their springs hold [J].
     energy: f64,
+    /// Of these alone.
+    taken: Taken,
 }
 
 impl<'a> Pair<'a> {
@@ -273,6 +303,7 @@ impl<'a> Pair<'a> {
         let mut rubbed = Rubbed {
             load: Load::default(),
             energy: 0.0,
+            taken: Taken::default(),
         };
         let radius = self.equivalent_radius();
         let (mut damping, mut sum) = (Damping::default(), Load::default());
@@ -283,8 +314,10 @@ impl<'a> Pair<'a> {
             let across = |v: &Vec3| v - near.normal * v.dot(&near.normal);
             let mut resist = |spring: &mut Spring, velocity: Vec3, friction: f64| {
                 let cap = friction * pressed.force * share;
+                let (before, way) = (*spring, velocity * dt);
                 spring.turn(&self.turning(), &near.normal, dt);
-                let elastic = spring.slide(&(velocity * dt), cap);
+                let elastic = spring.slide(&way, cap);
+                rubbed.taken.lost += spring.lost_since(&before, &way);
                 let part = viscous_part(&elastic, viscous, &velocity, cap);
                 rubbed.energy += spring.energy();
                 damping.power += part.dot(&velocity);
@@ -302,11 +335,8 @@ impl<'a> Pair<'a> {
             }
         }
         damping.stopping = self.stopping(&sum);
-        let share = damping.share(dt);
-        rubbed.load.add(&Load {
-            force: sum.force * share,
-            torque: sum.torque * share,
-        });
+        rubbed.taken.damping = sum.times(damping.share(dt));
+        rubbed.load.add(&rubbed.taken.damping);
         rubbed
     }
 
@@ -320,6 +350,11 @@ impl<'a> Pair<'a> {
 }
 
 impl Exchange {
+    /// When the second of two bodies is pushed, the torque being about the first's centre.
+    pub fn between([first, second]: [&Body; 2], push: &Load) -> Self {
+        Self::of(push, &(second.state.position - first.state.position))
+    }
+
     /// When the second body is pushed, the torque being about the first's centre;
     /// `apart` is the way from there to the second's.
     fn of(push: &Load, apart: &Vec3) -> Self {
@@ -333,45 +368,6 @@ impl Exchange {
                 torque: push.torque - apart.cross(&push.force),
             },
         }
-    }
-}
-
-/// How a body moves, or begins to: at its centre, and turning.
-struct Motion {
-    linear: Vec3,
-    angular: Vec3,
-}
-
-impl Motion {
-    const NONE: Self = Self {
-        linear: Vec3::new(0.0, 0.0, 0.0),
-        angular: Vec3::new(0.0, 0.0, 0.0),
-    };
-
-    /// A fixed body has none.
-    fn velocity(body: &Body) -> Self {
-        match body.freedom {
-            Freedom::Fixed => Self::NONE,
-            Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => Self {
-                linear: body.velocity(),
-                angular: body.angular_velocity(),
-            },
-        }
-    }
-
-    /// What a load gives a body that does not turn yet.
-    fn acceleration(body: &Body, load: &Load) -> Self {
-        match body.freedom {
-            Freedom::Fixed | Freedom::Prescribed(_) => Self::NONE,
-            Freedom::Free | Freedom::InPlane => Self {
-                linear: load.force / body.mass,
-                angular: body.angular_acceleration(&load.torque),
-            },
-        }
-    }
-
-    fn at(&self, arm: &Vec3) -> Vec3 {
-        self.linear + self.angular.cross(arm)
     }
 }
 

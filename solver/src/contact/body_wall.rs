@@ -1,7 +1,7 @@
 //! Bodies on walls: sphere-swept vertices of a convex body against planes
 //! (docs/method.md, equations 17–19).
 
-use crate::contact::dissipation::{Damping, stopping};
+use crate::contact::dissipation::{Damping, Taken, stopping};
 use crate::contact::friction::{Spring, viscous_part};
 use crate::contact::law::mass_seen;
 use crate::contact::wall_touch::WallTouch;
@@ -37,8 +37,10 @@ fn overlaps<'a>(
         })
 }
 
-/// Renews the body's wall load and its springs after a drift of `dt`.
-pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
+/// Renews the body's wall load and its springs after a drift of `dt`; what the contacts
+/// take for good.
+pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) -> Taken {
+    let mut taken = Taken::default();
     let count = body.shape.core_vertices().len() * planes.len();
     body.state.springs.resize(count, Spring::NEW);
     if body.rolling_friction > 0.0 {
@@ -48,18 +50,19 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) {
     body.state.wall_load = Load::default();
     body.state.wall_energy = 0.0;
     if apart && clear_of(body, planes) {
-        return;
+        return taken;
     }
     let mut touches = std::mem::take(&mut body.wall_touches);
     touches.clear();
     touches.extend(touches_of(body, planes));
     body.state.wall_overlap = deepest_of(&touches);
-    forget_what_is_apart(&mut body.state, &touches);
+    taken.lost = forget_what_is_apart(&mut body.state, &touches);
     if !touches.is_empty() {
-        press(body, &mut touches, dt);
-        rub(body, &touches, dt);
+        press(body, &mut touches, &mut taken, dt);
+        rub(body, &touches, &mut taken, dt);
     }
     body.wall_touches = touches;
+    taken
 }
 
 /// Every vertex that overlaps a wall.
@@ -85,20 +88,24 @@ fn deepest_of(touches: &[WallTouch]) -> f64 {
     overlaps.fold(0.0, f64::max)
 }
 
-fn forget_what_is_apart(state: &mut BodyState, touches: &[WallTouch]) {
+/// Energy that the springs forgotten held [J].
+fn forget_what_is_apart(state: &mut BodyState, touches: &[WallTouch]) -> f64 {
+    let mut lost = 0.0;
     for springs in [&mut state.springs, &mut state.rolling] {
         let mut touching = touches.iter().map(|touch| touch.place).peekable();
         for (place, spring) in springs.iter_mut().enumerate() {
             if touching.next_if_eq(&place).is_none() {
+                lost += spring.energy();
                 *spring = Spring::NEW;
             }
         }
     }
+    lost
 }
 
 /// Normal forces, with the share of damping that takes energy (equation 18b); they are
 /// the first part of the wall's load.
-fn press(body: &mut Body, touches: &mut [WallTouch], dt: f64) {
+fn press(body: &mut Body, touches: &mut [WallTouch], taken: &mut Taken, dt: f64) {
     let law = body.wall_law;
     let mut push = Load::default();
     for touch in &*touches {
@@ -117,6 +124,7 @@ fn press(body: &mut Body, touches: &mut [WallTouch], dt: f64) {
     }
     damping.stopping = stopping(body, &sum);
     let share = damping.share(dt);
+    taken.damping.add(&sum.times(share));
     for touch in touches {
         let elastic = law.elastic_force(touch.overlap);
         touch.force = elastic + share * (touch.force - elastic);
@@ -128,7 +136,7 @@ fn press(body: &mut Body, touches: &mut [WallTouch], dt: f64) {
 
 /// Friction and rolling resistance, with the share of damping that takes energy; they are
 /// the second part of the wall's load.
-fn rub(body: &mut Body, touches: &[WallTouch], dt: f64) {
+fn rub(body: &mut Body, touches: &[WallTouch], taken: &mut Taken, dt: f64) {
     let (mut springs, mut rolling) = (
         std::mem::take(&mut body.state.springs),
         std::mem::take(&mut body.state.rolling),
@@ -143,8 +151,10 @@ fn rub(body: &mut Body, touches: &[WallTouch], dt: f64) {
         let viscous = law.tangential_damping(touch.overlap, touch.mass);
         let across = |v: &Vec3| v - touch.normal * v.dot(&touch.normal);
         let mut resist = |spring: &mut Spring, velocity: Vec3, cap: f64| {
+            let (before, way) = (*spring, velocity * dt);
             spring.stiffen(stiffness);
-            let elastic = spring.slide(&(velocity * dt), cap);
+            let elastic = spring.slide(&way, cap);
+            taken.lost += spring.lost_since(&before, &way);
             let part = viscous_part(&elastic, viscous, &velocity, cap);
             energy += spring.energy();
             damping.power += part.dot(&velocity);
@@ -164,11 +174,9 @@ fn rub(body: &mut Body, touches: &[WallTouch], dt: f64) {
         }
     }
     damping.stopping = stopping(body, &sum);
-    let share = damping.share(dt);
-    load.add(&Load {
-        force: sum.force * share,
-        torque: sum.torque * share,
-    });
+    let damped = sum.times(damping.share(dt));
+    taken.damping.add(&damped);
+    load.add(&damped);
     body.state.wall_load.add(&load);
     body.state.wall_energy += energy;
     (body.state.springs, body.state.rolling) = (springs, rolling);

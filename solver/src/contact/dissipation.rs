@@ -28,6 +28,17 @@ impl Damping {
     }
 }
 
+/// What the contacts of two sides take for good in a sub-step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Taken {
+    /// Damping forces with their share: of the walls on the body, or of two bodies on the
+    /// second, the torque being about the first's centre.
+    pub damping: Load,
+    /// Energy that slipping took, and springs that got stiffer, turned or were given up
+    /// [J].
+    pub lost: f64,
+}
+
 /// D W D of forces on one body among all the sets of damping forces on it: these may
 /// add up, so that each reckons with as many of its kind (Cauchy's inequality).
 pub fn stopping(body: &Body, load: &Load) -> f64 {

@@ -35,6 +35,14 @@ impl Spring {
         self.stiffness = stiffness;
     }
 
+    /// Energy taken for good from motion and spring while the contact slid by `way` [m] and
+    /// the spring became what it is from what it was `before` [J]: what it held, and what
+    /// both forces in the mean put in, less what it holds.
+    pub fn lost_since(&self, before: &Self, way: &Vec3) -> f64 {
+        let force = before.stretch * before.stiffness + self.stretch * self.stiffness;
+        (before.energy() + 0.5 * force.dot(way) - self.energy()).max(0.0)
+    }
+
     /// Turns with the bodies for `dt`, and stays in the plane across `normal`; the
     /// stretch does not grow.
     pub fn turn(&mut self, spin: &Vec3, normal: &Vec3, dt: f64) {
@@ -88,6 +96,11 @@ impl Held {
             stiffness: sum.stiffness + spring.stiffness,
             energy: sum.energy + spring.energy(),
         })
+    }
+
+    /// Σ ½ k_t ξ² [J].
+    pub fn energy(&self) -> f64 {
+        self.energy
     }
 
     /// Factor on every stretch of springs that hold `self` now and held `before` until

@@ -3,24 +3,30 @@
 
 use crate::contact::body_body::{Contacts, Meeting, Separation, least_gap};
 use crate::contact::body_wall::touch_walls;
+use crate::contact::dissipation::Taken;
 use crate::contact::law::ContactLaw;
 use crate::contact::neighbours::{Ball, overlapping};
 use crate::math::Vec3;
+use crate::motion::Velocities;
 use crate::rigid::{Body, Freedom, Load};
 use crate::walls::{Impulse, Plane};
 use rayon::prelude::*;
 
+mod balance;
 mod division;
 mod member;
 mod mover;
 mod pace;
+mod touching;
 
+pub use balance::EnergyReport;
 use division::islands;
 use mover::Mover;
 use pace::substeps;
 #[cfg(test)]
 use pace::substeps_alone;
 pub use pace::{MOST_SUBSTEPS, substeps_ahead};
+use touching::{find_contacts, touch_bodies};
 
 /// A body none of whose places is faster is still [m/s].
 const STILL: f64 = 1e-5;
@@ -42,6 +48,8 @@ pub struct BodyReport {
     pub body_load: Load,
     /// Work that a prescribed motion did on other bodies [J].
     pub work: f64,
+    /// Balance of its energy.
+    pub energy: EnergyReport,
     /// Body sub-steps.
     pub substeps: u32,
     /// Body sub-steps that contacts and spin ask for; none are taken if they are more
@@ -246,6 +254,10 @@ struct Member<'a> {
     flow: Load,
     /// Where its centre is at the start of the flow's sub-step [m].
     start: Vec3,
+    /// Mean velocities in the last half kick.
+    mean: Velocities,
+    /// What its contacts with walls took in the last sub-step.
+    taken: Taken,
 }
 
 /// Two bodies of which one at least is a member.
@@ -256,6 +268,8 @@ struct Met<'a> {
     separation: Separation,
     /// As found after the last drift.
     contacts: Contacts,
+    /// What they took in the last sub-step.
+    taken: Taken,
 }
 
 #[derive(Clone, Copy)]
@@ -313,31 +327,28 @@ fn advance_together(
         return;
     }
     let h = dt / asked;
+    balance::begin(members, meetings);
     for done in 1..=asked as u32 {
+        half_kick(members, movers, meetings, around, 0.5 * h);
         for mover in movers.iter_mut() {
             mover.follow(around.time, f64::from(done) * h);
         }
         for member in members.iter_mut() {
-            member.half_kick(&around.gravity, 0.5 * h);
             member.body.drift(h);
         }
         find_contacts(members, movers, meetings, h);
         for member in members.iter_mut() {
-            touch_walls(member.body, around.planes, h);
+            member.taken = touch_walls(member.body, around.planes, h);
         }
         touch_bodies(members, movers, meetings, h);
         for mover in movers.iter_mut() {
             mover.take_in(h);
         }
-        for member in members.iter_mut() {
-            member.half_kick(&around.gravity, 0.5 * h);
-            member.report.substeps += 1;
-            member.report.substeps_supported += u32::from(member.body.is_supported());
-            let state = &member.body.state;
-            let radius = member.body.shape.sphero_radius();
-            member.report.overlap(state.wall_overlap / radius);
-        }
+        half_kick(members, movers, meetings, around, 0.5 * h);
+        balance::take_in_losses(members, movers, meetings, h);
+        members.iter_mut().for_each(Member::count_substep);
     }
+    balance::end(members, meetings, &around.gravity);
     for member in members {
         let report = &mut *member.report;
         for load in [&mut report.wall_load, &mut report.body_load] {
@@ -348,76 +359,24 @@ fn advance_together(
     }
 }
 
+fn half_kick(
+    members: &mut [Member],
+    movers: &[Mover],
+    meetings: &[Met],
+    around: &Surroundings,
+    dt: f64,
+) {
+    for member in members.iter_mut() {
+        member.half_kick(&around.gravity, dt);
+    }
+    balance::take_in_work(members, movers, meetings, dt);
+}
+
 fn body_of<'a>(members: &'a [Member], movers: &'a [Mover], side: Side<'a>) -> &'a Body {
     match side {
         Side::Member(place) => members[place].body,
         Side::Barrier(body) => body,
         Side::Mover(place) => &movers[place].body,
-    }
-}
-
-/// Finds where bodies touch after a drift of `dt`, and counts how many touch each.
-fn find_contacts(members: &mut [Member], movers: &mut [Mover], meetings: &mut [Met], dt: f64) {
-    let members_bodies = members.iter_mut().map(|member| &mut *member.body);
-    for body in members_bodies.chain(movers.iter_mut().map(|mover| &mut mover.body)) {
-        body.state.touching_bodies = 0;
-    }
-    for met in meetings {
-        let [first, second] = met.sides.map(|side| body_of(members, movers, side));
-        let approach = dt * (first.speed_bound() + second.speed_bound());
-        if met.separation.outlasts(approach) {
-            met.contacts = Contacts::default();
-            continue;
-        }
-        met.contacts = met
-            .meeting
-            .find([first, second], &met.law, &mut met.separation);
-        if met.meeting.touches() {
-            let smaller = f64::min(first.shape.sphero_radius(), second.shape.sphero_radius());
-            let ratio = met.meeting.deepest / smaller;
-            for side in met.sides {
-                match side {
-                    Side::Member(place) => {
-                        members[place].body.state.touching_bodies += 1;
-                        members[place].report.overlap(ratio);
-                    }
-                    Side::Mover(place) => movers[place].body.state.touching_bodies += 1,
-                    Side::Barrier(_) => {}
-                }
-            }
-        }
-    }
-}
-
-/// Renews what bodies do to each other after a drift of `dt`.
-fn touch_bodies(members: &mut [Member], movers: &mut [Mover], meetings: &mut [Met], dt: f64) {
-    let members_bodies = members.iter_mut().map(|member| &mut *member.body);
-    for body in members_bodies.chain(movers.iter_mut().map(|mover| &mut mover.body)) {
-        let state = &mut body.state;
-        state.body_load = Load::default();
-        state.barrier_load = Load::default();
-    }
-    for met in meetings {
-        let both = met.sides.map(|side| body_of(members, movers, side));
-        let exchange = met.meeting.touch(both, &met.law, &met.contacts, dt);
-        if met.meeting.touches() {
-            let [one, other] = met.sides;
-            take(members, movers, [one, other], &exchange.on_first);
-            take(members, movers, [other, one], &exchange.on_second);
-        }
-    }
-}
-
-/// Takes in what the second side does to the first.
-fn take(members: &mut [Member], movers: &mut [Mover], [to, from]: [Side; 2], load: &Load) {
-    let state = match to {
-        Side::Member(place) => &mut members[place].body.state,
-        Side::Mover(place) => &mut movers[place].body.state,
-        Side::Barrier(_) => return,
-    };
-    match from {
-        Side::Member(_) => state.body_load.add(load),
-        Side::Barrier(_) | Side::Mover(_) => state.barrier_load.add(load),
     }
 }
 

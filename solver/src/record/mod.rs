@@ -3,6 +3,7 @@
 
 mod bars;
 mod bed;
+mod energy;
 mod means;
 mod mode;
 mod motion;
@@ -132,6 +133,36 @@ pub struct BodyOutcome {
     pub error_bars: Option<BodyBars>,
     /// Mass and resistance to turning.
     pub mass_properties: MassProperties,
+    /// Balance of its energy; null if no load moves it.
+    pub energy: Option<BodyEnergy>,
+}
+
+/// Balance of a body's energy (equation 38a): kinetic + potential + stored = start + work of
+/// the flow + work of bodies − dissipated + made.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BodyEnergy {
+    /// Kinetic, potential and stored energy at the start [J].
+    pub start_j: f64,
+    /// Kinetic energy at the end [J].
+    pub kinetic_j: f64,
+    /// Energy of its height over the floor at the end [J].
+    pub potential_j: f64,
+    /// Energy that its contacts with walls and bodies hold at the end; half of what those
+    /// with another free body do [J].
+    pub stored_j: f64,
+    /// Work of the flow on it [J].
+    pub flow_work_j: f64,
+    /// What other bodies gave it: work of prescribed motions, and half of what a contact did
+    /// to it more than to the other free body [J].
+    pub body_work_j: f64,
+    /// What damping and slipping took in its contacts with walls and bodies [J].
+    pub dissipated_j: f64,
+    /// What nothing accounts for: made by the computation if positive, lost if not [J].
+    pub made_j: f64,
+    /// Largest rise of that above its running minimum, over the largest kinetic and stored
+    /// energy, all that flow and bodies exchanged with it, what it rose and sank by, and
+    /// m g times its radius.
+    pub made_share: f64,
 }
 
 /// Mass properties of a rounded body about its centre of mass, exact (equation 14).

@@ -107,7 +107,7 @@ impl BodyHistory {
         self.settling.rests() || measure(self.scale, body).is_slow(motion)
     }
 
-    /// The outcome of `body`, whose history this is.
+    /// The outcome of `body`, whose history this is; its energy is not part of that.
     pub(super) fn outcome(&self, body: &Body) -> BodyOutcome {
         let way = self.last.position - self.start;
         let moved = self.onset_time.is_some() || self.settling.moved();
@@ -124,6 +124,7 @@ impl BodyHistory {
             final_orientation: [q.w, q.i, q.j, q.k],
             error_bars: None,
             mass_properties: mass_properties(body),
+            energy: None,
         }
     }
 }

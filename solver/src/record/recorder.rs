@@ -1,12 +1,13 @@
 //! Turns what a run shows into records and an outcome.
 
+use super::energy::body_energy;
 use super::motion::Motion;
 use super::outcome::{BodyHistory, flow_outcome, front, front_of};
 use super::rest::{Base, EndedEarly, Remaining, body_bound, front_rests};
 use super::sampling::Sampling;
 use super::scale::Scale;
 use super::snapshots::Snapshots;
-use super::{Audit, Cost, FlowSnapshot, Outcome, Record, Sample};
+use super::{Audit, BodyOutcome, Cost, FlowSnapshot, Outcome, Record, Sample};
 use crate::plan::{self, Plan};
 use crate::rigid::Body;
 use crate::scenario::{Ending, Scenario};
@@ -133,10 +134,13 @@ impl Recorder {
     pub fn outcome(&self, simulation: &Simulation, wall_s: f64) -> Outcome {
         let audit = simulation.audit();
         let (steps, substeps, point_steps) = simulation.counts();
-        let bodies = self.histories.iter().zip(simulation.bodies());
+        let bodies = self.histories.iter().zip(simulation.bodies()).enumerate();
         Outcome {
             bodies: bodies
-                .map(|(history, body)| history.outcome(body))
+                .map(|(place, (history, body))| BodyOutcome {
+                    energy: body_energy(simulation, place),
+                    ..history.outcome(body)
+                })
                 .collect(),
             flow: flow_outcome(simulation, self.initial_toe, self.open_end),
             audit: Audit {

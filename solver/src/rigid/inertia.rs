@@ -1,6 +1,8 @@
-//! Inverse of a body's inertia tensor, with its largest eigenvalue.
+//! Inverse of a body's inertia tensor, and how a body with it turns freely.
 
+use super::free_turning::FreeTurning;
 use crate::math::{Mat3, Vec3};
+use nalgebra::UnitQuaternion;
 use std::ops::Mul;
 
 /// Inverse of an inertia tensor in the body frame.
@@ -10,6 +12,7 @@ pub struct InverseInertia {
     tensor: Mat3,
     /// Of the tensor's eigenvalues.
     largest: f64,
+    turning: FreeTurning,
 }
 
 impl InverseInertia {
@@ -28,6 +31,17 @@ impl InverseInertia {
     pub fn norm(&self) -> f64 {
         self.tensor.norm()
     }
+
+    /// Orientation after `dt` [s] of free turning with an angular momentum in world axes
+    /// [kg m²/s].
+    pub fn turned_freely(
+        &self,
+        orientation: &UnitQuaternion<f64>,
+        angular_momentum: &Vec3,
+        dt: f64,
+    ) -> UnitQuaternion<f64> {
+        self.turning.after(orientation, angular_momentum, dt)
+    }
 }
 
 impl From<Mat3> for InverseInertia {
@@ -35,6 +49,7 @@ impl From<Mat3> for InverseInertia {
         Self {
             tensor,
             largest: tensor.symmetric_eigenvalues().max(),
+            turning: FreeTurning::of(&tensor),
         }
     }
 }

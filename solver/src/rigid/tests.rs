@@ -1,56 +1,7 @@
+mod free_turning;
+
 use super::fixture::cuboid;
 use super::*;
-
-/// The 1:2:3 box of validation.md, case 5, spinning about its middle axis but
-/// for a little.
-fn tumbling() -> Body {
-    let mut body = cuboid([0.01, 0.02, 0.03]);
-    let spin = Vec3::new(0.01, 10.0, 0.02);
-    body.state.angular_momentum = body.inertia * spin;
-    body
-}
-
-fn turned_freely(steps: u32, duration: f64) -> Body {
-    let mut body = tumbling();
-    for _ in 0..steps {
-        body.drift(duration / f64::from(steps));
-    }
-    body
-}
-
-// Against a run a hundred times finer, halving the step divides the error of
-// the orientation by four.
-#[test]
-fn free_turning_is_of_second_order() {
-    let fine = turned_freely(40_000, 1.0).state.orientation;
-    let error = |steps| turned_freely(steps, 1.0).state.orientation.angle_to(&fine);
-    let (coarse, half) = (error(200), error(400));
-    let order = (coarse / half).log2();
-    assert!(order > 1.9 && order < 2.2, "{order}: {coarse:e}, {half:e}");
-}
-
-// A space-fixed angular momentum is what drift starts from, so only the energy
-// can drift: with order 2 from the midpoint rule; 1e-4 at 0.01 rad per step.
-#[test]
-fn free_turning_keeps_energy() {
-    let (start, end) = (tumbling(), turned_freely(10_000, 10.0));
-    let drift = end.kinetic_energy() / start.kinetic_energy() - 1.0;
-    assert!(drift.abs() < 1e-4, "{drift:e}");
-    assert_eq!(start.state.angular_momentum, end.state.angular_momentum);
-}
-
-// Turning about the middle axis is unstable: the body flips over, again and
-// again (Dzhanibekov).
-#[test]
-fn the_middle_axis_flips() {
-    let mut body = tumbling();
-    let mut lowest = 1.0f64;
-    for _ in 0..10_000 {
-        body.drift(1e-3);
-        lowest = lowest.min(body.to_world(&Vec3::y()).y);
-    }
-    assert!(lowest < -0.9, "{lowest}");
-}
 
 #[test]
 fn angular_velocity_is_about_world_axes() {

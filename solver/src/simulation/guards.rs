@@ -17,6 +17,8 @@ const DEEPEST_OVERLAP: f64 = 0.9;
 const FASTER: f64 = 10.0;
 /// Share of the energy scale that the mechanical energy may rise by.
 const ENERGY_MADE: f64 = 0.1;
+/// The same of the energy that a body's contacts may make, over that body's own scale.
+const BODY_ENERGY_MADE: f64 = 0.01;
 
 /// Bounds that a run may not go beyond, known at its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -167,6 +169,24 @@ impl Simulation {
             mover,
             speed_m_s,
         })
+    }
+
+    /// Checks that no body's contacts made energy.
+    pub(super) fn look_at_body_energies(&self) -> Result<(), StepError> {
+        let free = self.state.bodies.iter().enumerate();
+        for (place, body) in free.filter(|(_, body)| body.is_free()) {
+            let energy = &self.state.energies[place];
+            let limit_j = BODY_ENERGY_MADE * energy.scale(body, &self.given.gravity);
+            if self.given.guards.energy && energy.rise() > limit_j {
+                return Err(StepError::BodyEnergyMade {
+                    time_s: self.state.clock.time,
+                    body: place,
+                    made_j: energy.rise(),
+                    limit_j,
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Who is fastest, and how fast [m/s].

@@ -9,6 +9,7 @@ mod saved;
 mod setup;
 mod step;
 
+use crate::body_energy::BodyEnergy;
 use crate::contact::body_body::Meeting;
 use crate::contact::island::{self, BodyReport};
 use crate::contact::point_body::{Around, FlowLoad};
@@ -53,6 +54,8 @@ struct State {
     /// Memory of the contacts between bodies.
     meetings: Vec<Meeting>,
     audit: Audit,
+    /// Balance of every body's energy.
+    energies: Vec<BodyEnergy>,
     /// Sums of the flow, followed from audit to audit for gravity's torque.
     moments: FlowMoments,
 }
@@ -162,6 +165,7 @@ impl Simulation {
             bodies,
             meetings,
             audit: Audit::default(),
+            energies: Vec::new(),
             moments: FlowMoments::default(),
         };
         Self {
@@ -284,6 +288,11 @@ impl Simulation {
     /// The audit so far.
     pub fn audit(&self) -> &Audit {
         &self.state.audit
+    }
+
+    /// Balance of a body's energy so far; nothing in it of one that no load moves.
+    pub fn body_energy(&self, body: usize) -> &BodyEnergy {
+        &self.state.energies[body]
     }
 
     /// Gravity [m/s²].

@@ -4,6 +4,7 @@ use super::clock::Clock;
 use super::flow::SavedFlow;
 use super::setup::Outline;
 use super::{Simulation, start_threads};
+use crate::body_energy::BodyEnergy;
 use crate::contact::body_body::Meeting;
 use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::RestoreError;
@@ -22,6 +23,7 @@ struct Saved {
     bodies: Vec<BodyState>,
     meetings: Vec<Meeting>,
     audit: Audit,
+    energies: Vec<BodyEnergy>,
 }
 
 pub(super) fn save(simulation: &Simulation) -> Vec<u8> {
@@ -36,6 +38,7 @@ pub(super) fn save(simulation: &Simulation) -> Vec<u8> {
         bodies: bodies.collect(),
         meetings: state.meetings.clone(),
         audit: state.audit.clone(),
+        energies: state.energies.clone(),
     };
     postcard::to_allocvec(&saved).expect("plain numbers always serialise")
 }
@@ -72,6 +75,7 @@ pub(super) fn restore(
     simulation.state.meetings = saved.meetings;
     simulation.state.clock = saved.clock;
     simulation.state.audit = saved.audit;
+    simulation.state.energies = saved.energies;
     simulation.state.moments = saved.moments;
     Ok(simulation)
 }

@@ -4,6 +4,7 @@
 use super::flow::{StepEnd, StepStart, Substep};
 use super::laps::Verb;
 use super::{Simulation, StepInHand, SubstepReport};
+use crate::body_energy::BodyEnergy;
 use crate::contact::island;
 use crate::contact::point_body::impulse_on_flow;
 use crate::crowding::Tending;
@@ -147,6 +148,10 @@ impl Simulation {
             state.audit.give(report.work);
             state.audit.meet_solid(report.deepest_overlap_ratio);
         }
+        let reports = state.bodies.iter().zip(&scratch.body_reports);
+        for (energy, (body, report)) in state.energies.iter_mut().zip(reports) {
+            energy.take_in(&report.energy, body, &given.gravity);
+        }
         for flow in on_bodies {
             state.audit.meet(flow.deepest_overlap_ratio);
         }
@@ -186,6 +191,7 @@ impl Simulation {
         let since = self.state.clock.substeps - self.state.clock.last_audit;
         if pace.reaches_end || since >= timing.audit_interval {
             self.check_audit();
+            self.look_at_body_energies()?;
             self.look_at_energy()?;
             self.scratch.laps.done(Verb::Audit);
         }
@@ -231,5 +237,7 @@ impl Simulation {
         let bodies = Totals::of_bodies(&self.state.bodies, &self.given.gravity);
         self.state.audit = Audit::start(&flow, &bodies);
         self.state.moments = FlowMoments::of(&flow);
+        let (bodies, meetings) = (&self.state.bodies, &self.state.meetings);
+        self.state.energies = BodyEnergy::of(bodies, meetings, &self.given.gravity);
     }
 }

@@ -29,7 +29,7 @@ const LAYERS: [&[&str]; 9] = [
         "diagnostics",
     ],
     &["contact::island"],
-    &["transfer"],
+    &["body_energy", "transfer"],
     &["fast"],
 ];
 

@@ -75,6 +75,38 @@ pub struct BodyOutcomeDocument {
     pub error_bars: Option<BodyBarsDocument>,
     /// Mass, and resistance to turning.
     pub mass_properties: MassPropertiesDocument,
+    /// Balance of its energy; null if no load moves it.
+    #[schema(required = true)]
+    pub energy: Option<BodyEnergyDocument>,
+}
+
+/// Balance of a body's energy: kinetic + potential + stored = start + work of the flow +
+/// work of bodies − dissipated + made.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = BodyEnergy)]
+pub struct BodyEnergyDocument {
+    /// Kinetic, potential and stored energy at the start [J].
+    pub start_j: f64,
+    /// Kinetic energy at the end [J].
+    pub kinetic_j: f64,
+    /// Energy of its height over the floor at the end [J].
+    pub potential_j: f64,
+    /// Energy that its contacts with walls and bodies hold at the end; half of what those
+    /// with another free body do [J].
+    pub stored_j: f64,
+    /// Work of the flow on it [J].
+    pub flow_work_j: f64,
+    /// What other bodies gave it: work of prescribed motions, and half of what a contact did
+    /// to it more than to the other free body [J].
+    pub body_work_j: f64,
+    /// What damping and slipping took in its contacts with walls and bodies [J].
+    pub dissipated_j: f64,
+    /// What nothing accounts for: made by the computation if positive, lost if not [J].
+    pub made_j: f64,
+    /// Largest rise of that above its running minimum, over the largest kinetic and stored
+    /// energy, all that flow and bodies exchanged with it, what it rose and sank by, and
+    /// m g times its radius. A run ends beyond 0.01.
+    pub made_share: f64,
 }
 
 /// Mass properties of a rounded body about its centre of mass.

@@ -128,10 +128,10 @@ impl Slide {
         let mut meeting = Meeting::new([0, 1]);
         let both = [&self.below, &self.above];
         let found = meeting.find(both, &self.law, &mut Separation::default());
-        let exchange = meeting.touch(both, &self.law, &found, 0.0);
+        meeting.touch(both, &self.law, &found, 0.0);
         (
             meeting.energy / self.law.elastic_energy(OVERLAP),
-            exchange.on_second.force / self.law.elastic_force(OVERLAP),
+            meeting.push.force / self.law.elastic_force(OVERLAP),
         )
     }
 }

@@ -21,6 +21,7 @@ mod momentum_audit;
 mod plate_drag;
 mod pressed_plate;
 mod restitution;
+mod rolling_prisms;
 mod rotation;
 mod sliding_block;
 mod source_paper;
@@ -42,6 +43,7 @@ pub const ALL: &[Case] = &[
     restitution::CASE,
     torque_free::CASE,
     incline::CASE,
+    rolling_prisms::CASE,
     feature_contacts::CASE,
     elastic_bar::CASE,
     hydrostatic::CASE,

@@ -50,7 +50,8 @@ fn touch(
     separation: &mut Separation,
 ) -> Exchange {
     let found = meeting.find(pair, law, separation);
-    meeting.touch(pair, law, &found, dt)
+    meeting.touch(pair, law, &found, dt);
+    meeting.exchange(pair)
 }
 
 fn potential(first: &Body, second: &Body) -> f64 {

@@ -3,6 +3,7 @@
 use super::mover::Mover;
 use super::{BodyReport, Island, Member, Met, Side, is_free};
 use crate::contact::body_body::{Contacts, Meeting, Separation, pair_law};
+use crate::contact::dissipation::Taken;
 use crate::contact::law::ContactLaw;
 use crate::rigid::{Body, Load};
 
@@ -60,6 +61,7 @@ pub(super) fn islands<'a>(
                 sides,
                 separation: Separation::default(),
                 contacts: Contacts::default(),
+                taken: Taken::default(),
             });
         }
     }

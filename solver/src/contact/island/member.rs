@@ -1,13 +1,17 @@
 //! A free body of an island: what moves it, and what it reports.
 
 use super::{BodyReport, Member, STILL};
+use crate::contact::dissipation::Taken;
 use crate::math::Vec3;
+use crate::motion::Velocities;
 use crate::rigid::{Body, Load};
 
 impl<'a> Member<'a> {
     pub(super) fn new(body: &'a mut Body, report: &'a mut BodyReport, flow: Load) -> Self {
         Self {
             start: body.state.position,
+            mean: Velocities::NONE,
+            taken: Taken::default(),
             flow,
             body,
             report,
@@ -22,15 +26,20 @@ impl<'a> Member<'a> {
         // The flow's force keeps its line of action, so that points and body
         // exchange equal and opposite angular momentum.
         let shifted = self.flow.torque - (position - self.start).cross(&self.flow.force);
+        let flow = Load {
+            force: self.flow.force,
+            torque: shifted,
+        };
         let mut total = Load {
-            force: wall.force + self.flow.force + weight,
-            torque: wall.torque + shifted,
+            force: wall.force + flow.force + weight,
+            torque: wall.torque + flow.torque,
         };
         let mut bodies = others;
         bodies.add(&barrier);
         total.add(&bodies);
-        self.body.kick(&total, dt);
+        self.mean = self.body.kick(&total, dt);
         let report = &mut *self.report;
+        report.energy.flow += dt * flow.power(&self.mean);
         report.wall.add_at(&position, &(wall.force * dt));
         report.wall.angular += wall.torque * dt;
         report.barrier.add_at(&position, &(barrier.force * dt));
@@ -43,6 +52,13 @@ impl<'a> Member<'a> {
             sum.force += load.force * dt;
             sum.torque += load.torque * dt;
         }
+    }
+
+    pub(super) fn count_substep(&mut self) {
+        self.report.substeps += 1;
+        self.report.substeps_supported += u32::from(self.body.is_supported());
+        let radius = self.body.shape.sphero_radius();
+        self.report.overlap(self.body.state.wall_overlap / radius);
     }
 
     /// True if it has stood since the start, held by the walls, and nothing touches it:

@@ -1,5 +1,6 @@
 //! Tests of bodies that move, and what they share.
 
+mod balance;
 mod collisions;
 mod heap;
 

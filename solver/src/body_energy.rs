@@ -1,0 +1,102 @@
+//! Balance of each body's energy over a run (docs/method.md, equation 38a).
+
+use crate::contact::body_body::Meeting;
+use crate::contact::island::EnergyReport;
+use crate::math::Vec3;
+use crate::rigid::Body;
+use serde::{Deserialize, Serialize};
+
+/// What brought and took a free body's energy so far.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct BodyEnergy {
+    /// Energy at the start, that of its height and its contacts included [J].
+    pub start: f64,
+    /// Work of the flow on it [J].
+    pub flow_work: f64,
+    /// What other bodies gave it, as [`EnergyReport::bodies`] counts it [J].
+    pub body_work: f64,
+    /// What damping and slipping took in its contacts [J].
+    pub dissipated: f64,
+    /// Part of what the last sub-step says of that, which it has not taken yet [J].
+    pending: f64,
+    /// What nothing accounts for: made if positive [J].
+    pub made: f64,
+    least_made: f64,
+    largest_rise: f64,
+    /// Accumulated sizes of the work of flow and bodies [J].
+    exchanged: f64,
+    /// Largest kinetic energy with what its contacts held [J].
+    largest_present: f64,
+    /// Least and largest potential energy [J].
+    lowest: f64,
+    highest: f64,
+}
+
+impl BodyEnergy {
+    /// The balances of bodies that start like this, under gravity [m/s²].
+    pub fn of(bodies: &[Body], meetings: &[Meeting], gravity: &Vec3) -> Vec<Self> {
+        let start = |(place, body): (usize, &Body)| {
+            let present = body.kinetic_energy() + stored(place, bodies, meetings);
+            let potential = potential(body, gravity);
+            Self {
+                start: present + potential,
+                largest_present: present,
+                lowest: potential,
+                highest: potential,
+                ..Self::default()
+            }
+        };
+        bodies.iter().enumerate().map(start).collect()
+    }
+
+    /// Takes in a sub-step of the flow, after which the body is as it is.
+    pub fn take_in(&mut self, report: &EnergyReport, body: &Body, gravity: &Vec3) {
+        self.flow_work += report.flow;
+        self.body_work += report.bodies;
+        self.exchanged += report.flow.abs() + report.bodies.abs();
+        let early = report.pending - self.pending;
+        self.pending = report.pending;
+        self.dissipated += report.dissipated - early;
+        self.made += report.made - early;
+        self.least_made = self.least_made.min(self.made);
+        self.largest_rise = self.largest_rise.max(self.made - self.least_made);
+        self.largest_present = self.largest_present.max(report.present);
+        let potential = potential(body, gravity);
+        self.lowest = self.lowest.min(potential);
+        self.highest = self.highest.max(potential);
+    }
+
+    /// Largest rise of what was made above its running minimum [J].
+    pub fn rise(&self) -> f64 {
+        self.largest_rise
+    }
+
+    /// Energy that a rise is to be compared with [J]: the largest that the body had, what flow
+    /// and bodies exchanged with it, that of its way up and down and of a fall by its own size.
+    pub fn scale(&self, body: &Body, gravity: &Vec3) -> f64 {
+        let own_size = body.mass * gravity.norm() * body.shape.bounding_radius();
+        self.largest_present + self.exchanged + (self.highest - self.lowest) + own_size
+    }
+}
+
+/// Energy that the contacts of a body hold now; half of what those with another free body
+/// do [J].
+pub fn stored(place: usize, bodies: &[Body], meetings: &[Meeting]) -> f64 {
+    let with_bodies = meetings
+        .iter()
+        .filter(|meeting| meeting.bodies.contains(&place))
+        .map(|meeting| {
+            let free = meeting.bodies.iter().all(|&place| bodies[place].is_free());
+            if free {
+                0.5 * meeting.energy
+            } else {
+                meeting.energy
+            }
+        });
+    bodies[place].state.wall_energy + with_bodies.sum::<f64>()
+}
+
+/// Energy of a body's height over the floor [J].
+pub fn potential(body: &Body, gravity: &Vec3) -> f64 {
+    -body.mass * gravity.dot(&body.state.position)
+}

@@ -1,0 +1,157 @@
+//! Energy of the bodies of an island: what brought and took it (docs/method.md,
+//! equation 38a).
+//!
+//! A kick changes the kinetic energy by the work of its loads at the mean of the velocities
+//! before and after it, exactly. So what is left over when all that is known of is
+//! subtracted was made: by contacts, by turning, or by the steps being as long as they are.
+
+use super::{Member, Met, Mover, Side, body_of};
+use crate::contact::body_body::Exchange;
+use crate::contact::dissipation::Taken;
+use crate::math::Vec3;
+use crate::motion::Velocities;
+use crate::rigid::{Body, Load};
+
+/// Energy of a body in a sub-step of the flow, by what changed it [J]. Contacts with
+/// another free body are halved between the two.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct EnergyReport {
+    /// Work of the flow on it.
+    pub flow: f64,
+    /// Work of gravity.
+    pub gravity: f64,
+    /// What other bodies gave it: the work of prescribed motions, and half of what a
+    /// contact did to it more than to the other free body.
+    pub bodies: f64,
+    /// What damping and slipping took, in its contacts with walls and bodies.
+    pub dissipated: f64,
+    /// Part of this that the kick before the next drift is still to take.
+    pub pending: f64,
+    /// Change of what it has and its contacts hold, less all that brought and took it.
+    pub made: f64,
+    /// What it has and its contacts hold at the end.
+    pub present: f64,
+}
+
+/// Begins the balance of a sub-step of the flow.
+pub(super) fn begin(members: &mut [Member], meetings: &[Met]) {
+    take_stock(members, meetings);
+    for member in members {
+        let energy = &mut member.report.energy;
+        energy.made = -energy.present;
+    }
+}
+
+/// Ends the balance of a sub-step of the flow.
+pub(super) fn end(members: &mut [Member], meetings: &[Met], gravity: &Vec3) {
+    take_stock(members, meetings);
+    for member in members {
+        let energy = &mut member.report.energy;
+        let way = member.body.state.position - member.start;
+        energy.gravity = member.body.mass * gravity.dot(&way);
+        let brought = energy.flow + energy.gravity + energy.bodies - energy.dissipated;
+        energy.made += energy.present - brought;
+    }
+}
+
+/// Finds what everybody has, and its contacts hold.
+fn take_stock(members: &mut [Member], meetings: &[Met]) {
+    for member in &mut *members {
+        let (body, report) = (&member.body, &mut member.report);
+        report.energy.present = body.kinetic_energy() + body.state.wall_energy;
+    }
+    for met in meetings {
+        halve(members, met, met.meeting.energy, |energy| {
+            &mut energy.present
+        });
+    }
+}
+
+/// Takes in what bodies did to each other in a kick of `dt`.
+pub(super) fn take_in_work(members: &mut [Member], movers: &[Mover], meetings: &[Met], dt: f64) {
+    for met in meetings.iter().filter(|met| met.meeting.touches()) {
+        let exchange = met
+            .meeting
+            .exchange(met.sides.map(|side| body_of(members, movers, side)));
+        let work = |side: Side, load: &Load| match side {
+            Side::Member(place) => dt * load.power(&members[place].mean),
+            Side::Mover(place) => dt * load.power(&movers[place].body.velocities()),
+            Side::Barrier(_) => 0.0,
+        };
+        let [first, second] = met.sides;
+        let (on_first, on_second) = (
+            work(first, &exchange.on_first),
+            work(second, &exchange.on_second),
+        );
+        let mut give = |place: usize, energy: f64| members[place].report.energy.bodies += energy;
+        match [first, second] {
+            [Side::Member(one), Side::Member(other)] => {
+                let given = 0.5 * (on_first - on_second);
+                give(one, given);
+                give(other, -given);
+            }
+            [Side::Member(one), _] => give(one, -on_second),
+            [_, Side::Member(other)] => give(other, -on_first),
+            _ => {}
+        }
+    }
+}
+
+/// Takes in what contacts took for good in a sub-step of `dt`, which has ended: so each
+/// body's velocities are those amid the kick that the damping found gives.
+pub(super) fn take_in_losses(members: &mut [Member], movers: &[Mover], meetings: &[Met], dt: f64) {
+    for member in &mut *members {
+        let power = |damping: &Load| damping.power(&member.body.velocities());
+        let damped = damped(&member.taken, power, dt);
+        let energy = &mut member.report.energy;
+        energy.dissipated += member.taken.lost + damped;
+        energy.pending = 0.5 * damped;
+    }
+    for met in meetings {
+        let both = met.sides.map(|side| body_of(members, movers, side));
+        let power = |damping: &Load| {
+            let exchange = Exchange::between(both, damping);
+            let [first, second] = both.map(velocities);
+            exchange.on_first.power(&first) + exchange.on_second.power(&second)
+        };
+        let damped = damped(&met.taken, power, dt);
+        halve(members, met, met.taken.lost + damped, |energy| {
+            &mut energy.dissipated
+        });
+        halve(members, met, 0.5 * damped, |energy| &mut energy.pending);
+    }
+}
+
+/// Energy that damping takes for good: none if it gave some, as that was made.
+fn damped(taken: &Taken, power: impl Fn(&Load) -> f64, dt: f64) -> f64 {
+    if taken.damping == Load::default() {
+        0.0
+    } else {
+        (-power(&taken.damping) * dt).max(0.0)
+    }
+}
+
+fn velocities(body: &Body) -> Velocities {
+    if body.is_free() || body.prescribed().is_some() {
+        body.velocities()
+    } else {
+        Velocities::NONE
+    }
+}
+
+/// Adds an energy of a meeting to its free bodies: half to each of two.
+fn halve(members: &mut [Member], met: &Met, energy: f64, of: fn(&mut EnergyReport) -> &mut f64) {
+    let place = |side: Side| match side {
+        Side::Member(place) => Some(place),
+        Side::Barrier(_) | Side::Mover(_) => None,
+    };
+    let [first, second] = met.sides.map(place);
+    let share = if first.is_some() && second.is_some() {
+        0.5
+    } else {
+        1.0
+    };
+    for place in [first, second].into_iter().flatten() {
+        *of(&mut members[place].report.energy) += share * energy;
+    }
+}

@@ -1,0 +1,81 @@
+//! Contacts of the bodies of an island, found and renewed in a sub-step.
+
+use super::{Member, Met, Mover, Side, body_of};
+use crate::contact::body_body::Contacts;
+use crate::rigid::Load;
+
+/// Finds where bodies touch after a drift of `dt`, and counts how many touch each.
+pub(super) fn find_contacts(
+    members: &mut [Member],
+    movers: &mut [Mover],
+    meetings: &mut [Met],
+    dt: f64,
+) {
+    let members_bodies = members.iter_mut().map(|member| &mut *member.body);
+    for body in members_bodies.chain(movers.iter_mut().map(|mover| &mut mover.body)) {
+        body.state.touching_bodies = 0;
+    }
+    for met in meetings {
+        let [first, second] = met.sides.map(|side| body_of(members, movers, side));
+        let approach = dt * (first.speed_bound() + second.speed_bound());
+        if met.separation.outlasts(approach) {
+            met.contacts = Contacts::default();
+            continue;
+        }
+        met.contacts = met
+            .meeting
+            .find([first, second], &met.law, &mut met.separation);
+        if met.meeting.touches() {
+            let smaller = f64::min(first.shape.sphero_radius(), second.shape.sphero_radius());
+            let ratio = met.meeting.deepest / smaller;
+            for side in met.sides {
+                match side {
+                    Side::Member(place) => {
+                        members[place].body.state.touching_bodies += 1;
+                        members[place].report.overlap(ratio);
+                    }
+                    Side::Mover(place) => movers[place].body.state.touching_bodies += 1,
+                    Side::Barrier(_) => {}
+                }
+            }
+        }
+    }
+}
+
+/// Renews what bodies do to each other after a drift of `dt`.
+pub(super) fn touch_bodies(
+    members: &mut [Member],
+    movers: &mut [Mover],
+    meetings: &mut [Met],
+    dt: f64,
+) {
+    let members_bodies = members.iter_mut().map(|member| &mut *member.body);
+    for body in members_bodies.chain(movers.iter_mut().map(|mover| &mut mover.body)) {
+        let state = &mut body.state;
+        state.body_load = Load::default();
+        state.barrier_load = Load::default();
+    }
+    for met in meetings {
+        let both = met.sides.map(|side| body_of(members, movers, side));
+        met.taken = met.meeting.touch(both, &met.law, &met.contacts, dt);
+        if met.meeting.touches() {
+            let exchange = met.meeting.exchange(both);
+            let [one, other] = met.sides;
+            take(members, movers, [one, other], &exchange.on_first);
+            take(members, movers, [other, one], &exchange.on_second);
+        }
+    }
+}
+
+/// Takes in what the second side does to the first.
+fn take(members: &mut [Member], movers: &mut [Mover], [to, from]: [Side; 2], load: &Load) {
+    let state = match to {
+        Side::Member(place) => &mut members[place].body.state,
+        Side::Mover(place) => &mut movers[place].body.state,
+        Side::Barrier(_) => return,
+    };
+    match from {
+        Side::Member(_) => state.body_load.add(load),
+        Side::Barrier(_) | Side::Mover(_) => state.barrier_load.add(load),
+    }
+}
