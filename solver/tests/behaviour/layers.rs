@@ -20,7 +20,7 @@ const LAYERS: [&[&str]; 9] = [
     ],
     &["grid", "scenario", "sharing"],
     &["points", "rigid", "walls"],
-    &["contact::dissipation"],
+    &["contact::dissipation", "contact::screening"],
     &[
         "contact::body_body",
         "contact::body_wall",

@@ -168,12 +168,12 @@ impl Setup {
 }
 
 /// Farthest that a point of the release is moved so that its contact bears its stress
-/// [point spacings]; what is farther off lies there on purpose.
+/// [point spacings]; what is deeper overlaps on purpose.
 const FARTHEST: f64 = 0.1;
 
 impl GivenFlow {
-    /// Way [m] of a point that touches, or nearly touches, a body to where the contact
-    /// presses as the point's stress does. The stand-off holds for the mean pressure of
+    /// Way [m] of a point that touches a body to where the contact presses as the point's
+    /// stress does. The stand-off holds for the mean pressure of
     /// the flow; without this, bodies would press with that pressure at first, whatever
     /// the depth and the direction.
     fn way_to_bear(&self, point: &Point, bodies: &[Body]) -> Vec3 {
@@ -181,20 +181,20 @@ impl GivenFlow {
         let mut touched = 0;
         for body in bodies {
             let arm = body.to_body(&(point.position - body.state.position));
-            let reach = self.sphere.radius + FARTHEST * self.sphere.spacing;
+            let reach = self.sphere.radius;
             if arm.norm() > body.shape.bounding_radius() + reach {
                 continue;
             }
             let closest = body.shape.closest_feature(&arm);
             let distance = closest.distance - body.shape.sphero_radius();
-            if distance > reach {
+            if distance >= reach {
                 continue;
             }
             let normal = body.to_world(&closest.normal);
             let pressed = (-normal.dot(&(point.stress.matrix() * normal))).max(0.0);
             let load = pressed * self.sphere.spacing.powi(2);
             let overlap = (load / self.contact_law(0.0, 0.0).stiffness).powf(2.0 / 3.0);
-            way = normal * (self.sphere.radius - overlap - distance);
+            way = normal * (reach - overlap - distance);
             touched += 1;
         }
         // Between two bodies no place suits both.
