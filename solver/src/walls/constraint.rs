@@ -51,9 +51,7 @@ impl Walls {
     /// they will in the first sub-step. What it takes from the nodes' momentum the
     /// rest of the transfer gives back, so it is no impulse.
     pub fn reflect(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) {
-        self.propose(boundary, nodes, |walls, group, members, nodes, _| {
-            walls.joint_motion(group, members, nodes, None)
-        });
+        self.propose(boundary, nodes, None);
         self.line_up(boundary, false);
         for (answer, group) in boundary.answers.iter().zip(&boundary.groups) {
             for member in &boundary.members[group.members.clone()] {
@@ -62,21 +60,16 @@ impl Walls {
         }
     }
 
-    /// Makes node velocities obey the walls for a sub-step: mirrors at the upright ones, no inflow and free separation at the base, Coulomb
-    /// friction at both. Returns the impulse given to the flow.
+    /// Makes node velocities obey the walls for a sub-step: mirrors at the upright ones,
+    /// no inflow and free separation at the base, Coulomb friction at both. Returns the
+    /// impulse given to the flow.
     pub fn constrain(
         &self,
         boundary: &mut Boundary,
         nodes: &mut impl NodeAccess,
         pace: WallPace,
     ) -> Impulse {
-        self.propose(boundary, nodes, |walls, group, members, nodes, left| {
-            let before = Before {
-                momentum: left,
-                crossing: pace.crossing,
-            };
-            walls.constrained_motion(group, members, nodes, before)
-        });
+        self.propose(boundary, nodes, Some(pace));
         self.line_up(boundary, true);
         Self::give(boundary, nodes, pace.dt)
     }
@@ -85,9 +78,7 @@ impl Walls {
     /// which goes to each of them alone: bodies meet the flow's motion before the
     /// first sub-step's [`constrain`](Self::constrain). Returns the impulse given.
     pub fn join(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) -> Impulse {
-        self.propose(boundary, nodes, |walls, group, members, nodes, _| {
-            walls.joint_motion(group, members, nodes, None)
-        });
+        self.propose(boundary, nodes, None);
         Self::give(boundary, nodes, 0.0)
     }
 
@@ -121,13 +112,9 @@ impl Walls {
         given
     }
 
-    /// Finds for every group the motion it would have without its column.
-    fn propose<N: NodeAccess>(
-        &self,
-        boundary: &mut Boundary,
-        nodes: &N,
-        motion: impl Fn(&Self, &Group, &[Member], &N, [f64; 2]) -> Motion + Sync,
-    ) {
+    /// Finds for every group the motion it would have without its column; within a
+    /// sub-step, which has a `pace`, with the base planes that act on it alone.
+    fn propose(&self, boundary: &mut Boundary, nodes: &impl NodeAccess, pace: Option<WallPace>) {
         let Boundary {
             members,
             groups,
@@ -140,7 +127,16 @@ impl Walls {
             .with_min_len(TASK)
             .for_each(|(answer, group)| {
                 let members = &members[group.members.clone()];
-                let motion = motion(self, group, members, nodes, answer.left);
+                let before = pace.map(|pace| Before {
+                    momentum: answer.left,
+                    crossing: pace.crossing,
+                });
+                let mut motion = self.joint_motion(group, members, nodes, before);
+                if pace.is_some() {
+                    for surface in group.surfaces.iter().flatten() {
+                        constrain_to(surface, &mut motion.velocity);
+                    }
+                }
                 (answer.velocity, answer.leaves) = (motion.velocity, motion.leaves);
             });
     }
@@ -161,21 +157,6 @@ impl Walls {
             },
             _ => self.between_uprights(group, members, nodes, before),
         }
-    }
-
-    /// The same with the base planes that act on it alone.
-    fn constrained_motion(
-        &self,
-        group: &Group,
-        members: &[Member],
-        nodes: &impl NodeAccess,
-        before: Before,
-    ) -> Motion {
-        let mut motion = self.joint_motion(group, members, nodes, Some(before));
-        for surface in group.surfaces.iter().flatten() {
-            constrain_to(surface, &mut motion.velocity);
-        }
-        motion
     }
 
     /// Common motion of a group that meets an upright wall, but for the base.
