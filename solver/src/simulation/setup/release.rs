@@ -2,6 +2,7 @@
 //! (docs/method.md, equation 34).
 
 use super::{GivenFlow, Setup, Share, resting_point};
+use crate::contact::point_body::PointSphere;
 use crate::error::SetupError;
 use crate::kernel::Lattice;
 use crate::material::Material;
@@ -143,17 +144,14 @@ impl Setup {
         let stand_off = 0.5 * self.flow.as_ref()?.sphere.spacing;
         let mut place = position;
         for body in bodies {
-            let arm = body.to_body(&(place - body.state.position));
-            if arm.norm() > body.shape.bounding_radius() + stand_off {
+            let Some((distance, normal)) = surface_within(stand_off, body, &place) else {
                 continue;
-            }
-            let closest = body.shape.closest_feature(&arm);
-            let distance = closest.distance - body.shape.sphero_radius();
+            };
             if distance < 0.0 {
                 return None;
             }
             if distance < CLOSE * stand_off {
-                place += body.to_world(&closest.normal) * (stand_off - distance);
+                place += normal * (stand_off - distance);
             }
         }
         let beside = |body: &Body| body.distance_to(&place) >= CLOSE * stand_off;
@@ -173,37 +171,38 @@ const FARTHEST: f64 = 0.1;
 
 impl GivenFlow {
     /// Way [m] of a point that touches a body to where the contact presses as the point's
-    /// stress does. The stand-off holds for the mean pressure of
-    /// the flow; without this, bodies would press with that pressure at first, whatever
-    /// the depth and the direction.
+    /// stress does. The stand-off holds for the mean pressure of the flow; without this,
+    /// bodies would press with that pressure at first, whatever the depth and the direction.
     fn way_to_bear(&self, point: &Point, bodies: &[Body]) -> Vec3 {
-        let mut way = Vec3::zeros();
-        let mut touched = 0;
-        for body in bodies {
-            let arm = body.to_body(&(point.position - body.state.position));
-            let reach = self.sphere.radius;
-            if arm.norm() > body.shape.bounding_radius() + reach {
-                continue;
-            }
-            let closest = body.shape.closest_feature(&arm);
-            let distance = closest.distance - body.shape.sphero_radius();
-            if distance >= reach {
-                continue;
-            }
-            let normal = body.to_world(&closest.normal);
-            let pressed = (-normal.dot(&(point.stress.matrix() * normal))).max(0.0);
-            let load = pressed * self.sphere.spacing.powi(2);
-            let overlap = (load / self.contact_law(0.0, 0.0).stiffness).powf(2.0 / 3.0);
-            way = normal * (reach - overlap - distance);
-            touched += 1;
-        }
+        let PointSphere { radius, spacing } = self.sphere;
+        let mut touched = bodies
+            .iter()
+            .filter_map(|body| surface_within(radius, body, &point.position));
         // Between two bodies no place suits both.
-        if touched == 1 && way.norm() <= FARTHEST * self.sphere.spacing {
+        let (Some((distance, normal)), None) = (touched.next(), touched.next()) else {
+            return Vec3::zeros();
+        };
+        let pressed = (-normal.dot(&(point.stress.matrix() * normal))).max(0.0);
+        let load = pressed * spacing.powi(2);
+        let overlap = (load / self.contact_law(0.0, 0.0).stiffness).powf(2.0 / 3.0);
+        let way = normal * (radius - overlap - distance);
+        if way.norm() <= FARTHEST * spacing {
             way
         } else {
             Vec3::zeros()
         }
     }
+}
+
+/// Distance from a body's surface [m] and the normal there, of a place nearer than `reach`.
+fn surface_within(reach: f64, body: &Body, place: &Vec3) -> Option<(f64, Vec3)> {
+    let arm = body.to_body(&(place - body.state.position));
+    if arm.norm() > body.shape.bounding_radius() + reach {
+        return None;
+    }
+    let closest = body.shape.closest_feature(&arm);
+    let distance = closest.distance - body.shape.sphero_radius();
+    (distance < reach).then(|| (distance, body.to_world(&closest.normal)))
 }
 
 /// Stress of a slope at rest.
