@@ -216,9 +216,11 @@ impl<P: Copy + Send + Sync> Loads<P> {
                         .then(|| PointContact::find(points, candidate.place, body, stand_off))
                         .flatten()
                         .filter(|contact| {
-                            let (from, to) = contact.ends(body);
-                            let mut between = screening.iter();
-                            !between.any(|other| screens(&bodies[*other], &from, &to))
+                            screening.is_empty() || {
+                                let (from, to) = contact.ends(body, stand_off);
+                                let mut between = screening.iter();
+                                !between.any(|other| screens(&bodies[*other], &from, &to))
+                            }
                         })
                 };
                 candidates

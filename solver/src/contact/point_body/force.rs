@@ -65,9 +65,8 @@ impl PointContact {
     }
 
     /// Places of the point, and of the body's surface where it touches [m].
-    pub(super) fn ends(&self, body: &Body) -> (Vec3, Vec3) {
+    pub(super) fn ends(&self, body: &Body, stand_off: f64) -> (Vec3, Vec3) {
         let point = body.state.position + self.arm;
-        let stand_off = self.overlap / self.overlap_ratio - body.shape.sphero_radius();
         (point, point - self.normal * (stand_off - self.overlap))
     }
 
