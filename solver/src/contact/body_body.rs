@@ -2,7 +2,7 @@
 //! contacts remember (docs/method.md, equations 43–47).
 
 use crate::contact::dissipation::{Damping, Taken, stopping};
-use crate::contact::friction::{Held, Spring, viscous_part};
+use crate::contact::friction::{Held, Spring};
 use crate::contact::law::{ContactLaw, mass_seen};
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
@@ -28,7 +28,7 @@ pub struct Meeting {
     pub deepest: f64,
     /// Energy their contacts hold now [J].
     pub energy: f64,
-    /// What they do to the second now, the torque being about the first's centre.
+    /// Load on the second now, the torque being about the first's centre.
     pub push: Load,
 }
 
@@ -38,9 +38,9 @@ struct FeatureSprings {
     between: Between,
     /// Where the contact is, from the first body's centre [m].
     place: Vec3,
-    /// How far the second body slid on the first.
+    /// Spring against sliding of the second body on the first.
     sliding: Spring,
-    /// How far it rolled on it, as an angle × the equivalent radius.
+    /// Spring against rolling, stretched by an angle × the equivalent radius.
     rolling: Spring,
 }
 
@@ -122,13 +122,13 @@ impl Meeting {
         taken
     }
 
-    /// What the two do to each other now.
+    /// Exchange of the two now.
     pub fn exchange(&self, pair: [&Body; 2]) -> Exchange {
         Exchange::between(pair, &self.push)
     }
 }
 
-/// What springs hold [J].
+/// Energy that springs hold [J].
 fn energy_of(springs: &[FeatureSprings]) -> f64 {
     let of_contact = |springs: &FeatureSprings| springs.sliding.energy() + springs.rolling.energy();
     springs.iter().map(of_contact).sum()
@@ -192,7 +192,7 @@ struct Pair<'a> {
     /// Sum of the sphero radii.
     radii: f64,
     velocities: [Motion; 2],
-    /// What the elastic forces of all contacts give.
+    /// Accelerations that the elastic forces of all contacts give.
     accelerations: [Motion; 2],
     reduced_mass: f64,
     /// Rolling resistance: that of the body that resists more.
@@ -212,13 +212,13 @@ struct Pressed<'a> {
     damping: f64,
 }
 
-/// What friction and rolling resistance do to the second body, the torque being about the
-/// first's centre.
+/// Friction and rolling resistance on the second body, the torque being about the first's
+/// centre.
 struct Rubbed {
     load: Load,
-    /// What their springs hold [J].
+    /// Energy that their springs hold [J].
     energy: f64,
-    /// Of these alone.
+    /// Damping and losses of friction and rolling alone.
     taken: Taken,
 }
 
@@ -314,14 +314,13 @@ impl<'a> Pair<'a> {
             let across = |v: &Vec3| v - near.normal * v.dot(&near.normal);
             let mut resist = |spring: &mut Spring, velocity: Vec3, friction: f64| {
                 let cap = friction * pressed.force * share;
-                let (before, way) = (*spring, velocity * dt);
+                let before = *spring;
                 spring.turn(&self.turning(), &near.normal, dt);
-                let elastic = spring.slide(&way, cap);
-                rubbed.taken.lost += spring.lost_since(&before, &way);
-                let part = viscous_part(&elastic, viscous, &velocity, cap);
+                let found = spring.resist(&before, &velocity, viscous, cap, dt);
+                rubbed.taken.lost += found.lost;
                 rubbed.energy += spring.energy();
-                damping.power += part.dot(&velocity);
-                [elastic, part]
+                damping.power += found.viscous.dot(&velocity);
+                [found.elastic, found.viscous]
             };
             let sliding = across(&pressed.velocity);
             let [elastic, part] = resist(&mut springs.sliding, sliding, self.law.friction);

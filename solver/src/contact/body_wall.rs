@@ -2,7 +2,7 @@
 //! (docs/method.md, equations 17–19).
 
 use crate::contact::dissipation::{Damping, Taken, stopping};
-use crate::contact::friction::{Spring, viscous_part};
+use crate::contact::friction::Spring;
 use crate::contact::law::mass_seen;
 use crate::contact::wall_touch::WallTouch;
 use crate::math::Vec3;
@@ -151,14 +151,13 @@ fn rub(body: &mut Body, touches: &[WallTouch], taken: &mut Taken, dt: f64) {
         let viscous = law.tangential_damping(touch.overlap, touch.mass);
         let across = |v: &Vec3| v - touch.normal * v.dot(&touch.normal);
         let mut resist = |spring: &mut Spring, velocity: Vec3, cap: f64| {
-            let (before, way) = (*spring, velocity * dt);
+            let before = *spring;
             spring.stiffen(stiffness);
-            let elastic = spring.slide(&way, cap);
-            taken.lost += spring.lost_since(&before, &way);
-            let part = viscous_part(&elastic, viscous, &velocity, cap);
+            let found = spring.resist(&before, &velocity, viscous, cap, dt);
+            taken.lost += found.lost;
             energy += spring.energy();
-            damping.power += part.dot(&velocity);
-            [elastic, part]
+            damping.power += found.viscous.dot(&velocity);
+            [found.elastic, found.viscous]
         };
         let sliding = across(&body.velocity_at(&touch.arm));
         let cap = law.friction * touch.force;

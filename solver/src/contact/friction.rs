@@ -38,7 +38,7 @@ impl Spring {
     /// Energy taken for good from motion and spring while the contact slid by `way` [m] and
     /// the spring became what it is from what it was `before` [J]: what it held, and what
     /// both forces in the mean put in, less what it holds.
-    pub fn lost_since(&self, before: &Self, way: &Vec3) -> f64 {
+    fn lost_since(&self, before: &Self, way: &Vec3) -> f64 {
         let force = before.stretch * before.stiffness + self.stretch * self.stiffness;
         (before.energy() + 0.5 * force.dot(way) - self.energy()).max(0.0)
     }
@@ -55,9 +55,28 @@ impl Spring {
         }
     }
 
+    /// Resists sliding at a `velocity` [m/s] for `dt` [s] (equation 18), after it changed by
+    /// stiffness or turning from what it was `before`.
+    pub fn resist(
+        &mut self,
+        before: &Self,
+        velocity: &Vec3,
+        damping: f64,
+        cap: f64,
+        dt: f64,
+    ) -> Resistance {
+        let way = velocity * dt;
+        let elastic = self.slide(&way, cap);
+        Resistance {
+            elastic,
+            viscous: viscous_part(&elastic, damping, velocity, cap),
+            lost: self.lost_since(before, &way),
+        }
+    }
+
     /// Slides by `way` [m]; the elastic force then [N], at most `cap`. Where that binds
     /// the contact slips, and the stretch is what the cap can hold.
-    pub fn slide(&mut self, way: &Vec3, cap: f64) -> Vec3 {
+    fn slide(&mut self, way: &Vec3, cap: f64) -> Vec3 {
         self.stretch += way;
         let size = self.stiffness * self.stretch.norm();
         if size > cap {
@@ -67,10 +86,10 @@ impl Spring {
     }
 }
 
-/// What damping adds to an elastic friction force no larger than `cap` [N]: −c v, or what
-/// of it the cap leaves room for. Its power is never positive, since the nearest force
+/// Part that damping adds to an elastic friction force no larger than `cap` [N]: −c v, or
+/// as much of it as the cap leaves room for. Its power is never positive, since the nearest force
 /// within the cap is taken.
-pub fn viscous_part(elastic: &Vec3, damping: f64, velocity: &Vec3, cap: f64) -> Vec3 {
+fn viscous_part(elastic: &Vec3, damping: f64, velocity: &Vec3, cap: f64) -> Vec3 {
     let trial = elastic - velocity * damping;
     let size = trial.norm();
     if size > cap {
@@ -78,6 +97,17 @@ pub fn viscous_part(elastic: &Vec3, damping: f64, velocity: &Vec3, cap: f64) -> 
     } else {
         -velocity * damping
     }
+}
+
+/// Forces of a spring and its damping in a sub-step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resistance {
+    /// Of the spring [N].
+    pub elastic: Vec3,
+    /// Of damping, before its share is taken [N].
+    pub viscous: Vec3,
+    /// Energy that the spring lost for good [J].
+    pub lost: f64,
 }
 
 /// Stiffness and energy of several springs together.
@@ -96,11 +126,6 @@ impl Held {
             stiffness: sum.stiffness + spring.stiffness,
             energy: sum.energy + spring.energy(),
         })
-    }
-
-    /// Σ ½ k_t ξ² [J].
-    pub fn energy(&self) -> f64 {
-        self.energy
     }
 
     /// Factor on every stretch of springs that hold `self` now and held `before` until
