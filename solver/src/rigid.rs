@@ -143,9 +143,14 @@ impl Body {
         self.inverse_inertia_times(&self.state.orientation, &self.state.angular_momentum)
     }
 
-    /// Both, in world axes.
+    /// Both, in world axes; a fixed body has none.
     pub fn velocities(&self) -> Velocities {
-        self.velocities_with(&self.state.momentum, &self.state.angular_momentum)
+        match self.freedom {
+            Freedom::Fixed => Velocities::NONE,
+            Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => {
+                self.velocities_with(&self.state.momentum, &self.state.angular_momentum)
+            }
+        }
     }
 
     /// The same with other momenta, as it stands.

@@ -256,7 +256,7 @@ struct Member<'a> {
     start: Vec3,
     /// Mean velocities in the last half kick.
     mean: Velocities,
-    /// What its contacts with walls took in the last sub-step.
+    /// Damping and losses of its contacts with walls in the last sub-step.
     taken: Taken,
 }
 
@@ -268,7 +268,7 @@ struct Met<'a> {
     separation: Separation,
     /// As found after the last drift.
     contacts: Contacts,
-    /// What they took in the last sub-step.
+    /// Damping and losses of their contacts in the last sub-step.
     taken: Taken,
 }
 

@@ -1,9 +1,10 @@
 //! Motion of a body as its contacts meet it.
 
 use crate::math::Vec3;
+use crate::motion::Velocities;
 use crate::rigid::{Body, Freedom, Load};
 
-/// How a body moves, or begins to: at its centre, and turning.
+/// Motion of a body, or its beginning: at its centre, and turning.
 pub(super) struct Motion {
     pub(super) linear: Vec3,
     pub(super) angular: Vec3,
@@ -15,18 +16,13 @@ impl Motion {
         angular: Vec3::new(0.0, 0.0, 0.0),
     };
 
-    /// A fixed body has none.
+    /// Present velocities.
     pub(super) fn velocity(body: &Body) -> Self {
-        match body.freedom {
-            Freedom::Fixed => Self::NONE,
-            Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => Self {
-                linear: body.velocity(),
-                angular: body.angular_velocity(),
-            },
-        }
+        let Velocities { linear, angular } = body.velocities();
+        Self { linear, angular }
     }
 
-    /// What a load gives a body that does not turn yet.
+    /// Accelerations that a load gives to a body that does not turn yet.
     pub(super) fn acceleration(body: &Body, load: &Load) -> Self {
         match body.freedom {
             Freedom::Fixed | Freedom::Prescribed(_) => Self::NONE,

@@ -9,7 +9,6 @@ use super::{Member, Met, Mover, Side, body_of};
 use crate::contact::body_body::Exchange;
 use crate::contact::dissipation::Taken;
 use crate::math::Vec3;
-use crate::motion::Velocities;
 use crate::rigid::{Body, Load};
 
 /// Energy of a body in a sub-step of the flow, by what changed it [J]. Contacts with
@@ -20,16 +19,16 @@ pub struct EnergyReport {
     pub flow: f64,
     /// Work of gravity.
     pub gravity: f64,
-    /// What other bodies gave it: the work of prescribed motions, and half of what a
+    /// Energy that other bodies gave it: the work of prescribed motions, and half of what a
     /// contact did to it more than to the other free body.
     pub bodies: f64,
-    /// What damping and slipping took, in its contacts with walls and bodies.
+    /// Energy that damping and slipping took, in its contacts with walls and bodies.
     pub dissipated: f64,
     /// Part of this that the kick before the next drift is still to take.
     pub pending: f64,
     /// Change of what it has and its contacts hold, less all that brought and took it.
     pub made: f64,
-    /// What it has and its contacts hold at the end.
+    /// Kinetic energy and what its contacts hold at the end.
     pub present: f64,
 }
 
@@ -111,7 +110,7 @@ pub(super) fn take_in_losses(members: &mut [Member], movers: &[Mover], meetings:
         let both = met.sides.map(|side| body_of(members, movers, side));
         let power = |damping: &Load| {
             let exchange = Exchange::between(both, damping);
-            let [first, second] = both.map(velocities);
+            let [first, second] = both.map(Body::velocities);
             exchange.on_first.power(&first) + exchange.on_second.power(&second)
         };
         let damped = damped(&met.taken, power, dt);
@@ -128,14 +127,6 @@ fn damped(taken: &Taken, power: impl Fn(&Load) -> f64, dt: f64) -> f64 {
         0.0
     } else {
         (-power(&taken.damping) * dt).max(0.0)
-    }
-}
-
-fn velocities(body: &Body) -> Velocities {
-    if body.is_free() || body.prescribed().is_some() {
-        body.velocities()
-    } else {
-        Velocities::NONE
     }
 }
 

@@ -2,7 +2,16 @@
 
 use super::{Member, Met, Mover, Side, body_of};
 use crate::contact::body_body::Contacts;
-use crate::rigid::Load;
+use crate::rigid::{BodyState, Load};
+
+/// States of all bodies of an island that move.
+fn states<'a>(
+    members: &'a mut [Member],
+    movers: &'a mut [Mover],
+) -> impl Iterator<Item = &'a mut BodyState> {
+    let members = members.iter_mut().map(|member| &mut member.body.state);
+    members.chain(movers.iter_mut().map(|mover| &mut mover.body.state))
+}
 
 /// Finds where bodies touch after a drift of `dt`, and counts how many touch each.
 pub(super) fn find_contacts(
@@ -11,9 +20,8 @@ pub(super) fn find_contacts(
     meetings: &mut [Met],
     dt: f64,
 ) {
-    let members_bodies = members.iter_mut().map(|member| &mut *member.body);
-    for body in members_bodies.chain(movers.iter_mut().map(|mover| &mut mover.body)) {
-        body.state.touching_bodies = 0;
+    for state in states(members, movers) {
+        state.touching_bodies = 0;
     }
     for met in meetings {
         let [first, second] = met.sides.map(|side| body_of(members, movers, side));
@@ -49,9 +57,7 @@ pub(super) fn touch_bodies(
     meetings: &mut [Met],
     dt: f64,
 ) {
-    let members_bodies = members.iter_mut().map(|member| &mut *member.body);
-    for body in members_bodies.chain(movers.iter_mut().map(|mover| &mut mover.body)) {
-        let state = &mut body.state;
+    for state in states(members, movers) {
         state.body_load = Load::default();
         state.barrier_load = Load::default();
     }
