@@ -6,20 +6,20 @@ use crate::math::Vec3;
 use crate::rigid::Body;
 use serde::{Deserialize, Serialize};
 
-/// What brought and took a free body's energy so far.
+/// Balance of a free body's energy so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct BodyEnergy {
     /// Energy at the start, that of its height and its contacts included [J].
     pub start: f64,
     /// Work of the flow on it [J].
     pub flow_work: f64,
-    /// What other bodies gave it, as [`EnergyReport::bodies`] counts it [J].
+    /// Energy that other bodies gave it, as [`EnergyReport::bodies`] counts it [J].
     pub body_work: f64,
-    /// What damping and slipping took in its contacts [J].
+    /// Energy that damping and slipping took in its contacts [J].
     pub dissipated: f64,
     /// Part of what the last sub-step says of that, which it has not taken yet [J].
     pending: f64,
-    /// What nothing accounts for: made if positive [J].
+    /// Energy that nothing accounts for: made if positive [J].
     pub made: f64,
     least_made: f64,
     largest_rise: f64,

@@ -28,7 +28,7 @@ impl Damping {
     }
 }
 
-/// What the contacts of two sides take for good in a sub-step.
+/// Damping and losses of the contacts of two sides in a sub-step: what they take for good.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Taken {
     /// Damping forces with their share: of the walls on the body, or of two bodies on the
@@ -49,7 +49,7 @@ pub fn stopping(body: &Body, load: &Load) -> f64 {
     }
 }
 
-/// How many sets of damping forces act on a body: two from each side that touches it.
+/// Number of sets of damping forces on a body: two from each side that touches it.
 fn sets(body: &Body) -> u32 {
     let walls = u32::from(body.state.wall_overlap > 0.0);
     2 * (body.state.touching_bodies + walls).max(1)

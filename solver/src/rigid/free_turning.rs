@@ -28,7 +28,7 @@ struct AboutAxis {
     excess: f64,
 }
 
-/// What has become of the principal frame, and of the angular momentum in it.
+/// Turn of the principal frame so far, and the angular momentum in it.
 struct Turned {
     /// Principal frame now to that of the start.
     turn: Quaternion<f64>,

@@ -96,12 +96,12 @@ pub struct BodyEnergyDocument {
     pub stored_j: f64,
     /// Work of the flow on it [J].
     pub flow_work_j: f64,
-    /// What other bodies gave it: work of prescribed motions, and half of what a contact did
+    /// Energy that other bodies gave it: work of prescribed motions, and half of what a contact did
     /// to it more than to the other free body [J].
     pub body_work_j: f64,
-    /// What damping and slipping took in its contacts with walls and bodies [J].
+    /// Energy that damping and slipping took in its contacts with walls and bodies [J].
     pub dissipated_j: f64,
-    /// What nothing accounts for: made by the computation if positive, lost if not [J].
+    /// Energy that nothing accounts for: made by the computation if positive, lost if not [J].
     pub made_j: f64,
     /// Largest rise of that above its running minimum, over the largest kinetic and stored
     /// energy, all that flow and bodies exchanged with it, what it rose and sank by, and
