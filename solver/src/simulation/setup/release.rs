@@ -136,21 +136,24 @@ impl Columns {
 const CLOSE: f64 = 0.98;
 
 impl Setup {
-    /// Place of a point of the release beside the bodies: where it is, or moved off a
-    /// surface that is nearer than its stand-off; `None` inside a body or where there
-    /// is no room. So the volume left out is that of the bodies.
+    /// Place of a point of the release beside the bodies: where it is, or at its stand-off
+    /// from a surface that is nearer than a spacing; `None` inside a body or where there
+    /// is no room. So the volume left out is that of the bodies, and no surface that cuts
+    /// the lattice starts with a gap that the flow would first have to close.
     fn place_beside(&self, position: Vec3, bodies: &[Body]) -> Option<Vec3> {
+        let spacing = self.flow.as_ref()?.sphere.spacing;
         // Where the continuum's surface is: at rest the contacts carry what presses there.
-        let stand_off = 0.5 * self.flow.as_ref()?.sphere.spacing;
+        let stand_off = 0.5 * spacing;
+        let fits = CLOSE * stand_off..=stand_off / CLOSE;
         let mut place = position;
         for body in bodies {
-            let Some((distance, normal)) = surface_within(stand_off, body, &place) else {
+            let Some((distance, normal)) = surface_within(spacing, body, &place) else {
                 continue;
             };
             if distance < 0.0 {
                 return None;
             }
-            if distance < CLOSE * stand_off {
+            if !fits.contains(&distance) {
                 place += normal * (stand_off - distance);
             }
         }
