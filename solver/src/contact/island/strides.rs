@@ -22,7 +22,8 @@ pub(super) struct Strides {
     count: u32,
     /// Those done.
     pub(super) done: u32,
-    /// Those in the sub-step before; 0 at the start.
+    /// Those in the sub-step before. At the start one: what damping found there was for a kick
+    /// of a length that is not known any more, and must not meet a longer one.
     before: u32,
     /// Short sub-steps to take before the next look at the gaps.
     wait: u32,
@@ -37,7 +38,7 @@ impl Strides {
             shortest,
             count,
             done: 0,
-            before: 0,
+            before: 1,
             wait: 0,
             in_vain: 0,
         }
@@ -67,9 +68,10 @@ impl Strides {
             self.in_flight(clear_for(members, movers, meetings, around, times))
         };
         let stride = stride.clamp(1, left);
-        let ratio = match self.before {
-            0 => 1.0,
-            before => f64::from(stride) / f64::from(before),
+        let ratio = if self.done == 0 {
+            1.0
+        } else {
+            f64::from(stride) / f64::from(self.before)
         };
         self.before = stride;
         self.done += stride;
@@ -91,11 +93,12 @@ impl Strides {
         let longest = longest_in_touch(members, movers, meetings, around);
         // What is no number asks for the shortest.
         let stride = 1 << ((longest / self.shortest) as u32).max(1).ilog2();
-        match self.before {
-            0 => stride,
-            before if is_quiet(members, around) => stride.min(2 * before),
-            before => stride.min(before),
-        }
+        let at_most = if self.done > 0 && is_quiet(members, around) {
+            2 * self.before
+        } else {
+            self.before
+        };
+        stride.min(at_most)
     }
 
     fn waits(&mut self) -> bool {

@@ -19,55 +19,53 @@ fn clearance(body: &Body) -> f64 {
     body.state.position.z - body.shape.extent_along(&body.to_body(&-Vec3::z()))
 }
 
-// As near the floor as it may come within the step: hundreds of short sub-steps are asked
+// As near the floor as it may come within the step: more than a hundred short sub-steps are asked
 // for, a few are taken. Gravity is uniform, so the way is a parabola to rounding; the turning
 // keeps its energy as it does in any steps of 0.05 rad.
 #[test]
 fn a_flight_takes_few_substeps_along_a_parabola() {
     let mut body = spinning(0.0);
-    body.state.position.z = 2e-3 - clearance(&body);
+    body.state.position.z = 1.2e-3 - clearance(&body);
     body.state.momentum = Vec3::new(0.3, 0.0, 0.1) * body.mass;
     let (start, energy) = (body.clone(), body.kinetic_energy());
     let dt = 1e-3;
     let report = alone(&mut body, &Load::default(), dt);
-    assert!(report.substeps_asked > 300.0, "{report:?}");
+    assert!(report.substeps_asked > 100.0, "{report:?}");
     assert!(report.substeps < 10, "{report:?}");
     assert_eq!(report.supported_share, 0.0);
     let way = start.velocity() * dt + 0.5 * GRAVITY * dt * dt;
-    assert!((body.state.position - start.state.position - way).norm() < 1e-16);
+    assert!((body.state.position - start.state.position - way).norm() < 1e-15);
     assert_eq!(body.state.angular_momentum, start.state.angular_momentum);
     let fallen = body.kinetic_energy() - body.mass * GRAVITY.dot(&way);
     assert!((fallen / energy - 1.0).abs() < 1e-9);
 }
 
-/// Momenta after an impact on the floor from a flight that `dt` cuts into so long pieces,
-/// and the sub-steps it took.
-fn after_impact(dt: f64, restitution: f64) -> (Body, u32) {
-    let mut body = spinning(0.06);
-    body.wall_law.damping = crate::contact::law::damping_number(restitution);
-    body.state.momentum.z = -body.mass;
+/// Speed at which a cube comes back that falls on a vertex from 0.4 mm, in a flight cut
+/// into pieces of `dt`, and the sub-steps it took.
+fn rebound_in(dt: f64, restitution: f64) -> (f64, u32) {
+    let mut cube = cube_at(0.0);
+    cube.wall_law = ContactLaw::hertz(1e9, 0.004, restitution, 0.0);
+    let on_vertex = UnitQuaternion::rotation_between(&Vec3::new(1.0, 1.0, 1.0), &-Vec3::z());
+    cube.state.orientation = on_vertex.expect("not opposite");
+    cube.state.position.z = 4e-4 - clearance(&cube);
+    cube.state.momentum.z = -cube.mass;
     let mut taken = 0;
-    for _ in 0..(0.05 / dt).round() as u32 {
-        taken += alone(&mut body, &Load::default(), dt).substeps;
+    for _ in 0..(2e-3 / dt).round() as u32 {
+        taken += alone(&mut cube, &Load::default(), dt).substeps;
     }
-    (body, taken)
+    (cube.velocity().z, taken)
 }
 
-// In steps of a microsecond, each of which has hardly room for a long sub-step, an impact comes out
-// the same.
+// As in pieces that leave no room for long sub-steps: undamped within 1e-4; damped, where six
+// times as long ones resolve it, within what these do.
 #[test]
 fn an_impact_after_a_flight_is_resolved() {
-    for restitution in [1.0, 0.5] {
-        let (short, many) = after_impact(1e-6, restitution);
-        let (long, few) = after_impact(1e-3, restitution);
-        assert!(
-            short.velocity().z > 0.05,
-            "it rebounds: {}",
-            short.velocity()
-        );
-        let off = (long.velocity() - short.velocity()).norm() / short.velocity().norm();
-        assert!(off < 1e-4, "{off:e}");
-        assert!(10 * few < many, "{few} of {many}");
+    for (restitution, close) in [(1.0, 1e-4), (0.5, 1e-3)] {
+        let (short, many) = rebound_in(1e-6, restitution);
+        let (long, few) = rebound_in(1e-3, restitution);
+        assert!(short > 0.9 * restitution, "it rebounds: {short}");
+        assert!((long / short - 1.0).abs() < close, "{long} {short}");
+        assert!(2 * few < many, "{few} of {many}");
     }
 }
 
@@ -123,7 +121,7 @@ fn turning_stays_below_its_bound() {
 #[test]
 fn weak_contacts_take_longer_substeps() {
     let mut body = cube_at(0.02);
-    body.wall_law = ContactLaw::hertz(1e9, 0.004, 0.5, 0.5);
+    body.wall_law = ContactLaw::hertz(1e10, 0.004, 0.5, 0.5);
     for _ in 0..200 {
         alone(&mut body, &Load::default(), 1e-3);
     }
