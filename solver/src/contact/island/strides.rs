@@ -5,8 +5,8 @@ use super::flight::clear_for;
 use super::in_touch::{is_quiet, longest_in_touch};
 use super::{Member, Met, Mover, Surroundings};
 
-/// With fewer short sub-steps left than this no look is taken at the gaps, which costs as
-/// much as one or two of them.
+/// With fewer short sub-steps left than this no look is taken at gaps and contacts, which costs
+/// as much as one or two of them.
 const WORTH_A_LOOK: u32 = 4;
 /// Short sub-steps between looks that find no room are doubled so many times at most.
 const MOST_DOUBLINGS: u32 = 4;
@@ -25,7 +25,7 @@ pub(super) struct Strides {
     /// Those in the sub-step before. At the start one: what damping found there was for a kick
     /// of a length that is not known any more, and must not meet a longer one.
     before: u32,
-    /// Short sub-steps to take before the next look at the gaps.
+    /// Short sub-steps to take before the next look at gaps and contacts.
     wait: u32,
     /// Looks in a row that found no room.
     in_vain: u32,
@@ -59,13 +59,14 @@ impl Strides {
         around: &Surroundings,
     ) -> (u32, f64) {
         let left = self.count - self.done;
-        let stride = if touches(members, meetings) {
-            self.in_touch(members, movers, meetings, around)
-        } else if left < WORTH_A_LOOK || self.waits() {
+        let stride = if left < WORTH_A_LOOK || self.waits() {
             1
+        } else if touches(members, meetings) {
+            self.in_touch(members, movers, meetings, around)
         } else {
             let times = (2.0 * self.shortest, self.shortest * f64::from(left));
-            self.in_flight(clear_for(members, movers, meetings, around, times))
+            let clear = clear_for(members, movers, meetings, around, times);
+            self.found((clear / self.shortest) as u32)
         };
         let stride = stride.clamp(1, left);
         let ratio = if self.done == 0 {
@@ -81,7 +82,7 @@ impl Strides {
     /// A power of two, so that an impact has steps of one length; no longer than the one
     /// before while damping counts, and at most twice as long.
     fn in_touch(
-        &self,
+        &mut self,
         members: &[Member],
         movers: &[Mover],
         meetings: &[Met],
@@ -90,15 +91,17 @@ impl Strides {
         if self.count < MANY {
             return 1;
         }
-        let longest = longest_in_touch(members, movers, meetings, around);
-        // What is no number asks for the shortest.
-        let stride = 1 << ((longest / self.shortest) as u32).max(1).ilog2();
         let at_most = if self.done > 0 && is_quiet(members, around) {
             2 * self.before
         } else {
             self.before
         };
-        stride.min(at_most)
+        if at_most == 1 {
+            return 1;
+        }
+        let longest = longest_in_touch(members, movers, meetings, around);
+        let stride = 1 << ((longest / self.shortest) as u32).max(1).ilog2();
+        self.found(stride).min(at_most)
     }
 
     fn waits(&mut self) -> bool {
@@ -107,9 +110,9 @@ impl Strides {
         waits
     }
 
-    fn in_flight(&mut self, clear: f64) -> u32 {
-        // What is no number asks for the shortest.
-        let stride = (clear / self.shortest) as u32;
+    /// Takes note of a look that allows so long a sub-step; what is no number, which is 0 as a
+    /// whole one, allows the shortest.
+    fn found(&mut self, stride: u32) -> u32 {
         self.in_vain = if stride > 1 { 0 } else { self.in_vain + 1 };
         self.wait = (1 << self.in_vain.min(MOST_DOUBLINGS)) - 1;
         stride
