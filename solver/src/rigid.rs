@@ -289,6 +289,14 @@ impl Body {
             .fastest_place(&self.to_body(linear), &self.to_body(angular))
     }
 
+    /// Speed that turning freely never gives to any place of it [m/s]: of the energy of
+    /// turning a place has no more than its compliance allows, (ω×c)·n = ω·(c×n) ≤
+    /// √(ω·Iω) √((c×n)·I⁻¹(c×n)).
+    pub fn turning_bound(&self) -> f64 {
+        let twice_energy = self.state.angular_momentum.dot(&self.angular_velocity());
+        (twice_energy.max(0.0) * self.shape.turning_compliance() / self.mass).sqrt()
+    }
+
     /// Least mass that resists a force anywhere on its surface [kg].
     pub fn least_effective_mass(&self) -> f64 {
         self.mass / (1.0 + self.shape.turning_compliance())
@@ -330,9 +338,9 @@ impl Body {
         }
     }
 
-    /// Changes momentum and angular momentum by `load` over `dt`; the mean velocities
-    /// meanwhile, at which the load does the work that the kinetic energy changes by.
-    pub fn kick(&mut self, load: &Load, dt: f64) -> Velocities {
+    /// Changes momentum and angular momentum by `load` over `dt`; their means meanwhile, at
+    /// whose velocities the load does the work that the kinetic energy changes by.
+    pub fn kick(&mut self, load: &Load, dt: f64) -> [Vec3; 2] {
         let before = (self.state.momentum, self.state.angular_momentum);
         self.state.momentum += load.force * dt;
         self.state.angular_momentum += load.torque * dt;
@@ -342,7 +350,7 @@ impl Body {
             self.state.angular_momentum.z = 0.0;
         }
         let after = (self.state.momentum, self.state.angular_momentum);
-        self.velocities_with(&(0.5 * (before.0 + after.0)), &(0.5 * (before.1 + after.1)))
+        [0.5 * (before.0 + after.0), 0.5 * (before.1 + after.1)]
     }
 
     /// Moves and turns freely for `dt`, at constant momentum and angular momentum. The

@@ -16,7 +16,7 @@ mod separation;
 use motion::Motion;
 pub use places::Contacts;
 use places::{Between, Contact, Near, contacts};
-pub use separation::{Separation, least_gap};
+pub use separation::{Separation, distance, least_gap};
 
 /// What the contacts of two bodies remember from one body sub-step to the next.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -18,7 +18,7 @@ pub fn deepest_overlap(body: &Body, planes: &[Plane]) -> f64 {
 
 /// Every pair of core vertex and wall: (place of its spring, arm of the
 /// vertex, overlap).
-fn overlaps<'a>(
+pub fn overlaps<'a>(
     body: &'a Body,
     planes: &'a [Plane],
 ) -> impl Iterator<Item = (usize, Vec3, f64)> + 'a {

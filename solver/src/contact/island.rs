@@ -14,9 +14,12 @@ use rayon::prelude::*;
 
 mod balance;
 mod division;
+mod flight;
+mod in_touch;
 mod member;
 mod mover;
 mod pace;
+mod strides;
 mod touching;
 
 pub use balance::EnergyReport;
@@ -26,6 +29,7 @@ use pace::substeps;
 #[cfg(test)]
 use pace::substeps_alone;
 pub use pace::{MOST_SUBSTEPS, substeps_ahead};
+use strides::Strides;
 use touching::{find_contacts, touch_bodies};
 
 /// A body none of whose places is faster is still [m/s].
@@ -55,8 +59,8 @@ pub struct BodyReport {
     /// Body sub-steps that contacts and spin ask for; none are taken if they are more
     /// than [`MOST_SUBSTEPS`].
     pub substeps_asked: f64,
-    /// Body sub-steps that ended in touch with a wall or another body.
-    pub substeps_supported: u32,
+    /// Share of the time in body sub-steps that ended in touch with a wall or another body.
+    pub supported_share: f64,
     /// Its deepest overlap with a wall or another body, over its sphero radius
     /// or that of the other if smaller.
     pub deepest_overlap_ratio: f64,
@@ -254,10 +258,12 @@ struct Member<'a> {
     flow: Load,
     /// Where its centre is at the start of the flow's sub-step [m].
     start: Vec3,
-    /// Mean velocities in the last half kick.
+    /// Mean velocities in the last half kick in which flow or bodies pushed it.
     mean: Velocities,
     /// Damping and losses of its contacts with walls in the last sub-step.
     taken: Taken,
+    /// Shortest sub-steps over which it was in touch.
+    supported: u32,
 }
 
 /// Two bodies of which one at least is a member.
@@ -310,8 +316,9 @@ fn sleeps(members: &[Member], movers: &[Mover], meetings: &[Met]) -> bool {
         }
 }
 
-/// Velocity Verlet in as many sub-steps as the member that needs most asks for, if that
-/// can be done; a body whose speed is no number asks for no number of them.
+/// Velocity Verlet in sub-steps as short as the member that needs most asks for, if that
+/// can be done; a body whose speed is no number asks for no number of them. While nothing
+/// touches, one sub-step is as long as several of these.
 fn advance_together(
     members: &mut [Member],
     movers: &mut [Mover],
@@ -326,12 +333,15 @@ fn advance_together(
     if asked.is_nan() || asked > MOST_SUBSTEPS {
         return;
     }
-    let h = dt / asked;
+    let mut strides = Strides::new(dt / asked, asked as u32);
     balance::begin(members, meetings);
-    for done in 1..=asked as u32 {
+    while strides.are_left() {
+        let (stride, longer) = strides.next(members, movers, meetings, around);
+        balance::stretch(members, longer);
+        let h = f64::from(stride) * strides.shortest;
         half_kick(members, movers, meetings, around, 0.5 * h);
         for mover in movers.iter_mut() {
-            mover.follow(around.time, f64::from(done) * h);
+            mover.follow(around.time, f64::from(strides.done) * strides.shortest);
         }
         for member in members.iter_mut() {
             member.body.drift(h);
@@ -346,11 +356,14 @@ fn advance_together(
         }
         half_kick(members, movers, meetings, around, 0.5 * h);
         balance::take_in_losses(members, movers, meetings, h);
-        members.iter_mut().for_each(Member::count_substep);
+        for member in members.iter_mut() {
+            member.count_substep(stride);
+        }
     }
     balance::end(members, meetings, &around.gravity);
     for member in members {
         let report = &mut *member.report;
+        report.supported_share = f64::from(member.supported) / asked;
         for load in [&mut report.wall_load, &mut report.body_load] {
             load.force /= dt;
             load.torque /= dt;

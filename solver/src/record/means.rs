@@ -24,7 +24,7 @@ impl Means {
     /// Takes in what acted in `dt` [s] of a sub-step.
     pub(super) fn take_in(&mut self, flow: &Load, report: &BodyReport, dt: f64) {
         self.duration += dt;
-        self.supported += dt * supported_share(report);
+        self.supported += dt * report.supported_share;
         for (sum, load) in [
             (&mut self.flow, flow),
             (&mut self.wall, &report.wall_load),
@@ -42,13 +42,5 @@ impl Means {
         } else {
             Vec3::zeros()
         }
-    }
-}
-
-/// Share of a sub-step in which a body was on walls or other bodies.
-fn supported_share(report: &BodyReport) -> f64 {
-    match report.substeps {
-        0 => 0.0,
-        substeps => f64::from(report.substeps_supported) / f64::from(substeps),
     }
 }

@@ -27,7 +27,7 @@ pub use error::ShapeError;
 pub use polyhedron::{ConvexPolyhedron, Edge, Face};
 pub use principal::PrincipalInertia;
 pub use regular::RegularSolid;
-pub use separation::separation;
+pub use separation::{distance_apart, separation};
 pub use sharp::SharpPolyhedron;
 
 use cuboid::Cuboid;

@@ -3,6 +3,8 @@
 use super::places::corners;
 use crate::math::Vec3;
 use crate::rigid::Body;
+use crate::shape::distance_apart;
+use nalgebra::{Isometry3, Translation3};
 
 /// The gap that a face normal of either core shows between them: a lower bound of
 /// their distance if positive.
@@ -30,6 +32,11 @@ impl Separation {
     pub fn outlasts(&mut self, by: f64) -> bool {
         self.gap -= by;
         self.gap > 0.0
+    }
+
+    /// Distance that they have at least [m]; 0 if none is known.
+    pub fn at_least(&self) -> f64 {
+        self.gap.max(0.0)
     }
 
     /// A gap to go by: that of the face found before, or else the widest.
@@ -99,4 +106,14 @@ pub fn least_gap(first: &Body, second: &Body) -> f64 {
     let corners = [corners(first, &Vec3::zeros()), corners(second, &apart)];
     let reach = first.shape.sphero_radius() + second.shape.sphero_radius();
     widest_gap([first, second], &apart, &corners).1.width - reach
+}
+
+/// Distance of two rounded bodies that are apart [m].
+pub fn distance(first: &Body, second: &Body) -> f64 {
+    let pose = |body: &Body| Isometry3 {
+        rotation: body.state.orientation,
+        translation: Translation3::from(body.state.position),
+    };
+    let cores = distance_apart(&first.shape, &pose(first), &second.shape, &pose(second));
+    cores - first.shape.sphero_radius() - second.shape.sphero_radius()
 }

@@ -41,6 +41,15 @@ pub(super) fn begin(members: &mut [Member], meetings: &[Met]) {
     }
 }
 
+/// The next sub-step is so many times longer than the one before: so is the kick that is
+/// still to take what damping found there takes.
+pub(super) fn stretch(members: &mut [Member], longer: f64) {
+    for member in members {
+        let energy = &mut member.report.energy;
+        energy.dissipated += energy.pending * (longer - 1.0);
+    }
+}
+
 /// Ends the balance of a sub-step of the flow.
 pub(super) fn end(members: &mut [Member], meetings: &[Met], gravity: &Vec3) {
     take_stock(members, meetings);

@@ -12,6 +12,7 @@ impl<'a> Member<'a> {
             start: body.state.position,
             mean: Velocities::NONE,
             taken: Taken::default(),
+            supported: 0,
             flow,
             body,
             report,
@@ -37,9 +38,13 @@ impl<'a> Member<'a> {
         let mut bodies = others;
         bodies.add(&barrier);
         total.add(&bodies);
-        self.mean = self.body.kick(&total, dt);
+        let [linear, angular] = self.body.kick(&total, dt);
         let report = &mut *self.report;
-        report.energy.flow += dt * flow.power(&self.mean);
+        // Loads of walls and weight need no mean velocities to account for their work.
+        if flow != Load::default() || self.body.state.touching_bodies > 0 {
+            self.mean = self.body.velocities_with(&linear, &angular);
+            report.energy.flow += dt * flow.power(&self.mean);
+        }
         report.wall.add_at(&position, &(wall.force * dt));
         report.wall.angular += wall.torque * dt;
         report.barrier.add_at(&position, &(barrier.force * dt));
@@ -54,9 +59,12 @@ impl<'a> Member<'a> {
         }
     }
 
-    pub(super) fn count_substep(&mut self) {
+    /// Counts a sub-step as long as so many of the shortest.
+    pub(super) fn count_substep(&mut self, stride: u32) {
         self.report.substeps += 1;
-        self.report.substeps_supported += u32::from(self.body.is_supported());
+        if self.body.is_supported() {
+            self.supported += stride;
+        }
         let radius = self.body.shape.sphero_radius();
         self.report.overlap(self.body.state.wall_overlap / radius);
     }
@@ -74,7 +82,7 @@ impl<'a> Member<'a> {
         self.report.body_load = state.body_load;
         self.report.body_load.add(&state.barrier_load);
         self.report.substeps = 1;
-        self.report.substeps_supported = u32::from(self.body.is_supported());
+        self.report.supported_share = f64::from(u8::from(self.body.is_supported()));
         let overlap = state.wall_overlap / self.body.shape.sphero_radius();
         self.report.overlap(overlap);
     }

@@ -19,7 +19,7 @@ const UNDAMPED_SHARE: f64 = 0.01;
 /// impact than the integration makes in steps of [`CONTACT_SHARE`].
 const DAMPED: f64 = 0.001;
 /// Largest turn per body sub-step [rad].
-const LARGEST_TURN: f64 = 0.05;
+pub(super) const LARGEST_TURN: f64 = 0.05;
 /// More body sub-steps than this are never taken; a run that needs them ends.
 pub const MOST_SUBSTEPS: f64 = 100_000.0;
 
@@ -122,8 +122,28 @@ fn substeps_of_pair(both: [&Body; 2], law: &ContactLaw, deepest: f64, gained: f6
     }
 }
 
+/// Largest speed of any two places of two bodies relative to each other [m/s].
+pub(super) fn relative_speed(both: [&Body; 2]) -> f64 {
+    let turning = |body: &Body| match body.freedom {
+        Freedom::Fixed => 0.0,
+        Freedom::Prescribed(_) => body.speed_ahead(),
+        Freedom::Free | Freedom::InPlane => {
+            body.angular_velocity().norm() * body.shape.bounding_radius()
+        }
+    };
+    let linear = |body: &Body| {
+        if is_free(body) {
+            body.velocity()
+        } else {
+            Vec3::zeros()
+        }
+    };
+    let [first, second] = both;
+    (linear(first) - linear(second)).norm() + turning(first) + turning(second)
+}
+
 /// Longest body sub-step with a contact this deep [m] that moves this mass [kg] [s].
-fn longest(law: &ContactLaw, deepest: f64, mass: f64) -> f64 {
+pub(super) fn longest(law: &ContactLaw, deepest: f64, mass: f64) -> f64 {
     let damped = (law.damping / DAMPED).min(1.0);
     let share = UNDAMPED_SHARE + damped * (CONTACT_SHARE - UNDAMPED_SHARE);
     share * law.time_scale(deepest, mass)

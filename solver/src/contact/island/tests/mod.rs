@@ -2,6 +2,7 @@
 
 mod balance;
 mod collisions;
+mod flight;
 mod heap;
 
 use super::*;
@@ -86,7 +87,7 @@ fn the_report_accounts_for_every_impulse() {
     let about_origin = body.state.position.cross(&flow.force) + flow.torque;
     let dt = 0.01;
     let report = alone(&mut body, &flow, dt);
-    assert!(report.substeps_supported > 0, "it never struck");
+    assert!(report.supported_share > 0.0, "it never struck");
     assert!(report.wall.linear.z > 0.0);
     let given = report.wall.linear + report.gravity.linear + flow.force * dt;
     assert!((body.state.momentum - linear - given).norm() < 1e-14);

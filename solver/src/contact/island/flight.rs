@@ -1,0 +1,133 @@
+//! Time for which nothing of an island can begin to touch: it is crossed in one body
+//! sub-step (docs/method.md, equation 20a).
+
+use super::pace::LARGEST_TURN;
+use super::{Member, Met, Mover, Side, Surroundings, body_of};
+use crate::contact::body_body::{distance, least_gap};
+use crate::math::Vec3;
+use crate::rigid::Body;
+use crate::walls::Plane;
+
+/// Share of a gap that is crossed at most: the rest is for rounding, and for the flow's
+/// torque, which is taken as that of the start.
+const SHARE_OF_GAP: f64 = 0.9;
+
+/// A motion towards something, at most: a speed [m/s] that grows by an acceleration [m/s²].
+#[derive(Clone, Copy)]
+struct Closing {
+    speed: f64,
+    acceleration: f64,
+}
+
+/// Time for which nothing of an island can touch [s]; not looked for beyond `longest`, nor any
+/// more once it is below `least`.
+pub(super) fn clear_for(
+    members: &[Member],
+    movers: &[Mover],
+    meetings: &[Met],
+    around: &Surroundings,
+    (least, longest): (f64, f64),
+) -> f64 {
+    let mut time = longest;
+    for member in members {
+        time = time.min(LARGEST_TURN / member.body.angular_velocity().norm());
+        time = time.min(clear_of_walls(member, around, time));
+    }
+    for met in meetings {
+        if time < least {
+            break;
+        }
+        let both = met.sides.map(|side| body_of(members, movers, side));
+        let closing = closing_of_pair(members, movers, met, &around.gravity);
+        let by_faces = closing.clear_for(least_gap(both[0], both[1]));
+        time = if by_faces < time {
+            time.min(closing.clear_for(distance(both[0], both[1])))
+        } else {
+            time
+        };
+    }
+    time
+}
+
+/// Time for which a body surely touches no wall [s]; not looked for beyond `longest`.
+fn clear_of_walls(member: &Member, around: &Surroundings, longest: f64) -> f64 {
+    let body = &*member.body;
+    let turning = turning(member);
+    let linear = body.velocity();
+    let acceleration = around.gravity + member.flow.force / body.mass;
+    let towards = |plane: &Plane| Closing {
+        speed: turning.speed - linear.dot(&plane.normal),
+        acceleration: (turning.acceleration - acceleration.dot(&plane.normal)).max(0.0),
+    };
+    around.planes.iter().fold(longest, |time, plane| {
+        let closing = towards(plane);
+        let height = plane.height(&body.state.position);
+        if closing.clear_for(height - body.shape.bounding_radius()) >= time {
+            return time;
+        }
+        let extent = body.shape.extent_along(&body.to_body(&-plane.normal));
+        time.min(closing.clear_for(height - extent))
+    })
+}
+
+/// Motion of two bodies towards each other.
+fn closing_of_pair(members: &[Member], movers: &[Mover], met: &Met, gravity: &Vec3) -> Closing {
+    let velocity = |side: Side| match side {
+        Side::Member(place) => members[place].body.velocity(),
+        Side::Barrier(_) | Side::Mover(_) => Vec3::zeros(),
+    };
+    let acceleration = |side: Side| match side {
+        Side::Member(place) => gravity + members[place].flow.force / members[place].body.mass,
+        Side::Barrier(_) | Side::Mover(_) => Vec3::zeros(),
+    };
+    let own = |side: Side| match side {
+        Side::Member(place) => turning(&members[place]),
+        Side::Barrier(_) => Closing::NONE,
+        Side::Mover(place) => Closing {
+            speed: movers[place].body.speed_ahead(),
+            acceleration: 0.0,
+        },
+    };
+    let [first, second] = met.sides;
+    let (one, other) = (own(first), own(second));
+    Closing {
+        speed: (velocity(first) - velocity(second)).norm() + one.speed + other.speed,
+        acceleration: (acceleration(first) - acceleration(second)).norm()
+            + one.acceleration
+            + other.acceleration,
+    }
+}
+
+/// Largest speed that free turning, and the flow's torque, ever give to a place.
+fn turning(member: &Member) -> Closing {
+    let body: &Body = member.body;
+    let largest = body.inverse_inertia.largest();
+    Closing {
+        speed: body.turning_bound(),
+        acceleration: body.shape.bounding_radius() * largest * member.flow.torque.norm(),
+    }
+}
+
+impl Closing {
+    const NONE: Self = Self {
+        speed: 0.0,
+        acceleration: 0.0,
+    };
+
+    /// Time in which a share of a gap [m] is crossed [s]; 0 if there is none.
+    fn clear_for(&self, gap: f64) -> f64 {
+        let way = SHARE_OF_GAP * gap;
+        let Self {
+            speed,
+            acceleration,
+        } = *self;
+        let reached = (speed * speed + 2.0 * acceleration * way.max(0.0)).sqrt();
+        if speed > 0.0 {
+            2.0 * way.max(0.0) / (speed + reached)
+        } else if acceleration > 0.0 {
+            (reached - speed) / acceleration
+        } else {
+            f64::INFINITY
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Body sub-steps within one of the flow: each is as long as a number of the shortest, which
+//! all that may happen is resolved by (docs/method.md, equations 20, 20a and 20b).
+
+use super::flight::clear_for;
+use super::in_touch::{is_quiet, longest_in_touch};
+use super::{Member, Met, Mover, Surroundings};
+
+/// With fewer short sub-steps left than this no look is taken at gaps and contacts, which costs
+/// as much as one or two of them.
+const WORTH_A_LOOK: u32 = 4;
+/// Short sub-steps between looks that find no room are doubled so many times at most.
+const MOST_DOUBLINGS: u32 = 4;
+/// With fewer short sub-steps than this in one of the flow contacts take them all.
+const MANY: u32 = 100;
+
+/// The sub-steps of an island within one of the flow: how long each may be.
+#[derive(Debug)]
+pub(super) struct Strides {
+    /// The shortest [s].
+    pub(super) shortest: f64,
+    /// Number of those in all.
+    count: u32,
+    /// Those done.
+    pub(super) done: u32,
+    /// Those in the sub-step before. At the start one: what damping found there was for a kick
+    /// of a length that is not known any more, and must not meet a longer one.
+    before: u32,
+    /// Short sub-steps to take before the next look at gaps and contacts.
+    wait: u32,
+    /// Looks in a row that found no room.
+    in_vain: u32,
+}
+
+impl Strides {
+    /// So many shortest sub-steps of this length [s].
+    pub(super) fn new(shortest: f64, count: u32) -> Self {
+        Self {
+            shortest,
+            count,
+            done: 0,
+            before: 1,
+            wait: 0,
+            in_vain: 0,
+        }
+    }
+
+    /// True until all are done.
+    pub(super) fn are_left(&self) -> bool {
+        self.done < self.count
+    }
+
+    /// Takes the next sub-step: the number of shortest ones that it is as long as, and how
+    /// much longer it is than the one before.
+    pub(super) fn next(
+        &mut self,
+        members: &[Member],
+        movers: &[Mover],
+        meetings: &[Met],
+        around: &Surroundings,
+    ) -> (u32, f64) {
+        let left = self.count - self.done;
+        let stride = if left < WORTH_A_LOOK || self.waits() {
+            1
+        } else if touches(members, meetings) {
+            self.in_touch(members, movers, meetings, around)
+        } else {
+            let times = (2.0 * self.shortest, self.shortest * f64::from(left));
+            let clear = clear_for(members, movers, meetings, around, times);
+            self.found((clear / self.shortest) as u32)
+        };
+        let stride = stride.clamp(1, left);
+        let ratio = if self.done == 0 {
+            1.0
+        } else {
+            f64::from(stride) / f64::from(self.before)
+        };
+        self.before = stride;
+        self.done += stride;
+        (stride, ratio)
+    }
+
+    /// A power of two, so that an impact has steps of one length; no longer than the one
+    /// before while damping counts, and at most twice as long.
+    fn in_touch(
+        &mut self,
+        members: &[Member],
+        movers: &[Mover],
+        meetings: &[Met],
+        around: &Surroundings,
+    ) -> u32 {
+        if self.count < MANY {
+            return 1;
+        }
+        let at_most = if self.done > 0 && is_quiet(members, around) {
+            2 * self.before
+        } else {
+            self.before
+        };
+        if at_most == 1 {
+            return 1;
+        }
+        let longest = longest_in_touch(members, movers, meetings, around);
+        let stride = 1 << ((longest / self.shortest) as u32).max(1).ilog2();
+        self.found(stride).min(at_most)
+    }
+
+    fn waits(&mut self) -> bool {
+        let waits = self.wait > 0;
+        self.wait = self.wait.saturating_sub(1);
+        waits
+    }
+
+    /// Takes note of a look that allows so long a sub-step; what is no number, which is 0 as a
+    /// whole one, allows the shortest.
+    fn found(&mut self, stride: u32) -> u32 {
+        self.in_vain = if stride > 1 { 0 } else { self.in_vain + 1 };
+        self.wait = (1 << self.in_vain.min(MOST_DOUBLINGS)) - 1;
+        stride
+    }
+}
+
+/// True if anything of an island touches.
+fn touches(members: &[Member], meetings: &[Met]) -> bool {
+    meetings.iter().any(|met| met.meeting.touches())
+        || members
+            .iter()
+            .any(|member| member.body.state.wall_overlap > 0.0)
+}
