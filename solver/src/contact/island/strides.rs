@@ -4,6 +4,7 @@
 use super::flight::clear_for;
 use super::in_touch::{is_quiet, longest_in_touch};
 use super::{Member, Met, Mover, Surroundings};
+use crate::rigid::Load;
 
 /// With fewer short sub-steps left than this no look is taken at gaps and contacts, which costs
 /// as much as one or two of them.
@@ -12,6 +13,12 @@ const WORTH_A_LOOK: u32 = 4;
 const MOST_DOUBLINGS: u32 = 4;
 /// With fewer short sub-steps than this in one of the flow contacts take them all.
 const MANY: u32 = 100;
+
+/// True if the flow pushes a body: it may press a contact far deeper than the energy that the
+/// body has now.
+fn is_pushed(member: &Member) -> bool {
+    member.flow != Load::default()
+}
 
 /// The sub-steps of an island within one of the flow: how long each may be.
 #[derive(Debug)]
@@ -88,7 +95,7 @@ impl Strides {
         meetings: &[Met],
         around: &Surroundings,
     ) -> u32 {
-        if self.count < MANY {
+        if self.count < MANY || members.iter().any(is_pushed) {
             return 1;
         }
         let at_most = if self.done > 0 && is_quiet(members, around) {
