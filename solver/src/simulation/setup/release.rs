@@ -10,6 +10,7 @@ use crate::math::{Mat3, Sym3, Vec3};
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::{Channel, ReleaseBox, Scenario};
+use crate::shape::Feature;
 use crate::walls::Plane;
 
 /// Largest number of points of one run.
@@ -137,23 +138,29 @@ const CLOSE: f64 = 0.98;
 
 impl Setup {
     /// Place of a point of the release beside the bodies: where it is, or at its stand-off
-    /// from a surface that is nearer than a spacing; `None` inside a body or where there
-    /// is no room. So the volume left out is that of the bodies, and no surface that cuts
-    /// the lattice starts with a gap that the flow would first have to close.
+    /// from a surface that is nearer, or from a face that is nearer than a spacing; `None`
+    /// inside a body or where there is no room. So the volume left out is that of the
+    /// bodies, and no face that cuts the lattice starts with a gap that the flow would first
+    /// have to close. Round a vertex or an edge points would gather.
     fn place_beside(&self, position: Vec3, bodies: &[Body]) -> Option<Vec3> {
         let spacing = self.flow.as_ref()?.sphere.spacing;
         // Where the continuum's surface is: at rest the contacts carry what presses there.
         let stand_off = 0.5 * spacing;
-        let fits = CLOSE * stand_off..=stand_off / CLOSE;
         let mut place = position;
         for body in bodies {
-            let Some((distance, normal)) = surface_within(spacing, body, &place) else {
+            let Some(Surface {
+                feature,
+                distance,
+                normal,
+            }) = surface_within(spacing, body, &place)
+            else {
                 continue;
             };
             if distance < 0.0 {
                 return None;
             }
-            if !fits.contains(&distance) {
+            let has_gap = distance > stand_off / CLOSE && matches!(feature, Feature::Face(_));
+            if has_gap || distance < CLOSE * stand_off {
                 place += normal * (stand_off - distance);
             }
         }
@@ -182,9 +189,12 @@ impl GivenFlow {
             .iter()
             .filter_map(|body| surface_within(radius, body, &point.position));
         // Between two bodies no place suits both.
-        let (Some((distance, normal)), None) = (touched.next(), touched.next()) else {
+        let (Some(surface), None) = (touched.next(), touched.next()) else {
             return Vec3::zeros();
         };
+        let Surface {
+            distance, normal, ..
+        } = surface;
         let pressed = (-normal.dot(&(point.stress.matrix() * normal))).max(0.0);
         let load = pressed * spacing.powi(2);
         let overlap = (load / self.contact_law(0.0, 0.0).stiffness).powf(2.0 / 3.0);
@@ -197,15 +207,29 @@ impl GivenFlow {
     }
 }
 
-/// Distance from a body's surface [m] and the normal there, of a place nearer than `reach`.
-fn surface_within(reach: f64, body: &Body, place: &Vec3) -> Option<(f64, Vec3)> {
+/// Surface of a body near a place.
+struct Surface {
+    /// Feature that is nearest.
+    feature: Feature,
+    /// Distance [m]; negative inside.
+    distance: f64,
+    /// Unit vector towards the place.
+    normal: Vec3,
+}
+
+/// Surface of a body if a place is nearer to it than `reach` [m].
+fn surface_within(reach: f64, body: &Body, place: &Vec3) -> Option<Surface> {
     let arm = body.to_body(&(place - body.state.position));
     if arm.norm() > body.shape.bounding_radius() + reach {
         return None;
     }
     let closest = body.shape.closest_feature(&arm);
     let distance = closest.distance - body.shape.sphero_radius();
-    (distance < reach).then(|| (distance, body.to_world(&closest.normal)))
+    (distance < reach).then(|| Surface {
+        feature: closest.feature,
+        distance,
+        normal: body.to_world(&closest.normal),
+    })
 }
 
 /// Stress of a slope at rest.
