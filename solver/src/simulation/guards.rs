@@ -139,19 +139,41 @@ impl Simulation {
 
     /// Checks that nothing is faster than it can have become.
     fn look_at_speeds(&self) -> Result<(), StepError> {
-        let limit_m_s = FASTER * self.given.guards.speed_given;
-        let bodies = self.state.bodies.iter().map(Body::largest_speed);
-        let fastest = bodies.fold(self.state.flow.fastest(), f64::max);
-        if fastest <= limit_m_s {
+        let time_s = self.state.clock.time;
+        let check = |mover, speed_m_s, limit_m_s| {
+            if speed_m_s <= limit_m_s {
+                return Ok(());
+            }
+            Err(StepError::SpeedRunaway {
+                time_s,
+                mover,
+                speed_m_s,
+                limit_m_s,
+            })
+        };
+        for (place, body) in self.state.bodies.iter().enumerate() {
+            let limit = self.fastest_possible(body);
+            check(Mover::Body(place), body.largest_speed(), limit)?;
+        }
+        let limit = FASTER * self.given.guards.speed_given;
+        if self.state.flow.fastest() <= limit {
             return Ok(());
         }
-        let (mover, speed_m_s) = self.fastest_mover();
-        Err(StepError::SpeedRunaway {
-            time_s: self.state.clock.time,
-            mover,
-            speed_m_s,
-            limit_m_s,
-        })
+        let (point, speed) = self.fastest_point();
+        check(point, speed, limit)
+    }
+
+    /// Largest speed [m/s] that a body's fastest place may come to: a light one among heavy
+    /// ones may get all their energy, which is that of their mass at the speed given.
+    fn fastest_possible(&self, body: &Body) -> f64 {
+        let free = self.state.bodies.iter().filter(|body| body.is_free());
+        let mass: f64 = free.map(|body| body.mass).sum();
+        let lighter = if body.is_free() {
+            (mass / body.least_effective_mass()).sqrt()
+        } else {
+            0.0
+        };
+        self.given.guards.speed_given * lighter.max(FASTER)
     }
 
     /// Checks that there is no more energy than there was, after an audit.
@@ -191,17 +213,16 @@ impl Simulation {
 
     /// Who is fastest, and how fast [m/s].
     fn fastest_mover(&self) -> (Mover, f64) {
+        let bodies = self.state.bodies.iter().enumerate();
+        let speeds = bodies.map(|(place, body)| (Mover::Body(place), body.largest_speed()));
+        speeds.fold(self.fastest_point(), faster)
+    }
+
+    /// The fastest point, and how fast it is [m/s]; the first body at rest if there is none.
+    fn fastest_point(&self) -> (Mover, f64) {
         let mut fastest = (Mover::Body(0), 0.0);
-        let mut meet = |mover, speed| {
-            if speed > fastest.1 {
-                fastest = (mover, speed);
-            }
-        };
-        for (body, state) in self.state.bodies.iter().enumerate() {
-            meet(Mover::Body(body), state.largest_speed());
-        }
         self.state.flow.visit(None, &mut |point| {
-            meet(Mover::Point(point.id), point.velocity.norm());
+            fastest = faster(fastest, (Mover::Point(point.id), point.velocity.norm()));
         });
         fastest
     }
@@ -244,4 +265,8 @@ impl Simulation {
         }
         Ok(())
     }
+}
+
+fn faster(one: (Mover, f64), other: (Mover, f64)) -> (Mover, f64) {
+    if other.1 > one.1 { other } else { one }
 }

@@ -216,3 +216,12 @@ fn a_block_leaves_the_back_wall() {
         assert!((way / 0.1699 - 1.0).abs() < 0.01, "{cell}: {way}");
     }
 }
+
+// A heavy body falls on a far lighter one and squeezes it out at 32 m/s: over 10 times
+// what the fall gives, which the guard of speeds took for a runaway.
+#[test]
+fn a_small_body_is_squeezed_out_from_under_a_heavy_one() {
+    let told = Told::named(include_str!("reported/small_body_squeezed_out.json"));
+    assert!(told.outcome.bodies[0].peak_speed_m_s > 10.0);
+    assert!(told.made() < 1e-3, "{}", told.made());
+}
