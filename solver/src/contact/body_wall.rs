@@ -11,17 +11,23 @@ use crate::walls::Plane;
 
 /// Deepest overlap of the body with a wall [m]; negative when apart.
 pub fn deepest_overlap(body: &Body, planes: &[Plane]) -> f64 {
-    overlaps(body, planes).fold(f64::NEG_INFINITY, |deepest, (_, _, overlap)| {
-        deepest.max(overlap)
-    })
+    overlaps(body, planes).fold(f64::NEG_INFINITY, |deepest, pair| deepest.max(pair.overlap))
 }
 
-/// Every pair of core vertex and wall: (place of its spring, arm of the
-/// vertex, overlap).
-pub fn overlaps<'a>(
-    body: &'a Body,
-    planes: &'a [Plane],
-) -> impl Iterator<Item = (usize, Vec3, f64)> + 'a {
+/// A core vertex and a wall.
+pub struct WallOverlap {
+    /// Place of its spring among the body's.
+    place: usize,
+    /// Vertex, from the body's centre [m].
+    pub arm: Vec3,
+    /// Normal of the wall.
+    pub normal: Vec3,
+    /// Overlap [m]; negative when apart.
+    pub overlap: f64,
+}
+
+/// Every pair of core vertex and wall.
+pub fn overlaps<'a>(body: &'a Body, planes: &'a [Plane]) -> impl Iterator<Item = WallOverlap> + 'a {
     let radius = body.shape.sphero_radius();
     body.shape
         .core_vertices()
@@ -30,10 +36,15 @@ pub fn overlaps<'a>(
         .flat_map(move |(vertex, core)| {
             let arm = body.to_world(core);
             let place = body.state.position + arm;
-            planes.iter().enumerate().map(move |(which, plane)| {
-                let overlap = radius - plane.height(&place);
-                (vertex * planes.len() + which, arm, overlap)
-            })
+            planes
+                .iter()
+                .enumerate()
+                .map(move |(which, plane)| WallOverlap {
+                    place: vertex * planes.len() + which,
+                    arm,
+                    normal: plane.normal,
+                    overlap: radius - plane.height(&place),
+                })
         })
 }
 
@@ -69,17 +80,14 @@ pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) -> Taken {
 fn touches_of<'a>(body: &'a Body, planes: &'a [Plane]) -> impl Iterator<Item = WallTouch> + 'a {
     let radius = body.shape.sphero_radius();
     overlaps(body, planes)
-        .filter(|(_, _, overlap)| *overlap > 0.0)
-        .map(move |(place, vertex, overlap)| {
-            let normal = planes[place % planes.len()].normal;
-            WallTouch {
-                place,
-                arm: vertex - normal * (radius - 0.5 * overlap),
-                normal,
-                overlap,
-                mass: body.mass,
-                force: 0.0,
-            }
+        .filter(|pair| pair.overlap > 0.0)
+        .map(move |pair| WallTouch {
+            place: pair.place,
+            arm: pair.arm - pair.normal * (radius - 0.5 * pair.overlap),
+            normal: pair.normal,
+            overlap: pair.overlap,
+            mass: body.mass,
+            force: 0.0,
         })
 }
 

@@ -60,12 +60,10 @@ fn longest_on_walls(body: &Body, around: &Surroundings) -> f64 {
     let (linear, angular) = (body.velocity(), body.angular_velocity());
     let masses = [body.mass, body.least_effective_mass()];
     let scale = scale(body, &around.gravity);
-    let each = overlaps(body, around.planes).map(|(place, arm, overlap)| {
-        let normal = &around.planes[place % around.planes.len()].normal;
-        let approach = -(linear + angular.cross(&arm)).dot(normal);
+    let each = overlaps(body, around.planes).map(|pair| {
         let coming = Coming {
-            overlap,
-            approach,
+            overlap: pair.overlap,
+            approach: -(linear + angular.cross(&pair.arm)).dot(&pair.normal),
             masses,
             scale,
         };
