@@ -102,9 +102,9 @@ fn viscous_part(elastic: &Vec3, damping: f64, velocity: &Vec3, cap: f64) -> Vec3
 /// Forces of a spring and its damping in a sub-step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resistance {
-    /// Of the spring [N].
+    /// Force of the spring [N].
     pub elastic: Vec3,
-    /// Of damping, before its share is taken [N].
+    /// Force of damping, before its share is taken [N].
     pub viscous: Vec3,
     /// Energy that the spring lost for good [J].
     pub lost: f64,

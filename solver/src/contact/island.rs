@@ -318,7 +318,7 @@ fn sleeps(members: &[Member], movers: &[Mover], meetings: &[Met]) -> bool {
 
 /// Velocity Verlet in sub-steps as short as the member that needs most asks for, if that
 /// can be done; a body whose speed is no number asks for no number of them. While nothing
-/// touches, one sub-step is as long as several of these.
+/// touches, or contacts are weak, one sub-step is as long as several of these.
 fn advance_together(
     members: &mut [Member],
     movers: &mut [Mover],

@@ -129,8 +129,8 @@ fn a_steel_cube_laid_on_a_bed_lies_still() {
     assert!(end - lowest < 5e-4, "{lowest} {end}");
 }
 
-/// What a plate with its front face so far upstream [m] holds back of a bed, after the part
-/// before it has slid off [N].
+/// Force of a bed [N] on a plate with its front face so far upstream [m], after the part
+/// before it has slid off.
 fn held_back(thickness: f64, face: f64, bed: f64) -> f64 {
     let mut scene = scene(include_str!("reported/plate_divides_bed.json"));
     let body = &mut scene["bodies"][0];
