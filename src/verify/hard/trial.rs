@@ -171,7 +171,8 @@ pub struct Figures {
     pub left: u64,
     /// Points neither there nor left.
     pub lost: u64,
-    /// Largest speed over the largest that falling and throwing give.
+    /// Largest speed over the largest that falling and throwing give, of a light body over
+    /// half of what the energy of all could make it.
     pub speed: f64,
     /// True if every place and velocity is a number.
     pub finite: bool,
@@ -325,10 +326,14 @@ fn look(simulation: &Simulation, figures: &mut Figures) {
         finite &= point.position.sum().is_finite() && point.velocity.sum().is_finite();
     });
     let (mut inside, slack) = (0, ROUNDING * simulation.cell_size_m());
+    let free = simulation.bodies().iter().filter(|body| body.is_free());
+    let free_mass: f64 = free.map(|body| body.mass).sum();
     for body in simulation.bodies() {
         // As fast as its energy would make it without turning: how fast a corner gets by
-        // turning is a matter of shape.
-        fastest = fastest.max((2.0 * body.kinetic_energy() / body.mass).sqrt());
+        // turning is a matter of shape. Heavy bodies may give a light one all of theirs.
+        let speed = (2.0 * body.kinetic_energy() / body.mass).sqrt();
+        let lighter = ((free_mass / body.mass).sqrt() / SPEED).max(1.0);
+        fastest = fastest.max(speed / lighter);
         finite &= body.non_finite().is_none();
         let radius = body.shape.sphero_radius();
         simulation.visit_points(Some(&Around::body(body, 0.0)), |point| {
