@@ -185,7 +185,7 @@ mod tests {
         }
     }
 
-    // Values worked out by hand from the quadratic for τ (method.md, eq. 6):
+    // Values worked out by hand from the quadratic for τ (docs/method.md, equation 6):
     // p = 500 Pa, Δt = 1e-5 s; printed to six digits, hence the tolerance.
     #[test]
     fn the_return_mapping_solves_its_quadratic() {

@@ -6,6 +6,7 @@ mod access;
 mod app;
 mod bad_input;
 mod campaign;
+mod citations;
 mod contract;
 mod dismissal;
 mod ending;

@@ -218,7 +218,7 @@ mod tests {
         }
     }
 
-    // validation.md, case 4: asked = got within 2 %, at two speeds.
+    // docs/accuracy.md, case 4: asked = got within 2 %, at two speeds.
     #[test]
     fn restitution_asked_is_restitution_got() {
         for restitution in [0.1, 0.3, 0.5, 0.8, 1.0] {
@@ -239,7 +239,7 @@ mod tests {
         assert_eq!(damping_number(0.0), MAX_DAMPING);
     }
 
-    // validation.md, case 3: δ_max = (5 m v²/4k)^0.4 = 0.51499 mm, 155.83 N.
+    // docs/accuracy.md, case 3: δ_max = (5 m v²/4k)^0.4 = 0.51499 mm, 155.83 N.
     #[test]
     fn an_undamped_impact_is_that_of_hertz() {
         let law = ContactLaw::hertz(1e8, 0.01, 1.0, 0.0);

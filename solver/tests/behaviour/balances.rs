@@ -1,5 +1,5 @@
 //! Mass and momentum of flow and bodies against walls and gravity, every step:
-//! validation.md, case 14.
+//! docs/accuracy.md, case 14.
 
 use crate::scenes::{Scene, watch};
 use scree_solver::Simulation;

@@ -1,4 +1,4 @@
-//! Bodies without a flow: validation.md, cases 1, 4 and 6.
+//! Bodies without a flow: docs/accuracy.md, cases 1, 4 and 6.
 
 use crate::scenes::{Scene, run, watch};
 use scree_solver::Simulation;
@@ -42,7 +42,7 @@ fn on_vertex() -> Value {
     json!([half.cos(), part, -part, 0.0])
 }
 
-// validation.md, case 6: a = g (sin θ − μ cos θ) within 0.1 %, from the speeds
+// docs/accuracy.md, case 6: a = g (sin θ − μ cos θ) within 0.1 %, from the speeds
 // at two times after the contact has settled.
 #[test]
 fn a_cube_slides_at_the_acceleration_of_coulomb() {
@@ -60,7 +60,7 @@ fn a_cube_slides_at_the_acceleration_of_coulomb() {
 }
 
 // Sticks for μ > tan θ. The tangential springs stretch at the start and ring
-// out within 0.2 s; after that nothing may creep (validation.md: 1e-6 m in 5 s).
+// out within 0.2 s; after that nothing may creep (docs/accuracy.md, case 6: 1e-6 m in 5 s).
 #[test]
 fn a_cube_below_its_angle_of_friction_does_not_creep() {
     let mut simulation = on_slope(25.0, 0.6, 5.0).start();
@@ -119,7 +119,7 @@ fn rebound(scene: &Scene) -> f64 {
     leaving / arriving
 }
 
-// validation.md, case 4: e asked = e got within 2 %, for a cube that falls on a
+// docs/accuracy.md, case 4: e asked = e got within 2 %, for a cube that falls on a
 // vertex below its centre, where the effective mass is its own.
 #[test]
 fn a_vertex_rebounds_as_asked() {
@@ -151,7 +151,7 @@ fn tips(inclination_deg: f64) -> bool {
     turned > 0.1
 }
 
-// validation.md, case 6: tips past atan((L/2 − r)/(L/2)) = 41.99° for r = 2 mm
+// docs/accuracy.md, case 6: tips past atan((L/2 − r)/(L/2)) = 41.99° for r = 2 mm
 // and L = 40 mm, ±0.3°.
 #[test]
 fn a_cube_tips_over_its_lowest_edge() {

@@ -1,4 +1,4 @@
-//! A column at rest: validation.md, case 8.
+//! A column at rest: docs/accuracy.md, case 8.
 
 use crate::scenes::{PRECISIONS, Scene, mean_velocity, points_by_id, run, watch};
 use serde_json::json;

@@ -1,5 +1,5 @@
 //! A block of flow that hardly yields slides down an incline the grid is not
-//! aligned with: validation.md, case 9.
+//! aligned with: docs/accuracy.md, case 9.
 
 use crate::scenes::{PRECISIONS, Scene, mean_velocity, run};
 use scree_solver::Simulation;
@@ -40,7 +40,7 @@ fn acceleration(scene: &Scene, inclination_deg: f64, from_s: f64, to_s: f64) -> 
     (last - first) / (end - start)
 }
 
-// Bar: 1 % of g (validation.md). Measured on cells of 0.015 m, in parts of g:
+// Bar: 1 % of g (docs/accuracy.md, case 9). Measured on cells of 0.015 m, in parts of g:
 // +0.02 % at 20°, +0.04 % at 30°, −0.06 % at 45°, and in single precision +0.07 %,
 // +0.01 % and −0.06 %; over windows half as long the block's own ringing shows,
 // ±0.4 %.

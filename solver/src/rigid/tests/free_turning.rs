@@ -6,7 +6,7 @@ use crate::rigid::{Body, Freedom};
 use crate::shape::SharpPolyhedron;
 use nalgebra::UnitQuaternion;
 
-/// The 1:2:3 box of validation.md, case 5, spinning about its middle axis but
+/// The 1:2:3 box of docs/accuracy.md, case 5, spinning about its middle axis but
 /// for a little.
 fn tumbling() -> Body {
     let mut body = cuboid([0.01, 0.02, 0.03]);

@@ -54,7 +54,7 @@ fn collision(numbers: &mut Numbers, dt: f64) -> [f64; 4] {
     ]
 }
 
-// validation.md, case 7. Velocity Verlet in steps of a hundredth of the body
+// docs/accuracy.md, case 7. Velocity Verlet in steps of a hundredth of the body
 // sub-step's share; the momenta are rounding, whatever the step.
 #[test]
 fn an_undamped_collision_keeps_energy_and_momenta() {
@@ -115,7 +115,7 @@ fn rebound(turn: &Vec3, restitution: f64, at_a_body: bool) -> f64 {
     bodies[0].velocity().z - bodies.get(1).map_or(0.0, |other| other.velocity().z)
 }
 
-// validation.md, case 4: e asked = e got within 2 %, for a vertex, an edge and a
+// docs/accuracy.md, case 4: e asked = e got within 2 %, for a vertex, an edge and a
 // face, on a wall and on an equal body.
 #[test]
 fn vertex_edge_and_face_rebound_as_asked() {
