@@ -103,7 +103,7 @@ async fn serve(
     store: &Store,
     listener: TcpListener,
 ) -> Result<(Pool, JoinHandle<()>, watch::Sender<bool>), StartError> {
-    let left_running = store.take_back_own(&config.queue.name).await?;
+    let left_running = store.reclaim_own(&config.queue.name).await?;
     if left_running > 0 {
         tracing::warn!(left_running, "the last service died under jobs: they go on");
     }

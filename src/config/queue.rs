@@ -37,7 +37,7 @@ impl Queue {
     }
 
     /// Time that a claimed job stays a worker's without a sign of life.
-    pub fn lease(&self) -> Duration {
+    pub fn lease_duration(&self) -> Duration {
         Duration::from_secs_f64(self.lease_s)
     }
 

@@ -1,5 +1,5 @@
 //! Keeps the leases of running jobs, on a thread of its own: however busy the
-//! workers are, their jobs stay theirs. Also takes back jobs whose lease, with
+//! workers are, their jobs stay theirs. Also reclaims jobs whose lease, with
 //! another service, has run out, and removes what has been kept long enough.
 
 use super::pool::Equipment;
@@ -64,17 +64,17 @@ fn beat_once(equipment: &Equipment) {
         let progress = run.board.read();
         let renewed = equipment
             .store
-            .renew(run.hold, equipment.queue.lease(), &progress);
+            .renew(run.lease, equipment.queue.lease_duration(), &progress);
         match equipment.runtime.block_on(renewed) {
             Ok(Renewal::Held) => {}
             Ok(renewal) => {
-                info!(id = %run.hold.job, ?renewal, "the job is not to go on");
+                info!(id = %run.lease.job, ?renewal, "the job is not to go on");
                 run.stop.raise();
             }
-            Err(error) => warn!(id = %run.hold.job, %error, "a lease can't be renewed now"),
+            Err(error) => warn!(id = %run.lease.job, %error, "a lease can't be renewed now"),
         }
     }
-    match take_back(equipment) {
+    match reclaim_expired(equipment) {
         Ok(0) => {}
         Ok(count) => {
             warn!(count, "took back jobs whose lease had run out");
@@ -124,11 +124,11 @@ impl Tidy {
     }
 }
 
-fn take_back(equipment: &Equipment) -> Result<usize, StoreError> {
+fn reclaim_expired(equipment: &Equipment) -> Result<usize, StoreError> {
     let queue = &equipment.queue;
     equipment.runtime.block_on(
         equipment
             .store
-            .take_back_expired(&queue.name, queue.lease()),
+            .reclaim_expired(&queue.name, queue.lease_duration()),
     )
 }

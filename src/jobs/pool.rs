@@ -5,7 +5,7 @@ use super::job::JobId;
 use super::keeper::Keeper;
 use super::progress::ProgressBoard;
 use super::runner::{Stop, StopFlag};
-use super::store::{Hold, Store};
+use super::store::{Lease, Store};
 use super::worker;
 use crate::config::{PoolSize, Queue, Recording, Retention, ServiceConfig};
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ use tokio::runtime::Handle;
 use tokio::sync::watch;
 
 /// Time that an idle worker sleeps before it looks for work unasked, in case a job had to
-/// wait after a setback.
+/// wait after a failed attempt.
 const IDLE_LOOK: Duration = Duration::from_secs(1);
 
 /// The workers of a service.
@@ -66,7 +66,7 @@ struct Seated {
 /// A running job, for whoever keeps its lease.
 #[derive(Debug, Clone)]
 pub(super) struct Run {
-    pub(super) hold: Hold,
+    pub(super) lease: Lease,
     pub(super) stop: Arc<StopFlag>,
     pub(super) board: Arc<ProgressBoard>,
 }
@@ -195,9 +195,9 @@ impl Bench {
     }
 
     /// Gives a job that is about to run its place.
-    pub(super) fn seat(self: &Arc<Self>, hold: Hold) -> Place {
+    pub(super) fn seat(self: &Arc<Self>, lease: Lease) -> Place {
         let run = Run {
-            hold,
+            lease,
             stop: Arc::default(),
             board: Arc::default(),
         };
@@ -210,7 +210,7 @@ impl Bench {
             run: run.clone(),
             ended,
         };
-        state.running.insert(hold.job, seated);
+        state.running.insert(lease.job, seated);
         Place {
             bench: Arc::clone(self),
             run,
@@ -226,7 +226,7 @@ impl Bench {
 
 impl Drop for Place {
     fn drop(&mut self) {
-        self.bench.state().running.remove(&self.run.hold.job);
+        self.bench.state().running.remove(&self.run.lease.job);
     }
 }
 
@@ -234,8 +234,8 @@ impl Drop for Place {
 mod tests {
     use super::*;
 
-    fn hold() -> Hold {
-        Hold {
+    fn lease() -> Lease {
+        Lease {
             job: JobId::new(),
             attempt: 1,
             token: 1,
@@ -245,20 +245,20 @@ mod tests {
     #[test]
     fn a_job_seated_on_a_closing_bench_is_asked_to_stop_at_once() {
         let bench = Arc::new(Bench::default());
-        let early = bench.seat(hold());
+        let early = bench.seat(lease());
         assert!(!early.run.stop.is_raised());
         bench.close();
         assert_eq!(early.run.stop.asked(), Stop::OnceSaved);
-        assert!(bench.seat(hold()).run.stop.is_raised());
+        assert!(bench.seat(lease()).run.stop.is_raised());
         assert_eq!(bench.submissions(), None);
     }
 
     #[test]
     fn a_job_that_left_its_place_can_not_be_stopped() {
         let bench = Arc::new(Bench::default());
-        let hold = hold();
-        let job = hold.job;
-        let place = bench.seat(hold);
+        let lease = lease();
+        let job = lease.job;
+        let place = bench.seat(lease);
         assert_eq!(bench.runs().len(), 1);
         let ended = bench.stop_job(job).unwrap();
         assert_eq!(place.run.stop.asked(), Stop::AtOnce);

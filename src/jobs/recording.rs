@@ -4,7 +4,7 @@
 use super::open_chunk::OpenChunk;
 use super::progress::{Progress, ProgressBoard};
 use super::runner::Sink;
-use super::store::{Hold, Mark, NewResults, Store, StoreError, StoredState};
+use super::store::{Lease, Mark, NewResults, Store, StoreError, StoredState};
 use crate::config::Recording;
 use crate::results::chunk::BlockError;
 use crate::results::fingerprint::Fingerprint;
@@ -49,7 +49,7 @@ pub enum KeepError {
 pub struct StoreSink {
     store: Store,
     runtime: Handle,
-    hold: Hold,
+    lease: Lease,
     recording: Recording,
     /// When the first state is due after the start.
     first_state: Duration,
@@ -75,10 +75,10 @@ struct Times {
 }
 
 impl StoreSink {
-    /// A sink for the job of this hold, which tells its progress on `board`.
+    /// A sink for the job of this lease, which tells its progress on `board`.
     pub fn new(
         (store, runtime): (Store, Handle),
-        hold: Hold,
+        lease: Lease,
         recording: Recording,
         board: Arc<ProgressBoard>,
     ) -> Self {
@@ -86,7 +86,7 @@ impl StoreSink {
         Self {
             store,
             runtime,
-            hold,
+            lease,
             board,
             open_chunks: Vec::new(),
             samples: 0,
@@ -109,7 +109,7 @@ impl StoreSink {
     pub fn afresh(&self) -> Self {
         let mut sink = Self::new(
             (self.store.clone(), self.runtime.clone()),
-            self.hold,
+            self.lease,
             self.recording.clone(),
             Arc::clone(&self.board),
         );
@@ -136,7 +136,7 @@ impl StoreSink {
         for body in 0..bodies {
             let last = self
                 .runtime
-                .block_on(self.store.last_chunk(self.hold.job, body))?;
+                .block_on(self.store.last_chunk(self.lease.job, body))?;
             let open = OpenChunk::reopened(last, mark.samples).ok_or(KeepError::Missing)?;
             self.open_chunks.push(open);
         }
@@ -179,7 +179,7 @@ impl StoreSink {
             results.chunks.extend(open.sealed(body)?);
         }
         self.times.flushed = Instant::now();
-        match self.runtime.block_on(self.store.keep(self.hold, &results)) {
+        match self.runtime.block_on(self.store.keep(self.lease, &results)) {
             Ok(true) => {
                 self.times.refused_since = None;
                 self.open_chunks

@@ -6,7 +6,7 @@ use super::pool::{Equipment, Place};
 use super::recording::{KeepError, StoreSink};
 use super::runner::{Run, RunEnd, RunError, Stop, StopFlag};
 use super::saved_run::{COMMIT, SavedRunError};
-use super::store::{Beginning, Claim, Claimant, Hold, Mark, Setback, Solver, StoreError};
+use super::store::{Beginning, Claim, Claimant, FailedAttempt, Lease, Mark, Solver, StoreError};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
 use scree_solver::{Instructions, SetupError};
@@ -23,9 +23,9 @@ enum Verdict {
     Successful(Box<Outcome>, String),
     Failed(Failure),
     /// Through no fault of the scenario.
-    SetBack(String),
+    AttemptFailed(String),
     /// Stopped because the service stops.
-    HandedBack,
+    Released,
     /// Dismissed or taken away: what there is to say is said.
     Gone,
 }
@@ -34,7 +34,7 @@ enum Verdict {
 pub(super) fn work(equipment: &Equipment) {
     let mut claimant = Claimant {
         owner: equipment.queue.name.clone(),
-        lease: equipment.queue.lease(),
+        lease_duration: equipment.queue.lease_duration(),
         solver: Solver {
             version: scree_solver::VERSION,
             commit: COMMIT,
@@ -64,14 +64,14 @@ fn instructions() -> &'static str {
 }
 
 fn carry_out(equipment: &Equipment, claim: &Claim) {
-    let hold = claim.hold;
-    let _span = info_span!("job", id = %hold.job, attempt = hold.attempt).entered();
+    let lease = claim.lease;
+    let _span = info_span!("job", id = %lease.job, attempt = lease.attempt).entered();
     // Seated before its row is looked at: a dismissal that came before finds the
     // row changed, one that comes after finds the place.
-    let place = equipment.bench.seat(hold);
+    let place = equipment.bench.seat(lease);
     info!("started");
     let verdict = shielded(|| run(equipment, claim, &place));
-    while let Err(error) = pronounce(equipment, hold, &verdict) {
+    while let Err(error) = pronounce(equipment, lease, &verdict) {
         error!(%error, "the job's end can't be written now");
         if !equipment.bench.pause(RETRY_PAUSE) {
             // The row stays as it is, and the next start takes it back.
@@ -102,7 +102,7 @@ fn run(equipment: &Equipment, claim: &Claim, place: &Place) -> Verdict {
         .min(equipment.threads);
     let mut sink = StoreSink::new(
         (equipment.store.clone(), equipment.runtime.clone()),
-        claim.hold,
+        claim.lease,
         equipment.recording.clone(),
         place.run.board.clone(),
     );
@@ -115,7 +115,7 @@ fn run(equipment: &Equipment, claim: &Claim, place: &Place) -> Verdict {
     }
     let ended = carried_through(
         equipment,
-        claim.hold,
+        claim.lease,
         (&scenario, threads),
         (stop, &mut sink),
     );
@@ -134,17 +134,17 @@ fn run(equipment: &Equipment, claim: &Claim, place: &Place) -> Verdict {
 /// The run to its end, or the several that bands or a target take.
 fn carried_through(
     equipment: &Equipment,
-    hold: Hold,
+    lease: Lease,
     (scenario, threads): (&Scenario, usize),
     (stop, sink): (&StopFlag, &mut StoreSink),
 ) -> Result<RunEnd, RunError<KeepError>> {
     let what = (scenario, threads);
     if scenario.accuracy.takes_several_runs() {
         let ways: Ways<Runs> = (Runs::restored, Runs::afresh);
-        return set_up(equipment, hold, what, sink, ways)?.go(stop, sink);
+        return set_up(equipment, lease, what, sink, ways)?.go(stop, sink);
     }
     let ways: Ways<Run> = (Run::restored, Run::afresh);
-    set_up(equipment, hold, what, sink, ways)?.go(stop, sink)
+    set_up(equipment, lease, what, sink, ways)?.go(stop, sink)
 }
 
 /// Ways in which a run is made from its saved state, and at its start.
@@ -156,11 +156,11 @@ type Ways<T> = (
 /// Says where the run begins.
 fn begin(
     equipment: &Equipment,
-    hold: Hold,
+    lease: Lease,
     beginning: &Beginning,
     threads: usize,
 ) -> Result<(), RunError<KeepError>> {
-    let begun = equipment.store.begin(hold, beginning, threads);
+    let begun = equipment.store.begin(lease, beginning, threads);
     match equipment.runtime.block_on(begun) {
         Ok(true) => Ok(()),
         Ok(false) => Err(RunError::Sink(KeepError::Lost)),
@@ -171,14 +171,14 @@ fn begin(
 /// The run where its saved state stands, or else at its start.
 fn set_up<T>(
     equipment: &Equipment,
-    hold: Hold,
+    lease: Lease,
     (scenario, threads): (&Scenario, usize),
     sink: &mut StoreSink,
     (restore, afresh): Ways<T>,
 ) -> Result<T, RunError<KeepError>> {
     let from = |state: &[u8]| restore(scenario, threads, state);
-    if let Some((run, mark)) = restored(equipment, hold, from) {
-        begin(equipment, hold, &Beginning::At(mark), threads)?;
+    if let Some((run, mark)) = restored(equipment, lease, from) {
+        begin(equipment, lease, &Beginning::At(mark), threads)?;
         match sink.go_on_from(&mark, scenario.bodies.len()) {
             Ok(()) => {
                 info!(time_s = mark.time_s, "goes on from its saved state");
@@ -188,7 +188,7 @@ fn set_up<T>(
             Err(error) => return Err(RunError::Sink(error)),
         }
     }
-    begin(equipment, hold, &Beginning::Afresh, threads)?;
+    begin(equipment, lease, &Beginning::Afresh, threads)?;
     *sink = sink.afresh();
     Ok(afresh(scenario, threads)?)
 }
@@ -197,10 +197,10 @@ fn set_up<T>(
 /// for the log: the run then starts over.
 fn restored<T>(
     equipment: &Equipment,
-    hold: Hold,
+    lease: Lease,
     from: impl Fn(&[u8]) -> Result<T, SavedRunError>,
 ) -> Option<(T, Mark)> {
-    let stored = match equipment.runtime.block_on(equipment.store.state(hold.job)) {
+    let stored = match equipment.runtime.block_on(equipment.store.state(lease.job)) {
         Ok(stored) => stored?,
         Err(error) => {
             warn!(%error, "the saved state can't be read");
@@ -223,7 +223,7 @@ fn restored<T>(
 /// Verdict that a raised flag asks for.
 fn stopped(stop: &StopFlag) -> Verdict {
     match stop.asked() {
-        Stop::OnceSaved => Verdict::HandedBack,
+        Stop::OnceSaved => Verdict::Released,
         Stop::AtOnce | Stop::AtTheEnd => Verdict::Gone,
     }
 }
@@ -234,40 +234,42 @@ fn verdict_on(error: &RunError<KeepError>) -> Verdict {
         RunError::Setup(
             error @ (SetupError::TooManyPoints { .. } | SetupError::NotReducible { .. }),
         ) => Verdict::Failed(Failure::setup(error)),
-        RunError::Setup(error @ SetupError::Threads { .. }) => Verdict::SetBack(error.to_string()),
+        RunError::Setup(error @ SetupError::Threads { .. }) => {
+            Verdict::AttemptFailed(error.to_string())
+        }
         RunError::Sink(KeepError::Lost) => Verdict::Gone,
-        RunError::Sink(error) => Verdict::SetBack(error.to_string()),
+        RunError::Sink(error) => Verdict::AttemptFailed(error.to_string()),
     }
 }
 
 /// Writes the verdict. A job that was dismissed meanwhile stays dismissed: each
 /// of these changes a running job only.
-fn pronounce(equipment: &Equipment, hold: Hold, verdict: &Verdict) -> Result<(), StoreError> {
+fn pronounce(equipment: &Equipment, lease: Lease, verdict: &Verdict) -> Result<(), StoreError> {
     let store = &equipment.store;
     let runtime = &equipment.runtime;
     match verdict {
         Verdict::Successful(outcome, fingerprint) => match serde_json::to_string(outcome) {
             Ok(outcome) => {
-                runtime.block_on(store.succeed(hold, &outcome, fingerprint))?;
+                runtime.block_on(store.succeed(lease, &outcome, fingerprint))?;
                 info!("successful");
             }
             Err(error) => {
                 let failure = failure_under_an_id(&error.to_string());
-                runtime.block_on(store.fail(hold, &failure))?;
+                runtime.block_on(store.fail(lease, &failure))?;
             }
         },
         Verdict::Failed(failure) => {
-            runtime.block_on(store.fail(hold, failure))?;
+            runtime.block_on(store.fail(lease, failure))?;
             info!(detail = failure.detail, "failed");
         }
-        Verdict::SetBack(reason) => {
-            let setback = Setback::Infrastructure(reason.clone());
-            let returned = runtime.block_on(store.set_back(hold, &setback))?;
+        Verdict::AttemptFailed(reason) => {
+            let failed_attempt = FailedAttempt::Infrastructure(reason.clone());
+            let returned = runtime.block_on(store.fail_attempt(lease, &failed_attempt))?;
             warn!(reason, ?returned, "set back");
         }
-        Verdict::HandedBack => {
-            let handed_back = runtime.block_on(store.hand_back(hold))?;
-            info!(handed_back, "stopped with the service");
+        Verdict::Released => {
+            let released = runtime.block_on(store.release(lease))?;
+            info!(released, "stopped with the service");
         }
         Verdict::Gone => info!("stopped"),
     }

@@ -3,7 +3,7 @@
 use crate::app::{
     TestApp, config, database, endless_scene, has_ended, is_running, long_scene, tiny_scene,
 };
-use scree::jobs::store::{Claimant, Hold, Room, Solver, Store, Submission, TOLERATED_SETBACKS};
+use scree::jobs::store::{Claimant, Lease, Room, Solver, Store, Submission, TOLERATED_SETBACKS};
 use scree::jobs::submit;
 use scree::service::{self, StartError};
 use serde_json::{Value, json};
@@ -117,10 +117,10 @@ async fn several_runs_go_on_where_they_were_with_the_same_bits() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_job_that_a_crash_cut_off_is_run_again_from_its_start() {
     let directory = TempDir::new().unwrap();
-    let hold = cut_off(&directory, 1).await;
+    let lease = cut_off(&directory, 1).await;
     let app = TestApp::start_in(directory, |_| {}).await;
     let job = app
-        .wait_for_success(&format!("/v1/jobs/{}", hold.job))
+        .wait_for_success(&format!("/v1/jobs/{}", lease.job))
         .await;
     assert_eq!(job["attempt"], 2);
     app.stop().await;
@@ -129,9 +129,9 @@ async fn a_job_that_a_crash_cut_off_is_run_again_from_its_start() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_job_that_keeps_taking_the_service_down_fails() {
     let directory = TempDir::new().unwrap();
-    let hold = cut_off(&directory, TOLERATED_SETBACKS).await;
+    let lease = cut_off(&directory, TOLERATED_SETBACKS).await;
     let app = TestApp::start_in(directory, |_| {}).await;
-    let job = app.get(&format!("/v1/jobs/{}", hold.job)).await.body;
+    let job = app.get(&format!("/v1/jobs/{}", lease.job)).await.body;
     assert_eq!(job["status"], "failed");
     assert_eq!(job["problem"]["type"], "urn:scree:failure:cut-off");
     assert_eq!(job["problem"]["cut_offs"], 3);
@@ -140,7 +140,7 @@ async fn a_job_that_keeps_taking_the_service_down_fails() {
 }
 
 /// Leaves a database as services leave it that died `times` times under a job.
-async fn cut_off(directory: &TempDir, times: u32) -> Hold {
+async fn cut_off(directory: &TempDir, times: u32) -> Lease {
     let store = Store::open(&database(directory)).await.unwrap();
     let means = submit::Means {
         threads_per_worker: 1,
@@ -159,7 +159,7 @@ async fn cut_off(directory: &TempDir, times: u32) -> Hold {
     store.submit(&submission).await.unwrap();
     let claimant = Claimant {
         owner: config(directory).queue.name,
-        lease: Duration::from_secs(30),
+        lease_duration: Duration::from_secs(30),
         solver: Solver {
             version: "0",
             commit: "",
@@ -169,11 +169,11 @@ async fn cut_off(directory: &TempDir, times: u32) -> Hold {
     };
     for _ in 1..times {
         store.claim(&claimant).await.unwrap().unwrap();
-        store.take_back_own(&claimant.owner).await.unwrap();
+        store.reclaim_own(&claimant.owner).await.unwrap();
     }
     let claim = store.claim(&claimant).await.unwrap().unwrap();
     store.close().await;
-    claim.hold
+    claim.lease
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -1,25 +1,25 @@
 //! Ends of running jobs, and their ways back to where they came from.
 
 use super::history::end_attempt;
-use super::{Hold, Store, StoreError};
+use super::{Lease, Store, StoreError};
 use crate::jobs::failure::Failure;
 use sqlx::sqlite::SqliteConnection;
 
-/// Number of setbacks in a row that a job may have before it fails: what takes the
+/// Number of failed attempts in a row that a job may have before it fails: what takes the
 /// service down must not do so for ever.
 pub const TOLERATED_SETBACKS: u32 = 3;
 
-/// Times that a job waits after its first, second, … setback [ms], and that a service has
+/// Times that a job waits after its first, second, … failed attempt [ms], and that a service has
 /// to have been up before it takes the job up again.
 pub(super) const BACK_OFF_MS: [i64; 2] = [2_000, 8_000];
 
-/// Longest wait after a setback [ms]. A job that seems to wait longer does so
+/// Longest wait after a failed attempt [ms]. A job that seems to wait longer does so
 /// because the clock was set back.
 pub(super) const LONGEST_BACK_OFF_MS: i64 = BACK_OFF_MS[1];
 
 /// Why an attempt ended through no fault of the scenario.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Setback {
+pub enum FailedAttempt {
     /// The process died.
     CutOff,
     /// The lease ran out.
@@ -35,19 +35,19 @@ pub enum Returned {
     Waiting,
     /// That was once too often: it failed.
     Failed,
-    /// It no longer was this hold's; nothing was changed.
+    /// It no longer was this lease's; nothing was changed.
     Lost,
 }
 
 impl Store {
     /// Ends a running job with its outcome and the fingerprint of what it
-    /// recorded. `false` if it no longer runs under this hold.
+    /// recorded. `false` if it no longer runs under this lease.
     ///
     /// # Errors
     /// The database's own.
     pub async fn succeed(
         &self,
-        hold: Hold,
+        lease: Lease,
         outcome: &str,
         fingerprint: &str,
     ) -> Result<bool, StoreError> {
@@ -59,8 +59,8 @@ impl Store {
                  fraction = 1, eta_s = NULL, lease_owner = NULL, lease_expires_ms = NULL
              WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
         )
-        .bind(hold.job.to_string())
-        .bind(hold.token)
+        .bind(lease.job.to_string())
+        .bind(lease.token)
         .bind(now_ms)
         .bind(outcome)
         .bind(fingerprint)
@@ -69,58 +69,62 @@ impl Store {
         if done.rows_affected() == 0 {
             return Ok(false);
         }
-        end_attempt(&mut transaction, hold, now_ms, ("successful", None)).await?;
+        end_attempt(&mut transaction, lease, now_ms, ("successful", None)).await?;
         transaction.commit().await?;
         Ok(true)
     }
 
     /// Ends a running job without an answer. `false` if it no longer runs under
-    /// this hold.
+    /// this lease.
     ///
     /// # Errors
     /// The database's own.
-    pub async fn fail(&self, hold: Hold, failure: &Failure) -> Result<bool, StoreError> {
+    pub async fn fail(&self, lease: Lease, failure: &Failure) -> Result<bool, StoreError> {
         let now_ms = self.now_ms();
         let mut transaction = self.begin_write().await?;
-        let done = fail_row(&mut transaction, hold, failure, now_ms).await?;
+        let done = fail_row(&mut transaction, lease, failure, now_ms).await?;
         if done {
             let ending = ("failed", Some(failure.detail.as_str()));
-            end_attempt(&mut transaction, hold, now_ms, ending).await?;
+            end_attempt(&mut transaction, lease, now_ms, ending).await?;
         }
         transaction.commit().await?;
         Ok(done)
     }
 
-    /// Hands a running job back into the queue, with its saved state, because
-    /// the service stops. `false` if it no longer runs under this hold.
+    /// Releases a running job into the queue, with its saved state, because
+    /// the service stops. `false` if it no longer runs under this lease.
     ///
     /// # Errors
     /// The database's own.
-    pub async fn hand_back(&self, hold: Hold) -> Result<bool, StoreError> {
+    pub async fn release(&self, lease: Lease) -> Result<bool, StoreError> {
         let now_ms = self.now_ms();
         let mut transaction = self.begin_write().await?;
-        let done = put_back_row(&mut transaction, hold, 0, 0).await?;
+        let done = put_back_row(&mut transaction, lease, 0, 0).await?;
         if done {
-            end_attempt(&mut transaction, hold, now_ms, ("handed-back", None)).await?;
+            end_attempt(&mut transaction, lease, now_ms, ("handed-back", None)).await?;
         }
         transaction.commit().await?;
         Ok(done)
     }
 
-    /// Gives up an attempt at a running job: it goes back into the queue, to
+    /// Fails an attempt at a running job: it goes back into the queue, to
     /// be claimed again after a while, or fails if that happened too often.
     ///
     /// # Errors
     /// The database's own.
-    pub async fn set_back(&self, hold: Hold, setback: &Setback) -> Result<Returned, StoreError> {
+    pub async fn fail_attempt(
+        &self,
+        lease: Lease,
+        failed_attempt: &FailedAttempt,
+    ) -> Result<Returned, StoreError> {
         let mut transaction = self.begin_write().await?;
-        let returned = set_back_row(&mut transaction, hold, setback, self.now_ms()).await?;
+        let returned = set_back_row(&mut transaction, lease, failed_attempt, self.now_ms()).await?;
         transaction.commit().await?;
         Ok(returned)
     }
 }
 
-impl Setback {
+impl FailedAttempt {
     fn word(&self) -> &'static str {
         match self {
             Self::CutOff => "cut-off",
@@ -146,51 +150,60 @@ impl Setback {
 
 pub(super) async fn set_back_row(
     connection: &mut SqliteConnection,
-    hold: Hold,
-    setback: &Setback,
+    lease: Lease,
+    failed_attempt: &FailedAttempt,
     now_ms: i64,
 ) -> Result<Returned, StoreError> {
     let found: Option<(u32, bool)> = sqlx::query_as(
         "SELECT setbacks, EXISTS (SELECT 1 FROM run_states WHERE job_id = ?1 AND attempt = ?3)
          FROM jobs WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
     )
-    .bind(hold.job.to_string())
-    .bind(hold.token)
-    .bind(hold.attempt)
+    .bind(lease.job.to_string())
+    .bind(lease.token)
+    .bind(lease.attempt)
     .fetch_optional(&mut *connection)
     .await?;
     let Some((before, got_on)) = found else {
         return Ok(Returned::Lost);
     };
-    end_attempt(connection, hold, now_ms, (setback.word(), setback.detail())).await?;
-    let by_death = matches!(setback, Setback::CutOff | Setback::Expired);
+    end_attempt(
+        connection,
+        lease,
+        now_ms,
+        (failed_attempt.word(), failed_attempt.detail()),
+    )
+    .await?;
+    let by_death = matches!(
+        failed_attempt,
+        FailedAttempt::CutOff | FailedAttempt::Expired
+    );
     if got_on && by_death {
         // It ran well for a while, and goes on from there.
-        put_back_row(connection, hold, 0, now_ms).await?;
+        put_back_row(connection, lease, 0, now_ms).await?;
         return Ok(Returned::Waiting);
     }
     let times = before + 1;
     if times >= TOLERATED_SETBACKS {
-        fail_row(connection, hold, &setback.failure(times), now_ms).await?;
+        fail_row(connection, lease, &failed_attempt.failure(times), now_ms).await?;
         return Ok(Returned::Failed);
     }
-    let wait_ms = match setback {
+    let wait_ms = match failed_attempt {
         // The next start makes it wait.
-        Setback::CutOff => 0,
-        Setback::Expired | Setback::Infrastructure(_) => BACK_OFF_MS[before as usize],
+        FailedAttempt::CutOff => 0,
+        FailedAttempt::Expired | FailedAttempt::Infrastructure(_) => BACK_OFF_MS[before as usize],
     };
-    put_back_row(connection, hold, 1, now_ms + wait_ms).await?;
+    put_back_row(connection, lease, 1, now_ms + wait_ms).await?;
     Ok(Returned::Waiting)
 }
 
 async fn fail_row(
     connection: &mut SqliteConnection,
-    hold: Hold,
+    lease: Lease,
     failure: &Failure,
     now_ms: i64,
 ) -> Result<bool, StoreError> {
     let problem = serde_json::to_string(failure).map_err(|_| StoreError::Row {
-        job: hold.job.to_string(),
+        job: lease.job.to_string(),
         what: "failure",
     })?;
     let done = sqlx::query(
@@ -199,8 +212,8 @@ async fn fail_row(
              lease_owner = NULL, lease_expires_ms = NULL
          WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
     )
-    .bind(hold.job.to_string())
-    .bind(hold.token)
+    .bind(lease.job.to_string())
+    .bind(lease.token)
     .bind(now_ms)
     .bind(problem)
     .execute(connection)
@@ -212,7 +225,7 @@ async fn fail_row(
 /// attempt can go on from a saved state.
 async fn put_back_row(
     connection: &mut SqliteConnection,
-    hold: Hold,
+    lease: Lease,
     setbacks: u32,
     not_before_ms: i64,
 ) -> Result<bool, StoreError> {
@@ -228,8 +241,8 @@ async fn put_back_row(
              )
          WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
     )
-    .bind(hold.job.to_string())
-    .bind(hold.token)
+    .bind(lease.job.to_string())
+    .bind(lease.token)
     .bind(setbacks)
     .bind(not_before_ms)
     .execute(connection)

@@ -1,6 +1,6 @@
 //! The attempts at a job: when a worker took it up, and how that ended.
 
-use super::{Hold, StoreError};
+use super::{Lease, StoreError};
 use crate::jobs::job::{Attempt, JobId};
 use jiff::Timestamp;
 use sqlx::FromRow;
@@ -55,15 +55,15 @@ impl AttemptRow {
 /// Notes that a worker of `owner` took a job up.
 pub(super) async fn begin_attempt(
     connection: &mut SqliteConnection,
-    hold: Hold,
+    lease: Lease,
     owner: &str,
     now_ms: i64,
 ) -> Result<(), StoreError> {
     sqlx::query(
         "INSERT INTO attempts (job_id, attempt, owner, started_ms) VALUES (?1, ?2, ?3, ?4)",
     )
-    .bind(hold.job.to_string())
-    .bind(hold.attempt)
+    .bind(lease.job.to_string())
+    .bind(lease.attempt)
     .bind(owner)
     .bind(now_ms)
     .execute(connection)
@@ -74,7 +74,7 @@ pub(super) async fn begin_attempt(
 /// Notes how an attempt ended: in a word, and in more where there is more.
 pub(super) async fn end_attempt(
     connection: &mut SqliteConnection,
-    hold: Hold,
+    lease: Lease,
     now_ms: i64,
     (word, detail): (&str, Option<&str>),
 ) -> Result<(), StoreError> {
@@ -82,8 +82,8 @@ pub(super) async fn end_attempt(
         "UPDATE attempts SET ended_ms = ?3, ending = ?4, detail = ?5
          WHERE job_id = ?1 AND attempt = ?2 AND ending IS NULL",
     )
-    .bind(hold.job.to_string())
-    .bind(hold.attempt)
+    .bind(lease.job.to_string())
+    .bind(lease.attempt)
     .bind(now_ms)
     .bind(word)
     .bind(detail)

@@ -1,9 +1,9 @@
 //! Who has a job, until when, and how jobs come back from those who lost them.
 
-use super::ending::{Setback, set_back_row};
-use super::queue::hold;
+use super::ending::{FailedAttempt, set_back_row};
+use super::queue::lease;
 use super::results::keep_progress;
-use super::{Hold, Store, StoreError};
+use super::{Lease, Store, StoreError};
 use crate::jobs::job::JobStatus;
 use crate::jobs::progress::Progress;
 use std::time::Duration;
@@ -11,7 +11,7 @@ use std::time::Duration;
 /// Answer to a heartbeat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Renewal {
-    /// The job is still this hold's, for another lease.
+    /// The lease is renewed: the job stays with this worker.
     Held,
     /// A client called it off.
     Dismissed,
@@ -26,12 +26,12 @@ impl Store {
     /// The database's own.
     pub async fn renew(
         &self,
-        hold: Hold,
-        lease: Duration,
+        lease: Lease,
+        lease_duration: Duration,
         progress: &Progress,
     ) -> Result<Renewal, StoreError> {
         let mut transaction = self.begin_write().await?;
-        let kept = keep_progress(&mut transaction, hold, progress).await?;
+        let kept = keep_progress(&mut transaction, lease, progress).await?;
         let renewal = match kept {
             Some(JobStatus::Running) => Renewal::Held,
             Some(_) => Renewal::Dismissed,
@@ -39,8 +39,8 @@ impl Store {
         };
         if renewal == Renewal::Held {
             sqlx::query("UPDATE jobs SET lease_expires_ms = ?2 WHERE id = ?1")
-                .bind(hold.job.to_string())
-                .bind(self.now_ms() + milliseconds(lease))
+                .bind(lease.job.to_string())
+                .bind(self.now_ms() + milliseconds(lease_duration))
                 .execute(&mut *transaction)
                 .await?;
         }
@@ -54,7 +54,7 @@ impl Store {
     ///
     /// # Errors
     /// The database's own.
-    pub async fn take_back_own(&self, owner: &str) -> Result<usize, StoreError> {
+    pub async fn reclaim_own(&self, owner: &str) -> Result<usize, StoreError> {
         let mut transaction = self.begin_write().await?;
         let left: Vec<(String, i64, i64)> = sqlx::query_as(
             "SELECT id, attempt, lease_token FROM jobs
@@ -64,8 +64,14 @@ impl Store {
         .fetch_all(&mut *transaction)
         .await?;
         for (id, attempt, token) in &left {
-            let hold = hold(id, *attempt, *token)?;
-            set_back_row(&mut transaction, hold, &Setback::CutOff, self.now_ms()).await?;
+            let lease = lease(id, *attempt, *token)?;
+            set_back_row(
+                &mut transaction,
+                lease,
+                &FailedAttempt::CutOff,
+                self.now_ms(),
+            )
+            .await?;
         }
         transaction.commit().await?;
         Ok(left.len())
@@ -79,7 +85,7 @@ impl Store {
     ///
     /// # Errors
     /// The database's own.
-    pub async fn take_back_expired(
+    pub async fn reclaim_expired(
         &self,
         owner: &str,
         longest: Duration,
@@ -97,8 +103,8 @@ impl Store {
         .fetch_all(&mut *transaction)
         .await?;
         for (id, attempt, token) in &left {
-            let hold = hold(id, *attempt, *token)?;
-            set_back_row(&mut transaction, hold, &Setback::Expired, now_ms).await?;
+            let lease = lease(id, *attempt, *token)?;
+            set_back_row(&mut transaction, lease, &FailedAttempt::Expired, now_ms).await?;
         }
         transaction.commit().await?;
         Ok(left.len())

@@ -22,7 +22,7 @@ mod submission;
 #[cfg(test)]
 mod tests;
 
-pub use ending::{Returned, Setback, TOLERATED_SETBACKS};
+pub use ending::{FailedAttempt, Returned, TOLERATED_SETBACKS};
 pub use events::Event;
 pub use health::{Census, Trouble};
 pub use lease::Renewal;
@@ -68,7 +68,7 @@ pub struct Store {
 
 /// One worker's hold on a job: every write by the worker names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Hold {
+pub struct Lease {
     /// The job.
     pub job: JobId,
     /// Which attempt at it.

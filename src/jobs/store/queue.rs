@@ -3,7 +3,7 @@
 use super::ending::{BACK_OFF_MS, LONGEST_BACK_OFF_MS};
 use super::history::{begin_attempt, end_attempt};
 use super::lease::milliseconds;
-use super::{Hold, Store, StoreError};
+use super::{Lease, Store, StoreError};
 use crate::jobs::job::{JobId, JobStatus};
 use sqlx::FromRow;
 use std::time::Duration;
@@ -11,10 +11,10 @@ use std::time::Duration;
 /// Who claims jobs, and on which terms.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claimant {
-    /// Name of the service; its next start takes back at once what it left.
+    /// Name of the service; its next start reclaims at once what it left.
     pub owner: String,
     /// Time that a claim holds unless it is renewed.
-    pub lease: Duration,
+    pub lease_duration: Duration,
     /// Program that runs the jobs.
     pub solver: Solver,
     /// Time that the service has been up.
@@ -36,7 +36,7 @@ pub struct Solver {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claim {
     /// The worker's hold on it.
-    pub hold: Hold,
+    pub lease: Lease,
     /// The scenario's JSON.
     pub scenario: String,
     /// Setbacks in a row before this attempt.
@@ -64,8 +64,8 @@ struct ClaimedRow {
 }
 
 impl Store {
-    /// Takes up the oldest accepted job that has not to wait after a setback. One that
-    /// a setback is held against waits until the service has lived as long without it:
+    /// Takes up the oldest accepted job that has not to wait after a failed attempt. One that
+    /// a failed attempt is held against waits until the service has lived as long without it:
     /// a service that dies sooner does not die of it.
     ///
     /// # Errors
@@ -86,7 +86,7 @@ impl Store {
         .bind(now_ms)
         .bind(claimant.solver.version)
         .bind(&claimant.owner)
-        .bind(now_ms + milliseconds(claimant.lease))
+        .bind(now_ms + milliseconds(claimant.lease_duration))
         .bind(now_ms + LONGEST_BACK_OFF_MS)
         .bind(claimant.solver.commit)
         .bind(claimant.solver.instructions)
@@ -98,7 +98,7 @@ impl Store {
         let Some(claim) = row.map(ClaimedRow::read).transpose()? else {
             return Ok(None);
         };
-        begin_attempt(&mut transaction, claim.hold, &claimant.owner, now_ms).await?;
+        begin_attempt(&mut transaction, claim.lease, &claimant.owner, now_ms).await?;
         transaction.commit().await?;
         Ok(Some(claim))
     }
@@ -138,8 +138,8 @@ impl Store {
         .bind(now_ms)
         .execute(&mut *transaction)
         .await?;
-        let hold = hold(&id.to_string(), attempt, token)?;
-        end_attempt(&mut transaction, hold, now_ms, ("dismissed", None)).await?;
+        let lease = lease(&id.to_string(), attempt, token)?;
+        end_attempt(&mut transaction, lease, now_ms, ("dismissed", None)).await?;
         transaction.commit().await?;
         Ok(Dismissal::Dismissed)
     }
@@ -148,19 +148,19 @@ impl Store {
 impl ClaimedRow {
     fn read(self) -> Result<Claim, StoreError> {
         Ok(Claim {
-            hold: hold(&self.id, self.attempt, self.lease_token)?,
+            lease: lease(&self.id, self.attempt, self.lease_token)?,
             scenario: self.scenario,
             setbacks: self.setbacks,
         })
     }
 }
 
-pub(super) fn hold(id: &str, attempt: i64, token: i64) -> Result<Hold, StoreError> {
+pub(super) fn lease(id: &str, attempt: i64, token: i64) -> Result<Lease, StoreError> {
     let broken = |what| StoreError::Row {
         job: id.to_owned(),
         what,
     };
-    Ok(Hold {
+    Ok(Lease {
         job: id.parse().map_err(|_| broken("id"))?,
         attempt: u32::try_from(attempt).map_err(|_| broken("attempt"))?,
         token,

@@ -2,7 +2,7 @@
 
 use super::rows::integer;
 use super::states::{StoredState, write_state};
-use super::{Hold, Store, StoreError};
+use super::{Lease, Store, StoreError};
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::progress::Progress;
 use crate::results::FlowSnapshot;
@@ -71,25 +71,25 @@ struct SnapshotRow {
 
 impl Store {
     /// Writes results and progress of a job. `false`, with nothing written, if
-    /// the job is no longer this hold's; a job dismissed under the worker
+    /// the job is no longer this lease's; a job dismissed under the worker
     /// still takes what the worker had.
     ///
     /// # Errors
     /// The database's own.
-    pub async fn keep(&self, hold: Hold, results: &NewResults) -> Result<bool, StoreError> {
+    pub async fn keep(&self, lease: Lease, results: &NewResults) -> Result<bool, StoreError> {
         let mut transaction = self.begin_write().await?;
-        let status = keep_progress(&mut transaction, hold, &results.progress).await?;
+        let status = keep_progress(&mut transaction, lease, &results.progress).await?;
         let Some(status) = status else {
             return Ok(false);
         };
         for chunk in &results.chunks {
-            write_chunk(&mut transaction, hold.job, chunk).await?;
+            write_chunk(&mut transaction, lease.job, chunk).await?;
         }
         for snapshot in &results.snapshots {
-            write_snapshot(&mut transaction, hold.job, snapshot).await?;
+            write_snapshot(&mut transaction, lease.job, snapshot).await?;
         }
         if let (Some(state), JobStatus::Running) = (&results.state, status) {
-            write_state(&mut transaction, hold, state, self.now_ms()).await?;
+            write_state(&mut transaction, lease, state, self.now_ms()).await?;
         }
         transaction.commit().await?;
         Ok(true)
@@ -201,11 +201,11 @@ impl Store {
     }
 }
 
-/// Keeps the progress of a job that this hold still owns, and says whether it
+/// Keeps the progress of a job that this lease still owns, and says whether it
 /// runs or was dismissed meanwhile.
 pub(super) async fn keep_progress(
     connection: &mut SqliteConnection,
-    hold: Hold,
+    lease: Lease,
     progress: &Progress,
 ) -> Result<Option<JobStatus>, StoreError> {
     let word: Option<String> = sqlx::query_scalar(
@@ -215,8 +215,8 @@ pub(super) async fn keep_progress(
          WHERE id = ?1 AND lease_token = ?2 AND status IN ('running', 'dismissed')
          RETURNING status",
     )
-    .bind(hold.job.to_string())
-    .bind(hold.token)
+    .bind(lease.job.to_string())
+    .bind(lease.token)
     .bind(progress.fraction)
     .bind(progress.simulated_time_s)
     .bind(integer(progress.steps))

@@ -2,8 +2,8 @@
 //! what `tests/conformance.rs` holds every one of them to.
 
 use super::{
-    Beginning, Census, Claim, Claimant, Dismissal, Event, Hold, NewResults, Page, Removal, Renewal,
-    Returned, Setback, Store, StoreError, StoredChunk, StoredState, Submission, Submitted,
+    Beginning, Census, Claim, Claimant, Dismissal, Event, FailedAttempt, Lease, NewResults, Page,
+    Removal, Renewal, Returned, Store, StoreError, StoredChunk, StoredState, Submission, Submitted,
 };
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
@@ -38,23 +38,23 @@ seam! {
     /// Takes up the oldest accepted job that has not to wait.
     fn claim(claimant: &Claimant) -> Option<Claim>;
     /// Says where an attempt begins.
-    fn begin(hold: Hold, beginning: &Beginning, threads: usize) -> bool;
+    fn begin(lease: Lease, beginning: &Beginning, threads: usize) -> bool;
     /// Renews a lease and keeps the progress.
-    fn renew(hold: Hold, lease: Duration, progress: &Progress) -> Renewal;
+    fn renew(lease: Lease, lease_duration: Duration, progress: &Progress) -> Renewal;
     /// Writes results, progress and state.
-    fn keep(hold: Hold, results: &NewResults) -> bool;
+    fn keep(lease: Lease, results: &NewResults) -> bool;
     /// Ends a job with its outcome.
-    fn succeed(hold: Hold, outcome: &str, fingerprint: &str) -> bool;
+    fn succeed(lease: Lease, outcome: &str, fingerprint: &str) -> bool;
     /// Ends a job without an answer.
-    fn fail(hold: Hold, failure: &Failure) -> bool;
-    /// Hands a job back because the service stops.
-    fn hand_back(hold: Hold) -> bool;
-    /// Gives up an attempt.
-    fn set_back(hold: Hold, setback: &Setback) -> Returned;
+    fn fail(lease: Lease, failure: &Failure) -> bool;
+    /// Releases a job because the service stops.
+    fn release(lease: Lease) -> bool;
+    /// Fails an attempt.
+    fn fail_attempt(lease: Lease, failed_attempt: &FailedAttempt) -> Returned;
     /// Takes back what a former process of this name left running.
-    fn take_back_own(owner: &str) -> usize;
+    fn reclaim_own(owner: &str) -> usize;
     /// Takes back jobs of others whose lease has run out.
-    fn take_back_expired(owner: &str, longest: Duration) -> usize;
+    fn reclaim_expired(owner: &str, longest: Duration) -> usize;
     /// Dismisses a job.
     fn dismiss(id: JobId) -> Dismissal;
     /// Removes a job that has ended.

@@ -2,7 +2,7 @@
 //! are bytes.
 
 use super::rows::integer;
-use super::{Hold, Store, StoreError};
+use super::{Lease, Store, StoreError};
 use crate::jobs::job::JobId;
 use crate::results::chunk::{Block, BlockError};
 use sqlx::FromRow;
@@ -102,13 +102,13 @@ impl Store {
 
     /// Says where an attempt begins and on how many solver threads, and makes
     /// what is recorded fit that. `false`, with nothing changed, if the job no
-    /// longer runs under this hold.
+    /// longer runs under this lease.
     ///
     /// # Errors
     /// The database's own.
     pub async fn begin(
         &self,
-        hold: Hold,
+        lease: Lease,
         beginning: &Beginning,
         threads: usize,
     ) -> Result<bool, StoreError> {
@@ -117,8 +117,8 @@ impl Store {
             "UPDATE jobs SET threads = ?3
              WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
         )
-        .bind(hold.job.to_string())
-        .bind(hold.token)
+        .bind(lease.job.to_string())
+        .bind(lease.token)
         .bind(integer(threads as u64))
         .execute(&mut *transaction)
         .await?;
@@ -126,8 +126,8 @@ impl Store {
             return Ok(false);
         }
         match beginning {
-            Beginning::Afresh => clear(&mut transaction, hold.job).await?,
-            Beginning::At(mark) => rewind(&mut transaction, hold, mark).await?,
+            Beginning::Afresh => clear(&mut transaction, lease.job).await?,
+            Beginning::At(mark) => rewind(&mut transaction, lease, mark).await?,
         }
         transaction.commit().await?;
         Ok(true)
@@ -153,15 +153,15 @@ impl StateRow {
     }
 }
 
-/// Puts a state in the place of the one before, and forgets setbacks: the job
+/// Puts a state in the place of the one before, and forgets failed attempts: the job
 /// has got on.
 pub(super) async fn write_state(
     connection: &mut SqliteConnection,
-    hold: Hold,
+    lease: Lease,
     state: &StoredState,
     now_ms: i64,
 ) -> Result<(), StoreError> {
-    let id = hold.job.to_string();
+    let id = lease.job.to_string();
     for statement in [
         "DELETE FROM run_states WHERE job_id = ?1",
         "UPDATE jobs SET setbacks = 0 WHERE id = ?1",
@@ -177,7 +177,7 @@ pub(super) async fn write_state(
          VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
     )
     .bind(&id)
-    .bind(hold.attempt)
+    .bind(lease.attempt)
     .bind(now_ms)
     .bind(state.mark.time_s)
     .bind(integer(state.mark.samples as u64))
@@ -217,13 +217,13 @@ async fn clear(connection: &mut SqliteConnection, job: JobId) -> Result<(), Stor
 /// written over.
 async fn rewind(
     connection: &mut SqliteConnection,
-    hold: Hold,
+    lease: Lease,
     mark: &Mark,
 ) -> Result<(), StoreError> {
-    let id = hold.job.to_string();
+    let id = lease.job.to_string();
     sqlx::query("UPDATE attempts SET resumed_from_s = ?3 WHERE job_id = ?1 AND attempt = ?2")
         .bind(&id)
-        .bind(hold.attempt)
+        .bind(lease.attempt)
         .bind(mark.time_s)
         .execute(&mut *connection)
         .await?;

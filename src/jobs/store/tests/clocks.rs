@@ -15,16 +15,17 @@ async fn a_clock_set_back_holds_up_neither_waiting_nor_lost_jobs<S: JobStore>(
     fixture: &Fixture<S>,
 ) {
     let waiting = fixture.submit().await;
-    let hold = fixture.claim("a").await;
-    let setback = Setback::Infrastructure("x".to_owned());
-    fixture.store.set_back(hold, &setback).await.unwrap();
+    let lease = fixture.claim("a").await;
+    let failed_attempt = FailedAttempt::Infrastructure("x".to_owned());
+    fixture
+        .store
+        .fail_attempt(lease, &failed_attempt)
+        .await
+        .unwrap();
     let lost = fixture.submit().await;
     assert_eq!(fixture.claim("a").await.job, lost, "the other one waits");
     fixture.clock.jump(SignedDuration::from_hours(-24));
-    assert_eq!(
-        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
-        1
-    );
+    assert_eq!(fixture.store.reclaim_expired("b", LEASE).await.unwrap(), 1);
     fixture.pass(Duration::from_secs(2));
     assert_eq!(fixture.claim("b").await.job, waiting);
     assert_eq!(fixture.claim("b").await.job, lost);
@@ -34,18 +35,12 @@ async fn a_clock_set_forward_costs_a_lease_and_nothing_else<S: JobStore>(fixture
     let id = fixture.submit().await;
     let old = fixture.claim("a").await;
     fixture.clock.jump(SignedDuration::from_hours(24));
-    assert_eq!(fixture.store.take_back_own("b").await.unwrap(), 0);
-    assert_eq!(
-        fixture.store.take_back_expired("a", LEASE).await.unwrap(),
-        0
-    );
+    assert_eq!(fixture.store.reclaim_own("b").await.unwrap(), 0);
+    assert_eq!(fixture.store.reclaim_expired("a", LEASE).await.unwrap(), 0);
     let progress = Progress::default();
     let renewed = fixture.store.renew(old, LEASE, &progress).await.unwrap();
     assert_eq!(renewed, Renewal::Held, "nobody was faster");
-    assert_eq!(
-        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
-        0
-    );
+    assert_eq!(fixture.store.reclaim_expired("b", LEASE).await.unwrap(), 0);
     assert!(fixture.store.succeed(old, "{}", FINGERPRINT).await.unwrap());
     assert_eq!(fixture.endings(id).await, ["successful"]);
 }
@@ -56,8 +51,8 @@ const DAY_MS: i64 = 86_400_000;
 impl<S: JobStore> Fixture<S> {
     async fn submit_and_end(&self) -> JobId {
         let id = self.submit().await;
-        let hold = self.claim("a").await;
-        assert!(self.store.succeed(hold, "{}", FINGERPRINT).await.unwrap());
+        let lease = self.claim("a").await;
+        assert!(self.store.succeed(lease, "{}", FINGERPRINT).await.unwrap());
         id
     }
 
@@ -88,13 +83,13 @@ async fn what_ended_by_a_clock_set_back_is_kept_as_long_as_anything<S: JobStore>
 ) {
     let before = fixture.submit_and_end().await;
     fixture.submit().await;
-    let hold = fixture.claim("a").await;
+    let lease = fixture.claim("a").await;
     let back = SignedDuration::from_hours(400 * 24);
     fixture.clock.jump(-back);
     let store = &fixture.store;
-    assert!(store.succeed(hold, "{}", FINGERPRINT).await.unwrap());
+    assert!(store.succeed(lease, "{}", FINGERPRINT).await.unwrap());
     let wrong = [
-        hold.job,
+        lease.job,
         fixture.submit_and_end().await,
         fixture.submit_and_end().await,
     ];

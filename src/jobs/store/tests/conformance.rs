@@ -40,23 +40,23 @@ async fn jobs_are_claimed_in_the_order_of_submission_and_once<S: JobStore>(fixtu
 
 async fn a_job_ends_once_and_says_how<S: JobStore>(fixture: &Fixture<S>) {
     let id = fixture.submit().await;
-    let hold = fixture.claim("a").await;
+    let lease = fixture.claim("a").await;
     let failure = Failure::internal("x");
     assert!(
         fixture
             .store
-            .succeed(hold, "{}", FINGERPRINT)
+            .succeed(lease, "{}", FINGERPRINT)
             .await
             .unwrap()
     );
     assert!(
         !fixture
             .store
-            .succeed(hold, "[]", FINGERPRINT)
+            .succeed(lease, "[]", FINGERPRINT)
             .await
             .unwrap()
     );
-    assert!(!fixture.store.fail(hold, &failure).await.unwrap());
+    assert!(!fixture.store.fail(lease, &failure).await.unwrap());
     let job = fixture.job(id).await;
     assert_eq!(job.outcome.unwrap().get(), "{}");
     assert_eq!(job.provenance.fingerprint.as_deref(), Some(FINGERPRINT));
@@ -64,12 +64,12 @@ async fn a_job_ends_once_and_says_how<S: JobStore>(fixture: &Fixture<S>) {
     assert_eq!(fixture.endings(id).await, ["successful"]);
 
     let id = fixture.submit().await;
-    let hold = fixture.claim("a").await;
-    assert!(fixture.store.fail(hold, &failure).await.unwrap());
+    let lease = fixture.claim("a").await;
+    assert!(fixture.store.fail(lease, &failure).await.unwrap());
     assert!(
         !fixture
             .store
-            .succeed(hold, "{}", FINGERPRINT)
+            .succeed(lease, "{}", FINGERPRINT)
             .await
             .unwrap()
     );
@@ -80,9 +80,9 @@ async fn a_job_ends_once_and_says_how<S: JobStore>(fixture: &Fixture<S>) {
 
 async fn a_growing_chunk_replaces_itself_and_reads_back<S: JobStore>(fixture: &Fixture<S>) {
     let id = fixture.submit().await;
-    let hold = fixture.claim("a").await;
+    let lease = fixture.claim("a").await;
     for count in [3, 8] {
-        assert!(fixture.store.keep(hold, &results(count)).await.unwrap());
+        assert!(fixture.store.keep(lease, &results(count)).await.unwrap());
     }
     let all = Selection::default();
     let stored = fixture.store.chunk(id, 0, 0, &all).await.unwrap().unwrap();
@@ -103,10 +103,10 @@ async fn a_growing_chunk_replaces_itself_and_reads_back<S: JobStore>(fixture: &F
 
 async fn the_nearest_snapshot_is_found_the_earlier_of_two<S: JobStore>(fixture: &Fixture<S>) {
     let id = fixture.submit().await;
-    let hold = fixture.claim("a").await;
+    let lease = fixture.claim("a").await;
     assert_eq!(fixture.store.snapshot(id, None).await.unwrap(), None);
     for time in [2, 4, 8, 8] {
-        fixture.store.keep(hold, &results(time)).await.unwrap();
+        fixture.store.keep(lease, &results(time)).await.unwrap();
     }
     for (asked, found) in [
         (Some(-1.0), 2.0),
@@ -124,18 +124,21 @@ async fn a_worker_that_lost_its_job_can_not_write<S: JobStore>(fixture: &Fixture
     let store = &fixture.store;
     let id = fixture.submit().await;
     let old = fixture.claim("a").await;
-    assert!(store.hand_back(old).await.unwrap());
+    assert!(store.release(old).await.unwrap());
     let new = fixture.claim("b").await;
     assert_eq!((new.job, new.attempt), (id, 2));
     assert!(new.token > old.token);
 
-    let setback = Setback::Infrastructure("x".to_owned());
+    let failed_attempt = FailedAttempt::Infrastructure("x".to_owned());
     assert!(!store.keep(old, &results_and_state(5)).await.unwrap());
     assert!(!store.succeed(old, "{}", FINGERPRINT).await.unwrap());
     assert!(!store.fail(old, &Failure::internal("x")).await.unwrap());
-    assert!(!store.hand_back(old).await.unwrap());
+    assert!(!store.release(old).await.unwrap());
     assert!(!store.begin(old, &Beginning::Afresh, 1).await.unwrap());
-    assert_eq!(store.set_back(old, &setback).await.unwrap(), Returned::Lost);
+    assert_eq!(
+        store.fail_attempt(old, &failed_attempt).await.unwrap(),
+        Returned::Lost
+    );
     let progress = Progress::default();
     let renewed = store.renew(old, LEASE, &progress).await.unwrap();
     assert_eq!(renewed, Renewal::Lost);
@@ -152,15 +155,15 @@ async fn a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed<S: 
 ) {
     let store = &fixture.store;
     let id = fixture.submit().await;
-    let hold = fixture.claim("a").await;
-    store.keep(hold, &results_and_state(3)).await.unwrap();
+    let lease = fixture.claim("a").await;
+    store.keep(lease, &results_and_state(3)).await.unwrap();
     assert_eq!(store.dismiss(id).await.unwrap(), Dismissal::Dismissed);
-    let renewed = store.renew(hold, LEASE, &Progress::default()).await;
+    let renewed = store.renew(lease, LEASE, &Progress::default()).await;
     assert_eq!(renewed.unwrap(), Renewal::Dismissed);
-    assert!(store.keep(hold, &results_and_state(4)).await.unwrap());
+    assert!(store.keep(lease, &results_and_state(4)).await.unwrap());
     assert_eq!(store.state(id).await.unwrap(), None, "it never goes on");
-    assert!(!store.hand_back(hold).await.unwrap());
-    assert!(!store.succeed(hold, "{}", FINGERPRINT).await.unwrap());
+    assert!(!store.release(lease).await.unwrap());
+    assert!(!store.succeed(lease, "{}", FINGERPRINT).await.unwrap());
     assert_eq!(fixture.status(id).await, JobStatus::Dismissed);
     let all = Selection::default();
     let kept = store.chunk(id, 0, 0, &all).await.unwrap().unwrap();
@@ -174,31 +177,28 @@ async fn a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed<S: 
 
 async fn a_lease_that_is_renewed_does_not_run_out<S: JobStore>(fixture: &Fixture<S>) {
     fixture.submit().await;
-    let hold = fixture.claim("a").await;
+    let lease = fixture.claim("a").await;
     let progress = Progress {
         fraction: 0.25,
         ..Progress::default()
     };
     for _ in 0..5 {
         fixture.pass(LEASE / 2);
-        let renewed = fixture.store.renew(hold, LEASE, &progress).await.unwrap();
+        let renewed = fixture.store.renew(lease, LEASE, &progress).await.unwrap();
         assert_eq!(renewed, Renewal::Held);
-        let taken = fixture.store.take_back_expired("b", LEASE).await.unwrap();
+        let taken = fixture.store.reclaim_expired("b", LEASE).await.unwrap();
         assert_eq!(taken, 0);
     }
-    assert_eq!(fixture.job(hold.job).await.summary.progress, progress);
+    assert_eq!(fixture.job(lease.job).await.summary.progress, progress);
 }
 
 async fn a_lease_that_ran_out_is_another_s_to_take<S: JobStore>(fixture: &Fixture<S>) {
     let id = fixture.submit().await;
     let old = fixture.claim("a").await;
     fixture.pass(LEASE);
-    let own = fixture.store.take_back_expired("a", LEASE).await.unwrap();
+    let own = fixture.store.reclaim_expired("a", LEASE).await.unwrap();
     assert_eq!(own, 0, "its own process knows better");
-    assert_eq!(
-        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
-        1
-    );
+    assert_eq!(fixture.store.reclaim_expired("b", LEASE).await.unwrap(), 1);
     assert_eq!(fixture.status(id).await, JobStatus::Accepted);
     fixture.pass(Duration::from_secs(10));
     let new = fixture.claim("b").await;
@@ -216,21 +216,18 @@ async fn a_saved_job_whose_lease_ran_out_is_taken_at_once<S: JobStore>(fixture: 
     for (own, other) in [("a", "b"), ("b", "a")].repeat(TOLERATED_SETBACKS as usize) {
         let claim = fixture.store.claim(&at_once(own)).await.unwrap();
         let claim = claim.expect("what has got on waits for nothing");
-        assert_eq!((claim.hold.job, claim.setbacks), (id, 0));
+        assert_eq!((claim.lease.job, claim.setbacks), (id, 0));
         let kept = results_and_state(3);
-        assert!(fixture.store.keep(claim.hold, &kept).await.unwrap());
+        assert!(fixture.store.keep(claim.lease, &kept).await.unwrap());
         fixture.pass(LEASE);
-        let taken = fixture.store.take_back_expired(other, LEASE).await;
+        let taken = fixture.store.reclaim_expired(other, LEASE).await;
         assert_eq!(taken.unwrap(), 1);
     }
     let others = fixture.submit().await;
     fixture.claim("a").await;
     assert_eq!(fixture.claim("a").await.job, others);
     fixture.pass(LEASE);
-    assert_eq!(
-        fixture.store.take_back_expired("b", LEASE).await.unwrap(),
-        2
-    );
+    assert_eq!(fixture.store.reclaim_expired("b", LEASE).await.unwrap(), 2);
     assert_eq!(fixture.try_claim("b").await, None, "these saved nothing");
 }
 
@@ -240,7 +237,7 @@ async fn a_former_self_s_jobs_are_taken_back_at_once_and_no_others<S: JobStore>(
     let jobs = [fixture.submit().await, fixture.submit().await];
     fixture.claim("a").await;
     fixture.claim("b").await;
-    assert_eq!(fixture.store.take_back_own("a").await.unwrap(), 1);
+    assert_eq!(fixture.store.reclaim_own("a").await.unwrap(), 1);
     assert_eq!(fixture.status(jobs[1]).await, JobStatus::Running);
     let again = fixture.claim("a").await;
     assert_eq!((again.job, again.attempt), (jobs[0], 2));
@@ -251,7 +248,7 @@ async fn the_third_setback_in_a_row_is_the_last<S: JobStore>(fixture: &Fixture<S
     let id = fixture.submit().await;
     for attempt in 1..=TOLERATED_SETBACKS {
         assert_eq!(fixture.claim("a").await.attempt, attempt);
-        assert_eq!(fixture.store.take_back_own("a").await.unwrap(), 1);
+        assert_eq!(fixture.store.reclaim_own("a").await.unwrap(), 1);
     }
     let job = fixture.job(id).await;
     assert_eq!(job.summary.status, JobStatus::Failed);
@@ -275,35 +272,43 @@ async fn a_job_cut_off_waits_until_the_service_has_lived_as_long<S: JobStore>(
         if wait_ms > 0 {
             let too_soon = after(wait_ms - 1);
             for _ in 0..5 {
-                assert_eq!(store.take_back_own("a").await.unwrap(), 0);
+                assert_eq!(store.reclaim_own("a").await.unwrap(), 0);
                 fixture.pass(Duration::from_secs(60));
                 assert_eq!(store.claim(&too_soon).await.unwrap(), None);
             }
             let other = fixture.submit().await;
             let claim = store.claim(&too_soon).await.unwrap().unwrap();
-            assert_eq!((claim.hold.job, claim.setbacks), (other, 0));
-            assert!(store.succeed(claim.hold, "{}", FINGERPRINT).await.unwrap());
+            assert_eq!((claim.lease.job, claim.setbacks), (other, 0));
+            assert!(store.succeed(claim.lease, "{}", FINGERPRINT).await.unwrap());
         }
         let claim = store.claim(&after(wait_ms)).await.unwrap().unwrap();
-        assert_eq!((claim.hold.job, claim.setbacks), (id, setbacks));
-        assert_eq!(store.take_back_own("a").await.unwrap(), 1);
+        assert_eq!((claim.lease.job, claim.setbacks), (id, setbacks));
+        assert_eq!(store.reclaim_own("a").await.unwrap(), 1);
     }
     assert_eq!(fixture.status(id).await, JobStatus::Failed);
 }
 
 async fn after_a_setback_a_job_waits_longer_each_time<S: JobStore>(fixture: &Fixture<S>) {
     let id = fixture.submit().await;
-    let setback = Setback::Infrastructure("no room".to_owned());
+    let failed_attempt = FailedAttempt::Infrastructure("no room".to_owned());
     for wait_s in [2, 8] {
-        let hold = fixture.claim("a").await;
-        let returned = fixture.store.set_back(hold, &setback).await.unwrap();
+        let lease = fixture.claim("a").await;
+        let returned = fixture
+            .store
+            .fail_attempt(lease, &failed_attempt)
+            .await
+            .unwrap();
         assert_eq!(returned, Returned::Waiting);
         fixture.pass(Duration::from_millis(wait_s * 1000 - 1));
         assert_eq!(fixture.try_claim("a").await, None);
         fixture.pass(Duration::from_millis(1));
     }
-    let hold = fixture.claim("a").await;
-    let returned = fixture.store.set_back(hold, &setback).await.unwrap();
+    let lease = fixture.claim("a").await;
+    let returned = fixture
+        .store
+        .fail_attempt(lease, &failed_attempt)
+        .await
+        .unwrap();
     assert_eq!(returned, Returned::Failed);
     let problem = fixture.job(id).await.problem.unwrap();
     assert!(problem.get().contains("urn:scree:failure:infrastructure"));
@@ -321,21 +326,21 @@ async fn a_saved_state_comes_back_and_ends_the_row_of_setbacks<S: JobStore>(fixt
     for count in 1..=2 * TOLERATED_SETBACKS {
         // What has got on waits for nothing.
         let claim = fixture.store.claim(&at_once).await.unwrap().unwrap();
-        let hold = claim.hold;
+        let lease = claim.lease;
         assert_eq!(claim.setbacks, 0);
         let kept = results_and_state(count);
-        assert!(fixture.store.keep(hold, &kept).await.unwrap());
+        assert!(fixture.store.keep(lease, &kept).await.unwrap());
         let state = fixture.store.state(id).await.unwrap().unwrap();
         assert_eq!(Some(&state), kept.state.as_ref());
         assert_eq!(state.unpack().unwrap(), b"the state");
-        fixture.store.take_back_own("a").await.unwrap();
+        fixture.store.reclaim_own("a").await.unwrap();
         let progress = fixture.job(id).await.summary.progress;
         assert_eq!((progress.fraction, progress.eta_s), (0.5, None));
     }
-    let hold = fixture.claim("a").await;
+    let lease = fixture.claim("a").await;
     fixture
         .store
-        .succeed(hold, "{}", FINGERPRINT)
+        .succeed(lease, "{}", FINGERPRINT)
         .await
         .unwrap();
     assert_eq!(fixture.store.state(id).await.unwrap(), None);
@@ -344,21 +349,21 @@ async fn a_saved_state_comes_back_and_ends_the_row_of_setbacks<S: JobStore>(fixt
 async fn an_attempt_begins_at_its_saved_state_or_afresh<S: JobStore>(fixture: &Fixture<S>) {
     let store = &fixture.store;
     let id = fixture.submit().await;
-    let hold = fixture.claim("a").await;
-    store.keep(hold, &results_and_state(3)).await.unwrap();
-    store.keep(hold, &results(8)).await.unwrap();
-    store.take_back_own("a").await.unwrap();
+    let lease = fixture.claim("a").await;
+    store.keep(lease, &results_and_state(3)).await.unwrap();
+    store.keep(lease, &results(8)).await.unwrap();
+    store.reclaim_own("a").await.unwrap();
 
-    let hold = fixture.claim("a").await;
+    let lease = fixture.claim("a").await;
     let mark = store.state(id).await.unwrap().unwrap().mark;
-    assert!(store.begin(hold, &Beginning::At(mark), 2).await.unwrap());
+    assert!(store.begin(lease, &Beginning::At(mark), 2).await.unwrap());
     let latest = store.snapshot(id, None).await.unwrap().unwrap();
     assert_eq!(latest.time_s, 3.0, "what came after is gone");
     let attempts = fixture.job(id).await.attempts;
     assert_eq!(attempts[0].resumed_from_s, None);
     assert_eq!(attempts[1].resumed_from_s, Some(3.0));
 
-    assert!(store.begin(hold, &Beginning::Afresh, 2).await.unwrap());
+    assert!(store.begin(lease, &Beginning::Afresh, 2).await.unwrap());
     assert_eq!(store.snapshot(id, None).await.unwrap(), None);
     assert_eq!(store.last_chunk(id, 0).await.unwrap(), None);
     assert_eq!(store.state(id).await.unwrap(), None);
@@ -368,18 +373,18 @@ async fn an_attempt_begins_at_its_saved_state_or_afresh<S: JobStore>(fixture: &F
 async fn a_job_handed_back_keeps_its_state_and_has_no_setback<S: JobStore>(fixture: &Fixture<S>) {
     let id = fixture.submit().await;
     for _ in 0..=TOLERATED_SETBACKS {
-        let hold = fixture.claim("a").await;
-        assert!(fixture.store.hand_back(hold).await.unwrap());
+        let lease = fixture.claim("a").await;
+        assert!(fixture.store.release(lease).await.unwrap());
         let progress = fixture.job(id).await.summary.progress;
         assert_eq!(progress, Progress::default());
     }
-    let hold = fixture.claim("a").await;
+    let lease = fixture.claim("a").await;
     fixture
         .store
-        .keep(hold, &results_and_state(3))
+        .keep(lease, &results_and_state(3))
         .await
         .unwrap();
-    fixture.store.hand_back(hold).await.unwrap();
+    fixture.store.release(lease).await.unwrap();
     assert!(fixture.store.state(id).await.unwrap().is_some());
     let job = fixture.job(id).await;
     assert_eq!(job.summary.status, JobStatus::Accepted);

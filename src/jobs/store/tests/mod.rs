@@ -94,12 +94,12 @@ impl<S: JobStore> Fixture<S> {
         jobs[0].id
     }
 
-    async fn try_claim(&self, owner: &str) -> Option<Hold> {
+    async fn try_claim(&self, owner: &str) -> Option<Lease> {
         let claim = self.store.claim(&claimant(owner)).await.unwrap();
-        claim.map(|claim| claim.hold)
+        claim.map(|claim| claim.lease)
     }
 
-    async fn claim(&self, owner: &str) -> Hold {
+    async fn claim(&self, owner: &str) -> Lease {
         self.try_claim(owner).await.expect("a job to claim")
     }
 
@@ -140,7 +140,7 @@ fn submission(jobs: &[NewJob]) -> Submission<'_> {
 fn claimant(owner: &str) -> Claimant {
     Claimant {
         owner: owner.to_owned(),
-        lease: LEASE,
+        lease_duration: LEASE,
         solver: Solver {
             version: "2",
             commit: "c",

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 const OWNERS: [&str; 2] = ["a", "b"];
 
-/// One thing that happens. `usize`s pick a job, or a hold that was ever given.
+/// One thing that happens. `usize`s pick a job, or a lease that was ever given.
 #[derive(Debug, Clone)]
 enum Event {
     Submit,
@@ -18,7 +18,7 @@ enum Event {
     Succeed(usize),
     Fail(usize),
     HandBack(usize),
-    SetBack(usize),
+    AttemptFailed(usize),
     Dismiss(usize),
     Crash(usize),
     TakeBackExpired(usize),
@@ -34,7 +34,7 @@ fn event() -> impl Strategy<Value = Event> {
         2 => any::<usize>().prop_map(Event::Succeed),
         1 => any::<usize>().prop_map(Event::Fail),
         2 => any::<usize>().prop_map(Event::HandBack),
-        2 => any::<usize>().prop_map(Event::SetBack),
+        2 => any::<usize>().prop_map(Event::AttemptFailed),
         1 => any::<usize>().prop_map(Event::Dismiss),
         2 => (0..2usize).prop_map(Event::Crash),
         2 => (0..2usize).prop_map(Event::TakeBackExpired),
@@ -79,13 +79,13 @@ impl Model {
         job.status == Some(status)
     }
 
-    /// The job that a hold is good for.
-    fn held(&mut self, hold: usize) -> Option<&mut ModelJob> {
-        self.jobs.values_mut().find(|job| job.holder == Some(hold))
+    /// The job that a lease is good for.
+    fn held(&mut self, lease: usize) -> Option<&mut ModelJob> {
+        self.jobs.values_mut().find(|job| job.holder == Some(lease))
     }
 
-    fn running(&mut self, hold: usize) -> Option<&mut ModelJob> {
-        self.held(hold)
+    fn running(&mut self, lease: usize) -> Option<&mut ModelJob> {
+        self.held(lease)
             .filter(|job| Self::is(job, JobStatus::Running))
     }
 
@@ -110,7 +110,7 @@ impl Model {
         job.not_before_ms = not_before_ms;
     }
 
-    fn set_back(job: &mut ModelJob, now_ms: i64, why: Why) -> Returned {
+    fn fail_attempt(job: &mut ModelJob, now_ms: i64, why: Why) -> Returned {
         if why != Why::Infrastructure && job.saved_now {
             Self::put_back(job, now_ms);
             return Returned::Waiting;
@@ -130,12 +130,12 @@ impl Model {
     }
 
     /// Sets back every running job that `lost` says; how many.
-    fn take_back(&mut self, why: Why, lost: impl Fn(&ModelJob, i64) -> bool) -> usize {
+    fn reclaim_expired(&mut self, why: Why, lost: impl Fn(&ModelJob, i64) -> bool) -> usize {
         let now = self.now_ms;
         let mut count = 0;
         for job in self.jobs.values_mut() {
             if Self::is(job, JobStatus::Running) && lost(job, now) {
-                Self::set_back(job, now, why);
+                Self::fail_attempt(job, now, why);
                 count += 1;
             }
         }
@@ -148,7 +148,7 @@ struct Pair {
     fixture: Fixture<Store>,
     model: Model,
     ids: Vec<JobId>,
-    holds: Vec<Hold>,
+    leases: Vec<Lease>,
 }
 
 impl Pair {
@@ -167,45 +167,45 @@ impl Pair {
             Event::Crash(owner) => {
                 let expected = self
                     .model
-                    .take_back(Why::CutOff, |job, _| job.owner == owner);
-                let taken = self.fixture.store.take_back_own(OWNERS[owner]).await;
+                    .reclaim_expired(Why::CutOff, |job, _| job.owner == owner);
+                let taken = self.fixture.store.reclaim_own(OWNERS[owner]).await;
                 assert_eq!(taken.unwrap(), expected);
             }
             Event::TakeBackExpired(owner) => {
-                let expected = self.model.take_back(Why::Expired, |job, now| {
+                let expected = self.model.reclaim_expired(Why::Expired, |job, now| {
                     let expires = job.expires_ms;
                     job.owner != owner && (expires <= now || expires > now + 2 * LEASE_MS)
                 });
                 let store = &self.fixture.store;
-                let taken = store.take_back_expired(OWNERS[owner], LEASE).await;
+                let taken = store.reclaim_expired(OWNERS[owner], LEASE).await;
                 assert_eq!(taken.unwrap(), expected);
             }
             Event::Jump(by_ms) => {
                 self.fixture.clock.jump(SignedDuration::from_millis(by_ms));
                 self.model.now_ms += by_ms;
             }
-            _ if !self.holds.is_empty() => self.write(event).await,
+            _ if !self.leases.is_empty() => self.write(event).await,
             _ => {}
         }
     }
 
     async fn claim(&mut self, owner: usize) {
-        let hold = self.fixture.try_claim(OWNERS[owner]).await;
-        let number = self.holds.len();
+        let lease = self.fixture.try_claim(OWNERS[owner]).await;
+        let number = self.leases.len();
         let expires_ms = self.model.now_ms + LEASE_MS;
         let Some((place, job)) = self.model.claimable() else {
-            assert_eq!(hold, None);
+            assert_eq!(lease, None);
             return;
         };
-        let hold = hold.expect("the model has a job to claim");
+        let lease = lease.expect("the model has a job to claim");
         job.status = Some(JobStatus::Running);
         job.attempt += 1;
         job.holder = Some(number);
         job.owner = owner;
         job.expires_ms = expires_ms;
         job.saved_now = false;
-        assert_eq!((hold.job, hold.attempt), (self.ids[place], job.attempt));
-        self.holds.push(hold);
+        assert_eq!((lease.job, lease.attempt), (self.ids[place], job.attempt));
+        self.leases.push(lease);
     }
 
     async fn dismiss(&mut self, pick: usize) {
@@ -227,7 +227,7 @@ impl Pair {
         let store = &self.fixture.store;
         let model = &mut self.model;
         let now = model.now_ms;
-        let number = |pick: usize| pick % self.holds.len();
+        let number = |pick: usize| pick % self.leases.len();
         match *event {
             Event::Renew(pick) => {
                 let expected = match model.held(number(pick)) {
@@ -238,8 +238,8 @@ impl Pair {
                         Renewal::Held
                     }
                 };
-                let hold = self.holds[number(pick)];
-                let renewed = store.renew(hold, LEASE, &Progress::default()).await;
+                let lease = self.leases[number(pick)];
+                let renewed = store.renew(lease, LEASE, &Progress::default()).await;
                 assert_eq!(renewed.unwrap(), expected);
             }
             Event::Save(pick) => {
@@ -250,37 +250,40 @@ impl Pair {
                     job.saved_now = true;
                     job.setbacks = 0;
                 }
-                let hold = self.holds[number(pick)];
-                let kept = store.keep(hold, &results_and_state(3)).await;
+                let lease = self.leases[number(pick)];
+                let kept = store.keep(lease, &results_and_state(3)).await;
                 assert_eq!(kept.unwrap(), expected);
             }
-            Event::SetBack(pick) => {
+            Event::AttemptFailed(pick) => {
                 let expected = match model.running(number(pick)) {
-                    Some(job) => Model::set_back(job, now, Why::Infrastructure),
+                    Some(job) => Model::fail_attempt(job, now, Why::Infrastructure),
                     None => Returned::Lost,
                 };
-                let setback = Setback::Infrastructure("x".to_owned());
-                let hold = self.holds[number(pick)];
-                assert_eq!(store.set_back(hold, &setback).await.unwrap(), expected);
+                let failed_attempt = FailedAttempt::Infrastructure("x".to_owned());
+                let lease = self.leases[number(pick)];
+                assert_eq!(
+                    store.fail_attempt(lease, &failed_attempt).await.unwrap(),
+                    expected
+                );
             }
             Event::Succeed(pick) | Event::Fail(pick) | Event::HandBack(pick) => {
-                let hold = self.holds[number(pick)];
+                let lease = self.leases[number(pick)];
                 let running = model.running(number(pick));
                 let expected = running.is_some();
                 let done = match (event, running) {
                     (Event::Succeed(_), job) => {
                         job.into_iter()
                             .for_each(|job| Model::end(job, JobStatus::Successful));
-                        store.succeed(hold, "{}", FINGERPRINT).await
+                        store.succeed(lease, "{}", FINGERPRINT).await
                     }
                     (Event::Fail(_), job) => {
                         job.into_iter()
                             .for_each(|job| Model::end(job, JobStatus::Failed));
-                        store.fail(hold, &Failure::internal("x")).await
+                        store.fail(lease, &Failure::internal("x")).await
                     }
                     (_, job) => {
                         job.into_iter().for_each(|job| Model::put_back(job, 0));
-                        store.hand_back(hold).await
+                        store.release(lease).await
                     }
                 };
                 assert_eq!(done.unwrap(), expected, "{event:?}");
@@ -324,7 +327,7 @@ proptest! {
                     ..Model::default()
                 },
                 ids: Vec::new(),
-                holds: Vec::new(),
+                leases: Vec::new(),
             };
             for event in &events {
                 pair.happen(event).await;

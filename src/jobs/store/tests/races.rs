@@ -17,7 +17,7 @@ async fn no_stale_worker_ever_writes() {
         let id = fixture.submit().await;
         let stale = fixture.claim("a").await;
         fixture.pass(LEASE);
-        fixture.store.take_back_expired("b", LEASE).await.unwrap();
+        fixture.store.reclaim_expired("b", LEASE).await.unwrap();
         fixture.pass(Duration::from_secs(10));
         let fresh = fixture.claim("b").await;
         assert_eq!(fresh.job, id);
@@ -36,24 +36,24 @@ async fn no_stale_worker_ever_writes() {
 }
 
 /// Tries every way of writing; how many were let in.
-async fn write_as_a_stale_worker(store: Store, hold: Hold, race: u32) -> u32 {
+async fn write_as_a_stale_worker(store: Store, lease: Lease, race: u32) -> u32 {
     let mut written = 0;
     let progress = Progress::default();
-    written += u32::from(store.keep(hold, &results_and_state(9)).await.unwrap());
-    let renewed = store.renew(hold, LEASE, &progress).await.unwrap();
+    written += u32::from(store.keep(lease, &results_and_state(9)).await.unwrap());
+    let renewed = store.renew(lease, LEASE, &progress).await.unwrap();
     written += u32::from(renewed != Renewal::Lost);
     let ended = match race % 4 {
-        0 => store.succeed(hold, "{\"by\":\"a\"}", FINGERPRINT).await,
-        1 => store.fail(hold, &Failure::internal("a")).await,
-        2 => store.hand_back(hold).await,
-        _ => store.begin(hold, &Beginning::Afresh, 1).await,
+        0 => store.succeed(lease, "{\"by\":\"a\"}", FINGERPRINT).await,
+        1 => store.fail(lease, &Failure::internal("a")).await,
+        2 => store.release(lease).await,
+        _ => store.begin(lease, &Beginning::Afresh, 1).await,
     };
     written + u32::from(ended.unwrap())
 }
 
-async fn write_to_the_end(store: Store, hold: Hold) {
-    assert!(store.keep(hold, &results_and_state(5)).await.unwrap());
-    let ended = store.succeed(hold, "{\"by\":\"b\"}", FINGERPRINT).await;
+async fn write_to_the_end(store: Store, lease: Lease) {
+    assert!(store.keep(lease, &results_and_state(5)).await.unwrap());
+    let ended = store.succeed(lease, "{\"by\":\"b\"}", FINGERPRINT).await;
     assert!(ended.unwrap());
 }
 
@@ -71,7 +71,7 @@ async fn a_job_is_claimed_by_one_of_many() {
             let mut claimed = Vec::new();
             let claimant = claimant(&format!("worker {worker}"));
             while let Some(claim) = store.claim(&claimant).await.unwrap() {
-                claimed.push(claim.hold.job);
+                claimed.push(claim.lease.job);
             }
             claimed
         })

@@ -9,8 +9,8 @@ use crate::results::columns::Selection;
 async fn a_damaged_block_is_noticed() {
     let fixture = Fixture::sqlite().await;
     let id = fixture.submit().await;
-    let hold = fixture.claim("a").await;
-    fixture.store.keep(hold, &results(3)).await.unwrap();
+    let lease = fixture.claim("a").await;
+    fixture.store.keep(lease, &results(3)).await.unwrap();
     sqlx::query("UPDATE trajectory_chunks SET data = zeroblob(length(data))")
         .execute(&fixture.store.writer)
         .await
@@ -27,19 +27,19 @@ async fn final_states_are_sinks_whatever_the_code_asks_for() {
         fixture.submit().await,
         fixture.submit().await,
     ];
-    let holds = [
+    let leases = [
         fixture.claim("a").await,
         fixture.claim("a").await,
         fixture.claim("a").await,
     ];
     fixture
         .store
-        .succeed(holds[0], "{}", FINGERPRINT)
+        .succeed(leases[0], "{}", FINGERPRINT)
         .await
         .unwrap();
     fixture
         .store
-        .fail(holds[1], &Failure::internal("x"))
+        .fail(leases[1], &Failure::internal("x"))
         .await
         .unwrap();
     fixture.store.dismiss(ended[2]).await.unwrap();
@@ -100,10 +100,10 @@ async fn rows_that_make_no_sense_are_refused() {
 async fn no_job_is_run_to_its_end_twice_whatever_the_code_asks_for() {
     let fixture = Fixture::sqlite().await;
     fixture.submit().await;
-    let hold = fixture.claim("a").await;
+    let lease = fixture.claim("a").await;
     fixture
         .store
-        .succeed(hold, "{}", FINGERPRINT)
+        .succeed(lease, "{}", FINGERPRINT)
         .await
         .unwrap();
     let again = sqlx::query(
@@ -117,7 +117,7 @@ async fn no_job_is_run_to_its_end_twice_whatever_the_code_asks_for() {
 async fn a_state_of_many_pieces_is_whole_or_noticed() {
     let fixture = Fixture::sqlite().await;
     let id = fixture.submit().await;
-    let hold = fixture.claim("a").await;
+    let lease = fixture.claim("a").await;
     // Noise does not compress: more than two pieces.
     let mut noise = vec![0; 20 << 20];
     blake3::Hasher::new().finalize_xof().fill(&mut noise);
@@ -130,7 +130,7 @@ async fn a_state_of_many_pieces_is_whole_or_noticed() {
         state: Some(StoredState::pack(mark, &noise).unwrap()),
         ..results(1)
     };
-    assert!(fixture.store.keep(hold, &kept).await.unwrap());
+    assert!(fixture.store.keep(lease, &kept).await.unwrap());
     let state = fixture.store.state(id).await.unwrap().unwrap();
     assert!(state.unpack().unwrap() == noise);
     sqlx::query("DELETE FROM run_state_pieces WHERE piece = 1")
