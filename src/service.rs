@@ -109,7 +109,12 @@ async fn serve(
     }
     let pool = Pool::start(store, size, config).map_err(StartError::Workers)?;
     let limits = config.limits.clone();
-    let jobs = Jobs::new(store.clone(), pool.bench(), limits, size.threads_per_worker);
+    let jobs = Jobs::new(
+        store.clone(),
+        pool.registry(),
+        limits,
+        size.threads_per_worker,
+    );
     let router = http::router(jobs, config);
     let (stop, stopped) = watch::channel(false);
     let server = http::server::serve(listener, router, config.limits.clone(), stopped);

@@ -3,7 +3,7 @@
 use super::forecast::{ForecastError, Planned, forecast};
 use super::intake::InFlight;
 use super::job::{Job, JobId, JobStatus, JobSummary};
-use super::pool::Bench;
+use super::pool::RunningJobRegistry;
 use super::store::{Census, Dismissal, Event, Page, Removal, Store, StoreError};
 use super::submit::{self, Means, NewJob, ScenarioError};
 use crate::config::Limits;
@@ -25,7 +25,7 @@ const LOOK_PAUSE: Duration = Duration::from_millis(50);
 #[derive(Debug, Clone)]
 pub struct Jobs {
     pub(super) store: Store,
-    pub(super) bench: Arc<Bench>,
+    pub(super) registry: Arc<RunningJobRegistry>,
     pub(super) limits: Limits,
     pub(super) in_flight: InFlight,
     threads_per_worker: usize,
@@ -58,11 +58,16 @@ pub enum Dismissed {
 }
 
 impl Jobs {
-    /// Jobs in this store, run by the workers of this bench.
-    pub fn new(store: Store, bench: Arc<Bench>, limits: Limits, threads_per_worker: usize) -> Self {
+    /// Jobs in this store, run by the workers of this registry.
+    pub fn new(
+        store: Store,
+        registry: Arc<RunningJobRegistry>,
+        limits: Limits,
+        threads_per_worker: usize,
+    ) -> Self {
         Self {
             store,
-            bench,
+            registry,
             limits,
             in_flight: InFlight::default(),
             threads_per_worker,
@@ -124,7 +129,7 @@ impl Jobs {
             Dismissal::Ended(status) => return Ok(Dismissed::TooLate(status)),
             Dismissal::Dismissed => {}
         }
-        if let Some(mut ended) = self.bench.stop_job(id) {
+        if let Some(mut ended) = self.registry.stop_job(id) {
             // Nothing is ever sent: the wait ends when the run leaves its place.
             // One that takes longer is dismissed all the same.
             drop(timeout(STOP_WAIT, ended.changed()).await);
@@ -186,7 +191,7 @@ impl Jobs {
 
     /// True if the service stops.
     pub fn is_closing(&self) -> bool {
-        self.bench.submissions().is_none()
+        self.registry.submissions().is_none()
     }
 
     /// Counts jobs.

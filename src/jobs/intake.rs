@@ -114,7 +114,7 @@ impl Jobs {
         drop(taken);
         match submitted? {
             Submitted::Accepted => {
-                self.bench.announce();
+                self.registry.announce();
                 Ok(intake.jobs.iter().map(|job| job.id).collect())
             }
             Submitted::Before(jobs) => Ok(jobs),

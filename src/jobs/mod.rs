@@ -10,7 +10,7 @@ pub mod forecast;
 mod headed;
 mod intake;
 pub mod job;
-mod keeper;
+mod lease_heartbeat;
 mod open_chunk;
 pub mod pool;
 pub mod progress;

@@ -2,7 +2,7 @@
 //! an answer, and an answer never holds up a computation.
 
 use super::job::JobId;
-use super::keeper::Keeper;
+use super::lease_heartbeat::LeaseHeartbeat;
 use super::progress::ProgressBoard;
 use super::runner::{Stop, StopFlag};
 use super::store::{Lease, Store};
@@ -23,10 +23,10 @@ const IDLE_LOOK: Duration = Duration::from_secs(1);
 /// The workers of a service.
 #[derive(Debug)]
 pub struct Pool {
-    bench: Arc<Bench>,
+    registry: Arc<RunningJobRegistry>,
     threads: Vec<JoinHandle<()>>,
     /// Dropped last: leases are kept until every worker has gone home.
-    _keeper: Keeper,
+    _keeper: LeaseHeartbeat,
 }
 
 /// Equipment that a worker needs to work.
@@ -34,7 +34,7 @@ pub struct Pool {
 pub(super) struct Equipment {
     pub(super) store: Store,
     pub(super) runtime: Handle,
-    pub(super) bench: Arc<Bench>,
+    pub(super) registry: Arc<RunningJobRegistry>,
     pub(super) threads: usize,
     pub(super) started: Instant,
     pub(super) queue: Queue,
@@ -42,9 +42,9 @@ pub(super) struct Equipment {
     pub(super) retention: Retention,
 }
 
-/// Bench where workers wait for work, and where running jobs can be stopped.
+/// Registry of running jobs: workers wait in it for work, and jobs are stopped through it.
 #[derive(Debug, Default)]
-pub struct Bench {
+pub struct RunningJobRegistry {
     state: Mutex<State>,
     changed: Condvar,
 }
@@ -54,28 +54,28 @@ struct State {
     /// Grows with every job that was submitted.
     submissions: u64,
     closing: bool,
-    running: BTreeMap<JobId, Seated>,
+    running: BTreeMap<JobId, RegisteredRun>,
 }
 
 #[derive(Debug)]
-struct Seated {
-    run: Run,
+struct RegisteredRun {
+    run: RunningJob,
     ended: watch::Receiver<()>,
 }
 
 /// A running job, for whoever keeps its lease.
 #[derive(Debug, Clone)]
-pub(super) struct Run {
+pub(super) struct RunningJob {
     pub(super) lease: Lease,
     pub(super) stop: Arc<StopFlag>,
     pub(super) board: Arc<ProgressBoard>,
 }
 
-/// A running job's place on the bench; leaving it tells those who wait.
+/// Guard of a running job's entry in the registry; dropping it tells those who wait.
 #[derive(Debug)]
-pub(super) struct Place {
-    bench: Arc<Bench>,
-    pub(super) run: Run,
+pub(super) struct RunningJobGuard {
+    registry: Arc<RunningJobRegistry>,
+    pub(super) run: RunningJob,
     _ended: watch::Sender<()>,
 }
 
@@ -88,7 +88,7 @@ impl Pool {
         let equipment = Equipment {
             store: store.clone(),
             runtime: Handle::current(),
-            bench: Arc::default(),
+            registry: Arc::default(),
             threads: size.threads_per_worker,
             started: Instant::now(),
             queue: config.queue.clone(),
@@ -96,9 +96,9 @@ impl Pool {
             retention: config.retention.clone(),
         };
         let mut pool = Self {
-            bench: Arc::clone(&equipment.bench),
+            registry: Arc::clone(&equipment.registry),
             threads: Vec::new(),
-            _keeper: Keeper::start(equipment.clone())?,
+            _keeper: LeaseHeartbeat::start(equipment.clone())?,
         };
         for index in 0..size.workers {
             let equipment = equipment.clone();
@@ -110,15 +110,15 @@ impl Pool {
         Ok(pool)
     }
 
-    /// Bench where the workers wait.
-    pub fn bench(&self) -> Arc<Bench> {
-        Arc::clone(&self.bench)
+    /// Registry of the running jobs.
+    pub fn registry(&self) -> Arc<RunningJobRegistry> {
+        Arc::clone(&self.registry)
     }
 
     /// Has running jobs save their state and go back into the queue, and waits
     /// until every worker has gone home. Blocks.
     pub fn stop(mut self) {
-        self.bench.close();
+        self.registry.close();
         for thread in self.threads.drain(..) {
             if thread.join().is_err() {
                 tracing::error!("a worker thread had panicked");
@@ -131,11 +131,11 @@ impl Pool {
 /// stopped, at least sends its workers home.
 impl Drop for Pool {
     fn drop(&mut self) {
-        self.bench.close();
+        self.registry.close();
     }
 }
 
-impl Bench {
+impl RunningJobRegistry {
     /// Tells the workers that a job was submitted.
     pub fn announce(&self) {
         self.state().submissions += 1;
@@ -146,31 +146,31 @@ impl Bench {
     /// `None` if no worker runs it.
     pub fn stop_job(&self, job: JobId) -> Option<watch::Receiver<()>> {
         let state = self.state();
-        let seated = state.running.get(&job)?;
-        seated.run.stop.raise();
-        Some(seated.ended.clone())
+        let registered = state.running.get(&job)?;
+        registered.run.stop.raise();
+        Some(registered.ended.clone())
     }
 
     fn close(&self) {
         let mut state = self.state();
         state.closing = true;
-        for seated in state.running.values() {
-            seated.run.stop.ask(Stop::OnceSaved);
+        for registered in state.running.values() {
+            registered.run.stop.ask(Stop::OnceSaved);
         }
         self.changed.notify_all();
     }
 
     /// The jobs that run.
-    pub(super) fn runs(&self) -> Vec<Run> {
+    pub(super) fn runs(&self) -> Vec<RunningJob> {
         let state = self.state();
         state
             .running
             .values()
-            .map(|seated| seated.run.clone())
+            .map(|registered| registered.run.clone())
             .collect()
     }
 
-    /// Waits a while, or less if the bench closes. Whether it is still open.
+    /// Waits a while, or less if the registry closes. True if it is still open.
     pub(super) fn pause(&self, pause: Duration) -> bool {
         let state = self.state();
         let waited = self
@@ -180,13 +180,13 @@ impl Bench {
         !state.closing
     }
 
-    /// Submissions so far; `None` once the bench is closed.
+    /// Submissions so far; `None` once the registry is closed.
     pub fn submissions(&self) -> Option<u64> {
         let state = self.state();
         (!state.closing).then_some(state.submissions)
     }
 
-    /// Waits for a submission after the `seen`-th, or for the bench to close.
+    /// Waits for a submission after the `seen`-th, or for the registry to close.
     pub(super) fn wait(&self, seen: u64) {
         let state = self.state();
         let idle = |state: &mut State| !state.closing && state.submissions == seen;
@@ -194,9 +194,9 @@ impl Bench {
         drop(self.changed.wait_timeout_while(state, IDLE_LOOK, idle));
     }
 
-    /// Gives a job that is about to run its place.
-    pub(super) fn seat(self: &Arc<Self>, lease: Lease) -> Place {
-        let run = Run {
+    /// Registers a job that is about to run.
+    pub(super) fn register(self: &Arc<Self>, lease: Lease) -> RunningJobGuard {
+        let run = RunningJob {
             lease,
             stop: Arc::default(),
             board: Arc::default(),
@@ -206,13 +206,13 @@ impl Bench {
         if state.closing {
             run.stop.ask(Stop::OnceSaved);
         }
-        let seated = Seated {
+        let registered = RegisteredRun {
             run: run.clone(),
             ended,
         };
-        state.running.insert(lease.job, seated);
-        Place {
-            bench: Arc::clone(self),
+        state.running.insert(lease.job, registered);
+        RunningJobGuard {
+            registry: Arc::clone(self),
             run,
             _ended: sender,
         }
@@ -224,9 +224,9 @@ impl Bench {
     }
 }
 
-impl Drop for Place {
+impl Drop for RunningJobGuard {
     fn drop(&mut self) {
-        self.bench.state().running.remove(&self.run.lease.job);
+        self.registry.state().running.remove(&self.run.lease.job);
     }
 }
 
@@ -244,40 +244,40 @@ mod tests {
 
     #[test]
     fn a_job_seated_on_a_closing_bench_is_asked_to_stop_at_once() {
-        let bench = Arc::new(Bench::default());
-        let early = bench.seat(lease());
+        let registry = Arc::new(RunningJobRegistry::default());
+        let early = registry.register(lease());
         assert!(!early.run.stop.is_raised());
-        bench.close();
+        registry.close();
         assert_eq!(early.run.stop.asked(), Stop::OnceSaved);
-        assert!(bench.seat(lease()).run.stop.is_raised());
-        assert_eq!(bench.submissions(), None);
+        assert!(registry.register(lease()).run.stop.is_raised());
+        assert_eq!(registry.submissions(), None);
     }
 
     #[test]
     fn a_job_that_left_its_place_can_not_be_stopped() {
-        let bench = Arc::new(Bench::default());
+        let registry = Arc::new(RunningJobRegistry::default());
         let lease = lease();
         let job = lease.job;
-        let place = bench.seat(lease);
-        assert_eq!(bench.runs().len(), 1);
-        let ended = bench.stop_job(job).unwrap();
-        assert_eq!(place.run.stop.asked(), Stop::AtOnce);
+        let guard = registry.register(lease);
+        assert_eq!(registry.runs().len(), 1);
+        let ended = registry.stop_job(job).unwrap();
+        assert_eq!(guard.run.stop.asked(), Stop::AtOnce);
         assert!(ended.has_changed().is_ok());
-        drop(place);
+        drop(guard);
         assert!(
             ended.has_changed().is_err(),
             "the end is seen as a closed channel"
         );
-        assert!(bench.stop_job(job).is_none());
+        assert!(registry.stop_job(job).is_none());
     }
 
     #[test]
     fn a_submission_before_the_wait_is_not_slept_through() {
-        let bench = Bench::default();
-        let seen = bench.submissions().unwrap();
-        bench.announce();
+        let registry = RunningJobRegistry::default();
+        let seen = registry.submissions().unwrap();
+        registry.announce();
         let began = Instant::now();
-        bench.wait(seen);
+        registry.wait(seen);
         assert!(began.elapsed() < IDLE_LOOK);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::campaign::Runs;
 use super::failure::Failure;
-use super::pool::{Equipment, Place};
+use super::pool::{Equipment, RunningJobGuard};
 use super::recording::{KeepError, StoreSink};
 use super::runner::{Run, RunEnd, RunError, Stop, StopFlag};
 use super::saved_run::{COMMIT, SavedRunError};
@@ -30,7 +30,7 @@ enum Verdict {
     Gone,
 }
 
-/// Works until the bench is closed.
+/// Works until the registry is closed.
 pub(super) fn work(equipment: &Equipment) {
     let mut claimant = Claimant {
         owner: equipment.queue.name.clone(),
@@ -42,14 +42,14 @@ pub(super) fn work(equipment: &Equipment) {
         },
         up_for: Duration::ZERO,
     };
-    while let Some(seen) = equipment.bench.submissions() {
+    while let Some(seen) = equipment.registry.submissions() {
         claimant.up_for = equipment.started.elapsed();
         match equipment.runtime.block_on(equipment.store.claim(&claimant)) {
             Ok(Some(claim)) => carry_out(equipment, &claim),
-            Ok(None) => equipment.bench.wait(seen),
+            Ok(None) => equipment.registry.wait(seen),
             Err(error) => {
                 error!(%error, "no job can be claimed");
-                equipment.bench.wait(seen);
+                equipment.registry.wait(seen);
             }
         }
     }
@@ -67,13 +67,13 @@ fn carry_out(equipment: &Equipment, claim: &Claim) {
     let lease = claim.lease;
     let _span = info_span!("job", id = %lease.job, attempt = lease.attempt).entered();
     // Seated before its row is looked at: a dismissal that came before finds the
-    // row changed, one that comes after finds the place.
-    let place = equipment.bench.seat(lease);
+    // row changed, one that comes after finds the entry.
+    let guard = equipment.registry.register(lease);
     info!("started");
-    let verdict = shielded(|| run(equipment, claim, &place));
+    let verdict = shielded(|| run(equipment, claim, &guard));
     while let Err(error) = pronounce(equipment, lease, &verdict) {
         error!(%error, "the job's end can't be written now");
-        if !equipment.bench.pause(RETRY_PAUSE) {
+        if !equipment.registry.pause(RETRY_PAUSE) {
             // The row stays as it is, and the next start takes it back.
             return;
         }
@@ -90,7 +90,7 @@ fn shielded(run: impl FnOnce() -> Verdict) -> Verdict {
     }
 }
 
-fn run(equipment: &Equipment, claim: &Claim, place: &Place) -> Verdict {
+fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> Verdict {
     let scenario = match Scenario::from_json(&claim.scenario) {
         Ok(scenario) => scenario,
         Err(error) => return broken_off(&error.to_string()),
@@ -104,12 +104,12 @@ fn run(equipment: &Equipment, claim: &Claim, place: &Place) -> Verdict {
         (equipment.store.clone(), equipment.runtime.clone()),
         claim.lease,
         equipment.recording.clone(),
-        place.run.board.clone(),
+        guard.run.board.clone(),
     );
     if claim.setbacks > 0 {
         sink.save_early();
     }
-    let stop = &*place.run.stop;
+    let stop = &*guard.run.stop;
     if stop.is_raised() {
         return stopped(stop);
     }

@@ -14,15 +14,15 @@ use tracing::{error, info, warn};
 /// A clock that is this far off the time that passed has jumped [s].
 const TRUSTED_S: f64 = 60.0;
 
-/// The keeper's thread; it ends once this is dropped.
+/// Thread of the heartbeat; it ends once this is dropped.
 #[derive(Debug)]
-pub(super) struct Keeper {
+pub(super) struct LeaseHeartbeat {
     end: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
 
-impl Keeper {
-    /// Starts the keeper.
+impl LeaseHeartbeat {
+    /// Starts the thread.
     ///
     /// # Errors
     /// The system refuses a thread.
@@ -32,11 +32,11 @@ impl Keeper {
         let thread = std::thread::Builder::new()
             .name("keeper".to_owned())
             .spawn(move || {
-                let tidy = Tidy::new();
+                let retention = RetentionTask::new();
                 // Nothing is ever sent: the end is a closed channel.
                 while ended.recv_timeout(beat) == Err(RecvTimeoutError::Timeout) {
-                    beat_once(&equipment);
-                    tidy.remove_old(&equipment);
+                    renew_leases(&equipment);
+                    retention.remove_old(&equipment);
                 }
             })?;
         Ok(Self {
@@ -46,7 +46,7 @@ impl Keeper {
     }
 }
 
-impl Drop for Keeper {
+impl Drop for LeaseHeartbeat {
     fn drop(&mut self) {
         drop(self.end.take());
         if self
@@ -59,8 +59,8 @@ impl Drop for Keeper {
     }
 }
 
-fn beat_once(equipment: &Equipment) {
-    for run in equipment.bench.runs() {
+fn renew_leases(equipment: &Equipment) {
+    for run in equipment.registry.runs() {
         let progress = run.board.read();
         let renewed = equipment
             .store
@@ -78,19 +78,19 @@ fn beat_once(equipment: &Equipment) {
         Ok(0) => {}
         Ok(count) => {
             warn!(count, "took back jobs whose lease had run out");
-            equipment.bench.announce();
+            equipment.registry.announce();
         }
         Err(error) => warn!(%error, "leases that ran out can't be looked for now"),
     }
 }
 
 /// Removes what has been kept for long enough, by a clock that can be trusted.
-struct Tidy {
+struct RetentionTask {
     began: Instant,
     wall: Timestamp,
 }
 
-impl Tidy {
+impl RetentionTask {
     fn new() -> Self {
         Self {
             began: Instant::now(),
