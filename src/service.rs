@@ -2,7 +2,7 @@
 
 use crate::config::{ConfigError, PoolSize, ServiceConfig};
 use crate::http;
-use crate::jobs::Jobs;
+use crate::jobs::JobService;
 use crate::jobs::clock::SystemClock;
 use crate::jobs::pool::Pool;
 use crate::jobs::store::{Store, StoreError};
@@ -109,7 +109,7 @@ async fn serve(
     }
     let pool = Pool::start(store, size, config).map_err(StartError::Workers)?;
     let limits = config.limits.clone();
-    let jobs = Jobs::new(
+    let jobs = JobService::new(
         store.clone(),
         pool.registry(),
         limits,

@@ -7,7 +7,7 @@ use super::scenario_body::{ScenarioText, malformed};
 use super::submission::{LABEL_RULE, key};
 use crate::jobs::job::JobId;
 use crate::jobs::submit::{LABELS_AT_MOST, NewJob, ScenarioError, excerpt, label};
-use crate::jobs::{Intake, Jobs};
+use crate::jobs::{JobService, SubmissionRequest};
 use axum::Json;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, Uri};
@@ -74,7 +74,7 @@ pub(super) struct BatchAnswer {
     )
 )]
 pub(super) async fn submit_batch(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     caller: Caller,
     uri: Uri,
     headers: HeaderMap,
@@ -87,7 +87,7 @@ pub(super) async fn submit_batch(
     let request = format!("{uri}\n{text}");
     let key = key(&headers, &request)?;
     let ids = jobs
-        .submit(&Intake {
+        .submit(&SubmissionRequest {
             jobs: &new,
             submitter: caller.name(),
             quota: caller.quota(),
@@ -125,7 +125,7 @@ fn without_long_texts(error: &serde_json::Error) -> String {
 }
 
 /// Checks every scenario and every label; all that is wrong is named at once.
-fn admit_all(jobs: &Jobs, batch: &BatchDocument) -> Result<Vec<NewJob>, Problem> {
+fn admit_all(jobs: &JobService, batch: &BatchDocument) -> Result<Vec<NewJob>, Problem> {
     let mut wrong = Vec::new();
     let common = read_labels(&batch.labels, "/labels", &mut wrong);
     let mut admitted = Vec::new();
@@ -133,7 +133,7 @@ fn admit_all(jobs: &Jobs, batch: &BatchDocument) -> Result<Vec<NewJob>, Problem>
         let at = format!("/jobs/{place}");
         let mut labels = read_labels(&job.labels, &format!("{at}/labels"), &mut wrong);
         labels.extend_from_slice(&common);
-        match jobs.admit(job.scenario.get(), labels) {
+        match jobs.validate(job.scenario.get(), labels) {
             Ok(new) => admitted.push(new),
             Err(ScenarioError::Invalid(violations)) => {
                 let named = violations.into_iter().map(FieldError::from);

@@ -3,7 +3,7 @@
 
 use super::problem::Problem;
 use super::query::Query;
-use crate::jobs::Jobs;
+use crate::jobs::JobService;
 use crate::jobs::job::JobId;
 use crate::jobs::store::Event;
 use axum::body::{Body, Bytes};
@@ -54,7 +54,7 @@ const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
     )
 )]
 pub(super) async fn events(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -116,7 +116,7 @@ impl Start {
 
 /// One client's place in the stream.
 struct Follower {
-    jobs: Jobs,
+    jobs: JobService,
     job: Option<JobId>,
     after: i64,
     reset: Option<String>,

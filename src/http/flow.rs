@@ -6,7 +6,7 @@ use super::named_job::NamedJob;
 use super::problem::Problem;
 use super::query::Query;
 use super::tagged;
-use crate::jobs::Jobs;
+use crate::jobs::JobService;
 use crate::jobs::job::JobId;
 use crate::jobs::store::StoreError;
 use crate::results::flow::FlowDocument;
@@ -38,7 +38,7 @@ use futures_util::{StreamExt, stream};
     )
 )]
 pub(super) async fn flow(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     NamedJob(id): NamedJob,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
@@ -76,7 +76,7 @@ pub(super) async fn flow(
     )
 )]
 pub(super) async fn flow_archive(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     NamedJob(id): NamedJob,
 ) -> Result<Response, Problem> {
     let job = find(&jobs, &id).await?.summary.id;
@@ -101,7 +101,7 @@ pub(super) async fn flow_archive(
 
 /// Snapshots on their way to a client: one of them at a time.
 struct Packing {
-    jobs: Jobs,
+    jobs: JobService,
     job: JobId,
     times_s: Vec<f64>,
     next: usize,

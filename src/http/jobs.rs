@@ -9,7 +9,7 @@ use super::tagged;
 use crate::jobs::job::{Job, JobId, JobStatus};
 use crate::jobs::store::{Page, Removal};
 use crate::jobs::submit::{excerpt, label};
-use crate::jobs::{Dismissed, Jobs};
+use crate::jobs::{Dismissed, JobService};
 use axum::Json;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode};
@@ -43,7 +43,7 @@ const LONGEST_WAIT_S: u32 = 60;
     )
 )]
 pub(super) async fn list(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -87,7 +87,7 @@ pub(super) async fn list(
     )
 )]
 pub(super) async fn show(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     NamedJob(id): NamedJob,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
@@ -129,7 +129,7 @@ pub(super) async fn show(
     )
 )]
 pub(super) async fn dismiss(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     caller: Caller,
     NamedJob(id): NamedJob,
     RawQuery(query): RawQuery,
@@ -156,7 +156,7 @@ pub(super) async fn dismiss(
     }
 }
 
-async fn removed(jobs: &Jobs, id: &str) -> Result<Response, Problem> {
+async fn removed(jobs: &JobService, id: &str) -> Result<Response, Problem> {
     match jobs.remove(parse_id(id)?).await? {
         Removal::Removed => Ok(StatusCode::NO_CONTENT.into_response()),
         Removal::Unknown => Err(unknown_job(id)),
@@ -170,7 +170,7 @@ async fn removed(jobs: &Jobs, id: &str) -> Result<Response, Problem> {
 }
 
 /// The job of this id, or the problem that there is none.
-pub(super) async fn find(jobs: &Jobs, id: &str) -> Result<Job, Problem> {
+pub(super) async fn find(jobs: &JobService, id: &str) -> Result<Job, Problem> {
     jobs.job(parse_id(id)?)
         .await?
         .ok_or_else(|| unknown_job(id))

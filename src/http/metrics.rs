@@ -1,7 +1,7 @@
 //! Figures for whoever watches the service, in the text format of Prometheus.
 
 use super::problem::Problem;
-use crate::jobs::Jobs;
+use crate::jobs::JobService;
 use axum::Extension;
 use axum::extract::{Request, State};
 use axum::http::header;
@@ -49,10 +49,10 @@ pub(super) async fn count(
     )
 )]
 pub(super) async fn metrics(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     Extension(counts): Extension<Arc<RequestCounts>>,
 ) -> Result<Response, Problem> {
-    let census = jobs.census().await?;
+    let count_jobs = jobs.count_jobs().await?;
     let mut text = String::new();
     let mut family = |name: &str, kind: &str, help: &str, rows: &[(String, f64)]| {
         // Writing into a string does not fail.
@@ -65,11 +65,11 @@ pub(super) async fn metrics(
         }
     };
     let plain = |value: f64| [(String::new(), value)];
-    let jobs_rows = census
+    let jobs_rows = count_jobs
         .jobs
         .map(|(status, count)| (format!("{{status=\"{}\"}}", status.word()), count as f64));
     family("jobs", "gauge", "Jobs by state.", &jobs_rows);
-    let attempts: Vec<_> = census
+    let attempts: Vec<_> = count_jobs
         .attempts
         .iter()
         .map(|(ending, count)| (format!("{{ending=\"{ending}\"}}"), *count as f64))
@@ -84,13 +84,13 @@ pub(super) async fn metrics(
         "oldest_waiting_seconds",
         "gauge",
         "Age of the oldest waiting job.",
-        &plain(census.oldest_waiting_s),
+        &plain(count_jobs.oldest_waiting_s),
     );
     family(
         "database_bytes",
         "gauge",
         "Length of the database.",
-        &plain(census.database_bytes as f64),
+        &plain(count_jobs.database_bytes as f64),
     );
     family(
         "requests_total",

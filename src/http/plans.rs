@@ -4,7 +4,7 @@ use super::contract::{PlanDocument, PlannedCompanionDocument, ScenarioDocument};
 use super::problem::Problem;
 use super::scenario_body::ScenarioText;
 use crate::jobs::forecast::WallTime;
-use crate::jobs::{Jobs, PlanError};
+use crate::jobs::{JobService, PlanError};
 use axum::Json;
 use axum::extract::State;
 use axum::http::StatusCode;
@@ -44,7 +44,7 @@ pub(super) struct PlannedDocument {
     )
 )]
 pub(super) async fn plan(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     ScenarioText(text): ScenarioText,
 ) -> Result<Json<PlannedDocument>, Problem> {
     let planned = jobs.plan(&text).await?;

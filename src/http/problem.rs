@@ -1,6 +1,6 @@
 //! Problem documents (RFC 9457).
 
-use crate::jobs::store::Trouble;
+use crate::jobs::store::StoreErrorKind;
 use crate::jobs::submit::Violation;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -128,15 +128,15 @@ impl Problem {
 
 impl From<crate::jobs::store::StoreError> for Problem {
     fn from(error: crate::jobs::store::StoreError) -> Self {
-        match error.trouble() {
-            Trouble::Defect => Self::internal(&error),
-            Trouble::Full => {
+        match error.kind() {
+            StoreErrorKind::Defect => Self::internal(&error),
+            StoreErrorKind::Full => {
                 tracing::error!(%error, "no room");
                 let detail = "there is no room for it on the disk; what is stored is safe";
                 let status = StatusCode::INSUFFICIENT_STORAGE;
                 Self::new(status, "storage-full", "No room", detail)
             }
-            Trouble::Unavailable => {
+            StoreErrorKind::Unavailable => {
                 tracing::error!(%error, "the database can't be used");
                 let detail = "the database can't be used now; what was acknowledged is safe";
                 let status = StatusCode::SERVICE_UNAVAILABLE;

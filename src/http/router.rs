@@ -6,7 +6,7 @@ use super::problem::Problem;
 use super::scenario_body::BodyDeadline;
 use super::{batch, common_answers, events, flow, jobs, plans, submission, system, trajectory};
 use crate::config::ServiceConfig;
-use crate::jobs::Jobs;
+use crate::jobs::JobService;
 use axum::extract::{DefaultBodyLimit, Request};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
@@ -26,7 +26,7 @@ use utoipa_axum::routes;
 use uuid::Uuid;
 
 /// All routes, with what goes round them.
-pub fn router(jobs: Jobs, config: &ServiceConfig) -> Router {
+pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
     let limits = &config.limits;
     let (router, contract) = documented(limits.request_timeout()).split_for_parts();
     let contract = contract_text(&contract);
@@ -59,7 +59,7 @@ pub fn openapi() -> OpenApi {
 }
 
 /// The routes; those that wait for something by nature have no time limit.
-fn documented(limit: Duration) -> OpenApiRouter<Jobs> {
+fn documented(limit: Duration) -> OpenApiRouter<JobService> {
     let quick = OpenApiRouter::new()
         .routes(routes!(submission::submit, jobs::list))
         .routes(routes!(batch::submit_batch))

@@ -9,7 +9,7 @@ use super::scenario_body::{ScenarioText, malformed};
 use crate::jobs::job::JobId;
 use crate::jobs::store::Key;
 use crate::jobs::submit::{ScenarioError, label};
-use crate::jobs::{Intake, Jobs, SubmitError};
+use crate::jobs::{JobService, SubmissionRequest, SubmitError};
 use axum::Json;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, Uri, header};
@@ -49,7 +49,7 @@ const RETRY_AFTER_S: u8 = 10;
     )
 )]
 pub(super) async fn submit(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     caller: Caller,
     uri: Uri,
     headers: HeaderMap,
@@ -62,7 +62,7 @@ pub(super) async fn submit(
         (word == "finished").then_some(())
     });
     query.finish()?;
-    let new = jobs.admit(&text, labels)?;
+    let new = jobs.validate(&text, labels)?;
     if reuse.is_some()
         && let Some(id) = jobs.finished_like(&new).await?
     {
@@ -71,7 +71,7 @@ pub(super) async fn submit(
     let request = format!("{uri}\n{text}");
     let key = key(&headers, &request)?;
     let ids = jobs
-        .submit(&Intake {
+        .submit(&SubmissionRequest {
             jobs: &[new],
             submitter: caller.name(),
             quota: caller.quota(),
@@ -87,7 +87,7 @@ pub(super) async fn submit(
 /// Rule of a label, for people.
 pub(super) const LABEL_RULE: &str = "1 to 64 letters, digits or any of . _ : = / -";
 
-async fn answer(jobs: &Jobs, status: StatusCode, id: JobId) -> Result<Response, Problem> {
+async fn answer(jobs: &JobService, status: StatusCode, id: JobId) -> Result<Response, Problem> {
     let job = find(jobs, &id.to_string()).await?;
     let location = [(header::LOCATION, format!("/v1/jobs/{id}"))];
     Ok((status, location, Json(JobDocument::from(job))).into_response())

@@ -2,7 +2,7 @@
 
 use super::documents::HealthDocument;
 use super::problem::Problem;
-use crate::jobs::Jobs;
+use crate::jobs::JobService;
 use crate::jobs::store::StoreError;
 use crate::jobs::submit::excerpt;
 use axum::Json;
@@ -19,7 +19,9 @@ use axum::http::{Method, StatusCode, Uri};
         (status = 503, description = "The database does not answer", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(super) async fn health(State(jobs): State<Jobs>) -> Result<Json<HealthDocument>, Problem> {
+pub(super) async fn health(
+    State(jobs): State<JobService>,
+) -> Result<Json<HealthDocument>, Problem> {
     match jobs.ping().await {
         Ok(()) => Ok(Json(HealthDocument {
             status: "ok",
@@ -41,7 +43,7 @@ pub(super) async fn health(State(jobs): State<Jobs>) -> Result<Json<HealthDocume
         (status = 503, description = "It can't", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(super) async fn ready(State(jobs): State<Jobs>) -> Result<Json<HealthDocument>, Problem> {
+pub(super) async fn ready(State(jobs): State<JobService>) -> Result<Json<HealthDocument>, Problem> {
     match jobs.probe().await {
         Ok(()) => Ok(Json(HealthDocument {
             status: "ok",

@@ -6,7 +6,7 @@ use super::named_job::NamedJob;
 use super::problem::Problem;
 use super::query::Query;
 use crate::jobs::store::StoreError;
-use crate::jobs::{Jobs, Stretch};
+use crate::jobs::{JobService, Stretch};
 use crate::results::columns::{Selection, Selector};
 use crate::results::table::{Field, Format, Heading, Writer};
 use axum::body::{Body, Bytes};
@@ -56,7 +56,7 @@ struct Wish {
     )
 )]
 pub(super) async fn trajectory(
-    State(jobs): State<Jobs>,
+    State(jobs): State<JobService>,
     NamedJob(id): NamedJob,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
@@ -87,7 +87,7 @@ pub(super) async fn trajectory(
 
 /// A trajectory on its way to a client: one chunk of it at a time.
 struct Reading {
-    jobs: Jobs,
+    jobs: JobService,
     stretch: Stretch,
     writer: Box<dyn Writer>,
     pass: usize,
@@ -96,7 +96,7 @@ struct Reading {
 }
 
 impl Reading {
-    fn new(jobs: Jobs, stretch: Stretch, writer: Box<dyn Writer>) -> Self {
+    fn new(jobs: JobService, stretch: Stretch, writer: Box<dyn Writer>) -> Self {
         Self {
             jobs,
             stretch,

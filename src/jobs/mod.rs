@@ -1,15 +1,15 @@
 //! Jobs: what they are ([`job`]), which are let in ([`submit`]), where they are
 //! kept ([`store`]), who runs them ([`pool`], [`campaign`], [`runner`]) and how one that can't
-//! be finished says so ([`failure`]), how long one will take ([`forecast`]). [`Jobs`] is the door for HTTP.
+//! be finished says so ([`failure`]), how long one will take ([`forecast`]). [`JobService`] is the door for HTTP.
 
+mod admission;
 pub mod campaign;
 pub mod clock;
-mod desk;
 pub mod failure;
 pub mod forecast;
 mod headed;
-mod intake;
 pub mod job;
+mod job_service;
 mod lease_heartbeat;
 mod open_chunk;
 pub mod pool;
@@ -24,6 +24,6 @@ pub mod submit;
 mod watch;
 mod worker;
 
-pub use desk::{Dismissed, Jobs, PlanError};
-pub use intake::{Intake, SubmitError};
+pub use admission::{SubmissionRequest, SubmitError};
+pub use job_service::{Dismissed, JobService, PlanError};
 pub use reading::Stretch;

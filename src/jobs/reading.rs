@@ -1,6 +1,6 @@
 //! Reading what runs recorded, a chunk at a time.
 
-use super::Jobs;
+use super::JobService;
 use super::job::JobId;
 use super::store::{StoreError, StoredChunk};
 use crate::results::FlowSnapshot;
@@ -18,7 +18,7 @@ pub struct Stretch {
     pub selection: Selection,
 }
 
-impl Jobs {
+impl JobService {
     /// A body's trajectory as far as it is now.
     ///
     /// # Errors

@@ -4,7 +4,7 @@
 use super::open_chunk::OpenChunk;
 use super::progress::{Progress, ProgressBoard};
 use super::runner::Sink;
-use super::store::{Lease, Mark, NewResults, Store, StoreError, StoredState};
+use super::store::{Lease, NewResults, ResumePoint, Store, StoreError, StoredState};
 use crate::config::Recording;
 use crate::results::chunk::BlockError;
 use crate::results::fingerprint::Fingerprint;
@@ -132,16 +132,20 @@ impl StoreSink {
     ///
     /// # Errors
     /// The store fails, or does not have what the state presupposes.
-    pub fn go_on_from(&mut self, mark: &Mark, bodies: usize) -> Result<(), KeepError> {
+    pub fn go_on_from(
+        &mut self,
+        resume_point: &ResumePoint,
+        bodies: usize,
+    ) -> Result<(), KeepError> {
         for body in 0..bodies {
             let last = self
                 .runtime
                 .block_on(self.store.last_chunk(self.lease.job, body))?;
-            let open = OpenChunk::reopened(last, mark.samples).ok_or(KeepError::Missing)?;
+            let open = OpenChunk::reopened(last, resume_point.samples).ok_or(KeepError::Missing)?;
             self.open_chunks.push(open);
         }
-        self.samples = mark.samples;
-        self.fingerprint = Fingerprint::of_bytes(mark.fingerprint);
+        self.samples = resume_point.samples;
+        self.fingerprint = Fingerprint::of_bytes(resume_point.fingerprint);
         Ok(())
     }
 
@@ -252,12 +256,12 @@ impl Sink for StoreSink {
     }
 
     fn state(&mut self, time_s: f64, state: &[u8]) -> Result<(), KeepError> {
-        let mark = Mark {
+        let resume_point = ResumePoint {
             time_s,
             samples: self.samples,
             fingerprint: self.fingerprint.bytes(),
         };
-        self.state = Some(StoredState::pack(mark, state)?);
+        self.state = Some(StoredState::pack(resume_point, state)?);
         self.flush()?;
         let cost = self.times.state_begun.elapsed();
         let pause = self.recording.state_interval().max(cost * STATE_SHARE);

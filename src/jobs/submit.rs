@@ -50,7 +50,11 @@ pub struct Means {
 ///
 /// # Errors
 /// All the rules that it breaks.
-pub fn admit(text: &str, means: &Means, mut labels: Vec<String>) -> Result<NewJob, ScenarioError> {
+pub fn validate(
+    text: &str,
+    means: &Means,
+    mut labels: Vec<String>,
+) -> Result<NewJob, ScenarioError> {
     let scenario = read(text, means.threads_per_worker)?;
     let plan = plan::of(&scenario).map_err(|error| unwritable(&error))?;
     if let Some(violation) = too_costly(plan.cost.point_steps, means.point_steps) {

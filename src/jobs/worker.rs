@@ -6,7 +6,9 @@ use super::pool::{Equipment, RunningJobGuard};
 use super::recording::{KeepError, StoreSink};
 use super::runner::{Run, RunEnd, RunError, Stop, StopFlag};
 use super::saved_run::{COMMIT, SavedRunError};
-use super::store::{Beginning, Claim, Claimant, FailedAttempt, Lease, Mark, Solver, StoreError};
+use super::store::{
+    AttemptStart, Claim, Claimant, FailedAttempt, Lease, ResumePoint, Solver, StoreError,
+};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
 use scree_solver::{Instructions, SetupError};
@@ -19,7 +21,7 @@ use uuid::Uuid;
 const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
 /// End of one run, as far as the job is concerned.
-enum Verdict {
+enum JobResult {
     Successful(Box<Outcome>, String),
     Failed(Failure),
     /// Through no fault of the scenario.
@@ -45,7 +47,7 @@ pub(super) fn work(equipment: &Equipment) {
     while let Some(seen) = equipment.registry.submissions() {
         claimant.up_for = equipment.started.elapsed();
         match equipment.runtime.block_on(equipment.store.claim(&claimant)) {
-            Ok(Some(claim)) => carry_out(equipment, &claim),
+            Ok(Some(claim)) => execute(equipment, &claim),
             Ok(None) => equipment.registry.wait(seen),
             Err(error) => {
                 error!(%error, "no job can be claimed");
@@ -63,15 +65,15 @@ fn instructions() -> &'static str {
     }
 }
 
-fn carry_out(equipment: &Equipment, claim: &Claim) {
+fn execute(equipment: &Equipment, claim: &Claim) {
     let lease = claim.lease;
     let _span = info_span!("job", id = %lease.job, attempt = lease.attempt).entered();
     // Seated before its row is looked at: a dismissal that came before finds the
     // row changed, one that comes after finds the entry.
     let guard = equipment.registry.register(lease);
     info!("started");
-    let verdict = shielded(|| run(equipment, claim, &guard));
-    while let Err(error) = pronounce(equipment, lease, &verdict) {
+    let result = catching_panics(|| run(equipment, claim, &guard));
+    while let Err(error) = record_result(equipment, lease, &result) {
         error!(%error, "the job's end can't be written now");
         if !equipment.registry.pause(RETRY_PAUSE) {
             // The row stays as it is, and the next start takes it back.
@@ -80,20 +82,20 @@ fn carry_out(equipment: &Equipment, claim: &Claim) {
     }
 }
 
-/// Whatever the run does, a panic included, there is a verdict.
-fn shielded(run: impl FnOnce() -> Verdict) -> Verdict {
+/// Whatever the run does, a panic included, there is a result.
+fn catching_panics(run: impl FnOnce() -> JobResult) -> JobResult {
     // Nothing that the run touches is used after a panic but the database,
     // whose transactions are whole or not at all.
     match catch_unwind(AssertUnwindSafe(run)) {
-        Ok(verdict) => verdict,
-        Err(panic) => broken_off(panic_text(panic.as_ref())),
+        Ok(result) => result,
+        Err(panic) => internal_failure(panic_text(panic.as_ref())),
     }
 }
 
-fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> Verdict {
+fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResult {
     let scenario = match Scenario::from_json(&claim.scenario) {
         Ok(scenario) => scenario,
-        Err(error) => return broken_off(&error.to_string()),
+        Err(error) => return internal_failure(&error.to_string()),
     };
     let threads = scenario
         .numerics
@@ -113,7 +115,7 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> Verdict
     if stop.is_raised() {
         return stopped(stop);
     }
-    let ended = carried_through(
+    let ended = run_to_end(
         equipment,
         claim.lease,
         (&scenario, threads),
@@ -125,14 +127,14 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> Verdict
         (ended, _) => ended,
     };
     match ended {
-        Ok(RunEnd::Completed(outcome)) => Verdict::Successful(outcome, sink.fingerprint().hex()),
+        Ok(RunEnd::Completed(outcome)) => JobResult::Successful(outcome, sink.fingerprint().hex()),
         Ok(RunEnd::Stopped) => stopped(stop),
-        Err(error) => verdict_on(&error),
+        Err(error) => result_of_error(&error),
     }
 }
 
 /// The run to its end, or the several that bands or a target take.
-fn carried_through(
+fn run_to_end(
     equipment: &Equipment,
     lease: Lease,
     (scenario, threads): (&Scenario, usize),
@@ -157,7 +159,7 @@ type Ways<T> = (
 fn begin(
     equipment: &Equipment,
     lease: Lease,
-    beginning: &Beginning,
+    beginning: &AttemptStart,
     threads: usize,
 ) -> Result<(), RunError<KeepError>> {
     let begun = equipment.store.begin(lease, beginning, threads);
@@ -177,18 +179,18 @@ fn set_up<T>(
     (restore, afresh): Ways<T>,
 ) -> Result<T, RunError<KeepError>> {
     let from = |state: &[u8]| restore(scenario, threads, state);
-    if let Some((run, mark)) = restored(equipment, lease, from) {
-        begin(equipment, lease, &Beginning::At(mark), threads)?;
-        match sink.go_on_from(&mark, scenario.bodies.len()) {
+    if let Some((run, resume_point)) = restored(equipment, lease, from) {
+        begin(equipment, lease, &AttemptStart::At(resume_point), threads)?;
+        match sink.go_on_from(&resume_point, scenario.bodies.len()) {
             Ok(()) => {
-                info!(time_s = mark.time_s, "goes on from its saved state");
+                info!(time_s = resume_point.time_s, "goes on from its saved state");
                 return Ok(run);
             }
             Err(KeepError::Missing) => warn!("the saved state lacks its samples"),
             Err(error) => return Err(RunError::Sink(error)),
         }
     }
-    begin(equipment, lease, &Beginning::Afresh, threads)?;
+    begin(equipment, lease, &AttemptStart::Afresh, threads)?;
     *sink = sink.afresh();
     Ok(afresh(scenario, threads)?)
 }
@@ -199,7 +201,7 @@ fn restored<T>(
     equipment: &Equipment,
     lease: Lease,
     from: impl Fn(&[u8]) -> Result<T, SavedRunError>,
-) -> Option<(T, Mark)> {
+) -> Option<(T, ResumePoint)> {
     let stored = match equipment.runtime.block_on(equipment.store.state(lease.job)) {
         Ok(stored) => stored?,
         Err(error) => {
@@ -212,7 +214,7 @@ fn restored<T>(
         Err(error) => Err(error.to_string()),
     };
     match run {
-        Ok(run) => Some((run, stored.mark)),
+        Ok(run) => Some((run, stored.resume_point)),
         Err(reason) => {
             warn!(reason, "the saved state can't be used");
             None
@@ -220,35 +222,39 @@ fn restored<T>(
     }
 }
 
-/// Verdict that a raised flag asks for.
-fn stopped(stop: &StopFlag) -> Verdict {
+/// Result that a raised flag asks for.
+fn stopped(stop: &StopFlag) -> JobResult {
     match stop.asked() {
-        Stop::OnceSaved => Verdict::Released,
-        Stop::AtOnce | Stop::AtTheEnd => Verdict::Gone,
+        Stop::OnceSaved => JobResult::Released,
+        Stop::AtOnce | Stop::AtTheEnd => JobResult::Gone,
     }
 }
 
-fn verdict_on(error: &RunError<KeepError>) -> Verdict {
+fn result_of_error(error: &RunError<KeepError>) -> JobResult {
     match error {
-        RunError::Step(error) => Verdict::Failed(Failure::numerical(error)),
+        RunError::Step(error) => JobResult::Failed(Failure::numerical(error)),
         RunError::Setup(
             error @ (SetupError::TooManyPoints { .. } | SetupError::NotReducible { .. }),
-        ) => Verdict::Failed(Failure::setup(error)),
+        ) => JobResult::Failed(Failure::setup(error)),
         RunError::Setup(error @ SetupError::Threads { .. }) => {
-            Verdict::AttemptFailed(error.to_string())
+            JobResult::AttemptFailed(error.to_string())
         }
-        RunError::Sink(KeepError::Lost) => Verdict::Gone,
-        RunError::Sink(error) => Verdict::AttemptFailed(error.to_string()),
+        RunError::Sink(KeepError::Lost) => JobResult::Gone,
+        RunError::Sink(error) => JobResult::AttemptFailed(error.to_string()),
     }
 }
 
-/// Writes the verdict. A job that was dismissed meanwhile stays dismissed: each
+/// Writes the result. A job that was dismissed meanwhile stays dismissed: each
 /// of these changes a running job only.
-fn pronounce(equipment: &Equipment, lease: Lease, verdict: &Verdict) -> Result<(), StoreError> {
+fn record_result(
+    equipment: &Equipment,
+    lease: Lease,
+    result: &JobResult,
+) -> Result<(), StoreError> {
     let store = &equipment.store;
     let runtime = &equipment.runtime;
-    match verdict {
-        Verdict::Successful(outcome, fingerprint) => match serde_json::to_string(outcome) {
+    match result {
+        JobResult::Successful(outcome, fingerprint) => match serde_json::to_string(outcome) {
             Ok(outcome) => {
                 runtime.block_on(store.succeed(lease, &outcome, fingerprint))?;
                 info!("successful");
@@ -258,26 +264,26 @@ fn pronounce(equipment: &Equipment, lease: Lease, verdict: &Verdict) -> Result<(
                 runtime.block_on(store.fail(lease, &failure))?;
             }
         },
-        Verdict::Failed(failure) => {
+        JobResult::Failed(failure) => {
             runtime.block_on(store.fail(lease, failure))?;
             info!(detail = failure.detail, "failed");
         }
-        Verdict::AttemptFailed(reason) => {
+        JobResult::AttemptFailed(reason) => {
             let failed_attempt = FailedAttempt::Infrastructure(reason.clone());
             let returned = runtime.block_on(store.fail_attempt(lease, &failed_attempt))?;
             warn!(reason, ?returned, "set back");
         }
-        Verdict::Released => {
+        JobResult::Released => {
             let released = runtime.block_on(store.release(lease))?;
             info!(released, "stopped with the service");
         }
-        Verdict::Gone => info!("stopped"),
+        JobResult::Gone => info!("stopped"),
     }
     Ok(())
 }
 
-fn broken_off(reason: &str) -> Verdict {
-    Verdict::Failed(failure_under_an_id(reason))
+fn internal_failure(reason: &str) -> JobResult {
+    JobResult::Failed(failure_under_an_id(reason))
 }
 
 fn failure_under_an_id(reason: &str) -> Failure {
@@ -298,8 +304,8 @@ mod tests {
 
     #[test]
     fn a_panic_in_a_run_fails_the_job_under_an_id_and_spares_the_worker() {
-        let verdict = shielded(|| panic!("the grid is on fire"));
-        let Verdict::Failed(failure) = verdict else {
+        let result = catching_panics(|| panic!("the grid is on fire"));
+        let JobResult::Failed(failure) = result else {
             panic!("not a failure")
         };
         assert_eq!(failure.kind, "urn:scree:failure:internal");

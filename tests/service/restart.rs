@@ -146,7 +146,7 @@ async fn cut_off(directory: &TempDir, times: u32) -> Lease {
         threads_per_worker: 1,
         point_steps: None,
     };
-    let new = submit::admit(&tiny_scene().to_string(), &means, Vec::new()).unwrap();
+    let new = submit::validate(&tiny_scene().to_string(), &means, Vec::new()).unwrap();
     let submission = Submission {
         jobs: &[new],
         submitter: None,

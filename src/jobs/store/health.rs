@@ -6,9 +6,9 @@ use crate::jobs::job::JobStatus;
 /// A database that has no room for this much can't take a job in [bytes].
 const PROBED_ROOM: u32 = 65_536;
 
-/// Trouble that keeps the database from answering, by who has to act.
+/// Kind of error that keeps the database from answering, by who has to act.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Trouble {
+pub enum StoreErrorKind {
     /// The disk, or the database's own limit, is full.
     Full,
     /// The database can't be read or written now.
@@ -19,7 +19,7 @@ pub enum Trouble {
 
 /// Numbers of jobs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Census {
+pub struct JobCounts {
     /// Jobs of each state, in the order of [`JobStatus::ALL`].
     pub jobs: [(JobStatus, u64); 5],
     /// Ended attempts of each ending.
@@ -31,12 +31,12 @@ pub struct Census {
 }
 
 impl StoreError {
-    /// Kind of trouble.
-    pub fn trouble(&self) -> Trouble {
+    /// Kind of the error.
+    pub fn kind(&self) -> StoreErrorKind {
         let Self::Database(error) = self else {
             return match self {
-                Self::Refused => Trouble::Unavailable,
-                _ => Trouble::Defect,
+                Self::Refused => StoreErrorKind::Unavailable,
+                _ => StoreErrorKind::Defect,
             };
         };
         let code = error.as_database_error().and_then(|error| {
@@ -45,12 +45,12 @@ impl StoreError {
             Some(code & 0xff)
         });
         match (code, error) {
-            (Some(SQLITE_FULL), _) => Trouble::Full,
-            (Some(code), _) if UNAVAILABLE.contains(&code) => Trouble::Unavailable,
+            (Some(SQLITE_FULL), _) => StoreErrorKind::Full,
+            (Some(code), _) if UNAVAILABLE.contains(&code) => StoreErrorKind::Unavailable,
             (None, sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed | sqlx::Error::Io(_)) => {
-                Trouble::Unavailable
+                StoreErrorKind::Unavailable
             }
-            _ => Trouble::Defect,
+            _ => StoreErrorKind::Defect,
         }
     }
 }
@@ -94,7 +94,7 @@ impl Store {
     ///
     /// # Errors
     /// The database's own.
-    pub async fn census(&self) -> Result<Census, StoreError> {
+    pub async fn count_jobs(&self) -> Result<JobCounts, StoreError> {
         let counts: Vec<(String, i64)> =
             sqlx::query_as("SELECT status, count(*) FROM jobs GROUP BY status")
                 .fetch_all(&self.readers)
@@ -118,7 +118,7 @@ impl Store {
         )
         .fetch_one(&self.readers)
         .await?;
-        Ok(Census {
+        Ok(JobCounts {
             jobs: JobStatus::ALL.map(|status| (status, count(status))),
             database_bytes: pages.unsigned_abs(),
             attempts: attempts

@@ -11,12 +11,12 @@ mod events;
 mod health;
 mod history;
 mod lease;
+mod port;
 mod queue;
 mod read;
 mod removal;
 mod results;
 mod rows;
-mod seam;
 mod states;
 mod submission;
 #[cfg(test)]
@@ -24,14 +24,14 @@ mod tests;
 
 pub use ending::{FailedAttempt, Returned, TOLERATED_SETBACKS};
 pub use events::Event;
-pub use health::{Census, Trouble};
+pub use health::{JobCounts, StoreErrorKind};
 pub use lease::Renewal;
+pub use port::JobStore;
 pub use queue::{Claim, Claimant, Dismissal, Solver};
 pub use read::Page;
 pub use removal::Removal;
 pub use results::{NewChunk, NewResults, StoredChunk};
-pub use seam::JobStore;
-pub use states::{Beginning, Mark, StoredState};
+pub use states::{AttemptStart, ResumePoint, StoredState};
 pub use submission::{Key, Room, Submission, Submitted};
 
 use super::clock::{Clock, SystemClock};

@@ -11,9 +11,9 @@ use sqlx::sqlite::SqliteConnection;
 /// Bytes of one stored piece.
 const PIECE_BYTES: usize = 8 << 20;
 
-/// Mark of a saved state in what its run recorded.
+/// Point in what a run recorded from which its saved state resumes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mark {
+pub struct ResumePoint {
     /// Simulated time [s].
     pub time_s: f64,
     /// Samples recorded by then.
@@ -25,21 +25,21 @@ pub struct Mark {
 /// A run's state, compressed and checksummed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredState {
-    /// Mark in the run's records.
-    pub mark: Mark,
+    /// Where the run's records stand.
+    pub resume_point: ResumePoint,
     /// Length of the state [bytes].
     pub bytes: usize,
     /// The state.
     pub block: Block,
 }
 
-/// Beginning of an attempt.
+/// Start of an attempt.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Beginning {
+pub enum AttemptStart {
     /// At the start: whatever was recorded before is removed.
     Afresh,
     /// At a saved state: what was recorded after it is removed.
-    At(Mark),
+    At(ResumePoint),
 }
 
 #[derive(Debug, FromRow)]
@@ -56,9 +56,9 @@ impl StoredState {
     ///
     /// # Errors
     /// Only if the compressor is out of memory.
-    pub fn pack(mark: Mark, state: &[u8]) -> Result<Self, BlockError> {
+    pub fn pack(resume_point: ResumePoint, state: &[u8]) -> Result<Self, BlockError> {
         Ok(Self {
-            mark,
+            resume_point,
             bytes: state.len(),
             block: Block::seal_quickly(state)?,
         })
@@ -109,7 +109,7 @@ impl Store {
     pub async fn begin(
         &self,
         lease: Lease,
-        beginning: &Beginning,
+        beginning: &AttemptStart,
         threads: usize,
     ) -> Result<bool, StoreError> {
         let mut transaction = self.begin_write().await?;
@@ -126,8 +126,8 @@ impl Store {
             return Ok(false);
         }
         match beginning {
-            Beginning::Afresh => clear(&mut transaction, lease.job).await?,
-            Beginning::At(mark) => rewind(&mut transaction, lease, mark).await?,
+            AttemptStart::Afresh => clear(&mut transaction, lease.job).await?,
+            AttemptStart::At(resume_point) => rewind(&mut transaction, lease, resume_point).await?,
         }
         transaction.commit().await?;
         Ok(true)
@@ -139,7 +139,7 @@ impl StateRow {
         let exact = |bytes: Vec<u8>| bytes.try_into().map_err(|_| BlockError::Checksum);
         let length = |number| usize::try_from(number).map_err(|_| BlockError::Checksum);
         Ok(StoredState {
-            mark: Mark {
+            resume_point: ResumePoint {
                 time_s: self.time_s,
                 samples: length(self.samples)?,
                 fingerprint: exact(self.fingerprint)?,
@@ -179,9 +179,9 @@ pub(super) async fn write_state(
     .bind(&id)
     .bind(lease.attempt)
     .bind(now_ms)
-    .bind(state.mark.time_s)
-    .bind(integer(state.mark.samples as u64))
-    .bind(&state.mark.fingerprint[..])
+    .bind(state.resume_point.time_s)
+    .bind(integer(state.resume_point.samples as u64))
+    .bind(&state.resume_point.fingerprint[..])
     .bind(integer(state.bytes as u64))
     .bind(&state.block.checksum[..])
     .execute(&mut *connection)
@@ -218,23 +218,23 @@ async fn clear(connection: &mut SqliteConnection, job: JobId) -> Result<(), Stor
 async fn rewind(
     connection: &mut SqliteConnection,
     lease: Lease,
-    mark: &Mark,
+    resume_point: &ResumePoint,
 ) -> Result<(), StoreError> {
     let id = lease.job.to_string();
     sqlx::query("UPDATE attempts SET resumed_from_s = ?3 WHERE job_id = ?1 AND attempt = ?2")
         .bind(&id)
         .bind(lease.attempt)
-        .bind(mark.time_s)
+        .bind(resume_point.time_s)
         .execute(&mut *connection)
         .await?;
     sqlx::query("DELETE FROM trajectory_chunks WHERE job_id = ?1 AND first_sample >= ?2")
         .bind(&id)
-        .bind(integer(mark.samples as u64))
+        .bind(integer(resume_point.samples as u64))
         .execute(&mut *connection)
         .await?;
     sqlx::query("DELETE FROM flow_snapshots WHERE job_id = ?1 AND time_s > ?2")
         .bind(&id)
-        .bind(mark.time_s)
+        .bind(resume_point.time_s)
         .execute(&mut *connection)
         .await?;
     Ok(())

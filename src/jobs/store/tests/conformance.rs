@@ -134,7 +134,7 @@ async fn a_worker_that_lost_its_job_can_not_write<S: JobStore>(fixture: &Fixture
     assert!(!store.succeed(old, "{}", FINGERPRINT).await.unwrap());
     assert!(!store.fail(old, &Failure::internal("x")).await.unwrap());
     assert!(!store.release(old).await.unwrap());
-    assert!(!store.begin(old, &Beginning::Afresh, 1).await.unwrap());
+    assert!(!store.begin(old, &AttemptStart::Afresh, 1).await.unwrap());
     assert_eq!(
         store.fail_attempt(old, &failed_attempt).await.unwrap(),
         Returned::Lost
@@ -355,15 +355,20 @@ async fn an_attempt_begins_at_its_saved_state_or_afresh<S: JobStore>(fixture: &F
     store.reclaim_own("a").await.unwrap();
 
     let lease = fixture.claim("a").await;
-    let mark = store.state(id).await.unwrap().unwrap().mark;
-    assert!(store.begin(lease, &Beginning::At(mark), 2).await.unwrap());
+    let resume_point = store.state(id).await.unwrap().unwrap().resume_point;
+    assert!(
+        store
+            .begin(lease, &AttemptStart::At(resume_point), 2)
+            .await
+            .unwrap()
+    );
     let latest = store.snapshot(id, None).await.unwrap().unwrap();
     assert_eq!(latest.time_s, 3.0, "what came after is gone");
     let attempts = fixture.job(id).await.attempts;
     assert_eq!(attempts[0].resumed_from_s, None);
     assert_eq!(attempts[1].resumed_from_s, Some(3.0));
 
-    assert!(store.begin(lease, &Beginning::Afresh, 2).await.unwrap());
+    assert!(store.begin(lease, &AttemptStart::Afresh, 2).await.unwrap());
     assert_eq!(store.snapshot(id, None).await.unwrap(), None);
     assert_eq!(store.last_chunk(id, 0).await.unwrap(), None);
     assert_eq!(store.state(id).await.unwrap(), None);

@@ -184,13 +184,13 @@ fn results(count: u32) -> NewResults {
 
 /// The same, with the run's state after them.
 fn results_and_state(count: u32) -> NewResults {
-    let mark = Mark {
+    let resume_point = ResumePoint {
         time_s: f64::from(count),
         samples: count as usize,
         fingerprint: [9; 32],
     };
     NewResults {
-        state: Some(StoredState::pack(mark, b"the state").unwrap()),
+        state: Some(StoredState::pack(resume_point, b"the state").unwrap()),
         ..results(count)
     }
 }

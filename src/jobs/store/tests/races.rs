@@ -46,7 +46,7 @@ async fn write_as_a_stale_worker(store: Store, lease: Lease, race: u32) -> u32 {
         0 => store.succeed(lease, "{\"by\":\"a\"}", FINGERPRINT).await,
         1 => store.fail(lease, &Failure::internal("a")).await,
         2 => store.release(lease).await,
-        _ => store.begin(lease, &Beginning::Afresh, 1).await,
+        _ => store.begin(lease, &AttemptStart::Afresh, 1).await,
     };
     written + u32::from(ended.unwrap())
 }

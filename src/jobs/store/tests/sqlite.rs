@@ -121,13 +121,13 @@ async fn a_state_of_many_pieces_is_whole_or_noticed() {
     // Noise does not compress: more than two pieces.
     let mut noise = vec![0; 20 << 20];
     blake3::Hasher::new().finalize_xof().fill(&mut noise);
-    let mark = Mark {
+    let resume_point = ResumePoint {
         time_s: 1.0,
         samples: 1,
         fingerprint: [0; 32],
     };
     let kept = NewResults {
-        state: Some(StoredState::pack(mark, &noise).unwrap()),
+        state: Some(StoredState::pack(resume_point, &noise).unwrap()),
         ..results(1)
     };
     assert!(fixture.store.keep(lease, &kept).await.unwrap());

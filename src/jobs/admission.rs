@@ -1,6 +1,6 @@
 //! Jobs coming in through the door: none twice, none beyond the room there is.
 
-use super::Jobs;
+use super::JobService;
 use super::job::JobId;
 use super::store::{Key, Room, StoreError, Submission, Submitted};
 use super::submit::{NewJob, ScenarioError};
@@ -10,7 +10,7 @@ use thiserror::Error;
 
 /// Contents of one request.
 #[derive(Debug, Clone, Copy)]
-pub struct Intake<'a> {
+pub struct SubmissionRequest<'a> {
     /// Its jobs.
     pub jobs: &'a [NewJob],
     /// Name of the access token it came with.
@@ -85,29 +85,32 @@ impl Drop for Taken {
     }
 }
 
-impl Jobs {
+impl JobService {
     /// Puts the jobs of a request into the queue, all or none; they are on disk
     /// when this returns. A request that came before gets the jobs it got then.
     ///
     /// # Errors
     /// There is no room, the key is not good, or they can't be kept.
-    pub async fn submit(&self, intake: &Intake<'_>) -> Result<Vec<JobId>, SubmitError> {
-        let taken = match &intake.key {
+    pub async fn submit(
+        &self,
+        admission: &SubmissionRequest<'_>,
+    ) -> Result<Vec<JobId>, SubmitError> {
+        let taken = match &admission.key {
             None => None,
             Some(key) => {
-                let submitter = intake.submitter.unwrap_or_default();
+                let submitter = admission.submitter.unwrap_or_default();
                 let taken = self.in_flight.take(submitter, key.text);
                 Some(taken.ok_or(SubmitError::InFlight)?)
             }
         };
         let room = Room {
             queue: self.limits.queued_jobs,
-            submitter: intake.quota,
+            submitter: admission.quota,
         };
         let submission = Submission {
-            jobs: intake.jobs,
-            submitter: intake.submitter,
-            key: intake.key,
+            jobs: admission.jobs,
+            submitter: admission.submitter,
+            key: admission.key,
             room,
         };
         let submitted = self.store.submit(&submission).await;
@@ -115,7 +118,7 @@ impl Jobs {
         match submitted? {
             Submitted::Accepted => {
                 self.registry.announce();
-                Ok(intake.jobs.iter().map(|job| job.id).collect())
+                Ok(admission.jobs.iter().map(|job| job.id).collect())
             }
             Submitted::Before(jobs) => Ok(jobs),
             Submitted::OtherBody => Err(SubmitError::OtherBody),

@@ -1,10 +1,10 @@
 //! The door to the jobs: what a client may ask for, in the service's own words.
 
+use super::admission::InFlight;
 use super::forecast::{ForecastError, Planned, forecast};
-use super::intake::InFlight;
 use super::job::{Job, JobId, JobStatus, JobSummary};
 use super::pool::RunningJobRegistry;
-use super::store::{Census, Dismissal, Event, Page, Removal, Store, StoreError};
+use super::store::{Dismissal, Event, JobCounts, Page, Removal, Store, StoreError};
 use super::submit::{self, Means, NewJob, ScenarioError};
 use crate::config::Limits;
 use std::sync::Arc;
@@ -23,7 +23,7 @@ const LOOK_PAUSE: Duration = Duration::from_millis(50);
 
 /// Jobs, as a client deals with them.
 #[derive(Debug, Clone)]
-pub struct Jobs {
+pub struct JobService {
     pub(super) store: Store,
     pub(super) registry: Arc<RunningJobRegistry>,
     pub(super) limits: Limits,
@@ -57,7 +57,7 @@ pub enum Dismissed {
     TooLate(JobStatus),
 }
 
-impl Jobs {
+impl JobService {
     /// Jobs in this store, run by the workers of this registry.
     pub fn new(
         store: Store,
@@ -79,12 +79,12 @@ impl Jobs {
     ///
     /// # Errors
     /// All the rules that it breaks.
-    pub fn admit(&self, scenario: &str, labels: Vec<String>) -> Result<NewJob, ScenarioError> {
+    pub fn validate(&self, scenario: &str, labels: Vec<String>) -> Result<NewJob, ScenarioError> {
         let means = Means {
             threads_per_worker: self.threads_per_worker,
             point_steps: self.limits.job_point_steps,
         };
-        submit::admit(scenario, &means, labels)
+        submit::validate(scenario, &means, labels)
     }
 
     /// Plan of a job of this scenario, and how long it would take.
@@ -198,8 +198,8 @@ impl Jobs {
     ///
     /// # Errors
     /// The store's own.
-    pub async fn census(&self) -> Result<Census, StoreError> {
-        self.store.census().await
+    pub async fn count_jobs(&self) -> Result<JobCounts, StoreError> {
+        self.store.count_jobs().await
     }
 
     /// Checks that a job could be taken in now: really writes.

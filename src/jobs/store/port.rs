@@ -1,9 +1,10 @@
-//! The seam between jobs and their database: what another driver has to do, and
+//! The port between jobs and their database: what another driver has to do, and
 //! what `tests/conformance.rs` holds every one of them to.
 
 use super::{
-    Beginning, Census, Claim, Claimant, Dismissal, Event, FailedAttempt, Lease, NewResults, Page,
-    Removal, Renewal, Returned, Store, StoreError, StoredChunk, StoredState, Submission, Submitted,
+    AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, JobCounts, Lease, NewResults,
+    Page, Removal, Renewal, Returned, Store, StoreError, StoredChunk, StoredState, Submission,
+    Submitted,
 };
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
@@ -14,7 +15,7 @@ use std::time::Duration;
 
 type Answer<T> = Result<T, StoreError>;
 
-macro_rules! seam {
+macro_rules! port {
     ($($(#[$doc:meta])* fn $name:ident($($argument:ident: $kind:ty),*) -> $answer:ty;)*) => {
         /// A database of jobs. Every call is one transaction, whole or not at
         /// all, and on disk when it returns.
@@ -30,7 +31,7 @@ macro_rules! seam {
     };
 }
 
-seam! {
+port! {
     /// Puts the jobs of a request into the queue, all or none.
     fn submit(submission: &Submission<'_>) -> Submitted;
     /// The newest successful job with a scenario, by version and commit.
@@ -38,7 +39,7 @@ seam! {
     /// Takes up the oldest accepted job that has not to wait.
     fn claim(claimant: &Claimant) -> Option<Claim>;
     /// Says where an attempt begins.
-    fn begin(lease: Lease, beginning: &Beginning, threads: usize) -> bool;
+    fn begin(lease: Lease, beginning: &AttemptStart, threads: usize) -> bool;
     /// Renews a lease and keeps the progress.
     fn renew(lease: Lease, lease_duration: Duration, progress: &Progress) -> Renewal;
     /// Writes results, progress and state.
@@ -68,7 +69,7 @@ seam! {
     /// Number of the last event there ever was.
     fn last_event() -> i64;
     /// Counts jobs.
-    fn census() -> Census;
+    fn count_jobs() -> JobCounts;
     /// The job, if there is one.
     fn job(id: JobId) -> Option<Job>;
     /// A page of jobs.
