@@ -1,11 +1,11 @@
 //! Snapshots of the flow.
 
 use super::contract::FlowSchema;
+use super::etag;
 use super::jobs::find;
 use super::named_job::NamedJob;
 use super::problem::Problem;
 use super::query::Query;
-use super::tagged;
 use crate::jobs::JobService;
 use crate::jobs::job::JobId;
 use crate::jobs::store::StoreError;
@@ -58,7 +58,7 @@ pub(super) async fn flow(
         job_id: Some(job_id.to_string()),
         snapshot,
     };
-    tagged::json(&headers, &document)
+    etag::json(&headers, &document)
 }
 
 /// Take the flow's snapshots to ParaView

@@ -2,10 +2,10 @@
 
 use super::access::Caller;
 use super::documents::{JobDocument, JobPageDocument};
+use super::etag;
 use super::named_job::NamedJob;
 use super::problem::Problem;
 use super::query::Query;
-use super::tagged;
 use crate::jobs::job::{Job, JobId, JobStatus};
 use crate::jobs::store::{Page, Removal};
 use crate::jobs::submit::{excerpt, label};
@@ -63,7 +63,7 @@ pub(super) async fn list(
         jobs: found.into_iter().map(Into::into).collect(),
         next_cursor,
     };
-    tagged::json(&headers, &document)
+    etag::json(&headers, &document)
 }
 
 /// Look at a job
@@ -103,7 +103,7 @@ pub(super) async fn show(
         let longest = Duration::from_secs(u64::from(seconds));
         jobs.wait_for_end(parse_id(&id)?, longest).await?;
     }
-    tagged::json(&headers, &JobDocument::from(find(&jobs, &id).await?))
+    etag::json(&headers, &JobDocument::from(find(&jobs, &id).await?))
 }
 
 /// Dismiss or remove a job

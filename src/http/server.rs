@@ -2,7 +2,7 @@
 //! head of a request: clients that send half of one are held for ever, and
 //! keep the service from stopping.
 
-use super::stall::Impatient;
+use super::slow_client::SlowClientTimeout;
 use crate::config::Limits;
 use axum::Router;
 use axum::body::Body;
@@ -86,7 +86,7 @@ fn connection(
         .timer(TokioTimer::new())
         .header_read_timeout(limits.header_read_timeout())
         .serve_connection(
-            TokioIo::new(Impatient::new(stream, limits.write_timeout())),
+            TokioIo::new(SlowClientTimeout::new(stream, limits.write_timeout())),
             TowerToHyperService::new(service),
         );
     let connection = graceful.watch(connection);

@@ -6,7 +6,7 @@ use super::named_job::NamedJob;
 use super::problem::Problem;
 use super::query::Query;
 use crate::jobs::store::StoreError;
-use crate::jobs::{JobService, Stretch};
+use crate::jobs::{JobService, TrajectoryRange};
 use crate::results::columns::{Selection, Selector};
 use crate::results::table::{Field, Format, Heading, Writer};
 use axum::body::{Body, Bytes};
@@ -19,7 +19,7 @@ use futures_util::stream;
 const LARGEST_ARCHIVE: usize = 15_000_000;
 
 /// Part of a trajectory that a client wants.
-struct Wish {
+struct TrajectoryQuery {
     body: usize,
     selection: Selection,
     format: Format,
@@ -61,15 +61,15 @@ pub(super) async fn trajectory(
     headers: HeaderMap,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
-    let wish = read_wish(query.as_deref(), &headers)?;
+    let query = read_query(query.as_deref(), &headers)?;
     let job = find(&jobs, &id).await?;
-    if wish.body >= job.bodies {
-        return Err(unknown_body(wish.body, job.bodies));
+    if query.body >= job.bodies {
+        return Err(unknown_body(query.body, job.bodies));
     }
     let id = job.summary.id;
-    let stretch = jobs.stretch(id, wish.body, wish.selection).await?;
-    let rows = match wish.format {
-        Format::Npz => jobs.count_samples(&stretch).await?,
+    let range = jobs.range(id, query.body, query.selection).await?;
+    let rows = match query.format {
+        Format::Npz => jobs.count_samples(&range).await?,
         Format::Json | Format::Ndjson | Format::Csv => 0,
     };
     if rows > LARGEST_ARCHIVE {
@@ -77,18 +77,18 @@ pub(super) async fn trajectory(
     }
     let heading = Heading {
         job_id: Some(id.to_string()),
-        body: wish.body,
+        body: query.body,
         rows,
     };
-    let kind = [(header::CONTENT_TYPE, wish.format.media_type())];
-    let reading = Reading::new(jobs, stretch, wish.format.writer(&heading, wish.fields));
+    let kind = [(header::CONTENT_TYPE, query.format.media_type())];
+    let reading = Reading::new(jobs, range, query.format.writer(&heading, query.fields));
     Ok((kind, reading.into_body()).into_response())
 }
 
 /// A trajectory on its way to a client: one chunk of it at a time.
 struct Reading {
     jobs: JobService,
-    stretch: Stretch,
+    range: TrajectoryRange,
     writer: Box<dyn Writer>,
     pass: usize,
     /// Place of the pass; none before it has begun.
@@ -96,10 +96,10 @@ struct Reading {
 }
 
 impl Reading {
-    fn new(jobs: JobService, stretch: Stretch, writer: Box<dyn Writer>) -> Self {
+    fn new(jobs: JobService, range: TrajectoryRange, writer: Box<dyn Writer>) -> Self {
         Self {
             jobs,
-            stretch,
+            range,
             writer,
             pass: 0,
             place: None,
@@ -129,10 +129,10 @@ impl Reading {
                 Some(place) => place,
                 None => {
                     self.writer.begin(self.pass, &mut out);
-                    (0, Selector::new(self.stretch.selection))
+                    (0, Selector::new(self.range.selection))
                 }
             };
-            match self.jobs.next_chunk(&self.stretch, from_sample).await? {
+            match self.jobs.next_chunk(&self.range, from_sample).await? {
                 Some(chunk) => {
                     let chosen = selector.choose(&chunk.columns);
                     self.writer.rows(self.pass, &chosen, &mut out);
@@ -148,7 +148,7 @@ impl Reading {
     }
 }
 
-fn read_wish(query: Option<&str>, headers: &HeaderMap) -> Result<Wish, Problem> {
+fn read_query(query: Option<&str>, headers: &HeaderMap) -> Result<TrajectoryQuery, Problem> {
     let mut query = Query::new(query);
     let body = query.whole("body", 0..=u32::MAX).unwrap_or(0);
     let from_s = query.number("from_s", "s");
@@ -171,7 +171,7 @@ fn read_wish(query: Option<&str>, headers: &HeaderMap) -> Result<Wish, Problem> 
             .collect::<Option<Vec<_>>>()
     });
     query.finish()?;
-    Ok(Wish {
+    Ok(TrajectoryQuery {
         body: body as usize,
         selection: Selection {
             from_s,

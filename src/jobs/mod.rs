@@ -26,4 +26,4 @@ mod worker;
 
 pub use admission::{SubmissionRequest, SubmitError};
 pub use job_service::{Dismissed, JobService, PlanError};
-pub use reading::Stretch;
+pub use reading::TrajectoryRange;

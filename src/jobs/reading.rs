@@ -6,10 +6,10 @@ use super::store::{StoreError, StoredChunk};
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, Selector};
 
-/// A stretch of one body's trajectory: what there was of it when it was asked
+/// Range of one body's trajectory: what there was of it when it was asked
 /// for, however far the run gets meanwhile.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct TrajectoryRange {
     job: JobId,
     body: usize,
     /// Samples there were.
@@ -23,13 +23,13 @@ impl JobService {
     ///
     /// # Errors
     /// The store's own.
-    pub async fn stretch(
+    pub async fn range(
         &self,
         job: JobId,
         body: usize,
         selection: Selection,
-    ) -> Result<Stretch, StoreError> {
-        Ok(Stretch {
+    ) -> Result<TrajectoryRange, StoreError> {
+        Ok(TrajectoryRange {
             job,
             body,
             end: self.store.samples(job, body).await?,
@@ -44,15 +44,15 @@ impl JobService {
     /// The store's own.
     pub async fn next_chunk(
         &self,
-        stretch: &Stretch,
+        range: &TrajectoryRange,
         from_sample: i64,
     ) -> Result<Option<StoredChunk>, StoreError> {
-        let Stretch {
+        let TrajectoryRange {
             job,
             body,
             end,
             selection,
-        } = stretch;
+        } = range;
         let chunk = self
             .store
             .chunk(*job, *body, from_sample, selection)
@@ -66,14 +66,14 @@ impl JobService {
         }))
     }
 
-    /// Number of samples of the stretch.
+    /// Number of samples of the range.
     ///
     /// # Errors
     /// The store's own.
-    pub async fn count_samples(&self, stretch: &Stretch) -> Result<usize, StoreError> {
-        let mut selector = Selector::new(stretch.selection);
+    pub async fn count_samples(&self, range: &TrajectoryRange) -> Result<usize, StoreError> {
+        let mut selector = Selector::new(range.selection);
         let (mut count, mut from_sample) = (0, 0);
-        while let Some(chunk) = self.next_chunk(stretch, from_sample).await? {
+        while let Some(chunk) = self.next_chunk(range, from_sample).await? {
             count += selector.choose(&chunk.columns).len();
             from_sample = chunk.next_sample;
         }

@@ -68,7 +68,7 @@ pub struct PlannedCostDocument {
     pub stages: Vec<StageDocument>,
 }
 
-/// A stretch of a run in which the same share of the flow is computed.
+/// Range of a run in which the same share of the flow is computed.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Stage)]
 pub struct StageDocument {

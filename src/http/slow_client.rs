@@ -10,14 +10,14 @@ use tokio::time::{Instant, Sleep, sleep};
 
 /// Breaks a connection off once a write has made no headway for too long.
 #[derive(Debug)]
-pub(super) struct Impatient<T> {
+pub(super) struct SlowClientTimeout<T> {
     stream: T,
     limit: Duration,
     stalled: Pin<Box<Sleep>>,
     is_stalled: bool,
 }
 
-impl<T> Impatient<T> {
+impl<T> SlowClientTimeout<T> {
     pub(super) fn new(stream: T, limit: Duration) -> Self {
         Self {
             stream,
@@ -49,7 +49,7 @@ impl<T> Impatient<T> {
     }
 }
 
-impl<T: AsyncRead + Unpin> AsyncRead for Impatient<T> {
+impl<T: AsyncRead + Unpin> AsyncRead for SlowClientTimeout<T> {
     fn poll_read(
         mut self: Pin<&mut Self>,
         context: &mut Context<'_>,
@@ -59,7 +59,7 @@ impl<T: AsyncRead + Unpin> AsyncRead for Impatient<T> {
     }
 }
 
-impl<T: AsyncWrite + Unpin> AsyncWrite for Impatient<T> {
+impl<T: AsyncWrite + Unpin> AsyncWrite for SlowClientTimeout<T> {
     fn poll_write(
         mut self: Pin<&mut Self>,
         context: &mut Context<'_>,
@@ -101,12 +101,12 @@ mod tests {
     async fn a_client_that_never_reads_is_given_up_and_a_slow_one_is_not() {
         let limit = Duration::from_millis(100);
         let (ours, _theirs) = duplex(8);
-        let mut ours = Impatient::new(ours, limit);
+        let mut ours = SlowClientTimeout::new(ours, limit);
         let error = ours.write_all(&[0; 64]).await.unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::TimedOut);
 
         let (ours, mut theirs) = duplex(8);
-        let mut ours = Impatient::new(ours, limit);
+        let mut ours = SlowClientTimeout::new(ours, limit);
         let reader = tokio::spawn(async move {
             let mut taken = 0;
             while taken < 64 {
