@@ -35,7 +35,7 @@ pub mod walls;
 
 pub use error::{Mover, RestoreError, SaveError, SetupError, StepError};
 pub use fast::instructions::Instructions;
-pub use simulation::{Ending, LapWatch, Simulation, SubstepReport, Verb};
+pub use simulation::{Ending, Simulation, StageTimer, StepStage, SubstepReport};
 
 /// Version of this crate, part of every answer.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

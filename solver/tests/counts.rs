@@ -1,7 +1,7 @@
 //! What a steady run must not do: allocate.
 
 use scree_solver::scenario::Scenario;
-use scree_solver::{Ending, Simulation, Verb};
+use scree_solver::{Ending, Simulation, StepStage};
 use serde_json::json;
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
@@ -67,21 +67,22 @@ fn heap_round_a_cube() -> Scenario {
 const WARM_UP: u64 = 2000;
 const COUNTED: u64 = 400;
 
-type ByVerb = [u64; Verb::ALL.len()];
+type ByVerb = [u64; StepStage::ALL.len()];
 
-static SO_FAR: [AtomicU64; Verb::ALL.len()] = [const { AtomicU64::new(0) }; Verb::ALL.len()];
+static SO_FAR: [AtomicU64; StepStage::ALL.len()] =
+    [const { AtomicU64::new(0) }; StepStage::ALL.len()];
 
 fn so_far() -> ByVerb {
     SO_FAR.each_ref().map(|of| of.load(Ordering::Relaxed))
 }
 
-/// Allocations of a steady run, verb by verb.
+/// Allocations of a steady run, stage by stage.
 fn counted(threads: usize) -> ByVerb {
     let mut simulation = Simulation::new(&heap_round_a_cube(), threads).expect("it fits");
     let mut last = 0;
-    simulation.watch_verbs(Box::new(move |verb| {
+    simulation.time_stages(Box::new(move |stage| {
         let now = counting::ALLOCATIONS.load(Ordering::Relaxed);
-        SO_FAR[verb as usize].fetch_add(now - last, Ordering::Relaxed);
+        SO_FAR[stage as usize].fetch_add(now - last, Ordering::Relaxed);
         last = now;
     }));
     let (mut before, mut steps, mut touching) = (ByVerb::default(), 0, 0);
@@ -100,7 +101,7 @@ fn counted(threads: usize) -> ByVerb {
     assert!(steps > 20, "{steps} transfers");
     assert!(touching > 10, "the cube stands alone");
     let after = so_far();
-    std::array::from_fn(|verb| after[verb] - before[verb])
+    std::array::from_fn(|stage| after[stage] - before[stage])
 }
 
 /// On one thread and on two. One count at a time: all threads are counted.
@@ -111,8 +112,8 @@ static COUNTS: LazyLock<[ByVerb; 2]> = LazyLock::new(|| [1, 2].map(counted));
 #[test]
 fn a_steady_run_allocates_nothing() {
     for counts in &*COUNTS {
-        for (verb, count) in Verb::ALL.into_iter().zip(counts) {
-            assert_eq!(*count, 0, "{verb:?}");
+        for (stage, count) in StepStage::ALL.into_iter().zip(counts) {
+            assert_eq!(*count, 0, "{stage:?}");
         }
     }
 }

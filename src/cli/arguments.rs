@@ -224,7 +224,7 @@ pub(super) enum Measurement {
     Bodies,
     /// 1, 10 and 100 bodies dropped on each other
     Heaps,
-    /// Shares of the step's verbs
+    /// Shares of the step's stages
     Verbs,
     /// The collapse on one thread to all, with the hash of how it ends
     Threads,

@@ -4,9 +4,9 @@
 mod clock;
 mod flow;
 mod guards;
-mod laps;
 mod saved;
 mod setup;
+mod stages;
 mod step;
 
 use crate::body_energy::BodyEnergy;
@@ -24,15 +24,15 @@ use crate::stability::Pace;
 use crate::walls::Plane;
 use clock::Clock;
 use flow::Flow;
-use laps::Laps;
 use rayon::ThreadPool;
+use stages::StageEnds;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 pub use clock::Timing;
 pub use guards::Guards;
-pub use laps::{LapWatch, Verb};
 pub use setup::{Columns, Expected, GivenFlow, Outline, Reductions, Scene, Setup, Share, Shares};
+pub use stages::{StageTimer, StepStage};
 
 /// A run in progress: what is given, what changes, and scratch.
 #[derive(Debug)]
@@ -66,7 +66,7 @@ struct Scratch {
     body_reports: Vec<BodyReport>,
     /// The step whose sub-steps are being taken.
     in_hand: Option<StepInHand>,
-    laps: Laps,
+    stages: StageEnds,
 }
 
 /// A step some of whose sub-steps are done.
@@ -157,7 +157,7 @@ impl Simulation {
         let scratch = Scratch {
             body_reports: vec![BodyReport::default(); bodies.len()],
             in_hand: None,
-            laps: Laps::default(),
+            stages: StageEnds::default(),
         };
         let state = State {
             clock: Clock::start(flow.count() as u64),
@@ -342,9 +342,9 @@ impl Simulation {
             .map_or(0.0, |flow| flow.sphere.spacing)
     }
 
-    /// Calls `watch` whenever a verb of the step is done, for timing.
-    pub fn watch_verbs(&mut self, watch: LapWatch) {
-        self.scratch.laps.tell(watch);
+    /// Calls `watch` whenever a stage of the step is done, for timing.
+    pub fn time_stages(&mut self, watch: StageTimer) {
+        self.scratch.stages.tell(watch);
     }
 
     /// Lets the fast path use no better instructions than these; the best there

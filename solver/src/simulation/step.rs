@@ -2,7 +2,7 @@
 //! sound, one gather.
 
 use super::flow::{StepEnd, StepStart, Substep};
-use super::laps::Verb;
+use super::stages::StepStage;
 use super::{Simulation, StepInHand, SubstepReport};
 use crate::body_energy::BodyEnergy;
 use crate::contact::island;
@@ -54,10 +54,10 @@ impl Simulation {
                 _ => Sharing::NONE,
             },
         };
-        let (state, laps) = (&mut self.state, &mut self.scratch.laps);
+        let (state, stages) = (&mut self.state, &mut self.scratch.stages);
         state
             .flow
-            .transfer(&self.given, &state.bodies, &start, laps);
+            .transfer(&self.given, &state.bodies, &start, stages);
         Ok(StepInHand {
             pace,
             start: self.state.clock.time,
@@ -120,7 +120,7 @@ impl Simulation {
         if state.flow.count() > 0 {
             let from_walls = state
                 .flow
-                .substep(given, &state.bodies, substep, &mut scratch.laps);
+                .substep(given, &state.bodies, substep, &mut scratch.stages);
             let (on_bodies, bodies) = (state.flow.on_bodies(), &state.bodies);
             let from_bodies = impulse_on_flow(on_bodies, bodies, dt, Body::is_free);
             let from_barriers = impulse_on_flow(on_bodies, bodies, dt, |body| !body.is_free());
@@ -155,13 +155,13 @@ impl Simulation {
         for flow in on_bodies {
             state.audit.meet(flow.deepest_overlap_ratio);
         }
-        scratch.laps.done(Verb::Bodies);
+        scratch.stages.done(StepStage::RigidBodies);
     }
 
     /// Hands the motion back to the points and checks what came of it.
     fn end_step(&mut self, pace: &Pace) -> Result<(), StepError> {
         let state = &mut self.state;
-        let laps = &mut self.scratch.laps;
+        let stages = &mut self.scratch.stages;
         let duration = pace.substep * f64::from(pace.count);
         let fastest = state.flow.fastest();
         let end = StepEnd {
@@ -173,7 +173,7 @@ impl Simulation {
                 _ => Tending::NONE,
             },
         };
-        let finished = state.flow.finish(&self.given, &state.bodies, &end, laps);
+        let finished = state.flow.finish(&self.given, &state.bodies, &end, stages);
         state.audit.points_put_back += finished.put_back;
         state.audit.spread(&finished.spread.angular);
         state.audit.exchange(&finished.spread.stopped);
@@ -187,13 +187,13 @@ impl Simulation {
         }
         self.look_for_culprits(finished.stuck.as_ref())?;
         self.remove_what_left();
-        self.scratch.laps.done(Verb::Checks);
+        self.scratch.stages.done(StepStage::Checks);
         let since = self.state.clock.substeps - self.state.clock.last_audit;
         if pace.reaches_end || since >= timing.audit_interval {
             self.check_audit();
             self.look_at_body_energies()?;
             self.look_at_energy()?;
-            self.scratch.laps.done(Verb::Audit);
+            self.scratch.stages.done(StepStage::Audit);
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::Effort;
 use super::scenes::{self, IN_THE_FLOW_S};
-use super::stopwatch::{Lap, Length, Runner, take_turns};
+use super::stopwatch::{Length, Runner, StageLap, take_turns};
 use crate::cli::columns::{millions, table};
 use crate::cli::failure::Failure;
 use crate::cli::machine::cores;
@@ -33,7 +33,7 @@ struct Crowd {
     /// Wall time of one point-step over that of the first scene: without what
     /// shorter sub-steps cost.
     per_point_step_over_first: f64,
-    measured: Lap,
+    measured: StageLap,
 }
 
 impl Crowd {
@@ -41,10 +41,10 @@ impl Crowd {
         Self {
             bodies: runner.simulation.bodies().len(),
             points: runner.simulation.point_count(),
-            point_steps_per_s: runner.median(Lap::rate),
-            wall_s_per_simulated_s: runner.median(Lap::wall_per_simulated),
-            over_first: runner.ratio(first, Lap::wall_per_simulated),
-            per_point_step_over_first: first.ratio(runner, Lap::rate),
+            point_steps_per_s: runner.median(StageLap::rate),
+            wall_s_per_simulated_s: runner.median(StageLap::wall_per_simulated),
+            over_first: runner.ratio(first, StageLap::wall_per_simulated),
+            per_point_step_over_first: first.ratio(runner, StageLap::rate),
             measured: runner.total(),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::Effort;
 use super::scenes::{COLLAPSE_S, Collapse};
-use super::stopwatch::{Lap, Length, Runner, take_turns};
+use super::stopwatch::{Length, Runner, StageLap, take_turns};
 use crate::cli::columns::{millions, table};
 use crate::cli::failure::Failure;
 use crate::cli::machine::{instruction_sets, one_and_all};
@@ -32,7 +32,7 @@ struct Speed {
     wall_s_per_simulated_s: f64,
     /// Rate over that of the same with one thread.
     over_one_thread: f64,
-    measured: Lap,
+    measured: StageLap,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -63,9 +63,9 @@ impl Way {
             instructions: self.instructions.map(|set| set.to_string()),
             threads: self.threads,
             transfer: if every_substep { "every" } else { "moving" },
-            point_steps_per_s: runner.median(Lap::rate),
-            wall_s_per_simulated_s: runner.median(Lap::wall_per_simulated),
-            over_one_thread: runner.ratio(on_one_thread, Lap::rate),
+            point_steps_per_s: runner.median(StageLap::rate),
+            wall_s_per_simulated_s: runner.median(StageLap::wall_per_simulated),
+            over_one_thread: runner.ratio(on_one_thread, StageLap::rate),
             measured: runner.total(),
         }
     }

@@ -9,9 +9,9 @@ mod plan;
 mod roofline;
 mod scenes;
 mod size;
+mod stages;
 mod stopwatch;
 mod threads;
-mod verbs;
 
 use super::arguments::{BenchOptions, Measurement};
 use super::console;
@@ -52,7 +52,7 @@ struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     heaps: Option<heaps::Heaps>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    verbs: Option<verbs::Shares>,
+    stages: Option<stages::Shares>,
     #[serde(skip_serializing_if = "Option::is_none")]
     threads: Option<threads::Scaling>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -113,7 +113,7 @@ impl Report {
             channel: if_asked(only, Channel, || bodies::measure_channel(&effort))?,
             bodies: if_asked(only, Bodies, || bodies::measure_bodies(&effort))?,
             heaps: if_asked(only, Heaps, || heaps::measure(&effort))?,
-            verbs: if_asked(only, Verbs, || verbs::measure(&effort))?,
+            stages: if_asked(only, Verbs, || stages::measure(&effort))?,
             threads: if_asked(only, Threads, || threads::measure(&effort))?,
             roofline: if_asked(only, Roofline, || roofline::measure(&effort))?,
             plan: if_asked(only, Plan, || plan::measure(&effort))?,
@@ -133,7 +133,7 @@ impl Report {
                 .as_ref()
                 .map(|growth| growth.table("bodies: small cubes in the same channel")),
             self.heaps.as_ref().map(heaps::Heaps::table),
-            self.verbs.as_ref().map(verbs::Shares::table),
+            self.stages.as_ref().map(stages::Shares::table),
             self.threads.as_ref().map(threads::Scaling::table),
             self.roofline.as_ref().map(roofline::Rooflines::table),
             self.plan.as_ref().map(plan::Savings::table),

@@ -6,7 +6,7 @@
 
 use super::Effort;
 use super::scenes::Collapse;
-use super::stopwatch::{Lap, Length, Runner, median, take_turns};
+use super::stopwatch::{Length, Runner, StageLap, median, take_turns};
 use crate::cli::columns::table;
 use crate::cli::failure::Failure;
 use crate::cli::machine::one_and_all;
@@ -72,7 +72,7 @@ pub(super) fn measure(effort: &Effort) -> Result<Rooflines, Failure> {
     let rooflines = rooflines.map(|((threads, runner), (peaks, streams))| {
         let (peak, stream) = (median(peaks), median(streams));
         let (by_operations, by_bytes) = (peak / OPERATIONS, stream / BYTES);
-        let collapse = runner.median(Lap::rate);
+        let collapse = runner.median(StageLap::rate);
         Roofline {
             threads,
             peak_operations_per_s: peak,

@@ -2,7 +2,7 @@
 
 use super::Effort;
 use super::scenes::Collapse;
-use super::stopwatch::{Lap, Length, Runner, take_turns};
+use super::stopwatch::{Length, Runner, StageLap, take_turns};
 use crate::cli::columns::{millions, table};
 use crate::cli::failure::Failure;
 use crate::cli::machine::one_and_all;
@@ -32,7 +32,7 @@ pub(super) struct Size {
     pub(super) point_steps_per_s: f64,
     bytes_per_point: f64,
     grid_bytes_per_point: f64,
-    measured: Lap,
+    measured: StageLap,
 }
 
 impl Size {
@@ -42,7 +42,7 @@ impl Size {
         Self {
             threads: runner.simulation.threads(),
             points,
-            point_steps_per_s: runner.median(Lap::rate),
+            point_steps_per_s: runner.median(StageLap::rate),
             bytes_per_point: own as f64 / points as f64,
             grid_bytes_per_point: grid as f64 / points as f64,
             measured: runner.total(),

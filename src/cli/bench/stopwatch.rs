@@ -22,7 +22,7 @@ pub(super) enum Length {
 
 /// Counts and times of a lap, or of several.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-pub(super) struct Lap {
+pub(super) struct StageLap {
     /// Wall time [s].
     pub(super) wall_s: f64,
     /// Simulated time [s].
@@ -35,7 +35,7 @@ pub(super) struct Lap {
     pub(super) point_steps: u64,
 }
 
-impl Lap {
+impl StageLap {
     /// Point-steps per second of wall time.
     pub(super) fn rate(&self) -> f64 {
         self.point_steps as f64 / self.wall_s
@@ -51,7 +51,7 @@ impl Lap {
 #[derive(Debug)]
 pub(super) struct Runner {
     pub(super) simulation: Simulation,
-    pub(super) laps: Vec<Lap>,
+    pub(super) stages: Vec<StageLap>,
 }
 
 impl Runner {
@@ -60,8 +60,8 @@ impl Runner {
         let scene = Scene::whole(scenario).map_err(|error| not_set_up(&error))?;
         let simulation =
             Simulation::of_scene(scene, threads).map_err(|error| not_set_up(&error))?;
-        let laps = Vec::new();
-        Ok(Self { simulation, laps })
+        let stages = Vec::new();
+        Ok(Self { simulation, stages })
     }
 
     /// Uses these instructions, or the best below them.
@@ -85,11 +85,11 @@ impl Runner {
     /// One lap.
     pub(super) fn lap(&mut self, length: Length) -> Result<(), Failure> {
         let lap = self.go(length)?;
-        self.laps.push(lap);
+        self.stages.push(lap);
         Ok(())
     }
 
-    fn go(&mut self, length: Length) -> Result<Lap, Failure> {
+    fn go(&mut self, length: Length) -> Result<StageLap, Failure> {
         let simulation = &mut self.simulation;
         let (steps, substeps, point_steps) = simulation.counts();
         let from_s = simulation.time_s();
@@ -109,7 +109,7 @@ impl Runner {
         let wall_s = start.elapsed().as_secs_f64();
         ended.map_err(|error| Failure::Numerical(error.to_string()))?;
         let now = simulation.counts();
-        Ok(Lap {
+        Ok(StageLap {
             wall_s,
             simulated_s: simulation.time_s() - from_s,
             steps: now.0 - steps,
@@ -119,25 +119,27 @@ impl Runner {
     }
 
     /// Median of what `of` says of the laps.
-    pub(super) fn median(&self, of: impl Fn(&Lap) -> f64) -> f64 {
-        median(self.laps.iter().map(of).collect())
+    pub(super) fn median(&self, of: impl Fn(&StageLap) -> f64) -> f64 {
+        median(self.stages.iter().map(of).collect())
     }
 
     /// Median over the laps of this one's over the other's.
-    pub(super) fn ratio(&self, other: &Self, of: impl Fn(&Lap) -> f64) -> f64 {
-        let pairs = self.laps.iter().zip(&other.laps);
+    pub(super) fn ratio(&self, other: &Self, of: impl Fn(&StageLap) -> f64) -> f64 {
+        let pairs = self.stages.iter().zip(&other.stages);
         median(pairs.map(|(a, b)| of(a) / of(b)).collect())
     }
 
     /// All laps together.
-    pub(super) fn total(&self) -> Lap {
-        self.laps.iter().fold(Lap::default(), |sum, lap| Lap {
-            wall_s: sum.wall_s + lap.wall_s,
-            simulated_s: sum.simulated_s + lap.simulated_s,
-            steps: sum.steps + lap.steps,
-            substeps: sum.substeps + lap.substeps,
-            point_steps: sum.point_steps + lap.point_steps,
-        })
+    pub(super) fn total(&self) -> StageLap {
+        self.stages
+            .iter()
+            .fold(StageLap::default(), |sum, lap| StageLap {
+                wall_s: sum.wall_s + lap.wall_s,
+                simulated_s: sum.simulated_s + lap.simulated_s,
+                steps: sum.steps + lap.steps,
+                substeps: sum.substeps + lap.substeps,
+                point_steps: sum.point_steps + lap.point_steps,
+            })
     }
 }
 

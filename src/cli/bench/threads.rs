@@ -2,7 +2,7 @@
 
 use super::Effort;
 use super::scenes::Collapse;
-use super::stopwatch::{Lap, Length, Runner, take_turns};
+use super::stopwatch::{Length, Runner, StageLap, take_turns};
 use crate::cli::columns::{millions, table};
 use crate::cli::failure::Failure;
 use crate::cli::machine::cores;
@@ -31,7 +31,7 @@ struct Run {
     over_one_thread: f64,
     /// BLAKE3 of the saved state after the last lap.
     state: String,
-    measured: Lap,
+    measured: StageLap,
 }
 
 impl Run {
@@ -42,8 +42,8 @@ impl Run {
             .map_err(|error| Failure::Other(error.to_string()))?;
         Ok(Self {
             threads: simulation.threads(),
-            point_steps_per_s: runner.median(Lap::rate),
-            over_one_thread: runner.ratio(on_one_thread, Lap::rate),
+            point_steps_per_s: runner.median(StageLap::rate),
+            over_one_thread: runner.ratio(on_one_thread, StageLap::rate),
             state: blake3::hash(&saved).to_hex().to_string(),
             measured: runner.total(),
         })

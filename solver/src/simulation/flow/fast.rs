@@ -20,8 +20,8 @@ use crate::grid::{BLOCK, BlockKey};
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::sharing::Sharing;
-use crate::simulation::laps::{Laps, Verb};
 use crate::simulation::setup::Setup;
+use crate::simulation::stages::{StageEnds, StepStage};
 use crate::walls::{Boundary, Impulse, Plane};
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
@@ -247,7 +247,13 @@ impl Flow for FastFlow {
         self.fastest
     }
 
-    fn transfer(&mut self, given: &Setup, bodies: &[Body], start: &StepStart, laps: &mut Laps) {
+    fn transfer(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        start: &StepStart,
+        stages: &mut StageEnds,
+    ) {
         let keys = self.blocks.occupied().iter().map(|block| block.key);
         self.nodes.lay_around(keys);
         let count = self.blocks.occupied().len();
@@ -263,14 +269,14 @@ impl Flow for FastFlow {
             });
         self.nodes.take_momentum(&self.momentum, level);
         self.give_strain_rates();
-        laps.done(Verb::Transfer);
+        stages.done(StepStage::P2g);
         given.walls.find_boundary(&self.nodes, &mut self.boundary);
         given.walls.reflect(&mut self.boundary, &mut self.nodes);
         self.boundary.share_strain_rates(&mut self.nodes);
-        laps.done(Verb::Search);
+        stages.done(StepStage::Search);
         self.hand_over_rest(given, &start.sharing);
         self.from_joining = given.walls.join(&mut self.boundary, &mut self.nodes);
-        laps.done(Verb::Transfer);
+        stages.done(StepStage::P2g);
         crowding::leave_less_room(&self.boundary, bodies, &mut self.nodes);
         let access = Access {
             blocks: self.blocks.occupied(),
@@ -278,7 +284,7 @@ impl Flow for FastFlow {
             packing: &self.packing,
         };
         self.loads.find_candidates(&access, bodies, start.reach);
-        laps.done(Verb::Search);
+        stages.done(StepStage::Search);
     }
 
     fn substep(
@@ -286,7 +292,7 @@ impl Flow for FastFlow {
         given: &Setup,
         bodies: &[Body],
         Substep { dt, passed, last }: Substep,
-        laps: &mut Laps,
+        stages: &mut StageEnds,
     ) -> Impulse {
         let Some(flow) = &given.flow else {
             return Impulse::default();
@@ -305,18 +311,18 @@ impl Flow for FastFlow {
         self.loads
             .evaluate(&access, &grid, bodies, flow.sphere, time);
         self.add_contact_forces();
-        laps.done(Verb::Contact);
+        stages.done(StepStage::Contact);
         self.nodes
             .advance(&self.forces, &given.gravity, dt, self.level);
-        laps.done(Verb::Nodes);
+        stages.done(StepStage::GridUpdate);
         let from_walls =
             given
                 .walls
                 .constrain(&mut self.boundary, &mut self.nodes, given.wall_pace(dt));
-        laps.done(Verb::Walls);
+        stages.done(StepStage::Boundary);
         if !last {
             self.pass(dt);
-            laps.done(Verb::Points);
+            stages.done(StepStage::StressUpdate);
         }
         from_walls.plus(&std::mem::take(&mut self.from_joining))
     }
@@ -330,7 +336,7 @@ impl Flow for FastFlow {
         given: &Setup,
         bodies: &[Body],
         end: &StepEnd,
-        laps: &mut Laps,
+        stages: &mut StageEnds,
     ) -> Finished {
         let (nodes, level) = (&self.nodes, self.level);
         let ending = Ending {
@@ -362,9 +368,9 @@ impl Flow for FastFlow {
         let spread = blocks.fold(Spread::default(), |sum, block| sum.plus(&block.spread()));
         let (put_back, stuck) = self.put_back(bodies, &given.planes);
         self.go_round(given);
-        laps.done(Verb::Motion);
+        stages.done(StepStage::G2p);
         self.blocks.settle();
-        laps.done(Verb::Settle);
+        stages.done(StepStage::Rebin);
         Finished {
             put_back,
             stuck,

@@ -1,4 +1,4 @@
-//! The flow of a run and the verbs of its step, on one of two paths: the plain
+//! The flow of a run and the stages of its step, on one of two paths: the plain
 //! one in double precision, the reference, and the fast one in single.
 
 mod fast;
@@ -6,8 +6,8 @@ mod images;
 mod plain;
 mod shared;
 
-use super::laps::Laps;
 use super::setup::{GivenFlow, Setup, Share, Shares};
+use super::stages::StageEnds;
 use crate::contact::point_body::{Around, FlowLoad, Reach, Stuck};
 use crate::crowding::{Spread, Tending};
 use crate::diagnostics::Totals;
@@ -45,7 +45,13 @@ pub(super) trait Flow: Debug + Send + Sync {
 
     /// Begins a step: hands mass and momentum to a new grid, finds the nodes at
     /// walls and the points within reach of bodies, and shares strain rates.
-    fn transfer(&mut self, given: &Setup, bodies: &[Body], start: &StepStart, laps: &mut Laps);
+    fn transfer(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        start: &StepStart,
+        stages: &mut StageEnds,
+    );
 
     /// One sub-step: forces of bodies and stress, momentum, walls, strain (the
     /// last strain of a step may wait for [`Flow::finish`]). Returns the impulse
@@ -55,7 +61,7 @@ pub(super) trait Flow: Debug + Send + Sync {
         given: &Setup,
         bodies: &[Body],
         substep: Substep,
-        laps: &mut Laps,
+        stages: &mut StageEnds,
     ) -> Impulse;
 
     /// Load of the flow on each body in the present sub-step; nothing yet before the
@@ -69,7 +75,7 @@ pub(super) trait Flow: Debug + Send + Sync {
         given: &Setup,
         bodies: &[Body],
         end: &StepEnd,
-        laps: &mut Laps,
+        stages: &mut StageEnds,
     ) -> Finished;
 
     /// A point that should not be as it is after a step.

@@ -1,4 +1,4 @@
-//! The plain path: every verb on its own, in double precision.
+//! The plain path: every stage on its own, in double precision.
 
 use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
 use crate::contact::point_body::{
@@ -12,8 +12,8 @@ use crate::kernel::PointStencil;
 use crate::math::Vec3;
 use crate::points::{self, Deformation, Point};
 use crate::rigid::Body;
-use crate::simulation::laps::{Laps, Verb};
 use crate::simulation::setup::Setup;
+use crate::simulation::stages::{StageEnds, StepStage};
 use crate::transfer;
 use crate::walls::{Boundary, Impulse};
 use rayon::prelude::*;
@@ -132,22 +132,28 @@ impl Flow for PlainFlow {
         speeds.fold(0.0, f64::max)
     }
 
-    fn transfer(&mut self, given: &Setup, bodies: &[Body], start: &StepStart, laps: &mut Laps) {
+    fn transfer(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        start: &StepStart,
+        stages: &mut StageEnds,
+    ) {
         let occupied = points::sort_by_block(&mut self.points, &given.lattice);
         self.grid.reset_around(&occupied);
         transfer::scatter_momentum(&self.points, &mut self.grid);
         transfer::scatter_strain_rates(&self.points, &mut self.grid);
-        laps.done(Verb::Transfer);
+        stages.done(StepStage::P2g);
         given.walls.find_boundary(&self.grid, &mut self.boundary);
         given.walls.reflect(&mut self.boundary, &mut self.grid);
         self.boundary.share_strain_rates(&mut self.grid);
-        laps.done(Verb::Search);
+        stages.done(StepStage::Search);
         if let Some(flow) = &given.flow {
             let density = flow.material.bulk_density;
             transfer::hand_over_rest(&self.points, density, &mut self.grid);
             self.from_joining = given.walls.join(&mut self.boundary, &mut self.grid);
         }
-        laps.done(Verb::Transfer);
+        stages.done(StepStage::P2g);
         crowding::leave_less_room(&self.boundary, bodies, &mut self.grid);
         self.deformations.clear();
         self.deformations
@@ -165,7 +171,7 @@ impl Flow for PlainFlow {
         self.loads.find_candidates(&access, bodies, start.reach);
         self.contact_forces.clear();
         self.contact_forces.resize(self.points.len(), Vec3::zeros());
-        laps.done(Verb::Search);
+        stages.done(StepStage::Search);
     }
 
     fn substep(
@@ -173,7 +179,7 @@ impl Flow for PlainFlow {
         given: &Setup,
         bodies: &[Body],
         Substep { dt, passed, .. }: Substep,
-        laps: &mut Laps,
+        stages: &mut StageEnds,
     ) -> Impulse {
         let Some(flow) = &given.flow else {
             return Impulse::default();
@@ -196,7 +202,7 @@ impl Flow for PlainFlow {
         for (place, force) in &self.loads.on_points {
             self.contact_forces[place.point] += force;
         }
-        laps.done(Verb::Contact);
+        stages.done(StepStage::Contact);
         transfer::scatter_forces(
             &self.points,
             &self.deformations,
@@ -204,12 +210,12 @@ impl Flow for PlainFlow {
             &mut self.grid,
         );
         self.grid.advance_momentum(given.gravity, dt);
-        laps.done(Verb::Nodes);
+        stages.done(StepStage::GridUpdate);
         let from_walls =
             given
                 .walls
                 .constrain(&mut self.boundary, &mut self.grid, given.wall_pace(dt));
-        laps.done(Verb::Walls);
+        stages.done(StepStage::Boundary);
         self.grid.displace(dt);
         transfer::gather_gradient(&self.grid, &self.points, dt, &mut self.deformations);
         points::update_stress(
@@ -219,7 +225,7 @@ impl Flow for PlainFlow {
             given.lattice.finest_spacing(),
             dt,
         );
-        laps.done(Verb::Points);
+        stages.done(StepStage::StressUpdate);
         from_walls.plus(&std::mem::take(&mut self.from_joining))
     }
 
@@ -232,7 +238,7 @@ impl Flow for PlainFlow {
         given: &Setup,
         bodies: &[Body],
         end: &StepEnd,
-        laps: &mut Laps,
+        stages: &mut StageEnds,
     ) -> Finished {
         let spread = given.flow.as_ref().map_or_else(Spread::default, |flow| {
             transfer::gather_motion(
@@ -267,7 +273,7 @@ impl Flow for PlainFlow {
             }
         }
         self.go_round(given);
-        laps.done(Verb::Motion);
+        stages.done(StepStage::G2p);
         Finished {
             put_back: count,
             stuck,

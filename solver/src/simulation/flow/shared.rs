@@ -1,4 +1,4 @@
-//! A flow of which a share is computed: every verb is that share's, and every
+//! A flow of which a share is computed: every stage is that share's, and every
 //! answer that of the whole flow (docs/method.md, section 12).
 
 use super::images::{Images, load_of_both};
@@ -9,8 +9,8 @@ use crate::fast::instructions::Instructions;
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::Precision;
-use crate::simulation::laps::Laps;
 use crate::simulation::setup::{Setup, Share, Shares, near_body};
+use crate::simulation::stages::StageEnds;
 use crate::walls::{Impulse, Plane};
 
 /// A flow of which a share is computed, and later a larger one.
@@ -140,8 +140,8 @@ impl Flow for SharedFlow {
         self.flow.fastest()
     }
 
-    fn transfer(&mut self, _: &Setup, bodies: &[Body], start: &StepStart, laps: &mut Laps) {
-        self.flow.transfer(&self.given, bodies, start, laps);
+    fn transfer(&mut self, _: &Setup, bodies: &[Body], start: &StepStart, stages: &mut StageEnds) {
+        self.flow.transfer(&self.given, bodies, start, stages);
         self.sum_up_loads();
     }
 
@@ -150,9 +150,9 @@ impl Flow for SharedFlow {
         _: &Setup,
         bodies: &[Body],
         substep: Substep,
-        laps: &mut Laps,
+        stages: &mut StageEnds,
     ) -> Impulse {
-        let from_walls = self.flow.substep(&self.given, bodies, substep, laps);
+        let from_walls = self.flow.substep(&self.given, bodies, substep, stages);
         self.sum_up_loads();
         from_walls.of_images(self.count_of_images())
     }
@@ -166,9 +166,9 @@ impl Flow for SharedFlow {
         whole: &Setup,
         bodies: &[Body],
         end: &StepEnd,
-        laps: &mut Laps,
+        stages: &mut StageEnds,
     ) -> Finished {
-        let finished = self.flow.finish(&self.given, bodies, end, laps);
+        let finished = self.flow.finish(&self.given, bodies, end, stages);
         let count = self.images.count();
         if self.share != self.shares.last && self.meets_a_body(bodies) {
             self.widen(whole);

@@ -1,4 +1,4 @@
-//! Shares of the step that its verbs take.
+//! Shares of the step that its stages take.
 
 use super::Effort;
 use super::scenes::{self, Collapse, IN_THE_FLOW_S};
@@ -6,7 +6,7 @@ use super::stopwatch::{Length, Runner};
 use crate::cli::columns::table;
 use crate::cli::failure::Failure;
 use crate::cli::machine::cores;
-use scree_solver::Verb;
+use scree_solver::StepStage;
 use serde::Serialize;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 /// Sub-steps of the collapse, and time of the channel [s], per repeat.
 const QUICK: (u64, f64) = (64, 0.01);
 
-/// Shares of the verbs in some scenes.
+/// Shares of the stages in some scenes.
 #[derive(Debug, Serialize)]
 pub(super) struct Shares {
     threads: usize,
@@ -24,20 +24,20 @@ pub(super) struct Shares {
 #[derive(Debug, Serialize)]
 struct Scene {
     scene: &'static str,
-    verbs: Vec<Share>,
+    stages: Vec<Share>,
 }
 
 #[derive(Debug, Serialize)]
 struct Share {
-    verb: String,
+    stage: String,
     share: f64,
 }
 
-/// Time spent in each verb.
+/// Time spent in each stage.
 #[derive(Debug)]
 struct Clock {
     since: Instant,
-    spent: [Duration; Verb::ALL.len()],
+    spent: [Duration; StepStage::ALL.len()],
 }
 
 impl Clock {
@@ -48,9 +48,9 @@ impl Clock {
         }
     }
 
-    fn done(&mut self, verb: Verb) {
+    fn done(&mut self, stage: StepStage) {
         let now = Instant::now();
-        if let Some(place) = Verb::ALL.iter().position(|one| *one == verb) {
+        if let Some(place) = StepStage::ALL.iter().position(|one| *one == stage) {
             self.spent[place] += now - self.since;
         }
         self.since = now;
@@ -58,11 +58,11 @@ impl Clock {
 
     fn shares(&self) -> Vec<Share> {
         let total: Duration = self.spent.iter().sum();
-        let share = |(verb, spent): (&Verb, &Duration)| Share {
-            verb: format!("{verb:?}").to_lowercase(),
+        let share = |(stage, spent): (&StepStage, &Duration)| Share {
+            stage: format!("{stage:?}").to_lowercase(),
             share: spent.as_secs_f64() / total.as_secs_f64(),
         };
-        Verb::ALL.iter().zip(&self.spent).map(share).collect()
+        StepStage::ALL.iter().zip(&self.spent).map(share).collect()
     }
 }
 
@@ -79,11 +79,11 @@ pub(super) fn measure(effort: &Effort) -> Result<Shares, Failure> {
     let scenes = vec![
         Scene {
             scene: "s200k",
-            verbs: in_collapse,
+            stages: in_collapse,
         },
         Scene {
             scene: "channel",
-            verbs: in_channel,
+            stages: in_channel,
         },
     ];
     Ok(Shares {
@@ -95,10 +95,10 @@ pub(super) fn measure(effort: &Effort) -> Result<Shares, Failure> {
 fn watch(mut runner: Runner, length: Length) -> Result<Vec<Share>, Failure> {
     let clock = Arc::new(Mutex::new(Clock::zero()));
     let watched = Arc::clone(&clock);
-    runner.simulation.watch_verbs(Box::new(move |verb| {
+    runner.simulation.time_stages(Box::new(move |stage| {
         // Nothing panics while it is locked.
         let mut clock = watched.lock().unwrap_or_else(PoisonError::into_inner);
-        clock.done(verb);
+        clock.done(stage);
     }));
     *clock.lock().unwrap_or_else(PoisonError::into_inner) = Clock::zero();
     runner.lap(length)?;
@@ -109,18 +109,18 @@ fn watch(mut runner: Runner, length: Length) -> Result<Vec<Share>, Failure> {
 impl Shares {
     /// For people.
     pub(super) fn table(&self) -> String {
-        let title = format!("verbs: shares of the step [%], {} threads", self.threads);
-        let rows = Verb::ALL.iter().enumerate().map(|(place, _)| {
+        let title = format!("stages: shares of the step [%], {} threads", self.threads);
+        let rows = StepStage::ALL.iter().enumerate().map(|(place, _)| {
             let share = |scene: usize| {
-                let share = self.scenes[scene].verbs[place].share;
+                let share = self.scenes[scene].stages[place].share;
                 format!("{:.1}", 100.0 * share)
             };
-            let verb = self.scenes[0].verbs[place].verb.clone();
-            [verb, share(0), share(1)]
+            let stage = self.scenes[0].stages[place].stage.clone();
+            [stage, share(0), share(1)]
         });
         table(
             &title,
-            ["verb", self.scenes[0].scene, self.scenes[1].scene],
+            ["stage", self.scenes[0].scene, self.scenes[1].scene],
             rows,
         )
     }

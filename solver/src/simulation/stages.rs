@@ -1,74 +1,74 @@
-//! Lets a caller time the verbs of the step: the solver itself has no clock.
+//! Lets a caller time the stages of the step: the solver itself has no clock.
 
 use std::fmt;
 
 /// A part of the step, in the order in which they come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verb {
+pub enum StepStage {
     /// Grid laid, mass, momentum and first forces scattered to it.
-    Transfer,
+    P2g,
     /// Nodes at walls and points near bodies found.
     Search,
     /// Forces between bodies and points.
     Contact,
     /// Tiles added up, momentum advanced, nodes displaced.
-    Nodes,
+    GridUpdate,
     /// Walls.
-    Walls,
+    Boundary,
     /// Gradient gathered, stress renewed, forces scattered.
-    Points,
+    StressUpdate,
     /// Bodies moved.
-    Bodies,
+    RigidBodies,
     /// Motion handed back to the points.
-    Motion,
+    G2p,
     /// Points brought into the order of their blocks.
-    Settle,
+    Rebin,
     /// Points and bodies looked at for what should not be.
     Checks,
     /// Sums compared.
     Audit,
 }
 
-impl Verb {
+impl StepStage {
     /// All of them, in order.
     pub const ALL: [Self; 11] = [
-        Self::Transfer,
+        Self::P2g,
         Self::Search,
         Self::Contact,
-        Self::Nodes,
-        Self::Walls,
-        Self::Points,
-        Self::Bodies,
-        Self::Motion,
-        Self::Settle,
+        Self::GridUpdate,
+        Self::Boundary,
+        Self::StressUpdate,
+        Self::RigidBodies,
+        Self::G2p,
+        Self::Rebin,
         Self::Checks,
         Self::Audit,
     ];
 }
 
-/// Called with each verb when it is done.
-pub type LapWatch = Box<dyn FnMut(Verb) + Send + Sync>;
+/// Called with each stage when it is done.
+pub type StageTimer = Box<dyn FnMut(StepStage) + Send + Sync>;
 
-/// Tells who wants to know when a verb is done.
+/// Tells who wants to know when a stage is done.
 #[derive(Default)]
-pub(super) struct Laps(Option<LapWatch>);
+pub(super) struct StageEnds(Option<StageTimer>);
 
-impl Laps {
+impl StageEnds {
     /// Tells this one from now on.
-    pub(super) fn tell(&mut self, watch: LapWatch) {
+    pub(super) fn tell(&mut self, watch: StageTimer) {
         self.0 = Some(watch);
     }
 
-    /// A verb is done.
-    pub(super) fn done(&mut self, verb: Verb) {
+    /// A stage is done.
+    pub(super) fn done(&mut self, stage: StepStage) {
         if let Some(watch) = &mut self.0 {
-            watch(verb);
+            watch(stage);
         }
     }
 }
 
-impl fmt::Debug for Laps {
+impl fmt::Debug for StageEnds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Laps")
+        f.write_str("StageEnds")
     }
 }
