@@ -160,7 +160,7 @@ fn stress_of_block<S: fearless_simd::Simd>(simd: S, block: &mut Block, law: &Law
     let mut gradient = [[none; 3]; 3];
     gradient[0][2] = f32x16::splat(simd, 2.0);
     for (chunk, _) in block.chunks_mut() {
-        black_box(stress::strain(simd, chunk, &gradient, law, DT as f32).dilation);
+        black_box(stress::strain(simd, chunk, &gradient, law, DT as f32).volumetric_strain);
     }
 }
 

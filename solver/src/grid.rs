@@ -39,7 +39,7 @@ pub struct Node {
     /// Force of stress and contact [N].
     pub force: Vec3,
     /// Volume of points over room for them, at the transfer.
-    pub fullness: f64,
+    pub volume_fraction: f64,
     /// Mean compressive volumetric strain min(φ, 0) of its points at the transfer.
     pub compressive_strain: f64,
     /// Mean strain rate of its points at the transfer [1/s].
@@ -53,7 +53,7 @@ impl Node {
         velocity: Vec3::new(0.0, 0.0, 0.0),
         displacement: Vec3::new(0.0, 0.0, 0.0),
         force: Vec3::new(0.0, 0.0, 0.0),
-        fullness: 0.0,
+        volume_fraction: 0.0,
         compressive_strain: 0.0,
         strain_rate: Sym3 {
             xx: 0.0,

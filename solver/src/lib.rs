@@ -12,7 +12,6 @@
 pub mod accuracy;
 pub mod body_energy;
 pub mod contact;
-pub mod crowding;
 pub mod diagnostics;
 pub mod error;
 pub mod fast;
@@ -24,6 +23,7 @@ pub mod motion;
 pub mod plan;
 pub mod points;
 pub mod record;
+pub mod redistribution;
 pub mod rigid;
 pub mod scenario;
 pub mod shape;

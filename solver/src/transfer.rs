@@ -6,12 +6,15 @@
 //! Within one step the weights stay those of the transfer; the displaced nodes
 //! carry the deformation F̂ of every point (two clocks).
 
-use crate::crowding::{Seen, Spread, Tending, crowding, not_into_wall, stop_behind_wall};
 use crate::grid::{Grid, Node, PointBlock, TILE, Tile, in_tile};
 use crate::kernel::{Stencil, WIDTH};
 use crate::material::Material;
 use crate::math::{Mat3, Sym3, Vec3};
 use crate::points::{Deformation, Point};
+use crate::redistribution::{
+    PointState, RedistributionRates, Shifting, clamp_normal_velocity, excess_volume_fraction,
+    limit_shift_at_bed,
+};
 use crate::sharing::Sharing;
 use crate::walls::Plane;
 use rayon::prelude::*;
@@ -90,7 +93,7 @@ pub fn hand_over_rest(points: &[Point], bulk_density: f64, grid: &mut Grid) {
                 node.velocity += Vec3::new(px, py, pz) / node.mass;
                 node.compressive_strain = compressive / node.mass;
             }
-            node.fullness = (node.mass + compressive) / room;
+            node.volume_fraction = (node.mass + compressive) / room;
         },
     );
 }
@@ -233,18 +236,18 @@ pub fn gather_motion(
     grid: &Grid,
     deformations: &[Deformation],
     material: &Material,
-    tending: &Tending,
+    redistribution: &RedistributionRates,
     base: &[Plane],
     points: &mut [Point],
-) -> Spread {
+) -> Shifting {
     let lattice = *grid.lattice();
     let moment = lattice.kernel_moment();
     let inverse_moment = Mat3::from_diagonal(&moment.map(f64::recip));
     let spread = for_each_block(grid, points, |block, points| {
-        let mut spread = Spread::default();
+        let mut spread = Shifting::default();
         let velocities = grid.tile_of(block, |node| {
             let v = &node.velocity;
-            [v.x, v.y, v.z, crowding(node.fullness)]
+            [v.x, v.y, v.z, excess_volume_fraction(node.volume_fraction)]
         });
         let displacements = grid.tile_of(block, |node| {
             [
@@ -266,36 +269,39 @@ pub fn gather_motion(
             let gradient = velocity.first * inverse_moment * deformation.inverse_at_most();
             point.velocity = velocity.zeroth;
             point.affine = with_angular_momentum(&gradient, &on_displaced, &moment);
-            let dilation = |volume: f64| volume * material.bulk_density / point.mass - 1.0;
-            let seen = Seen {
-                dilation: dilation(point.volume),
-                compression_at_transfer: dilation(deformation.transfer_volume).min(0.0),
+            let volumetric_strain = |volume: f64| volume * material.bulk_density / point.mass - 1.0;
+            let seen = PointState {
+                volumetric_strain: volumetric_strain(point.volume),
+                compression_at_transfer: volumetric_strain(deformation.transfer_volume).min(0.0),
                 mean_compression: moved.last,
-                crowding: velocity.last,
+                excess_volume_fraction: velocity.last,
                 slope: inverse_moment * velocity.last_first,
             };
             let travel = displacement.component_div(&lattice.spacing).norm();
-            let tended = tending.of(&seen, travel, &lattice.spacing);
+            let redistributed = redistribution.of(&seen, travel, &lattice.spacing);
             point.position += displacement;
-            let shift = not_into_wall(
-                &tended.shift,
+            let shift = limit_shift_at_bed(
+                &redistributed.shift,
                 &displacement,
                 &point.position,
                 base,
                 &lattice.spacing,
             );
-            let stop = stop_behind_wall(&point.velocity, &point.position, base, &lattice.spacing);
+            let stop =
+                clamp_normal_velocity(&point.velocity, &point.position, base, &lattice.spacing);
             point.velocity += stop;
             spread.stopped.add_at(&point.position, &(stop * point.mass));
             point.position += shift;
             spread.add(point.mass, &shift, &point.velocity);
-            point.volume += point.mass / material.bulk_density * (tended.dilation - seen.dilation);
+            point.volume += point.mass / material.bulk_density
+                * (redistributed.volumetric_strain - seen.volumetric_strain);
             point.volume = point.volume.min(lattice.largest_point_volume());
-            point.stress = material.pressed_anew(&point.stress, tended.rise, point.density());
+            point.stress =
+                material.pressed_anew(&point.stress, redistributed.rise, point.density());
         }
         spread
     });
-    spread.iter().fold(Spread::default(), Spread::plus)
+    spread.iter().fold(Shifting::default(), Shifting::plus)
 }
 
 /// `gradient` with the skew part that makes (affine · h²/4) have the skew part

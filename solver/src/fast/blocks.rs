@@ -4,8 +4,8 @@
 //! block whose order has suffered too much sorts itself anew.
 
 use super::chunk::{Chunk, LANES, Packed, put, take};
-use crate::crowding::Spread;
 use crate::grid::{BLOCK, BlockKey};
+use crate::redistribution::Shifting;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -59,7 +59,7 @@ pub struct Block {
     #[serde(skip)]
     end: End,
     #[serde(skip)]
-    spread: Spread,
+    spread: Shifting,
     /// True if some of its points may have left it.
     #[serde(skip)]
     left: bool,
@@ -127,12 +127,12 @@ impl Block {
     }
 
     /// Notes what a pass found of its points.
-    pub fn note_end(&mut self, end: End, spread: Spread) {
+    pub fn note_end(&mut self, end: End, spread: Shifting) {
         (self.end, self.spread) = (end, spread);
     }
 
     /// Changes of its points' sums by spreading them.
-    pub fn spread(&self) -> Spread {
+    pub fn spread(&self) -> Shifting {
         self.spread
     }
 

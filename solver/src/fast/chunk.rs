@@ -25,7 +25,7 @@ pub struct Chunk {
     /// V ρ_c/m − 1 at the transfer: how much larger a point's volume is than
     /// with the grains just touching. Small, so that the pressure keeps all
     /// digits.
-    pub dilation: Lanes,
+    pub volumetric_strain: Lanes,
     /// Mass [kg].
     pub mass: Lanes,
     /// Identity, kept for life.
@@ -47,8 +47,8 @@ pub struct Packed {
     pub gradient: [[f32; 3]; 3],
     /// See [`Chunk::deviator`].
     pub deviator: [f32; 6],
-    /// See [`Chunk::dilation`].
-    pub dilation: f32,
+    /// See [`Chunk::volumetric_strain`].
+    pub volumetric_strain: f32,
     /// See [`Chunk::mass`].
     pub mass: f32,
     /// See [`Chunk::id`].
@@ -62,7 +62,7 @@ impl Packed {
         velocity: [0.0; 3],
         gradient: [[0.0; 3]; 3],
         deviator: [0.0; 6],
-        dilation: 0.0,
+        volumetric_strain: 0.0,
         mass: 0.0,
         id: 0,
     };
@@ -75,7 +75,7 @@ impl Chunk {
         velocity: [[0.0; LANES]; 3],
         gradient: [[[0.0; LANES]; 3]; 3],
         deviator: [[0.0; LANES]; 6],
-        dilation: [0.0; LANES],
+        volumetric_strain: [0.0; LANES],
         mass: [0.0; LANES],
         id: [0; LANES],
         shared: [[0.0; LANES]; 6],
@@ -89,7 +89,7 @@ impl Chunk {
             velocity: take(&self.velocity, lane),
             gradient: [take(x, lane), take(y, lane), take(z, lane)],
             deviator: take(&self.deviator, lane),
-            dilation: self.dilation[lane],
+            volumetric_strain: self.volumetric_strain[lane],
             mass: self.mass[lane],
             id: self.id[lane],
         }
@@ -103,7 +103,7 @@ impl Chunk {
             put(of, lane, column);
         }
         put(&mut self.deviator, lane, &point.deviator);
-        self.dilation[lane] = point.dilation;
+        self.volumetric_strain[lane] = point.volumetric_strain;
         self.mass[lane] = point.mass;
         self.id[lane] = point.id;
     }

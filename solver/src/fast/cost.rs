@@ -10,7 +10,7 @@
 /// | gradient gathered from nine rows (`rows.rs`) | 3 × 180 + 60 |
 /// | velocity gradient, F̂ and its cofactors, before and after (`stress.rs`) | 9 + 2 × 53 + 56 + 18 |
 /// | strain rate shared (`sharing.rs`) | 9 |
-/// | dilation, pressure, trial and return of the deviator | 8 + 60 + 36 |
+/// | volumetric strain, pressure, trial and return of the deviator | 8 + 60 + 36 |
 /// | force | 63 |
 /// | force scattered to nine rows | 36 + 144 + 432 |
 pub const OPERATIONS: f64 = 48.0 + 600.0 + 189.0 + 9.0 + 104.0 + 63.0 + 612.0;

@@ -42,9 +42,9 @@ pub(super) fn beads() -> Material {
 }
 
 /// Random numbers over −1..1, the same in every run (SplitMix64).
-pub(super) struct Spread(pub(super) u64);
+pub(super) struct Shifting(pub(super) u64);
 
-impl Spread {
+impl Shifting {
     pub(super) fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut bits = self.0;
@@ -74,7 +74,7 @@ impl Spread {
 /// A cloud of points with everything at random, about four to a cell over
 /// several blocks; most of them pressed, some apart.
 pub(super) fn cloud(count: u32) -> Vec<Point> {
-    let mut spread = Spread(1);
+    let mut spread = Shifting(1);
     let half = 0.5 * (f64::from(count) / 4.0 * lattice().cell_volume()).cbrt();
     let material = beads();
     let point = |id| {

@@ -20,10 +20,10 @@ pub mod instructions;
 pub mod nodes;
 pub mod packing;
 pub mod passes;
+pub mod redistribution;
 pub mod rows;
 pub mod stencil;
 pub mod stress;
-pub mod tend;
 pub mod totals;
 
 #[cfg(test)]

@@ -245,12 +245,12 @@ impl NodeAccess for Nodes {
             - self.velocity(place) * dt
     }
 
-    fn fullness(&self, place: usize) -> f64 {
+    fn volume_fraction(&self, place: usize) -> f64 {
         f64::from(self.remainder[place / BLOCK_NODES].node(place % BLOCK_NODES)[0])
     }
 
-    fn set_fullness(&mut self, place: usize, fullness: f64) {
-        self.remainder[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)] = fullness as f32;
+    fn set_volume_fraction(&mut self, place: usize, volume_fraction: f64) {
+        self.remainder[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)] = volume_fraction as f32;
     }
 
     fn strain_rate(&self, place: usize) -> Sym3 {
@@ -453,7 +453,7 @@ fn advance<S: Simd>(simd: S, forces: &NodeBlock, push: &Push, block: WholeBlock)
         if mass > 0.0 {
             let left = &mut remainder.0[here.clone()];
             let moved = &mut displacement.0[here.clone()];
-            let (fullness, compressive) = (left[0], moved[0]);
+            let (volume_fraction, compressive) = (left[0], moved[0]);
             let force = f32x4::from_slice(simd, &forces.0[here]);
             let before = f32x4::from_slice(simd, moving);
             let owed = fall + f32x4::from_slice(simd, left);
@@ -464,7 +464,7 @@ fn advance<S: Simd>(simd: S, forces: &NodeBlock, push: &Push, block: WholeBlock)
             let displaced = velocity.mul_add(dt, f32x4::from_slice(simd, moved));
             displaced.store_slice(moved);
             velocity.store_slice(moving);
-            (moving[0], left[0], moved[0]) = (mass, fullness, compressive);
+            (moving[0], left[0], moved[0]) = (mass, volume_fraction, compressive);
         }
     }
 }

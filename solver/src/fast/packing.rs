@@ -31,7 +31,7 @@ impl Packing {
             velocity: single(&point.velocity),
             gradient: [0, 1, 2].map(|axis| single(&point.affine.column(axis).into())),
             deviator: [s.xx, s.yy, s.zz, s.xy, s.xz, s.yz].map(|part| part as f32),
-            dilation: (self.material.bulk_density / density - 1.0) as f32,
+            volumetric_strain: (self.material.bulk_density / density - 1.0) as f32,
             mass: point.mass as f32,
             id: point.id,
         };
@@ -41,7 +41,8 @@ impl Packing {
     /// A point of a block, between two steps.
     pub fn unpack(&self, key: &BlockKey, record: &Packed) -> Point {
         let mass = f64::from(record.mass);
-        let volume = mass / self.material.bulk_density * (1.0 + f64::from(record.dilation));
+        let volume =
+            mass / self.material.bulk_density * (1.0 + f64::from(record.volumetric_strain));
         let pressure = self.material.pressure(mass / volume);
         let [xx, yy, zz, xy, xz, yz] = record.deviator.map(f64::from);
         let deviator = Sym3 {

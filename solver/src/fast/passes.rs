@@ -3,21 +3,21 @@
 
 use super::blocks::Block;
 use super::chunk::{Chunk, LANES, Lanes};
+use super::redistribution::{NoShiftZone, PointState, ShiftingSums, redistribute};
 use super::rows::{Given, Moments, Quads, Tile, gather_mean, scatter_mean};
 use super::stencil::Stencils;
 use super::stress::{self, Law, Matrix, Strained};
-use super::tend::{Seen, Shelter, SpreadSums, tend};
 use super::totals::EndSums;
-use crate::crowding::{Tending, crowding};
 use crate::grid::BLOCK;
 use crate::kernel::Lattice;
 use crate::math::Vec3;
+use crate::redistribution::{RedistributionRates, excess_volume_fraction};
 use crate::sharing::Sharing;
 use fearless_simd::{f32x16, prelude::*};
 
 /// The nodes' state as a block of points sees it at the end of a step.
 pub struct EndTiles {
-    /// Crowding and velocity.
+    /// Excess volume fraction and velocity.
     pub motion: Tile,
     /// Mean compressive strain and displacement.
     pub displacement: Tile,
@@ -33,7 +33,7 @@ impl EndTiles {
         twist: Tile::EMPTY,
     };
 
-    /// Fills in crowding and twist of the nodes.
+    /// Fills in excess volume fraction and twist of the nodes.
     #[inline(always)]
     pub fn cross(&mut self) {
         let nodes = self
@@ -42,7 +42,7 @@ impl EndTiles {
             .chunks_exact_mut(4)
             .zip(self.displacement.0.chunks_exact(4));
         for (twist, (v, u)) in self.twist.0.chunks_exact_mut(4).zip(nodes) {
-            v[0] = crowding(f64::from(twist[0])) as f32;
+            v[0] = excess_volume_fraction(f64::from(twist[0])) as f32;
             twist[1] = u[2] * v[3] - u[3] * v[2];
             twist[2] = u[3] * v[1] - u[1] * v[3];
             twist[3] = u[1] * v[2] - u[2] * v[1];
@@ -60,9 +60,9 @@ pub struct Ending<'a> {
     /// Length of the last sub-step [s].
     pub dt: f32,
     /// Rates at which the points are kept evenly spread.
-    pub tending: &'a Tending,
+    pub redistribution: &'a RedistributionRates,
     /// The base planes.
-    pub shelters: &'a [Shelter],
+    pub no_shift_zones: &'a [NoShiftZone],
     /// Mass that fills the largest volume a point can have [kg].
     pub roomiest: f32,
 }
@@ -241,8 +241,8 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
         law,
         lattice,
         dt,
-        tending,
-        shelters,
+        redistribution,
+        no_shift_zones,
         roomiest,
     } = *ending;
     let spacing = &lattice.spacing;
@@ -250,7 +250,7 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
     let mut displacement = Quads::EMPTY;
     let mut twist = Quads::EMPTY;
     let mut sums = EndSums::NONE;
-    let mut spread = SpreadSums::NONE;
+    let mut spread = ShiftingSums::NONE;
     let key = block.key;
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
@@ -265,7 +265,7 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
         gather_mean(simd, &stencils, count, &nodes.twist, &mut twist);
         let a = gradient(simd, &moments, law);
         let strained = stress::strain(simd, chunk, &a, law, dt);
-        let [crowding, vx, vy, vz] = moments.zeroth.spread(simd);
+        let [excess_volume_fraction, vx, vy, vz] = moments.zeroth.spread(simd);
         let [mean_compression, ux, uy, uz] = displacement.spread(simd);
         let [_, tx, ty, tz] = twist.spread(simd);
         let on_displaced = strained.deformed.undone_at_most(simd, &a);
@@ -281,37 +281,43 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
         for axis in 0..3 {
             moved[axis] *= splat(simd, 1.0 / spacing[axis]);
         }
-        let seen = Seen {
-            dilation: strained.dilation,
-            compression_at_transfer: f32x16::simd_from(simd, chunk.dilation)
+        let seen = PointState {
+            volumetric_strain: strained.volumetric_strain,
+            compression_at_transfer: f32x16::simd_from(simd, chunk.volumetric_strain)
                 .min(f32x16::splat(simd, 0.0)),
             mean_compression,
-            crowding,
+            excess_volume_fraction,
             slope: crowding_slope(simd, &moments),
         };
         let mut position = moved;
         for axis in 0..3 {
             position[axis] += f32x16::simd_from(simd, chunk.position[axis]);
         }
-        let mut tended = tend(simd, tending, &seen, &moved);
+        let mut redistributed = redistribute(simd, redistribution, &seen, &moved);
         let mut velocity = arriving;
-        for shelter in shelters {
-            let here = shelter.in_block(&key);
-            here.keep_off(simd, &position, &moved, &mut tended.shift, &mut velocity);
+        for no_shift_zone in no_shift_zones {
+            let here = no_shift_zone.in_block(&key);
+            here.keep_off(
+                simd,
+                &position,
+                &moved,
+                &mut redistributed.shift,
+                &mut velocity,
+            );
         }
         let change = [0, 1, 2].map(|axis| velocity[axis] - arriving[axis]);
         spread.stop(simd, chunk, &position, &change, spacing);
         for part in &mut chunk.deviator {
             let before = f32x16::simd_from(simd, *part);
-            *part = tended.rise.mul_add(before, before).into();
+            *part = redistributed.rise.mul_add(before, before).into();
         }
         let mass = f32x16::simd_from(simd, chunk.mass);
         let roomiest = f32x16::splat(simd, roomiest) / mass - f32x16::splat(simd, 1.0);
-        chunk.dilation = tended.dilation.min(roomiest).into();
-        spread.add(simd, chunk, &tended.shift, &velocity, spacing);
+        chunk.volumetric_strain = redistributed.volumetric_strain.min(roomiest).into();
+        spread.add(simd, chunk, &redistributed.shift, &velocity, spacing);
         for axis in 0..3 {
             chunk.velocity[axis] = velocity[axis].into();
-            chunk.position[axis] = (position[axis] + tended.shift[axis]).into();
+            chunk.position[axis] = (position[axis] + redistributed.shift[axis]).into();
             for row in 0..3 {
                 chunk.gradient[axis][row] = affine[row][axis].into();
             }
@@ -322,7 +328,7 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
     block.note_end(sums.end(), spread.total(&origin));
 }
 
-/// h ∇crowding, per axis [1/cell].
+/// h ∇excess volume fraction, per axis [1/cell].
 #[inline(always)]
 fn crowding_slope<S: Simd>(simd: S, moments: &Moments) -> [f32x16<S>; 3] {
     let mut slope = [f32x16::splat(simd, 0.0); 3];
@@ -392,7 +398,7 @@ fn give_momentum<S: Simd>(simd: S, chunk: &Chunk, law: &Law, given: &mut Given) 
 fn give_rest<S: Simd>(simd: S, chunk: &Chunk, law: &Law, moments: &Moments, given: &mut Given) {
     let none = f32x16::splat(simd, 0.0);
     let mass = f32x16::simd_from(simd, chunk.mass);
-    let compressive = f32x16::simd_from(simd, chunk.dilation).min(none);
+    let compressive = f32x16::simd_from(simd, chunk.volumetric_strain).min(none);
     let [_, vx, vy, vz] = moments.zeroth.spread(simd);
     let [x, y, z] = &chunk.velocity;
     given.constant.gathered([

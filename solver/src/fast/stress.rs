@@ -57,11 +57,12 @@ impl Law {
         }
     }
 
-    /// Pressure at a dilation φ, −K φ/(1 + φ) where grains touch (equation 3).
+    /// Pressure at a volumetric strain φ, −K φ/(1 + φ) where grains touch (equation 3).
     #[inline(always)]
-    fn pressure<S: Simd>(&self, simd: S, dilation: f32x16<S>) -> f32x16<S> {
-        let compression = splat(simd, 0.0) - dilation;
-        let pressure = splat(simd, self.bulk_modulus) * compression / (splat(simd, 1.0) + dilation);
+    fn pressure<S: Simd>(&self, simd: S, volumetric_strain: f32x16<S>) -> f32x16<S> {
+        let compression = splat(simd, 0.0) - volumetric_strain;
+        let pressure =
+            splat(simd, self.bulk_modulus) * compression / (splat(simd, 1.0) + volumetric_strain);
         pressure.max(splat(simd, 0.0))
     }
 
@@ -75,7 +76,7 @@ impl Law {
         pressed.select(resisting.max(none), pressure)
     }
 
-    /// Deviator after `dt` of the velocity gradient `gradient`, at the dilation
+    /// Deviator after `dt` of the velocity gradient `gradient`, at the volumetric strain
     /// reached (equations 4–6).
     #[inline(always)]
     fn deviator<S: Simd>(
@@ -239,7 +240,7 @@ pub struct Strained<S: Simd> {
     /// F̂ after it.
     pub deformed: Deformed<S>,
     /// Dilation after it.
-    pub dilation: f32x16<S>,
+    pub volumetric_strain: f32x16<S>,
     pressure: f32x16<S>,
     deviator: [f32x16<S>; 6],
 }
@@ -263,8 +264,8 @@ pub fn strain<S: Simd>(
         }
     }
     let deformed = Deformed::of(simd, &e);
-    let dilation = total_dilation(simd, chunk, &deformed);
-    let pressure = law.pressure(simd, dilation);
+    let volumetric_strain = total_dilation(simd, chunk, &deformed);
+    let pressure = law.pressure(simd, volumetric_strain);
     let before = loaded(simd, &chunk.deviator);
     let felt = felt(simd, &gradient, chunk);
     let mut deviator = law.deviator(simd, before, &felt, pressure, dt);
@@ -277,7 +278,7 @@ pub fn strain<S: Simd>(
     }
     Strained {
         deformed,
-        dilation,
+        volumetric_strain,
         pressure,
         deviator,
     }
@@ -303,11 +304,11 @@ fn felt<S: Simd>(simd: S, gradient: &Matrix<S>, chunk: &Chunk) -> Matrix<S> {
 #[inline(always)]
 pub fn at_transfer<S: Simd>(simd: S, chunk: &Chunk, law: &Law) -> Strained<S> {
     let none = f32x16::splat(simd, 0.0);
-    let dilation = f32x16::simd_from(simd, chunk.dilation);
+    let volumetric_strain = f32x16::simd_from(simd, chunk.volumetric_strain);
     Strained {
         deformed: Deformed::of(simd, &[[none; 3]; 3]),
-        dilation,
-        pressure: law.pressure(simd, dilation),
+        volumetric_strain,
+        pressure: law.pressure(simd, volumetric_strain),
         deviator: loaded(simd, &chunk.deviator),
     }
 }
@@ -319,7 +320,7 @@ impl<S: Simd> Strained<S> {
     pub fn force(&self, simd: S, chunk: &Chunk, law: &Law) -> Matrix<S> {
         let one = f32x16::splat(simd, 1.0);
         let mass = f32x16::simd_from(simd, chunk.mass);
-        let at_transfer = one + f32x16::simd_from(simd, chunk.dilation);
+        let at_transfer = one + f32x16::simd_from(simd, chunk.volumetric_strain);
         let minus_volume = mass * at_transfer * f32x16::splat(simd, -law.specific_volume);
         let [xx, yy, zz, xy, xz, yz] = self.deviator;
         let p = self.pressure;
@@ -361,7 +362,7 @@ fn displacement_gradient<S: Simd>(simd: S, chunk: &Chunk) -> Matrix<S> {
 /// φ = φ_transfer + (det F̂ − 1)(1 + φ_transfer).
 #[inline(always)]
 fn total_dilation<S: Simd>(simd: S, chunk: &Chunk, deformed: &Deformed<S>) -> f32x16<S> {
-    let before = f32x16::simd_from(simd, chunk.dilation);
+    let before = f32x16::simd_from(simd, chunk.volumetric_strain);
     let change = deformed.volume_change;
     change.mul_add(before, change) + before
 }

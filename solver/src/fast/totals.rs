@@ -103,9 +103,11 @@ fn add_elastic(sums: &mut Sums, chunk: &Chunk, packing: &Packing) {
     let material = &packing.material;
     for lane in 0..LANES {
         let s = |part: usize| f64::from(chunk.deviator[part][lane]);
-        let dilation = f64::from(chunk.dilation[lane]);
-        let volume = f64::from(chunk.mass[lane]) / material.bulk_density * (1.0 + dilation);
-        let pressure = (-material.bulk_modulus * dilation / (1.0 + dilation)).max(0.0);
+        let volumetric_strain = f64::from(chunk.volumetric_strain[lane]);
+        let volume =
+            f64::from(chunk.mass[lane]) / material.bulk_density * (1.0 + volumetric_strain);
+        let pressure =
+            (-material.bulk_modulus * volumetric_strain / (1.0 + volumetric_strain)).max(0.0);
         let diagonal = s(0) * s(0) + s(1) * s(1) + s(2) * s(2);
         let off_diagonal = s(3) * s(3) + s(4) * s(4) + s(5) * s(5);
         let shear = 0.5 * diagonal + off_diagonal;
@@ -119,7 +121,7 @@ fn add_elastic(sums: &mut Sums, chunk: &Chunk, packing: &Packing) {
 pub struct EndSums {
     squared: Lanes,
     flaw: Lanes,
-    dilation: Lanes,
+    volumetric_strain: Lanes,
 }
 
 impl EndSums {
@@ -127,7 +129,7 @@ impl EndSums {
     pub const NONE: Self = Self {
         squared: [0.0; LANES],
         flaw: [0.0; LANES],
-        dilation: [0.0; LANES],
+        volumetric_strain: [0.0; LANES],
     };
 
     /// Takes a chunk in.
@@ -137,12 +139,13 @@ impl EndSums {
         for lane in 0..LANES {
             let here = vx[lane] * vx[lane] + vy[lane] * vy[lane] + vz[lane] * vz[lane];
             self.squared[lane] = self.squared[lane].max(here);
-            self.dilation[lane] = self.dilation[lane].min(chunk.dilation[lane]);
+            self.volumetric_strain[lane] =
+                self.volumetric_strain[lane].min(chunk.volumetric_strain[lane]);
         }
         // Nothing times zero is nothing, unless it is no number.
         let motion = chunk.position.iter().chain(&chunk.velocity);
         let inner = chunk.gradient.iter().flatten().chain(&chunk.deviator);
-        for of in motion.chain(inner).chain([&chunk.dilation]) {
+        for of in motion.chain(inner).chain([&chunk.volumetric_strain]) {
             for lane in 0..LANES {
                 self.flaw[lane] += of[lane] * 0.0;
             }
@@ -155,7 +158,7 @@ impl EndSums {
         End {
             fastest: self.squared.into_iter().fold(0.0, f32::max).sqrt(),
             finite: self.flaw.into_iter().all(|sum| sum == 0.0),
-            lowest_dilation: self.dilation.into_iter().fold(0.0, f32::min),
+            lowest_dilation: self.volumetric_strain.into_iter().fold(0.0, f32::min),
         }
     }
 }

@@ -7,9 +7,9 @@ use super::{Simulation, StepInHand, SubstepReport};
 use crate::body_energy::BodyEnergy;
 use crate::contact::island;
 use crate::contact::point_body::impulse_on_flow;
-use crate::crowding::Tending;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
+use crate::redistribution::RedistributionRates;
 use crate::rigid::{Body, Load};
 use crate::sharing::Sharing;
 use crate::stability::{self, Pace};
@@ -166,11 +166,11 @@ impl Simulation {
         let fastest = state.flow.fastest();
         let end = StepEnd {
             dt: pace.substep,
-            tending: match &self.given.flow {
+            redistribution: match &self.given.flow {
                 Some(flow) if flow.material.is_granular() => {
-                    Tending::after(flow.limits.travel(duration, fastest))
+                    RedistributionRates::after(flow.limits.travel(duration, fastest))
                 }
-                _ => Tending::NONE,
+                _ => RedistributionRates::NONE,
             },
         };
         let finished = state.flow.finish(&self.given, &state.bodies, &end, stages);

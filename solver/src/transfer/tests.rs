@@ -73,7 +73,14 @@ fn step(points: &mut Vec<Point>, lattice: Lattice, substeps: u32, dt: f64, mater
             dt,
         );
     }
-    gather_motion(&grid, &deformations, material, &Tending::NONE, &[], points);
+    gather_motion(
+        &grid,
+        &deformations,
+        material,
+        &RedistributionRates::NONE,
+        &[],
+        points,
+    );
 }
 
 fn momentum(points: &[Point], lattice: &Lattice) -> (f64, Impulse) {
@@ -155,7 +162,7 @@ fn linear_fields_come_back() {
         &grid,
         &deformations,
         &elastic(1.0),
-        &Tending::NONE,
+        &RedistributionRates::NONE,
         &[],
         &mut points,
     );

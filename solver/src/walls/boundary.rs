@@ -14,7 +14,7 @@ use std::ops::Range;
 
 /// A node with less than this share of its kernel in the channel does not say
 /// how full it is.
-const LEAST_ROOM: f64 = 0.02;
+const LEAST_AVAILABLE_VOLUME: f64 = 0.02;
 
 /// A node with its images: they move as one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,19 +77,19 @@ impl Boundary {
     /// Makes nodes fuller where walls leave less room: there the same volume of points
     /// fills more of it; a node and its images share theirs, and their mean compressive
     /// strain.
-    pub fn leave_less_room(&self, nodes: &mut impl NodeAccess) {
+    pub fn exclude_volume(&self, nodes: &mut impl NodeAccess) {
         for (place, room) in &self.cut {
             let place = *place as usize;
-            nodes.set_fullness(place, filled(nodes.fullness(place), *room));
+            nodes.set_volume_fraction(place, filled(nodes.volume_fraction(place), *room));
         }
         for group in &self.groups {
             let members = &self.members[group.members.clone()];
-            let of_member = |member: &Member| nodes.fullness(member.place as usize);
+            let of_member = |member: &Member| nodes.volume_fraction(member.place as usize);
             let inside = group.back.room() * group.side.room();
             let sum: f64 = members.iter().map(of_member).sum();
-            let fullness = filled(sum / inside, group.room);
+            let volume_fraction = filled(sum / inside, group.room);
             for member in members {
-                nodes.set_fullness(member.place as usize, fullness);
+                nodes.set_volume_fraction(member.place as usize, volume_fraction);
             }
             share_compressive_strain(members, nodes);
         }
@@ -138,9 +138,9 @@ impl Boundary {
             let [leader, images @ ..] = &self.members[group.members.clone()] else {
                 continue;
             };
-            let fullness = nodes.fullness(leader.place as usize);
+            let volume_fraction = nodes.volume_fraction(leader.place as usize);
             for image in images {
-                nodes.set_fullness(image.place as usize, fullness);
+                nodes.set_volume_fraction(image.place as usize, volume_fraction);
             }
         }
     }
@@ -165,10 +165,10 @@ fn share_compressive_strain(members: &[Member], nodes: &mut impl NodeAccess) {
     }
 }
 
-/// Fullness of a share of the room, what fills all of it to `fullness`.
-pub fn filled(fullness: f64, room: f64) -> f64 {
-    if room > LEAST_ROOM {
-        fullness / room
+/// Fullness of a share of the room, what fills all of it to `volume_fraction`.
+pub fn filled(volume_fraction: f64, room: f64) -> f64 {
+    if room > LEAST_AVAILABLE_VOLUME {
+        volume_fraction / room
     } else {
         // Too few points see such a node to say.
         0.0

@@ -22,9 +22,9 @@ pub trait NodeAccess: Sync {
     /// Gives a node the velocity [m/s] with which it moves through the sub-step.
     fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64);
     /// Volume of points over room for them.
-    fn fullness(&self, place: usize) -> f64;
+    fn volume_fraction(&self, place: usize) -> f64;
     /// Changes it.
-    fn set_fullness(&mut self, place: usize, fullness: f64);
+    fn set_volume_fraction(&mut self, place: usize, volume_fraction: f64);
     /// Mean strain rate of its points at the transfer [1/s].
     fn strain_rate(&self, place: usize) -> Sym3;
     /// Changes it.
@@ -64,12 +64,12 @@ impl NodeAccess for Grid {
         self.node_mut(place).velocity = *velocity;
     }
 
-    fn fullness(&self, place: usize) -> f64 {
-        self.nodes()[place].fullness
+    fn volume_fraction(&self, place: usize) -> f64 {
+        self.nodes()[place].volume_fraction
     }
 
-    fn set_fullness(&mut self, place: usize, fullness: f64) {
-        self.node_mut(place).fullness = fullness;
+    fn set_volume_fraction(&mut self, place: usize, volume_fraction: f64) {
+        self.node_mut(place).volume_fraction = volume_fraction;
     }
 
     fn strain_rate(&self, place: usize) -> Sym3 {

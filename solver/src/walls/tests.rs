@@ -250,18 +250,18 @@ fn nodes_across_a_seam_move_as_one() {
     let pair = [[1, 2, 5], [9, 2, 5]];
     let fast = Vec3::new(3.0, 0.0, 1.0);
     let mut grid = grid_with(&[(pair[0], fast), (pair[1], Vec3::zeros())]);
-    for (node, fullness) in pair.iter().zip([0.75, 0.5]) {
+    for (node, volume_fraction) in pair.iter().zip([0.75, 0.5]) {
         let place = grid.place_of(*node).expect("its block is there");
-        grid.set_fullness(place, fullness);
+        grid.set_volume_fraction(place, volume_fraction);
     }
     let mut boundary = Boundary::default();
     walls.find_boundary(&grid, &mut boundary);
-    boundary.leave_less_room(&mut grid);
+    boundary.exclude_volume(&mut grid);
     walls.reflect(&mut boundary, &mut grid);
     for node in pair {
         assert_eq!(velocity(&grid, node), fast / 2.0);
         let place = grid.place_of(node).expect("its block is there");
-        assert_eq!(grid.fullness(place), 1.25);
+        assert_eq!(grid.volume_fraction(place), 1.25);
     }
 }
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::fast::fixture::Spread;
+use crate::fast::fixture::Shifting;
 use crate::fast::totals::end_of;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -59,7 +59,7 @@ fn assert_in_order(blocks: &Blocks) {
 }
 
 /// Points over a few blocks round the origin, every number its own.
-fn random_points(spread: &mut Spread, count: u32) -> Vec<(BlockKey, Packed)> {
+fn random_points(spread: &mut Shifting, count: u32) -> Vec<(BlockKey, Packed)> {
     let point = |id| {
         let key = [(); 3].map(|()| spread.between(-2.0, 1.99).floor() as i32);
         let mut number = || spread.single(1.0);
@@ -67,7 +67,7 @@ fn random_points(spread: &mut Spread, count: u32) -> Vec<(BlockKey, Packed)> {
             velocity: [(); 3].map(|()| number()),
             gradient: [(); 3].map(|()| [(); 3].map(|()| number())),
             deviator: [(); 6].map(|()| number()),
-            dilation: number(),
+            volumetric_strain: number(),
             mass: 1.5 + number(),
             id,
             position: [(); 3].map(|()| (2.5 + 1.99 * number()).clamp(0.5, 4.499)),
@@ -78,7 +78,7 @@ fn random_points(spread: &mut Spread, count: u32) -> Vec<(BlockKey, Packed)> {
 }
 
 /// Way of a point along an axis [cells].
-fn moved(spread: &mut Spread, x: f32) -> f32 {
+fn moved(spread: &mut Shifting, x: f32) -> f32 {
     let rims = [0.5f32, 4.5, 1.5, 8.5];
     let rim = rims[spread.between(0.0, 3.99) as usize];
     match spread.between(0.0, 40.0) as u32 {
@@ -93,7 +93,7 @@ fn moved(spread: &mut Spread, x: f32) -> f32 {
 
 #[test]
 fn points_travel_and_none_is_lost_or_doubled() {
-    let mut spread = Spread(1);
+    let mut spread = Shifting(1);
     let points = random_points(&mut spread, 1500);
     let mut blocks = Blocks::of(points.iter().copied());
     assert_in_order(&blocks);
@@ -136,7 +136,7 @@ fn points_travel_and_none_is_lost_or_doubled() {
 
 #[test]
 fn blocks_are_born_and_die() {
-    let mut spread = Spread(3);
+    let mut spread = Shifting(3);
     let mut points = random_points(&mut spread, 200);
     for (key, _) in &mut points {
         *key = [0; 3];
@@ -160,7 +160,7 @@ fn blocks_are_born_and_die() {
 }
 
 /// A place in one of eight cells.
-fn in_the_middle(spread: &mut Spread) -> [f32; 3] {
+fn in_the_middle(spread: &mut Shifting) -> [f32; 3] {
     [(); 3].map(|()| 2.5 + 0.95 * spread.single(1.0))
 }
 
@@ -176,7 +176,7 @@ fn note_runs(blocks: &mut Blocks) {
 // by cell else.
 #[test]
 fn a_block_is_sorted_when_its_order_has_suffered() {
-    let mut spread = Spread(4);
+    let mut spread = Shifting(4);
     let mut points = random_points(&mut spread, 4000);
     for (_, point) in &mut points {
         point.position = in_the_middle(&mut spread);
@@ -210,7 +210,7 @@ fn a_block_is_sorted_when_its_order_has_suffered() {
 
 #[test]
 fn settling_what_is_settled_changes_nothing() {
-    let mut spread = Spread(6);
+    let mut spread = Shifting(6);
     let mut blocks = Blocks::of(random_points(&mut spread, 700).into_iter());
     let before = blocks.clone();
     blocks.settle();
@@ -219,7 +219,7 @@ fn settling_what_is_settled_changes_nothing() {
 
 #[test]
 fn only_what_is_gone_is_taken_out() {
-    let mut spread = Spread(9);
+    let mut spread = Shifting(9);
     let mut blocks = Blocks::of(random_points(&mut spread, 900).into_iter());
     let before = by_id(&blocks);
     let searched = |key: &BlockKey| key[0] >= 0;
@@ -266,7 +266,7 @@ fn a_place_at_the_rim_lies_in_one_block() {
 
 #[test]
 fn a_point_that_is_no_number_stays_and_is_found() {
-    let mut spread = Spread(2);
+    let mut spread = Shifting(2);
     let mut blocks = Blocks::of(random_points(&mut spread, 300).into_iter());
     assert!(blocks.occupied().iter().all(|block| end_of(block).finite));
     let lost = blocks.occupied()[3].get(2).id;
@@ -281,7 +281,7 @@ fn a_point_that_is_no_number_stays_and_is_found() {
 
 #[test]
 fn blocks_are_saved_as_they_are() {
-    let mut spread = Spread(5);
+    let mut spread = Shifting(5);
     let blocks = Blocks::of(random_points(&mut spread, 500).into_iter());
     let bytes = postcard::to_allocvec(&blocks).expect("numbers can be written");
     let again: Blocks = postcard::from_bytes(&bytes).expect("it was just written");

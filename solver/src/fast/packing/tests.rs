@@ -1,6 +1,6 @@
 use super::*;
 use crate::fast::blocks::Blocks;
-use crate::fast::fixture::{Spread, beads, cloud, lattice};
+use crate::fast::fixture::{Shifting, beads, cloud, lattice};
 
 fn packing() -> Packing {
     Packing {
@@ -36,9 +36,9 @@ fn a_point_comes_back_from_its_block() {
         assert!((again.velocity - point.velocity).amax() < HALF_PLACE);
         assert!((again.affine - point.affine).amax() < HALF_PLACE * 20.0);
         assert!((again.mass / point.mass - 1.0).abs() < HALF_PLACE);
-        // Mass and dilation, which is below 0.005.
+        // Mass and volumetric strain, which is below 0.005.
         assert!((again.volume / point.volume - 1.0).abs() < 1.01 * HALF_PLACE);
-        // The dilation keeps all digits, so the pressure does.
+        // The volumetric strain keeps all digits, so the pressure does.
         let (got, exact) = (pressure(&again.stress), pressure(&point.stress));
         assert!(
             (got - exact).abs() <= 2.0 * HALF_PLACE * exact,
@@ -68,7 +68,7 @@ fn packing_again_changes_no_bit() {
 #[test]
 fn points_on_the_rim_of_blocks_are_settled() {
     let packing = packing();
-    let mut spread = Spread(4);
+    let mut spread = Shifting(4);
     let mut point = cloud(1)[0];
     for _ in 0..2000 {
         for axis in 0..3 {

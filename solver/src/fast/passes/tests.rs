@@ -1,12 +1,12 @@
 use super::*;
-use crate::crowding::Spread;
 use crate::fast::blocks::Blocks;
 use crate::fast::fixture::{beads, cloud, lattice, levels};
 use crate::fast::nodes::Nodes;
 use crate::fast::packing::Packing;
-use crate::fast::tend::Shelter;
+use crate::fast::redistribution::NoShiftZone;
 use crate::grid::Grid;
 use crate::points::{self, Deformation, Point};
+use crate::redistribution::Shifting;
 use crate::transfer;
 use crate::walls::{Impulse, Plane};
 use fearless_simd::{Level, dispatch};
@@ -24,8 +24,8 @@ fn base() -> [Plane; 1] {
     }]
 }
 
-fn tending() -> Tending {
-    Tending::after(0.2)
+fn redistribution() -> RedistributionRates {
+    RedistributionRates::after(0.2)
 }
 
 /// The slower ones of the cloud share in part.
@@ -60,7 +60,7 @@ fn drifting() -> Blocks {
 }
 
 /// A step of so many sub-steps without walls and bodies.
-fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (Blocks, Spread) {
+fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (Blocks, Shifting) {
     let spacing = lattice().spacing;
     let law = Law::of(&beads(), &spacing);
     let mut nodes = Nodes::new(lattice());
@@ -113,20 +113,20 @@ fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (
             nodes.displacement_tile(simd, place, &mut tiles.displacement);
             nodes.fullness_tile(simd, place, &mut tiles.twist);
             tiles.cross();
-            let shelters = base().map(|plane| Shelter::of(&plane, &lattice()));
+            let no_shift_zones = base().map(|plane| NoShiftZone::of(&plane, &lattice()));
             let ending = Ending {
                 law: &law,
                 lattice: &lattice(),
                 dt,
-                tending: &tending(),
-                shelters: &shelters,
+                redistribution: &redistribution(),
+                no_shift_zones: &no_shift_zones,
                 roomiest: (lattice().largest_point_volume() * beads().bulk_density) as f32,
             };
             finish(simd, block, &ending, &tiles);
         });
     }
     let of_blocks = blocks.occupied().iter().map(Block::spread);
-    let spread = of_blocks.fold(Spread::default(), |sum, of| sum.plus(&of));
+    let spread = of_blocks.fold(Shifting::default(), |sum, of| sum.plus(&of));
     blocks.settle();
     (blocks, spread)
 }
@@ -154,7 +154,7 @@ fn plainly_stepped(mut points: Vec<Point>, substeps: u32, gravity: &Vec3) -> Vec
         &grid,
         &deformations,
         &beads(),
-        &tending(),
+        &redistribution(),
         &base(),
         &mut points,
     );

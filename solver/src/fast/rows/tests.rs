@@ -1,6 +1,6 @@
 use super::*;
 use crate::fast::chunk::Lanes;
-use crate::fast::fixture::{Spread, levels};
+use crate::fast::fixture::{Shifting, levels};
 use fearless_simd::dispatch;
 
 /// The four numbers of a node.
@@ -13,7 +13,7 @@ fn four(tile: &Tile, place: usize) -> &[f32] {
 /// scattered, where up to sixteen points add to a node.
 const ROUNDING: f64 = 1e-6;
 
-fn random_tile(spread: &mut Spread) -> Tile {
+fn random_tile(spread: &mut Shifting) -> Tile {
     let mut tile = Tile::EMPTY;
     for place in 0..TILE_NODES {
         tile.node_mut(place).fill_with(|| spread.single(1.0));
@@ -21,14 +21,14 @@ fn random_tile(spread: &mut Spread) -> Tile {
     tile
 }
 
-fn random_quads(spread: &mut Spread) -> Quads {
+fn random_quads(spread: &mut Shifting) -> Quads {
     let mut quads = Quads::EMPTY;
     quads.0.fill_with(|| spread.single(1.0));
     quads
 }
 
 /// Positions of sixteen points, the first few in one cell.
-fn positions(spread: &mut Spread, in_one_cell: usize) -> [Lanes; 3] {
+fn positions(spread: &mut Shifting, in_one_cell: usize) -> [Lanes; 3] {
     let mut position = [[0.0; LANES]; 3];
     for of in &mut position {
         for (lane, x) in of.iter_mut().enumerate() {
@@ -72,7 +72,7 @@ fn assert_near(got: [f64; 4], exact: [f64; 4], largest: &mut f64) {
 
 #[test]
 fn gathering_is_a_sum_over_27_nodes() {
-    let mut spread = Spread(3);
+    let mut spread = Shifting(3);
     let mut largest = 0.0;
     for round in 0..200 {
         let position = positions(&mut spread, round % 17);
@@ -126,7 +126,7 @@ fn exactly_given(
 
 #[test]
 fn scattering_adds_to_27_nodes() {
-    let mut spread = Spread(6);
+    let mut spread = Shifting(6);
     let mut largest = 0.0;
     for round in 0..200 {
         let position = positions(&mut spread, round % 17);
@@ -160,7 +160,7 @@ fn scattering_adds_to_27_nodes() {
 
 #[test]
 fn quads_are_spread_and_gathered_without_loss() {
-    let quads = random_quads(&mut Spread(9));
+    let quads = random_quads(&mut Shifting(9));
     for level in levels() {
         let mut again = Quads::EMPTY;
         let parts: [Lanes; 4] = dispatch!(level, simd => {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::fast::chunk::{LANES, Packed};
-use crate::fast::fixture::{Spread, beads, lattice, levels};
+use crate::fast::fixture::{Shifting, beads, lattice, levels};
 use crate::math::{Mat3, Sym3, Vec3};
 use crate::points::{Deformation, Point};
 use fearless_simd::{Level, dispatch};
@@ -16,14 +16,14 @@ struct State {
     nodes: [[f32; 3]; 3],
 }
 
-/// State after a sub-step: deviator, pressure [Pa], E, dilation, and the factor of w δ in
+/// State after a sub-step: deviator, pressure [Pa], E, volumetric strain, and the factor of w δ in
 /// the force [N].
 #[derive(Debug, Clone, Copy)]
 struct After {
     deviator: [f64; 6],
     pressure: f64,
     e: Mat3,
-    dilation: f64,
+    volumetric_strain: f64,
     force: Mat3,
 }
 
@@ -36,7 +36,7 @@ fn plain(state: &State) -> After {
     let material = beads();
     let record = &state.record;
     let mass = f64::from(record.mass);
-    let before = f64::from(record.dilation);
+    let before = f64::from(record.volumetric_strain);
     let [xx, yy, zz, xy, xz, yz] = record.deviator.map(f64::from);
     let stress = Sym3 {
         xx,
@@ -69,7 +69,7 @@ fn plain(state: &State) -> After {
         deviator: [s.xx, s.yy, s.zz, s.xy, s.xz, s.yz],
         pressure: -stress.trace() / 3.0,
         e: deformation.gradient - Mat3::identity(),
-        dilation: volume * DENSITY / mass - 1.0,
+        volumetric_strain: volume * DENSITY / mass - 1.0,
         force: stress.matrix() * deformation.inverse.transpose() * per_cell * -volume,
     }
 }
@@ -85,13 +85,13 @@ fn fast(level: Level, states: &[State; LANES]) -> [After; LANES] {
             crate::fast::chunk::put(of, lane, row);
         }
     }
-    let (pressure, dilation, force): (Lanes, Lanes, [[Lanes; 3]; 3]) = dispatch!(level, simd => {
+    let (pressure, volumetric_strain, force): (Lanes, Lanes, [[Lanes; 3]; 3]) = dispatch!(level, simd => {
         let a = nodes.map(|row| loaded(simd, &row));
         let strained = strain(simd, &mut chunk, &a, &law, DT);
         let force = strained.force(simd, &chunk, &law);
         (
             strained.pressure.into(),
-            strained.dilation.into(),
+            strained.volumetric_strain.into(),
             force.map(|row| row.map(Into::into)),
         )
     });
@@ -101,7 +101,7 @@ fn fast(level: Level, states: &[State; LANES]) -> [After; LANES] {
             deviator: after.deviator.map(f64::from),
             pressure: f64::from(pressure[lane]),
             e: matrix(&after.gradient).transpose(),
-            dilation: f64::from(dilation[lane]),
+            volumetric_strain: f64::from(volumetric_strain[lane]),
             force: Mat3::from_fn(|i, j| f64::from(force[i][j][lane])),
         }
     })
@@ -112,18 +112,18 @@ fn fast(level: Level, states: &[State; LANES]) -> [After; LANES] {
 struct Worst {
     stress: f64,
     e: f64,
-    dilation: f64,
+    volumetric_strain: f64,
     force: f64,
 }
 
 impl Worst {
     /// `strain` is the size of E, of what the sub-step adds to it and of the
-    /// dilation: the numbers that were rounded.
+    /// volumetric strain: the numbers that were rounded.
     fn take(&mut self, fast: &After, plain: &After, state: &State) {
         let material = beads();
         let before = matrix(&state.record.gradient).amax();
         let added = matrix(&state.nodes).amax() * f64::from(DT);
-        let strain = before + added + f64::from(state.record.dilation.abs());
+        let strain = before + added + f64::from(state.record.volumetric_strain.abs());
         let sizes = state.record.deviator.iter().map(|s| f64::from(s.abs()));
         let viscosity = material.bulk_viscosity(lattice().finest_spacing());
         let resisting = viscosity * matrix(&state.nodes).amax();
@@ -141,8 +141,8 @@ impl Worst {
         raise(&mut self.stress, deviator.max(pressure), stress);
         raise(&mut self.e, (fast.e - plain.e).amax(), strain);
         raise(
-            &mut self.dilation,
-            (fast.dilation - plain.dilation).abs(),
+            &mut self.volumetric_strain,
+            (fast.volumetric_strain - plain.volumetric_strain).abs(),
             strain,
         );
         let volume = f64::from(state.record.mass) / DENSITY;
@@ -156,16 +156,16 @@ impl Worst {
 }
 
 /// A state whose every number is random: E up to `strain`, nodes that add up to
-/// `added` to it, a dilation between these bounds.
-fn state(spread: &mut Spread, strain: f64, added: f64, dilation: [f64; 2]) -> State {
-    let dilation = spread.between(dilation[0], dilation[1]);
-    let pressure = beads().pressure(DENSITY / (1.0 + dilation));
+/// `added` to it, a volumetric strain between these bounds.
+fn state(spread: &mut Shifting, strain: f64, added: f64, volumetric_strain: [f64; 2]) -> State {
+    let volumetric_strain = spread.between(volumetric_strain[0], volumetric_strain[1]);
+    let pressure = beads().pressure(DENSITY / (1.0 + volumetric_strain));
     let s = Sym3::of(&spread.matrix(0.3 * pressure)).deviator();
     let mut rows = |size: f64| [(); 3].map(|()| [(); 3].map(|()| spread.single(size)));
     let record = Packed {
         gradient: rows(strain),
         deviator: [s.xx, s.yy, s.zz, s.xy, s.xz, s.yz].map(|part| part as f32),
-        dilation: dilation as f32,
+        volumetric_strain: volumetric_strain as f32,
         mass: 1e-3,
         ..Packed::NONE
     };
@@ -180,7 +180,7 @@ fn state(spread: &mut Spread, strain: f64, added: f64, dilation: [f64; 2]) -> St
 const BOUNDS: Worst = Worst {
     stress: 2e-6,
     e: 2e-7,
-    dilation: 1.5e-6,
+    volumetric_strain: 1.5e-6,
     force: 2e-6,
 };
 
@@ -197,13 +197,16 @@ fn hold(rounds: usize, mut make: impl FnMut() -> State) {
     }
     assert!(worst.stress < BOUNDS.stress, "{worst:?}");
     assert!(worst.e < BOUNDS.e, "{worst:?}");
-    assert!(worst.dilation < BOUNDS.dilation, "{worst:?}");
+    assert!(
+        worst.volumetric_strain < BOUNDS.volumetric_strain,
+        "{worst:?}"
+    );
     assert!(worst.force < BOUNDS.force, "{worst:?}");
 }
 
 #[test]
 fn random_states_go_as_on_the_plain_path() {
-    let mut spread = Spread(2);
+    let mut spread = Shifting(2);
     for (strain, added) in [(0.0, 1e-6), (1e-4, 1e-5), (0.01, 1e-3), (0.2, 0.01)] {
         hold(200, || state(&mut spread, strain, added, [-0.02, 0.002]));
     }
@@ -211,7 +214,7 @@ fn random_states_go_as_on_the_plain_path() {
 
 #[test]
 fn what_yields_is_returned_alike() {
-    let mut spread = Spread(5);
+    let mut spread = Shifting(5);
     let mut yielded = 0;
     hold(200, || {
         let state = state(&mut spread, 1e-3, 5e-3, [-0.02, -0.001]);
@@ -230,7 +233,7 @@ fn what_yields_is_returned_alike() {
 
 #[test]
 fn a_point_at_rest_keeps_its_bits() {
-    let mut spread = Spread(8);
+    let mut spread = Shifting(8);
     let states: [State; LANES] = std::array::from_fn(|_| {
         let mut state = state(&mut spread, 0.0, 0.0, [-0.02, -0.001]);
         // Below the friction at rest.
@@ -240,7 +243,10 @@ fn a_point_at_rest_keeps_its_bits() {
     for level in levels() {
         for (state, after) in states.iter().zip(fast(level, &states)) {
             assert_eq!(after.deviator, state.record.deviator.map(f64::from));
-            assert_eq!(after.dilation, f64::from(state.record.dilation));
+            assert_eq!(
+                after.volumetric_strain,
+                f64::from(state.record.volumetric_strain)
+            );
             assert_eq!(after.e, Mat3::zeros());
         }
     }
@@ -248,7 +254,7 @@ fn a_point_at_rest_keeps_its_bits() {
 
 #[test]
 fn grains_apart_carry_nothing() {
-    let mut spread = Spread(1);
+    let mut spread = Shifting(1);
     let states = std::array::from_fn(|_| state(&mut spread, 1e-3, 1e-4, [0.02, 0.5]));
     for level in levels() {
         for after in fast(level, &states) {
@@ -278,7 +284,7 @@ fn an_empty_lane_stays_empty() {
 // one, the volume is not.
 #[test]
 fn what_turns_keeps_its_volume() {
-    let mut spread = Spread(7);
+    let mut spread = Shifting(7);
     let mut largest = 0.0f64;
     hold(100, || {
         let axis = nalgebra::Unit::new_normalize(spread.vector(1.0));
@@ -289,7 +295,7 @@ fn what_turns_keeps_its_volume() {
         state.record.gradient = [0, 1, 2].map(|j| [0, 1, 2].map(|i| e[(i, j)] as f32));
         state.nodes = [0, 1, 2].map(|i| [0, 1, 2].map(|j| spin[(i, j)] as f32));
         // Of the turn itself, which the explicit sub-step stretches by θ²/2 twice.
-        let grown = plain(&state).dilation - f64::from(state.record.dilation);
+        let grown = plain(&state).volumetric_strain - f64::from(state.record.volumetric_strain);
         largest = largest.max(grown.abs());
         state
     });
@@ -299,7 +305,7 @@ fn what_turns_keeps_its_volume() {
 // det F̂ ≤ 0 ends the run: it must not go by unseen, whatever the pressure.
 #[test]
 fn what_is_turned_inside_out_is_no_number() {
-    let mut spread = Spread(7);
+    let mut spread = Shifting(7);
     let states: [State; LANES] = std::array::from_fn(|lane| {
         let mut state = state(&mut spread, 0.0, 0.0, [-0.01, 0.3]);
         // Flat to within what the sub-step then takes, along one axis.

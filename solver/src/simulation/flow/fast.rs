@@ -5,19 +5,19 @@ use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Subs
 use crate::contact::point_body::{
     self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, PutBack, Stuck,
 };
-use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::{Block, Blocks};
 use crate::fast::instructions::Instructions;
 use crate::fast::nodes::Nodes;
 use crate::fast::packing::Packing;
 use crate::fast::passes::{self, EndTiles, Ending, PARTS, Shown};
+use crate::fast::redistribution::NoShiftZone;
 use crate::fast::rows::Tile;
 use crate::fast::stress::Law;
-use crate::fast::tend::Shelter;
 use crate::fast::totals;
 use crate::grid::{BLOCK, BlockKey};
 use crate::points::Point;
+use crate::redistribution::{self, Shifting};
 use crate::rigid::Body;
 use crate::sharing::Sharing;
 use crate::simulation::setup::Setup;
@@ -47,7 +47,7 @@ pub(in crate::simulation) struct FastFlow {
     loads: Loads<Place>,
     packing: Packing,
     law: Law,
-    shelters: Vec<Shelter>,
+    no_shift_zones: Vec<NoShiftZone>,
     level: Level,
     /// Speed of the fastest point [m/s].
     fastest: f64,
@@ -79,8 +79,8 @@ impl FastFlow {
             loads: Loads::default(),
             packing,
             law: Law::of(&packing.material, &given.lattice.spacing),
-            shelters: base
-                .map(|plane| Shelter::of(plane, &given.lattice))
+            no_shift_zones: base
+                .map(|plane| NoShiftZone::of(plane, &given.lattice))
                 .collect(),
             level: Instructions::detected().level(),
             fastest: 0.0,
@@ -94,7 +94,7 @@ impl FastFlow {
     /// Looks at every point for what a step has to know of them all.
     fn look_over(&mut self) {
         for block in self.blocks.occupied_mut() {
-            block.note_end(totals::end_of(block), Spread::default());
+            block.note_end(totals::end_of(block), Shifting::default());
         }
         self.sum_up_ends();
     }
@@ -277,7 +277,7 @@ impl Flow for FastFlow {
         self.hand_over_rest(given, &start.sharing);
         self.from_joining = given.walls.join(&mut self.boundary, &mut self.nodes);
         stages.done(StepStage::P2g);
-        crowding::leave_less_room(&self.boundary, bodies, &mut self.nodes);
+        redistribution::exclude_volume(&self.boundary, bodies, &mut self.nodes);
         let access = Access {
             blocks: self.blocks.occupied(),
             nodes: &self.nodes,
@@ -343,8 +343,8 @@ impl Flow for FastFlow {
             law: &self.law,
             lattice: &given.lattice,
             dt: end.dt as f32,
-            tending: &end.tending,
-            shelters: &self.shelters,
+            redistribution: &end.redistribution,
+            no_shift_zones: &self.no_shift_zones,
             roomiest: (given.lattice.largest_point_volume() * self.packing.material.bulk_density)
                 as f32,
         };
@@ -365,7 +365,7 @@ impl Flow for FastFlow {
         // Before the points go to other blocks.
         self.sum_up_ends();
         let blocks = self.blocks.occupied().iter();
-        let spread = blocks.fold(Spread::default(), |sum, block| sum.plus(&block.spread()));
+        let spread = blocks.fold(Shifting::default(), |sum, block| sum.plus(&block.spread()));
         let (put_back, stuck) = self.put_back(bodies, &given.planes);
         self.go_round(given);
         stages.done(StepStage::G2p);

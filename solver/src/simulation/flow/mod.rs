@@ -9,11 +9,11 @@ mod shared;
 use super::setup::{GivenFlow, Setup, Share, Shares};
 use super::stages::StageEnds;
 use crate::contact::point_body::{Around, FlowLoad, Reach, Stuck};
-use crate::crowding::{Spread, Tending};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::Blocks;
 use crate::fast::instructions::Instructions;
 use crate::points::Point;
+use crate::redistribution::{RedistributionRates, Shifting};
 use crate::rigid::Body;
 use crate::scenario::Precision;
 use crate::sharing::Sharing;
@@ -127,7 +127,7 @@ pub(super) struct StepEnd {
     /// Length of its last sub-step [s].
     pub dt: f64,
     /// Rates at which points are kept evenly spread after it.
-    pub tending: Tending,
+    pub redistribution: RedistributionRates,
 }
 
 /// Changes of points at the end of a step besides moving them with the nodes.
@@ -138,7 +138,7 @@ pub(super) struct Finished {
     /// The deepest point that stays inside a body for want of room.
     pub stuck: Option<Stuck>,
     /// Changes of the points' sums by spreading them.
-    pub spread: Spread,
+    pub spread: Shifting,
 }
 
 /// Bounds that points have to keep to.

@@ -4,13 +4,13 @@ use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Subs
 use crate::contact::point_body::{
     self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, Moving, PointAccess, PutBack, Stuck,
 };
-use crate::crowding::{self, Spread};
 use crate::diagnostics::Totals;
 use crate::fast::instructions::Instructions;
 use crate::grid::Grid;
 use crate::kernel::PointStencil;
 use crate::math::Vec3;
 use crate::points::{self, Deformation, Point};
+use crate::redistribution::{self, Shifting};
 use crate::rigid::Body;
 use crate::simulation::setup::Setup;
 use crate::simulation::stages::{StageEnds, StepStage};
@@ -154,7 +154,7 @@ impl Flow for PlainFlow {
             self.from_joining = given.walls.join(&mut self.boundary, &mut self.grid);
         }
         stages.done(StepStage::P2g);
-        crowding::leave_less_room(&self.boundary, bodies, &mut self.grid);
+        redistribution::exclude_volume(&self.boundary, bodies, &mut self.grid);
         self.deformations.clear();
         self.deformations
             .extend(self.points.iter().map(Deformation::start));
@@ -240,12 +240,12 @@ impl Flow for PlainFlow {
         end: &StepEnd,
         stages: &mut StageEnds,
     ) -> Finished {
-        let spread = given.flow.as_ref().map_or_else(Spread::default, |flow| {
+        let spread = given.flow.as_ref().map_or_else(Shifting::default, |flow| {
             transfer::gather_motion(
                 &self.grid,
                 &self.deformations,
                 &flow.material,
-                &end.tending,
+                &end.redistribution,
                 &given.walls.base,
                 &mut self.points,
             )

@@ -28,7 +28,7 @@ impl Reductions {
         columns: Option<&Columns>,
         bodies: &[Body],
     ) -> Result<Self, SetupError> {
-        let scene = Seen {
+        let scene = PointState {
             scenario,
             given,
             columns,
@@ -91,14 +91,14 @@ impl Reductions {
 }
 
 /// A scene looked at for what can be left out.
-struct Seen<'a> {
+struct PointState<'a> {
     scenario: &'a Scenario,
     given: &'a Setup,
     columns: Option<&'a Columns>,
     bodies: &'a [Body],
 }
 
-impl Seen<'_> {
+impl PointState<'_> {
     fn halves_across(&self) -> i32 {
         self.given.walls.upright.halves_across
     }

@@ -1,52 +1,55 @@
-//! Points kept evenly spread, sixteen at a time: the formulas of `crowding.rs`.
+//! Points kept evenly spread, sixteen at a time: the formulas of `excess_volume_fraction.rs`.
 
 use super::chunk::{Chunk, LANES, Lanes};
-use crate::crowding::{DEEPEST, KEPT_OFF, LARGEST_RISE, LARGEST_SHIFT, Spread, Tending};
 use crate::grid::{BLOCK, BlockKey};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
+use crate::redistribution::{
+    DEEPEST_PENETRATION, LARGEST_RISE, LARGEST_SHIFT, NO_SHIFT_HEIGHT, RedistributionRates,
+    Shifting,
+};
 use crate::walls::{Impulse, Plane};
 use fearless_simd::{f32x16, prelude::*};
 
-/// State of points, and of the nodes as they see them; as in `crowding.rs`, but the slope
+/// State of points, and of the nodes as they see them; as in `excess_volume_fraction.rs`, but the slope
 /// per cell.
-pub struct Seen<S: Simd> {
+pub struct PointState<S: Simd> {
     /// V ρ_c/m − 1 now.
-    pub dilation: f32x16<S>,
+    pub volumetric_strain: f32x16<S>,
     /// Its compressive part, min(φ, 0), at the transfer.
     pub compression_at_transfer: f32x16<S>,
     /// Its mean over the nodes.
     pub mean_compression: f32x16<S>,
-    /// Crowding of the nodes round the point.
-    pub crowding: f32x16<S>,
+    /// Excess volume fraction of the nodes round the point.
+    pub excess_volume_fraction: f32x16<S>,
     /// Its gradient [1/cell].
     pub slope: [f32x16<S>; 3],
 }
 
 /// Changes of points.
-pub struct Tended<S: Simd> {
+pub struct RedistributedPoint<S: Simd> {
     /// Shift from where they are [cells].
     pub shift: [f32x16<S>; 3],
-    /// Their dilation.
-    pub dilation: f32x16<S>,
+    /// Their volumetric strain.
+    pub volumetric_strain: f32x16<S>,
     /// By which share of itself their stress rises.
     pub rise: f32x16<S>,
 }
 
 /// Changes of points that travelled so far [cells].
 #[inline(always)]
-pub fn tend<S: Simd>(
+pub fn redistribute<S: Simd>(
     simd: S,
-    tending: &Tending,
-    seen: &Seen<S>,
+    redistribution: &RedistributionRates,
+    seen: &PointState<S>,
     travel: &[f32x16<S>; 3],
-) -> Tended<S> {
+) -> RedistributedPoint<S> {
     let (none, one) = (splat(simd, 0.0), splat(simd, 1.0));
     let least = splat(simd, f64::from(f32::MIN_POSITIVE));
-    let full = splat(simd, tending.full_travel).max(least);
+    let full = splat(simd, redistribution.full_travel).max(least);
     let share = (length(travel) / full).min(one);
     let degree = share * share;
-    let pull = splat(simd, -tending.shift) * degree;
+    let pull = splat(simd, -redistribution.shift) * degree;
     let mut shift = seen.slope;
     for along in &mut shift {
         *along *= pull;
@@ -56,15 +59,16 @@ pub fn tend<S: Simd>(
     for along in &mut shift {
         *along *= shorter;
     }
-    let pressed = (splat(simd, tending.pressing) * seen.crowding).min(splat(simd, LARGEST_RISE));
+    let pressed = (splat(simd, redistribution.pressure_correction) * seen.excess_volume_fraction)
+        .min(splat(simd, LARGEST_RISE));
     let rise = degree * pressed;
-    let exchanged =
-        splat(simd, tending.averaging) * (seen.mean_compression - seen.compression_at_transfer);
-    let averaged = degree.mul_add(exchanged, seen.dilation);
+    let exchanged = splat(simd, redistribution.volumetric_smoothing)
+        * (seen.mean_compression - seen.compression_at_transfer);
+    let averaged = degree.mul_add(exchanged, seen.volumetric_strain);
     let compression = (none - averaged).max(none);
-    Tended {
+    RedistributedPoint {
         shift,
-        dilation: averaged - rise * compression,
+        volumetric_strain: averaged - rise * compression,
         rise,
     }
 }
@@ -80,9 +84,9 @@ fn splat<S: Simd>(simd: S, value: f64) -> f32x16<S> {
 }
 
 /// A base plane: no point near it is shifted towards it, and none deep behind it is
-/// moved farther behind (`crowding::not_into_wall`).
+/// moved farther behind (`redistribution::limit_shift_at_bed`).
 #[derive(Debug, Clone, Copy)]
-pub struct Shelter {
+pub struct NoShiftZone {
     /// Height of a place [m] over its position [cells].
     rise: [f32; 3],
     /// Height of the origin of positions [m].
@@ -97,7 +101,7 @@ pub struct Shelter {
     deep: f32,
 }
 
-impl Shelter {
+impl NoShiftZone {
     /// Of a plane, for positions from the lattice's origin.
     pub fn of(plane: &Plane, lattice: &Lattice) -> Self {
         let spacing = &lattice.spacing;
@@ -107,8 +111,8 @@ impl Shelter {
             origin: plane.height(&lattice.origin),
             out: [0, 1, 2].map(|axis| (plane.normal[axis] / spacing[axis]) as f32),
             normal: [0, 1, 2].map(|axis| plane.normal[axis] as f32),
-            near: (KEPT_OFF * rise.norm()) as f32,
-            deep: (-DEEPEST * rise.norm()) as f32,
+            near: (NO_SHIFT_HEIGHT * rise.norm()) as f32,
+            deep: (-DEEPEST_PENETRATION * rise.norm()) as f32,
         }
     }
 
@@ -159,8 +163,8 @@ impl Shelter {
     }
 }
 
-/// Changes of a block's sums by tending its points, chunk by chunk.
-pub struct SpreadSums {
+/// Changes of a block's sums by redistribution its points, chunk by chunk.
+pub struct ShiftingSums {
     first_moment: [Lanes; 3],
     angular: [Lanes; 3],
     /// Impulse of the walls on points deep behind them, and its moment about the
@@ -168,7 +172,7 @@ pub struct SpreadSums {
     stopped: [[Lanes; 3]; 2],
 }
 
-impl SpreadSums {
+impl ShiftingSums {
     /// Of no points.
     pub const NONE: Self = Self {
         first_moment: [[0.0; LANES]; 3],
@@ -218,9 +222,9 @@ impl SpreadSums {
     }
 
     /// The sums of a block whose origin is there [m].
-    pub fn total(&self, origin: &Vec3) -> Spread {
+    pub fn total(&self, origin: &Vec3) -> Shifting {
         let [linear, about_block] = self.stopped.each_ref().map(total);
-        Spread {
+        Shifting {
             first_moment: total(&self.first_moment),
             angular: total(&self.angular),
             stopped: Impulse {

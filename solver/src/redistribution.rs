@@ -14,45 +14,45 @@ use crate::rigid::Body;
 use crate::walls::{Boundary, Impulse, NodeAccess, Plane, filled, in_plane};
 use std::ops::Range;
 
-/// Points move by this share of −h² ∇crowding per cell of travel.
+/// Points move by this share of −h² ∇excess volume fraction per cell of travel.
 const SHIFT: f64 = 1.0;
 /// Largest shift in a step [cells].
 pub const LARGEST_SHIFT: f64 = 0.1;
 /// Share of its own compressive strain min(φ, 0) a point exchanges for the mean per cell
 /// of travel.
-const AVERAGING: f64 = 2.0;
-/// Relative rise of pressure per crowding and cell of travel.
-const PRESSING: f64 = 5.0;
+const VOLUMETRIC_SMOOTHING: f64 = 2.0;
+/// Relative rise of pressure per excess volume fraction and cell of travel.
+const PRESSURE_CORRECTION: f64 = 5.0;
 /// Largest relative rise of pressure in a step.
 pub const LARGEST_RISE: f64 = 0.5;
-/// A point that travels less than this share of what the fastest may is tended
+/// A point that travels less than this share of what the fastest may is redistributed
 /// less, by the square: what only trembles is left alone.
 const SLOW: f64 = 0.2;
 
 /// Height above a base plane below which no point is shifted towards it [cells].
-pub const KEPT_OFF: f64 = 0.5;
+pub const NO_SHIFT_HEIGHT: f64 = 0.5;
 /// Depth behind a base plane from which on no point is moved farther behind [cells].
-pub const DEEPEST: f64 = 0.25;
+pub const DEEPEST_PENETRATION: f64 = 0.25;
 
 /// Rates of a step, by its length.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tending {
-    /// Shift over −h² ∇crowding.
+pub struct RedistributionRates {
+    /// Shift over −h² ∇excess volume fraction.
     pub shift: f64,
     /// Share of its own compressive strain that a point exchanges for the mean.
-    pub averaging: f64,
-    /// Relative rise of pressure per crowding.
-    pub pressing: f64,
-    /// Travel from which on a point is fully tended [cells].
+    pub volumetric_smoothing: f64,
+    /// Relative rise of pressure per excess volume fraction.
+    pub pressure_correction: f64,
+    /// Travel from which on a point is fully redistributed [cells].
     pub full_travel: f64,
 }
 
-impl Tending {
+impl RedistributionRates {
     /// None at all: an elastic body keeps its points.
     pub const NONE: Self = Self {
         shift: 0.0,
-        averaging: 0.0,
-        pressing: 0.0,
+        volumetric_smoothing: 0.0,
+        pressure_correction: 0.0,
         full_travel: 0.0,
     };
 
@@ -60,14 +60,14 @@ impl Tending {
     pub fn after(travel: f64) -> Self {
         Self {
             shift: SHIFT * travel,
-            averaging: (AVERAGING * travel).min(1.0),
-            pressing: PRESSING * travel,
+            volumetric_smoothing: (VOLUMETRIC_SMOOTHING * travel).min(1.0),
+            pressure_correction: PRESSURE_CORRECTION * travel,
             full_travel: SLOW * travel,
         }
     }
 
     /// Change of a point that travelled `travel` cells, where the nodes say this of it.
-    pub fn of(&self, seen: &Seen, travel: f64, spacing: &Vec3) -> Tended {
+    pub fn of(&self, seen: &PointState, travel: f64, spacing: &Vec3) -> RedistributedPoint {
         let degree = if travel < self.full_travel {
             (travel / self.full_travel).powi(2)
         } else {
@@ -80,12 +80,14 @@ impl Tending {
         } else {
             1.0
         };
-        let rise = degree * (self.pressing * seen.crowding).min(LARGEST_RISE);
-        let exchanged = self.averaging * (seen.mean_compression - seen.compression_at_transfer);
-        let averaged = seen.dilation + degree * exchanged;
-        Tended {
+        let rise =
+            degree * (self.pressure_correction * seen.excess_volume_fraction).min(LARGEST_RISE);
+        let exchanged =
+            self.volumetric_smoothing * (seen.mean_compression - seen.compression_at_transfer);
+        let averaged = seen.volumetric_strain + degree * exchanged;
+        RedistributedPoint {
             shift: (in_cells * shorter).component_mul(spacing),
-            dilation: averaged - rise * (-averaged).max(0.0),
+            volumetric_strain: averaged - rise * (-averaged).max(0.0),
             rise,
         }
     }
@@ -93,26 +95,26 @@ impl Tending {
 
 /// State of a point, and of the nodes as it sees them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seen {
+pub struct PointState {
     /// V ρ_c/m − 1 now.
-    pub dilation: f64,
+    pub volumetric_strain: f64,
     /// Its compressive part, min(φ, 0), at the transfer.
     pub compression_at_transfer: f64,
     /// Its mean over the nodes.
     pub mean_compression: f64,
-    /// Crowding of the nodes round the point.
-    pub crowding: f64,
+    /// Excess volume fraction of the nodes round the point.
+    pub excess_volume_fraction: f64,
     /// Its gradient [1/m].
     pub slope: Vec3,
 }
 
 /// Change of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tended {
+pub struct RedistributedPoint {
     /// Shift from where it is [m].
     pub shift: Vec3,
-    /// Its dilation.
-    pub dilation: f64,
+    /// Its volumetric strain.
+    pub volumetric_strain: f64,
     /// By which share of itself its stress rises.
     pub rise: f64,
 }
@@ -122,7 +124,7 @@ pub struct Tended {
 /// it is there. A point deep behind is also given back what it was moved into the wall:
 /// where the flow spreads over its base, nodes behind go on inward (equation 29), and
 /// the deeper a point is the faster they take it (equation 42b).
-pub fn not_into_wall(
+pub fn limit_shift_at_bed(
     shift: &Vec3,
     moved: &Vec3,
     position: &Vec3,
@@ -134,10 +136,10 @@ pub fn not_into_wall(
         let width = plane.normal.component_mul(spacing).norm();
         let height = plane.height(position);
         let into = |way: &Vec3| (-plane.normal.dot(way)).max(0.0);
-        if height < KEPT_OFF * width {
+        if height < NO_SHIFT_HEIGHT * width {
             shift += plane.normal * into(&shift);
         }
-        if height < -DEEPEST * width {
+        if height < -DEEPEST_PENETRATION * width {
             shift += plane.normal * into(moved);
         }
     }
@@ -146,11 +148,16 @@ pub fn not_into_wall(
 
 /// Change of a velocity [m/s] so that a point deep behind a base plane goes no deeper
 /// (equation 42c).
-pub fn stop_behind_wall(velocity: &Vec3, position: &Vec3, base: &[Plane], spacing: &Vec3) -> Vec3 {
+pub fn clamp_normal_velocity(
+    velocity: &Vec3,
+    position: &Vec3,
+    base: &[Plane],
+    spacing: &Vec3,
+) -> Vec3 {
     let mut change = Vec3::zeros();
     for plane in base {
         let width = plane.normal.component_mul(spacing).norm();
-        if plane.height(position) < -DEEPEST * width {
+        if plane.height(position) < -DEEPEST_PENETRATION * width {
             let into = (-plane.normal.dot(&(velocity + change))).max(0.0);
             change += plane.normal * into;
         }
@@ -158,9 +165,9 @@ pub fn stop_behind_wall(velocity: &Vec3, position: &Vec3, base: &[Plane], spacin
     change
 }
 
-/// Changes of the points' sums by tending them. A shift leaves the velocity.
+/// Changes of the points' sums by redistributing them. A shift leaves the velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Spread {
+pub struct Shifting {
     /// Σ m δx [kg m].
     pub first_moment: Vec3,
     /// Σ m δx × v [N m s].
@@ -169,7 +176,7 @@ pub struct Spread {
     pub stopped: Impulse,
 }
 
-impl Spread {
+impl Shifting {
     /// Both together.
     pub fn plus(self, other: &Self) -> Self {
         Self {
@@ -199,25 +206,25 @@ impl Spread {
     }
 }
 
-/// Crowding of a node of this fullness.
-pub fn crowding(fullness: f64) -> f64 {
-    (fullness - 1.0).clamp(0.0, 1.0)
+/// Excess volume fraction of a node of this volume fraction.
+pub fn excess_volume_fraction(volume_fraction: f64) -> f64 {
+    (volume_fraction - 1.0).clamp(0.0, 1.0)
 }
 
 /// Kernel weight of a node at its own place.
 const PEAK: f64 = 0.75 * 0.75 * 0.75;
 
 /// Walls and bodies leave less room at the nodes round them.
-pub fn leave_less_room(boundary: &Boundary, bodies: &[Body], nodes: &mut impl NodeAccess) {
-    boundary.leave_less_room(nodes);
+pub fn exclude_volume(boundary: &Boundary, bodies: &[Body], nodes: &mut impl NodeAccess) {
+    boundary.exclude_volume(nodes);
     for body in bodies {
-        make_room_for(body, nodes);
+        exclude_body(body, nodes);
     }
     // A body in the channel takes room from a node's images as well.
     boundary.fill_images_alike(nodes);
 }
 
-fn make_room_for(body: &Body, nodes: &mut impl NodeAccess) {
+fn exclude_body(body: &Body, nodes: &mut impl NodeAccess) {
     let lattice = *nodes.lattice();
     let (low, high) = box_of(body, &lattice);
     // However small its share, a small body does not fill a kernel.
@@ -241,7 +248,7 @@ fn make_room_for(body: &Body, nodes: &mut impl NodeAccess) {
                     };
                     let height = body.distance_to(&lattice.position([i, j, k]));
                     let room = share_above(height / width).max(least);
-                    nodes.set_fullness(place, filled(nodes.fullness(place), room));
+                    nodes.set_volume_fraction(place, filled(nodes.volume_fraction(place), room));
                 }
             }
         }
@@ -271,35 +278,35 @@ fn box_of(body: &Body, lattice: &Lattice) -> ([i32; 3], [i32; 3]) {
 mod tests {
     use super::*;
 
-    const CROWDED: Seen = Seen {
-        dilation: -0.01,
+    const CROWDED: PointState = PointState {
+        volumetric_strain: -0.01,
         compression_at_transfer: -0.01,
         mean_compression: -0.02,
-        crowding: 0.1,
+        excess_volume_fraction: 0.1,
         slope: Vec3::new(20.0, 0.0, 0.0),
     };
     const SPACING: Vec3 = Vec3::new(0.01, 0.01, 0.01);
 
-    // By hand, with T = 0.2: shift −0.2 h² · 20/m = −0.4 mm; dilation −0.01
+    // By hand, with T = 0.2: shift −0.2 h² · 20/m = −0.4 mm; volumetric strain −0.01
     // + 0.4 (−0.02 + 0.01) = −0.014, and more by 0.2 · 5 · 0.1 = a tenth.
     #[test]
     fn a_point_moves_out_of_a_crowd_and_is_pressed() {
-        let tended = Tending::after(0.2).of(&CROWDED, 0.2, &SPACING);
-        assert!((tended.shift - Vec3::new(-4e-4, 0.0, 0.0)).norm() < 1e-12);
+        let redistributed = RedistributionRates::after(0.2).of(&CROWDED, 0.2, &SPACING);
+        assert!((redistributed.shift - Vec3::new(-4e-4, 0.0, 0.0)).norm() < 1e-12);
         assert!(
-            (tended.dilation + 0.0154).abs() < 1e-12,
+            (redistributed.volumetric_strain + 0.0154).abs() < 1e-12,
             "{}",
-            tended.dilation
+            redistributed.volumetric_strain
         );
     }
 
     #[test]
     fn a_point_at_rest_is_left_alone() {
-        for tending in [Tending::after(0.2), Tending::NONE] {
-            let tended = tending.of(&CROWDED, 0.0, &SPACING);
-            assert_eq!(tended.shift, Vec3::zeros());
-            assert_eq!(tended.dilation, CROWDED.dilation);
-            assert_eq!(tended.rise, 0.0);
+        for redistribution in [RedistributionRates::after(0.2), RedistributionRates::NONE] {
+            let redistributed = redistribution.of(&CROWDED, 0.0, &SPACING);
+            assert_eq!(redistributed.shift, Vec3::zeros());
+            assert_eq!(redistributed.volumetric_strain, CROWDED.volumetric_strain);
+            assert_eq!(redistributed.rise, 0.0);
         }
     }
 
@@ -312,8 +319,9 @@ mod tests {
             flow_friction: 0.4,
         }];
         let still = Vec3::zeros();
-        let kept =
-            |z, shift| not_into_wall(&shift, &still, &Vec3::new(0.0, 0.0, z), &floor, &SPACING);
+        let kept = |z, shift| {
+            limit_shift_at_bed(&shift, &still, &Vec3::new(0.0, 0.0, z), &floor, &SPACING)
+        };
         let (down, up) = (Vec3::new(1e-4, 0.0, -1e-4), Vec3::new(0.0, 0.0, 1e-4));
         assert_eq!(kept(0.004, down), Vec3::new(1e-4, 0.0, 0.0));
         assert_eq!(kept(-0.004, down), Vec3::new(1e-4, 0.0, 0.0));
@@ -331,7 +339,7 @@ mod tests {
             flow_friction: 0.4,
         });
         let stopped = |position: Vec3, velocity| {
-            velocity + stop_behind_wall(&velocity, &position, &base, &SPACING)
+            velocity + clamp_normal_velocity(&velocity, &position, &base, &SPACING)
         };
         let (down, up) = (Vec3::new(0.1, 0.2, -1.0), Vec3::new(0.1, 0.2, 1.0));
         let behind_floor = Vec3::new(0.1, 0.0, -0.0026);
@@ -354,7 +362,7 @@ mod tests {
         }];
         let none = Vec3::zeros();
         let kept =
-            |z, moved| not_into_wall(&none, &moved, &Vec3::new(0.0, 0.0, z), &floor, &SPACING);
+            |z, moved| limit_shift_at_bed(&none, &moved, &Vec3::new(0.0, 0.0, z), &floor, &SPACING);
         let (down, up) = (Vec3::new(1e-4, 0.0, -1e-4), Vec3::new(0.0, 0.0, 1e-4));
         assert_eq!(kept(-0.0026, down), Vec3::new(0.0, 0.0, 1e-4));
         assert_eq!(kept(-0.0026, up), none);
