@@ -27,9 +27,9 @@ pub mod redistribution;
 pub mod rigid;
 pub mod scenario;
 pub mod shape;
-pub mod sharing;
 pub mod simulation;
 pub mod stability;
+pub mod strain_rate_smoothing;
 pub mod transfer;
 pub mod walls;
 

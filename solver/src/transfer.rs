@@ -15,7 +15,7 @@ use crate::redistribution::{
     PointState, RedistributionRates, Shifting, clamp_normal_velocity, excess_volume_fraction,
     limit_shift_at_bed,
 };
-use crate::sharing::Sharing;
+use crate::strain_rate_smoothing::StrainRateSmoothing;
 use crate::walls::Plane;
 use rayon::prelude::*;
 
@@ -149,10 +149,10 @@ fn scatter_means(
 }
 
 /// Finds the strain rate that every point feels besides its own (equation 42a).
-pub fn share_strain_rates(
+pub fn smooth_strain_rates(
     grid: &Grid,
     points: &[Point],
-    sharing: &Sharing,
+    strain_rate_smoothing: &StrainRateSmoothing,
     deformations: &mut [Deformation],
 ) {
     let lattice = *grid.lattice();
@@ -177,7 +177,7 @@ pub fn share_strain_rates(
                 yz: lower.zeroth.y,
             };
             let own = Sym3::of(&point.affine);
-            deformation.shared = sharing.of(&own, &mean, point.velocity.norm());
+            deformation.shared = strain_rate_smoothing.of(&own, &mean, point.velocity.norm());
         }
     });
 }

@@ -9,7 +9,7 @@
 /// | weights and levers (`stencil.rs`) | 3 × 16 |
 /// | gradient gathered from nine rows (`rows.rs`) | 3 × 180 + 60 |
 /// | velocity gradient, F̂ and its cofactors, before and after (`stress.rs`) | 9 + 2 × 53 + 56 + 18 |
-/// | strain rate shared (`sharing.rs`) | 9 |
+/// | strain rate shared (`strain_rate_smoothing.rs`) | 9 |
 /// | volumetric strain, pressure, trial and return of the deviator | 8 + 60 + 36 |
 /// | force | 63 |
 /// | force scattered to nine rows | 36 + 144 + 432 |

@@ -12,7 +12,7 @@ use crate::grid::BLOCK;
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::redistribution::{RedistributionRates, excess_volume_fraction};
-use crate::sharing::Sharing;
+use crate::strain_rate_smoothing::StrainRateSmoothing;
 use fearless_simd::{f32x16, prelude::*};
 
 /// The nodes' state as a block of points sees it at the end of a step.
@@ -129,7 +129,7 @@ fn strain_rate<S: Simd>(simd: S, chunk: &Chunk) -> [f32x16<S>; 6] {
 /// Gives part of the points' strain rates times their masses to a tile (equation
 /// 42a).
 #[inline(always)]
-pub fn give_strain_rates<S: Simd>(simd: S, block: &mut Block, part: Part, tile: &mut Tile) {
+pub fn scatter_strain_rates<S: Simd>(simd: S, block: &mut Block, part: Part, tile: &mut Tile) {
     *tile = Tile::EMPTY;
     let none = f32x16::splat(simd, 0.0);
     let mut given = Quads::EMPTY;
@@ -146,11 +146,16 @@ pub fn give_strain_rates<S: Simd>(simd: S, block: &mut Block, part: Part, tile: 
 }
 
 /// Finds the strain rates that the points feel besides their own strain rates (equation
-/// 42a; `sharing.rs`).
+/// 42a; `strain_rate_smoothing.rs`).
 #[inline(always)]
-pub fn share_strain_rates<S: Simd>(simd: S, block: &mut Block, shown: &Shown, sharing: &Sharing) {
+pub fn smooth_strain_rates<S: Simd>(
+    simd: S,
+    block: &mut Block,
+    shown: &Shown,
+    strain_rate_smoothing: &StrainRateSmoothing,
+) {
     let (mut first, mut second) = (Quads::EMPTY, Quads::EMPTY);
-    let full = sharing.full_speed * sharing.full_speed;
+    let full = strain_rate_smoothing.full_speed * strain_rate_smoothing.full_speed;
     let per_full = splat(simd, full.max(f64::from(f32::MIN_POSITIVE)).recip());
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
@@ -170,7 +175,7 @@ pub fn share_strain_rates<S: Simd>(simd: S, block: &mut Block, shown: &Shown, sh
         let [x, y, z] = times(simd, &chunk.velocity, splat(simd, 1.0));
         let speed = x.mul_add(x, y.mul_add(y, z * z));
         let degree = (speed * per_full).min(splat(simd, 1.0));
-        let share = splat(simd, sharing.share) * degree;
+        let share = splat(simd, strain_rate_smoothing.share) * degree;
         for (kept, part) in chunk.shared.iter_mut().zip(lacking) {
             *kept = (share * part).into();
         }

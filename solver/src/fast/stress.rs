@@ -267,8 +267,8 @@ pub fn strain<S: Simd>(
     let volumetric_strain = total_dilation(simd, chunk, &deformed);
     let pressure = law.pressure(simd, volumetric_strain);
     let before = loaded(simd, &chunk.deviator);
-    let felt = felt(simd, &gradient, chunk);
-    let mut deviator = law.deviator(simd, before, &felt, pressure, dt);
+    let effective_strain_rate = effective_strain_rate(simd, &gradient, chunk);
+    let mut deviator = law.deviator(simd, before, &effective_strain_rate, pressure, dt);
     let pressure = law.resisting(simd, pressure, &gradient);
     // A point turned inside out becomes no number, which ends the run.
     let inside_out = deformed.volume_change.simd_le(splat(simd, -1.0));
@@ -286,18 +286,19 @@ pub fn strain<S: Simd>(
 
 /// The velocity gradient with what the points feel besides.
 #[inline(always)]
-fn felt<S: Simd>(simd: S, gradient: &Matrix<S>, chunk: &Chunk) -> Matrix<S> {
+fn effective_strain_rate<S: Simd>(simd: S, gradient: &Matrix<S>, chunk: &Chunk) -> Matrix<S> {
     let [xx, yy, zz, xy, xz, yz] = loaded(simd, &chunk.shared);
-    let mut felt = *gradient;
-    for (row, shared) in felt
-        .iter_mut()
-        .zip([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    let mut effective_strain_rate = *gradient;
+    for (row, shared) in
+        effective_strain_rate
+            .iter_mut()
+            .zip([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     {
         for (part, shared) in row.iter_mut().zip(shared) {
             *part += shared;
         }
     }
-    felt
+    effective_strain_rate
 }
 
 /// The state of a chunk at a transfer, F̂ = 1.

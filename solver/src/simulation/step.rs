@@ -11,8 +11,8 @@ use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
 use crate::redistribution::RedistributionRates;
 use crate::rigid::{Body, Load};
-use crate::sharing::Sharing;
 use crate::stability::{self, Pace};
+use crate::strain_rate_smoothing::StrainRateSmoothing;
 
 /// A sub-step in which a body asked for more sub-steps of its own is shortened.
 const MANY_BODY_SUBSTEPS: f64 = 10_000.0;
@@ -46,12 +46,12 @@ impl Simulation {
         let pace = self.pace()?;
         let start = StepStart {
             reach: self.given.contact_reach(&self.state.bodies, &pace),
-            sharing: match &self.given.flow {
+            strain_rate_smoothing: match &self.given.flow {
                 Some(flow) if flow.material.is_granular() => {
                     let fastest = self.state.flow.fastest();
-                    Sharing::at(flow.limits.governing_speed(fastest))
+                    StrainRateSmoothing::at(flow.limits.governing_speed(fastest))
                 }
-                _ => Sharing::NONE,
+                _ => StrainRateSmoothing::NONE,
             },
         };
         let (state, stages) = (&mut self.state, &mut self.scratch.stages);

@@ -91,7 +91,7 @@ impl Boundary {
             for member in members {
                 nodes.set_volume_fraction(member.place as usize, volume_fraction);
             }
-            share_compressive_strain(members, nodes);
+            smooth_compressive_strain(members, nodes);
         }
     }
 
@@ -108,7 +108,7 @@ impl Boundary {
 
     /// The mean strain rate of a node's points takes in those of its images; on a
     /// wall, the mirror of itself.
-    pub fn share_strain_rates(&self, nodes: &mut impl NodeAccess) {
+    pub fn smooth_strain_rates(&self, nodes: &mut impl NodeAccess) {
         let mirrors = |group: &&Group| group.is_upright() || group.members.len() > 1;
         for group in self.groups.iter().filter(mirrors) {
             let members = &self.members[group.members.clone()];
@@ -148,7 +148,7 @@ impl Boundary {
 
 /// A node and its images have the compressive strain that the points round all of them
 /// have on the mean.
-fn share_compressive_strain(members: &[Member], nodes: &mut impl NodeAccess) {
+fn smooth_compressive_strain(members: &[Member], nodes: &mut impl NodeAccess) {
     if members.len() < 2 {
         return;
     }

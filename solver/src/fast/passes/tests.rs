@@ -29,8 +29,8 @@ fn redistribution() -> RedistributionRates {
 }
 
 /// The slower ones of the cloud share in part.
-fn sharing() -> Sharing {
-    Sharing::at(20.0)
+fn strain_rate_smoothing() -> StrainRateSmoothing {
+    StrainRateSmoothing::at(20.0)
 }
 
 fn packing() -> Packing {
@@ -73,7 +73,7 @@ fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (
     nodes.take_momentum(&momentum, level);
     for part in PARTS {
         for (block, tile) in blocks.occupied_mut().iter_mut().zip(&mut forces) {
-            dispatch!(level, simd => give_strain_rates(simd, block, part, tile));
+            dispatch!(level, simd => scatter_strain_rates(simd, block, part, tile));
         }
         nodes.take_strain_rates(part, &forces, level);
     }
@@ -85,7 +85,7 @@ fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (
             for (part, tile) in PARTS.into_iter().zip(&mut shown.strain_rate) {
                 nodes.strain_rate_tile(simd, place, part, tile);
             }
-            share_strain_rates(simd, block, &shown, &sharing());
+            smooth_strain_rates(simd, block, &shown, &strain_rate_smoothing());
             hand_over_rest(simd, block, &law, &shown.motion, rest, force);
         });
     }
@@ -140,7 +140,7 @@ fn plainly_stepped(mut points: Vec<Point>, substeps: u32, gravity: &Vec3) -> Vec
     transfer::scatter_strain_rates(&points, &mut grid);
     transfer::hand_over_rest(&points, beads().bulk_density, &mut grid);
     let mut deformations: Vec<_> = points.iter().map(Deformation::start).collect();
-    transfer::share_strain_rates(&grid, &points, &sharing(), &mut deformations);
+    transfer::smooth_strain_rates(&grid, &points, &strain_rate_smoothing(), &mut deformations);
     let no_contact = vec![Vec3::zeros(); points.len()];
     for _ in 0..substeps {
         transfer::scatter_forces(&points, &deformations, &no_contact, &mut grid);

@@ -19,9 +19,9 @@ use crate::grid::{BLOCK, BlockKey};
 use crate::points::Point;
 use crate::redistribution::{self, Shifting};
 use crate::rigid::Body;
-use crate::sharing::Sharing;
 use crate::simulation::setup::Setup;
 use crate::simulation::stages::{StageEnds, StepStage};
+use crate::strain_rate_smoothing::StrainRateSmoothing;
 use crate::walls::{Boundary, Impulse, Plane};
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
@@ -162,7 +162,7 @@ impl FastFlow {
 
     /// Gives the nodes the mean strain rates of their points. The tiles of forces
     /// are free until there are some.
-    fn give_strain_rates(&mut self) {
+    fn scatter_strain_rates(&mut self) {
         for part in PARTS {
             let level = self.level;
             self.blocks
@@ -170,7 +170,7 @@ impl FastFlow {
                 .par_iter_mut()
                 .zip(&mut self.forces)
                 .for_each(|(block, tile)| {
-                    dispatch!(level, simd => passes::give_strain_rates(simd, block, part, tile));
+                    dispatch!(level, simd => passes::scatter_strain_rates(simd, block, part, tile));
                 });
             self.nodes.take_strain_rates(part, &self.forces, level);
         }
@@ -178,7 +178,7 @@ impl FastFlow {
 
     /// Hands over what the nodes do not show of the points' motion, the compressive
     /// strains and the first forces, and shares strain rates.
-    fn hand_over_rest(&mut self, given: &Setup, sharing: &Sharing) {
+    fn hand_over_rest(&mut self, given: &Setup, strain_rate_smoothing: &StrainRateSmoothing) {
         let room = self.packing.material.bulk_density * given.lattice.spacing.product();
         let (nodes, law, level) = (&self.nodes, &self.law, self.level);
         self.blocks
@@ -194,7 +194,7 @@ impl FastFlow {
                     for (part, tile) in PARTS.into_iter().zip(&mut shown.strain_rate) {
                         nodes.strain_rate_tile(simd, place, part, tile);
                     }
-                    passes::share_strain_rates(simd, block, &shown, sharing);
+                    passes::smooth_strain_rates(simd, block, &shown, strain_rate_smoothing);
                     passes::hand_over_rest(simd, block, law, &shown.motion, rest, force);
                 });
             });
@@ -268,13 +268,13 @@ impl Flow for FastFlow {
                 dispatch!(level, simd => passes::transfer(simd, block, law, momentum));
             });
         self.nodes.take_momentum(&self.momentum, level);
-        self.give_strain_rates();
+        self.scatter_strain_rates();
         stages.done(StepStage::P2g);
         given.walls.find_boundary(&self.nodes, &mut self.boundary);
         given.walls.reflect(&mut self.boundary, &mut self.nodes);
-        self.boundary.share_strain_rates(&mut self.nodes);
+        self.boundary.smooth_strain_rates(&mut self.nodes);
         stages.done(StepStage::Search);
-        self.hand_over_rest(given, &start.sharing);
+        self.hand_over_rest(given, &start.strain_rate_smoothing);
         self.from_joining = given.walls.join(&mut self.boundary, &mut self.nodes);
         stages.done(StepStage::P2g);
         redistribution::exclude_volume(&self.boundary, bodies, &mut self.nodes);

@@ -16,7 +16,7 @@ use crate::points::Point;
 use crate::redistribution::{RedistributionRates, Shifting};
 use crate::rigid::Body;
 use crate::scenario::Precision;
-use crate::sharing::Sharing;
+use crate::strain_rate_smoothing::StrainRateSmoothing;
 use crate::walls::{Impulse, Plane};
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
@@ -107,7 +107,7 @@ pub(super) struct StepStart {
     /// Distance from bodies within which points are looked at.
     pub reach: Reach,
     /// Sharing of the points' strain rates in it.
-    pub sharing: Sharing,
+    pub strain_rate_smoothing: StrainRateSmoothing,
 }
 
 /// A sub-step of a flow.

@@ -146,7 +146,7 @@ impl Flow for PlainFlow {
         stages.done(StepStage::P2g);
         given.walls.find_boundary(&self.grid, &mut self.boundary);
         given.walls.reflect(&mut self.boundary, &mut self.grid);
-        self.boundary.share_strain_rates(&mut self.grid);
+        self.boundary.smooth_strain_rates(&mut self.grid);
         stages.done(StepStage::Search);
         if let Some(flow) = &given.flow {
             let density = flow.material.bulk_density;
@@ -158,10 +158,10 @@ impl Flow for PlainFlow {
         self.deformations.clear();
         self.deformations
             .extend(self.points.iter().map(Deformation::start));
-        transfer::share_strain_rates(
+        transfer::smooth_strain_rates(
             &self.grid,
             &self.points,
-            &start.sharing,
+            &start.strain_rate_smoothing,
             &mut self.deformations,
         );
         let access = Access {

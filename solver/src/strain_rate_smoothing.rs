@@ -1,4 +1,4 @@
-//! Strain rates shared with the points around (docs/method.md, equation 42a).
+//! Strain-rate smoothing (docs/method.md, equation 42a).
 //!
 //! Strain rates shared between points. Where these lie unevenly, the velocity gradient
 //! that each of them sees is off, by 3 % in steady shear with eight points a cell. Shear
@@ -8,22 +8,22 @@
 
 use crate::math::Sym3;
 
-/// Share of the mean in the strain rate that a point feels.
+/// Share of the mean in the effective strain rate of a point.
 const SHARE: f64 = 0.5;
 /// A point slower than this share of the fastest shares less, by the square: what
 /// only trembles is left alone.
 const SLOW: f64 = 0.2;
 
-/// Sharing of strain rates in a step.
+/// Smoothing of strain rates in a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sharing {
+pub struct StrainRateSmoothing {
     /// Share of the mean.
     pub share: f64,
     /// Speed from which on a point shares fully [m/s].
     pub full_speed: f64,
 }
 
-impl Sharing {
+impl StrainRateSmoothing {
     /// None at all: an elastic body keeps its own.
     pub const NONE: Self = Self {
         share: 0.0,
@@ -71,19 +71,32 @@ mod tests {
     // By hand: of −3 in xx a third is volume and stays, so −2, +1, +1.
     #[test]
     fn a_moving_point_feels_the_mean_but_keeps_its_change_of_volume() {
-        let felt = Sharing::at(1.0).of(&OWN, &MEAN, 0.3);
+        let effective_strain_rate = StrainRateSmoothing::at(1.0).of(&OWN, &MEAN, 0.3);
         let expected = [-2.0, 1.0, 1.0, 0.0, -1.0, -1.0].map(|part| SHARE * part);
-        let found = [felt.xx, felt.yy, felt.zz, felt.xy, felt.xz, felt.yz];
+        let found = [
+            effective_strain_rate.xx,
+            effective_strain_rate.yy,
+            effective_strain_rate.zz,
+            effective_strain_rate.xy,
+            effective_strain_rate.xz,
+            effective_strain_rate.yz,
+        ];
         for (found, expected) in found.iter().zip(expected) {
-            assert!((found - expected).abs() < 1e-15, "{felt:?}");
+            assert!(
+                (found - expected).abs() < 1e-15,
+                "{effective_strain_rate:?}"
+            );
         }
     }
 
     #[test]
     fn a_point_that_hardly_moves_is_left_alone() {
-        let felt = Sharing::at(1.0).of(&OWN, &MEAN, 0.02);
-        assert!((felt.xz + SHARE * 0.01).abs() < 1e-15, "{felt:?}");
-        assert_eq!(Sharing::at(1.0).of(&OWN, &MEAN, 0.0).xz, 0.0);
-        assert_eq!(Sharing::NONE.of(&OWN, &MEAN, 1.0).xz, 0.0);
+        let effective_strain_rate = StrainRateSmoothing::at(1.0).of(&OWN, &MEAN, 0.02);
+        assert!(
+            (effective_strain_rate.xz + SHARE * 0.01).abs() < 1e-15,
+            "{effective_strain_rate:?}"
+        );
+        assert_eq!(StrainRateSmoothing::at(1.0).of(&OWN, &MEAN, 0.0).xz, 0.0);
+        assert_eq!(StrainRateSmoothing::NONE.of(&OWN, &MEAN, 1.0).xz, 0.0);
     }
 }
