@@ -145,7 +145,7 @@ fn fast_block(criterion: &mut Criterion) {
                 let (momentum, force) = (&mut momentum, &mut force);
                 dispatch!(level, simd => {
                     passes::transfer(simd, block, &law, momentum);
-                    passes::hand_over_rest(simd, block, &law, &motion, momentum, force);
+                    passes::residual_transfer(simd, block, &law, &motion, momentum, force);
                 });
             });
         });
@@ -204,7 +204,7 @@ fn plain_block(criterion: &mut Criterion) {
     group.bench_function("transfer", |bencher| {
         bencher.iter(|| {
             transfer::scatter_momentum(black_box(&points), &mut grid);
-            transfer::hand_over_rest(&points, MATERIAL.bulk_density, &mut grid);
+            transfer::residual_transfer(&points, MATERIAL.bulk_density, &mut grid);
         });
     });
     group.finish();

@@ -60,7 +60,7 @@ pub fn scatter_momentum(points: &[Point], grid: &mut Grid) {
 /// Hands over what the first scatter lost, and the compressive strain: the nodes' motion
 /// seen at the points falls short of the points' own, and what is missing goes to
 /// the nodes as well (equations 8a and 39).
-pub fn hand_over_rest(points: &[Point], bulk_density: f64, grid: &mut Grid) {
+pub fn residual_transfer(points: &[Point], bulk_density: f64, grid: &mut Grid) {
     let lattice = *grid.lattice();
     let inverse_moment = Mat3::from_diagonal(&lattice.kernel_moment().map(f64::recip));
     let room = lattice.spacing.product() * bulk_density;

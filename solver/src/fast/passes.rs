@@ -186,7 +186,7 @@ pub fn smooth_strain_rates<S: Simd>(
 /// points' own, and another the force of stress (equations 9 and 39); starts the
 /// deformation anew.
 #[inline(always)]
-pub fn hand_over_rest<S: Simd>(
+pub fn residual_transfer<S: Simd>(
     simd: S,
     block: &mut Block,
     law: &Law,

@@ -2,7 +2,7 @@
 //! changes a run that goes well.
 
 use super::Simulation;
-use super::flow::{Bounds, Culprit};
+use super::flow::{Bounds, OffendingPoint};
 use crate::contact::island::MOST_SUBSTEPS;
 use crate::contact::point_body::Stuck;
 use crate::error::{Mover, StepError};
@@ -111,20 +111,20 @@ impl Simulation {
             tolerance: self.given.lattice.spacing.max(),
             densest,
         };
-        match self.state.flow.culprit(&bounds) {
+        match self.state.flow.offending_point(&bounds) {
             None => Ok(()),
-            Some(Culprit::NonFinite { point, quantity }) => Err(StepError::NonFinitePoint {
+            Some(OffendingPoint::NonFinite { point, quantity }) => Err(StepError::NonFinitePoint {
                 time_s,
                 point,
                 quantity,
             }),
-            Some(Culprit::Crushed { point, density }) => Err(StepError::Crushed {
+            Some(OffendingPoint::Crushed { point, density }) => Err(StepError::Crushed {
                 time_s,
                 point,
                 density_kg_m3: density,
                 limit_kg_m3: densest,
             }),
-            Some(Culprit::BehindWall {
+            Some(OffendingPoint::BehindWall {
                 point,
                 wall,
                 depth_m,

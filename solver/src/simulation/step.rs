@@ -213,7 +213,7 @@ impl Simulation {
     /// Takes points beyond the open end out, and counts them.
     fn remove_what_left(&mut self) {
         let (state, end) = (&mut self.state, self.given.open_end);
-        if let Some((count, totals)) = state.flow.take_out_beyond(end, &self.given) {
+        if let Some((count, totals)) = state.flow.remove_outflow(end, &self.given) {
             state.audit.leave(count, &totals);
             state.moments.lose(&totals);
         }

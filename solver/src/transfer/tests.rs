@@ -51,7 +51,7 @@ fn scattered(points: &mut Vec<Point>, lattice: Lattice) -> Grid {
     let mut grid = Grid::new(lattice);
     grid.reset_around(&occupied);
     scatter_momentum(points, &mut grid);
-    hand_over_rest(points, elastic(1.0).bulk_density, &mut grid);
+    residual_transfer(points, elastic(1.0).bulk_density, &mut grid);
     grid
 }
 

@@ -268,7 +268,7 @@ fn nodes_across_a_seam_move_as_one() {
 #[test]
 fn what_leaves_through_a_seam_comes_in_again() {
     let mut walls = channel(4, 0.0, 0.0);
-    assert_eq!(walls.upright.shift_across_seam(9.0), None);
+    assert_eq!(walls.upright.periodic_shift(9.0), None);
     walls.upright.ends = Ends::Seam { cells: 8 };
     for (along, shift) in [
         (-0.1, Some(8)),
@@ -277,6 +277,6 @@ fn what_leaves_through_a_seam_comes_in_again() {
         (8.0, Some(-8)),
         (17.0, Some(-16)),
     ] {
-        assert_eq!(walls.upright.shift_across_seam(along), shift, "{along}");
+        assert_eq!(walls.upright.periodic_shift(along), shift, "{along}");
     }
 }

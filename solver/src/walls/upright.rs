@@ -93,7 +93,7 @@ impl Meets {
 
 impl Upright {
     /// The node in the channel that a node is the image of (itself, mostly);
-    /// across a seam the first that has a block.
+    /// across a periodic boundary the first that has a block.
     pub(super) fn leader(&self, [i, j, k]: [i32; 3], nodes: &impl NodeAccess) -> [i32; 3] {
         let j = j.abs();
         let j = if 2 * j > self.halves_across {
@@ -106,7 +106,7 @@ impl Upright {
             Ends::Seam { cells } => {
                 let there = |i: &i32| nodes.place_of([*i, j, k]).is_some();
                 let first = i.rem_euclid(cells);
-                let mut alike = once(first).chain(across_seam(first, cells));
+                let mut alike = once(first).chain(across_period(first, cells));
                 alike.find(there).unwrap_or(first)
             }
         };
@@ -117,7 +117,7 @@ impl Upright {
     pub(super) fn has_images(&self, [i, j, _]: [i32; 3]) -> bool {
         let along = match self.ends {
             Ends::Back(_) => i == 1,
-            Ends::Seam { cells } => across_seam(i, cells).next().is_some(),
+            Ends::Seam { cells } => across_period(i, cells).next().is_some(),
         };
         along || j == 1 || self.is_before_far_side(j)
     }
@@ -142,7 +142,7 @@ impl Upright {
             Ends::Back(_) => ((i == 1).then_some((-i, -1.0)), None),
             Ends::Seam { cells } => (None, Some(cells)),
         };
-        let repeats = period.into_iter().flat_map(|cells| across_seam(i, cells));
+        let repeats = period.into_iter().flat_map(|cells| across_period(i, cells));
         let along_x = once((i, 1.0))
             .chain(mirror)
             .chain(repeats.map(|i| (i, 1.0)));
@@ -178,13 +178,13 @@ impl Upright {
     }
 
     /// True if what leaves comes in again.
-    pub fn has_seam(&self) -> bool {
+    pub fn is_periodic(&self) -> bool {
         matches!(self.ends, Ends::Seam { .. })
     }
 
     /// By how many cells a place `along` cells from the back is moved so that it
-    /// lies between the ends of a seam.
-    pub fn shift_across_seam(&self, along: f64) -> Option<i32> {
+    /// lies between the ends of a periodic boundary.
+    pub fn periodic_shift(&self, along: f64) -> Option<i32> {
         let Ends::Seam { cells } = self.ends else {
             return None;
         };
@@ -223,9 +223,9 @@ impl Upright {
     }
 }
 
-/// The other nodes along x that are the same across a seam of `cells` cells and
+/// The other nodes along x that are the same across a periodic boundary of `cells` cells and
 /// within the kernel's reach.
-fn across_seam(i: i32, cells: i32) -> impl Iterator<Item = i32> {
+fn across_period(i: i32, cells: i32) -> impl Iterator<Item = i32> {
     let first = i.rem_euclid(cells) - cells;
     let alike = (0..4).map(move |period| first + period * cells);
     alike.filter(move |alike| *alike != i && (-1..=cells + 1).contains(alike))

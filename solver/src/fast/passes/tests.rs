@@ -86,7 +86,7 @@ fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (
                 nodes.strain_rate_tile(simd, place, part, tile);
             }
             smooth_strain_rates(simd, block, &shown, &strain_rate_smoothing());
-            hand_over_rest(simd, block, &law, &shown.motion, rest, force);
+            residual_transfer(simd, block, &law, &shown.motion, rest, force);
         });
     }
     let room = beads().bulk_density * spacing.product();
@@ -138,7 +138,7 @@ fn plainly_stepped(mut points: Vec<Point>, substeps: u32, gravity: &Vec3) -> Vec
     grid.reset_around(&occupied);
     transfer::scatter_momentum(&points, &mut grid);
     transfer::scatter_strain_rates(&points, &mut grid);
-    transfer::hand_over_rest(&points, beads().bulk_density, &mut grid);
+    transfer::residual_transfer(&points, beads().bulk_density, &mut grid);
     let mut deformations: Vec<_> = points.iter().map(Deformation::start).collect();
     transfer::smooth_strain_rates(&grid, &points, &strain_rate_smoothing(), &mut deformations);
     let no_contact = vec![Vec3::zeros(); points.len()];

@@ -1,7 +1,7 @@
 //! The fast path: blocks of points in single precision, a whole sub-step in one
 //! pass over them.
 
-use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
+use super::{Bounds, Finished, Flow, OffendingPoint, SavedFlow, StepEnd, StepStart, Substep};
 use crate::contact::point_body::{
     self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, PutBack, Stuck,
 };
@@ -87,12 +87,12 @@ impl FastFlow {
             flawed: false,
             lowest_dilation: 0.0,
         };
-        flow.look_over();
+        flow.check_points();
         flow
     }
 
     /// Looks at every point for what a step has to know of them all.
-    fn look_over(&mut self) {
+    fn check_points(&mut self) {
         for block in self.blocks.occupied_mut() {
             block.note_end(totals::end_of(block), Shifting::default());
         }
@@ -143,17 +143,17 @@ impl FastFlow {
             });
     }
 
-    /// Brings points that went through a seam in at its other end.
-    fn go_round(&mut self, given: &Setup) {
+    /// Brings points that went through a periodic boundary in at its other end.
+    fn wrap_periodic(&mut self, given: &Setup) {
         let upright = &given.walls.upright;
-        if !upright.has_seam() {
+        if !upright.is_periodic() {
             return;
         }
         for block in self.blocks.occupied_mut() {
             let first = f64::from(block.key[0]) * BLOCK as f64;
             for slot in 0..block.count() {
                 let [x, y, z] = block.position(slot);
-                if let Some(cells) = upright.shift_across_seam(first + f64::from(x)) {
+                if let Some(cells) = upright.periodic_shift(first + f64::from(x)) {
                     block.shift(slot, &[x + cells as f32, y, z]);
                 }
             }
@@ -178,7 +178,7 @@ impl FastFlow {
 
     /// Hands over what the nodes do not show of the points' motion, the compressive
     /// strains and the first forces, and shares strain rates.
-    fn hand_over_rest(&mut self, given: &Setup, strain_rate_smoothing: &StrainRateSmoothing) {
+    fn residual_transfer(&mut self, given: &Setup, strain_rate_smoothing: &StrainRateSmoothing) {
         let room = self.packing.material.bulk_density * given.lattice.spacing.product();
         let (nodes, law, level) = (&self.nodes, &self.law, self.level);
         self.blocks
@@ -195,7 +195,7 @@ impl FastFlow {
                         nodes.strain_rate_tile(simd, place, part, tile);
                     }
                     passes::smooth_strain_rates(simd, block, &shown, strain_rate_smoothing);
-                    passes::hand_over_rest(simd, block, law, &shown.motion, rest, force);
+                    passes::residual_transfer(simd, block, law, &shown.motion, rest, force);
                 });
             });
         self.nodes.take_rest(&self.momentum, room as f32, level);
@@ -274,7 +274,7 @@ impl Flow for FastFlow {
         given.walls.reflect(&mut self.boundary, &mut self.nodes);
         self.boundary.smooth_strain_rates(&mut self.nodes);
         stages.done(StepStage::Search);
-        self.hand_over_rest(given, &start.strain_rate_smoothing);
+        self.residual_transfer(given, &start.strain_rate_smoothing);
         self.from_joining = given.walls.join(&mut self.boundary, &mut self.nodes);
         stages.done(StepStage::P2g);
         redistribution::exclude_volume(&self.boundary, bodies, &mut self.nodes);
@@ -367,7 +367,7 @@ impl Flow for FastFlow {
         let blocks = self.blocks.occupied().iter();
         let spread = blocks.fold(Shifting::default(), |sum, block| sum.plus(&block.spread()));
         let (put_back, stuck) = self.put_back(bodies, &given.planes);
-        self.go_round(given);
+        self.wrap_periodic(given);
         stages.done(StepStage::G2p);
         self.blocks.settle();
         stages.done(StepStage::Rebin);
@@ -378,7 +378,7 @@ impl Flow for FastFlow {
         }
     }
 
-    fn culprit(&self, bounds: &Bounds) -> Option<Culprit> {
+    fn offending_point(&self, bounds: &Bounds) -> Option<OffendingPoint> {
         let Bounds {
             planes, tolerance, ..
         } = *bounds;
@@ -398,10 +398,10 @@ impl Flow for FastFlow {
         let mut points = suspects.flat_map(|block| {
             (0..block.count()).map(|slot| self.packing.unpack(&block.key, &block.get(slot)))
         });
-        points.find_map(|point| Culprit::of(&point, bounds))
+        points.find_map(|point| OffendingPoint::of(&point, bounds))
     }
 
-    fn take_out_beyond(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)> {
+    fn remove_outflow(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)> {
         let packing = self.packing;
         let mut gone = Vec::new();
         let near_end = |key: &BlockKey| {
@@ -422,7 +422,7 @@ impl Flow for FastFlow {
         }
         // What is known of the others must not depend on those that left, or a
         // saved run would go on with other bits.
-        self.look_over();
+        self.check_points();
         let moment = packing.lattice.kernel_moment();
         let totals = Totals::of_points(&gone, &packing.material, &moment, &given.gravity);
         Some((gone.len() as u64, totals))

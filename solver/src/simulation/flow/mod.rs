@@ -79,10 +79,10 @@ pub(super) trait Flow: Debug + Send + Sync {
     ) -> Finished;
 
     /// A point that should not be as it is after a step.
-    fn culprit(&self, bounds: &Bounds) -> Option<Culprit>;
+    fn offending_point(&self, bounds: &Bounds) -> Option<OffendingPoint>;
 
     /// Takes out the points beyond x = `end` [m]; `None` if there are none.
-    fn take_out_beyond(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)>;
+    fn remove_outflow(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)>;
 
     /// Sums over the points.
     fn totals(&self, given: &Setup) -> Totals;
@@ -154,7 +154,7 @@ pub(super) struct Bounds<'a> {
 
 /// Fault of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Culprit {
+pub(super) enum OffendingPoint {
     /// A quantity of it is no number.
     NonFinite {
         /// Identity of the point.
@@ -180,7 +180,7 @@ pub(super) enum Culprit {
     },
 }
 
-impl Culprit {
+impl OffendingPoint {
     /// Fault of a point, if it has any.
     fn of(point: &Point, bounds: &Bounds) -> Option<Self> {
         if let Some(quantity) = point.non_finite() {

@@ -1,6 +1,6 @@
 //! The plain path: every stage on its own, in double precision.
 
-use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep};
+use super::{Bounds, Finished, Flow, OffendingPoint, SavedFlow, StepEnd, StepStart, Substep};
 use crate::contact::point_body::{
     self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, Moving, PointAccess, PutBack, Stuck,
 };
@@ -99,15 +99,15 @@ impl PlainFlow {
         }
     }
 
-    /// Brings points that went through a seam in at its other end.
-    fn go_round(&mut self, given: &Setup) {
+    /// Brings points that went through a periodic boundary in at its other end.
+    fn wrap_periodic(&mut self, given: &Setup) {
         let (upright, lattice) = (&given.walls.upright, &given.lattice);
-        if !upright.has_seam() {
+        if !upright.is_periodic() {
             return;
         }
         for point in &mut self.points {
             let along = (point.position.x - lattice.origin.x) / lattice.spacing.x;
-            if let Some(cells) = upright.shift_across_seam(along) {
+            if let Some(cells) = upright.periodic_shift(along) {
                 point.position.x += f64::from(cells) * lattice.spacing.x;
             }
         }
@@ -150,7 +150,7 @@ impl Flow for PlainFlow {
         stages.done(StepStage::Search);
         if let Some(flow) = &given.flow {
             let density = flow.material.bulk_density;
-            transfer::hand_over_rest(&self.points, density, &mut self.grid);
+            transfer::residual_transfer(&self.points, density, &mut self.grid);
             self.from_joining = given.walls.join(&mut self.boundary, &mut self.grid);
         }
         stages.done(StepStage::P2g);
@@ -272,7 +272,7 @@ impl Flow for PlainFlow {
                 }
             }
         }
-        self.go_round(given);
+        self.wrap_periodic(given);
         stages.done(StepStage::G2p);
         Finished {
             put_back: count,
@@ -281,12 +281,12 @@ impl Flow for PlainFlow {
         }
     }
 
-    fn culprit(&self, bounds: &Bounds) -> Option<Culprit> {
-        let culprit = |point: &Point| Culprit::of(point, bounds);
-        self.points.par_iter().find_map_first(culprit)
+    fn offending_point(&self, bounds: &Bounds) -> Option<OffendingPoint> {
+        let offending_point = |point: &Point| OffendingPoint::of(point, bounds);
+        self.points.par_iter().find_map_first(offending_point)
     }
 
-    fn take_out_beyond(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)> {
+    fn remove_outflow(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)> {
         if self.points.iter().all(|point| point.position.x <= end) {
             return None;
         }

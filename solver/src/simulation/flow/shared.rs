@@ -2,7 +2,9 @@
 //! answer that of the whole flow (docs/method.md, section 12).
 
 use super::images::{Images, load_of_both};
-use super::{Bounds, Culprit, Finished, Flow, SavedFlow, StepEnd, StepStart, Substep, plainly};
+use super::{
+    Bounds, Finished, Flow, OffendingPoint, SavedFlow, StepEnd, StepStart, Substep, plainly,
+};
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::Totals;
 use crate::fast::instructions::Instructions;
@@ -180,15 +182,15 @@ impl Flow for SharedFlow {
         }
     }
 
-    fn culprit(&self, bounds: &Bounds) -> Option<Culprit> {
-        self.flow.culprit(&Bounds {
+    fn offending_point(&self, bounds: &Bounds) -> Option<OffendingPoint> {
+        self.flow.offending_point(&Bounds {
             planes: &self.planes,
             ..*bounds
         })
     }
 
-    fn take_out_beyond(&mut self, end: f64, _: &Setup) -> Option<(u64, Totals)> {
-        let (count, totals) = self.flow.take_out_beyond(end, &self.given)?;
+    fn remove_outflow(&mut self, end: f64, _: &Setup) -> Option<(u64, Totals)> {
+        let (count, totals) = self.flow.remove_outflow(end, &self.given)?;
         let count = count * u64::from(self.images.count());
         Some((count, totals.of_images(self.count_of_images())))
     }
