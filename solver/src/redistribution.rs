@@ -221,7 +221,7 @@ pub fn exclude_volume(boundary: &Boundary, bodies: &[Body], nodes: &mut impl Nod
         exclude_body(body, nodes);
     }
     // A body in the channel takes room from a node's images as well.
-    boundary.fill_images_alike(nodes);
+    boundary.fill_ghost_nodes(nodes);
 }
 
 fn exclude_body(body: &Body, nodes: &mut impl NodeAccess) {

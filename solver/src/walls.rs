@@ -1,7 +1,7 @@
 //! The channel's walls: planes for bodies, and constraints on grid nodes.
 //!
 //! The channel is convex: it lies above the floor and above the incline, and
-//! between the upright walls. The upright walls lie on grid planes and act as
+//! between the vertical walls. The vertical walls lie on grid planes and act as
 //! mirrors: a node and its images move as one, so a smooth wall reflects
 //! exactly (docs/method.md, equation 28). Incline and floor act on columns of
 //! nodes, each where it meets them (equation 29).
@@ -14,12 +14,12 @@ mod boundary;
 mod columns;
 mod constraint;
 mod nodes;
-mod upright;
+mod vertical_walls;
 
 pub use boundary::{Boundary, filled};
 pub use constraint::WallPace;
 pub use nodes::NodeAccess;
-pub use upright::{Bound, Ends, Upright};
+pub use vertical_walls::{Ends, VerticalBoundary, VerticalWalls};
 
 /// A wall's surface; the channel lies on the side its normal points to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ pub struct Walls {
     /// Incline and floor: every place of the channel is above each of them.
     pub base: Vec<Plane>,
     /// The mirrors.
-    pub upright: Upright,
+    pub vertical_walls: VerticalWalls,
 }
 
 /// Impulse that walls gave, linear [N s] and angular about the origin [N m s].
@@ -95,11 +95,15 @@ pub fn in_plane(v: &Vec3) -> Vec3 {
 impl Walls {
     /// Every plane a body can touch.
     pub fn planes(&self) -> impl Iterator<Item = &Plane> {
-        let back = match &self.upright.ends {
+        let back = match &self.vertical_walls.ends {
             Ends::Back(bound) => Some(bound.plane()),
             Ends::Seam { .. } => None,
         };
-        let sides = self.upright.sides.iter().map(Bound::plane);
+        let sides = self
+            .vertical_walls
+            .sides
+            .iter()
+            .map(VerticalBoundary::plane);
         self.base.iter().chain(back).chain(sides)
     }
 }

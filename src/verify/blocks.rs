@@ -7,7 +7,7 @@ use scree_solver::math::{Mat3, Sym3, Vec3};
 use scree_solver::points::Point;
 use scree_solver::scenario::Precision;
 use scree_solver::simulation::{Expected, GivenFlow, Guards, Scene, Setup, Timing};
-use scree_solver::walls::{Bound, Ends, Plane, Upright, Walls};
+use scree_solver::walls::{Ends, Plane, VerticalBoundary, VerticalWalls, Walls};
 
 /// Points per cell and axis, as a scenario has them by default.
 pub(super) const PER_CELL: u32 = 2;
@@ -140,7 +140,7 @@ impl Block {
 
     fn walls(&self) -> Walls {
         let symmetry = |normal, distance: f64| {
-            Bound::Symmetry(Plane {
+            VerticalBoundary::Symmetry(Plane {
                 name: "plane of symmetry",
                 normal,
                 offset: -distance,
@@ -163,7 +163,7 @@ impl Block {
         };
         Walls {
             base: vec![floor],
-            upright: Upright {
+            vertical_walls: VerticalWalls {
                 ends,
                 sides: [
                     symmetry(Vec3::y(), half_width),

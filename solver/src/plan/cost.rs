@@ -84,7 +84,7 @@ fn stages(outline: &Outline, course: &Course, substeps: u64, end: f64) -> Vec<St
         (substeps as f64 * share).round() as u64
     };
     let stage = |share: Share, from: f64, to: f64| {
-        let halves = outline.given.walls.upright.halves_across;
+        let halves = outline.given.walls.vertical_walls.halves_across;
         let rows = |columns: &Columns| u64::from(share.rows_across(columns, halves));
         let of_row = |columns: &Columns| columns.points() / u64::from(columns.count[1]);
         Stage {
@@ -135,7 +135,7 @@ fn over(duration: f64, longest: f64, per_step: f64) -> (u64, u64) {
 
 /// Of so many points, of which so many are computed.
 fn memory(scenario: &Scenario, outline: &Outline, points: u64, computed: u64) -> u64 {
-    let cells = 0.5 * f64::from(outline.given.walls.upright.halves_across);
+    let cells = 0.5 * f64::from(outline.given.walls.vertical_walls.halves_across);
     let share = computed as f64 / points.max(1) as f64;
     let blocks = Blocks::of_release(scenario, outline, share * cells);
     let points = computed;

@@ -70,7 +70,7 @@ pub struct Channel {
     pub width_m: f64,
     /// Coulomb friction between flow and incline or floor.
     pub base_friction: f64,
-    /// Coulomb friction between flow and the upright walls (sides and back).
+    /// Coulomb friction between flow and the vertical walls (sides and back).
     pub side_friction: f64,
 }
 

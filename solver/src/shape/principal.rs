@@ -27,17 +27,17 @@ impl PrincipalInertia {
         let axes = match (equal(0, 1), equal(1, 2)) {
             (true, true) => [Vector3::x(), Vector3::y(), Vector3::z()],
             (true, false) => {
-                let last = upright(&found[2]);
+                let last = vertical_walls(&found[2]);
                 let first = across(&last);
                 [first, last.cross(&first), last]
             }
             (false, true) => {
-                let first = upright(&found[0]);
+                let first = vertical_walls(&found[0]);
                 let second = across(&first);
                 [first, second, first.cross(&second)]
             }
             (false, false) => {
-                let [first, second] = [upright(&found[0]), upright(&found[1])];
+                let [first, second] = [vertical_walls(&found[0]), vertical_walls(&found[1])];
                 [first, second, first.cross(&second)]
             }
         };
@@ -46,7 +46,7 @@ impl PrincipalInertia {
 }
 
 /// The one of ±axis whose largest component is positive.
-fn upright(axis: &Vector3<f64>) -> Vector3<f64> {
+fn vertical_walls(axis: &Vector3<f64>) -> Vector3<f64> {
     axis * axis[axis.iamax()].signum()
 }
 

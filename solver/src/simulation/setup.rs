@@ -11,7 +11,7 @@ use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::{self, Precision, Scenario};
 use crate::stability::Pace;
-use crate::walls::{Bound, Ends, Plane, Upright, WallPace, Walls};
+use crate::walls::{Ends, Plane, VerticalBoundary, VerticalWalls, WallPace, Walls};
 
 mod bodies;
 mod flow;
@@ -235,7 +235,7 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
         offset: 0.0,
         flow_friction: channel.base_friction,
     };
-    let upright = |name, normal: Vec3, distance: f64| Plane {
+    let vertical_walls = |name, normal: Vec3, distance: f64| Plane {
         name,
         normal,
         offset: -distance,
@@ -248,15 +248,15 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
     }
     Walls {
         base: planes,
-        upright: Upright {
-            ends: Ends::Back(Bound::Wall(upright(
+        vertical_walls: VerticalWalls {
+            ends: Ends::Back(VerticalBoundary::Wall(vertical_walls(
                 "back wall",
                 Vec3::x(),
                 channel.incline_length_m,
             ))),
             sides: [
-                Bound::Wall(upright("right side wall", Vec3::y(), half_width)),
-                Bound::Wall(upright("left side wall", -Vec3::y(), half_width)),
+                VerticalBoundary::Wall(vertical_walls("right side wall", Vec3::y(), half_width)),
+                VerticalBoundary::Wall(vertical_walls("left side wall", -Vec3::y(), half_width)),
             ],
             halves_across: 2 * (channel.width_m / lattice.spacing.y).round() as i32,
         },

@@ -64,7 +64,7 @@ impl Walls {
         let own = &self.base[plane];
         let of_way = |other: &&Plane| Way::of(other) == way && **other != *own;
         match self.base.iter().find(of_way) {
-            Some(other) if way == Way::Standing => {
+            Some(other) if way == Way::Vertical => {
                 let x = lattice.position([along, 0, 0]).x;
                 let beyond = (x - break_between(own, other)) / lattice.spacing.x;
                 // The bed is the higher of both: downstream of the break the one that
@@ -111,7 +111,7 @@ mod tests {
         let walls = sloped(foot);
         let of_column = |along: i32| {
             let plane = usize::from(f64::from(along) < foot);
-            walls.surface_at(plane, Way::Standing, along, &lattice)
+            walls.surface_at(plane, Way::Vertical, along, &lattice)
         };
         (0..=20).map(of_column).collect()
     }

@@ -3,10 +3,10 @@
 use super::Plane;
 use super::Walls;
 use super::bed::Surface;
-use super::columns::{Column, Rung, Way};
-use super::constraint::Answer;
+use super::columns::{BoundaryColumn, ColumnNode, Way};
+use super::constraint::ConstrainedVelocity;
 use super::nodes::NodeAccess;
-use super::upright::{Ends, Meets};
+use super::vertical_walls::{Ends, Meets};
 use crate::grid::{BLOCK, BLOCK_NODES};
 use crate::kernel::{Lattice, REACH, share_above, share_above_both};
 use crate::math::{Sym3, Vec3};
@@ -27,7 +27,7 @@ pub(super) struct Member {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Group {
+pub(super) struct ConstraintSet {
     pub(super) members: Range<usize>,
     pub(super) back: Meets,
     pub(super) side: Meets,
@@ -40,12 +40,12 @@ pub(super) struct Group {
     room: f64,
 }
 
-impl Group {
-    pub(super) fn is_upright(&self) -> bool {
+impl ConstraintSet {
+    pub(super) fn is_at_vertical_wall(&self) -> bool {
         self.back != Meets::Not || self.side != Meets::Not
     }
 
-    /// Stops a velocity into a wall that the group lies on.
+    /// Stops a velocity into a wall that the constraint set lies on.
     pub(super) fn keep_out_of_walls(&self, velocity: &mut Vec3) {
         for (axis, meets) in [(0, self.back), (1, self.side)] {
             match meets {
@@ -60,17 +60,17 @@ impl Group {
 #[derive(Debug, Default)]
 pub struct Boundary {
     pub(super) members: Vec<Member>,
-    pub(super) groups: Vec<Group>,
+    pub(super) sets: Vec<ConstraintSet>,
     /// Other nodes whose kernel a base plane cuts: their places, and the share
     /// of it that lies in the channel.
     cut: Vec<(u32, f64)>,
     /// Groups near the base, by columns.
-    pub(super) rungs: Vec<Rung>,
-    pub(super) columns: Vec<Column>,
+    pub(super) column_nodes: Vec<ColumnNode>,
+    pub(super) columns: Vec<BoundaryColumn>,
     /// Velocities of the first two nodes of each column of a kind.
     pub(super) ends: Vec<[Vec3; 2]>,
-    /// Changes of each group by a sub-step.
-    pub(super) answers: Vec<Answer>,
+    /// Changes of each constraint set by a sub-step.
+    pub(super) constrained: Vec<ConstrainedVelocity>,
 }
 
 impl Boundary {
@@ -82,12 +82,12 @@ impl Boundary {
             let place = *place as usize;
             nodes.set_volume_fraction(place, filled(nodes.volume_fraction(place), *room));
         }
-        for group in &self.groups {
-            let members = &self.members[group.members.clone()];
+        for set in &self.sets {
+            let members = &self.members[set.members.clone()];
             let of_member = |member: &Member| nodes.volume_fraction(member.place as usize);
-            let inside = group.back.room() * group.side.room();
+            let inside = set.back.room() * set.side.room();
             let sum: f64 = members.iter().map(of_member).sum();
-            let volume_fraction = filled(sum / inside, group.room);
+            let volume_fraction = filled(sum / inside, set.room);
             for member in members {
                 nodes.set_volume_fraction(member.place as usize, volume_fraction);
             }
@@ -95,13 +95,13 @@ impl Boundary {
         }
     }
 
-    /// Places of the nodes that move as one with ghosts of theirs, group by group.
-    pub fn ghost_groups(&self) -> impl Iterator<Item = impl Iterator<Item = usize> + Clone> {
-        self.groups
+    /// Places of the nodes that move as one with ghosts of theirs, constraint set by constraint set.
+    pub fn ghost_sets(&self) -> impl Iterator<Item = impl Iterator<Item = usize> + Clone> {
+        self.sets
             .iter()
-            .filter(|group| group.members.len() > 1)
-            .map(|group| {
-                let members = self.members[group.members.clone()].iter();
+            .filter(|set| set.members.len() > 1)
+            .map(|set| {
+                let members = self.members[set.members.clone()].iter();
                 members.map(|member| member.place as usize)
             })
     }
@@ -109,20 +109,20 @@ impl Boundary {
     /// The mean strain rate of a node's points takes in those of its images; on a
     /// wall, the mirror of itself.
     pub fn smooth_strain_rates(&self, nodes: &mut impl NodeAccess) {
-        let mirrors = |group: &&Group| group.is_upright() || group.members.len() > 1;
-        for group in self.groups.iter().filter(mirrors) {
-            let members = &self.members[group.members.clone()];
+        let mirrors = |set: &&ConstraintSet| set.is_at_vertical_wall() || set.members.len() > 1;
+        for set in self.sets.iter().filter(mirrors) {
+            let members = &self.members[set.members.clone()];
             let of_member = |member: &Member| {
                 let place = member.place as usize;
                 let seen = nodes.strain_rate(place).mirrored(member.sign);
-                seen.times(nodes.mass(place) / group.mass)
+                seen.times(nodes.mass(place) / set.mass)
             };
             let sum = |sum: Sym3, part: Sym3| sum.plus(&part);
             let mut mean = members.iter().map(of_member).fold(Sym3::default(), sum);
-            if matches!(group.back, Meets::On { .. }) {
+            if matches!(set.back, Meets::On { .. }) {
                 (mean.xy, mean.xz) = (0.0, 0.0);
             }
-            if matches!(group.side, Meets::On { .. }) {
+            if matches!(set.side, Meets::On { .. }) {
                 (mean.xy, mean.yz) = (0.0, 0.0);
             }
             for member in members {
@@ -133,12 +133,12 @@ impl Boundary {
 
     /// Makes every image as full as the node in the channel that it is one of: a
     /// crowd that looked larger on one side of a wall would push points through it.
-    pub fn fill_images_alike(&self, nodes: &mut impl NodeAccess) {
-        for group in &self.groups {
-            let [leader, images @ ..] = &self.members[group.members.clone()] else {
+    pub fn fill_ghost_nodes(&self, nodes: &mut impl NodeAccess) {
+        for set in &self.sets {
+            let [master, images @ ..] = &self.members[set.members.clone()] else {
                 continue;
             };
-            let volume_fraction = nodes.volume_fraction(leader.place as usize);
+            let volume_fraction = nodes.volume_fraction(master.place as usize);
             for image in images {
                 nodes.set_volume_fraction(image.place as usize, volume_fraction);
             }
@@ -179,9 +179,9 @@ impl Walls {
     /// Finds the nodes that walls act on.
     pub fn find_boundary(&self, nodes: &impl NodeAccess, boundary: &mut Boundary) {
         boundary.members.clear();
-        boundary.groups.clear();
+        boundary.sets.clear();
         boundary.cut.clear();
-        boundary.rungs.clear();
+        boundary.column_nodes.clear();
         for (block, key) in nodes.blocks().iter().enumerate() {
             let first = key.map(|k| k * BLOCK as i32);
             if !self.may_act_in(nodes.lattice(), first) {
@@ -196,26 +196,27 @@ impl Walls {
                 let index = [0, 1, 2].map(|axis| first[axis] + along[axis] as i32);
                 let place = block * BLOCK_NODES + local;
                 // An empty node counts where its images may not be empty.
-                let counts = nodes.mass(place) > 0.0 || self.upright.has_images(index);
-                if counts && self.upright.leader(index, nodes) == index {
-                    self.add_group(nodes, place, index, boundary);
+                let counts = nodes.mass(place) > 0.0 || self.vertical_walls.has_images(index);
+                if counts && self.vertical_walls.master(index, nodes) == index {
+                    self.add_set(nodes, place, index, boundary);
                 }
             }
         }
         self.make_columns(boundary, nodes.lattice());
         boundary
-            .answers
-            .resize(boundary.groups.len(), Answer::default());
+            .constrained
+            .resize(boundary.sets.len(), ConstrainedVelocity::default());
     }
 
     /// True if walls may act on a node of the block that starts at `first`.
     fn may_act_in(&self, lattice: &Lattice, first: [i32; 3]) -> bool {
         let last = first.map(|along| along + BLOCK as i32 - 1);
-        let ends = match self.upright.ends {
+        let ends = match self.vertical_walls.ends {
             Ends::Back(_) => first[0] <= 1,
             Ends::Seam { cells } => first[0] <= 1 || last[0] >= cells - 1,
         };
-        let upright = ends || first[1] <= 1 || 2 * last[1] >= self.upright.halves_across - 2;
+        let vertical_walls =
+            ends || first[1] <= 1 || 2 * last[1] >= self.vertical_walls.halves_across - 2;
         let (low, high) = (lattice.position(first), lattice.position(last));
         // The lowest of a box's corners above a plane.
         let lowest =
@@ -227,10 +228,10 @@ impl Walls {
             };
         // The kernel's reach along a diagonal.
         let margin = REACH * lattice.spacing.norm();
-        upright || self.base.iter().any(|plane| lowest(plane) <= margin)
+        vertical_walls || self.base.iter().any(|plane| lowest(plane) <= margin)
     }
 
-    fn add_group(
+    fn add_set(
         &self,
         nodes: &impl NodeAccess,
         place: usize,
@@ -244,7 +245,7 @@ impl Walls {
             sign: [1.0, 1.0],
             resting,
         });
-        self.upright
+        self.vertical_walls
             .for_each_image(index, |image, sign| match nodes.place_of(image) {
                 Some(place) if nodes.mass(place) > 0.0 => boundary.members.push(Member {
                     place: place as u32,
@@ -253,21 +254,21 @@ impl Walls {
                 }),
                 _ => {}
             });
-        let back = self.upright.meets_back(index);
-        let side = self.upright.meets_side(index);
+        let back = self.vertical_walls.meets_back(index);
+        let side = self.vertical_walls.meets_side(index);
         let surfaces = self.surfaces_over(index, nodes.lattice());
         let alone = boundary.members.len() == start + 1;
-        let group = boundary.groups.len() as u32;
-        let known = boundary.rungs.len();
-        let rungs = self.rungs_of(index, group, nodes.lattice());
-        boundary.rungs.extend(rungs);
-        let of_column = boundary.rungs.len() > known;
-        let upright = back != Meets::Not || side != Meets::Not;
-        let plain = alone && surfaces == [None; 2] && !upright && !of_column;
+        let set = boundary.sets.len() as u32;
+        let known = boundary.column_nodes.len();
+        let column_nodes = self.column_nodes_of(index, set, nodes.lattice());
+        boundary.column_nodes.extend(column_nodes);
+        let of_column = boundary.column_nodes.len() > known;
+        let vertical_walls = back != Meets::Not || side != Meets::Not;
+        let plain = alone && surfaces == [None; 2] && !vertical_walls && !of_column;
         let empty = alone && nodes.mass(place) <= 0.0;
         if plain || empty {
             boundary.members.truncate(start);
-            boundary.rungs.truncate(known);
+            boundary.column_nodes.truncate(known);
         }
         let room = self.room(&resting, &nodes.lattice().spacing);
         if plain && room < 1.0 {
@@ -282,7 +283,7 @@ impl Walls {
             .iter()
             .map(of_member)
             .sum();
-        boundary.groups.push(Group {
+        boundary.sets.push(ConstraintSet {
             members,
             mass,
             back,
@@ -315,7 +316,7 @@ impl Walls {
         // A node that lies on the plane but for rounding belongs to it.
         let rounding = 1e-9 * (1.0 + x.norm());
         // The floor acts before a steep incline, as it comes first in the base.
-        [Way::Standing, Way::Lying].map(|way| {
+        [Way::Vertical, Way::Horizontal].map(|way| {
             let of_way = self.base.iter().enumerate();
             let (plane, _) = of_way
                 .filter(|(_, plane)| Way::of(plane) == way && plane.height(&x) <= rounding)

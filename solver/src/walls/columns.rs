@@ -7,16 +7,16 @@
 //! where nodes that are each held on their own would let it slip.
 
 use super::bed::Surface;
-use super::boundary::{Boundary, Group};
-use super::constraint::{Answer, constrain_to};
-use super::upright::Meets;
+use super::boundary::{Boundary, ConstraintSet};
+use super::constraint::{ConstrainedVelocity, constrain_to};
+use super::vertical_walls::Meets;
 use super::{Plane, Walls};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Slope (rise over run) from which on a base plane has lying columns, along x.
+/// Slope (rise over run) from which on a base plane has horizontal columns, along x.
 const STEEP: f64 = 2.0;
 /// Columns whose masses lie closer than this along them [node distances²] say
 /// nothing of how the velocity changes.
@@ -28,45 +28,45 @@ const TASK: usize = 64;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Way {
     /// Along x, on a steep plane. They come first: the floor has the last word.
-    Lying,
+    Horizontal,
     /// Along z.
-    Standing,
+    Vertical,
 }
 
 impl Way {
-    const BOTH: [Self; 2] = [Self::Lying, Self::Standing];
+    const BOTH: [Self; 2] = [Self::Horizontal, Self::Vertical];
 
     fn axis(self) -> usize {
         match self {
-            Self::Lying => 0,
-            Self::Standing => 2,
+            Self::Horizontal => 0,
+            Self::Vertical => 2,
         }
     }
 
     pub(super) fn of(plane: &Plane) -> Self {
         if plane.normal.x.abs() > STEEP * plane.normal.z {
-            Self::Lying
+            Self::Horizontal
         } else {
-            Self::Standing
+            Self::Vertical
         }
     }
 }
 
 /// A node's place in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Rung {
+pub(super) struct ColumnNode {
     way: Way,
     /// The column's index along the other two axes.
     across: [i32; 2],
     /// Nodes behind the first in the channel; −1 for the second.
     depth: i32,
-    pub(super) group: u32,
+    pub(super) set: u32,
 }
 
 /// A column and what it resists.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Column {
-    rungs: Range<usize>,
+pub(super) struct BoundaryColumn {
+    column_nodes: Range<usize>,
     /// The bed at its foot.
     surface: Surface,
     /// Inverse of the mass matrix of a and b [1/kg]: aa, ab, bb.
@@ -80,26 +80,26 @@ fn shares(depth: f64) -> [f64; 2] {
     [1.0 + depth, -depth]
 }
 
-impl Column {
-    /// The column of these rungs, on a surface `gap` node distances behind the
-    /// first node; `None` if nodes with mass are too few or an upright wall holds
+impl BoundaryColumn {
+    /// The column of these column nodes, on a surface `gap` node distances behind the
+    /// first node; `None` if nodes with mass are too few or an vertical wall holds
     /// one of them across the way.
     fn new(
-        all: &[Rung],
-        rungs: Range<usize>,
-        groups: &[Group],
+        all: &[ColumnNode],
+        column_nodes: Range<usize>,
+        sets: &[ConstraintSet],
         surface: Surface,
         gap: f64,
     ) -> Option<Self> {
-        let group = |rung: &Rung| &groups[rung.group as usize];
-        let Rung { way, .. } = all[rungs.start];
-        let held = |rung: &Rung| matches!(group(rung).back, Meets::On { .. });
-        if way == Way::Lying && all[rungs.clone()].iter().any(held) {
+        let set = |column_node: &ColumnNode| &sets[column_node.set as usize];
+        let ColumnNode { way, .. } = all[column_nodes.start];
+        let held = |column_node: &ColumnNode| matches!(set(column_node).back, Meets::On { .. });
+        if way == Way::Horizontal && all[column_nodes.clone()].iter().any(held) {
             return None;
         }
         let (mut mass, mut first, mut second) = (0.0, 0.0, 0.0);
-        for rung in &all[rungs.clone()] {
-            let (of, depth) = (group(rung).mass, f64::from(rung.depth));
+        for column_node in &all[column_nodes.clone()] {
+            let (of, depth) = (set(column_node).mass, f64::from(column_node.depth));
             mass += of;
             first += of * depth;
             second += of * depth * depth;
@@ -112,7 +112,7 @@ impl Column {
         let (aa, ab, bb) = (mass + 2.0 * first + second, -(first + second), second);
         let determinant = mass * mass * spread;
         Some(Self {
-            rungs,
+            column_nodes,
             surface,
             mobility: [bb, -ab, aa].map(|of| of / determinant),
             at_base: shares(gap),
@@ -125,12 +125,17 @@ impl Column {
     }
 
     /// Velocities of its first two nodes that carry the momentum of all.
-    fn fitted(&self, rungs: &[Rung], groups: &[Group], answers: &[Answer]) -> [Vec3; 2] {
+    fn fitted(
+        &self,
+        column_nodes: &[ColumnNode],
+        sets: &[ConstraintSet],
+        constrained: &[ConstrainedVelocity],
+    ) -> [Vec3; 2] {
         let mut momentum = [Vec3::zeros(); 2];
-        for rung in rungs {
-            let group = rung.group as usize;
-            let of = answers[group].velocity * groups[group].mass;
-            let shares = shares(f64::from(rung.depth));
+        for column_node in column_nodes {
+            let set = column_node.set as usize;
+            let of = constrained[set].velocity * sets[set].mass;
+            let shares = shares(f64::from(column_node.depth));
             for (sum, share) in momentum.iter_mut().zip(shares) {
                 *sum += of * share;
             }
@@ -156,25 +161,25 @@ impl Column {
 
 impl Walls {
     /// The columns that a node is of: on their ends in the channel or behind.
-    pub(super) fn rungs_of(
+    pub(super) fn column_nodes_of(
         &self,
         index: [i32; 3],
-        group: u32,
+        set: u32,
         lattice: &Lattice,
-    ) -> impl Iterator<Item = Rung> {
+    ) -> impl Iterator<Item = ColumnNode> {
         Way::BOTH.into_iter().filter_map(move |way| {
             let across = match way {
-                Way::Lying => [index[1], index[2]],
-                Way::Standing => [index[0], index[1]],
+                Way::Horizontal => [index[1], index[2]],
+                Way::Vertical => [index[0], index[1]],
             };
             let (_, _, first) = self.foot(way, across, lattice)?;
             let depth = first - index[way.axis()];
-            let here = way == Way::Standing || !self.is_below_floor(index, lattice);
-            (depth >= -1 && here).then_some(Rung {
+            let here = way == Way::Vertical || !self.is_below_floor(index, lattice);
+            (depth >= -1 && here).then_some(ColumnNode {
                 way,
                 across,
                 depth,
-                group,
+                set,
             })
         })
     }
@@ -184,8 +189,8 @@ impl Walls {
     fn foot(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<(usize, f64, i32)> {
         let axis = way.axis();
         let index = match way {
-            Way::Lying => [0, across[0], across[1]],
-            Way::Standing => [across[0], across[1], 0],
+            Way::Horizontal => [0, across[0], across[1]],
+            Way::Vertical => [across[0], across[1], 0],
         };
         let start = lattice.position(index);
         let of_way = self.base.iter().enumerate();
@@ -200,30 +205,31 @@ impl Walls {
     }
 
     fn is_below_floor(&self, index: [i32; 3], lattice: &Lattice) -> bool {
-        let first = self.foot(Way::Standing, [index[0], index[1]], lattice);
+        let first = self.foot(Way::Vertical, [index[0], index[1]], lattice);
         first.is_some_and(|(_, _, first)| index[2] < first)
     }
 
-    /// Makes columns of the rungs found.
+    /// Makes columns of the column nodes found.
     pub(super) fn make_columns(&self, boundary: &mut Boundary, lattice: &Lattice) {
         let Boundary {
-            rungs,
+            column_nodes,
             columns,
-            groups,
+            sets,
             ..
         } = boundary;
         columns.clear();
-        rungs.sort_unstable();
+        column_nodes.sort_unstable();
         let mut start = 0;
-        for alike in rungs.chunk_by(|a, b| (a.way, a.across) == (b.way, b.across)) {
+        for alike in column_nodes.chunk_by(|a, b| (a.way, a.across) == (b.way, b.across)) {
             let end = start + alike.len();
-            let Rung { way, across, .. } = alike[0];
+            let ColumnNode { way, across, .. } = alike[0];
             if let Some((plane, gap, _)) = self.foot(way, across, lattice)
                 && let surface = self.surface_at(plane, way, across[0], lattice)
-                && let Some(column) = Column::new(rungs, start..end, groups, surface, gap)
+                && let Some(column) =
+                    BoundaryColumn::new(column_nodes, start..end, sets, surface, gap)
             {
-                for rung in alike {
-                    groups[rung.group as usize].surfaces = [None; 2];
+                for column_node in alike {
+                    sets[column_node.set as usize].surfaces = [None; 2];
                 }
                 columns.push(column);
             }
@@ -235,30 +241,34 @@ impl Walls {
     /// on them if it `acts`.
     pub(super) fn line_up(&self, boundary: &mut Boundary, acts: bool) {
         let Boundary {
-            rungs,
+            column_nodes,
             columns,
-            groups,
-            answers,
+            sets,
+            constrained,
             ends,
             ..
         } = boundary;
-        // A node can be of a lying and of a standing column.
-        let way = |column: &Column| rungs[column.rungs.start].way;
+        // A node can be of a lying and of a vertical columns.
+        let way = |column: &BoundaryColumn| column_nodes[column.column_nodes.start].way;
         for alike in columns.chunk_by(|a, b| way(a) == way(b)) {
             alike
                 .par_iter()
                 .with_min_len(TASK)
                 .map(|column| {
-                    let ends = column.fitted(&rungs[column.rungs.clone()], groups, answers);
+                    let ends = column.fitted(
+                        &column_nodes[column.column_nodes.clone()],
+                        sets,
+                        constrained,
+                    );
                     if acts { column.stopped(ends) } else { ends }
                 })
                 .collect_into_vec(ends);
             for (column, [a, b]) in alike.iter().zip(ends.iter()) {
-                for rung in &rungs[column.rungs.clone()] {
-                    let shares = shares(f64::from(rung.depth));
+                for column_node in &column_nodes[column.column_nodes.clone()] {
+                    let shares = shares(f64::from(column_node.depth));
                     let mut velocity = a * shares[0] + b * shares[1];
-                    groups[rung.group as usize].keep_out_of_walls(&mut velocity);
-                    answers[rung.group as usize].velocity = velocity;
+                    sets[column_node.set as usize].keep_out_of_walls(&mut velocity);
+                    constrained[column_node.set as usize].velocity = velocity;
                 }
             }
         }

@@ -1,9 +1,9 @@
 //! Constraints of walls on the motion of nodes.
 
 use super::bed::Surface;
-use super::boundary::{Boundary, Group, Member};
+use super::boundary::{Boundary, ConstraintSet, Member};
 use super::nodes::NodeAccess;
-use super::upright::Meets;
+use super::vertical_walls::Meets;
 use super::{Impulse, Walls};
 use crate::math::Vec3;
 use rayon::prelude::*;
@@ -20,7 +20,7 @@ pub struct WallPace {
     pub crossing: f64,
 }
 
-/// State of a group before the forces of a sub-step.
+/// State of a constraint set before the forces of a sub-step.
 #[derive(Debug, Clone, Copy)]
 struct Before {
     /// Momentum along x and y [N s].
@@ -30,15 +30,15 @@ struct Before {
     crossing: f64,
 }
 
-/// Answer of walls to the motion of a group.
+/// Answer of walls to the motion of a constraint set.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Answer {
+pub(super) struct ConstrainedVelocity {
     /// Velocity in the frame of the first member [m/s].
     pub(super) velocity: Vec3,
-    /// True along x and y if the group leaves the wall across: its images move along
+    /// True along x and y if the constraint set leaves the wall across: its images move along
     /// with it instead of mirrored.
     leaves: [bool; 2],
-    /// Momentum of the group along x and y after it, as it lies on the grid [N s].
+    /// Momentum of the constraint set along x and y after it, as it lies on the grid [N s].
     left: [f64; 2],
     /// Impulse given.
     impulse: Impulse,
@@ -53,14 +53,14 @@ impl Walls {
     pub fn reflect(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) {
         self.propose(boundary, nodes, None);
         self.line_up(boundary, false);
-        for (answer, group) in boundary.answers.iter().zip(&boundary.groups) {
-            for member in &boundary.members[group.members.clone()] {
+        for (answer, set) in boundary.constrained.iter().zip(&boundary.sets) {
+            for member in &boundary.members[set.members.clone()] {
                 nodes.set_velocity(member.place as usize, &answer.velocity_of(member), 0.0);
             }
         }
     }
 
-    /// Makes node velocities obey the walls for a sub-step: mirrors at the upright ones,
+    /// Makes node velocities obey the walls for a sub-step: mirrors at the vertical walls ones,
     /// no inflow and free separation at the base, Coulomb friction at both. Returns the
     /// impulse given to the flow.
     pub fn constrain(
@@ -82,58 +82,58 @@ impl Walls {
         Self::give(boundary, nodes, 0.0)
     }
 
-    /// Gives the groups the velocities found for them.
+    /// Gives the constraint sets the velocities found for them.
     fn give(boundary: &mut Boundary, nodes: &mut impl NodeAccess, dt: f64) -> Impulse {
         let Boundary {
             members,
-            groups,
-            answers,
+            sets,
+            constrained,
             ..
         } = boundary;
         let seen: &_ = nodes;
-        answers
+        constrained
             .par_iter_mut()
-            .zip(&*groups)
+            .zip(&*sets)
             .with_min_len(TASK)
-            .for_each(|(answer, group)| {
-                answer.account_for(&members[group.members.clone()], seen, dt);
+            .for_each(|(answer, set)| {
+                answer.account_for(&members[set.members.clone()], seen, dt);
             });
         let mut given = Impulse::default();
-        for (answer, group) in answers.iter().zip(groups) {
+        for (answer, set) in constrained.iter().zip(sets) {
             if !answer.changed {
                 continue;
             }
             given.linear += answer.impulse.linear;
             given.angular += answer.impulse.angular;
-            for member in &members[group.members.clone()] {
+            for member in &members[set.members.clone()] {
                 nodes.set_velocity(member.place as usize, &answer.velocity_of(member), dt);
             }
         }
         given
     }
 
-    /// Finds for every group the motion it would have without its column; within a
+    /// Finds for every constraint set the motion it would have without its column; within a
     /// sub-step, which has a `pace`, with the base planes that act on it alone.
     fn propose(&self, boundary: &mut Boundary, nodes: &impl NodeAccess, pace: Option<WallPace>) {
         let Boundary {
             members,
-            groups,
-            answers,
+            sets,
+            constrained,
             ..
         } = boundary;
-        answers
+        constrained
             .par_iter_mut()
-            .zip(&*groups)
+            .zip(&*sets)
             .with_min_len(TASK)
-            .for_each(|(answer, group)| {
-                let members = &members[group.members.clone()];
+            .for_each(|(answer, set)| {
+                let members = &members[set.members.clone()];
                 let before = pace.map(|pace| Before {
                     momentum: answer.left,
                     crossing: pace.crossing,
                 });
-                let mut motion = self.joint_motion(group, members, nodes, before);
+                let mut motion = self.joint_motion(set, members, nodes, before);
                 if pace.is_some() {
-                    for surface in group.surfaces.iter().flatten() {
+                    for surface in set.surfaces.iter().flatten() {
                         constrain_to(surface, &mut motion.velocity);
                     }
                 }
@@ -141,28 +141,28 @@ impl Walls {
             });
     }
 
-    /// Common motion of a group in the frame of its first member, but for the base.
+    /// Common motion of a constraint set in the frame of its first member, but for the base.
     /// `before` is there if the forces of a sub-step have acted.
     fn joint_motion(
         &self,
-        group: &Group,
+        set: &ConstraintSet,
         members: &[Member],
         nodes: &impl NodeAccess,
         before: Option<Before>,
     ) -> Motion {
         match members {
-            [only] if !group.is_upright() => Motion {
+            [only] if !set.is_at_vertical_wall() => Motion {
                 velocity: nodes.velocity(only.place as usize),
                 leaves: [false; 2],
             },
-            _ => self.between_uprights(group, members, nodes, before),
+            _ => self.between_vertical_walls(set, members, nodes, before),
         }
     }
 
-    /// Common motion of a group that meets an upright wall, but for the base.
-    fn between_uprights(
+    /// Common motion of a constraint set that meets an vertical wall, but for the base.
+    fn between_vertical_walls(
         &self,
-        group: &Group,
+        set: &ConstraintSet,
         members: &[Member],
         nodes: &impl NodeAccess,
         before: Option<Before>,
@@ -170,7 +170,7 @@ impl Walls {
         let folded = Folded::of(members, nodes);
         let mut velocity = folded.momentum / folded.mass;
         let mut leaves = [false; 2];
-        for (axis, meets) in [(0, group.back), (1, group.side)] {
+        for (axis, meets) in [(0, set.back), (1, set.side)] {
             let (Meets::Near { inward } | Meets::On { inward }) = meets else {
                 continue;
             };
@@ -179,7 +179,7 @@ impl Walls {
                 let lost = (before.momentum[axis] * inward - momentum).max(0.0);
                 lost * before.crossing * meets.share_of_pressure()
             });
-            leaves[axis] = momentum > pressed && self.upright.lets_go(axis, inward);
+            leaves[axis] = momentum > pressed && self.vertical_walls.lets_go(axis, inward);
             if leaves[axis] {
                 velocity[axis] = folded.unfolded[axis] / folded.mass;
                 continue;
@@ -187,27 +187,27 @@ impl Walls {
             if let Meets::On { .. } = meets {
                 velocity[axis] = 0.0;
             }
-            let friction = self.upright.friction(axis, inward);
+            let friction = self.vertical_walls.friction(axis, inward);
             let after = velocity[axis] * folded.signed_mass[axis];
             let pressed = (after - folded.unfolded[axis]) * inward;
             if friction > 0.0 && pressed > 0.0 {
-                rub(axis, friction * pressed / folded.mass, &mut velocity);
+                apply_friction(axis, friction * pressed / folded.mass, &mut velocity);
             }
         }
         Motion { velocity, leaves }
     }
 }
 
-/// Motion of a group in the frame of its first member.
+/// Motion of a constraint set in the frame of its first member.
 struct Motion {
     /// [m/s].
     velocity: Vec3,
-    /// True along x and y if the group leaves the wall across.
+    /// True along x and y if the constraint set leaves the wall across.
     leaves: [bool; 2],
 }
 
-impl Answer {
-    /// Velocity of one of the group [m/s].
+impl ConstrainedVelocity {
+    /// Velocity of one of the constraint set [m/s].
     fn velocity_of(&self, member: &Member) -> Vec3 {
         let sign = |axis: usize| {
             if self.leaves[axis] {
@@ -271,9 +271,9 @@ impl Folded {
     }
 }
 
-/// Coulomb friction of an upright wall: takes at most `largest_loss` of the
+/// Coulomb friction of an vertical wall: takes at most `largest_loss` of the
 /// speed along it.
-fn rub(axis: usize, largest_loss: f64, velocity: &mut Vec3) {
+fn apply_friction(axis: usize, largest_loss: f64, velocity: &mut Vec3) {
     let normal = velocity[axis];
     velocity[axis] = 0.0;
     *velocity *= kept_by_friction(largest_loss, velocity.norm());

@@ -22,16 +22,16 @@ pub(super) fn channel(cells_across: i32, base_friction: f64, side_friction: f64)
     let width = f64::from(cells_across) * H;
     Walls {
         base: vec![plane("floor", Vec3::z(), 0.0, base_friction)],
-        upright: Upright {
-            ends: Ends::Back(Bound::Wall(plane(
+        vertical_walls: VerticalWalls {
+            ends: Ends::Back(VerticalBoundary::Wall(plane(
                 "back wall",
                 Vec3::x(),
                 0.0,
                 side_friction,
             ))),
             sides: [
-                Bound::Wall(plane("right side wall", Vec3::y(), 0.0, side_friction)),
-                Bound::Wall(plane("left side wall", -Vec3::y(), -width, side_friction)),
+                VerticalBoundary::Wall(plane("right side wall", Vec3::y(), 0.0, side_friction)),
+                VerticalBoundary::Wall(plane("left side wall", -Vec3::y(), -width, side_friction)),
             ],
             halves_across: 2 * cells_across,
         },
@@ -120,8 +120,10 @@ fn nodes_below_the_floor_are_held_too() {
 
 /// The same walls as planes of symmetry.
 fn symmetric(mut walls: Walls) -> Walls {
-    walls.upright.sides = walls.upright.sides.map(|side| match side {
-        Bound::Wall(plane) | Bound::Symmetry(plane) => Bound::Symmetry(plane),
+    walls.vertical_walls.sides = walls.vertical_walls.sides.map(|side| match side {
+        VerticalBoundary::Wall(plane) | VerticalBoundary::Symmetry(plane) => {
+            VerticalBoundary::Symmetry(plane)
+        }
     });
     walls
 }
@@ -246,7 +248,7 @@ fn at_the_foot_of_the_back_wall_only_the_slope_is_open() {
 #[test]
 fn nodes_across_a_seam_move_as_one() {
     let mut walls = channel(4, 0.0, 0.0);
-    walls.upright.ends = Ends::Seam { cells: 8 };
+    walls.vertical_walls.ends = Ends::Seam { cells: 8 };
     let pair = [[1, 2, 5], [9, 2, 5]];
     let fast = Vec3::new(3.0, 0.0, 1.0);
     let mut grid = grid_with(&[(pair[0], fast), (pair[1], Vec3::zeros())]);
@@ -268,8 +270,8 @@ fn nodes_across_a_seam_move_as_one() {
 #[test]
 fn what_leaves_through_a_seam_comes_in_again() {
     let mut walls = channel(4, 0.0, 0.0);
-    assert_eq!(walls.upright.periodic_shift(9.0), None);
-    walls.upright.ends = Ends::Seam { cells: 8 };
+    assert_eq!(walls.vertical_walls.periodic_shift(9.0), None);
+    walls.vertical_walls.ends = Ends::Seam { cells: 8 };
     for (along, shift) in [
         (-0.1, Some(8)),
         (0.0, None),
@@ -277,6 +279,6 @@ fn what_leaves_through_a_seam_comes_in_again() {
         (8.0, Some(-8)),
         (17.0, Some(-16)),
     ] {
-        assert_eq!(walls.upright.periodic_shift(along), shift, "{along}");
+        assert_eq!(walls.vertical_walls.periodic_shift(along), shift, "{along}");
     }
 }

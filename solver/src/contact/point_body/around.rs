@@ -26,7 +26,7 @@ impl Around {
         }
     }
 
-    /// The box round an upright column of this radius [m], without end.
+    /// The box round an vertical walls column of this radius [m], without end.
     pub fn column(centre: Vec3, radius: f64) -> Self {
         let half = Vec3::new(radius, radius, f64::INFINITY);
         Self {

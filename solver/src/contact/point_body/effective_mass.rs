@@ -49,7 +49,7 @@ impl GridCompliance {
     /// A node and its ghosts move as one: all of their mass answers to all of their
     /// weights.
     fn share_with_ghosts(&mut self, nodes: &impl NodeAccess, boundary: &Boundary) {
-        for group in boundary.ghost_groups() {
+        for group in boundary.ghost_sets() {
             let weight = |place: usize| self.per_node[place] * nodes.mass(place);
             let weights: f64 = group.clone().map(weight).sum();
             if weights == 0.0 {

@@ -145,15 +145,15 @@ impl FastFlow {
 
     /// Brings points that went through a periodic boundary in at its other end.
     fn wrap_periodic(&mut self, given: &Setup) {
-        let upright = &given.walls.upright;
-        if !upright.is_periodic() {
+        let vertical_walls = &given.walls.vertical_walls;
+        if !vertical_walls.is_periodic() {
             return;
         }
         for block in self.blocks.occupied_mut() {
             let first = f64::from(block.key[0]) * BLOCK as f64;
             for slot in 0..block.count() {
                 let [x, y, z] = block.position(slot);
-                if let Some(cells) = upright.periodic_shift(first + f64::from(x)) {
+                if let Some(cells) = vertical_walls.periodic_shift(first + f64::from(x)) {
                     block.shift(slot, &[x + cells as f32, y, z]);
                 }
             }

@@ -101,13 +101,13 @@ impl PlainFlow {
 
     /// Brings points that went through a periodic boundary in at its other end.
     fn wrap_periodic(&mut self, given: &Setup) {
-        let (upright, lattice) = (&given.walls.upright, &given.lattice);
-        if !upright.is_periodic() {
+        let (vertical_walls, lattice) = (&given.walls.vertical_walls, &given.lattice);
+        if !vertical_walls.is_periodic() {
             return;
         }
         for point in &mut self.points {
             let along = (point.position.x - lattice.origin.x) / lattice.spacing.x;
-            if let Some(cells) = upright.periodic_shift(along) {
+            if let Some(cells) = vertical_walls.periodic_shift(along) {
                 point.position.x += f64::from(cells) * lattice.spacing.x;
             }
         }

@@ -60,7 +60,7 @@ impl SharedFlow {
         };
         let given = whole.between(share.walls(whole), partners);
         let mut planes = whole.planes.clone();
-        planes.push(*given.walls.upright.sides[1].plane());
+        planes.push(*given.walls.vertical_walls.sides[1].plane());
         Self {
             planes,
             flow: plainly(Vec::new(), &given, precision),
@@ -87,7 +87,10 @@ impl SharedFlow {
     /// Goes on with the last share: its points are images of the present ones.
     fn widen(&mut self, whole: &Setup) {
         let wider = self.shares.last;
-        let rows = wider.rows_across(&self.shares.columns, whole.walls.upright.halves_across);
+        let rows = wider.rows_across(
+            &self.shares.columns,
+            whole.walls.vertical_walls.halves_across,
+        );
         let mut points = Vec::new();
         let mut take = |point: &Point| {
             if self.images.row(point) < rows {

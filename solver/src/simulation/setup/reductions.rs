@@ -100,7 +100,7 @@ struct PointState<'a> {
 
 impl PointState<'_> {
     fn halves_across(&self) -> i32 {
-        self.given.walls.upright.halves_across
+        self.given.walls.vertical_walls.halves_across
     }
 
     /// Which body is the image of each, or why it is not computed by halves.

@@ -54,7 +54,7 @@ impl Columns {
         let mut points = Vec::new();
         let mut left_out = 0.0;
         let [along, across, up] = self.count;
-        let rows = share.rows_across(self, given.walls.upright.halves_across);
+        let rows = share.rows_across(self, given.walls.vertical_walls.halves_across);
         let images = f64::from(across) / f64::from(rows);
         for i in 0..along {
             for j in 0..rows {

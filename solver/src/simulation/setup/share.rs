@@ -2,7 +2,7 @@
 
 use super::{Columns, Setup};
 use crate::math::Vec3;
-use crate::walls::{Bound, Plane, Walls};
+use crate::walls::{Plane, VerticalBoundary, Walls};
 use serde::{Deserialize, Serialize};
 
 /// Share of the flow that is computed; the rest are its images.
@@ -35,11 +35,11 @@ impl Share {
     /// The walls of this share of a channel.
     pub(in crate::simulation) fn walls(self, whole: &Setup) -> Walls {
         let mut walls = whole.walls.clone();
-        let halves = self.halves_across(walls.upright.halves_across);
-        if halves < walls.upright.halves_across {
+        let halves = self.halves_across(walls.vertical_walls.halves_across);
+        if halves < walls.vertical_walls.halves_across {
             let lattice = &whole.lattice;
-            walls.upright.halves_across = halves;
-            walls.upright.sides[1] = Bound::Symmetry(Plane {
+            walls.vertical_walls.halves_across = halves;
+            walls.vertical_walls.sides[1] = VerticalBoundary::Symmetry(Plane {
                 name: "plane of symmetry",
                 normal: -Vec3::y(),
                 offset: -(lattice.origin.y + 0.5 * f64::from(halves) * lattice.spacing.y),

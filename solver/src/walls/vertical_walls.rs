@@ -1,17 +1,17 @@
-//! The upright walls: which nodes are images of which.
+//! The vertical walls: which nodes are images of which.
 
 use super::Plane;
 use super::nodes::NodeAccess;
 use std::iter::once;
 
-/// The upright walls, on planes of nodes: ends at index 0 along x, sides at
+/// The vertical walls, on planes of nodes: ends at index 0 along x, sides at
 /// index 0 and half of `halves_across` along y.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Upright {
+pub struct VerticalWalls {
     /// Bounds at index 0 along x.
     pub ends: Ends,
     /// The side walls.
-    pub sides: [Bound; 2],
+    pub sides: [VerticalBoundary; 2],
     /// Cells between the side walls, twice; odd where the second is a mirror halfway
     /// between two nodes.
     pub halves_across: i32,
@@ -21,7 +21,7 @@ pub struct Upright {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ends {
     /// A bound at the back; the front is open.
-    Back(Bound),
+    Back(VerticalBoundary),
     /// None: what leaves after `cells` cells comes in at the back. Energy and
     /// angular momentum of such a flow can't be audited.
     Seam {
@@ -30,26 +30,26 @@ pub enum Ends {
     },
 }
 
-/// Upright bound of the flow.
+/// vertical walls bound of the flow.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Bound {
+pub enum VerticalBoundary {
     /// A wall, which flow can leave.
     Wall(Plane),
     /// A plane of symmetry, with the rest of the flow behind it.
     Symmetry(Plane),
 }
 
-impl Bound {
+impl VerticalBoundary {
     /// The plane of either.
     pub fn plane(&self) -> &Plane {
         match self {
-            Bound::Wall(plane) | Bound::Symmetry(plane) => plane,
+            VerticalBoundary::Wall(plane) | VerticalBoundary::Symmetry(plane) => plane,
         }
     }
 
     /// True of a wall.
     fn is_wall(&self) -> bool {
-        matches!(self, Bound::Wall(_))
+        matches!(self, VerticalBoundary::Wall(_))
     }
 }
 
@@ -57,7 +57,7 @@ impl Bound {
 /// has images in both bounds of the half that is computed.
 const SIDES_APART: i32 = 6;
 
-/// Meeting of a group of nodes with an upright wall; `inward` is the sign of the wall's
+/// Meeting of a constraint set of nodes with an vertical wall; `inward` is the sign of the wall's
 /// normal along its axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meets {
@@ -91,10 +91,10 @@ impl Meets {
     }
 }
 
-impl Upright {
+impl VerticalWalls {
     /// The node in the channel that a node is the image of (itself, mostly);
     /// across a periodic boundary the first that has a block.
-    pub(super) fn leader(&self, [i, j, k]: [i32; 3], nodes: &impl NodeAccess) -> [i32; 3] {
+    pub(super) fn master(&self, [i, j, k]: [i32; 3], nodes: &impl NodeAccess) -> [i32; 3] {
         let j = j.abs();
         let j = if 2 * j > self.halves_across {
             self.behind_far_side(j)
@@ -213,12 +213,12 @@ impl Upright {
     /// Cells across the whole channel.
     fn cells_across(&self) -> i32 {
         match &self.sides[1] {
-            Bound::Wall(_) => self.halves_across / 2,
-            Bound::Symmetry(_) => self.halves_across,
+            VerticalBoundary::Wall(_) => self.halves_across / 2,
+            VerticalBoundary::Symmetry(_) => self.halves_across,
         }
     }
 
-    fn side(&self, inward: f64) -> &Bound {
+    fn side(&self, inward: f64) -> &VerticalBoundary {
         &self.sides[usize::from(inward < 0.0)]
     }
 }
