@@ -5,7 +5,7 @@ use criterion::{BatchSize, Bencher, Criterion, Throughput};
 use fearless_simd::dispatch;
 use nalgebra::UnitQuaternion;
 use scree_solver::Instructions;
-use scree_solver::contact::body_body::Meeting;
+use scree_solver::contact::body_body::ContactPair;
 use scree_solver::contact::island::{self, BodyReport, Surroundings};
 use scree_solver::contact::law::ContactLaw;
 use scree_solver::fast::blocks::{Block, Blocks};
@@ -315,7 +315,7 @@ fn resting_cube(place: Vec3) -> Body {
 }
 
 /// Bodies, what their contacts remember, and what was done to them.
-type Crowd = (Vec<Body>, Vec<Meeting>, Vec<BodyReport>);
+type Crowd = (Vec<Body>, Vec<ContactPair>, Vec<BodyReport>);
 
 /// Cubes on the floor under their weight, per body sub-step of one of them: scattered,
 /// so that none is near another, and walled up, so that each touches its neighbours.
@@ -341,11 +341,18 @@ fn bodies_substep(criterion: &mut Criterion) {
             };
             let count = columns * rows * layers;
             let mut bodies: Vec<Body> = (0..count).map(|n| resting_cube(place(n))).collect();
-            let meetings = island::meet(&mut bodies);
-            let advance = |(bodies, meetings, reports): &mut Crowd| {
-                island::advance(bodies, meetings, reports, |_| Load::default(), &around, DT);
+            let contact_pairs = island::meet(&mut bodies);
+            let advance = |(bodies, contact_pairs, reports): &mut Crowd| {
+                island::advance(
+                    bodies,
+                    contact_pairs,
+                    reports,
+                    |_| Load::default(),
+                    &around,
+                    DT,
+                );
             };
-            let mut start: Crowd = (bodies, meetings, vec![BodyReport::default(); count]);
+            let mut start: Crowd = (bodies, contact_pairs, vec![BodyReport::default(); count]);
             advance(&mut start);
             let substeps = start
                 .2

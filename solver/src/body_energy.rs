@@ -1,6 +1,6 @@
 //! Balance of each body's energy over a run (docs/method.md, equation 38a).
 
-use crate::contact::body_body::Meeting;
+use crate::contact::body_body::ContactPair;
 use crate::contact::island::EnergyReport;
 use crate::math::Vec3;
 use crate::rigid::Body;
@@ -34,9 +34,9 @@ pub struct BodyEnergy {
 
 impl BodyEnergy {
     /// The balances of bodies that start like this, under gravity [m/s²].
-    pub fn of(bodies: &[Body], meetings: &[Meeting], gravity: &Vec3) -> Vec<Self> {
+    pub fn of(bodies: &[Body], contact_pairs: &[ContactPair], gravity: &Vec3) -> Vec<Self> {
         let start = |(place, body): (usize, &Body)| {
-            let present = body.kinetic_energy() + stored(place, bodies, meetings);
+            let present = body.kinetic_energy() + stored(place, bodies, contact_pairs);
             let potential = potential(body, gravity);
             Self {
                 start: present + potential,
@@ -81,16 +81,19 @@ impl BodyEnergy {
 
 /// Energy that the contacts of a body hold now; half of what those with another free body
 /// do [J].
-pub fn stored(place: usize, bodies: &[Body], meetings: &[Meeting]) -> f64 {
-    let with_bodies = meetings
+pub fn stored(place: usize, bodies: &[Body], contact_pairs: &[ContactPair]) -> f64 {
+    let with_bodies = contact_pairs
         .iter()
-        .filter(|meeting| meeting.bodies.contains(&place))
-        .map(|meeting| {
-            let free = meeting.bodies.iter().all(|&place| bodies[place].is_free());
+        .filter(|contact_pair| contact_pair.bodies.contains(&place))
+        .map(|contact_pair| {
+            let free = contact_pair
+                .bodies
+                .iter()
+                .all(|&place| bodies[place].is_free());
             if free {
-                0.5 * meeting.energy
+                0.5 * contact_pair.energy
             } else {
-                meeting.energy
+                contact_pair.energy
             }
         });
     bodies[place].state.wall_energy + with_bodies.sum::<f64>()

@@ -20,7 +20,7 @@ pub use separation::{Separation, distance, least_gap};
 
 /// What the contacts of two bodies remember from one body sub-step to the next.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Meeting {
+pub struct ContactPair {
     /// Places of the two in the list of bodies, the lower first.
     pub bodies: [usize; 2],
     springs: Vec<FeatureSprings>,
@@ -53,7 +53,7 @@ pub struct Exchange {
     pub on_second: Load,
 }
 
-impl Meeting {
+impl ContactPair {
     /// Of two bodies that have not met.
     pub fn new(bodies: [usize; 2]) -> Self {
         Self {

@@ -1,11 +1,11 @@
 //! The bodies' own sub-steps: bodies that may meet within a sub-step of the flow
 //! form an island and move together (docs/method.md, equations 15, 20 and 48).
 
-use crate::contact::body_body::{Contacts, Meeting, Separation, least_gap};
+use crate::contact::body_body::{ContactPair, Contacts, Separation, least_gap};
 use crate::contact::body_wall::touch_walls;
+use crate::contact::broad_phase::{Ball, overlapping_pairs};
 use crate::contact::dissipation::Taken;
 use crate::contact::law::ContactLaw;
-use crate::contact::neighbours::{Ball, overlapping};
 use crate::math::Vec3;
 use crate::motion::Velocities;
 use crate::rigid::{Body, Freedom, Load};
@@ -13,7 +13,7 @@ use crate::walls::{Impulse, Plane};
 use rayon::prelude::*;
 
 mod balance;
-mod division;
+mod components;
 mod flight;
 mod in_touch;
 mod member;
@@ -23,7 +23,7 @@ mod strides;
 mod touching;
 
 pub use balance::EnergyReport;
-use division::islands;
+use components::islands;
 use mover::Mover;
 use pace::substeps;
 #[cfg(test)]
@@ -85,11 +85,11 @@ pub struct Surroundings<'a> {
 }
 
 /// Advances all bodies by `dt` under a constant load of the flow each (force, and
-/// torque about the centre at the start), gravity, walls and each other. `meetings`
+/// torque about the centre at the start), gravity, walls and each other. `contact_pairs`
 /// is what contacts remember; it holds the pairs that may meet, in order.
 pub fn advance(
     bodies: &mut [Body],
-    meetings: &mut Vec<Meeting>,
+    contact_pairs: &mut Vec<ContactPair>,
     reports: &mut [BodyReport],
     flow: impl Fn(usize) -> Load + Sync,
     around: &Surroundings,
@@ -97,20 +97,25 @@ pub fn advance(
 ) {
     let acceleration =
         |place: usize| bodies[place].largest_acceleration(&around.gravity, &flow(place));
-    renew(meetings, &near_pairs(bodies, acceleration, dt));
+    renew(contact_pairs, &broad_phase(bodies, acceleration, dt));
     let mut movers = Vec::new();
-    if meetings.is_empty() {
+    if contact_pairs.is_empty() {
         advance_apart(bodies, reports, flow, around, dt);
     } else {
-        let mut islands = islands(bodies, reports, std::mem::take(meetings), flow);
+        let mut islands = islands(bodies, reports, std::mem::take(contact_pairs), flow);
         islands
             .par_iter_mut()
             .for_each(|island| island.advance(around, dt));
         for island in islands {
-            meetings.extend(island.meetings.into_iter().map(|met| met.meeting));
+            contact_pairs.extend(
+                island
+                    .contact_pairs
+                    .into_iter()
+                    .map(|island_pair| island_pair.contact_pair),
+            );
             movers.extend(island.movers);
         }
-        meetings.sort_unstable_by_key(|meeting| meeting.bodies);
+        contact_pairs.sort_unstable_by_key(|contact_pair| contact_pair.bodies);
     }
     follow_motions(bodies, around.time, dt);
     for mover in movers {
@@ -157,23 +162,34 @@ fn advance_apart(
 }
 
 /// Finds who touches whom at the start, before anything moved.
-pub fn meet(bodies: &mut [Body]) -> Vec<Meeting> {
-    let pairs = near_pairs(bodies, |_| 0.0, 0.0);
-    let mut meetings: Vec<Meeting> = pairs.iter().map(|pair| Meeting::new(*pair)).collect();
+pub fn meet(bodies: &mut [Body]) -> Vec<ContactPair> {
+    let pairs = broad_phase(bodies, |_| 0.0, 0.0);
+    let mut contact_pairs: Vec<ContactPair> =
+        pairs.iter().map(|pair| ContactPair::new(*pair)).collect();
     let mut reports = vec![BodyReport::default(); bodies.len()];
     let at_rest = |_| Load::default();
-    for mut island in islands(bodies, &mut reports, std::mem::take(&mut meetings), at_rest) {
+    for mut island in islands(
+        bodies,
+        &mut reports,
+        std::mem::take(&mut contact_pairs),
+        at_rest,
+    ) {
         let Island {
             members,
             movers,
-            meetings: met,
+            contact_pairs: island_pair,
         } = &mut island;
-        find_contacts(members, movers, met, 0.0);
-        touch_bodies(members, movers, met, 0.0);
-        meetings.extend(island.meetings.into_iter().map(|met| met.meeting));
+        find_contacts(members, movers, island_pair, 0.0);
+        touch_bodies(members, movers, island_pair, 0.0);
+        contact_pairs.extend(
+            island
+                .contact_pairs
+                .into_iter()
+                .map(|island_pair| island_pair.contact_pair),
+        );
     }
-    meetings.sort_unstable_by_key(|meeting| meeting.bodies);
-    meetings
+    contact_pairs.sort_unstable_by_key(|contact_pair| contact_pair.bodies);
+    contact_pairs
 }
 
 /// Notes at the start which bodies the walls alone hold: at rest, with loads that
@@ -194,7 +210,7 @@ pub fn hold(bodies: &mut [Body], gravity: &Vec3) {
 
 /// Pairs of bodies, one of them free, that may touch within `dt` under accelerations
 /// [m/s²], in order.
-fn near_pairs(bodies: &[Body], acceleration: impl Fn(usize) -> f64, dt: f64) -> Vec<[usize; 2]> {
+fn broad_phase(bodies: &[Body], acceleration: impl Fn(usize) -> f64, dt: f64) -> Vec<[usize; 2]> {
     if bodies.len() < 2 {
         return Vec::new();
     }
@@ -205,7 +221,7 @@ fn near_pairs(bodies: &[Body], acceleration: impl Fn(usize) -> f64, dt: f64) -> 
         radius: body.shape.bounding_radius() + reach,
     };
     let balls: Vec<Ball> = bodies.iter().zip(&reaches).map(ball).collect();
-    let mut pairs = overlapping(&balls);
+    let mut pairs = overlapping_pairs(&balls);
     pairs.retain(|&[first, second]| {
         let (one, other) = (&bodies[first], &bodies[second]);
         let free = is_free(one) || is_free(other);
@@ -232,13 +248,16 @@ fn reach(body: &Body, acceleration: f64, dt: f64) -> f64 {
 
 /// Takes over what those that are still near remember, and begins the others.
 /// Both are in order.
-fn renew(meetings: &mut Vec<Meeting>, pairs: &[[usize; 2]]) {
-    let mut before = std::mem::take(meetings).into_iter().peekable();
-    meetings.extend(pairs.iter().map(|&pair| {
-        while before.next_if(|meeting| meeting.bodies < pair).is_some() {}
+fn renew(contact_pairs: &mut Vec<ContactPair>, pairs: &[[usize; 2]]) {
+    let mut before = std::mem::take(contact_pairs).into_iter().peekable();
+    contact_pairs.extend(pairs.iter().map(|&pair| {
+        while before
+            .next_if(|contact_pair| contact_pair.bodies < pair)
+            .is_some()
+        {}
         before
-            .next_if(|meeting| meeting.bodies == pair)
-            .unwrap_or_else(|| Meeting::new(pair))
+            .next_if(|contact_pair| contact_pair.bodies == pair)
+            .unwrap_or_else(|| ContactPair::new(pair))
     }));
 }
 
@@ -248,7 +267,7 @@ struct Island<'a> {
     members: Vec<Member<'a>>,
     /// Bodies with a prescribed motion near them.
     movers: Vec<Mover>,
-    meetings: Vec<Met<'a>>,
+    contact_pairs: Vec<IslandPair<'a>>,
 }
 
 /// A free body of an island.
@@ -267,8 +286,8 @@ struct Member<'a> {
 }
 
 /// Two bodies of which one at least is a member.
-struct Met<'a> {
-    meeting: Meeting,
+struct IslandPair<'a> {
+    contact_pair: ContactPair,
     law: ContactLaw,
     sides: [Side<'a>; 2],
     separation: Separation,
@@ -293,12 +312,12 @@ impl Island<'_> {
         let Self {
             members,
             movers,
-            meetings,
+            contact_pairs,
         } = self;
-        if sleeps(members, movers, meetings) {
+        if sleeps(members, movers, contact_pairs) {
             members.iter_mut().for_each(Member::lie);
         } else {
-            advance_together(members, movers, meetings, around, dt);
+            advance_together(members, movers, contact_pairs, around, dt);
         }
     }
 }
@@ -306,10 +325,10 @@ impl Island<'_> {
 /// Time stands still on an island where nothing has moved for a while and nothing from
 /// outside is near: contacts, momentum and all stay as they are until another body comes
 /// near or a point touches.
-fn sleeps(members: &[Member], movers: &[Mover], meetings: &[Met]) -> bool {
+fn sleeps(members: &[Member], movers: &[Mover], contact_pairs: &[IslandPair]) -> bool {
     movers.iter().all(Mover::stands)
         && match members {
-            [alone] => meetings.is_empty() && alone.waits(),
+            [alone] => contact_pairs.is_empty() && alone.waits(),
             many => many.iter().all(|member| {
                 member.flow == Load::default() && member.body.state.still_for >= FALLS_ASLEEP_AFTER
             }),
@@ -322,11 +341,11 @@ fn sleeps(members: &[Member], movers: &[Mover], meetings: &[Met]) -> bool {
 fn advance_together(
     members: &mut [Member],
     movers: &mut [Mover],
-    meetings: &mut [Met],
+    contact_pairs: &mut [IslandPair],
     around: &Surroundings,
     dt: f64,
 ) {
-    let asked = substeps(members, movers, meetings, around, dt);
+    let asked = substeps(members, movers, contact_pairs, around, dt);
     for member in members.iter_mut() {
         member.report.substeps_asked = asked;
     }
@@ -334,33 +353,33 @@ fn advance_together(
         return;
     }
     let mut strides = Strides::new(dt / asked, asked as u32);
-    balance::begin(members, meetings);
+    balance::begin(members, contact_pairs);
     while strides.are_left() {
-        let (stride, longer) = strides.next(members, movers, meetings, around);
+        let (stride, longer) = strides.next(members, movers, contact_pairs, around);
         balance::stretch(members, longer);
         let h = f64::from(stride) * strides.shortest;
-        half_kick(members, movers, meetings, around, 0.5 * h);
+        half_kick(members, movers, contact_pairs, around, 0.5 * h);
         for mover in movers.iter_mut() {
             mover.follow(around.time, f64::from(strides.done) * strides.shortest);
         }
         for member in members.iter_mut() {
             member.body.drift(h);
         }
-        find_contacts(members, movers, meetings, h);
+        find_contacts(members, movers, contact_pairs, h);
         for member in members.iter_mut() {
             member.taken = touch_walls(member.body, around.planes, h);
         }
-        touch_bodies(members, movers, meetings, h);
+        touch_bodies(members, movers, contact_pairs, h);
         for mover in movers.iter_mut() {
             mover.take_in(h);
         }
-        half_kick(members, movers, meetings, around, 0.5 * h);
-        balance::take_in_losses(members, movers, meetings, h);
+        half_kick(members, movers, contact_pairs, around, 0.5 * h);
+        balance::take_in_losses(members, movers, contact_pairs, h);
         for member in members.iter_mut() {
             member.count_substep(stride);
         }
     }
-    balance::end(members, meetings, &around.gravity);
+    balance::end(members, contact_pairs, &around.gravity);
     for member in members {
         let report = &mut *member.report;
         report.supported_share = f64::from(member.supported) / asked;
@@ -375,14 +394,14 @@ fn advance_together(
 fn half_kick(
     members: &mut [Member],
     movers: &[Mover],
-    meetings: &[Met],
+    contact_pairs: &[IslandPair],
     around: &Surroundings,
     dt: f64,
 ) {
     for member in members.iter_mut() {
         member.half_kick(&around.gravity, dt);
     }
-    balance::take_in_work(members, movers, meetings, dt);
+    balance::take_in_work(members, movers, contact_pairs, dt);
 }
 
 fn body_of<'a>(members: &'a [Member], movers: &'a [Mover], side: Side<'a>) -> &'a Body {

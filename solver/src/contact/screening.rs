@@ -1,7 +1,7 @@
 //! Bodies between a point and another body: a plate thinner than a point's stand-off
 //! keeps the point from what lies behind the plate.
 
-use super::neighbours::{Ball, overlapping};
+use super::broad_phase::{Ball, overlapping_pairs};
 use crate::math::Vec3;
 use crate::rigid::Body;
 
@@ -50,7 +50,7 @@ pub fn screening_bodies(bodies: &[Body], reach: f64, of: &mut Vec<Vec<usize>>) {
         radius: body.shape.bounding_radius() + 0.5 * reach,
     };
     let balls: Vec<Ball> = bodies.iter().map(ball).collect();
-    for [one, other] in overlapping(&balls) {
+    for [one, other] in overlapping_pairs(&balls) {
         of[one].push(other);
         of[other].push(one);
     }

@@ -13,7 +13,7 @@ pub(super) fn body_energy(simulation: &Simulation, place: usize) -> Option<BodyE
         start_j: balance.start,
         kinetic_j: body.kinetic_energy(),
         potential_j: potential(body, &gravity),
-        stored_j: stored(place, bodies, simulation.meetings()),
+        stored_j: stored(place, bodies, simulation.contact_pairs()),
         flow_work_j: balance.flow_work,
         body_work_j: balance.body_work,
         dissipated_j: balance.dissipated,

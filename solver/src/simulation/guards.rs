@@ -253,15 +253,15 @@ impl Simulation {
     /// Two cores that come together were not held apart by their contacts, and
     /// beyond that these would push the wrong way.
     fn look_for_merging_bodies(&self) -> Result<(), StepError> {
-        for meeting in &self.state.meetings {
-            let [body, other] = meeting.bodies;
+        for contact_pair in &self.state.contact_pairs {
+            let [body, other] = contact_pair.bodies;
             let radius = |place: usize| self.state.bodies[place].shape.sphero_radius();
-            if meeting.deepest > DEEPEST_OVERLAP * (radius(body) + radius(other)) {
+            if contact_pair.deepest > DEEPEST_OVERLAP * (radius(body) + radius(other)) {
                 return Err(StepError::BodiesMerge {
                     time_s: self.state.clock.time,
                     body,
                     other,
-                    overlap_m: meeting.deepest,
+                    overlap_m: contact_pair.deepest,
                 });
             }
         }

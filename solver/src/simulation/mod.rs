@@ -10,7 +10,7 @@ mod stages;
 mod step;
 
 use crate::body_energy::BodyEnergy;
-use crate::contact::body_body::Meeting;
+use crate::contact::body_body::ContactPair;
 use crate::contact::island::{self, BodyReport};
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::{Audit, FlowMoments};
@@ -52,7 +52,7 @@ struct State {
     flow: Box<dyn Flow>,
     bodies: Vec<Body>,
     /// Memory of the contacts between bodies.
-    meetings: Vec<Meeting>,
+    contact_pairs: Vec<ContactPair>,
     audit: Audit,
     /// Balance of every body's energy.
     energies: Vec<BodyEnergy>,
@@ -152,7 +152,7 @@ impl Simulation {
         mut bodies: Vec<Body>,
         pool: Arc<ThreadPool>,
     ) -> Self {
-        let meetings = island::meet(&mut bodies);
+        let contact_pairs = island::meet(&mut bodies);
         island::hold(&mut bodies, &given.gravity);
         let scratch = Scratch {
             body_reports: vec![BodyReport::default(); bodies.len()],
@@ -163,7 +163,7 @@ impl Simulation {
             clock: Clock::start(flow.count() as u64),
             flow,
             bodies,
-            meetings,
+            contact_pairs,
             audit: Audit::default(),
             energies: Vec::new(),
             moments: FlowMoments::default(),
@@ -281,8 +281,8 @@ impl Simulation {
     }
 
     /// Memory of the contacts between bodies: which touch, and how deep.
-    pub fn meetings(&self) -> &[Meeting] {
-        &self.state.meetings
+    pub fn contact_pairs(&self) -> &[ContactPair] {
+        &self.state.contact_pairs
     }
 
     /// The audit so far.

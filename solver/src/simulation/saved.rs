@@ -5,7 +5,7 @@ use super::flow::SavedFlow;
 use super::setup::Outline;
 use super::{Simulation, start_threads};
 use crate::body_energy::BodyEnergy;
-use crate::contact::body_body::Meeting;
+use crate::contact::body_body::ContactPair;
 use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::RestoreError;
 use crate::rigid::BodyState;
@@ -21,7 +21,7 @@ struct Saved {
     flow: SavedFlow,
     moments: FlowMoments,
     bodies: Vec<BodyState>,
-    meetings: Vec<Meeting>,
+    contact_pairs: Vec<ContactPair>,
     audit: Audit,
     energies: Vec<BodyEnergy>,
 }
@@ -36,7 +36,7 @@ pub(super) fn save(simulation: &Simulation) -> Vec<u8> {
         flow: state.flow.saved(),
         moments: state.moments,
         bodies: bodies.collect(),
-        meetings: state.meetings.clone(),
+        contact_pairs: state.contact_pairs.clone(),
         audit: state.audit.clone(),
         energies: state.energies.clone(),
     };
@@ -72,7 +72,7 @@ pub(super) fn restore(
     for (body, state) in simulation.state.bodies.iter_mut().zip(saved.bodies) {
         body.state = state;
     }
-    simulation.state.meetings = saved.meetings;
+    simulation.state.contact_pairs = saved.contact_pairs;
     simulation.state.clock = saved.clock;
     simulation.state.audit = saved.audit;
     simulation.state.energies = saved.energies;

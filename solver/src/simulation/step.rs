@@ -104,8 +104,8 @@ impl Simulation {
     /// be it at the end of a `step` [s] that starts now.
     fn for_bodies(&self, longest: f64, step: f64) -> f64 {
         let around = self.given.surroundings(self.state.clock.time);
-        let (bodies, meetings) = (&self.state.bodies, &self.state.meetings);
-        let most = island::substeps_ahead(bodies, meetings, &around, longest, step);
+        let (bodies, contact_pairs) = (&self.state.bodies, &self.state.contact_pairs);
+        let most = island::substeps_ahead(bodies, contact_pairs, &around, longest, step);
         if most > MANY_BODY_SUBSTEPS {
             longest * (MANY_BODY_SUBSTEPS / most)
         } else {
@@ -138,9 +138,9 @@ impl Simulation {
         let on_bodies = state.flow.on_bodies();
         let flow = |body: usize| on_bodies.get(body).map_or_else(Load::default, |on| on.load);
         let around = given.surroundings(state.clock.time);
-        let (bodies, meetings) = (&mut state.bodies, &mut state.meetings);
+        let (bodies, contact_pairs) = (&mut state.bodies, &mut state.contact_pairs);
         let reports = &mut scratch.body_reports;
-        island::advance(bodies, meetings, reports, flow, &around, dt);
+        island::advance(bodies, contact_pairs, reports, flow, &around, dt);
         for report in &scratch.body_reports {
             state.audit.exchange(&report.wall);
             state.audit.exchange(&report.barrier);
@@ -224,7 +224,10 @@ impl Simulation {
         let flow = state.flow.totals(&self.given);
         let bodies = Totals::of_bodies(&state.bodies, &self.given.gravity);
         let at_points = state.flow.on_bodies().iter().map(|load| load.energy);
-        let at_bodies = state.meetings.iter().map(|meeting| meeting.energy);
+        let at_bodies = state
+            .contact_pairs
+            .iter()
+            .map(|contact_pair| contact_pair.energy);
         let held = at_points.sum::<f64>() + at_bodies.sum::<f64>();
         state.audit.check(&flow, &bodies, held);
         state.clock.last_audit = state.clock.substeps;
@@ -237,7 +240,7 @@ impl Simulation {
         let bodies = Totals::of_bodies(&self.state.bodies, &self.given.gravity);
         self.state.audit = Audit::start(&flow, &bodies);
         self.state.moments = FlowMoments::of(&flow);
-        let (bodies, meetings) = (&self.state.bodies, &self.state.meetings);
-        self.state.energies = BodyEnergy::of(bodies, meetings, &self.given.gravity);
+        let (bodies, contact_pairs) = (&self.state.bodies, &self.state.contact_pairs);
+        self.state.energies = BodyEnergy::of(bodies, contact_pairs, &self.given.gravity);
     }
 }

@@ -53,8 +53,8 @@ fn a_tower_stands() {
             );
         }
     }
-    for meeting in simulation.meetings() {
-        assert!(meeting.deepest > 0.0 && meeting.deepest < 0.02 * 0.002);
+    for contact_pair in simulation.contact_pairs() {
+        assert!(contact_pair.deepest > 0.0 && contact_pair.deepest < 0.02 * 0.002);
     }
     assert!(simulation.audit().momentum_residual < 1e-12);
     assert!(simulation.audit().angular_momentum_residual < 1e-12);
@@ -103,8 +103,8 @@ fn a_flow_strikes_a_pile() {
     let mut simulation = scene.start();
     let mut met = 0.0f64;
     watch(&mut simulation, 1.0, |simulation, _| {
-        for meeting in simulation.meetings() {
-            met = met.max(meeting.deepest);
+        for contact_pair in simulation.contact_pairs() {
+            met = met.max(contact_pair.deepest);
         }
     })
     .expect("it runs");

@@ -67,7 +67,10 @@ fn free(simulation: &Simulation) -> impl Iterator<Item = &Body> {
 
 /// Kinetic and potential energy and what contacts hold [J].
 fn energy(simulation: &Simulation) -> f64 {
-    let held = simulation.meetings().iter().map(|meeting| meeting.energy);
+    let held = simulation
+        .contact_pairs()
+        .iter()
+        .map(|contact_pair| contact_pair.energy);
     let of_body = |body: &Body| {
         let lifted = body.mass * GRAVITY * body.state.position.z;
         body.kinetic_energy() + lifted + body.state.wall_energy
@@ -79,7 +82,10 @@ fn energy(simulation: &Simulation) -> f64 {
 fn deepest(simulation: &Simulation) -> f64 {
     let radius = simulation.bodies()[1].shape.sphero_radius();
     let on_walls = free(simulation).map(|body| body.state.wall_overlap);
-    let on_bodies = simulation.meetings().iter().map(|meeting| meeting.deepest);
+    let on_bodies = simulation
+        .contact_pairs()
+        .iter()
+        .map(|contact_pair| contact_pair.deepest);
     on_walls.chain(on_bodies).fold(0.0, f64::max) / radius
 }
 

@@ -50,8 +50,10 @@ impl Heap {
         let ended = runner.simulation.run(until_s, |simulation, _| {
             let reports = (0..bodies).map(|body| simulation.body_report(body));
             heap.body_steps += reports.map(|of| u64::from(of.substeps)).sum::<u64>();
-            let meetings = simulation.meetings().iter();
-            heap.touching += meetings.filter(|meeting| meeting.touches()).count() as f64;
+            let contact_pairs = simulation.contact_pairs().iter();
+            heap.touching += contact_pairs
+                .filter(|contact_pair| contact_pair.touches())
+                .count() as f64;
             heap.steps += 1;
             ControlFlow::Continue(())
         });

@@ -21,7 +21,7 @@ use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Cost, Run, Trouble};
 use crate::verify::scenes::{body, on_vertex, thrown_down};
 use crate::verify::{Case, Effort, How};
-use scree_solver::contact::body_body::{Meeting, Separation, pair_law};
+use scree_solver::contact::body_body::{ContactPair, Separation, pair_law};
 use scree_solver::contact::law::ContactLaw;
 use scree_solver::math::Vec3;
 use scree_solver::rigid::{Body, InverseInertia};
@@ -125,13 +125,13 @@ impl Slide {
     fn at(&mut self, beyond: f64, along_rim: bool) -> (f64, Vec3) {
         let across = if along_rim { RIM } else { 0.3 * RIM };
         self.above.state.position = Vec3::new(RIM + beyond, across, self.height);
-        let mut meeting = Meeting::new([0, 1]);
+        let mut contact_pair = ContactPair::new([0, 1]);
         let both = [&self.below, &self.above];
-        let found = meeting.find(both, &self.law, &mut Separation::default());
-        meeting.touch(both, &self.law, &found, 0.0);
+        let found = contact_pair.find(both, &self.law, &mut Separation::default());
+        contact_pair.touch(both, &self.law, &found, 0.0);
         (
-            meeting.energy / self.law.elastic_energy(OVERLAP),
-            meeting.push.force / self.law.elastic_force(OVERLAP),
+            contact_pair.energy / self.law.elastic_energy(OVERLAP),
+            contact_pair.push.force / self.law.elastic_force(OVERLAP),
         )
     }
 }
@@ -187,7 +187,7 @@ fn collision(numbers: &mut Numbers, step: f64) -> Result<Answer<3>, Trouble> {
     let start = totals(&run.simulation);
     let mut touched = false;
     run.watch(0.1, |simulation, _| {
-        touched |= simulation.meetings().iter().any(Meeting::touches);
+        touched |= simulation.contact_pairs().iter().any(ContactPair::touches);
         ControlFlow::Continue(())
     })?;
     if !touched {
@@ -248,7 +248,10 @@ struct Sums {
 
 fn totals(simulation: &Simulation) -> Sums {
     let bodies = simulation.bodies();
-    let held = simulation.meetings().iter().map(|meeting| meeting.energy);
+    let held = simulation
+        .contact_pairs()
+        .iter()
+        .map(|contact_pair| contact_pair.energy);
     let about_origin =
         |body: &Body| body.state.position.cross(&body.state.momentum) + body.state.angular_momentum;
     Sums {

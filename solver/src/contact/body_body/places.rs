@@ -199,7 +199,7 @@ impl<'a> Pair<'a> {
             .shape
             .closest_feature(&second.to_body(&(vertex - self.apart)));
         let normal = -second.to_world(&closest.normal);
-        self.overlapping(vertex, &normal, closest.distance)
+        self.overlapping_pairs(vertex, &normal, closest.distance)
     }
 
     /// Nearest places of a vertex of the second body and the first's core.
@@ -208,7 +208,7 @@ impl<'a> Pair<'a> {
         let closest = first.shape.closest_feature(&first.to_body(vertex));
         let normal = first.to_world(&closest.normal);
         let on_first = vertex - normal * closest.distance;
-        self.overlapping(&on_first, &normal, closest.distance)
+        self.overlapping_pairs(&on_first, &normal, closest.distance)
     }
 
     /// A place of the first core and one of the second.
@@ -218,10 +218,10 @@ impl<'a> Pair<'a> {
         if distance <= NO_DIRECTION * (self.radii[0] + self.radii[1]) {
             return None;
         }
-        self.overlapping(on_first, &(gap / distance), distance)
+        self.overlapping_pairs(on_first, &(gap / distance), distance)
     }
 
-    fn overlapping(&self, on_first: &Vec3, normal: &Vec3, distance: f64) -> Option<Near> {
+    fn overlapping_pairs(&self, on_first: &Vec3, normal: &Vec3, distance: f64) -> Option<Near> {
         let overlap = self.radii[0] + self.radii[1] - distance;
         (overlap > 0.0).then(|| Near {
             normal: *normal,

@@ -43,15 +43,15 @@ fn touching(first: &Body, second: &Body) -> Contacts {
 
 /// Renews contacts and forces after a drift of `dt`.
 fn touch(
-    meeting: &mut Meeting,
+    contact_pair: &mut ContactPair,
     pair: [&Body; 2],
     law: &ContactLaw,
     dt: f64,
     separation: &mut Separation,
 ) -> Exchange {
-    let found = meeting.find(pair, law, separation);
-    meeting.touch(pair, law, &found, dt);
-    meeting.exchange(pair)
+    let found = contact_pair.find(pair, law, separation);
+    contact_pair.touch(pair, law, &found, dt);
+    contact_pair.exchange(pair)
 }
 
 fn potential(first: &Body, second: &Body) -> f64 {
@@ -273,7 +273,7 @@ fn friction_goes_on_while_a_contact_changes_its_features() {
     above.state.orientation = about_y * about_x;
     let reach = above.shape.extent_along(&above.to_body(&-Vec3::z()));
     above.state.momentum = Vec3::x() * above.mass;
-    let mut meeting = Meeting::new([0, 1]);
+    let mut contact_pair = ContactPair::new([0, 1]);
     let mut forces: Vec<Vec3> = Vec::new();
     let mut kinds = Vec::new();
     let (steps, step) = (8_000, 1e-6);
@@ -281,7 +281,7 @@ fn friction_goes_on_while_a_contact_changes_its_features() {
         let x = -0.004 + step * f64::from(n);
         above.state.position = Vec3::new(x, 0.0, 0.02 + reach - 2e-4);
         let exchange = touch(
-            &mut meeting,
+            &mut contact_pair,
             [&below, &above],
             &law,
             step,
@@ -289,7 +289,7 @@ fn friction_goes_on_while_a_contact_changes_its_features() {
         );
         forces.push(exchange.on_second.force);
         kinds.push(
-            meeting
+            contact_pair
                 .springs
                 .iter()
                 .map(|s| s.between)
@@ -328,7 +328,8 @@ fn what_is_known_of_the_gap_changes_no_bit() {
             second.state.momentum = aim.normalize() * second.mass;
             second.state.angular_momentum = second.inertia * numbers.vector() * 30.0;
             let law = law([&first, &second]);
-            let (mut knowing, mut forgetting) = (Meeting::new([0, 1]), Meeting::new([0, 1]));
+            let (mut knowing, mut forgetting) =
+                (ContactPair::new([0, 1]), ContactPair::new([0, 1]));
             let mut separation = Separation::default();
             for _ in 0..1000 {
                 second.drift(h);

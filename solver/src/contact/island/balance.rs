@@ -5,7 +5,7 @@
 //! before and after it, exactly. So what is left over when all that is known of is
 //! subtracted was made: by contacts, by turning, or by the steps being as long as they are.
 
-use super::{Member, Met, Mover, Side, body_of};
+use super::{IslandPair, Member, Mover, Side, body_of};
 use crate::contact::body_body::Exchange;
 use crate::contact::dissipation::Taken;
 use crate::math::Vec3;
@@ -33,8 +33,8 @@ pub struct EnergyReport {
 }
 
 /// Begins the balance of a sub-step of the flow.
-pub(super) fn begin(members: &mut [Member], meetings: &[Met]) {
-    take_stock(members, meetings);
+pub(super) fn begin(members: &mut [Member], contact_pairs: &[IslandPair]) {
+    take_stock(members, contact_pairs);
     for member in members {
         let energy = &mut member.report.energy;
         energy.made = -energy.present;
@@ -51,8 +51,8 @@ pub(super) fn stretch(members: &mut [Member], longer: f64) {
 }
 
 /// Ends the balance of a sub-step of the flow.
-pub(super) fn end(members: &mut [Member], meetings: &[Met], gravity: &Vec3) {
-    take_stock(members, meetings);
+pub(super) fn end(members: &mut [Member], contact_pairs: &[IslandPair], gravity: &Vec3) {
+    take_stock(members, contact_pairs);
     for member in members {
         let energy = &mut member.report.energy;
         let way = member.body.state.position - member.start;
@@ -63,30 +63,41 @@ pub(super) fn end(members: &mut [Member], meetings: &[Met], gravity: &Vec3) {
 }
 
 /// Finds what everybody has, and its contacts hold.
-fn take_stock(members: &mut [Member], meetings: &[Met]) {
+fn take_stock(members: &mut [Member], contact_pairs: &[IslandPair]) {
     for member in &mut *members {
         let (body, report) = (&member.body, &mut member.report);
         report.energy.present = body.kinetic_energy() + body.state.wall_energy;
     }
-    for met in meetings {
-        halve(members, met, met.meeting.energy, |energy| {
-            &mut energy.present
-        });
+    for island_pair in contact_pairs {
+        halve(
+            members,
+            island_pair,
+            island_pair.contact_pair.energy,
+            |energy| &mut energy.present,
+        );
     }
 }
 
 /// Takes in what bodies did to each other in a kick of `dt`.
-pub(super) fn take_in_work(members: &mut [Member], movers: &[Mover], meetings: &[Met], dt: f64) {
-    for met in meetings.iter().filter(|met| met.meeting.touches()) {
-        let exchange = met
-            .meeting
-            .exchange(met.sides.map(|side| body_of(members, movers, side)));
+pub(super) fn take_in_work(
+    members: &mut [Member],
+    movers: &[Mover],
+    contact_pairs: &[IslandPair],
+    dt: f64,
+) {
+    for island_pair in contact_pairs
+        .iter()
+        .filter(|island_pair| island_pair.contact_pair.touches())
+    {
+        let exchange = island_pair
+            .contact_pair
+            .exchange(island_pair.sides.map(|side| body_of(members, movers, side)));
         let work = |side: Side, load: &Load| match side {
             Side::Member(place) => dt * load.power(&members[place].mean),
             Side::Mover(place) => dt * load.power(&movers[place].body.velocities()),
             Side::Barrier(_) => 0.0,
         };
-        let [first, second] = met.sides;
+        let [first, second] = island_pair.sides;
         let (on_first, on_second) = (
             work(first, &exchange.on_first),
             work(second, &exchange.on_second),
@@ -107,7 +118,12 @@ pub(super) fn take_in_work(members: &mut [Member], movers: &[Mover], meetings: &
 
 /// Takes in what contacts took for good in a sub-step of `dt`, which has ended: so each
 /// body's velocities are those amid the kick that the damping found gives.
-pub(super) fn take_in_losses(members: &mut [Member], movers: &[Mover], meetings: &[Met], dt: f64) {
+pub(super) fn take_in_losses(
+    members: &mut [Member],
+    movers: &[Mover],
+    contact_pairs: &[IslandPair],
+    dt: f64,
+) {
     for member in &mut *members {
         let power = |damping: &Load| damping.power(&member.body.velocities());
         let damped = damped(&member.taken, power, dt);
@@ -115,18 +131,23 @@ pub(super) fn take_in_losses(members: &mut [Member], movers: &[Mover], meetings:
         energy.dissipated += member.taken.lost + damped;
         energy.pending = 0.5 * damped;
     }
-    for met in meetings {
-        let both = met.sides.map(|side| body_of(members, movers, side));
+    for island_pair in contact_pairs {
+        let both = island_pair.sides.map(|side| body_of(members, movers, side));
         let power = |damping: &Load| {
             let exchange = Exchange::between(both, damping);
             let [first, second] = both.map(Body::velocities);
             exchange.on_first.power(&first) + exchange.on_second.power(&second)
         };
-        let damped = damped(&met.taken, power, dt);
-        halve(members, met, met.taken.lost + damped, |energy| {
-            &mut energy.dissipated
+        let damped = damped(&island_pair.taken, power, dt);
+        halve(
+            members,
+            island_pair,
+            island_pair.taken.lost + damped,
+            |energy| &mut energy.dissipated,
+        );
+        halve(members, island_pair, 0.5 * damped, |energy| {
+            &mut energy.pending
         });
-        halve(members, met, 0.5 * damped, |energy| &mut energy.pending);
     }
 }
 
@@ -139,13 +160,18 @@ fn damped(taken: &Taken, power: impl Fn(&Load) -> f64, dt: f64) -> f64 {
     }
 }
 
-/// Adds an energy of a meeting to its free bodies: half to each of two.
-fn halve(members: &mut [Member], met: &Met, energy: f64, of: fn(&mut EnergyReport) -> &mut f64) {
+/// Adds an energy of a contact pair to its free bodies: half to each of two.
+fn halve(
+    members: &mut [Member],
+    island_pair: &IslandPair,
+    energy: f64,
+    of: fn(&mut EnergyReport) -> &mut f64,
+) {
     let place = |side: Side| match side {
         Side::Member(place) => Some(place),
         Side::Barrier(_) | Side::Mover(_) => None,
     };
-    let [first, second] = met.sides.map(place);
+    let [first, second] = island_pair.sides.map(place);
     let share = if first.is_some() && second.is_some() {
         0.5
     } else {

@@ -2,7 +2,7 @@
 //! sub-step (docs/method.md, equation 20a).
 
 use super::pace::LARGEST_TURN;
-use super::{Member, Met, Mover, Side, Surroundings, body_of};
+use super::{IslandPair, Member, Mover, Side, Surroundings, body_of};
 use crate::contact::body_body::{distance, least_gap};
 use crate::math::Vec3;
 use crate::rigid::Body;
@@ -24,7 +24,7 @@ struct Closing {
 pub(super) fn clear_for(
     members: &[Member],
     movers: &[Mover],
-    meetings: &[Met],
+    contact_pairs: &[IslandPair],
     around: &Surroundings,
     (least, longest): (f64, f64),
 ) -> f64 {
@@ -33,12 +33,12 @@ pub(super) fn clear_for(
         time = time.min(LARGEST_TURN / member.body.angular_velocity().norm());
         time = time.min(clear_of_walls(member, around, time));
     }
-    for met in meetings {
+    for island_pair in contact_pairs {
         if time < least {
             break;
         }
-        let both = met.sides.map(|side| body_of(members, movers, side));
-        let closing = closing_of_pair(members, movers, met, &around.gravity);
+        let both = island_pair.sides.map(|side| body_of(members, movers, side));
+        let closing = closing_of_pair(members, movers, island_pair, &around.gravity);
         let by_faces = closing.clear_for(least_gap(both[0], both[1]));
         time = if by_faces < time {
             time.min(closing.clear_for(distance(both[0], both[1])))
@@ -71,7 +71,12 @@ fn clear_of_walls(member: &Member, around: &Surroundings, longest: f64) -> f64 {
 }
 
 /// Motion of two bodies towards each other.
-fn closing_of_pair(members: &[Member], movers: &[Mover], met: &Met, gravity: &Vec3) -> Closing {
+fn closing_of_pair(
+    members: &[Member],
+    movers: &[Mover],
+    island_pair: &IslandPair,
+    gravity: &Vec3,
+) -> Closing {
     let velocity = |side: Side| match side {
         Side::Member(place) => members[place].body.velocity(),
         Side::Barrier(_) | Side::Mover(_) => Vec3::zeros(),
@@ -88,7 +93,7 @@ fn closing_of_pair(members: &[Member], movers: &[Mover], met: &Met, gravity: &Ve
             acceleration: 0.0,
         },
     };
-    let [first, second] = met.sides;
+    let [first, second] = island_pair.sides;
     let (one, other) = (own(first), own(second));
     Closing {
         speed: (velocity(first) - velocity(second)).norm() + one.speed + other.speed,

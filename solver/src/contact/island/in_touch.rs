@@ -2,7 +2,7 @@
 //! ones (docs/method.md, equation 20b).
 
 use super::pace::{LARGEST_TURN, longest, relative_speed};
-use super::{Member, Met, Mover, Side, Surroundings, body_of};
+use super::{IslandPair, Member, Mover, Side, Surroundings, body_of};
 use crate::contact::body_body::reduced_mass;
 use crate::contact::body_wall::overlaps;
 use crate::contact::law::ContactLaw;
@@ -36,16 +36,16 @@ struct Coming {
 pub(super) fn longest_in_touch(
     members: &[Member],
     movers: &[Mover],
-    meetings: &[Met],
+    contact_pairs: &[IslandPair],
     around: &Surroundings,
 ) -> f64 {
     let walls = members
         .iter()
         .map(|member| longest_on_walls(member.body, around));
-    let met = meetings
+    let island_pair = contact_pairs
         .iter()
-        .map(|met| longest_of_pair(members, movers, met, &around.gravity));
-    walls.chain(met).fold(f64::INFINITY, f64::min)
+        .map(|island_pair| longest_of_pair(members, movers, island_pair, &around.gravity));
+    walls.chain(island_pair).fold(f64::INFINITY, f64::min)
 }
 
 /// True if damping takes next to nothing of any body.
@@ -74,10 +74,15 @@ fn longest_on_walls(body: &Body, around: &Surroundings) -> f64 {
 
 /// The same of two bodies, as if their whole motion were towards each other: features that
 /// do not touch yet are not looked for.
-fn longest_of_pair(members: &[Member], movers: &[Mover], met: &Met, gravity: &Vec3) -> f64 {
-    let both = met.sides.map(|side| body_of(members, movers, side));
+fn longest_of_pair(
+    members: &[Member],
+    movers: &[Mover],
+    island_pair: &IslandPair,
+    gravity: &Vec3,
+) -> f64 {
+    let both = island_pair.sides.map(|side| body_of(members, movers, side));
     let free = |side: Side| matches!(side, Side::Member(_));
-    let free = met
+    let free = island_pair
         .sides
         .into_iter()
         .zip(both)
@@ -87,10 +92,10 @@ fn longest_of_pair(members: &[Member], movers: &[Mover], met: &Met, gravity: &Ve
         inverse += 1.0 / body.least_effective_mass();
         least = f64::min(least, scale(body, gravity));
     }
-    let overlap = if met.meeting.touches() {
-        met.meeting.deepest
+    let overlap = if island_pair.contact_pair.touches() {
+        island_pair.contact_pair.deepest
     } else {
-        -met.separation.at_least()
+        -island_pair.separation.at_least()
     };
     let coming = Coming {
         overlap,
@@ -98,7 +103,7 @@ fn longest_of_pair(members: &[Member], movers: &[Mover], met: &Met, gravity: &Ve
         masses: [reduced_mass(both[0], both[1]), 1.0 / inverse],
         scale: least,
     };
-    coming.longest(&met.law)
+    coming.longest(&island_pair.law)
 }
 
 /// Energy of a body that contacts may make a small share of [J]: of its motion, and of a fall

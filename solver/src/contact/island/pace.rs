@@ -1,8 +1,8 @@
 //! How many sub-steps of its own an island takes within one of the flow
 //! (docs/method.md, equations 20 and 48).
 
-use super::{Member, Met, Mover, Side, Surroundings, body_of, is_free, near_pairs, reach};
-use crate::contact::body_body::{Meeting, pair_law, reduced_mass};
+use super::{IslandPair, Member, Mover, Side, Surroundings, body_of, broad_phase, is_free, reach};
+use crate::contact::body_body::{ContactPair, pair_law, reduced_mass};
 use crate::contact::body_wall::deepest_overlap;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
@@ -27,7 +27,7 @@ pub const MOST_SUBSTEPS: f64 = 100_000.0;
 pub(super) fn substeps(
     members: &[Member],
     movers: &[Mover],
-    meetings: &[Met],
+    contact_pairs: &[IslandPair],
     around: &Surroundings,
     dt: f64,
 ) -> f64 {
@@ -37,10 +37,10 @@ pub(super) fn substeps(
             .largest_acceleration(&around.gravity, &member.flow);
         substeps_alone(member.body, around.planes, acceleration, dt, dt)
     });
-    let met = meetings
-        .iter()
-        .map(|met| substeps_met(members, movers, met, &around.gravity, dt));
-    let count = alone.chain(met).fold(0.0, f64::max);
+    let island_pair = contact_pairs.iter().map(|island_pair| {
+        substeps_of_island_pair(members, movers, island_pair, &around.gravity, dt)
+    });
+    let count = alone.chain(island_pair).fold(0.0, f64::max);
     count.ceil().max(1.0)
 }
 
@@ -71,7 +71,7 @@ pub(super) fn substeps_alone(
 /// everything that they may touch in a `step` [s] that begins now.
 pub fn substeps_ahead(
     bodies: &[Body],
-    meetings: &[Meeting],
+    contact_pairs: &[ContactPair],
     around: &Surroundings,
     dt: f64,
     step: f64,
@@ -79,28 +79,42 @@ pub fn substeps_ahead(
     let falling = |body: &Body| body.largest_acceleration(&around.gravity, &Load::default());
     let free = bodies.iter().filter(|body| is_free(body));
     let alone = free.map(|body| substeps_alone(body, around.planes, falling(body), dt, step));
-    let pairs = near_pairs(bodies, |place| falling(&bodies[place]), step);
-    let met = pairs.into_iter().map(|pair| {
+    let pairs = broad_phase(bodies, |place| falling(&bodies[place]), step);
+    let island_pair = pairs.into_iter().map(|pair| {
         let both = pair.map(|place| &bodies[place]);
-        let known = meetings.iter().find(|meeting| meeting.bodies == pair);
-        let deepest = known.map_or(0.0, |meeting| meeting.deepest);
+        let known = contact_pairs
+            .iter()
+            .find(|contact_pair| contact_pair.bodies == pair);
+        let deepest = known.map_or(0.0, |contact_pair| contact_pair.deepest);
         let gained = both.into_iter().map(|body| falling(body) * dt).sum();
         substeps_of_pair(both, &pair_law(both[0], both[1]), deepest, gained, dt)
     });
-    alone.chain(met).fold(0.0, f64::max)
+    alone.chain(island_pair).fold(0.0, f64::max)
 }
 
 /// Sub-steps that two bodies ask for.
-fn substeps_met(members: &[Member], movers: &[Mover], met: &Met, gravity: &Vec3, dt: f64) -> f64 {
-    let both = met.sides.map(|side| body_of(members, movers, side));
-    let gained = met.sides.iter().map(|side| match side {
+fn substeps_of_island_pair(
+    members: &[Member],
+    movers: &[Mover],
+    island_pair: &IslandPair,
+    gravity: &Vec3,
+    dt: f64,
+) -> f64 {
+    let both = island_pair.sides.map(|side| body_of(members, movers, side));
+    let gained = island_pair.sides.iter().map(|side| match side {
         Side::Member(place) => {
             let Member { body, flow, .. } = &members[*place];
             body.largest_acceleration(gravity, flow) * dt
         }
         Side::Barrier(_) | Side::Mover(_) => 0.0,
     });
-    substeps_of_pair(both, &met.law, met.meeting.deepest, gained.sum(), dt)
+    substeps_of_pair(
+        both,
+        &island_pair.law,
+        island_pair.contact_pair.deepest,
+        gained.sum(),
+        dt,
+    )
 }
 
 /// Sub-steps that two bodies ask for whose contacts are so deep [m], and whose speed

@@ -3,7 +3,7 @@
 
 use super::flight::clear_for;
 use super::in_touch::{is_quiet, longest_in_touch};
-use super::{Member, Met, Mover, Surroundings};
+use super::{IslandPair, Member, Mover, Surroundings};
 use crate::rigid::Load;
 
 /// With fewer short sub-steps left than this no look is taken at gaps and contacts, which costs
@@ -62,17 +62,17 @@ impl Strides {
         &mut self,
         members: &[Member],
         movers: &[Mover],
-        meetings: &[Met],
+        contact_pairs: &[IslandPair],
         around: &Surroundings,
     ) -> (u32, f64) {
         let left = self.count - self.done;
         let stride = if left < WORTH_A_LOOK || self.waits() {
             1
-        } else if touches(members, meetings) {
-            self.in_touch(members, movers, meetings, around)
+        } else if touches(members, contact_pairs) {
+            self.in_touch(members, movers, contact_pairs, around)
         } else {
             let times = (2.0 * self.shortest, self.shortest * f64::from(left));
-            let clear = clear_for(members, movers, meetings, around, times);
+            let clear = clear_for(members, movers, contact_pairs, around, times);
             self.found((clear / self.shortest) as u32)
         };
         let stride = stride.clamp(1, left);
@@ -92,7 +92,7 @@ impl Strides {
         &mut self,
         members: &[Member],
         movers: &[Mover],
-        meetings: &[Met],
+        contact_pairs: &[IslandPair],
         around: &Surroundings,
     ) -> u32 {
         if self.count < MANY || members.iter().any(is_pushed) {
@@ -106,7 +106,7 @@ impl Strides {
         if at_most == 1 {
             return 1;
         }
-        let longest = longest_in_touch(members, movers, meetings, around);
+        let longest = longest_in_touch(members, movers, contact_pairs, around);
         let stride = 1 << ((longest / self.shortest) as u32).max(1).ilog2();
         self.found(stride).min(at_most)
     }
@@ -127,8 +127,10 @@ impl Strides {
 }
 
 /// True if anything of an island touches.
-fn touches(members: &[Member], meetings: &[Met]) -> bool {
-    meetings.iter().any(|met| met.meeting.touches())
+fn touches(members: &[Member], contact_pairs: &[IslandPair]) -> bool {
+    contact_pairs
+        .iter()
+        .any(|island_pair| island_pair.contact_pair.touches())
         || members
             .iter()
             .any(|member| member.body.state.wall_overlap > 0.0)

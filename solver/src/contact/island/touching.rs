@@ -1,6 +1,6 @@
 //! Contacts of the bodies of an island, found and renewed in a sub-step.
 
-use super::{Member, Met, Mover, Side, body_of};
+use super::{IslandPair, Member, Mover, Side, body_of};
 use crate::contact::body_body::Contacts;
 use crate::rigid::{BodyState, Load};
 
@@ -17,26 +17,28 @@ fn states<'a>(
 pub(super) fn find_contacts(
     members: &mut [Member],
     movers: &mut [Mover],
-    meetings: &mut [Met],
+    contact_pairs: &mut [IslandPair],
     dt: f64,
 ) {
     for state in states(members, movers) {
         state.touching_bodies = 0;
     }
-    for met in meetings {
-        let [first, second] = met.sides.map(|side| body_of(members, movers, side));
+    for island_pair in contact_pairs {
+        let [first, second] = island_pair.sides.map(|side| body_of(members, movers, side));
         let approach = dt * (first.speed_bound() + second.speed_bound());
-        if met.separation.outlasts(approach) {
-            met.contacts = Contacts::default();
+        if island_pair.separation.outlasts(approach) {
+            island_pair.contacts = Contacts::default();
             continue;
         }
-        met.contacts = met
-            .meeting
-            .find([first, second], &met.law, &mut met.separation);
-        if met.meeting.touches() {
+        island_pair.contacts = island_pair.contact_pair.find(
+            [first, second],
+            &island_pair.law,
+            &mut island_pair.separation,
+        );
+        if island_pair.contact_pair.touches() {
             let smaller = f64::min(first.shape.sphero_radius(), second.shape.sphero_radius());
-            let ratio = met.meeting.deepest / smaller;
-            for side in met.sides {
+            let ratio = island_pair.contact_pair.deepest / smaller;
+            for side in island_pair.sides {
                 match side {
                     Side::Member(place) => {
                         members[place].body.state.touching_bodies += 1;
@@ -54,19 +56,22 @@ pub(super) fn find_contacts(
 pub(super) fn touch_bodies(
     members: &mut [Member],
     movers: &mut [Mover],
-    meetings: &mut [Met],
+    contact_pairs: &mut [IslandPair],
     dt: f64,
 ) {
     for state in states(members, movers) {
         state.body_load = Load::default();
         state.barrier_load = Load::default();
     }
-    for met in meetings {
-        let both = met.sides.map(|side| body_of(members, movers, side));
-        met.taken = met.meeting.touch(both, &met.law, &met.contacts, dt);
-        if met.meeting.touches() {
-            let exchange = met.meeting.exchange(both);
-            let [one, other] = met.sides;
+    for island_pair in contact_pairs {
+        let both = island_pair.sides.map(|side| body_of(members, movers, side));
+        island_pair.taken =
+            island_pair
+                .contact_pair
+                .touch(both, &island_pair.law, &island_pair.contacts, dt);
+        if island_pair.contact_pair.touches() {
+            let exchange = island_pair.contact_pair.exchange(both);
+            let [one, other] = island_pair.sides;
             take(members, movers, [one, other], &exchange.on_first);
             take(members, movers, [other, one], &exchange.on_second);
         }

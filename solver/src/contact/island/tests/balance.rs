@@ -15,8 +15,8 @@ fn balances(
         gravity: GRAVITY,
         time: 0.0,
     };
-    let mut meetings = meet(bodies);
-    let mut balances = BodyEnergy::of(bodies, &meetings, &GRAVITY);
+    let mut contact_pairs = meet(bodies);
+    let mut balances = BodyEnergy::of(bodies, &contact_pairs, &GRAVITY);
     for passed in 0..milliseconds {
         if passed == milliseconds / 2 {
             spoil(bodies);
@@ -25,15 +25,16 @@ fn balances(
             force: Vec3::new(1e-2, 0.0, 0.0),
             torque: Vec3::new(0.0, 0.0, 1e-4),
         };
-        let reports = advance(bodies, &mut meetings, push, &around, 1e-3);
+        let reports = advance(bodies, &mut contact_pairs, push, &around, 1e-3);
         for (place, balance) in balances.iter_mut().enumerate() {
             balance.take_in(&reports[place].energy, &bodies[place], &GRAVITY);
         }
     }
     for (place, balance) in balances.iter().enumerate() {
         let body = &bodies[place];
-        let now =
-            body.kinetic_energy() + potential(body, &GRAVITY) + stored(place, bodies, &meetings);
+        let now = body.kinetic_energy()
+            + potential(body, &GRAVITY)
+            + stored(place, bodies, &contact_pairs);
         let brought = balance.start + balance.flow_work + balance.body_work;
         let off = now - (brought - balance.dissipated + balance.made);
         assert!(off.abs() < 1e-12, "{off:e}");

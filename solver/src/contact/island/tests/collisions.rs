@@ -5,11 +5,14 @@ use crate::rigid::fixture::tetrahedron;
 
 /// Totals of some bodies: momentum, angular momentum about the origin, energy
 /// with what their contacts hold.
-fn totals(bodies: &[Body], meetings: &[Meeting]) -> (Vec3, Vec3, f64) {
+fn totals(bodies: &[Body], contact_pairs: &[ContactPair]) -> (Vec3, Vec3, f64) {
     let linear = bodies.iter().map(|body| body.state.momentum).sum();
     let angular = bodies.iter().map(angular_about_origin).sum();
     let moving: f64 = bodies.iter().map(Body::kinetic_energy).sum();
-    let held: f64 = meetings.iter().map(|meeting| meeting.energy).sum();
+    let held: f64 = contact_pairs
+        .iter()
+        .map(|contact_pair| contact_pair.energy)
+        .sum();
     (linear, angular, moving + held)
 }
 
@@ -28,23 +31,26 @@ fn collision(numbers: &mut Numbers, dt: f64) -> [f64; 4] {
     let aside = numbers.vector() * 0.01;
     bodies[1].state.position = way * 0.09 + aside;
     bodies[1].state.momentum = way * -bodies[1].mass;
-    let mut meetings = meet(&mut bodies);
-    let start = totals(&bodies, &meetings);
+    let mut contact_pairs = meet(&mut bodies);
+    let start = totals(&bodies, &contact_pairs);
     let (mut deepest, mut worst) = (0.0f64, 0.0f64);
     let mut time = 0.0;
     while time < 0.1 {
         advance(
             &mut bodies,
-            &mut meetings,
+            &mut contact_pairs,
             |_| Load::default(),
             &NOWHERE,
             dt,
         );
         time += dt;
-        deepest = meetings.iter().map(|m| m.deepest).fold(deepest, f64::max);
-        worst = worst.max((totals(&bodies, &meetings).2 / start.2 - 1.0).abs());
+        deepest = contact_pairs
+            .iter()
+            .map(|m| m.deepest)
+            .fold(deepest, f64::max);
+        worst = worst.max((totals(&bodies, &contact_pairs).2 / start.2 - 1.0).abs());
     }
-    let end = totals(&bodies, &meetings);
+    let end = totals(&bodies, &contact_pairs);
     let scale = bodies[1].mass;
     [
         (end.2 / start.2 - 1.0).abs(),
@@ -102,11 +108,11 @@ fn rebound(turn: &Vec3, restitution: f64, at_a_body: bool) -> f64 {
     if !at_a_body {
         bodies.truncate(1);
     }
-    let mut meetings = meet(&mut bodies);
+    let mut contact_pairs = meet(&mut bodies);
     for _ in 0..300 {
         advance(
             &mut bodies,
-            &mut meetings,
+            &mut contact_pairs,
             |_| Load::default(),
             &around,
             1e-4,

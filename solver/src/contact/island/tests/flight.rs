@@ -82,15 +82,15 @@ fn bodies_that_pass_each_other_are_in_flight() {
         body.wall_law = ContactLaw::hertz(1e9, body.shape.sphero_radius(), 1.0, 0.3);
     }
     bodies[1].state.momentum.y = bodies[1].mass;
-    let mut meetings = meet(&mut bodies);
+    let mut contact_pairs = meet(&mut bodies);
     let reports = advance(
         &mut bodies,
-        &mut meetings,
+        &mut contact_pairs,
         |_| Load::default(),
         &NOWHERE,
         1e-3,
     );
-    assert_eq!(meetings.len(), 1);
+    assert_eq!(contact_pairs.len(), 1);
     assert!(reports[0].substeps_asked > 100.0, "{reports:?}");
     assert!(reports[0].substeps < 20, "{reports:?}");
 }

@@ -37,7 +37,7 @@ fn heap() -> (Vec<Body>, Vec<Plane>) {
 }
 
 /// Kinetic energy, potential energy, and what contacts hold [J].
-fn energies(bodies: &[Body], meetings: &[Meeting]) -> [f64; 3] {
+fn energies(bodies: &[Body], contact_pairs: &[ContactPair]) -> [f64; 3] {
     let moving = bodies.iter().map(Body::kinetic_energy).sum();
     let lifted = bodies
         .iter()
@@ -46,19 +46,22 @@ fn energies(bodies: &[Body], meetings: &[Meeting]) -> [f64; 3] {
         .iter()
         .map(|body| body.state.wall_energy)
         .sum::<f64>();
-    let at_bodies = meetings.iter().map(|meeting| meeting.energy).sum::<f64>();
+    let at_bodies = contact_pairs
+        .iter()
+        .map(|contact_pair| contact_pair.energy)
+        .sum::<f64>();
     [moving, lifted.sum(), at_walls + at_bodies]
 }
 
 /// Deepest overlap of any contact over the sphero radius.
-fn deepest(bodies: &[Body], meetings: &[Meeting], planes: &[Plane]) -> f64 {
+fn deepest(bodies: &[Body], contact_pairs: &[ContactPair], planes: &[Plane]) -> f64 {
     let radius = |body: &Body| body.shape.sphero_radius();
     let on_walls = bodies
         .iter()
         .map(|body| deepest_overlap(body, planes) / radius(body));
-    let on_bodies = meetings.iter().map(|meeting| {
-        let smaller = meeting.bodies.map(|place| radius(&bodies[place]));
-        meeting.deepest / smaller[0].min(smaller[1])
+    let on_bodies = contact_pairs.iter().map(|contact_pair| {
+        let smaller = contact_pair.bodies.map(|place| radius(&bodies[place]));
+        contact_pair.deepest / smaller[0].min(smaller[1])
     });
     on_walls.chain(on_bodies).fold(0.0, f64::max)
 }
@@ -78,10 +81,11 @@ fn a_heap_comes_to_rest_and_sleeps_until_touched() {
         gravity: GRAVITY,
         time: 0.0,
     };
-    let mut meetings = meet(&mut bodies);
-    let energy =
-        |bodies: &[Body], meetings: &[Meeting]| -> f64 { energies(bodies, meetings).iter().sum() };
-    let start = energy(&bodies, &meetings);
+    let mut contact_pairs = meet(&mut bodies);
+    let energy = |bodies: &[Body], contact_pairs: &[ContactPair]| -> f64 {
+        energies(bodies, contact_pairs).iter().sum()
+    };
+    let start = energy(&bodies, &contact_pairs);
     let (mut lowest, mut rise, mut at_impact) = (start, 0.0f64, 0.0f64);
     let sleeps = |body: &Body| body.state.still_for >= FALLS_ASLEEP_AFTER;
     let mut steps = 0;
@@ -89,17 +93,17 @@ fn a_heap_comes_to_rest_and_sleeps_until_touched() {
         steps += 1;
         advance(
             &mut bodies,
-            &mut meetings,
+            &mut contact_pairs,
             |_| Load::default(),
             &around,
             1e-3,
         );
-        let now = energy(&bodies, &meetings);
+        let now = energy(&bodies, &contact_pairs);
         lowest = lowest.min(now);
         rise = rise.max(now - lowest);
-        at_impact = at_impact.max(deepest(&bodies, &meetings, &planes));
+        at_impact = at_impact.max(deepest(&bodies, &contact_pairs, &planes));
     }
-    let at_rest = deepest(&bodies, &meetings, &planes);
+    let at_rest = deepest(&bodies, &contact_pairs, &planes);
     assert!(rise < 1e-6 * start, "{rise:e}");
     assert!(at_impact < 0.2 && at_rest < 0.02, "{at_impact} {at_rest}");
     assert!(bodies.iter().all(sleeps), "awake after {steps} steps");
@@ -118,12 +122,12 @@ fn a_heap_comes_to_rest_and_sleeps_until_touched() {
         guest.wall_law.stiffness = bodies[9].wall_law.stiffness;
         guest.state.position.z = top + above;
         with_guest.push(guest);
-        let mut meetings = meetings.clone();
+        let mut contact_pairs = contact_pairs.clone();
         // It falls 0.11 m.
         for _ in 0..150 {
             advance(
                 &mut with_guest,
-                &mut meetings,
+                &mut contact_pairs,
                 |_| Load::default(),
                 &around,
                 1e-3,
@@ -140,7 +144,7 @@ fn a_heap_comes_to_rest_and_sleeps_until_touched() {
         force: Vec3::x() * if place == 0 { 1e-6 } else { 0.0 },
         torque: Vec3::zeros(),
     };
-    advance(&mut bodies, &mut meetings, push, &around, 1e-3);
+    advance(&mut bodies, &mut contact_pairs, push, &around, 1e-3);
     assert_ne!(states(&bodies), asleep);
 }
 
@@ -156,18 +160,18 @@ fn any_number_of_threads_gives_the_same_bits() {
                 gravity: GRAVITY,
                 time: 0.0,
             };
-            let mut meetings = meet(&mut bodies);
+            let mut contact_pairs = meet(&mut bodies);
             for _ in 0..200 {
                 advance(
                     &mut bodies,
-                    &mut meetings,
+                    &mut contact_pairs,
                     |_| Load::default(),
                     &around,
                     1e-3,
                 );
             }
             let states: Vec<_> = bodies.iter().map(|body| body.state.clone()).collect();
-            postcard::to_allocvec(&(states, meetings)).expect("plain numbers")
+            postcard::to_allocvec(&(states, contact_pairs)).expect("plain numbers")
         })
     };
     let one = run(1);

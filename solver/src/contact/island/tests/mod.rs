@@ -30,13 +30,13 @@ fn cube_at(height: f64) -> Body {
 /// Advances bodies; what it did to them.
 fn advance(
     bodies: &mut [Body],
-    meetings: &mut Vec<Meeting>,
+    contact_pairs: &mut Vec<ContactPair>,
     flow: impl Fn(usize) -> Load + Sync,
     around: &Surroundings,
     dt: f64,
 ) -> Vec<BodyReport> {
     let mut reports = vec![BodyReport::default(); bodies.len()];
-    super::advance(bodies, meetings, &mut reports, flow, around, dt);
+    super::advance(bodies, contact_pairs, &mut reports, flow, around, dt);
     reports
 }
 

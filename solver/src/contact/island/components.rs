@@ -1,8 +1,8 @@
 //! Bodies divided into islands: which hang together, and what stands round them.
 
 use super::mover::Mover;
-use super::{BodyReport, Island, Member, Met, Side, is_free};
-use crate::contact::body_body::{Contacts, Meeting, Separation, pair_law};
+use super::{BodyReport, Island, IslandPair, Member, Side, is_free};
+use crate::contact::body_body::{ContactPair, Contacts, Separation, pair_law};
 use crate::contact::dissipation::Taken;
 use crate::contact::law::ContactLaw;
 use crate::rigid::{Body, Load};
@@ -20,14 +20,19 @@ enum Seat<'a> {
 pub(super) fn islands<'a>(
     bodies: &'a mut [Body],
     reports: &'a mut [BodyReport],
-    meetings: Vec<Meeting>,
+    contact_pairs: Vec<ContactPair>,
     flow: impl Fn(usize) -> Load,
 ) -> Vec<Island<'a>> {
-    let laws: Vec<ContactLaw> = meetings
+    let laws: Vec<ContactLaw> = contact_pairs
         .iter()
-        .map(|meeting| pair_law(&bodies[meeting.bodies[0]], &bodies[meeting.bodies[1]]))
+        .map(|contact_pair| {
+            pair_law(
+                &bodies[contact_pair.bodies[0]],
+                &bodies[contact_pair.bodies[1]],
+            )
+        })
         .collect();
-    let heads = heads(bodies, &meetings);
+    let roots = roots(bodies, &contact_pairs);
     let mut islands: Vec<Island> = Vec::new();
     let mut seats: Vec<Seat> = Vec::with_capacity(bodies.len());
     for (place, (body, report)) in bodies.iter_mut().zip(reports).enumerate() {
@@ -36,7 +41,7 @@ pub(super) fn islands<'a>(
             seats.push(Seat::Outside(body));
             continue;
         }
-        let island = match seats.get(heads[place]) {
+        let island = match seats.get(roots[place]) {
             Some(Seat::Island(island, _)) => *island,
             _ => {
                 islands.push(Island::default());
@@ -47,16 +52,21 @@ pub(super) fn islands<'a>(
         seats.push(Seat::Island(island, members.len()));
         members.push(Member::new(body, report, flow(place)));
     }
-    for (meeting, law) in meetings.into_iter().zip(laws) {
-        let inside = meeting.bodies.iter().find_map(|&place| match seats[place] {
-            Seat::Island(island, _) => Some(island),
-            Seat::Outside(_) => None,
-        });
+    for (contact_pair, law) in contact_pairs.into_iter().zip(laws) {
+        let inside = contact_pair
+            .bodies
+            .iter()
+            .find_map(|&place| match seats[place] {
+                Seat::Island(island, _) => Some(island),
+                Seat::Outside(_) => None,
+            });
         if let Some(island) = inside {
             let island = &mut islands[island];
-            let sides = meeting.bodies.map(|place| island.side(place, seats[place]));
-            island.meetings.push(Met {
-                meeting,
+            let sides = contact_pair
+                .bodies
+                .map(|place| island.side(place, seats[place]));
+            island.contact_pairs.push(IslandPair {
+                contact_pair,
                 law,
                 sides,
                 separation: Separation::default(),
@@ -69,27 +79,31 @@ pub(super) fn islands<'a>(
 }
 
 /// Per body the first of those it hangs together with.
-fn heads(bodies: &[Body], meetings: &[Meeting]) -> Vec<usize> {
-    fn head_of(heads: &[usize], mut place: usize) -> usize {
-        while heads[place] != place {
-            place = heads[place];
+fn roots(bodies: &[Body], contact_pairs: &[ContactPair]) -> Vec<usize> {
+    fn root_of(roots: &[usize], mut place: usize) -> usize {
+        while roots[place] != place {
+            place = roots[place];
         }
         place
     }
-    let mut heads: Vec<usize> = (0..bodies.len()).collect();
-    for meeting in meetings {
-        if meeting.bodies.iter().all(|&place| is_free(&bodies[place])) {
-            let [a, b] = meeting.bodies.map(|place| head_of(&heads, place));
-            heads[a.max(b)] = a.min(b);
+    let mut roots: Vec<usize> = (0..bodies.len()).collect();
+    for contact_pair in contact_pairs {
+        if contact_pair
+            .bodies
+            .iter()
+            .all(|&place| is_free(&bodies[place]))
+        {
+            let [a, b] = contact_pair.bodies.map(|place| root_of(&roots, place));
+            roots[a.max(b)] = a.min(b);
         }
     }
     (0..bodies.len())
-        .map(|place| head_of(&heads, place))
+        .map(|place| root_of(&roots, place))
         .collect()
 }
 
 impl<'a> Island<'a> {
-    /// One of the two sides of a meeting.
+    /// One of the two sides of a contact pair.
     fn side(&mut self, place: usize, seat: Seat<'a>) -> Side<'a> {
         match seat {
             Seat::Island(_, member) => Side::Member(member),

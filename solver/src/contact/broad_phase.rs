@@ -13,7 +13,7 @@ pub struct Ball {
 }
 
 /// Every pair of balls that overlap, the lower number first, in order.
-pub fn overlapping(balls: &[Ball]) -> Vec<[usize; 2]> {
+pub fn overlapping_pairs(balls: &[Ball]) -> Vec<[usize; 2]> {
     let axis = widest_axis(balls);
     let start = |ball: &Ball| ball.centre[axis] - ball.radius;
     let mut order: Vec<usize> = (0..balls.len()).collect();
@@ -87,7 +87,7 @@ mod tests {
                     }
                 }
             }
-            assert_eq!(overlapping(&balls), expected);
+            assert_eq!(overlapping_pairs(&balls), expected);
         }
     }
 }
