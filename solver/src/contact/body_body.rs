@@ -8,14 +8,14 @@ use crate::math::Vec3;
 use crate::rigid::{Body, Load};
 use serde::{Deserialize, Serialize};
 
+mod contact_points;
 mod motion;
-mod places;
 mod segments;
 mod separation;
 
+pub use contact_points::Contacts;
+use contact_points::{Contact, ContactPoint, FeaturePair, contacts};
 use motion::Motion;
-pub use places::Contacts;
-use places::{Between, Contact, Near, contacts};
 pub use separation::{Separation, distance, least_gap};
 
 /// What the contacts of two bodies remember from one body sub-step to the next.
@@ -35,7 +35,7 @@ pub struct ContactPair {
 /// The springs of one contact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct FeatureSprings {
-    between: Between,
+    between: FeaturePair,
     /// Where the contact is, from the first body's centre [m].
     place: Vec3,
     /// Spring against sliding of the second body on the first.
@@ -103,14 +103,14 @@ impl ContactPair {
             };
         }
         let pair = Pair::new(first, second, law, &found.push);
-        self.springs = take_over(&self.springs, &found.places, &pair);
+        self.springs = carry_history(&self.springs, &found.places, &pair);
         let mut taken = Taken {
             lost: (held - energy_of(&self.springs)).max(0.0),
             ..Taken::default()
         };
         let pressed = pair.press(&found.places, dt);
         for pressed in &pressed {
-            let Near { place, normal, .. } = &pressed.contact.near;
+            let ContactPoint { place, normal, .. } = &pressed.contact.near;
             taken.damping.add_at(place, &(normal * pressed.damping));
         }
         self.push.add(&taken.damping);
@@ -137,14 +137,18 @@ fn energy_of(springs: &[FeatureSprings]) -> f64 {
 /// The springs of the contacts found, from those `before`. A contact that comes up where
 /// another was, as when a vertex slides over a rim, takes that one's stretch over.
 /// Together they hold no more energy than those before.
-fn take_over(before: &[FeatureSprings], contacts: &[Contact], pair: &Pair) -> Vec<FeatureSprings> {
+fn carry_history(
+    before: &[FeatureSprings],
+    contacts: &[Contact],
+    pair: &Pair,
+) -> Vec<FeatureSprings> {
     let mut springs: Vec<FeatureSprings> = contacts
         .iter()
         .map(|contact| {
-            let heir_of = heir_of(before, contact, pair.radii);
+            let history_of = history_of(before, contact, pair.radii);
             let stiffness = pair.law.tangential_stiffness(contact.near.overlap);
             let spring = |of: fn(&FeatureSprings) -> Spring| Spring {
-                stretch: heir_of.map_or_else(Vec3::zeros, |spring| of(spring).stretch),
+                stretch: history_of.map_or_else(Vec3::zeros, |spring| of(spring).stretch),
                 stiffness: contact.share * stiffness,
             };
             FeatureSprings {
@@ -168,7 +172,7 @@ fn take_over(before: &[FeatureSprings], contacts: &[Contact], pair: &Pair) -> Ve
 }
 
 /// The springs that a contact takes over: its own, or the nearest within `reach`.
-fn heir_of<'a>(
+fn history_of<'a>(
     before: &'a [FeatureSprings],
     contact: &Contact,
     reach: f64,

@@ -50,7 +50,7 @@ pub fn overlaps<'a>(body: &'a Body, planes: &'a [Plane]) -> impl Iterator<Item =
 
 /// Renews the body's wall load and its springs after a drift of `dt`; what the contacts
 /// take for good.
-pub fn touch_walls(body: &mut Body, planes: &[Plane], dt: f64) -> Taken {
+pub fn evaluate_wall_contacts(body: &mut Body, planes: &[Plane], dt: f64) -> Taken {
     let mut taken = Taken::default();
     let count = body.shape.core_vertices().len() * planes.len();
     body.state.springs.resize(count, Spring::NEW);

@@ -2,7 +2,7 @@
 //! form an island and move together (docs/method.md, equations 15, 20 and 48).
 
 use crate::contact::body_body::{ContactPair, Contacts, Separation, least_gap};
-use crate::contact::body_wall::touch_walls;
+use crate::contact::body_wall::evaluate_wall_contacts;
 use crate::contact::broad_phase::{Ball, overlapping_pairs};
 use crate::contact::dissipation::Taken;
 use crate::contact::law::ContactLaw;
@@ -30,7 +30,7 @@ use pace::substeps;
 use pace::substeps_alone;
 pub use pace::{MOST_SUBSTEPS, substeps_ahead};
 use strides::Strides;
-use touching::{find_contacts, touch_bodies};
+use touching::{evaluate_body_contacts, find_contacts};
 
 /// A body none of whose places is faster is still [m/s].
 const STILL: f64 = 1e-5;
@@ -180,7 +180,7 @@ pub fn meet(bodies: &mut [Body]) -> Vec<ContactPair> {
             contact_pairs: island_pair,
         } = &mut island;
         find_contacts(members, movers, island_pair, 0.0);
-        touch_bodies(members, movers, island_pair, 0.0);
+        evaluate_body_contacts(members, movers, island_pair, 0.0);
         contact_pairs.extend(
             island
                 .contact_pairs
@@ -367,9 +367,9 @@ fn advance_together(
         }
         find_contacts(members, movers, contact_pairs, h);
         for member in members.iter_mut() {
-            member.taken = touch_walls(member.body, around.planes, h);
+            member.taken = evaluate_wall_contacts(member.body, around.planes, h);
         }
-        touch_bodies(members, movers, contact_pairs, h);
+        evaluate_body_contacts(members, movers, contact_pairs, h);
         for mover in movers.iter_mut() {
             mover.take_in(h);
         }

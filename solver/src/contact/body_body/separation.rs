@@ -1,6 +1,6 @@
 //! Directions that keep two bodies apart: the face normals of both cores.
 
-use super::places::corners;
+use super::contact_points::corners;
 use crate::math::Vec3;
 use crate::rigid::Body;
 use crate::shape::distance_apart;

@@ -151,9 +151,9 @@ fn bodies_that_meet_at_random_touch_once() {
                 .iter()
                 .max_by(|a, b| a.share.total_cmp(&b.share));
             match kind.expect("they touch").between {
-                Between::VertexOfFirst(_) => once[0] += 1,
-                Between::VertexOfSecond(_) => once[1] += 1,
-                Between::Edges(..) => once[2] += 1,
+                FeaturePair::VertexOfFirst(_) => once[0] += 1,
+                FeaturePair::VertexOfSecond(_) => once[1] += 1,
+                FeaturePair::Edges(..) => once[2] += 1,
             }
         }
     }
@@ -296,8 +296,11 @@ fn friction_goes_on_while_a_contact_changes_its_features() {
                 .collect::<Vec<_>>(),
         );
     }
-    let has_crossing =
-        |kinds: &Vec<Between>| kinds.iter().any(|kind| matches!(kind, Between::Edges(..)));
+    let has_crossing = |kinds: &Vec<FeaturePair>| {
+        kinds
+            .iter()
+            .any(|kind| matches!(kind, FeaturePair::Edges(..)))
+    };
     assert!(!has_crossing(&kinds[0]) && has_crossing(&kinds[steps as usize - 1]));
     let size = forces[0].norm();
     for pair in forces.windows(2).skip(200) {

@@ -53,7 +53,7 @@ pub(super) fn find_contacts(
 }
 
 /// Renews what bodies do to each other after a drift of `dt`.
-pub(super) fn touch_bodies(
+pub(super) fn evaluate_body_contacts(
     members: &mut [Member],
     movers: &mut [Mover],
     contact_pairs: &mut [IslandPair],

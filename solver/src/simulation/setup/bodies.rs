@@ -3,7 +3,7 @@
 use super::Setup;
 use super::resolution::{Crowd, Expected, contact_modulus};
 use super::settle::settle;
-use crate::contact::body_wall::touch_walls;
+use crate::contact::body_wall::evaluate_wall_contacts;
 use crate::contact::law::{ContactLaw, Dampings};
 use crate::math::Vec3;
 use crate::motion::Velocities;
@@ -87,7 +87,7 @@ fn body(
         settle(&mut body, &given.planes, &given.gravity);
     }
     if body.prescribed().is_none() {
-        touch_walls(&mut body, &given.planes, 0.0);
+        evaluate_wall_contacts(&mut body, &given.planes, 0.0);
     }
     body
 }

@@ -14,7 +14,7 @@ const NO_DIRECTION: f64 = 1e-9;
 
 /// Two features that may touch, by their numbers in the cores.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Between {
+pub(super) enum FeaturePair {
     /// A vertex of the first body and the second's core.
     VertexOfFirst(usize),
     /// A vertex of the second body and the first's core.
@@ -25,7 +25,7 @@ pub(super) enum Between {
 
 /// A pair of nearest places of two features whose roundings overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Near {
+pub(super) struct ContactPoint {
     /// Unit vector from the first body to the second.
     pub(super) normal: Vec3,
     /// Middle of the overlap, from the first body's centre [m].
@@ -38,9 +38,9 @@ pub(super) struct Near {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Contact {
     /// Which features.
-    pub(super) between: Between,
+    pub(super) between: FeaturePair,
     /// Overlap of both.
-    pub(super) near: Near,
+    pub(super) near: ContactPoint,
     /// Share that is left of it when other contacts took their part, above 0, at most 1.
     pub(super) share: f64,
 }
@@ -70,7 +70,7 @@ pub(super) fn contacts(
     };
     for &(vertex, place) in &pair.first.vertices {
         if let Some(near) = pair.of_first(&place) {
-            found.take(law, Between::VertexOfFirst(vertex), near, &[]);
+            found.take(law, FeaturePair::VertexOfFirst(vertex), near, &[]);
         }
     }
     for &(vertex, place) in &pair.second.vertices {
@@ -79,7 +79,7 @@ pub(super) fn contacts(
             let twins = twins.filter_map(|(_, other)| pair.between(other, &place));
             found.take(
                 law,
-                Between::VertexOfSecond(vertex),
+                FeaturePair::VertexOfSecond(vertex),
                 near,
                 &twins.collect::<Vec<_>>(),
             );
@@ -92,7 +92,7 @@ pub(super) fn contacts(
             };
             if let Some(near) = pair.between(&p, &q) {
                 let ends = pair.ends(&on_first, &on_second);
-                found.take(law, Between::Edges(e, f), near, &ends);
+                found.take(law, FeaturePair::Edges(e, f), near, &ends);
             }
         }
     }
@@ -101,13 +101,19 @@ pub(super) fn contacts(
 
 impl Contacts {
     /// Takes in what a contact holds that the `booked` ones nearby do not.
-    fn take(&mut self, law: &ContactLaw, between: Between, near: Near, booked: &[Near]) {
+    fn take(
+        &mut self,
+        law: &ContactLaw,
+        between: FeaturePair,
+        near: ContactPoint,
+        booked: &[ContactPoint],
+    ) {
         let energy = law.elastic_energy(near.overlap);
         if energy <= 0.0 {
             return;
         }
         // Rounding can make a booked distance the smaller one.
-        let ratio = |other: &Near| (law.elastic_energy(other.overlap) / energy).min(1.0);
+        let ratio = |other: &ContactPoint| (law.elastic_energy(other.overlap) / energy).min(1.0);
         let ratios: Vec<f64> = booked.iter().map(ratio).collect();
         let without = |left_out: usize| -> f64 {
             let others = ratios.iter().enumerate();
@@ -132,7 +138,7 @@ impl Contacts {
         }
     }
 
-    fn pushed(&mut self, at: &Near, force: f64) {
+    fn pushed(&mut self, at: &ContactPoint, force: f64) {
         self.push.add_at(&at.place, &(at.normal * force));
     }
 }
@@ -193,7 +199,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Nearest places of a vertex of the first body and the second's core.
-    fn of_first(&self, vertex: &Vec3) -> Option<Near> {
+    fn of_first(&self, vertex: &Vec3) -> Option<ContactPoint> {
         let second = self.bodies[1];
         let closest = second
             .shape
@@ -203,7 +209,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Nearest places of a vertex of the second body and the first's core.
-    fn of_second(&self, vertex: &Vec3) -> Option<Near> {
+    fn of_second(&self, vertex: &Vec3) -> Option<ContactPoint> {
         let first = self.bodies[0];
         let closest = first.shape.closest_feature(&first.to_body(vertex));
         let normal = first.to_world(&closest.normal);
@@ -212,7 +218,7 @@ impl<'a> Pair<'a> {
     }
 
     /// A place of the first core and one of the second.
-    fn between(&self, on_first: &Vec3, on_second: &Vec3) -> Option<Near> {
+    fn between(&self, on_first: &Vec3, on_second: &Vec3) -> Option<ContactPoint> {
         let gap = on_second - on_first;
         let distance = gap.norm();
         if distance <= NO_DIRECTION * (self.radii[0] + self.radii[1]) {
@@ -221,9 +227,14 @@ impl<'a> Pair<'a> {
         self.overlapping_pairs(on_first, &(gap / distance), distance)
     }
 
-    fn overlapping_pairs(&self, on_first: &Vec3, normal: &Vec3, distance: f64) -> Option<Near> {
+    fn overlapping_pairs(
+        &self,
+        on_first: &Vec3,
+        normal: &Vec3,
+        distance: f64,
+    ) -> Option<ContactPoint> {
         let overlap = self.radii[0] + self.radii[1] - distance;
-        (overlap > 0.0).then(|| Near {
+        (overlap > 0.0).then(|| ContactPoint {
             normal: *normal,
             place: on_first + normal * (self.radii[0] - 0.5 * overlap),
             overlap,
@@ -231,7 +242,7 @@ impl<'a> Pair<'a> {
     }
 
     /// The ends of two edges against the other edge, those in touch.
-    fn ends(&self, on_first: &[Vec3; 2], on_second: &[Vec3; 2]) -> Vec<Near> {
+    fn ends(&self, on_first: &[Vec3; 2], on_second: &[Vec3; 2]) -> Vec<ContactPoint> {
         let of_first = on_first
             .iter()
             .filter_map(|end| self.between(end, &nearest_on(on_second, end)));
