@@ -169,8 +169,8 @@ pub struct Audit {
     left: Totals,
     /// Points that left by the open end.
     pub points_left: u64,
-    /// Points put back out of a body's core.
-    pub points_put_back: u64,
+    /// Penetration corrections out of a body's core.
+    pub penetration_corrections: u64,
     /// Times the sums were compared.
     pub checks: u64,
     /// Largest residuals so far.

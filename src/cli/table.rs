@@ -76,7 +76,11 @@ fn audit(audit: &Audit) -> [Vec<Entry>; 2] {
                 format!("{:.3}", audit.max_body_overlap_ratio),
                 "",
             ),
-            ("points put back", audit.points_put_back.to_string(), ""),
+            (
+                "points put back",
+                audit.penetration_corrections.to_string(),
+                "",
+            ),
             ("left", audit.points_left.to_string(), ""),
             ("lost", audit.points_lost.to_string(), ""),
         ],

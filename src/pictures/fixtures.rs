@@ -213,7 +213,7 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
             energy_residual: 0.0,
             max_overlap_ratio: 0.0,
             max_body_overlap_ratio: 0.0,
-            points_put_back: 0,
+            penetration_corrections: 0,
             points_left: 0,
             points_lost: 0,
         },

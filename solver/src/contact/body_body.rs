@@ -3,7 +3,7 @@
 
 use crate::contact::dissipation::{Damping, Taken, stopping};
 use crate::contact::friction::{Held, Spring};
-use crate::contact::law::{ContactLaw, mass_seen};
+use crate::contact::law::{ContactLaw, effective_contact_mass};
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
 use serde::{Deserialize, Serialize};
@@ -276,7 +276,8 @@ impl<'a> Pair<'a> {
                 let near = &contact.near;
                 let elastic = self.law.elastic_force(near.overlap);
                 let parting = self.relative(&self.accelerations, &near.place);
-                let mass = mass_seen(elastic, parting.dot(&near.normal), self.reduced_mass);
+                let mass =
+                    effective_contact_mass(elastic, parting.dot(&near.normal), self.reduced_mass);
                 let velocity = self.relative(&self.velocities, &near.place);
                 let approach = -velocity.dot(&near.normal);
                 let force = self.law.normal_force(near.overlap, approach, mass);

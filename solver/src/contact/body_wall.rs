@@ -3,7 +3,7 @@
 
 use crate::contact::dissipation::{Damping, Taken, stopping};
 use crate::contact::friction::Spring;
-use crate::contact::law::mass_seen;
+use crate::contact::law::effective_contact_mass;
 use crate::contact::wall_touch::WallTouch;
 use crate::math::Vec3;
 use crate::rigid::{Body, BodyState, Load};
@@ -124,7 +124,7 @@ fn press(body: &mut Body, touches: &mut [WallTouch], taken: &mut Taken, dt: f64)
     for touch in &mut *touches {
         let elastic = law.elastic_force(touch.overlap);
         let acceleration = body.acceleration_at(&push, &touch.arm).dot(&touch.normal);
-        touch.mass = mass_seen(elastic, acceleration, body.mass);
+        touch.mass = effective_contact_mass(elastic, acceleration, body.mass);
         let approach = -body.velocity_at(&touch.arm).dot(&touch.normal);
         touch.force = law.normal_force(touch.overlap, approach, touch.mass);
         damping.power -= (touch.force - elastic) * approach;

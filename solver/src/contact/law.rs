@@ -103,7 +103,7 @@ impl ContactLaw {
 /// Mass [kg] that the contact of an elastic `force` [N] has to stop when all the
 /// contacts of a pair part it there with `acceleration` [m/s²]: its own share of
 /// the mass, if others push along; at most all of the mass, `most` [kg].
-pub fn mass_seen(force: f64, acceleration: f64, most: f64) -> f64 {
+pub fn effective_contact_mass(force: f64, acceleration: f64, most: f64) -> f64 {
     if force < most * acceleration {
         force / acceleration
     } else {

@@ -11,12 +11,12 @@ use rayon::prelude::*;
 mod around;
 mod effective_mass;
 mod force;
-mod put_back;
+mod penetration_correction;
 
 pub use around::Around;
 use effective_mass::{ContactSum, GridCompliance};
 use force::{PointContact, PointForce};
-pub use put_back::{PutBack, Stuck, put_back};
+pub use penetration_correction::{PenetratingPoint, PenetrationCorrection, penetration_correction};
 
 /// Candidates one task looks at.
 const TASK: usize = 64;

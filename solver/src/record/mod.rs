@@ -218,7 +218,7 @@ pub struct Audit {
     /// sphero radius of two bodies.
     pub max_body_overlap_ratio: f64,
     /// Points that ended a step inside a body's core and were put back.
-    pub points_put_back: u64,
+    pub penetration_corrections: u64,
     /// Points that left by the open end.
     pub points_left: u64,
     /// Points lost any other way: a finished run has none.

@@ -151,7 +151,7 @@ impl Recorder {
                 energy_residual: audit.energy_residual(),
                 max_overlap_ratio: audit.deepest_overlap_ratio,
                 max_body_overlap_ratio: audit.deepest_body_overlap_ratio,
-                points_put_back: audit.points_put_back,
+                penetration_corrections: audit.penetration_corrections,
                 points_left: audit.points_left,
                 points_lost: simulation.released_points()
                     - audit.points_left

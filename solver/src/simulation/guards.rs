@@ -4,7 +4,7 @@
 use super::Simulation;
 use super::flow::{Bounds, OffendingPoint};
 use crate::contact::island::MOST_SUBSTEPS;
-use crate::contact::point_body::Stuck;
+use crate::contact::point_body::PenetratingPoint;
 use crate::error::{Mover, StepError};
 use crate::rigid::Body;
 
@@ -75,7 +75,10 @@ impl Simulation {
     }
 
     /// Looks at bodies and points after a step.
-    pub(super) fn look_for_culprits(&self, stuck: Option<&Stuck>) -> Result<(), StepError> {
+    pub(super) fn look_for_culprits(
+        &self,
+        stuck: Option<&PenetratingPoint>,
+    ) -> Result<(), StepError> {
         let time_s = self.state.clock.time;
         for (body, state) in self.state.bodies.iter().enumerate() {
             if let Some(quantity) = state.non_finite() {

@@ -174,7 +174,7 @@ impl Simulation {
             },
         };
         let finished = state.flow.finish(&self.given, &state.bodies, &end, stages);
-        state.audit.points_put_back += finished.put_back;
+        state.audit.penetration_corrections += finished.penetration_correction;
         state.audit.spread(&finished.spread.angular);
         state.audit.exchange(&finished.spread.stopped);
         state.moments.first_moment += finished.spread.first_moment;

@@ -115,6 +115,6 @@ fn a_flow_strikes_a_pile() {
         audit.momentum_residual, audit.angular_momentum_residual
     );
     assert!(audit.momentum_residual < 1e-12);
-    assert_eq!(audit.points_put_back, 0);
+    assert_eq!(audit.penetration_corrections, 0);
     assert!(audit.angular_momentum_residual < 1e-12);
 }

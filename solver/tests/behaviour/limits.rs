@@ -116,7 +116,7 @@ fn an_absurd_throw_ends_in_order() {
         let audit = simulation.audit();
         println!(
             "{velocity} m/s, sound {sound:?}: {} put back, energy {:.1e}, mass {:.1e}, linear {:.1e}, angular {:.1e}",
-            audit.points_put_back,
+            audit.penetration_corrections,
             audit.energy_residual(),
             audit.mass_error,
             audit.momentum_residual,

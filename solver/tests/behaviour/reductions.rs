@@ -81,7 +81,7 @@ fn same_books(reduced: &Simulation, full: &Simulation) {
     let residuals = |audit: &Audit| [audit.momentum_residual, audit.angular_momentum_residual];
     for (our, their) in residuals(ours).into_iter().zip(residuals(theirs)) {
         println!("residual {our:.1e}, of the full run {their:.1e}");
-        // Points put back out of a body aside, which differ by little.
+        // Penetration corrections out of a body aside, which differ by little.
         assert!(our <= 1.5 * their + 1e-6);
     }
 }

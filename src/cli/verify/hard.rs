@@ -107,7 +107,7 @@ fn row(tried: &Tried) -> Option<[String; 16]> {
         small(found.angular_momentum),
         small(found.energy),
         found.inside.to_string(),
-        found.put_back.to_string(),
+        found.penetration_correction.to_string(),
         found.left.to_string(),
         found.lost.to_string(),
         format!("{:.2}", found.overlap),

@@ -163,8 +163,8 @@ pub struct AuditDocument {
     /// Largest overlap of a body with a wall or another body, over its sphero
     /// radius (the smaller of two).
     pub max_body_overlap_ratio: f64,
-    /// Points put back out of a body.
-    pub points_put_back: u64,
+    /// Penetration corrections out of a body.
+    pub penetration_corrections: u64,
     /// Points that left by the open end.
     pub points_left: u64,
     /// Points lost any other way.

@@ -165,8 +165,8 @@ pub struct Figures {
     pub body_overlap: f64,
     /// Points in the core of a body, the most at any look.
     pub inside: u64,
-    /// Points put back to a body's surface.
-    pub put_back: u64,
+    /// Penetration corrections to a body's surface.
+    pub penetration_correction: u64,
     /// Points that left by the open end.
     pub left: u64,
     /// Points neither there nor left.
@@ -360,7 +360,7 @@ fn close_books(simulation: &Simulation, figures: &mut Figures) {
     };
     figures.overlap = audit.deepest_overlap_ratio;
     figures.body_overlap = audit.deepest_body_overlap_ratio;
-    figures.put_back = audit.points_put_back;
+    figures.penetration_correction = audit.penetration_corrections;
     figures.left = audit.points_left;
     figures.lost = simulation.released_points().abs_diff(present);
 }

@@ -9,7 +9,7 @@ use crate::rigid::Body;
 /// Share of the approach speed and of the sliding speed that all contacts together
 /// take in one sub-step at most: the spectral radius of damping and friction stays
 /// below it, so that they never turn a motion round.
-const LARGEST_BRAKING: f64 = 0.5;
+const DAMPING_CAP: f64 = 0.5;
 
 /// A point that overlaps a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +73,7 @@ impl PointContact {
     /// Force of this contact in a sub-step of `dt` [s], where this effective mass [kg]
     /// resists it.
     pub(super) fn force(&self, law: &ContactLaw, effective_mass: f64, dt: f64) -> PointForce {
-        let largest = LARGEST_BRAKING * effective_mass / dt;
+        let largest = DAMPING_CAP * effective_mass / dt;
         let approach = self.velocity.dot(&self.normal);
         let damping = law
             .damping_coefficient(self.overlap, effective_mass)

@@ -234,8 +234,8 @@ fn forces_of_the_last_sub_step_are_gone() {
 fn points_in_the_core_are_put_on_its_surface() {
     let body = cube();
     let core_top = 0.12 - body.shape.sphero_radius();
-    let at = |z: f64| put_back(&Vec3::new(0.1, 0.1, z), &body, &[]);
-    let Some(PutBack::To(outside)) = at(core_top - 1e-3) else {
+    let at = |z: f64| penetration_correction(&Vec3::new(0.1, 0.1, z), &body, &[]);
+    let Some(PenetrationCorrection::To(outside)) = at(core_top - 1e-3) else {
         panic!("it is inside");
     };
     assert!((outside - Vec3::new(0.1, 0.1, 0.12)).norm() < 1e-15);
@@ -255,7 +255,8 @@ fn no_point_is_put_behind_a_wall() {
     };
     let lid = wall("lid", -Vec3::z(), -0.119);
     let inside = Vec3::new(0.11, 0.1, 0.114);
-    let Some(PutBack::To(at_side)) = put_back(&inside, &body, &[lid]) else {
+    let Some(PenetrationCorrection::To(at_side)) = penetration_correction(&inside, &body, &[lid])
+    else {
         panic!("there is room");
     };
     assert!((at_side - Vec3::new(0.12, 0.1, 0.114)).norm() < 1e-15);
@@ -263,7 +264,8 @@ fn no_point_is_put_behind_a_wall() {
     let cage = axes.map(|axis| [wall("low", axis, 0.081), wall("high", -axis, -0.119)]);
     // Nearest to the core's top, the sphero radius below the body's.
     let depth = 0.12 - body.shape.sphero_radius() - 0.114;
-    let Some(PutBack::NoRoom { depth: found }) = put_back(&inside, &body, cage.as_flattened())
+    let Some(PenetrationCorrection::NoRoom { depth: found }) =
+        penetration_correction(&inside, &body, cage.as_flattened())
     else {
         panic!("there is no room");
     };

@@ -3,7 +3,8 @@
 
 use super::{Bounds, Finished, Flow, OffendingPoint, SavedFlow, StepEnd, StepStart, Substep};
 use crate::contact::point_body::{
-    self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, PutBack, Stuck,
+    self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, PenetratingPoint,
+    PenetrationCorrection,
 };
 use crate::diagnostics::Totals;
 use crate::fast::blocks::{Block, Blocks};
@@ -201,7 +202,11 @@ impl FastFlow {
         self.nodes.take_rest(&self.momentum, room as f32, level);
     }
 
-    fn put_back(&mut self, bodies: &[Body], walls: &[Plane]) -> (u64, Option<Stuck>) {
+    fn penetration_correction(
+        &mut self,
+        bodies: &[Body],
+        walls: &[Plane],
+    ) -> (u64, Option<PenetratingPoint>) {
         let (mut count, mut stuck) = (0, None);
         for (which, (body, candidates)) in bodies.iter().zip(&self.loads.candidates).enumerate() {
             for candidate in candidates {
@@ -209,19 +214,19 @@ impl FastFlow {
                 let block = &mut self.blocks.occupied_mut()[place.block as usize];
                 let slot = place.slot as usize;
                 let position = self.packing.position(&block.key, &block.position(slot));
-                match point_body::put_back(&position, body, walls) {
+                match point_body::penetration_correction(&position, body, walls) {
                     None => {}
-                    Some(PutBack::To(outside)) => {
+                    Some(PenetrationCorrection::To(outside)) => {
                         block.shift(slot, &self.packing.in_block(&block.key, &outside));
                         count += 1;
                     }
-                    Some(PutBack::NoRoom { depth }) => {
-                        let here = Stuck {
+                    Some(PenetrationCorrection::NoRoom { depth }) => {
+                        let here = PenetratingPoint {
                             point: block.get(slot).id,
                             body: which,
                             depth,
                         };
-                        stuck = Stuck::deeper(stuck, here);
+                        stuck = PenetratingPoint::deeper(stuck, here);
                     }
                 }
             }
@@ -366,13 +371,13 @@ impl Flow for FastFlow {
         self.sum_up_ends();
         let blocks = self.blocks.occupied().iter();
         let spread = blocks.fold(Shifting::default(), |sum, block| sum.plus(&block.spread()));
-        let (put_back, stuck) = self.put_back(bodies, &given.planes);
+        let (penetration_correction, stuck) = self.penetration_correction(bodies, &given.planes);
         self.wrap_periodic(given);
         stages.done(StepStage::G2p);
         self.blocks.settle();
         stages.done(StepStage::Rebin);
         Finished {
-            put_back,
+            penetration_correction,
             stuck,
             spread,
         }

@@ -8,7 +8,7 @@ mod shared;
 
 use super::setup::{GivenFlow, Setup, Share, Shares};
 use super::stages::StageEnds;
-use crate::contact::point_body::{Around, FlowLoad, Reach, Stuck};
+use crate::contact::point_body::{Around, FlowLoad, PenetratingPoint, Reach};
 use crate::diagnostics::Totals;
 use crate::fast::blocks::Blocks;
 use crate::fast::instructions::Instructions;
@@ -133,10 +133,10 @@ pub(super) struct StepEnd {
 /// Changes of points at the end of a step besides moving them with the nodes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Finished {
-    /// Points put back to a body's surface.
-    pub put_back: u64,
+    /// Penetration corrections to a body's surface.
+    pub penetration_correction: u64,
     /// The deepest point that stays inside a body for want of room.
-    pub stuck: Option<Stuck>,
+    pub stuck: Option<PenetratingPoint>,
     /// Changes of the points' sums by spreading them.
     pub spread: Shifting,
 }

@@ -2,7 +2,8 @@
 
 use super::{Bounds, Finished, Flow, OffendingPoint, SavedFlow, StepEnd, StepStart, Substep};
 use crate::contact::point_body::{
-    self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, Moving, PointAccess, PutBack, Stuck,
+    self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, Moving, PenetratingPoint,
+    PenetrationCorrection, PointAccess,
 };
 use crate::diagnostics::Totals;
 use crate::fast::instructions::Instructions;
@@ -255,19 +256,19 @@ impl Flow for PlainFlow {
             for candidate in candidates {
                 let place = &candidate.place;
                 let point = &mut self.points[place.point];
-                match point_body::put_back(&point.position, body, &given.planes) {
+                match point_body::penetration_correction(&point.position, body, &given.planes) {
                     None => {}
-                    Some(PutBack::To(outside)) => {
+                    Some(PenetrationCorrection::To(outside)) => {
                         point.position = outside;
                         count += 1;
                     }
-                    Some(PutBack::NoRoom { depth }) => {
-                        let here = Stuck {
+                    Some(PenetrationCorrection::NoRoom { depth }) => {
+                        let here = PenetratingPoint {
                             point: point.id,
                             body: which,
                             depth,
                         };
-                        stuck = Stuck::deeper(stuck, here);
+                        stuck = PenetratingPoint::deeper(stuck, here);
                     }
                 }
             }
@@ -275,7 +276,7 @@ impl Flow for PlainFlow {
         self.wrap_periodic(given);
         stages.done(StepStage::G2p);
         Finished {
-            put_back: count,
+            penetration_correction: count,
             stuck,
             spread,
         }

@@ -179,7 +179,7 @@ impl Flow for SharedFlow {
             self.widen(whole);
         }
         Finished {
-            put_back: finished.put_back * u64::from(count),
+            penetration_correction: finished.penetration_correction * u64::from(count),
             stuck: finished.stuck,
             spread: finished.spread.of_images(f64::from(count)),
         }

@@ -104,7 +104,7 @@ impl Model {
         }
     }
 
-    fn put_back(job: &mut ModelJob, not_before_ms: i64) {
+    fn penetration_correction(job: &mut ModelJob, not_before_ms: i64) {
         job.status = Some(JobStatus::Accepted);
         job.holder = None;
         job.not_before_ms = not_before_ms;
@@ -112,7 +112,7 @@ impl Model {
 
     fn fail_attempt(job: &mut ModelJob, now_ms: i64, why: Why) -> Returned {
         if why != Why::Infrastructure && job.saved_now {
-            Self::put_back(job, now_ms);
+            Self::penetration_correction(job, now_ms);
             return Returned::Waiting;
         }
         let wait_ms = match (why, job.setbacks) {
@@ -125,7 +125,7 @@ impl Model {
             Self::end(job, JobStatus::Failed);
             return Returned::Failed;
         }
-        Self::put_back(job, now_ms + wait_ms);
+        Self::penetration_correction(job, now_ms + wait_ms);
         Returned::Waiting
     }
 
@@ -282,7 +282,8 @@ impl Pair {
                         store.fail(lease, &Failure::internal("x")).await
                     }
                     (_, job) => {
-                        job.into_iter().for_each(|job| Model::put_back(job, 0));
+                        job.into_iter()
+                            .for_each(|job| Model::penetration_correction(job, 0));
                         store.release(lease).await
                     }
                 };

@@ -7,7 +7,7 @@ use crate::walls::Plane;
 
 /// Fate of a point that ended a step inside a body's core.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PutBack {
+pub enum PenetrationCorrection {
     /// It belongs there.
     To(Vec3),
     /// It is so deep [m], and walls leave no room over any face.
@@ -19,7 +19,7 @@ pub enum PutBack {
 
 /// A point that stays inside a body's core.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stuck {
+pub struct PenetratingPoint {
     /// Identity of the point.
     pub point: u32,
     /// Index of the body.
@@ -28,7 +28,7 @@ pub struct Stuck {
     pub depth: f64,
 }
 
-impl Stuck {
+impl PenetratingPoint {
     /// The deeper one of two.
     pub fn deeper(first: Option<Self>, second: Self) -> Option<Self> {
         Some(
@@ -41,7 +41,11 @@ impl Stuck {
 
 /// Place of a point that ended a step inside a body's core: over the nearest face above
 /// which there is room between the `walls`. `None` if it is outside.
-pub fn put_back(position: &Vec3, body: &Body, walls: &[Plane]) -> Option<PutBack> {
+pub fn penetration_correction(
+    position: &Vec3,
+    body: &Body,
+    walls: &[Plane],
+) -> Option<PenetrationCorrection> {
     let arm = body.to_body(&(position - body.state.position));
     let distance = body.shape.closest_feature(&arm).distance;
     if distance >= 0.0 {
@@ -62,7 +66,7 @@ pub fn put_back(position: &Vec3, body: &Body, walls: &[Plane]) -> Option<PutBack
         .filter(|(_, place)| has_room(place))
         .min_by(|one, other| one.0.total_cmp(&other.0));
     Some(match nearest {
-        Some((_, place)) => PutBack::To(place),
-        None => PutBack::NoRoom { depth: -distance },
+        Some((_, place)) => PenetrationCorrection::To(place),
+        None => PenetrationCorrection::NoRoom { depth: -distance },
     })
 }
