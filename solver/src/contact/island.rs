@@ -146,8 +146,8 @@ fn advance_apart(
         *report = BodyReport::default();
         if is_free(body) {
             let mut alone = Member::new(body, report, flow(place));
-            if alone.waits() {
-                alone.lie();
+            if alone.is_in_equilibrium() {
+                alone.sleep();
             } else {
                 advance_together(
                     std::slice::from_mut(&mut alone),
@@ -315,7 +315,7 @@ impl Island<'_> {
             contact_pairs,
         } = self;
         if sleeps(members, movers, contact_pairs) {
-            members.iter_mut().for_each(Member::lie);
+            members.iter_mut().for_each(Member::sleep);
         } else {
             advance_together(members, movers, contact_pairs, around, dt);
         }
@@ -328,7 +328,7 @@ impl Island<'_> {
 fn sleeps(members: &[Member], movers: &[Mover], contact_pairs: &[IslandPair]) -> bool {
     movers.iter().all(Mover::stands)
         && match members {
-            [alone] => contact_pairs.is_empty() && alone.waits(),
+            [alone] => contact_pairs.is_empty() && alone.is_in_equilibrium(),
             many => many.iter().all(|member| {
                 member.flow == Load::default() && member.body.state.still_for >= FALLS_ASLEEP_AFTER
             }),

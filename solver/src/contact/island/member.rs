@@ -71,12 +71,12 @@ impl<'a> Member<'a> {
 
     /// True if it has stood since the start, held by the walls, and nothing touches it:
     /// steps would change nothing but its rounding.
-    pub(super) fn waits(&self) -> bool {
+    pub(super) fn is_in_equilibrium(&self) -> bool {
         self.body.is_held() && self.flow == Load::default()
     }
 
     /// Report of a body asleep: the loads that hold it.
-    pub(super) fn lie(&mut self) {
+    pub(super) fn sleep(&mut self) {
         let state = &self.body.state;
         self.report.wall_load = state.wall_load;
         self.report.body_load = state.body_load;

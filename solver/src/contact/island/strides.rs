@@ -66,7 +66,7 @@ impl Strides {
         around: &Surroundings,
     ) -> (u32, f64) {
         let left = self.count - self.done;
-        let stride = if left < WORTH_A_LOOK || self.waits() {
+        let stride = if left < WORTH_A_LOOK || self.is_waiting() {
             1
         } else if touches(members, contact_pairs) {
             self.in_touch(members, movers, contact_pairs, around)
@@ -111,10 +111,10 @@ impl Strides {
         self.found(stride).min(at_most)
     }
 
-    fn waits(&mut self) -> bool {
-        let waits = self.wait > 0;
+    fn is_waiting(&mut self) -> bool {
+        let is_waiting = self.wait > 0;
         self.wait = self.wait.saturating_sub(1);
-        waits
+        is_waiting
     }
 
     /// Takes note of a look that allows so long a sub-step; what is no number, which is 0 as a
