@@ -1,4 +1,4 @@
-//! Points kept evenly spread, sixteen at a time: the formulas of `excess_volume_fraction.rs`.
+//! Points kept evenly spread, sixteen at a time: the formulas of `redistribution.rs`.
 
 use super::chunk::{Chunk, LANES, Lanes};
 use crate::grid::{BLOCK, BlockKey};
@@ -11,7 +11,7 @@ use crate::redistribution::{
 use crate::walls::{Impulse, Plane};
 use fearless_simd::{f32x16, prelude::*};
 
-/// State of points, and of the nodes as they see them; as in `excess_volume_fraction.rs`, but the slope
+/// State of points, and of the nodes as they see them; as in `redistribution.rs`, but the slope
 /// per cell.
 pub struct PointState<S: Simd> {
     /// V ρ_c/m − 1 now.
