@@ -10,7 +10,7 @@ use crate::scenario::{self, Coupling, Numerics};
 use crate::stability::Limits;
 
 /// Default Courant number of the sub-step: a lone point is stable up to 1, a flow up to
-/// about 2 (docs/decisions/0022-what-a-step-costs.md).
+/// about 2 (docs/decisions/0022-acoustic-courant-number.md).
 const COURANT: f64 = 0.8;
 /// Default travel of the fastest point per step, in cells.
 const FLOW_COURANT: f64 = 0.2;
