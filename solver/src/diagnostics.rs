@@ -168,7 +168,7 @@ pub struct Audit {
     /// Totals that left by the open end.
     left: Totals,
     /// Points that left by the open end.
-    pub points_left: u64,
+    pub points_outflow: u64,
     /// Penetration corrections out of a body's core.
     pub penetration_corrections: u64,
     /// Times the sums were compared.
@@ -185,7 +185,7 @@ pub struct Audit {
     pub deepest_body_overlap_ratio: f64,
     spread: Vec3,
     /// Angular momentum that spreading the points made, relative as the residual.
-    pub angular_momentum_spread: f64,
+    pub angular_momentum_from_shifting: f64,
     start_energy: f64,
     lowest_energy: f64,
     largest_rise: f64,
@@ -246,14 +246,14 @@ impl Audit {
 
     /// Takes in points that left by the open end.
     pub fn leave(&mut self, count: u64, gone: &Totals) {
-        self.points_left += count;
+        self.points_outflow += count;
         self.left = self.left.plus(gone);
         self.expected.linear -= gone.momentum.linear;
         self.expected.angular -= gone.momentum.angular;
     }
 
     /// Mass that left by the open end [kg].
-    pub fn mass_left(&self) -> f64 {
+    pub fn outflow_mass(&self) -> f64 {
         self.left.mass
     }
 
@@ -273,7 +273,7 @@ impl Audit {
         let scale = total.momentum.angular.norm() + self.exchanged.1;
         let angular = off(&total.momentum.angular, &self.expected.angular, scale);
         let spread = off(&self.spread, &Vec3::zeros(), scale);
-        self.angular_momentum_spread = self.angular_momentum_spread.max(spread);
+        self.angular_momentum_from_shifting = self.angular_momentum_from_shifting.max(spread);
         self.momentum_residual = self.momentum_residual.max(linear);
         self.angular_momentum_residual = self.angular_momentum_residual.max(angular);
         if self.released_mass > 0.0 {

@@ -225,7 +225,7 @@ pub(super) enum Measurement {
     /// 1, 10 and 100 bodies dropped on each other
     Heaps,
     /// Shares of the step's stages
-    Verbs,
+    Stages,
     /// The collapse on one thread to all, with the hash of how it ends
     Threads,
     /// The machine's own limits, and how close the collapse comes

@@ -43,7 +43,7 @@ fn rows(outcome: &Outcome) -> Vec<[String; 7]> {
     if let Some(bars) = &outcome.flow.error_bars {
         rows.push(row("flow", "front [m]", &bars.front_m));
         rows.push(row("flow", "run-out [m]", &bars.runout_m));
-        rows.push(row("flow", "left [kg]", &bars.mass_left_kg));
+        rows.push(row("flow", "outflow [kg]", &bars.outflow_mass_kg));
     }
     rows
 }

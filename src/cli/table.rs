@@ -1,6 +1,6 @@
 //! The outcome as a table for people.
 
-use scree_solver::record::{Audit, BodyOutcome, Cost, FlowOutcome, Outcome};
+use scree_solver::record::{Conservation, BodyOutcome, Cost, FlowOutcome, Outcome};
 use std::fmt::Write as _;
 
 /// Sign for something that did not happen.
@@ -9,7 +9,7 @@ const NEVER: &str = "–";
 /// A named value with its unit.
 type Entry = (&'static str, String, &'static str);
 
-/// Bodies, flow, audit and cost of a run.
+/// Bodies, flow, conservation and cost of a run.
 pub(super) fn outcome(outcome: &Outcome) -> String {
     let mut text = String::new();
     if !outcome.bodies.is_empty() {
@@ -20,8 +20,8 @@ pub(super) fn outcome(outcome: &Outcome) -> String {
         text.push_str(&missed(&outcome.bodies));
     }
     text.push_str(&line("flow", &flow(&outcome.flow)));
-    let [balances, points] = audit(&outcome.audit);
-    text.push_str(&line("audit", &balances));
+    let [balances, points] = conservation(&outcome.conservation);
+    text.push_str(&line("conservation", &balances));
     text.push_str(&line("", &points));
     let [size, time] = cost(&outcome.cost);
     text.push_str(&line("cost", &size));
@@ -36,9 +36,9 @@ fn missed(bodies: &[BodyOutcome]) -> String {
     let places: Vec<String> = missed.map(|(place, _)| place.to_string()).collect();
     match &places[..] {
         [] => String::new(),
-        [place] => format!("note  the flow did not reach body {place} before the run ended\n"),
+        [place] => format!("note: the flow did not reach body {place} before the run ended\n"),
         many => format!(
-            "note  the flow did not reach bodies {} before the run ended\n",
+            "note: the flow did not reach bodies {} before the run ended\n",
             many.join(", ")
         ),
     }
@@ -49,14 +49,14 @@ fn flow(flow: &FlowOutcome) -> [Entry; 3] {
         ("front", optional(flow.front_m, 3), " m"),
         ("run-out", optional(flow.runout_m, 3), " m"),
         (
-            "left by the open end",
-            format!("{:.3}", flow.mass_left_kg),
+            "outflow",
+            format!("{:.3}", flow.outflow_mass_kg),
             " kg",
         ),
     ]
 }
 
-fn audit(audit: &Audit) -> [Vec<Entry>; 2] {
+fn conservation(audit: &Conservation) -> [Vec<Entry>; 2] {
     let small = |value: f64| format!("{value:.1e}");
     [
         vec![
@@ -77,11 +77,11 @@ fn audit(audit: &Audit) -> [Vec<Entry>; 2] {
                 "",
             ),
             (
-                "points put back",
+                "penetration corrections",
                 audit.penetration_corrections.to_string(),
                 "",
             ),
-            ("left", audit.points_left.to_string(), ""),
+            ("outflow", audit.points_outflow.to_string(), ""),
             ("lost", audit.points_lost.to_string(), ""),
         ],
     ]
@@ -109,7 +109,7 @@ fn cost(cost: &Cost) -> [Vec<Entry>; 2] {
 fn line(title: &str, entries: &[Entry]) -> String {
     let entry = |(name, value, unit): &Entry| format!("{name} {value}{unit}");
     let entries: Vec<String> = entries.iter().map(entry).collect();
-    format!("{title:<6}{}\n", entries.join(", "))
+    format!("{title:<14}{}\n", entries.join(", "))
 }
 
 /// Columns of the bodies' table, with their units.

@@ -130,6 +130,6 @@ fn numerics(scenario: &Scenario, simulation: &Simulation) -> String {
 }
 
 fn volume_left_out(simulation: &Simulation) -> Option<String> {
-    let volume_m3 = simulation.volume_left_out_m3();
+    let volume_m3 = simulation.excluded_volume_m3();
     (volume_m3 > 0.0).then(|| format!("{volume_m3:.3e} m³ of the flow, because bodies stand there"))
 }

@@ -1,7 +1,7 @@
 //! Made-up runs for the tests of the pictures.
 
 use scree_solver::record::{
-    Audit, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, MassProperties, Mode, Outcome,
+    Conservation, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, MassProperties, Mode, Outcome,
     Sample,
 };
 use scree_solver::scenario::{
@@ -201,20 +201,20 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
         flow: FlowOutcome {
             front_m: None,
             runout_m: None,
-            mass_left_kg: 0.0,
-            volume_left_out_m3: 0.0,
+            outflow_mass_kg: 0.0,
+            excluded_volume_m3: 0.0,
             error_bars: None,
         },
-        audit: Audit {
+        conservation: Conservation {
             mass_error: 0.0,
             momentum_residual: 0.0,
             angular_momentum_residual: 0.0,
-            angular_momentum_spread: 0.0,
+            angular_momentum_from_shifting: 0.0,
             energy_residual: 0.0,
             max_overlap_ratio: 0.0,
             max_body_overlap_ratio: 0.0,
             penetration_corrections: 0,
-            points_left: 0,
+            points_outflow: 0,
             points_lost: 0,
         },
         cost: Cost {

@@ -17,7 +17,7 @@ fn the_service_gives_what_a_local_run_gives() {
     );
     for word in [
         "onset",
-        "audit",
+        "conservation",
         "trajectory-0.json",
         "motion.svg",
         "aerial.svg",
@@ -29,7 +29,7 @@ fn the_service_gives_what_a_local_run_gives() {
 
     let both = |name: &str| [&served, &local].map(|directory| directory.join(name));
     let [outcome, expected] = both("outcome.json").map(|path| json_file(&path));
-    for part in ["bodies", "flow", "audit"] {
+    for part in ["bodies", "flow", "conservation"] {
         assert_eq!(outcome[part], expected[part], "{part}");
     }
     let [trajectory, expected] = both("trajectory-0.json").map(|path| json_file(&path));

@@ -13,7 +13,7 @@ fn a_run_leaves_outcome_trajectories_and_pictures() {
         "onset",
         "peak",
         "rest from",
-        "audit",
+        "conservation",
         "cost",
         "outcome.json",
         "aerial.svg",
@@ -22,7 +22,7 @@ fn a_run_leaves_outcome_trajectories_and_pictures() {
     }
     let outcome = json_file(&out.join("outcome.json"));
     assert_eq!(outcome["bodies"].as_array().unwrap().len(), 1);
-    assert_eq!(outcome["audit"]["points_lost"], 0);
+    assert_eq!(outcome["conservation"]["points_lost"], 0);
 
     let trajectory = json_file(&out.join("trajectory-0.json"));
     assert_eq!(

@@ -57,7 +57,7 @@ fn every_shipped_scenario_runs_coarsely() {
             panic!("{} was stopped", file.display())
         };
         assert_eq!(outcome.bodies.len(), scenario.bodies.len());
-        assert_eq!(outcome.audit.points_lost, 0, "{}", file.display());
+        assert_eq!(outcome.conservation.points_lost, 0, "{}", file.display());
         assert_eq!(sink.last.fraction, 1.0, "{}", file.display());
         let last = sink.records.iter().rev().find_map(|record| match record {
             Record::Sample(sample) => Some(sample.time_s),

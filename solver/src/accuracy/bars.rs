@@ -48,7 +48,7 @@ impl Runs<'_> {
         FlowBars {
             front_m: band(Kind::Reach, |outcome| outcome.flow.front_m),
             runout_m: band(Kind::Reach, |outcome| outcome.flow.runout_m),
-            mass_left_kg: band(Kind::Mass, |outcome| Some(outcome.flow.mass_left_kg)),
+            outflow_mass_kg: band(Kind::Mass, |outcome| Some(outcome.flow.outflow_mass_kg)),
         }
     }
 

@@ -65,8 +65,8 @@ pub struct FlowBars {
     pub front_m: Band,
     /// Of `runout_m`.
     pub runout_m: Band,
-    /// Of `mass_left_kg`.
-    pub mass_left_kg: Band,
+    /// Of `outflow_mass_kg`.
+    pub outflow_mass_kg: Band,
 }
 
 /// The runs behind the bands, and whether a target was met.

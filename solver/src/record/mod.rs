@@ -188,16 +188,16 @@ pub struct FlowOutcome {
     /// Front minus the initial toe [m].
     pub runout_m: Option<f64>,
     /// Mass that left by the open end [kg].
-    pub mass_left_kg: f64,
+    pub outflow_mass_kg: f64,
     /// Volume of the release not placed because a body stands there [m³].
-    pub volume_left_out_m3: f64,
+    pub excluded_volume_m3: f64,
     /// Bands of all but the volume left out; `None` unless asked for.
     pub error_bars: Option<FlowBars>,
 }
 
-/// Audit of a run, which says how far it can be trusted.
+/// Conservation audit of a run, which says how far it can be trusted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Audit {
+pub struct Conservation {
     /// |mass now + mass left − mass released| / mass released.
     pub mass_error: f64,
     /// Largest linear momentum imbalance of flow + bodies against gravity and
@@ -208,7 +208,7 @@ pub struct Audit {
     pub angular_momentum_residual: f64,
     /// Angular momentum that spreading the points evenly made; the residual does
     /// not count it.
-    pub angular_momentum_spread: f64,
+    pub angular_momentum_from_shifting: f64,
     /// Largest rise of mechanical energy above its running minimum, relative
     /// to the largest kinetic energy.
     pub energy_residual: f64,
@@ -220,7 +220,7 @@ pub struct Audit {
     /// Points that ended a step inside a body's core and were put back.
     pub penetration_corrections: u64,
     /// Points that left by the open end.
-    pub points_left: u64,
+    pub points_outflow: u64,
     /// Points lost any other way: a finished run has none.
     pub points_lost: u64,
 }
@@ -255,8 +255,8 @@ pub struct Outcome {
     pub bodies: Vec<BodyOutcome>,
     /// The flow.
     pub flow: FlowOutcome,
-    /// Audit, which says how far to trust it.
-    pub audit: Audit,
+    /// Conservation audit, which says how far to trust it.
+    pub conservation: Conservation,
     /// Cost, runs behind bands apart.
     pub cost: Cost,
     /// That the run ended before its duration; null if it did not.

@@ -153,8 +153,8 @@ pub(super) fn flow_outcome(
     FlowOutcome {
         front_m: front,
         runout_m: front.zip(initial_toe).map(|(front, toe)| front - toe),
-        mass_left_kg: simulation.audit().mass_left(),
-        volume_left_out_m3: simulation.volume_left_out_m3(),
+        outflow_mass_kg: simulation.audit().outflow_mass(),
+        excluded_volume_m3: simulation.excluded_volume_m3(),
         error_bars: None,
     }
 }
@@ -174,7 +174,7 @@ pub(super) fn front_of(
     open_end: f64,
 ) -> Option<f64> {
     let audit = simulation.audit();
-    let wanted = FRONT_SHARE * audit.released_mass - audit.mass_left();
+    let wanted = FRONT_SHARE * audit.released_mass - audit.outflow_mass();
     if audit.released_mass <= 0.0 {
         return None;
     }

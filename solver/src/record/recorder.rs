@@ -7,7 +7,7 @@ use super::rest::{Base, EndedEarly, Remaining, body_bound, front_rests};
 use super::sampling::Sampling;
 use super::scale::Scale;
 use super::snapshots::Snapshots;
-use super::{Audit, BodyOutcome, Cost, FlowSnapshot, Outcome, Record, Sample};
+use super::{Conservation, BodyOutcome, Cost, FlowSnapshot, Outcome, Record, Sample};
 use crate::plan::{self, Plan};
 use crate::rigid::Body;
 use crate::scenario::{Ending, Scenario};
@@ -143,18 +143,18 @@ impl Recorder {
                 })
                 .collect(),
             flow: flow_outcome(simulation, self.initial_toe, self.open_end),
-            audit: Audit {
+            conservation: Conservation {
                 mass_error: audit.mass_error,
                 momentum_residual: audit.momentum_residual,
                 angular_momentum_residual: audit.angular_momentum_residual,
-                angular_momentum_spread: audit.angular_momentum_spread,
+                angular_momentum_from_shifting: audit.angular_momentum_from_shifting,
                 energy_residual: audit.energy_residual(),
                 max_overlap_ratio: audit.deepest_overlap_ratio,
                 max_body_overlap_ratio: audit.deepest_body_overlap_ratio,
                 penetration_corrections: audit.penetration_corrections,
-                points_left: audit.points_left,
+                points_outflow: audit.points_outflow,
                 points_lost: simulation.released_points()
-                    - audit.points_left
+                    - audit.points_outflow
                     - simulation.point_count() as u64,
             },
             cost: Cost {

@@ -364,7 +364,7 @@ impl Simulation {
     }
 
     /// Volume of the release not placed because a body stands there [m³].
-    pub fn volume_left_out_m3(&self) -> f64 {
+    pub fn excluded_volume_m3(&self) -> f64 {
         self.state.clock.volume_left_out
     }
 

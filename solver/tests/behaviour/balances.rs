@@ -79,8 +79,8 @@ fn flow_and_barrier_balance() {
 fn flow_that_leaves_stays_in_the_balance() {
     let scene = Scene::impact().set("channel", "runout_length_m", 0.1);
     balanced("open end", &scene, |simulation| {
-        assert!(simulation.audit().points_left > 0);
-        let there = simulation.points().len() as u64 + simulation.audit().points_left;
+        assert!(simulation.audit().points_outflow > 0);
+        let there = simulation.points().len() as u64 + simulation.audit().points_outflow;
         assert_eq!(there, simulation.released_points());
     });
 }

@@ -51,7 +51,7 @@ fn a_column_rests_on_the_floor_with_its_weight() {
 fn rests(scene: &Scene) {
     let layers = layers(scene);
     let mut simulation = scene.start();
-    assert_eq!(simulation.volume_left_out_m3(), 0.0);
+    assert_eq!(simulation.excluded_volume_m3(), 0.0);
     run(&mut simulation, 0.2);
     let (start, from) = (mean_velocity(&simulation), simulation.time_s());
     let mut sums = vec![0.0; layers.len()];

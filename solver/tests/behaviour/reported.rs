@@ -44,7 +44,7 @@ impl Told {
 
     /// Energy made, over what there was.
     fn made(&self) -> f64 {
-        self.outcome.audit.energy_residual
+        self.outcome.conservation.energy_residual
     }
 }
 

@@ -90,7 +90,7 @@ fn a_release_leaves_room_for_any_shape() {
             .fold(f64::INFINITY, f64::min);
         // Points are kept in single precision: 1e-7 of a cell and more.
         assert!(nearest > stand_off - 1e-7, "{name}: {nearest}");
-        let share = simulation.volume_left_out_m3() / body.shape.volume();
+        let share = simulation.excluded_volume_m3() / body.shape.volume();
         println!("{name}: {share:.3} of its volume");
         assert!((share - 1.0).abs() < 0.05, "{name}: {share}");
     }

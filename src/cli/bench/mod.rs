@@ -103,7 +103,7 @@ fn if_asked<T>(
 impl Report {
     fn measured(effort: Effort, only: &[Measurement]) -> Result<Self, Failure> {
         use Measurement::{
-            Bodies, Channel, Forecast, Heaps, Plan, Roofline, S200k, Size, Threads, Verbs,
+            Bodies, Channel, Forecast, Heaps, Plan, Roofline, S200k, Size, Threads, Stages,
         };
         Ok(Self {
             solver_version: VERSION,
@@ -113,7 +113,7 @@ impl Report {
             channel: if_asked(only, Channel, || bodies::measure_channel(&effort))?,
             bodies: if_asked(only, Bodies, || bodies::measure_bodies(&effort))?,
             heaps: if_asked(only, Heaps, || heaps::measure(&effort))?,
-            stages: if_asked(only, Verbs, || stages::measure(&effort))?,
+            stages: if_asked(only, Stages, || stages::measure(&effort))?,
             threads: if_asked(only, Threads, || threads::measure(&effort))?,
             roofline: if_asked(only, Roofline, || roofline::measure(&effort))?,
             plan: if_asked(only, Plan, || plan::measure(&effort))?,

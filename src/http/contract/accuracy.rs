@@ -124,8 +124,8 @@ pub struct FlowBarsDocument {
     pub front_m: BandDocument,
     /// Of `runout_m`.
     pub runout_m: BandDocument,
-    /// Of `mass_left_kg`.
-    pub mass_left_kg: BandDocument,
+    /// Of `outflow_mass_kg`.
+    pub outflow_mass_kg: BandDocument,
 }
 
 /// The runs behind the bands, and whether a target was met.

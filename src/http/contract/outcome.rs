@@ -14,7 +14,7 @@ pub struct OutcomeDocument {
     /// The flow.
     pub flow: FlowOutcomeDocument,
     /// Checks that tell whether to trust it.
-    pub audit: AuditDocument,
+    pub conservation: ConservationDocument,
     /// Cost of the run, runs behind bands apart.
     pub cost: CostDocument,
     /// That the run ended before its duration; null if it did not.
@@ -135,9 +135,9 @@ pub struct FlowOutcomeDocument {
     #[schema(required = true)]
     pub runout_m: Option<f64>,
     /// Mass that left by the open end [kg].
-    pub mass_left_kg: f64,
+    pub outflow_mass_kg: f64,
     /// Volume of the release not placed because a body stands there [m³].
-    pub volume_left_out_m3: f64,
+    pub excluded_volume_m3: f64,
     /// Bands of all but the volume left out; null unless asked for.
     #[schema(required = true)]
     pub error_bars: Option<FlowBarsDocument>,
@@ -145,8 +145,8 @@ pub struct FlowOutcomeDocument {
 
 /// Checks that tell whether the run can be trusted.
 #[derive(Debug, Serialize, ToSchema)]
-#[schema(as = Audit)]
-pub struct AuditDocument {
+#[schema(as = Conservation)]
+pub struct ConservationDocument {
     /// Relative error of the mass balance.
     pub mass_error: f64,
     /// Largest relative residual of the linear momentum balance.
@@ -155,7 +155,7 @@ pub struct AuditDocument {
     pub angular_momentum_residual: f64,
     /// Relative angular momentum that spreading the points evenly made; the
     /// residual does not count it.
-    pub angular_momentum_spread: f64,
+    pub angular_momentum_from_shifting: f64,
     /// Largest relative rise of mechanical energy.
     pub energy_residual: f64,
     /// Largest overlap of a point with a body.
@@ -166,7 +166,7 @@ pub struct AuditDocument {
     /// Penetration corrections out of a body.
     pub penetration_corrections: u64,
     /// Points that left by the open end.
-    pub points_left: u64,
+    pub points_outflow: u64,
     /// Points lost any other way.
     pub points_lost: u64,
 }

@@ -348,7 +348,7 @@ fn look(simulation: &Simulation, figures: &mut Figures) {
 
 fn close_books(simulation: &Simulation, figures: &mut Figures) {
     let audit = simulation.audit();
-    let present = simulation.point_count() as u64 + audit.points_left;
+    let present = simulation.point_count() as u64 + audit.points_outflow;
     figures.substeps = simulation.counts().1;
     figures.mass = audit.mass_error;
     figures.momentum = audit.momentum_residual;
@@ -361,7 +361,7 @@ fn close_books(simulation: &Simulation, figures: &mut Figures) {
     figures.overlap = audit.deepest_overlap_ratio;
     figures.body_overlap = audit.deepest_body_overlap_ratio;
     figures.penetration_correction = audit.penetration_corrections;
-    figures.left = audit.points_left;
+    figures.left = audit.points_outflow;
     figures.lost = simulation.released_points().abs_diff(present);
 }
 

@@ -118,7 +118,7 @@ fn mean_forces_account_for_the_motion() {
 fn the_outcome_adds_up() {
     let (_, simulation, recorder) = records_of(&scenario(|_| {}));
     let outcome = recorder.outcome(&simulation, 2.0);
-    assert_eq!(outcome.audit.points_lost, 0);
+    assert_eq!(outcome.conservation.points_lost, 0);
     assert_eq!(outcome.cost.points, simulation.released_points());
     let (steps, substeps, point_steps) = simulation.counts();
     assert_eq!(

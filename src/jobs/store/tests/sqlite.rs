@@ -74,6 +74,38 @@ async fn final_states_are_sinks_whatever_the_code_asks_for() {
 }
 
 #[tokio::test]
+async fn outcomes_of_former_versions_get_the_present_keys() {
+    let fixture = Fixture::sqlite().await;
+    let id = fixture.submit().await;
+    let lease = fixture.claim("a").await;
+    let former = r#"{"flow":{"mass_left_kg":1.5,"volume_left_out_m3":0.0},
+        "audit":{"points_put_back":2,"points_left":3,"angular_momentum_spread":0.1,
+                 "note":"\"points_left\": not a key"}}"#;
+    fixture
+        .store
+        .succeed(lease, former, FINGERPRINT)
+        .await
+        .unwrap();
+    let renaming = include_str!("../../../../migrations/0007_outcome_keys.sql");
+    sqlx::raw_sql(renaming)
+        .execute(&fixture.store.writer)
+        .await
+        .unwrap();
+    let found: String = sqlx::query_scalar("SELECT outcome FROM jobs WHERE id = ?")
+        .bind(id.to_string())
+        .fetch_one(&fixture.store.writer)
+        .await
+        .unwrap();
+    let found: serde_json::Value = serde_json::from_str(&found).unwrap();
+    let expected = serde_json::json!({
+        "flow": {"outflow_mass_kg": 1.5, "excluded_volume_m3": 0.0},
+        "conservation": {"penetration_corrections": 2, "points_outflow": 3,
+            "angular_momentum_from_shifting": 0.1, "note": "\"points_left\": not a key"}
+    });
+    assert_eq!(found, expected);
+}
+
+#[tokio::test]
 async fn rows_that_make_no_sense_are_refused() {
     let fixture = Fixture::sqlite().await;
     fixture.submit().await;
