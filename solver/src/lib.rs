@@ -5,7 +5,7 @@
 //! [`Simulation`], which is [`run`](Simulation::run) while a
 //! [`record::Recorder`] turns what it sees into samples, flow snapshots and an
 //! [`record::Outcome`]. What
-//! runs it takes to say how far off that is, an [`accuracy::Campaign`] lists. The crate has no clock, files, environment or service
+//! runs it takes to say how far off that is, an [`accuracy::ConvergenceStudy`] lists. The crate has no clock, files, environment or service
 //! of its own. SI units throughout; axes: x downstream (0 at the foot of the
 //! incline), y across (0 on the centre line), z up (0 on the floor).
 

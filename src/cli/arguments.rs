@@ -14,7 +14,7 @@ pub(super) struct Arguments {
 }
 
 const EXIT_CODES: &str =
-    "Exit codes: 0 fine, 2 invalid input, 3 numerical failure, 4 a case was missed, 1 other.";
+    "Exit codes: 0 fine, 2 invalid input, 3 numerical failure, 4 a case failed, 1 other.";
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {

@@ -19,7 +19,7 @@ pub(super) enum Failure {
     #[error("{0}")]
     Numerical(String),
     /// So many known answers were missed: whoever knows the method.
-    #[error("{0} missed")]
+    #[error("{0} failed")]
     Missed(usize),
     /// Anything else: whoever runs the machine.
     #[error("{0}")]

@@ -4,8 +4,8 @@ use super::arguments::RunOptions;
 use super::failure::{Failure, not_set_up};
 use super::meter::Meter;
 use super::output::OutputDirectory;
-use super::{bands, console, scenario_file, table};
-use scree::jobs::campaign;
+use super::{console, intervals, scenario_file, table};
+use scree::jobs::convergence_study;
 use scree::jobs::progress::Progress;
 use scree::jobs::runner::{RunEnd, RunError, Sink, StopFlag};
 use scree::results::{TrajectoryColumns, trajectory_json};
@@ -28,7 +28,7 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     let threads = threads(options, &scenario);
 
     let mut recording = Recording::new(Meter::bar_or_silence());
-    let ended = campaign::run(&scenario, threads, &StopFlag::default(), &mut recording);
+    let ended = convergence_study::run(&scenario, threads, &StopFlag::default(), &mut recording);
     recording.meter.finish();
 
     if let Some(directory) = &mut directory {
@@ -48,8 +48,8 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
         return Ok(console::answer(&serde_json::to_string_pretty(&outcome)?)?);
     }
     let mut answer = table::outcome(&outcome);
-    if let Some(bands) = bands::bands(&outcome) {
-        answer = format!("{answer}\n{bands}");
+    if let Some(intervals) = intervals::intervals(&outcome) {
+        answer = format!("{answer}\n{intervals}");
     }
     if let Some(directory) = &directory {
         answer = format!("{answer}\n\n{}", directory.summary());

@@ -5,13 +5,13 @@
 //! 1: anything else (a full disk, a busy port).
 
 mod arguments;
-mod bands;
 mod bench;
 mod charts;
 mod columns;
 mod console;
 mod demo;
 mod failure;
+mod intervals;
 mod local_run;
 mod machine;
 mod meter;

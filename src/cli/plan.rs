@@ -4,7 +4,7 @@ use super::arguments::PlanOptions;
 use super::failure::{Failure, not_set_up};
 use super::machine::cores;
 use super::{console, scenario_file};
-use scree::jobs::forecast::{ForecastError, Planned, PlannedCompanion, WallTime, forecast};
+use scree::jobs::forecast::{ForecastError, Planned, PlannedRefinementRun, WallTime, forecast};
 use scree_solver::plan::{Choice, Cost, Hint, Stage};
 use scree_solver::record::Role;
 
@@ -31,15 +31,15 @@ pub(super) fn plan(options: &PlanOptions) -> Result<(), Failure> {
 fn in_words(planned: &Planned, by_target: bool) -> String {
     let choices = planned.plan.choices.iter().map(choice);
     let mut lines: Vec<String> = choices.collect();
-    let (of_cost, of_companion) = if by_target {
+    let (of_cost, of_refinement_run) = if by_target {
         ("cost if there were no target:", "first for the target:")
     } else {
         ("cost", "for error bars:")
     };
     lines.push(format!("{of_cost} {}", cost(&planned.plan.cost)));
     lines.extend(planned.plan.cost.stages.iter().map(stage));
-    let companions = planned.companions.iter().map(companion);
-    lines.extend(companions.map(|run| format!("{of_companion} {run}")));
+    let refinement_runs = planned.refinement_runs.iter().map(refinement_run);
+    lines.extend(refinement_runs.map(|run| format!("{of_refinement_run} {run}")));
     lines.push(wall_time(&planned.wall_time));
     lines.extend(planned.plan.hints.iter().map(hint));
     lines.join("\n")
@@ -82,13 +82,13 @@ fn stage(stage: &Stage) -> String {
     )
 }
 
-fn companion(run: &PlannedCompanion) -> String {
-    let softer = match run.role {
-        Role::Softer => " and a softer material",
+fn refinement_run(run: &PlannedRefinementRun) -> String {
+    let reduced_stiffness = match run.role {
+        Role::ReducedStiffness => " and reduced stiffness",
         Role::Coarser | Role::Answer => "",
     };
     format!(
-        "cells of {:.4} m{softer}, {:.3e} point-steps, {:.1} s",
+        "cells of {:.4} m{reduced_stiffness}, {:.3e} point-steps, {:.1} s",
         run.cell_size_m, run.point_steps as f64, run.expected_s
     )
 }

@@ -1,6 +1,6 @@
 //! The outcome as a table for people.
 
-use scree_solver::record::{Conservation, BodyOutcome, Cost, FlowOutcome, Outcome};
+use scree_solver::record::{BodyOutcome, Conservation, Cost, FlowOutcome, Outcome};
 use std::fmt::Write as _;
 
 /// Sign for something that did not happen.
@@ -48,11 +48,7 @@ fn flow(flow: &FlowOutcome) -> [Entry; 3] {
     [
         ("front", optional(flow.front_m, 3), " m"),
         ("run-out", optional(flow.runout_m, 3), " m"),
-        (
-            "outflow",
-            format!("{:.3}", flow.outflow_mass_kg),
-            " kg",
-        ),
+        ("outflow", format!("{:.3}", flow.outflow_mass_kg), " kg"),
     ]
 }
 

@@ -1,6 +1,6 @@
 //! Plans: what a run would compute and cost.
 
-use super::contract::{PlanDocument, PlannedCompanionDocument, ScenarioDocument};
+use super::contract::{PlanDocument, PlannedRefinementRunDocument, ScenarioDocument};
 use super::problem::Problem;
 use super::scenario_body::ScenarioText;
 use crate::jobs::forecast::WallTime;
@@ -20,8 +20,8 @@ pub(super) struct PlannedDocument {
     #[schema(value_type = PlanDocument)]
     pub plan: Value,
     /// Runs that would be made before the answer; with a target, the first ones.
-    #[schema(value_type = Vec<PlannedCompanionDocument>)]
-    pub companions: Value,
+    #[schema(value_type = Vec<PlannedRefinementRunDocument>)]
+    pub refinement_runs: Value,
     /// Time that everything would take on a worker of this service.
     pub wall_time: WallTime,
 }
@@ -49,11 +49,11 @@ pub(super) async fn plan(
 ) -> Result<Json<PlannedDocument>, Problem> {
     let planned = jobs.plan(&text).await?;
     let plan = serde_json::to_value(&planned.plan).map_err(|error| Problem::internal(&error))?;
-    let companions =
-        serde_json::to_value(&planned.companions).map_err(|error| Problem::internal(&error))?;
+    let refinement_runs = serde_json::to_value(&planned.refinement_runs)
+        .map_err(|error| Problem::internal(&error))?;
     Ok(Json(PlannedDocument {
         plan,
-        companions,
+        refinement_runs,
         wall_time: planned.wall_time,
     }))
 }

@@ -1,6 +1,6 @@
 //! How long a run will take on this machine: its own first steps, timed.
 
-use scree_solver::accuracy::Campaign;
+use scree_solver::accuracy::ConvergenceStudy;
 use scree_solver::plan::{self, Cost, Plan, Stage};
 use scree_solver::record::Role;
 use scree_solver::scenario::{Approach, Scenario};
@@ -13,7 +13,7 @@ use utoipa::ToSchema;
 
 /// How long the steps of one share are timed.
 const TIMED_FOR: Duration = Duration::from_millis(400);
-/// The same of a companion, which is a small part of the whole.
+/// The same of a refinement run, which is a small part of the whole.
 const COMPANION_TIMED_FOR: Duration = Duration::from_millis(100);
 /// Steps before timing starts: they touch all memory for the first time.
 const WARM_UP: u64 = 2;
@@ -33,14 +33,14 @@ pub struct Planned {
     /// The plan.
     pub plan: Plan,
     /// Runs that are made before the answer; with a target, the first ones.
-    pub companions: Vec<PlannedCompanion>,
+    pub refinement_runs: Vec<PlannedRefinementRun>,
     /// How long everything will take.
     pub wall_time: WallTime,
 }
 
 /// A run behind error bars, before it is made.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct PlannedCompanion {
+pub struct PlannedRefinementRun {
     /// What it is for.
     pub role: Role,
     /// Cell size [m].
@@ -51,7 +51,7 @@ pub struct PlannedCompanion {
     pub expected_s: f64,
 }
 
-/// How long a run will take on this machine, with its companions.
+/// How long a run will take on this machine, with its refinement runs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct WallTime {
     /// Expected [s]; null with a target, whose cells are found by its first runs.
@@ -83,8 +83,8 @@ pub enum ForecastError {
 /// It can't be set up, or can't take its first steps.
 pub fn forecast(scenario: &Scenario, threads: usize) -> Result<Planned, ForecastError> {
     let plan = plan::of(scenario)?;
-    let companions = companions(scenario, threads)?;
-    let first: f64 = companions.iter().map(|run| run.expected_s).sum();
+    let refinement_runs = refinement_runs(scenario, threads)?;
+    let first: f64 = refinement_runs.iter().map(|run| run.expected_s).sum();
     let answer = Span::of(scenario, &plan.cost, threads, TIMED_FOR)?;
     let target = scenario.accuracy.target;
     let (expected, longest) = if target.is_some() {
@@ -101,23 +101,28 @@ pub fn forecast(scenario: &Scenario, threads: usize) -> Result<Planned, Forecast
     };
     Ok(Planned {
         plan,
-        companions,
+        refinement_runs,
         wall_time,
     })
 }
 
 /// The runs that come before the answer.
-fn companions(scenario: &Scenario, threads: usize) -> Result<Vec<PlannedCompanion>, ForecastError> {
-    let campaign = Campaign::of(scenario)?;
-    let before = campaign.to_do().filter(|rung| rung.role != Role::Answer);
+fn refinement_runs(
+    scenario: &Scenario,
+    threads: usize,
+) -> Result<Vec<PlannedRefinementRun>, ForecastError> {
+    let convergence_study = ConvergenceStudy::of(scenario)?;
+    let before = convergence_study
+        .to_do()
+        .filter(|study_run| study_run.role != Role::Answer);
     before
-        .map(|rung| {
-            let scenario = campaign.scenario_of(rung);
+        .map(|study_run| {
+            let scenario = convergence_study.scenario_of(study_run);
             let cost = plan::cost(&scenario)?;
             let span = Span::of(&scenario, &cost, threads, COMPANION_TIMED_FOR)?;
-            Ok(PlannedCompanion {
-                role: rung.role,
-                cell_size_m: rung.cell_size_m,
+            Ok(PlannedRefinementRun {
+                role: study_run.role,
+                cell_size_m: study_run.cell_size_m,
                 point_steps: cost.point_steps,
                 expected_s: span.expected,
             })

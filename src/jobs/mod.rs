@@ -1,10 +1,10 @@
 //! Jobs: what they are ([`job`]), which are let in ([`submit`]), where they are
-//! kept ([`store`]), who runs them ([`pool`], [`campaign`], [`runner`]) and how one that can't
+//! kept ([`store`]), who runs them ([`pool`], [`convergence_study`], [`runner`]) and how one that can't
 //! be finished says so ([`failure`]), how long one will take ([`forecast`]). [`JobService`] is the door for HTTP.
 
 mod admission;
-pub mod campaign;
 pub mod clock;
+pub mod convergence_study;
 pub mod failure;
 pub mod forecast;
 mod headed;
@@ -17,8 +17,8 @@ pub mod progress;
 mod reading;
 pub mod recording;
 pub mod runner;
-mod saved_campaign;
 pub mod saved_run;
+mod saved_study;
 pub mod store;
 pub mod submit;
 mod watch;

@@ -1,6 +1,6 @@
 //! One worker: claims jobs, runs them, and says how they ended.
 
-use super::campaign::Runs;
+use super::convergence_study::Runs;
 use super::failure::Failure;
 use super::pool::{Equipment, RunningJobGuard};
 use super::recording::{KeepError, StoreSink};
@@ -133,7 +133,7 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResu
     }
 }
 
-/// The run to its end, or the several that bands or a target take.
+/// The run to its end, or the several that intervals or a target take.
 fn run_to_end(
     equipment: &Equipment,
     lease: Lease,

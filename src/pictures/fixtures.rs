@@ -1,8 +1,8 @@
 //! Made-up runs for the tests of the pictures.
 
 use scree_solver::record::{
-    Conservation, BodyOutcome, BodySample, Cost, FlowOutcome, FlowSnapshot, MassProperties, Mode, Outcome,
-    Sample,
+    BodyOutcome, BodySample, Conservation, Cost, FlowOutcome, FlowSnapshot, MassProperties, Mode,
+    Outcome, Sample,
 };
 use scree_solver::scenario::{
     Accuracy, Approach, Body, Channel, Coupling, Ending, Flow, Material, Numerics, Position,

@@ -92,12 +92,12 @@ impl Column {
         }
     }
 
-    /// Questions to [`Column::answer`], an `oracle` standing beside every run-out.
-    pub(super) fn questions(&self, oracle: f64) -> [Question; 4] {
+    /// Questions to [`Column::answer`], an `reference` standing beside every run-out.
+    pub(super) fn questions(&self, reference: f64) -> [Question; 4] {
         let of = format!("{}, a = {}", self.grains.name, self.aspect);
-        let about = |words: &str| Question::new(format!("{words}, {of}"), "", oracle);
+        let about = |words: &str| Question::new(format!("{words}, {of}"), "", reference);
         [
-            Question::new(runout(self.grains, self.aspect), "", oracle),
+            Question::new(runout(self.grains, self.aspect), "", reference),
             about("run-out at 1 % of the mass"),
             about("run-out, one grain thick"),
             Question::new(format!("mass still moving, {of}"), "", 0.0).by(Error::Absolute),

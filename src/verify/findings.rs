@@ -1,11 +1,11 @@
-//! Findings of a case: measured against oracle, and the verdict.
+//! Findings of a case: measured against reference solution, and the verdict.
 
 use super::limit::Limit;
 use super::order::Order;
 use super::run::{Answer, Cost, Trouble};
 use serde::Serialize;
 
-/// Question, answer by the oracle, and what is asked of the computation.
+/// Question, answer by the reference solution, and what is asked of the computation.
 #[derive(Debug, Clone, Serialize)]
 pub struct Question {
     /// Quantity that is measured.
@@ -13,18 +13,18 @@ pub struct Question {
     /// Its unit.
     pub unit: &'static str,
     /// The right answer.
-    pub oracle: f64,
+    pub reference: f64,
     /// Way in which the error is counted.
     pub error: Error,
     /// Largest error allowed; none if it is only reported.
-    pub bar: Option<f64>,
+    pub tolerance: Option<f64>,
 }
 
 /// Way in which an error is counted.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Error {
-    /// As a share of the oracle.
+    /// As a share of the reference solution.
     Relative,
     /// In the quantity's own unit.
     Absolute,
@@ -38,14 +38,14 @@ pub enum Error {
 }
 
 impl Question {
-    /// A question whose error is a share of the oracle, without a bar.
-    pub fn new(quantity: impl Into<String>, unit: &'static str, oracle: f64) -> Self {
+    /// A question whose error is a share of the reference solution, without a tolerance.
+    pub fn new(quantity: impl Into<String>, unit: &'static str, reference: f64) -> Self {
         Self {
             quantity: quantity.into(),
             unit,
-            oracle,
+            reference,
             error: Error::Relative,
-            bar: None,
+            tolerance: None,
         }
     }
 
@@ -58,16 +58,16 @@ impl Question {
 
     /// Asks for an error no larger than this.
     #[must_use]
-    pub fn within(mut self, bar: f64) -> Self {
-        self.bar = Some(bar);
+    pub fn within(mut self, tolerance: f64) -> Self {
+        self.tolerance = Some(tolerance);
         self
     }
 
     /// Error of a measured value, with its sign.
     fn error_of(&self, measured: f64) -> f64 {
-        let off = measured - self.oracle;
+        let off = measured - self.reference;
         match self.error {
-            Error::Relative => off / self.oracle.abs(),
+            Error::Relative => off / self.reference.abs(),
             Error::Absolute => off,
             Error::Over { size, .. } => off / size,
         }
@@ -102,25 +102,25 @@ impl Resolution {
     }
 }
 
-/// Verdict by error and bar.
+/// Verdict by error and tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// Within the bar.
+    /// Within the tolerance.
     Pass,
     /// Beyond it, or no number, or the run failed.
-    Miss,
-    /// There is no bar.
+    Fail,
+    /// There is no tolerance.
     Report,
 }
 
 impl Verdict {
-    /// Of the size of an error; one that is no number is beyond every bar.
-    fn of(error: f64, bar: Option<f64>) -> Self {
-        match bar {
+    /// Of the size of an error; one that is no number is beyond every tolerance.
+    fn of(error: f64, tolerance: Option<f64>) -> Self {
+        match tolerance {
             None if error.is_finite() => Self::Report,
-            Some(bar) if error.abs() <= bar => Self::Pass,
-            _ => Self::Miss,
+            Some(tolerance) if error.abs() <= tolerance => Self::Pass,
+            _ => Self::Fail,
         }
     }
 }
@@ -139,7 +139,7 @@ pub struct Finding {
     pub measured_error: Option<f64>,
     /// Why the run failed.
     pub failure: Option<String>,
-    /// Computed from error and bar.
+    /// Computed from error and tolerance.
     pub verdict: Verdict,
     /// Cost.
     pub cost: Cost,
@@ -149,7 +149,7 @@ impl Finding {
     fn measured(question: Question, resolution: Resolution, value: f64, cost: Cost) -> Self {
         let error = question.error_of(value);
         Self {
-            verdict: Verdict::of(error, question.bar),
+            verdict: Verdict::of(error, question.tolerance),
             measured: Some(value),
             measured_error: Some(error),
             failure: None,
@@ -161,7 +161,7 @@ impl Finding {
 
     fn failed(question: Question, resolution: Resolution, trouble: &Trouble) -> Self {
         Self {
-            verdict: Verdict::Miss,
+            verdict: Verdict::Fail,
             measured: None,
             measured_error: None,
             failure: Some(trouble.to_string()),
@@ -230,7 +230,7 @@ impl Findings {
         for verdict in verdicts.chain(orders) {
             match verdict {
                 Verdict::Pass => count.passed += 1,
-                Verdict::Miss => count.missed += 1,
+                Verdict::Fail => count.failed += 1,
                 Verdict::Report => count.reported += 1,
             }
         }
@@ -247,10 +247,10 @@ impl Findings {
 /// Number of verdicts of each kind.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Count {
-    /// Within the bar.
+    /// Within the tolerance.
     pub passed: usize,
     /// Beyond it.
-    pub missed: usize,
+    pub failed: usize,
     /// Without one.
     pub reported: usize,
 }
@@ -261,7 +261,7 @@ impl Count {
     pub fn plus(self, other: Self) -> Self {
         Self {
             passed: self.passed + other.passed,
-            missed: self.missed + other.missed,
+            failed: self.failed + other.failed,
             reported: self.reported + other.reported,
         }
     }
@@ -280,11 +280,11 @@ mod tests {
     fn error_and_bar_make_the_verdict() {
         let question = || Question::new("speed", "m/s", -2.0).within(0.01);
         assert_eq!(verdict(question(), -2.019), Verdict::Pass);
-        assert_eq!(verdict(question(), -1.979), Verdict::Miss);
-        assert_eq!(verdict(question(), f64::NAN), Verdict::Miss);
+        assert_eq!(verdict(question(), -1.979), Verdict::Fail);
+        assert_eq!(verdict(question(), f64::NAN), Verdict::Fail);
         assert_eq!(
             verdict(question().by(Error::Absolute), -1.979),
-            Verdict::Miss
+            Verdict::Fail
         );
         let over = Error::Over {
             of: "g",
@@ -303,6 +303,6 @@ mod tests {
         let question = Question::new("speed", "m/s", 1.0);
         let trouble = Trouble::Scene("none".to_owned());
         findings.take(&Resolution::named("one"), [question], Err(trouble));
-        assert_eq!(findings.count().missed, 1);
+        assert_eq!(findings.count().failed, 1);
     }
 }

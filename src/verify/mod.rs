@@ -1,8 +1,8 @@
 //! Verification: cases with a trusted answer, computed and compared with it.
 //!
 //! The way through it: [`cases::ALL`] lists the cases, each a page of its own
-//! with problem, answer and bar; [`verify`] runs them and gathers what each
-//! [`findings::Findings`] holds. Verdicts come out of error and bar alone. [`hard`]
+//! with problem, answer and tolerance; [`verify`] runs them and gathers what each
+//! [`findings::Findings`] holds. Verdicts come out of error and tolerance alone. [`hard`]
 //! has the scenes that are there to break the computation; of them no answer is
 //! known but that it has to be a sound one.
 
@@ -14,7 +14,6 @@ pub mod order;
 pub mod run;
 pub mod work;
 
-mod banded;
 mod beads;
 mod before_after;
 mod blocks;
@@ -27,6 +26,7 @@ mod plates;
 mod scenes;
 mod slope;
 mod stream;
+mod with_error_bars;
 
 use findings::{Count, Findings};
 use serde::{Serialize, Serializer};

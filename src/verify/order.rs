@@ -66,12 +66,12 @@ impl Order {
         order
     }
 
-    /// An order that was asked for and can't be shown is missed.
+    /// An order that was asked for and can't be shown is failed.
     fn judged(&self) -> Verdict {
         match (self.asked, self.fitted) {
             (None, _) => Verdict::Report,
             (Some(asked), Some(fitted)) if fitted >= asked => Verdict::Pass,
-            _ => Verdict::Miss,
+            _ => Verdict::Fail,
         }
     }
 }
@@ -136,7 +136,7 @@ mod tests {
         findings.take_order("it", 0.0, Some(1.9));
         findings.take_order("it", 0.0, None);
         let verdicts = [0, 1].map(|place: usize| findings.orders[place].verdict);
-        assert_eq!(verdicts, [Verdict::Miss, Verdict::Report]);
+        assert_eq!(verdicts, [Verdict::Fail, Verdict::Report]);
         assert_eq!(findings.orders[0].fitted, None);
     }
 }

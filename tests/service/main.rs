@@ -5,9 +5,9 @@
 mod access;
 mod app;
 mod bad_input;
-mod campaign;
 mod citations;
 mod contract;
+mod convergence_study;
 mod dismissal;
 mod ending;
 mod following;

@@ -41,14 +41,14 @@ async fn runs_behind_error_bars_are_part_of_a_plan() {
     let outcome = app.wait_for_success(&path).await["outcome"].clone();
     let sizes = |runs: &serde_json::Value| -> Vec<f64> {
         let runs = runs.as_array().unwrap();
-        let companions = runs.iter().filter(|run| run["role"] != "answer");
-        companions
+        let refinement_runs = runs.iter().filter(|run| run["role"] != "answer");
+        refinement_runs
             .map(|run| run["cell_size_m"].as_f64().unwrap())
             .collect()
     };
-    let companions = sizes(&planned["companions"]);
-    assert!(!companions.is_empty());
-    assert_eq!(companions, sizes(&outcome["accuracy"]["runs"]));
+    let refinement_runs = sizes(&planned["refinement_runs"]);
+    assert!(!refinement_runs.is_empty());
+    assert_eq!(refinement_runs, sizes(&outcome["accuracy"]["runs"]));
 
     scene["accuracy"] = json!({"target": 0.1, "quantity": "displacement_m"});
     scene["numerics"]["cell_size_m"] = json!(null);

@@ -67,7 +67,10 @@ async fn a_stopped_job_goes_on_where_it_was_with_the_same_bits() {
     let fingerprint = |job: &Value| job["provenance"]["fingerprint"].clone();
     assert_eq!(fingerprint(&job), fingerprint(&whole_job));
     assert_eq!(job["outcome"]["bodies"], whole_job["outcome"]["bodies"]);
-    assert_eq!(job["outcome"]["conservation"], whole_job["outcome"]["conservation"]);
+    assert_eq!(
+        job["outcome"]["conservation"],
+        whole_job["outcome"]["conservation"]
+    );
     let again = app.get(&format!("{cut}/trajectory")).await.body["columns"].take();
     assert_eq!(again, trajectory);
     app.stop().await;

@@ -1,4 +1,4 @@
-//! The quick cases of `scree verify`, by their own bars and orders. A case with a
+//! The quick cases of `scree verify`, by their own tolerances and orders. A case with a
 //! known miss is asked for what holds. Figures are in the command's own tables.
 
 use scree::verify::findings::{Finding, Verdict};
@@ -11,14 +11,14 @@ fn verified(name: &str) -> Verified {
     verify(case.expect("there is such a case"), Effort::Quick)
 }
 
-/// Runs a case of which nothing may be missed.
+/// Runs a case of which nothing may be failed.
 fn holds(name: &str) {
     let found = verified(name).found;
-    let missed = |finding: &&Finding| finding.verdict == Verdict::Miss;
-    let missed: Vec<&Finding> = found.values.iter().filter(missed).collect();
-    assert!(missed.is_empty(), "{missed:#?}");
+    let failed = |finding: &&Finding| finding.verdict == Verdict::Fail;
+    let failed: Vec<&Finding> = found.values.iter().filter(failed).collect();
+    assert!(failed.is_empty(), "{failed:#?}");
     for order in &found.orders {
-        assert_ne!(order.verdict, Verdict::Miss, "{order:#?}");
+        assert_ne!(order.verdict, Verdict::Fail, "{order:#?}");
     }
     assert!(found.count().passed > 0, "{name} asks for nothing");
 }
@@ -151,7 +151,7 @@ fn sliding_block() {
             let error = finding.measured_error.expect("it was measured");
             assert!(error.abs() < 0.03, "{finding:#?}");
         } else {
-            assert_ne!(finding.verdict, Verdict::Miss, "{finding:#?}");
+            assert_ne!(finding.verdict, Verdict::Fail, "{finding:#?}");
         }
     }
 }
@@ -206,7 +206,7 @@ fn column_collapse() {
             let quantity = format!("run-out, {grains}, a = {a}");
             let last = found.of(&quantity).last().unwrap();
             if grains == "sand" {
-                assert_ne!(last.verdict, Verdict::Miss, "{last:#?}");
+                assert_ne!(last.verdict, Verdict::Fail, "{last:#?}");
             }
             last.measured.unwrap()
         });
@@ -220,7 +220,7 @@ fn column_collapse() {
     assert_eq!(control.unwrap().measured, Some(1.0));
 }
 
-// Without bars: at eight cells within a third, short of the law as the thin end needs
+// Without tolerances: at eight cells within a third, short of the law as the thin end needs
 // more of them.
 #[test]
 fn axisymmetric_collapse() {
@@ -261,8 +261,8 @@ fn sphere_into_bed() {
 #[test]
 fn cubes_and_column() {
     let found = verified("cubes-and-column").found;
-    let missed = |finding: &Finding| finding.verdict == Verdict::Miss;
-    assert!(!found.values.iter().any(missed), "{:#?}", found.values);
+    let failed = |finding: &Finding| finding.verdict == Verdict::Fail;
+    assert!(!found.values.iter().any(failed), "{:#?}", found.values);
     let driven: Vec<_> = found
         .of("cubes driven on by a tenth of a side")
         .map(|finding| finding.measured)
@@ -274,10 +274,10 @@ fn cubes_and_column() {
 #[test]
 fn source_paper() {
     let found = verified("source-paper").found;
-    let near = |quantity: &str, bar: f64| {
+    let near = |quantity: &str, tolerance: f64| {
         for finding in found.of(quantity) {
             let error = finding.measured_error.expect("it was measured");
-            assert!(error.abs() < bar, "{finding:#?}");
+            assert!(error.abs() < tolerance, "{finding:#?}");
         }
     };
     near("onset, against the paper", 0.1);
@@ -294,7 +294,7 @@ fn bagnold() {
             let error = finding.measured_error.expect("it was measured");
             assert!(error.abs() < 0.04, "{finding:#?}");
         } else {
-            assert_ne!(finding.verdict, Verdict::Miss, "{finding:#?}");
+            assert_ne!(finding.verdict, Verdict::Fail, "{finding:#?}");
         }
     }
 }
@@ -304,16 +304,16 @@ fn bagnold() {
 fn two_clocks() {
     for finding in verified("two-clocks").found.values {
         let error = finding.measured_error.expect("it was measured");
-        let bar = if finding.question.quantity.contains("flow_courant ×2") {
+        let tolerance = if finding.question.quantity.contains("flow_courant ×2") {
             0.2
         } else {
             0.03
         };
-        assert!(error.abs() < bar, "{finding:#?}");
+        assert!(error.abs() < tolerance, "{finding:#?}");
     }
 }
 
-// Without bars: what a cube seems larger by stays within a cell.
+// Without tolerances: what a cube seems larger by stays within a cell.
 #[test]
 fn cube_in_dust_and_in_a_liquid() {
     for name in ["dust-stream", "buried-body"] {
@@ -326,7 +326,7 @@ fn cube_in_dust_and_in_a_liquid() {
     }
 }
 
-// Without bars: a drag, and less of it with finer cells.
+// Without tolerances: a drag, and less of it with finer cells.
 #[test]
 fn plate_drag() {
     let found = verified("plate-drag").found;
@@ -361,7 +361,7 @@ fn plates_moved_through_a_bed() {
     }
 }
 
-// Its bars are of the full version; the small one has to answer every question.
+// Its tolerances are of the full version; the small one has to answer every question.
 #[test]
 fn coarse_cells() {
     let found = verified("coarse-cells").found;

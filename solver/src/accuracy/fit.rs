@@ -6,14 +6,14 @@ const ORDERS: u32 = 140;
 
 /// The line nearest to values over their cell sizes, by weighted least squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Line {
+pub(super) struct LinearFit {
     /// Change of the value per cell size.
     pub(super) slope: f64,
     /// Standard deviation of the values about the line.
     pub(super) scatter: f64,
 }
 
-impl Line {
+impl LinearFit {
     /// Through at least three places (size, value) of different sizes. Weights go with
     /// the inverse of the size, so that fine cells count more.
     pub(super) fn through(places: &[(f64, f64)]) -> Self {
@@ -49,7 +49,7 @@ pub(super) fn observed_order(places: &[(f64, f64)], plausible: (f64, f64)) -> Op
         let powers = places
             .iter()
             .map(|(size, value)| (size.powf(order), *value));
-        Line::through(&powers.collect::<Vec<_>>()).scatter
+        LinearFit::through(&powers.collect::<Vec<_>>()).scatter
     };
     let step = (high - low) / f64::from(ORDERS);
     let orders = (0..=ORDERS).map(|place| low + step * f64::from(place));
@@ -76,10 +76,10 @@ mod tests {
 
     #[test]
     fn a_line_is_found_whatever_the_weights() {
-        let line = Line::through(&power(1.0, 0.0));
+        let line = LinearFit::through(&power(1.0, 0.0));
         assert!((line.slope + 2.0).abs() < 1e-12, "{line:?}");
         assert!(line.scatter < 1e-12, "{line:?}");
-        assert!(Line::through(&power(1.0, 0.01)).scatter > 0.01);
+        assert!(LinearFit::through(&power(1.0, 0.01)).scatter > 0.01);
     }
 
     #[test]

@@ -1,8 +1,8 @@
-//! The band of one quantity, from its values at several cell sizes (docs/method.md,
+//! The interval of one quantity, from its values at several cell sizes (docs/method.md,
 //! equations 70–74).
 
-use super::fit::{Line, observed_order};
-use crate::record::{Band, Basis};
+use super::fit::{LinearFit, observed_order};
+use crate::record::{Basis, UncertaintyInterval};
 
 /// Half the width over the only difference there is.
 const SAFETY_OF_ONE: f64 = 3.0;
@@ -14,9 +14,9 @@ const FLOOR_CELLS: f64 = 0.01;
 /// The same as a share of the value.
 const FLOOR_SHARE: f64 = 0.002;
 
-/// What a quantity is: how its band is made, and its natural bounds.
+/// What a quantity is: how its interval is made, and its natural bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum QuantityKind {
     /// When something begins or is at its height: not negative.
     Moment,
     /// When something has come to rest: not negative.
@@ -37,9 +37,9 @@ pub(super) enum Kind {
     Mass,
 }
 
-/// Weights of a band's shares (equation 72).
+/// Weights of a interval's shares (equation 72).
 #[derive(Debug)]
-struct Weights {
+struct IntervalWeights {
     /// How much of the trend is followed.
     trend: f64,
     /// How far the rest reaches against the trend, over how far with it.
@@ -52,7 +52,7 @@ struct Weights {
     way: f64,
 }
 
-impl Weights {
+impl IntervalWeights {
     const fn of([trend, against, scatter, across, way]: [f64; 5]) -> Self {
         Self {
             trend,
@@ -64,10 +64,10 @@ impl Weights {
     }
 }
 
-impl Kind {
+impl QuantityKind {
     /// Fitted to scenes that served for nothing else (decision 24), and rounded.
-    const fn weights(self) -> Weights {
-        Weights::of(match self {
+    const fn weights(self) -> IntervalWeights {
+        IntervalWeights::of(match self {
             Self::Moment => [0.0, 1.0, 2.0, 0.15, 0.2],
             Self::Stop => [1.0, 1.0, 2.5, 0.1, 0.0],
             Self::Speed => [1.0, 0.4, 2.0, 0.1, 0.8],
@@ -92,7 +92,7 @@ impl Kind {
 
 /// What the cells of the answer are to be compared with.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Scale {
+pub(super) struct ErrorScale {
     /// Width of the thinnest body, or the thickness of the release without bodies [m].
     pub(super) across_m: f64,
     /// How far the body got, or the flow [m].
@@ -101,28 +101,28 @@ pub(super) struct Scale {
 
 /// A quantity at several cell sizes.
 #[derive(Debug, Clone)]
-pub(super) struct Series {
+pub(super) struct GridSeries {
     /// What it is.
-    pub(super) kind: Kind,
+    pub(super) kind: QuantityKind,
     /// What its cells are to be compared with.
-    pub(super) scale: Scale,
+    pub(super) scale: ErrorScale,
     /// Cell size [m] and value, those of the answer first, then ever larger cells;
     /// no value where it did not happen.
     pub(super) places: Vec<(f64, Option<f64>)>,
-    /// With a softer material, and with the same cells and the usual one.
-    pub(super) softer: Option<[Option<f64>; 2]>,
+    /// With a material of reduced stiffness, and with the same cells and the usual one.
+    pub(super) reduced_stiffness: Option<[Option<f64>; 2]>,
 }
 
-impl Series {
-    /// The band round the answer's value.
-    pub(super) fn band(&self) -> Band {
+impl GridSeries {
+    /// The interval round the answer's value.
+    pub(super) fn interval(&self) -> UncertaintyInterval {
         let happened: Vec<(f64, f64)> = self
             .places
             .iter()
             .filter_map(|(size, value)| Some((*size, (*value)?)))
             .collect();
         let value = self.places.first().and_then(|place| place.1);
-        let nothing = Band {
+        let nothing = UncertaintyInterval {
             value,
             low: None,
             high: None,
@@ -130,7 +130,7 @@ impl Series {
             basis: Basis::Nothing,
         };
         if happened.is_empty() {
-            return Band {
+            return UncertaintyInterval {
                 basis: Basis::NeverHappened,
                 ..nothing
             };
@@ -140,7 +140,7 @@ impl Series {
         }
         match happened.len() {
             1 => nothing,
-            2 => self.about(&happened, Basis::OneCompanion, None),
+            2 => self.about(&happened, Basis::OneRefinementRun, None),
             _ if happened.iter().all(|place| place.1 == happened[0].1) => {
                 self.about(&happened, Basis::Same, None)
             }
@@ -152,24 +152,33 @@ impl Series {
     }
 
     /// It happened in some of the runs: not before the earliest, if at all.
-    fn of_some(&self, happened: &[(f64, f64)], nothing: Band) -> Band {
+    fn of_some(
+        &self,
+        happened: &[(f64, f64)],
+        nothing: UncertaintyInterval,
+    ) -> UncertaintyInterval {
         let values = || happened.iter().map(|place| place.1);
         let least = values().fold(f64::INFINITY, f64::min);
         let most = values().fold(f64::NEG_INFINITY, f64::max);
-        Band {
+        UncertaintyInterval {
             low: Some(self.not_below(least - (most - least))),
             basis: Basis::SometimesHappened,
             ..nothing
         }
     }
 
-    fn about(&self, happened: &[(f64, f64)], basis: Basis, order: Option<f64>) -> Band {
+    fn about(
+        &self,
+        happened: &[(f64, f64)],
+        basis: Basis,
+        order: Option<f64>,
+    ) -> UncertaintyInterval {
         let (size, value) = happened[0];
         let weights = self.kind.weights();
         let (trend, scatter) = match happened {
             [_, (_, other)] => (0.0, SAFETY_OF_ONE * (value - other).abs()),
             _ => {
-                let line = Line::through(happened);
+                let line = LinearFit::through(happened);
                 let scatter = weights.scatter * line.scatter;
                 (-weights.trend * line.slope * size, scatter)
             }
@@ -183,7 +192,7 @@ impl Series {
             let beyond = if way < 0.0 { weights.against } else { 1.0 };
             way.max(0.0) + beyond * around + self.floor(size, value)
         });
-        Band {
+        UncertaintyInterval {
             value: Some(value),
             low: Some(self.not_below(value - down)),
             high: Some(value + up),
@@ -193,8 +202,8 @@ impl Series {
     }
 
     /// The error that scenes at large have at such cells, whatever these values show.
-    fn expected(&self, weights: &Weights, size: f64, value: f64) -> f64 {
-        let Scale { across_m, way_m } = self.scale;
+    fn expected(&self, weights: &IntervalWeights, size: f64, value: f64) -> f64 {
+        let ErrorScale { across_m, way_m } = self.scale;
         let scale = if self.kind.is_a_place() {
             way_m
         } else {
@@ -208,8 +217,8 @@ impl Series {
 
     /// What half the sound speed changes (equation 73).
     fn of_softness(&self) -> f64 {
-        match self.softer {
-            Some([Some(softer), Some(usual)]) => (softer - usual).abs(),
+        match self.reduced_stiffness {
+            Some([Some(reduced_stiffness), Some(usual)]) => (reduced_stiffness - usual).abs(),
             _ => 0.0,
         }
     }
@@ -235,110 +244,116 @@ impl Series {
 mod tests {
     use super::*;
 
-    fn series(values: &[Option<f64>]) -> Series {
+    fn series(values: &[Option<f64>]) -> GridSeries {
         let sizes = [0.01, 0.015, 0.02, 0.025];
-        Series {
-            kind: Kind::Speed,
-            scale: Scale {
+        GridSeries {
+            kind: QuantityKind::Speed,
+            scale: ErrorScale {
                 across_m: 0.03,
                 way_m: 0.2,
             },
             places: sizes.into_iter().zip(values.iter().copied()).collect(),
-            softer: None,
+            reduced_stiffness: None,
         }
     }
 
-    fn happened(values: &[f64]) -> Series {
+    fn happened(values: &[f64]) -> GridSeries {
         series(&values.iter().copied().map(Some).collect::<Vec<_>>())
     }
 
-    fn half_width(band: &Band) -> f64 {
-        0.5 * (band.high.unwrap() - band.low.unwrap())
+    fn half_width(interval: &UncertaintyInterval) -> f64 {
+        0.5 * (interval.high.unwrap() - interval.low.unwrap())
     }
 
     #[test]
-    fn values_on_a_line_get_a_band_that_follows_them() {
+    fn values_on_a_line_get_an_interval_that_follows_them() {
         let series = happened(&[1.1, 1.15, 1.2, 1.25]);
-        let band = series.band();
-        assert_eq!(band.basis, Basis::Converging);
-        assert!((band.order.unwrap() - 1.0).abs() < 0.05, "{band:?}");
-        let weights = Kind::Speed.weights();
+        let interval = series.interval();
+        assert_eq!(interval.basis, Basis::Converging);
+        assert!((interval.order.unwrap() - 1.0).abs() < 0.05, "{interval:?}");
+        let weights = QuantityKind::Speed.weights();
         // Without scatter what is left is what scenes at large have.
         let around = 1.1 * (weights.across / 3.0).hypot(weights.way / 20.0);
         let floor = 1.1 * FLOOR_SHARE;
         // The limit is 1.0.
         let low = 1.1 - 0.1 * weights.trend - around - floor;
         let high = 1.1 + weights.against * around + floor;
-        let ends = [band.low.unwrap() - low, band.high.unwrap() - high];
-        assert!(ends.iter().all(|off| off.abs() < 1e-12), "{band:?}");
-        assert!(band.low.unwrap() < 1.0, "{band:?}");
+        let ends = [interval.low.unwrap() - low, interval.high.unwrap() - high];
+        assert!(ends.iter().all(|off| off.abs() < 1e-12), "{interval:?}");
+        assert!(interval.low.unwrap() < 1.0, "{interval:?}");
     }
 
     #[test]
-    fn finer_cells_and_longer_ways_make_narrower_bands() {
-        let width = |cells: f64, way_m: f64, kind: Kind| {
+    fn finer_cells_and_longer_ways_make_narrower_intervals() {
+        let width = |cells: f64, way_m: f64, kind: QuantityKind| {
             let values = [1.0 + cells, 1.0 + 1.75 * cells, 1.0 + 2.5 * cells];
             let places = [0.01, 0.0175, 0.025].map(|size| cells * size);
             let places = places.into_iter().zip(values.map(Some)).collect();
-            let scale = Scale {
+            let scale = ErrorScale {
                 across_m: 0.03,
                 way_m,
             };
             half_width(
-                &Series {
+                &GridSeries {
                     kind,
                     scale,
                     places,
-                    softer: None,
+                    reduced_stiffness: None,
                 }
-                .band(),
+                .interval(),
             )
         };
         for kind in [
-            Kind::Moment,
-            Kind::Stop,
-            Kind::Speed,
-            Kind::Length,
-            Kind::Reach,
+            QuantityKind::Moment,
+            QuantityKind::Stop,
+            QuantityKind::Speed,
+            QuantityKind::Length,
+            QuantityKind::Reach,
         ] {
             assert!(
                 width(0.5, 0.2, kind) < 0.8 * width(1.0, 0.2, kind),
                 "{kind:?}"
             );
         }
-        assert!(width(1.0, 0.4, Kind::Speed) < width(1.0, 0.2, Kind::Speed));
-        assert!(width(1.0, 0.4, Kind::Across) > width(1.0, 0.2, Kind::Across));
+        assert!(width(1.0, 0.4, QuantityKind::Speed) < width(1.0, 0.2, QuantityKind::Speed));
+        assert!(width(1.0, 0.4, QuantityKind::Across) > width(1.0, 0.2, QuantityKind::Across));
         // Less than a cell of way is no less certain than a cell, and none at all has an end.
-        assert_eq!(width(1.0, 0.0, Kind::Speed), width(1.0, 0.01, Kind::Speed));
-    }
-
-    #[test]
-    fn values_that_turn_get_a_wide_band_and_no_order() {
-        let band = happened(&[1.1, 1.2, 1.1, 1.2]).band();
-        assert_eq!((band.basis, band.order), (Basis::Scattered, None));
-        assert!(half_width(&band) > 0.1, "{band:?}");
-    }
-
-    #[test]
-    fn values_that_are_all_the_same_keep_the_smallest_band() {
-        let band = happened(&[1.0; 4]).band();
-        assert_eq!(band.basis, Basis::Same);
-        assert!((half_width(&band) - FLOOR_SHARE).abs() < 1e-12, "{band:?}");
-        let mut of_length = happened(&[1.0; 4]);
-        of_length.kind = Kind::Along;
-        let band = of_length.band();
-        assert!(
-            (half_width(&band) - 0.01 * FLOOR_CELLS).abs() < 1e-12,
-            "{band:?}"
+        assert_eq!(
+            width(1.0, 0.0, QuantityKind::Speed),
+            width(1.0, 0.01, QuantityKind::Speed)
         );
     }
 
     #[test]
-    fn one_companion_makes_a_wide_band_and_none_makes_none() {
-        let one = happened(&[1.0, 1.1]).band();
-        assert_eq!(one.basis, Basis::OneCompanion);
+    fn values_that_turn_get_a_wide_band_and_no_order() {
+        let interval = happened(&[1.1, 1.2, 1.1, 1.2]).interval();
+        assert_eq!((interval.basis, interval.order), (Basis::Scattered, None));
+        assert!(half_width(&interval) > 0.1, "{interval:?}");
+    }
+
+    #[test]
+    fn values_that_are_all_the_same_keep_the_smallest_interval() {
+        let interval = happened(&[1.0; 4]).interval();
+        assert_eq!(interval.basis, Basis::Same);
+        assert!(
+            (half_width(&interval) - FLOOR_SHARE).abs() < 1e-12,
+            "{interval:?}"
+        );
+        let mut of_length = happened(&[1.0; 4]);
+        of_length.kind = QuantityKind::Along;
+        let interval = of_length.interval();
+        assert!(
+            (half_width(&interval) - 0.01 * FLOOR_CELLS).abs() < 1e-12,
+            "{interval:?}"
+        );
+    }
+
+    #[test]
+    fn one_refinement_run_makes_a_wide_interval_and_none_makes_none() {
+        let one = happened(&[1.0, 1.1]).interval();
+        assert_eq!(one.basis, Basis::OneRefinementRun);
         assert!(half_width(&one) > 0.3, "{one:?}");
-        let none = happened(&[1.0]).band();
+        let none = happened(&[1.0]).interval();
         assert_eq!(
             (none.basis, none.low, none.high),
             (Basis::Nothing, None, None)
@@ -347,37 +362,39 @@ mod tests {
 
     #[test]
     fn what_happened_in_some_runs_only_has_no_upper_end() {
-        let answer_moves_on = series(&[None, Some(1.0), Some(1.2)]).band();
+        let answer_moves_on = series(&[None, Some(1.0), Some(1.2)]).interval();
         assert_eq!(answer_moves_on.basis, Basis::SometimesHappened);
         assert_eq!((answer_moves_on.value, answer_moves_on.high), (None, None));
         assert!(answer_moves_on.low.unwrap() < 1.0);
-        let companion_moves_on = series(&[Some(1.0), None, Some(1.2)]).band();
-        assert_eq!(companion_moves_on.value, Some(1.0));
-        assert_eq!(companion_moves_on.high, None);
-        let never = series(&[None; 3]).band();
+        let coarser_moves_on = series(&[Some(1.0), None, Some(1.2)]).interval();
+        assert_eq!(coarser_moves_on.value, Some(1.0));
+        assert_eq!(coarser_moves_on.high, None);
+        let never = series(&[None; 3]).interval();
         assert_eq!((never.basis, never.low), (Basis::NeverHappened, None));
     }
 
     #[test]
     fn softness_widens_the_band_as_an_error_of_its_own() {
         let mut values = happened(&[1.1, 1.15, 1.2, 1.25]);
-        let before = values.band();
-        let around = |band: &Band| 1.1 - 0.1 * values.kind.weights().trend - band.low.unwrap();
+        let before = values.interval();
+        let around = |interval: &UncertaintyInterval| {
+            1.1 - 0.1 * values.kind.weights().trend - interval.low.unwrap()
+        };
         let around_before = around(&before) - 1.1 * FLOOR_SHARE;
-        let mut softer = values.clone();
-        softer.softer = Some([Some(1.3), Some(1.2)]);
-        let around_after = around(&softer.band()) - 1.1 * FLOOR_SHARE;
+        let mut reduced_stiffness = values.clone();
+        reduced_stiffness.reduced_stiffness = Some([Some(1.3), Some(1.2)]);
+        let around_after = around(&reduced_stiffness.interval()) - 1.1 * FLOOR_SHARE;
         assert!((around_after - around_before.hypot(0.1)).abs() < 1e-12);
-        values.softer = Some([None, Some(1.2)]);
-        assert_eq!(values.band(), before);
+        values.reduced_stiffness = Some([None, Some(1.2)]);
+        assert_eq!(values.interval(), before);
     }
 
     #[test]
-    fn what_cannot_be_negative_has_no_negative_band() {
+    fn what_cannot_be_negative_has_no_negative_interval() {
         let mut values = happened(&[0.1, 0.4, 0.2, 0.6]);
-        assert_eq!(values.band().low, Some(0.0));
-        values.kind = Kind::Along;
+        assert_eq!(values.interval().low, Some(0.0));
+        values.kind = QuantityKind::Along;
         values.scale.way_m = 0.4;
-        assert!(values.band().low.unwrap() < 0.0);
+        assert!(values.interval().low.unwrap() < 0.0);
     }
 }

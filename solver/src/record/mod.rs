@@ -1,9 +1,9 @@
 //! Records of a run: samples of every body, snapshots of the flow, and the outcome.
 //! Serialised, these are the JSON of the service. Definitions: docs/method.md, section 9.
 
-mod bars;
 mod bed;
 mod energy;
+mod error_bars;
 mod means;
 mod mode;
 mod motion;
@@ -18,7 +18,10 @@ mod submergence;
 mod turning;
 
 use crate::plan::Plan;
-pub use bars::{AccuracyReport, Band, Basis, BodyBars, FlowBars, Role, RunCost, TargetReport};
+pub use error_bars::{
+    AccuracyReport, Basis, BodyErrorBars, FlowErrorBars, Role, RunCost, TargetReport,
+    UncertaintyInterval,
+};
 pub use recorder::Recorder;
 pub use rest::EndedEarly;
 use serde::{Deserialize, Serialize};
@@ -129,8 +132,8 @@ pub struct BodyOutcome {
     pub final_position_m: [f64; 3],
     /// Orientation at the end [w, x, y, z].
     pub final_orientation: [f64; 4],
-    /// Bands of all but the orientation; `None` unless asked for.
-    pub error_bars: Option<BodyBars>,
+    /// Uncertainty intervals of all but the orientation; `None` unless asked for.
+    pub error_bars: Option<BodyErrorBars>,
     /// Mass and resistance to turning.
     pub mass_properties: MassProperties,
     /// Balance of its energy; null if no load moves it.
@@ -191,8 +194,8 @@ pub struct FlowOutcome {
     pub outflow_mass_kg: f64,
     /// Volume of the release not placed because a body stands there [m³].
     pub excluded_volume_m3: f64,
-    /// Bands of all but the volume left out; `None` unless asked for.
-    pub error_bars: Option<FlowBars>,
+    /// Uncertainty intervals of all but the volume left out; `None` unless asked for.
+    pub error_bars: Option<FlowErrorBars>,
 }
 
 /// Conservation audit of a run, which says how far it can be trusted.
@@ -257,12 +260,12 @@ pub struct Outcome {
     pub flow: FlowOutcome,
     /// Conservation audit, which says how far to trust it.
     pub conservation: Conservation,
-    /// Cost, runs behind bands apart.
+    /// Cost, runs behind intervals apart.
     pub cost: Cost,
     /// That the run ended before its duration; null if it did not.
     pub ended_early: Option<EndedEarly>,
     /// Plan made before the run: what was computed, what was left out and why.
     pub plan: Option<Plan>,
-    /// Basis of the bands; `None` unless asked for.
+    /// Basis of the intervals; `None` unless asked for.
     pub accuracy: Option<AccuracyReport>,
 }

@@ -7,7 +7,7 @@ use super::rest::{Base, EndedEarly, Remaining, body_bound, front_rests};
 use super::sampling::Sampling;
 use super::scale::Scale;
 use super::snapshots::Snapshots;
-use super::{Conservation, BodyOutcome, Cost, FlowSnapshot, Outcome, Record, Sample};
+use super::{BodyOutcome, Conservation, Cost, FlowSnapshot, Outcome, Record, Sample};
 use crate::plan::{self, Plan};
 use crate::rigid::Body;
 use crate::scenario::{Ending, Scenario};

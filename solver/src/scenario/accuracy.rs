@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 /// Demands on the answer's accuracy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
-    /// Every quantity of the outcome gets a band (docs/error-bars.md).
+    /// Every quantity of the outcome gets a interval (docs/error-bars.md).
     pub error_bars: bool,
-    /// Distance that the band of `quantity` may reach from its value, over it; to be met
+    /// Distance that the interval of `quantity` may reach from its value, over it; to be met
     /// by the choice of cells; `None`: the cells are those of `numerics`.
     pub target: Option<f64>,
     /// The quantity that `target` is about.
@@ -112,7 +112,7 @@ pub(super) fn read_accuracy(parent: &Object<'_>) -> Option<Accuracy> {
     })
 }
 
-/// Bands come from coarser runs of a flow.
+/// Uncertainty intervals come from coarser runs of a flow.
 pub(super) fn bands_can_be_made(report: &Report, accuracy: &Accuracy, flow: Option<&Flow>) {
     if flow.is_some_and(|flow| flow.volume_m3 > 0.0) {
         return;

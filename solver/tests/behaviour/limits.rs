@@ -59,7 +59,10 @@ fn a_flow_may_leave_altogether() {
         .lasting(1.5);
     let simulation = scene.finished();
     assert_eq!(simulation.time_s(), 1.5);
-    assert_eq!(simulation.audit().points_outflow, simulation.released_points());
+    assert_eq!(
+        simulation.audit().points_outflow,
+        simulation.released_points()
+    );
     assert!(simulation.audit().mass_error < 1e-12);
 }
 

@@ -103,7 +103,7 @@ fn if_asked<T>(
 impl Report {
     fn measured(effort: Effort, only: &[Measurement]) -> Result<Self, Failure> {
         use Measurement::{
-            Bodies, Channel, Forecast, Heaps, Plan, Roofline, S200k, Size, Threads, Stages,
+            Bodies, Channel, Forecast, Heaps, Plan, Roofline, S200k, Size, Stages, Threads,
         };
         Ok(Self {
             solver_version: VERSION,

@@ -63,11 +63,11 @@ fn tables(report: &Report) -> String {
     if report.cases.is_empty() {
         return text;
     }
-    text.push_str("\n\n| case | | passed | missed | reported |\n|---|---|---|---|---|\n");
+    text.push_str("\n\n| case | | passed | failed | reported |\n|---|---|---|---|---|\n");
     for Verified { case, found } in &report.cases {
         let count = found.count();
         let counts = match case.how {
-            How::Runs(_) => [count.passed, count.missed, count.reported].map(|n| n.to_string()),
+            How::Runs(_) => [count.passed, count.failed, count.reported].map(|n| n.to_string()),
             How::NotYet(_) => [NOTHING; 3].map(str::to_owned),
         };
         let cells = counts.join(" | ");
@@ -97,8 +97,8 @@ fn section(Verified { case, found }: &Verified) -> String {
     );
     for finding in &found.values {
         let mut cells = row(finding);
-        if cells[9] == "MISS" {
-            cells[9] = "**MISS**".to_owned();
+        if cells[9] == "FAIL" {
+            cells[9] = "**FAIL**".to_owned();
         }
         let cells = cells.map(|cell| cell.replace('|', "\\|"));
         let _ = writeln!(text, "| {} |", cells.join(" | "));

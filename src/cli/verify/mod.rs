@@ -39,7 +39,7 @@ struct Report {
 /// Runs the cases asked for and prints what was found.
 ///
 /// # Errors
-/// A case that is not there, or one that missed its bar.
+/// A case that is not there, or one that failed its tolerance.
 pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     let effort = if options.full {
         Effort::Full
@@ -86,9 +86,9 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     if let Some(page) = &page {
         page.write(&report)?;
     }
-    match report.missed() {
+    match report.failed() {
         0 => Ok(()),
-        missed => Err(Failure::Missed(missed)),
+        failed => Err(Failure::Missed(failed)),
     }
 }
 
@@ -143,13 +143,13 @@ impl Asked {
 }
 
 impl Report {
-    /// Bars missed, hard cases that broke something, and of sweeps the failures and what
+    /// Tolerances failed, hard cases that broke something, and of sweeps the failures and what
     /// was not run.
-    fn missed(&self) -> usize {
+    fn failed(&self) -> usize {
         let broken = self.hard.iter().filter(|tried| !tried.is_sound()).count();
         let of_sweep = |swept: &Swept| swept.failures.len() + swept.not_run() as usize;
         let of_sweeps: usize = self.sweeps.iter().map(of_sweep).sum();
-        self.count.missed + broken + of_sweeps
+        self.count.failed + broken + of_sweeps
     }
 
     /// Version, machine and effort.
@@ -166,13 +166,13 @@ impl Report {
     fn ending(&self) -> String {
         let Count {
             passed,
-            missed,
+            failed,
             reported,
         } = self.count;
         let not_yet = |one: &&Verified| matches!(one.case.how, How::NotYet(_));
         let not_yet = self.cases.iter().filter(not_yet).count();
         format!(
-            "{passed} passed, {missed} missed, {reported} reported only; \
+            "{passed} passed, {failed} failed, {reported} reported only; \
              cases not yet expressible: {not_yet}"
         )
     }
@@ -193,7 +193,7 @@ impl Report {
 /// A case for people.
 fn page(Verified { case, found }: &Verified) -> String {
     let mut text = format!(
-        "{} {}: {}\n  oracle: {}\n",
+        "{} {}: {}\n  reference: {}\n",
         case.number, case.name, case.title, case.source
     );
     if let How::NotYet(why) = case.how {
@@ -204,10 +204,10 @@ fn page(Verified { case, found }: &Verified) -> String {
         "quantity",
         "resolution",
         "measured",
-        "oracle",
+        "reference",
         "unit",
         "error",
-        "bar",
+        "tolerance",
         "wall [s]",
         "M point-steps/s",
         "verdict",
@@ -239,10 +239,10 @@ fn row(finding: &Finding) -> [String; 10] {
         question.quantity.clone(),
         finding.resolution.label.clone(),
         optional(finding.measured, number),
-        number(question.oracle),
+        number(question.reference),
         question.unit.to_owned(),
         optional(finding.measured_error, |error| format!("{error:+.1e}")) + &of,
-        optional(question.bar, |bar| format!("{bar:.1e}")),
+        optional(question.tolerance, |tolerance| format!("{tolerance:.1e}")),
         format!("{:.2}", finding.cost.wall_s),
         optional(finding.cost.point_steps_per_s, millions),
         word(finding.verdict).to_owned(),
@@ -270,7 +270,7 @@ fn number(value: f64) -> String {
 fn word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Pass => "pass",
-        Verdict::Miss => "MISS",
+        Verdict::Fail => "FAIL",
         Verdict::Report => "report",
     }
 }
@@ -344,7 +344,7 @@ mod tests {
 
     // Once a seed without a legal draw was passed over in silence.
     #[test]
-    fn a_sweep_that_ran_less_than_asked_has_missed() {
+    fn a_sweep_that_ran_less_than_asked_fails() {
         let swept = |run: u64| Report {
             solver_version: VERSION,
             machine: Machine::here(),
@@ -358,9 +358,9 @@ mod tests {
                 ..Swept::default()
             }],
         };
-        assert_eq!(swept(10).missed(), 0);
+        assert_eq!(swept(10).failed(), 0);
         assert!(!swept(10).tables().contains("NOT RUN"));
-        assert_eq!(swept(8).missed(), 2);
+        assert_eq!(swept(8).failed(), 2);
         let text = swept(8).tables();
         assert!(text.contains("2 of 10 NOT RUN"), "{text}");
     }

@@ -1,4 +1,4 @@
-//! Accuracy: what is asked of an answer, and the bands that come with it.
+//! Accuracy: what is asked of an answer, and the intervals that come with it.
 
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -8,10 +8,10 @@ use utoipa::ToSchema;
 #[serde(deny_unknown_fields)]
 #[schema(as = Accuracy)]
 pub struct AccuracyDocument {
-    /// Every quantity of the outcome gets a band.
+    /// Every quantity of the outcome gets a interval.
     #[schema(required = false)]
     pub error_bars: bool,
-    /// Distance that the band of `quantity` may reach from its value, over it; to be met by
+    /// Distance that the interval of `quantity` may reach from its value, over it; to be met by
     /// the choice of cells; null: the cells are those of `numerics`.
     pub target: Option<f64>,
     /// The quantity that `target` is about.
@@ -54,10 +54,10 @@ pub enum QuantityDocument {
     Runout,
 }
 
-/// A quantity with the band in which its value without cells is expected.
+/// A quantity with the interval in which its value without cells is expected.
 #[derive(Debug, Serialize, ToSchema)]
-#[schema(as = Band)]
-pub struct BandDocument {
+#[schema(as = UncertaintyInterval)]
+pub struct UncertaintyIntervalDocument {
     /// The value of the answer, as it stands beside; null if it did not happen.
     #[schema(required = true)]
     pub value: Option<f64>,
@@ -70,23 +70,23 @@ pub struct BandDocument {
     /// Order at which the values were seen to converge; null if they don't.
     #[schema(required = true)]
     pub order: Option<f64>,
-    /// Basis of the band.
+    /// Basis of the interval.
     pub basis: BasisDocument,
 }
 
-/// Basis of a band.
+/// Basis of a interval.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Basis)]
 pub enum BasisDocument {
     /// Values that converge at a plausible order.
     Converging,
-    /// Values that turn, scatter, or change more with finer cells: a wide band.
+    /// Values that turn, scatter, or change more with finer cells: a wide interval.
     Scattered,
     /// The same value in all runs.
     Same,
-    /// One coarser run alone, so no order: a wide band.
-    OneCompanion,
+    /// One coarser run alone, so no order: a wide interval.
+    OneRefinementRun,
     /// It happened in none of the runs.
     NeverHappened,
     /// It happened in some of the runs only: there is no upper end.
@@ -95,40 +95,40 @@ pub enum BasisDocument {
     Nothing,
 }
 
-/// Bands of a body's quantities, under the keys of its outcome.
+/// Uncertainty intervals of a body's quantities, under the keys of its outcome.
 #[derive(Debug, Serialize, ToSchema)]
-#[schema(as = BodyBars)]
-pub struct BodyBarsDocument {
+#[schema(as = BodyErrorBars)]
+pub struct BodyErrorBarsDocument {
     /// Of `onset_time_s`.
-    pub onset_time_s: BandDocument,
+    pub onset_time_s: UncertaintyIntervalDocument,
     /// Of `peak_speed_m_s`.
-    pub peak_speed_m_s: BandDocument,
+    pub peak_speed_m_s: UncertaintyIntervalDocument,
     /// Of `peak_speed_time_s`.
-    pub peak_speed_time_s: BandDocument,
+    pub peak_speed_time_s: UncertaintyIntervalDocument,
     /// Of `stop_time_s`.
-    pub stop_time_s: BandDocument,
+    pub stop_time_s: UncertaintyIntervalDocument,
     /// Of `displacement_m`.
-    pub displacement_m: BandDocument,
+    pub displacement_m: UncertaintyIntervalDocument,
     /// Of `path_length_m`.
-    pub path_length_m: BandDocument,
+    pub path_length_m: UncertaintyIntervalDocument,
     /// Of each component of `final_position_m`.
     #[schema(min_items = 3, max_items = 3)]
-    pub final_position_m: Vec<BandDocument>,
+    pub final_position_m: Vec<UncertaintyIntervalDocument>,
 }
 
-/// Bands of the flow's quantities, under the keys of its outcome.
+/// Uncertainty intervals of the flow's quantities, under the keys of its outcome.
 #[derive(Debug, Serialize, ToSchema)]
-#[schema(as = FlowBars)]
-pub struct FlowBarsDocument {
+#[schema(as = FlowErrorBars)]
+pub struct FlowErrorBarsDocument {
     /// Of `front_m`.
-    pub front_m: BandDocument,
+    pub front_m: UncertaintyIntervalDocument,
     /// Of `runout_m`.
-    pub runout_m: BandDocument,
+    pub runout_m: UncertaintyIntervalDocument,
     /// Of `outflow_mass_kg`.
-    pub outflow_mass_kg: BandDocument,
+    pub outflow_mass_kg: UncertaintyIntervalDocument,
 }
 
-/// The runs behind the bands, and whether a target was met.
+/// The runs behind the intervals, and whether a target was met.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = AccuracyReport)]
 pub struct AccuracyReportDocument {
@@ -145,7 +145,7 @@ pub struct AccuracyReportDocument {
     pub target: Option<TargetReportDocument>,
 }
 
-/// One of the runs behind a band.
+/// One of the runs behind a interval.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = RunCost)]
 pub struct RunCostDocument {
@@ -176,8 +176,8 @@ pub struct RunCostDocument {
 pub enum RoleDocument {
     /// Larger cells than the answer's.
     Coarser,
-    /// A softer material, at the cell size of a coarser run.
-    Softer,
+    /// A material of reduced stiffness, at the cell size of a coarser run.
+    ReducedStiffness,
     /// The answer.
     Answer,
 }
@@ -191,9 +191,9 @@ pub struct TargetReportDocument {
     /// Index of the body whose quantity that is; null for the flow's.
     #[schema(required = true)]
     pub body: Option<u32>,
-    /// Distance that the band may reach from the value, over it, as asked.
+    /// Distance that the interval may reach from the value, over it, as asked.
     pub asked: f64,
-    /// The same, as reached; null if the band has an open end or the value is 0.
+    /// The same, as reached; null if the interval has an open end or the value is 0.
     #[schema(required = true)]
     pub reached: Option<f64>,
     /// True if it is no more than asked.

@@ -1,7 +1,7 @@
 //! The outcome.
 
 use super::plan::PlanDocument;
-use super::{AccuracyReportDocument, BodyBarsDocument, FlowBarsDocument};
+use super::{AccuracyReportDocument, BodyErrorBarsDocument, FlowErrorBarsDocument};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -15,7 +15,7 @@ pub struct OutcomeDocument {
     pub flow: FlowOutcomeDocument,
     /// Checks that tell whether to trust it.
     pub conservation: ConservationDocument,
-    /// Cost of the run, runs behind bands apart.
+    /// Cost of the run, runs behind intervals apart.
     pub cost: CostDocument,
     /// That the run ended before its duration; null if it did not.
     #[schema(required = true)]
@@ -23,7 +23,7 @@ pub struct OutcomeDocument {
     /// Plan of the run: computed and left out, as decided before it.
     #[schema(required = true)]
     pub plan: Option<PlanDocument>,
-    /// Runs that the bands rest on; null unless asked for.
+    /// Runs that the intervals rest on; null unless asked for.
     #[schema(required = true)]
     pub accuracy: Option<AccuracyReportDocument>,
 }
@@ -70,9 +70,9 @@ pub struct BodyOutcomeDocument {
     pub final_position_m: [f64; 3],
     /// Orientation at the end [w, x, y, z].
     pub final_orientation: [f64; 4],
-    /// Bands of all but the orientation; null unless asked for.
+    /// Uncertainty intervals of all but the orientation; null unless asked for.
     #[schema(required = true)]
-    pub error_bars: Option<BodyBarsDocument>,
+    pub error_bars: Option<BodyErrorBarsDocument>,
     /// Mass, and resistance to turning.
     pub mass_properties: MassPropertiesDocument,
     /// Balance of its energy; null if no load moves it.
@@ -138,9 +138,9 @@ pub struct FlowOutcomeDocument {
     pub outflow_mass_kg: f64,
     /// Volume of the release not placed because a body stands there [m³].
     pub excluded_volume_m3: f64,
-    /// Bands of all but the volume left out; null unless asked for.
+    /// Uncertainty intervals of all but the volume left out; null unless asked for.
     #[schema(required = true)]
-    pub error_bars: Option<FlowBarsDocument>,
+    pub error_bars: Option<FlowErrorBarsDocument>,
 }
 
 /// Checks that tell whether the run can be trusted.

@@ -97,8 +97,8 @@ pub enum ShareDocument {
 
 /// A run behind error bars, before it is made.
 #[derive(Debug, Serialize, ToSchema)]
-#[schema(as = PlannedCompanion)]
-pub struct PlannedCompanionDocument {
+#[schema(as = PlannedRefinementRun)]
+pub struct PlannedRefinementRunDocument {
     /// Purpose.
     pub role: RoleDocument,
     /// Cell size [m].

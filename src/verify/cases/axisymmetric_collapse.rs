@@ -6,7 +6,7 @@
 //! (R∞ − R0)/R0 = 1.24 a for a < 1.7, 1.6 √a above (Lube, Huppert, Sparks &
 //! Hallworth 2004),
 //!
-//! which is quoted from memory: a guide within ±20 %, without a bar. A quarter of
+//! which is quoted from memory: a guide within ±20 %, without a tolerance. A quarter of
 //! the column stands in the corner of back wall and one side, the mirrors of the
 //! rest; the other side is beyond reach. Rest and front are those of the plane column;
 //! so is the sand, since theirs rested at about its angle. Beads are shown beside at

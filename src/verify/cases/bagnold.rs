@@ -4,7 +4,7 @@
 //! μ(I)): see `slope.rs`. h = 20 mm, d = 0.53 mm; steady between 20.91° and 32.78°.
 //! The layer runs round, four cells long and one wide between smooth sides. It
 //! starts with the exact profile and is asked what it has made of it in two windows
-//! of time, so that a drift shows. Bars: 3 % of surface speed, 3 % of the profile
+//! of time, so that a drift shows. Tolerances: 3 % of surface speed, 3 % of the profile
 //! (root mean square, layers counted by the mass below them), 1 % of the mass
 //! centre's height, all together, since a layer that gets thinner can keep two of
 //! them; and 1 % between the surface speeds of the first two windows, a third of
@@ -13,13 +13,13 @@
 //!
 //! Speed is a hard measure of friction: d ln u/d ln μ = μ/(μ − μ_s) + μ/(μ_2 − μ) is
 //! 20, 10 and 8 at 22, 24 and 26°. So the error of friction that would make that of
-//! the speed is shown too, without a bar.
+//! the speed is shown too, without a tolerance.
 //!
 //! With finer cells or more points per cell the points' unevenness matters less: at
 //! full effort 27 points a cell instead of 8 are shown beside.
 //!
 //! At 20° nothing may flow: what starts at rest stays there, and what starts with
-//! the profile of 24° comes to rest. Bar: the fastest point ends slower than a
+//! the profile of 24° comes to rest. Tolerance: the fastest point ends slower than a
 //! thousandth of √(g h).
 
 use crate::verify::blocks::PER_CELL;
@@ -76,7 +76,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-/// Quantities that are asked of a window, and the bars.
+/// Quantities that are asked of a window, and the tolerances.
 fn quantities(slope: f64, [from, to]: &[f64; 2]) -> [(String, f64); 3] {
     let named = |what: &str| format!("{what}, {slope}°, {from}–{to} s");
     [

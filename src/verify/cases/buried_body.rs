@@ -10,7 +10,7 @@
 //! into what room there is, and the force is averaged over the second half of the run.
 //! What the bed stands off adds: were it a distance s from the cube all round,
 //! F = ρ g (L + 2 s)³; s is given in cells. Beside the force, the weight of the bed
-//! that was left out for the cube. No bar.
+//! that was left out for the cube. No tolerance.
 
 use crate::verify::beads;
 use crate::verify::blocks::{Block, PER_CELL};

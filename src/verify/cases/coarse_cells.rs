@@ -4,16 +4,16 @@
 //! numbers: a solid of twenty faces that rolls off a flatter slope, a cube in the way of a
 //! column that collapses on a flat floor, two cubes of which the first pushes the other.
 //! Every scene is computed at two grid phases, half a cell apart: the incline is longer by
-//! half a cell while all else stays where it is, so the problem is the same. Oracle: the
+//! half a cell while all else stays where it is, so the problem is the same. Reference solution: the
 //! mean of both phases at six cells across the body, with the phases apart as a measure
-//! of how well it is known. Bars, of the mean of both phases at 2, 3 and 4 cells: 10, 5 and
+//! of how well it is known. Tolerances, of the mean of both phases at 2, 3 and 4 cells: 10, 5 and
 //! 2 % of the peak speed, 5, 2 and 1 % of the displacement. The small version has three
-//! cells for an oracle, which is no limit, and so no bars.
+//! cells for an reference solution, which is no limit, and so no tolerances.
 
-use crate::verify::banded::answer;
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::on_all_cores::side_by_side;
 use crate::verify::run::{Answer, Cost, Trouble};
+use crate::verify::with_error_bars::answer;
 use crate::verify::{Case, Effort, How};
 use serde_json::{Value, json};
 
@@ -29,7 +29,7 @@ pub(super) const CASE: Case = Case {
 const QUANTITIES: [(&str, &str); 2] = [("peak speed", "m/s"), ("displacement", "m")];
 /// Cells across a body, and the largest errors of both quantities.
 const CELLS: [(f64, [f64; 2]); 3] = [(2.0, [0.1, 0.05]), (3.0, [0.05, 0.02]), (4.0, [0.02, 0.01])];
-/// Cells across a body for the oracle.
+/// Cells across a body for the reference solution.
 const FINEST: f64 = 6.0;
 /// By how many cells the slope break is shifted against the nodes.
 const PHASES: [f64; 2] = [0.0, 0.5];
@@ -52,16 +52,16 @@ fn run(effort: Effort, findings: &mut Findings) {
     };
     for sized in effort.take(&[icosahedron(), flat(), pushed()], 2) {
         let limit = over_phases(sized, finest);
-        let oracles = limit.as_ref().map_or([f64::NAN; 2], |limit| limit.values.0);
-        for &(cells, bars) in judged {
+        let references = limit.as_ref().map_or([f64::NAN; 2], |limit| limit.values.0);
+        for &(cells, tolerances) in judged {
             let resolution = Resolution::sized(format!("{cells} cells"), 1.0 / cells);
             let questions = [0, 1].map(|place| {
                 let (quantity, unit) = QUANTITIES[place];
                 let name = format!("{quantity}, {}", sized.name);
-                let question = Question::new(name, unit, oracles[place]);
+                let question = Question::new(name, unit, references[place]);
                 match effort {
                     Effort::Quick => question,
-                    Effort::Full => question.within(bars[place]),
+                    Effort::Full => question.within(tolerances[place]),
                 }
             });
             let mean = over_phases(sized, cells).map(|both| both.mean());
@@ -71,7 +71,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-/// How far the phases of the oracle are apart.
+/// How far the phases of the reference solution are apart.
 fn apart(sized: &Sized, finest: f64, limit: Result<Phases, Trouble>, findings: &mut Findings) {
     let questions = QUANTITIES.map(|(quantity, unit)| {
         let name = format!("phases apart, {quantity}, {}", sized.name);

@@ -8,7 +8,7 @@
 //!              = 1.8 a for a < 3, 2.3 a^⅔ above
 //!                (Lajeunesse, Monnerie & Homsy 2005).
 //!
-//! Bar: between the smallest and the largest of these laws at each a. That wide
+//! Tolerance: between the smallest and the largest of these laws at each a. That wide
 //! because channels, grains and the place taken for the front differ. A material
 //! with a friction of 2 has to fall outside, or the band would say nothing.
 //!
@@ -19,7 +19,7 @@
 //! the mirror of its other half, between smooth sides one cell apart, until nothing
 //! is faster than a hundredth of √(g H0). The front leaves 0.1 % of the mass beyond
 //! it; the same with 1 %, and out to where the deposit is one grain thick, shows what
-//! that choice makes. The thin end needs cells: the bar holds from 16 over the
+//! that choice makes. The thin end needs cells: the tolerance holds from 16 over the
 //! column's shorter side on, coarser ones are shown. At a = 2 the published solution
 //! of μ(I) (Lagrée, Staron & Popinet 2011: 4.40) is shown too; its material is
 //! another, closer to the beads.
@@ -38,7 +38,7 @@ pub(super) const CASE: Case = Case {
 };
 
 const ASPECTS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
-/// Cells over the column's shorter side, and from which on the bar holds.
+/// Cells over the column's shorter side, and from which on the tolerance holds.
 const CELLS: [u32; 3] = [8, 16, 32];
 const JUDGED: u32 = 16;
 /// A material that has to fall outside.
@@ -77,7 +77,7 @@ fn at(grains: Grains, aspect: f64, cells: u32, findings: &mut Findings) {
     let mut questions = column.questions(0.5 * (low + high));
     questions[0].error = Error::Absolute;
     if cells >= JUDGED {
-        questions[0].bar = Some(0.5 * (high - low));
+        questions[0].tolerance = Some(0.5 * (high - low));
     }
     let answer = column.answer();
     let published = grains.name == Grains::BEADS.name && aspect == 2.0;

@@ -7,7 +7,7 @@
 //!
 //! Conditions that must hold: until the sand arrives no cube moves sideways by more than
 //! a hundredth of its sphero radius (the upper three sink in to where they are carried);
-//! and momentum is kept to 1e-6, as in case 14. Shown without a bar: how many of the six
+//! and momentum is kept to 1e-6, as in case 14. Shown without a tolerance: how many of the six
 //! are driven on by a tenth of their side or more; the least and the largest way; and the
 //! deepest overlap of two bodies, or of a body and the floor.
 

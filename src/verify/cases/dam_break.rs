@@ -7,12 +7,12 @@
 //! h = (2 c0 − x/t + mt/2)² / (9 g cos θ),  front at 2 c0 t + mt²/2,
 //! c0 = √(g h0 cos θ),  m = g (sin θ − μ cos θ);
 //!
-//! what the dam's break hasn't reached yet moves at u = mt (Coulomb). Bar: 2 % of
+//! what the dam's break hasn't reached yet moves at u = mt (Coulomb). Tolerance: 2 % of
 //! that speed. A material with elasticity has it jump once, by about the lateral
 //! stress over ρ c_P, when the wave from the opened end runs through, since a base
 //! that slips holds nothing more; so the acceleration in the second half of the
-//! time, after the first such wave, has the same bar beside it. The profile is
-//! shown without a bar, since the theory knows neither the friction inside the
+//! time, after the first such wave, has the same tolerance beside it. The profile is
+//! shown without a tolerance, since the theory knows neither the friction inside the
 //! layer nor vertical motion, and a dam is not shallow.
 //!
 //! The slope is a flat floor with gravity inclined. The material sticks to itself

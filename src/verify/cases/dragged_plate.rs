@@ -6,7 +6,7 @@
 //!
 //! F / (½ ρ g w h²) = 6.0–7.1, 11.5–13.7, 20.6–24.7   at μ = 0.4, 0.5, 0.6
 //!
-//! of the bed. The oracle is the middle of the range, the bar its half-width. The plate
+//! of the bed. The reference solution is the middle of the range, the tolerance its half-width. The plate
 //! starts in the bed; the force is the mean from 0.5 h to 0.8 h of travel, at 0.35 √(g h) after
 //! a ramp. w = h, thickness ½ h; friction with the plate 0.4. The bed is 8 h long (where
 //! it ends, it begins again), 6 h wide and 2 h deep: what slides up before the plate starts

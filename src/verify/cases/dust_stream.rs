@@ -19,7 +19,7 @@
 //! The grid slows what only passes by. Were all of the stream stopped within a
 //! distance s of the cube, F = ρ v² (L + 2 s)²: s is given in cells. The spheres of
 //! the points (R_p = 0.31 cells at eight points a cell) make part of it; with a tenth
-//! of their radius the rest shows. No bar.
+//! of their radius the rest shows. No tolerance.
 
 use crate::verify::beads;
 use crate::verify::findings::{Error, Findings, Question, Resolution};

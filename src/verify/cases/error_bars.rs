@@ -1,21 +1,21 @@
-//! Case 18: whether bands hold what they promise.
+//! Case 18: whether intervals hold what they promise.
 //!
 //! Scenes drawn at random (`drawn.rs`): a channel, a release, one or two bodies of some
 //! shape, with everything about them thrown by dice. Each is answered with error bars,
 //! at 2.2 to 3 cells across its body, and computed once more with cells half as large.
-//! Oracle: that finer run. Bar: nine in ten of its values lie inside the bands, quantity
+//! Oracle: that finer run. Bar: nine in ten of its values lie inside the intervals, quantity
 //! by quantity. Forty other scenes served to choose the estimator's numbers; none
 //! of them is judged here. A quantity counts where it happened in the finer
-//! run or in one of those behind the band, and not of bodies that never moved. How wide
-//! the bands are and what they cost is reported beside: wide enough is easy.
+//! run or in one of those behind the interval, and not of bodies that never moved. How wide
+//! the intervals are and what they cost is reported beside: wide enough is easy.
 
-use crate::verify::banded::answer;
 use crate::verify::drawn::{self, Drawn};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::on_all_cores::side_by_side;
 use crate::verify::run::{Answer, Cost, Trouble};
+use crate::verify::with_error_bars::answer;
 use crate::verify::{Case, Effort, How};
-use scree_solver::record::{Band, Basis, BodyBars, BodyOutcome, Outcome};
+use scree_solver::record::{Basis, BodyErrorBars, BodyOutcome, Outcome, UncertaintyInterval};
 use serde_json::{Value, json};
 
 pub(super) const CASE: Case = Case {
@@ -36,7 +36,7 @@ const QUICK: (usize, f64) = (4, 1.6);
 const FINER: f64 = 0.5;
 /// Share of values that may lie outside.
 const OUTSIDE: f64 = 0.1;
-/// Point-steps of companions over those of the answer.
+/// Point-steps of refinement runs over those of the answer.
 const EXTRA_COST: f64 = 0.35;
 /// Quantile of the normal distribution for an interval of 95 %.
 const TWO_SIDED_95: f64 = 1.96;
@@ -45,8 +45,8 @@ const TWO_SIDED_95: f64 = 1.96;
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     value: Option<f64>,
-    band: Option<Band>,
-    /// What the width of its band is to be compared with.
+    interval: Option<UncertaintyInterval>,
+    /// What the width of its interval is to be compared with.
     scale: Option<f64>,
 }
 
@@ -76,20 +76,24 @@ const OF_BODIES: [(&str, OfABody); 9] = [
     ("final_position_m, z", |body| place(body, 2)),
 ];
 
-fn plain(body: &BodyOutcome, value: Option<f64>, band: fn(&BodyBars) -> Band) -> Seen {
+fn plain(
+    body: &BodyOutcome,
+    value: Option<f64>,
+    interval: fn(&BodyErrorBars) -> UncertaintyInterval,
+) -> Seen {
     Seen {
         value,
-        band: body.error_bars.as_ref().map(band),
+        interval: body.error_bars.as_ref().map(interval),
         scale: value,
     }
 }
 
 /// A component of the place where a body ends up, compared with its way.
 fn place(body: &BodyOutcome, axis: usize) -> Seen {
-    let band = |bars: &BodyBars| bars.final_position_m[axis];
+    let interval = |bars: &BodyErrorBars| bars.final_position_m[axis];
     Seen {
         value: Some(body.final_position_m[axis]),
-        band: body.error_bars.as_ref().map(band),
+        interval: body.error_bars.as_ref().map(interval),
         scale: Some(body.displacement_m),
     }
 }
@@ -124,7 +128,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     extra_cost(&trials, findings);
 }
 
-/// An answer with bands, and the finer one.
+/// An answer with intervals, and the finer one.
 #[derive(Debug)]
 struct Pair {
     answer: Outcome,
@@ -145,10 +149,10 @@ fn pair(drawn: &Drawn, coarser: f64) -> Result<Pair, Trouble> {
     })
 }
 
-/// One value of a finer run and the band it should be in.
+/// One value of a finer run and the interval it should be in.
 #[derive(Debug, Clone, Copy)]
 struct Trial {
-    band: Band,
+    interval: UncertaintyInterval,
     finer: Option<f64>,
     /// What the width is to be compared with.
     scale: f64,
@@ -157,20 +161,20 @@ struct Trial {
 impl Trial {
     fn is_inside(&self) -> bool {
         let Some(finer) = self.finer else {
-            return self.band.high.is_none();
+            return self.interval.high.is_none();
         };
-        let Some(low) = self.band.low else {
+        let Some(low) = self.interval.low else {
             return false;
         };
-        finer >= low && self.band.high.is_none_or(|high| finer <= high)
+        finer >= low && self.interval.high.is_none_or(|high| finer <= high)
     }
 
     /// Half the width over the scale; infinite where an end is open.
     fn half_width(&self) -> f64 {
         let width = self
-            .band
+            .interval
             .high
-            .zip(self.band.low)
+            .zip(self.interval.low)
             .map(|(high, low)| high - low);
         width.map_or(f64::INFINITY, |width| 0.5 * width / self.scale)
     }
@@ -190,7 +194,7 @@ fn of_flows(pairs: &[Pair]) -> Vec<Trial> {
         let flow = &pair.answer.flow;
         let seen = Seen {
             value: flow.runout_m,
-            band: flow.error_bars.as_ref().map(|bars| bars.runout_m),
+            interval: flow.error_bars.as_ref().map(|bars| bars.runout_m),
             scale: flow.runout_m,
         };
         trial(seen, pair.finer.flow.runout_m)
@@ -200,16 +204,16 @@ fn of_flows(pairs: &[Pair]) -> Vec<Trial> {
 
 /// Nothing where nothing happened in any of the runs.
 fn trial(seen: Seen, finer: Option<f64>) -> Option<Trial> {
-    let band = seen.band?;
-    let happened = finer.is_some() || band.basis != Basis::NeverHappened;
+    let interval = seen.interval?;
+    let happened = finer.is_some() || interval.basis != Basis::NeverHappened;
     happened.then(|| Trial {
-        band,
+        interval,
         finer,
         scale: seen.scale.map_or(f64::NAN, f64::abs),
     })
 }
 
-/// Whether enough of the values lie inside, and how wide the bands are.
+/// Whether enough of the values lie inside, and how wide the intervals are.
 fn judge(name: &str, trials: &[Trial], findings: &mut Findings) {
     let count = trials.len();
     let inside = trials.iter().filter(|trial| trial.is_inside()).count();
@@ -229,17 +233,17 @@ fn judge(name: &str, trials: &[Trial], findings: &mut Findings) {
     findings.take(&resolution, questions, Ok(answer));
 }
 
-/// How many bands rest on values that converge.
+/// How many intervals rest on values that converge.
 fn converging(trials: &[Trial], findings: &mut Findings) {
     let converge = trials
         .iter()
-        .filter(|trial| trial.band.basis == Basis::Converging);
+        .filter(|trial| trial.interval.basis == Basis::Converging);
     let answer = Answer {
         values: [converge.count() as f64 / trials.len() as f64],
         cost: Cost::default(),
     };
     let question = Question::new("share of converging values", "", 1.0);
-    let resolution = Resolution::named(format!("{} bands", trials.len()));
+    let resolution = Resolution::named(format!("{} intervals", trials.len()));
     findings.take(&resolution, [question.by(Error::Absolute)], Ok(answer));
 }
 
@@ -297,7 +301,7 @@ mod tests {
 
     #[test]
     fn what_did_not_happen_is_inside_only_where_the_band_says_so() {
-        let band = |low, high| Band {
+        let interval = |low, high| UncertaintyInterval {
             value: Some(1.0),
             low,
             high,
@@ -306,7 +310,7 @@ mod tests {
         };
         let inside = |low, high, finer| {
             let trial = Trial {
-                band: band(low, high),
+                interval: interval(low, high),
                 finer,
                 scale: 1.0,
             };
@@ -318,6 +322,6 @@ mod tests {
         assert!(inside(Some(0.9), None, None));
         assert!(inside(Some(0.9), None, Some(7.0)));
         assert!(!inside(Some(0.9), None, Some(0.8)));
-        assert!(!inside(None, None, Some(1.0)), "no band holds nothing");
+        assert!(!inside(None, None, Some(1.0)), "no interval holds nothing");
     }
 }

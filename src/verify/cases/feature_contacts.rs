@@ -8,11 +8,11 @@
 //!
 //! U/U₀ = ((R − √(d² + c²))/δ)^2.5,   F/F₀ = ((R − √(d² + c²))/δ)^1.5,
 //!
-//! 1 on the face, continuous over rim and vertex. Bar: 1e-9.
+//! 1 on the face, continuous over rim and vertex. Tolerance: 1e-9.
 //!
 //! **Colliding.** A cube and a tetrahedron fly at each other at 1 m/s, turned and
 //! turning at random, without damping and friction. Energy, momentum and angular
-//! momentum are what they were (Newton 1687). Bars: 1e-6 of the energy in steps of
+//! momentum are what they were (Newton 1687). Tolerances: 1e-6 of the energy in steps of
 //! 10 µs and less (an impact takes some 3 ms) and as the solver chooses its steps, and
 //! 1e-12 of the momenta at every one. No order is asked for: which contacts
 //! come and go in a tumbling collision depends on the step.

@@ -6,7 +6,7 @@
 //! x(t) = x₀ + v₀ t + ½ g t²,  v(t) = v₀ + g t
 //!
 //! (Galilei 1638). Uniform acceleration strains nothing, so that no stress may
-//! arise, whatever the grid. Bars: rounding. In double precision 1e-12 of the
+//! arise, whatever the grid. Tolerances: rounding. In double precision 1e-12 of the
 //! path; in single 6e-8 per operation, on places of order 1 m over some hundred
 //! steps, 2e-6 in all. The flow's path has an error of its own: symplectic
 //! Euler is ½ g t Δt below the parabola, a bound the path is held to, and of order

@@ -9,7 +9,7 @@
 //! and it rebounds with v. The ball is the rounded vertex of a cube whose diagonal
 //! stands upright, so that the force goes through its centre; the next vertices
 //! stay far from the plane. m 0.0642 kg, R 0.01 m, E* 1e8 Pa, v 1 m/s give
-//! 0.51499 mm, 155.83 N, 1.51573 ms. Bar: 0.1 %, at every step; the
+//! 0.51499 mm, 155.83 N, 1.51573 ms. Tolerance: 0.1 %, at every step; the
 //! rebound also in the steps the solver chooses. Velocity Verlet has order 2;
 //! Hertz's force is smooth enough at δ = 0 for it, almost.
 

@@ -7,7 +7,7 @@
 //!
 //! whatever has settled, since mass is counted by points. It starts in that
 //! state, as compressed as it says, and rings because the grid's own state is
-//! another; stresses are averaged over the second half of the run. Bars: order
+//! another; stresses are averaged over the second half of the run. Tolerances: order
 //! 1.8 in the L2 error of the profile over its value at the bottom; the floor
 //! carries the weight within 1 %.
 //!

@@ -3,7 +3,7 @@
 //! It slides at a = g (sin θ − μ cos θ) where tan θ > μ, sticks where tan θ < μ
 //! (Coulomb 1781), and tips where its weight points past the lowest line it
 //! stands on, the ends of its rounded lower edge: tan θ = (L/2 − r)/(L/2), which
-//! is 43.53 / 41.99 / 38.66° for r = 1 / 2 / 4 mm and L = 40 mm. Bars: 0.1 % of the
+//! is 43.53 / 41.99 / 38.66° for r = 1 / 2 / 4 mm and L = 40 mm. Tolerances: 0.1 % of the
 //! acceleration, once the contacts have settled; 1e-6 m of creep in the 5 s after
 //! the springs have rung out; 0.3°, the angle being found by bisection.
 

@@ -13,7 +13,7 @@
 //! octants π a² r³/3 + π a r⁴/2 + 4/15 π r⁵;
 //!
 //! the moment of inertia is ρ times twice that. The solver integrates any convex
-//! core instead, over its faces, edges and vertices. Bars: 1e-4 against the
+//! core instead, over its faces, edges and vertices. Tolerances: 1e-4 against the
 //! design's table, whose figures have five digits; rounding, 1e-12, against the
 //! closed form.
 //!
@@ -25,7 +25,7 @@
 //!
 //! R solves distance(R u) = r, the distance from the core being that of the
 //! contacts, which knows nothing of Steiner. The midpoint rule on 400 × 800 rays
-//! of a surface without edges is good to about 1e-5; bar 1e-4.
+//! of a surface without edges is good to about 1e-5; tolerance 1e-4.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Cost, Trouble};
@@ -59,10 +59,10 @@ fn run(_: Effort, findings: &mut Findings) {
             ("table", table, 1e-4),
             ("closed form", closed(radius), 1e-12),
         ];
-        for (source, [volume, inertia], bar) in sources {
+        for (source, [volume, inertia], tolerance) in sources {
             let questions = [
-                Question::new(format!("V/L³, {source}"), "", volume).within(bar),
-                Question::new(format!("I/(ρL⁵/6), {source}"), "", inertia).within(bar),
+                Question::new(format!("V/L³, {source}"), "", volume).within(tolerance),
+                Question::new(format!("I/(ρL⁵/6), {source}"), "", inertia).within(tolerance),
             ];
             findings.take(&resolution, questions, measured(radius));
         }

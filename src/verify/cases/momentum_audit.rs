@@ -4,9 +4,9 @@
 //! had at the start, plus every impulse of walls and gravity (Newton 1687):
 //! nothing is lost between points, nodes, body and walls. The residual is that of
 //! the audit, the largest over all steps, over all momentum there is and all
-//! impulses so far, and every step is audited. Bars: 1e-6 in
+//! impulses so far, and every step is audited. Tolerances: 1e-6 in
 //! single, 1e-12 in double precision, for linear momentum; the same is shown of
-//! angular momentum, without a bar.
+//! angular momentum, without a tolerance.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble, scene_of};
@@ -23,14 +23,14 @@ pub(super) const CASE: Case = Case {
 };
 
 fn run(effort: Effort, findings: &mut Findings) {
-    for (precision, bar) in PRECISIONS.into_iter().zip([1e-12, 1e-6]) {
+    for (precision, tolerance) in PRECISIONS.into_iter().zip([1e-12, 1e-6]) {
         for &cells in effort.take(&[2.0, 4.0], 1) {
             let zero = |what: &str| {
                 let quantity = format!("{what} momentum residual, {precision}");
                 Question::new(quantity, "", 0.0).by(Error::Absolute)
             };
             let questions = [
-                zero("linear").within(bar),
+                zero("linear").within(tolerance),
                 zero("angular"),
                 Question::new(format!("steps audited, {precision}"), "", 1.0).within(0.0),
             ];

@@ -5,7 +5,7 @@
 //! cube and everything else staying the same. The stream is four sides wide (it runs
 //! round along the channel, and is mirrored across), and without gravity: its only
 //! stress is what the cube makes. The force is averaged from two to four and from
-//! four to six sides of travel after the first contact, in ρ v² A. No bar.
+//! four to six sides of travel after the first contact, in ρ v² A. No tolerance.
 
 use crate::verify::beads;
 use crate::verify::findings::{Findings, Question, Resolution};
@@ -36,11 +36,11 @@ type Drag = Result<Answer<2>, Trouble>;
 fn run(effort: Effort, findings: &mut Findings) {
     let cells = effort.take(&CELLS, 3);
     let drags: Vec<Drag> = cells.iter().map(|&cells| drag(cells)).collect();
-    let oracles = [0, 1].map(|window| limit(cells, &drags, window));
+    let references = [0, 1].map(|window| limit(cells, &drags, window));
     for (&cells, drag) in cells.iter().zip(drags) {
         let label = format!("{cells} cells a side");
         let resolution = Resolution::sized(label, SIDE / f64::from(cells));
-        let questions = [0, 1].map(|window| Question::new(NAMES[window], "", oracles[window]));
+        let questions = [0, 1].map(|window| Question::new(NAMES[window], "", references[window]));
         findings.take(&resolution, questions, drag);
     }
     for name in NAMES {

@@ -29,7 +29,7 @@ pub(super) const CASE: Case = Case {
 
 /// Friction of the bed, and σ/(ρ g z).
 const STRESSES: [(f64, f64); 2] = [(0.4, 27.2), (0.6, 94.2)];
-const BAR: f64 = 0.09;
+const TOLERANCE: f64 = 0.09;
 /// Cells over the side of the plate.
 const CELLS: [u32; 3] = [4, 6, 8];
 /// The bed, in sides of the plate.
@@ -46,7 +46,7 @@ fn run(effort: Effort, findings: &mut Findings) {
         for &cells in effort.take(&CELLS, 1) {
             let label = format!("{cells} cells over L");
             let resolution = Resolution::sized(label, SIDE / f64::from(cells));
-            let question = Question::new(&name, "", stress).within(BAR);
+            let question = Question::new(&name, "", stress).within(TOLERANCE);
             findings.take(&resolution, [question], press(friction, stress, cells));
         }
         findings.take_limit(&name);

@@ -3,7 +3,7 @@
 //! A body that falls on one vertex below its centre leaves with e times the speed
 //! it came with: that is what the damping number of the contact law is solved
 //! for. The same is asked of a fall on an edge and on a face, where two and four
-//! vertices touch at a time and share the mass they stop. Bar: 2 % of e.
+//! vertices touch at a time and share the mass they stop. Tolerance: 2 % of e.
 
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::run::{Answer, Run, Trouble};

@@ -7,7 +7,7 @@
 //! cylinder. At 40° all of them hop as well, so the wheel says by what law, not by how much,
 //! and that only once many edges have struck: six on 0.8 m are a matter of chance.
 //!
-//! Bars: what nothing accounts for (38a), a thousandth of the energy that gravity gave;
+//! Tolerances: what nothing accounts for (38a), a thousandth of the energy that gravity gave;
 //! acceleration and kinetic energy of 32 sides, a tenth below the cylinder's. The order in 1/n
 //! is shown.
 
@@ -48,10 +48,10 @@ fn run(_: Effort, findings: &mut Findings) {
     let sin = ANGLE.to_radians().sin();
     for sides in SIDES {
         let rounded = sides == SIDES[SIDES.len() - 1];
-        let bar = rounded.then_some(0.1);
+        let tolerance = rounded.then_some(0.1);
         let questions = [
             Question {
-                bar,
+                tolerance,
                 ..Question::new(
                     "acceleration, mean over the way",
                     "m/s²",
@@ -59,7 +59,7 @@ fn run(_: Effort, findings: &mut Findings) {
                 )
             },
             Question {
-                bar,
+                tolerance,
                 ..Question::new("kinetic energy over what gravity gave", "", 1.0)
             },
             Question::new("taken by contacts, over what gravity gave", "", 0.0).by(Error::Absolute),

@@ -10,7 +10,7 @@
 //! on average over its ringing. It is a test of the frozen grid: a step turns the
 //! block while its weights stand still. The kernel spreads every point's mass by
 //! h²/4 per axis, which adds to ⟨r²⟩: ε is too large by an error of order 2 in the
-//! cell size. Bars: rounding, 1e-12, for the angular
+//! cell size. Tolerances: rounding, 1e-12, for the angular
 //! momentum (the forces on displaced nodes are free of torque); the spin's own
 //! stretch ε for the volume; 1e-3 of the kinetic energy for its rise.
 

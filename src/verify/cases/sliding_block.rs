@@ -6,7 +6,7 @@
 //!
 //! (Coulomb 1781). Nodes lie on no plane of the incline, so that this is a test
 //! of the wall between nodes. Two materials don't yield: the granular law with a
-//! friction of 10, in both precisions, and the elastic test law, in double. Bar:
+//! friction of 10, in both precisions, and the elastic test law, in double. Tolerance:
 //! 1 % of g at every angle. The speed is taken between two times after the start,
 //! so far apart that the block's own ringing averages out.
 

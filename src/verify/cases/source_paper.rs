@@ -5,15 +5,15 @@
 //! and comes to rest (Ji, Liang & Choi, figure 7). Inclination, volume and
 //! materials are not given; ours were chosen so that these two come close at four
 //! cells per side (docs/source-paper.md), so standing beside them is a comparison
-//! and proves nothing. No bar.
+//! and proves nothing. No tolerance.
 //!
 //! What can be asked is how the answer depends on the computation: where each
 //! quantity goes as cells get finer, beside which every resolution is shown (beside
 //! the finest where they don't settle); and what the two clocks do. Neither the
-//! length of a sub-step nor that of a step is part of the problem. Bar: peak and
+//! length of a sub-step nor that of a step is part of the problem. Tolerance: peak and
 //! displacement change by less than 1 % when either is halved and halved again.
 //! Twice the sound speed, and Drucker–Prager's law instead of μ(I), change the
-//! problem; what they do is shown without a bar.
+//! problem; what they do is shown without a tolerance.
 
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::limit::limit_or_finest;
@@ -40,9 +40,9 @@ type Motion = Result<Answer<4>, Trouble>;
 fn run(effort: Effort, findings: &mut Findings) {
     let cells = effort.take(&CELLS, 3);
     let motions: Vec<Motion> = cells.iter().map(|&cells| motion(&scene(cells))).collect();
-    let oracles = limits(cells, &motions);
+    let references = limits(cells, &motions);
     for (&cells, motion) in cells.iter().zip(motions) {
-        resolved(cells, &oracles, motion, findings);
+        resolved(cells, &references, motion, findings);
     }
     for (name, _) in QUANTITIES {
         findings.take_limit(name);
@@ -66,7 +66,7 @@ fn limits(cells: &[f64], motions: &[Motion]) -> [f64; 4] {
     })
 }
 
-fn resolved(cells: f64, oracles: &[f64; 4], motion: Motion, findings: &mut Findings) {
+fn resolved(cells: f64, references: &[f64; 4], motion: Motion, findings: &mut Findings) {
     let resolution = Resolution::sized(format!("{cells} cells a side"), 1.0 / cells);
     let measured = |place: usize| {
         let (name, unit) = QUANTITIES[place];
@@ -74,7 +74,7 @@ fn resolved(cells: f64, oracles: &[f64; 4], motion: Motion, findings: &mut Findi
     };
     let own = |place: usize| {
         let (name, unit) = QUANTITIES[place];
-        Question::new(name, unit, oracles[place])
+        Question::new(name, unit, references[place])
     };
     let questions = [measured(0), measured(1), own(0), own(1), own(2), own(3)];
     let motion = motion.map(|Answer { values, cost }| {
@@ -87,16 +87,16 @@ fn resolved(cells: f64, oracles: &[f64; 4], motion: Motion, findings: &mut Findi
 
 /// Finds the influences of other things on the cube's motion, against the scene as it is.
 fn influences(cells: f64, findings: &mut Findings) {
-    let oracles = match motion(&scene(cells)) {
+    let references = match motion(&scene(cells)) {
         Ok(answer) => answer.values,
         Err(_) => [f64::NAN; 4],
     };
     let resolution = Resolution::named(format!("{cells} cells a side"));
-    let mut take = |what: &str, bar: Option<f64>, scene: &Value| {
+    let mut take = |what: &str, tolerance: Option<f64>, scene: &Value| {
         let question = |place: usize| {
             let (name, unit) = QUANTITIES[place];
-            let question = Question::new(format!("{name}, {what}"), unit, oracles[place]);
-            bar.map_or(question.clone(), |bar| question.within(bar))
+            let question = Question::new(format!("{name}, {what}"), unit, references[place]);
+            tolerance.map_or(question.clone(), |tolerance| question.within(tolerance))
         };
         let motion = motion(scene).map(|Answer { values, cost }| Answer {
             values: [values[1], values[2]],

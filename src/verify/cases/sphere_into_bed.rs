@@ -5,9 +5,9 @@
 //! d = (0.14/μ) (ρ_b/ρ)^½ D^⅔ H^⅓,
 //!
 //! ρ_b and D the sphere's density and diameter, ρ the bed's, μ its friction at
-//! rest, H the whole drop, d included. Bar: 15 % of each exponent, from three
+//! rest, H the whole drop, d included. Tolerance: 15 % of each exponent, from three
 //! values of each quantity, the others held; H can't be held, so what it does is
-//! taken out with the exponent found for it. The prefactor is shown without a bar.
+//! taken out with the exponent found for it. The prefactor is shown without a tolerance.
 //!
 //! The sphere is a cube whose core has a twenty-fifth of its side. It starts at the
 //! surface, as fast as it would be there. The bed is of glass beads, five diameters

@@ -9,7 +9,7 @@
 //! k² = (I₂ − I₁)(2 E I₃ − M²)/((I₃ − I₂)(M² − 2 E I₁)).
 //!
 //! Twice in a period 4 K(k) the spin about the middle axis changes its sign: the
-//! box flips. Bars: order 1.9 in the step for spin and energy; the angular
+//! box flips. Tolerances: order 1.9 in the step for spin and energy; the angular
 //! momentum to rounding; the flip within 1 % of a period at the finest step. The
 //! end is not at a symmetric instant of the period, where errors cancel.
 //!
@@ -74,7 +74,7 @@ fn run_tumbling(effort: Effort, findings: &mut Findings) {
                 .by(over("periods", top.period())),
         ];
         if Some(&count) == steps.last() {
-            questions[3].bar = Some(0.01);
+            questions[3].tolerance = Some(0.01);
         }
         let step = top.period() / f64::from(count);
         let resolution = Resolution::sized(format!("T/{count}"), step);

@@ -2,7 +2,7 @@
 //!
 //! The layer of case 10 at 24°. Neither the length of a sub-step (`courant`) nor that
 //! of a step (`flow_courant`) is part of the problem; each is varied over a factor of
-//! four. Bar: the surface speed changes by less than 1 % (case 16 asks the same of the
+//! four. Tolerance: the surface speed changes by less than 1 % (case 16 asks the same of the
 //! source paper's cube).
 
 use crate::verify::blocks::PER_CELL;
@@ -44,10 +44,10 @@ fn run(effort: Effort, findings: &mut Findings) {
         duration: window[1],
     };
     let as_chosen = surface(&slope, window[0], |_| {});
-    let oracle = as_chosen.map_or(f64::NAN, |answer| answer.values[0]);
+    let reference = as_chosen.map_or(f64::NAN, |answer| answer.values[0]);
     let resolution = Resolution::named(format!("{cells} cells"));
     for (word, set) in CLOCKS {
-        let question = Question::new(format!("surface speed, {word}"), "m/s", oracle);
+        let question = Question::new(format!("surface speed, {word}"), "m/s", reference);
         let answer = surface(&slope, window[0], set);
         findings.take(&resolution, [question.within(0.01)], answer);
     }

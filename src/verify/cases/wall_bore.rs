@@ -8,7 +8,7 @@
 //!
 //! (r − 1)² (r + 1) = 2 r Fr²,   F = r² · ½ ρ g h² w:
 //!
-//! r = 2.170, 3.494, 4.864 and r² = 4.71, 12.2, 23.7 at Fr = 1, 2, 3. Bar: 5 % of
+//! r = 2.170, 3.494, 4.864 and r² = 4.71, 12.2, 23.7 at Fr = 1, 2, 3. Tolerance: 5 % of
 //! both. Theory knows no vertical motion, which a bore has in its front alone, and the
 //! layer yields by about a hundredth.
 //!

@@ -5,7 +5,7 @@
 //! its length with (1 − I_l/I) ω_l besides. Splitting turns it so exactly; rounding over
 //! some 80,000 sub-steps is left: 3e-14 if it adds up at random. H is 42 times as large
 //! across the length as along it, so a tilt changes the spin along it by 42 times as much,
-//! and over 4,000 rad that comes to 5e-9. Bars: twenty times that for the orientation, 1e-9
+//! and over 4,000 rad that comes to 5e-9. Tolerances: twenty times that for the orientation, 1e-9
 //! for the energy.
 
 use super::{free_box, scene, spinning};
@@ -25,7 +25,7 @@ const ENERGY: f64 = 1e-9;
 
 pub(super) fn run(findings: &mut Findings) {
     let resolution = Resolution::named("own steps");
-    let zero = |quantity, unit, bar| Question::new(quantity, unit, 0.0).within(bar);
+    let zero = |quantity, unit, tolerance| Question::new(quantity, unit, 0.0).within(tolerance);
     let over = |of, size| Error::Over { of, size };
     let start = match body() {
         Ok(body) => body,

@@ -1,7 +1,7 @@
 //! Answers that take several runs.
 
 use crate::app::{TestApp, tiny_scene};
-use scree::jobs::campaign;
+use scree::jobs::convergence_study;
 use scree::jobs::progress::Progress;
 use scree::jobs::runner::{RunEnd, RunError, Sink, StopFlag};
 use scree_solver::record::{Outcome, Record, Role, Sample};
@@ -42,13 +42,13 @@ fn scene(accuracy: Value) -> Scenario {
 
 fn completed(scenario: &Scenario) -> (Outcome, Recording) {
     let mut recording = Recording::default();
-    match campaign::run(scenario, 1, &StopFlag::default(), &mut recording) {
+    match convergence_study::run(scenario, 1, &StopFlag::default(), &mut recording) {
         Ok(RunEnd::Completed(outcome)) => (*outcome, recording),
         other => panic!("{other:?}"),
     }
 }
 
-/// What is left when bands and wall times are taken away.
+/// What is left when intervals and wall times are taken away.
 fn bare(mut outcome: Outcome) -> Outcome {
     outcome.accuracy = None;
     outcome.flow.error_bars = None;
@@ -77,18 +77,18 @@ fn progress_is_that_of_all_runs_together() {
     assert_eq!(recording.told.last(), Some(&1.0));
     assert!(
         recording.told.len() >= 3,
-        "a companion, the softer run, the answer"
+        "a coarser run, the reduced-stiffness run, the answer"
     );
     assert!(recording.told[0] < 0.5, "{:?}", recording.told);
 }
 
 #[test]
-fn a_stop_in_a_companion_ends_everything() {
+fn a_stop_in_a_refinement_run_ends_everything() {
     let stop = StopFlag::default();
     stop.raise();
     let mut recording = Recording::default();
     let scenario = scene(json!({"error_bars": true}));
-    let ended = campaign::run(&scenario, 1, &stop, &mut recording);
+    let ended = convergence_study::run(&scenario, 1, &stop, &mut recording);
     assert_eq!(ended, Ok(RunEnd::Stopped));
     assert!(recording.samples.is_empty(), "the answer was not begun");
 }
@@ -106,7 +106,7 @@ fn a_sink_that_refuses_progress_ends_everything() {
         }
     }
     let scenario = scene(json!({"error_bars": true}));
-    let ended = campaign::run(&scenario, 1, &StopFlag::default(), &mut Shut);
+    let ended = convergence_study::run(&scenario, 1, &StopFlag::default(), &mut Shut);
     assert_eq!(ended, Err(RunError::Sink("shut")));
 }
 

@@ -1,27 +1,27 @@
-//! Answers with bands, computed here.
+//! Answers with intervals, computed here.
 
 use super::run::{Run, Trouble, scenario_of};
-use scree_solver::accuracy::Campaign;
+use scree_solver::accuracy::ConvergenceStudy;
 use scree_solver::record::{Outcome, Recorder};
 use scree_solver::scenario::Scenario;
 use scree_solver::simulation::Scene;
 use serde_json::Value;
 use std::ops::ControlFlow;
 
-/// The answer to a scenario, with the bands it asks for.
+/// The answer to a scenario, with the intervals it asks for.
 ///
 /// # Errors
 /// The scenario is refused, or its answer can't be computed.
 pub(super) fn answer(document: &Value) -> Result<Outcome, Trouble> {
     let scenario = scenario_of(document)?;
-    let mut campaign = Campaign::of(&scenario)?;
-    while let Some(rung) = campaign.next() {
-        match outcome(&campaign.scenario_of(rung)) {
-            Err(error) if !campaign.can_do_without(rung) => return Err(error),
-            outcome => campaign.take(outcome.map_err(|error| error.to_string())),
+    let mut convergence_study = ConvergenceStudy::of(&scenario)?;
+    while let Some(study_run) = convergence_study.next() {
+        match outcome(&convergence_study.scenario_of(study_run)) {
+            Err(error) if !convergence_study.can_do_without(study_run) => return Err(error),
+            outcome => convergence_study.take(outcome.map_err(|error| error.to_string())),
         }
     }
-    let answer = campaign.finish();
+    let answer = convergence_study.finish();
     answer.ok_or(Trouble::Never("none of the runs could be computed"))
 }
 

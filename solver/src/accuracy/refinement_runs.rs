@@ -1,35 +1,35 @@
-//! Which runs stand behind a band (docs/method.md, section 13).
+//! Which runs stand behind a interval (docs/method.md, section 13).
 
 use crate::error::SetupError;
 use crate::record::Role;
 use crate::scenario::{Accuracy, Scenario};
 use crate::simulation::Simulation;
 
-/// A companion's cell size over the answer's, and the range within which one that is done
+/// A refinement run's cell size over the answer's, and the range within which one that is done
 /// already serves as well.
-struct Place {
+struct RefinementRange {
     factor: f64,
     least: f64,
     most: f64,
 }
 
-/// Cells of a companion over those of the answer, at most.
+/// Cells of a refinement run over those of the answer, at most.
 pub(super) const FARTHEST: f64 = 2.7;
-/// Largest cells first: with the softer run together 0.19 of the answer's cost. More of
-/// them make bands no narrower.
-const COARSE: Place = Place {
+/// Largest cells first: with the reduced-stiffness run together 0.19 of the answer's cost. More of
+/// them make intervals no narrower.
+const COARSE: RefinementRange = RefinementRange {
     factor: 2.5,
     least: 2.1,
     most: FARTHEST,
 };
-/// The finer companion, beside which there is a softer run.
-const FINE: Place = Place {
+/// The finer refinement run, beside which there is a reduced-stiffness run.
+const FINE: RefinementRange = RefinementRange {
     factor: 1.75,
     least: 1.45,
     most: 2.1,
 };
-/// Sound speed of the softer run over the answer's: it costs half as much.
-pub(super) const SOFTER: f64 = 0.5;
+/// Sound speed of the reduced-stiffness run over the answer's: it costs half as much.
+pub(super) const STIFFNESS_RATIO: f64 = 0.5;
 /// Cells across the thinnest body, at least.
 const FEWEST_PER_BODY: f64 = 0.75;
 /// Cells across the release, at least.
@@ -37,29 +37,29 @@ const FEWEST_PER_RELEASE: f64 = 1.0;
 
 /// A run to be made.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rung {
+pub struct StudyRun {
     /// What it is for.
     pub role: Role,
     /// Cell size [m].
     pub cell_size_m: f64,
 }
 
-impl Rung {
+impl StudyRun {
     /// Expected point-steps over those of another cell size: points go with the
     /// inverse cube of the cells, sub-steps with the inverse, and with the speed of
     /// sound.
     pub(super) fn cost_over(&self, cell_size_m: f64) -> f64 {
-        let softer = match self.role {
-            Role::Softer => SOFTER,
+        let reduced_stiffness = match self.role {
+            Role::ReducedStiffness => STIFFNESS_RATIO,
             Role::Coarser | Role::Answer => 1.0,
         };
-        softer * (cell_size_m / self.cell_size_m).powi(4)
+        reduced_stiffness * (cell_size_m / self.cell_size_m).powi(4)
     }
 }
 
 /// What of a scene bounds its cells, and what they are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Extent {
+pub(super) struct ResolvedLengths {
     /// Least width of the thinnest body [m]; `None` without bodies.
     pub(super) thinnest_m: Option<f64>,
     /// Thickness of the release, or 0 without a flow [m].
@@ -74,7 +74,7 @@ pub(super) struct Extent {
     pub(super) stiffness_is_given: bool,
 }
 
-impl Extent {
+impl ResolvedLengths {
     pub(super) fn of(scenario: &Scenario) -> Result<Self, SetupError> {
         let (cell_size_m, sound_speed_m_s) = Simulation::resolution(scenario)?;
         let bodies = 0..scenario.bodies.len();
@@ -111,77 +111,83 @@ impl Extent {
     }
 }
 
-/// The companions that an answer needs beside runs that are done, cheap ones first. One
+/// The refinement runs that an answer needs beside runs that are done, cheap ones first. One
 /// with too large cells is left out, but the finer never is.
-pub(super) fn companions(extent: &Extent, done: &[Rung]) -> Vec<Rung> {
-    let coarser = |cell_size_m: f64| Rung {
+pub(super) fn refinement_runs(lengths: &ResolvedLengths, done: &[StudyRun]) -> Vec<StudyRun> {
+    let coarser = |cell_size_m: f64| StudyRun {
         role: Role::Coarser,
         cell_size_m,
     };
-    let mut rungs = Vec::new();
-    let size = COARSE.factor * extent.cell_size_m;
-    if size <= extent.coarsest() && COARSE.among(done, extent).is_none() {
-        rungs.push(coarser(size));
+    let mut study_runs = Vec::new();
+    let size = COARSE.factor * lengths.cell_size_m;
+    if size <= lengths.coarsest() && COARSE.among(done, lengths).is_none() {
+        study_runs.push(coarser(size));
     }
-    let fine = FINE.among(done, extent).unwrap_or_else(|| {
-        let fine = coarser(FINE.factor * extent.cell_size_m);
-        rungs.push(fine);
+    let fine = FINE.among(done, lengths).unwrap_or_else(|| {
+        let fine = coarser(FINE.factor * lengths.cell_size_m);
+        study_runs.push(fine);
         fine
     });
-    if !extent.stiffness_is_given && !has_a_softer(done, extent) {
-        rungs.push(Rung {
-            role: Role::Softer,
+    if !lengths.stiffness_is_given && !has_reduced_stiffness_run(done, lengths) {
+        study_runs.push(StudyRun {
+            role: Role::ReducedStiffness,
             ..fine
         });
     }
-    rungs
+    study_runs
 }
 
-impl Place {
+impl RefinementRange {
     /// A done run that serves here.
-    fn among(&self, done: &[Rung], extent: &Extent) -> Option<Rung> {
-        let serves = |rung: &&Rung| {
-            let factor = rung.cell_size_m / extent.cell_size_m;
-            rung.role != Role::Softer && (self.least..=self.most).contains(&factor)
+    fn among(&self, done: &[StudyRun], lengths: &ResolvedLengths) -> Option<StudyRun> {
+        let serves = |study_run: &&StudyRun| {
+            let factor = study_run.cell_size_m / lengths.cell_size_m;
+            study_run.role != Role::ReducedStiffness && (self.least..=self.most).contains(&factor)
         };
         done.iter().find(serves).copied()
     }
 }
 
-/// Whether a softer run is done whose cells are near enough: it tells of a small share.
-fn has_a_softer(done: &[Rung], extent: &Extent) -> bool {
-    let mut softer = done.iter().filter(|rung| rung.role == Role::Softer);
-    softer.any(|rung| rung.cell_size_m <= FARTHEST * extent.cell_size_m)
+/// Whether a reduced-stiffness run is done whose cells are near enough: it tells of a small share.
+fn has_reduced_stiffness_run(done: &[StudyRun], lengths: &ResolvedLengths) -> bool {
+    let mut reduced_stiffness = done
+        .iter()
+        .filter(|study_run| study_run.role == Role::ReducedStiffness);
+    reduced_stiffness.any(|study_run| study_run.cell_size_m <= FARTHEST * lengths.cell_size_m)
 }
 
 /// Whether a run's records may be those of the answer: of all runs that a target
 /// takes, the finest one is.
-pub(super) fn may_be_the_answer(given: &Scenario, rung: Rung) -> bool {
-    match rung.role {
+pub(super) fn may_be_the_answer(given: &Scenario, study_run: StudyRun) -> bool {
+    match study_run.role {
         Role::Answer => true,
         Role::Coarser => given.accuracy.target.is_some(),
-        Role::Softer => false,
+        Role::ReducedStiffness => false,
     }
 }
 
 /// The scenario of a run. That of an answer which keeps its cells is the one given,
 /// word for word.
-pub(super) fn scenario_of(given: &Scenario, extent: &Extent, rung: Rung) -> Scenario {
+pub(super) fn scenario_of(
+    given: &Scenario,
+    lengths: &ResolvedLengths,
+    study_run: StudyRun,
+) -> Scenario {
     let mut scenario = given.clone();
-    if rung.role == Role::Answer && given.accuracy.target.is_none() {
+    if study_run.role == Role::Answer && given.accuracy.target.is_none() {
         return scenario;
     }
-    scenario.numerics.cell_size_m = Some(rung.cell_size_m);
+    scenario.numerics.cell_size_m = Some(study_run.cell_size_m);
     scenario.accuracy = Accuracy {
         error_bars: false,
         target: None,
         quantity: None,
         ..given.accuracy
     };
-    if rung.role == Role::Softer {
-        scenario.numerics.sound_speed_m_s = Some(SOFTER * extent.sound_speed_m_s);
+    if study_run.role == Role::ReducedStiffness {
+        scenario.numerics.sound_speed_m_s = Some(STIFFNESS_RATIO * lengths.sound_speed_m_s);
     }
-    if !may_be_the_answer(given, rung) {
+    if !may_be_the_answer(given, study_run) {
         scenario.flow_snapshots = 0;
     }
     scenario

@@ -1,64 +1,66 @@
 //! The runs that an answer needs, one after the other, and the answer they make.
 
-use super::bars::{Runs, band_of, relative, value_of};
-use super::companions::{self, Extent, FARTHEST, Rung, SOFTER, scenario_of};
-use super::target::{self, Next, Progress};
+use super::error_bars::{StudyOutcomes, interval_of, relative, value_of};
+use super::refinement_runs::{
+    self, FARTHEST, ResolvedLengths, STIFFNESS_RATIO, StudyRun, scenario_of,
+};
+use super::target::{self, NextRun, Progress};
 use crate::error::SetupError;
 use crate::record::{AccuracyReport, Cost, Outcome, Role, RunCost, TargetReport};
 use crate::scenario::Scenario;
 use std::collections::VecDeque;
 
-/// Companions that a band rests on, at least.
+/// Refinement runs that a interval rests on, at least.
 const FEWEST_NEAR: usize = 2;
 
-/// Everything to be computed for one scenario: the answer alone, or companions
+/// Everything to be computed for one scenario: the answer alone, or refinement runs
 /// before it, or as many runs as a target takes. Whoever runs it takes the
 /// [`next`](Self::next) run, computes [its scenario](Self::scenario_of) and hands in
 /// what came [out](Self::take), until there is no next.
 #[derive(Debug)]
-pub struct Campaign {
+pub struct ConvergenceStudy {
     given: Scenario,
-    extent: Extent,
-    to_do: VecDeque<Rung>,
-    done: Vec<Done>,
+    lengths: ResolvedLengths,
+    to_do: VecDeque<StudyRun>,
+    done: Vec<FinishedRun>,
     /// Why a target won't be met; `None` while it may.
     given_up: Option<String>,
 }
 
 #[derive(Debug)]
-struct Done {
-    rung: Rung,
+struct FinishedRun {
+    study_run: StudyRun,
     outcome: Result<Outcome, String>,
 }
 
-impl Done {
-    /// A run that may be an answer or a companion of one.
+impl FinishedRun {
+    /// A run that may be an answer or a refinement run of one.
     fn grid(&self) -> Option<&Outcome> {
-        let counts = self.rung.role != Role::Softer;
+        let counts = self.study_run.role != Role::ReducedStiffness;
         self.outcome.as_ref().ok().filter(|_| counts)
     }
 }
 
-impl Campaign {
+impl ConvergenceStudy {
     /// What a scenario asks for.
     ///
     /// # Errors
     /// Too many points for one run.
     pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
-        let extent = Extent::of(scenario)?;
+        let lengths = ResolvedLengths::of(scenario)?;
         let accuracy = &scenario.accuracy;
-        let plain = Rung {
+        let plain = StudyRun {
             role: Role::Answer,
-            cell_size_m: extent.cell_size_m,
+            cell_size_m: lengths.cell_size_m,
         };
         let to_do = match (accuracy.target, accuracy.error_bars) {
-            (Some(_), _) => target::pilots(&extent),
-            (None, true) => [companions::companions(&extent, &[]), vec![plain]].concat(),
+            (Some(_), _) => target::pilots(&lengths),
+            (None, true) => [refinement_runs::refinement_runs(&lengths, &[]), vec![plain]].concat(),
             (None, false) => vec![plain],
         };
         Ok(Self {
             given: scenario.clone(),
-            extent,
+            lengths,
             to_do: to_do.into(),
             done: Vec::new(),
             given_up: None,
@@ -66,12 +68,12 @@ impl Campaign {
     }
 
     /// The run to be made now; `None` if all are done.
-    pub fn next(&self) -> Option<Rung> {
+    pub fn next(&self) -> Option<StudyRun> {
         self.to_do.front().copied()
     }
 
     /// All runs that are known to be made yet, in turn.
-    pub fn to_do(&self) -> impl Iterator<Item = Rung> {
+    pub fn to_do(&self) -> impl Iterator<Item = StudyRun> {
         self.to_do.iter().copied()
     }
 
@@ -88,13 +90,15 @@ impl Campaign {
     /// Cells of the finest run so far that may be the answer [m].
     pub fn finest(&self) -> Option<f64> {
         let grids = self.done.iter().filter(|done| done.grid().is_some());
-        grids.map(|done| done.rung.cell_size_m).reduce(f64::min)
+        grids
+            .map(|done| done.study_run.cell_size_m)
+            .reduce(f64::min)
     }
 
     /// The scenario of a run. That of an answer whose cells are not chosen here is
     /// the one given, word for word, so its answer has the same bits.
-    pub fn scenario_of(&self, rung: Rung) -> Scenario {
-        scenario_of(&self.given, &self.extent, rung)
+    pub fn scenario_of(&self, study_run: StudyRun) -> Scenario {
+        scenario_of(&self.given, &self.lengths, study_run)
     }
 
     /// Whether a target chooses the cells.
@@ -103,22 +107,22 @@ impl Campaign {
     }
 
     /// Whether a run's records may be those of the answer.
-    pub fn may_be_the_answer(&self, rung: Rung) -> bool {
-        companions::may_be_the_answer(&self.given, rung)
+    pub fn may_be_the_answer(&self, study_run: StudyRun) -> bool {
+        refinement_runs::may_be_the_answer(&self.given, study_run)
     }
 
     /// Whether there may be an answer without this run.
-    pub fn can_do_without(&self, rung: Rung) -> bool {
-        self.has_a_target() || rung.role != Role::Answer
+    pub fn can_do_without(&self, study_run: StudyRun) -> bool {
+        self.has_a_target() || study_run.role != Role::Answer
     }
 
-    /// Takes what came of the run in hand; a companion that could not be computed is
-    /// left out of the bands.
+    /// Takes what came of the run in hand; a refinement run that could not be computed is
+    /// left out of the intervals.
     pub fn take(&mut self, outcome: Result<Outcome, String>) {
-        let Some(rung) = self.to_do.pop_front() else {
+        let Some(study_run) = self.to_do.pop_front() else {
             return;
         };
-        self.done.push(Done { rung, outcome });
+        self.done.push(FinishedRun { study_run, outcome });
         if self.to_do.is_empty() && self.has_a_target() {
             self.go_on();
         }
@@ -126,57 +130,64 @@ impl Campaign {
 
     /// Share of the work that is done when this share of the run in hand is.
     pub fn share_done(&self, of_this_run: f64) -> f64 {
-        let cost = |rung: &Rung| rung.cost_over(self.extent.cell_size_m);
-        let before: f64 = self.done.iter().map(|done| cost(&done.rung)).sum();
+        let cost = |study_run: &StudyRun| study_run.cost_over(self.lengths.cell_size_m);
+        let before: f64 = self.done.iter().map(|done| cost(&done.study_run)).sum();
         let ahead: f64 = self.to_do.iter().map(cost).sum();
         let now = self.to_do.front().map_or(0.0, cost);
         (before + now * of_this_run) / (before + ahead)
     }
 
-    /// The answer with its bands; `None` if no run was one.
+    /// The answer with its intervals; `None` if no run was one.
     pub fn finish(self) -> Option<Outcome> {
-        let mut answer = self.banded()?;
+        let mut answer = self.with_error_bars()?;
         if self.given.accuracy.is_asked_for() {
             answer.accuracy = Some(self.report(&answer));
         }
         Some(answer)
     }
 
-    /// The finest outcome so far, with bands if they are asked for.
-    fn banded(&self) -> Option<Outcome> {
-        let mut grids: Vec<&Outcome> = self.done.iter().filter_map(Done::grid).collect();
+    /// The finest outcome so far, with intervals if they are asked for.
+    fn with_error_bars(&self) -> Option<Outcome> {
+        let mut grids: Vec<&Outcome> = self.done.iter().filter_map(FinishedRun::grid).collect();
         grids.sort_by(|a, b| a.cost.cell_size_m.total_cmp(&b.cost.cell_size_m));
         let (answer, coarser) = grids.split_first()?;
         let coarser = near(answer, coarser);
-        let mut banded = (*answer).clone();
+        let mut with_error_bars = (*answer).clone();
         if self.given.accuracy.is_asked_for() {
-            let runs = Runs {
+            let runs = StudyOutcomes {
                 answer,
                 coarser: coarser.to_vec(),
-                softer: self.softer().next_back(),
-                across_m: self.extent.across_m(),
+                reduced_stiffness: self.reduced_stiffness().next_back(),
+                across_m: self.lengths.across_m(),
             };
-            for (index, body) in banded.bodies.iter_mut().enumerate() {
+            for (index, body) in with_error_bars.bodies.iter_mut().enumerate() {
                 body.error_bars = Some(runs.body(index));
             }
-            banded.flow.error_bars = Some(runs.flow());
+            with_error_bars.flow.error_bars = Some(runs.flow());
         }
-        Some(banded)
+        Some(with_error_bars)
     }
 
-    /// Every softer run and the one it is to be compared with, in turn.
-    fn softer(&self) -> impl DoubleEndedIterator<Item = [&Outcome; 2]> {
-        let is_softer = |done: &&Done| done.rung.role == Role::Softer;
-        self.done.iter().filter(is_softer).filter_map(|softer| {
-            let beside = self.done.iter().find(|done| {
-                done.rung.role != Role::Softer && done.rung.cell_size_m == softer.rung.cell_size_m
-            })?;
-            Some([softer.outcome.as_ref().ok()?, beside.outcome.as_ref().ok()?])
-        })
+    /// Every reduced-stiffness run and the one it is to be compared with, in turn.
+    fn reduced_stiffness(&self) -> impl DoubleEndedIterator<Item = [&Outcome; 2]> {
+        let is_softer = |done: &&FinishedRun| done.study_run.role == Role::ReducedStiffness;
+        self.done
+            .iter()
+            .filter(is_softer)
+            .filter_map(|reduced_stiffness| {
+                let beside = self.done.iter().find(|done| {
+                    done.study_run.role != Role::ReducedStiffness
+                        && done.study_run.cell_size_m == reduced_stiffness.study_run.cell_size_m
+                })?;
+                Some([
+                    reduced_stiffness.outcome.as_ref().ok()?,
+                    beside.outcome.as_ref().ok()?,
+                ])
+            })
     }
 
     /// What half the sound speed changes of the quantity that a target is about, over
-    /// its value, by every softer run in turn.
+    /// its value, by every reduced-stiffness run in turn.
     fn softness(&self, answer: &Outcome) -> Vec<f64> {
         let accuracy = &self.given.accuracy;
         let Some((_, quantity)) = accuracy.goal() else {
@@ -184,10 +195,10 @@ impl Campaign {
         };
         let value = |outcome: &Outcome| value_of(outcome, quantity, accuracy.body);
         let share = |pair: [&Outcome; 2]| {
-            let [softer, beside] = pair.map(value);
-            Some(((softer? - beside?) / value(answer)?).abs())
+            let [reduced_stiffness, beside] = pair.map(value);
+            Some(((reduced_stiffness? - beside?) / value(answer)?).abs())
         };
-        let shares = self.softer().filter_map(share);
+        let shares = self.reduced_stiffness().filter_map(share);
         shares.filter(|share| share.is_finite()).collect()
     }
 
@@ -214,22 +225,27 @@ impl Campaign {
         }
     }
 
-    fn cost_of(&self, done: &Done, answer: &Outcome) -> RunCost {
-        let Rung { role, cell_size_m } = done.rung;
+    fn cost_of(&self, done: &FinishedRun, answer: &Outcome) -> RunCost {
+        let StudyRun { role, cell_size_m } = done.study_run;
         let is_answer = done
             .grid()
             .is_some_and(|grid| grid.cost.cell_size_m == answer.cost.cell_size_m);
-        let softer = role == Role::Softer;
+        let reduced_stiffness = role == Role::ReducedStiffness;
         let cost = done.outcome.as_ref().ok().map(|outcome| &outcome.cost);
         RunCost {
-            role: match (softer, is_answer) {
-                (true, _) => Role::Softer,
+            role: match (reduced_stiffness, is_answer) {
+                (true, _) => Role::ReducedStiffness,
                 (false, true) => Role::Answer,
                 (false, false) => Role::Coarser,
             },
             cell_size_m,
-            cells_per_body: self.extent.cells_per_body(cell_size_m),
-            sound_speed_m_s: self.extent.sound_speed_m_s * if softer { SOFTER } else { 1.0 },
+            cells_per_body: self.lengths.cells_per_body(cell_size_m),
+            sound_speed_m_s: self.lengths.sound_speed_m_s
+                * if reduced_stiffness {
+                    STIFFNESS_RATIO
+                } else {
+                    1.0
+                },
             point_steps: cost.map(|cost| cost.point_steps),
             wall_s: cost.map(|cost| cost.wall_s),
             failure: done.outcome.as_ref().err().cloned(),
@@ -239,8 +255,8 @@ impl Campaign {
     fn verdict(&self, answer: &Outcome) -> Option<TargetReport> {
         let accuracy = &self.given.accuracy;
         let (asked, quantity) = accuracy.goal()?;
-        let band = band_of(answer, quantity, accuracy.body);
-        let reached = band.as_ref().and_then(relative);
+        let interval = interval_of(answer, quantity, accuracy.body);
+        let reached = interval.as_ref().and_then(relative);
         let met = reached.is_some_and(|reached| reached <= asked);
         Some(TargetReport {
             quantity,
@@ -254,7 +270,7 @@ impl Campaign {
 
     /// Decides whether a finer run has to follow.
     fn go_on(&mut self) {
-        let Some(answer) = self.banded() else {
+        let Some(answer) = self.with_error_bars() else {
             self.given_up = Some("no run could be computed".to_owned());
             return;
         };
@@ -265,12 +281,12 @@ impl Campaign {
         let last = self
             .done
             .last()
-            .filter(|done| done.rung.role != Role::Softer);
+            .filter(|done| done.study_run.role != Role::ReducedStiffness);
         let failed = last.and_then(|last| last.outcome.as_ref().err());
-        let spent = |done: &Done| done.outcome.as_ref().map_or(0, |o| o.cost.point_steps);
+        let spent = |done: &FinishedRun| done.outcome.as_ref().map_or(0, |o| o.cost.point_steps);
         let progress = Progress {
             asked,
-            band: band_of(&answer, quantity, accuracy.body),
+            interval: interval_of(&answer, quantity, accuracy.body),
             softness: self.softness(&answer),
             cell_size_m: answer.cost.cell_size_m,
             cost: answer.cost.point_steps as f64,
@@ -278,20 +294,21 @@ impl Campaign {
             failed: failed.cloned(),
         };
         match target::next(&progress, &self.given) {
-            Next::Met => {}
-            Next::Finer(cell_size_m) => {
-                let extent = Extent {
+            NextRun::Met => {}
+            NextRun::Finer(cell_size_m) => {
+                let lengths = ResolvedLengths {
                     cell_size_m,
-                    ..self.extent
+                    ..self.lengths
                 };
-                let done: Vec<Rung> = self.done.iter().map(|done| done.rung).collect();
-                self.to_do.extend(companions::companions(&extent, &done));
-                self.to_do.push_back(Rung {
+                let done: Vec<StudyRun> = self.done.iter().map(|done| done.study_run).collect();
+                self.to_do
+                    .extend(refinement_runs::refinement_runs(&lengths, &done));
+                self.to_do.push_back(StudyRun {
                     role: Role::Answer,
                     cell_size_m,
                 });
             }
-            Next::GiveUp(reason) => self.given_up = Some(reason),
+            NextRun::GiveUp(reason) => self.given_up = Some(reason),
         }
     }
 }

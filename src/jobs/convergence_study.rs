@@ -1,11 +1,11 @@
-//! Runs all that a scenario's answer needs: the companions of its bands, then the
+//! Runs all that a scenario's answer needs: the refinement runs of its intervals, then the
 //! answer, or as many runs as its target takes.
 
 use super::progress::Progress;
 use super::runner::{Run, RunEnd, RunError, Sink, StopFlag};
-use super::saved_campaign::{self, SavedCampaign};
 use super::saved_run::SavedRunError;
-use scree_solver::accuracy::{Campaign, Rung};
+use super::saved_study::{self, SavedStudy};
+use scree_solver::accuracy::{ConvergenceStudy, StudyRun};
 use scree_solver::record::Record;
 use scree_solver::scenario::Scenario;
 use scree_solver::{SetupError, StepError};
@@ -31,7 +31,7 @@ pub fn run<S: Sink>(
 /// The runs of a scenario that takes several.
 #[derive(Debug)]
 pub struct Runs {
-    campaign: Campaign,
+    convergence_study: ConvergenceStudy,
     threads: usize,
     /// Records of the finest run so far, where a target may still ask for a finer one.
     kept: Vec<Record>,
@@ -49,7 +49,7 @@ impl Runs {
     /// The solver can't set the scenario up.
     pub fn afresh(scenario: &Scenario, threads: usize) -> Result<Self, SetupError> {
         Ok(Self {
-            campaign: Campaign::of(scenario)?,
+            convergence_study: ConvergenceStudy::of(scenario)?,
             threads,
             kept: Vec::new(),
             begun: None,
@@ -66,17 +66,18 @@ impl Runs {
         threads: usize,
         state: &[u8],
     ) -> Result<Self, SavedRunError> {
-        let (saved, run) = saved_campaign::read(state)?;
-        let SavedCampaign { done, kept, of_run } = saved;
+        let (saved, run) = saved_study::read(state)?;
+        let SavedStudy { done, kept, of_run } = saved;
         let mut runs = Self::afresh(scenario, threads).map_err(|_| SavedRunError::Head)?;
         let any_before = !done.is_empty();
-        done.into_iter().for_each(|done| runs.campaign.take(done));
+        done.into_iter()
+            .for_each(|done| runs.convergence_study.take(done));
         // Where all runs failed so far, why the last one did is to be found out anew.
-        let rung = runs.campaign.next().ok_or(SavedRunError::Head)?;
-        if any_before && !runs.campaign.has_an_answer() {
+        let study_run = runs.convergence_study.next().ok_or(SavedRunError::Head)?;
+        if any_before && !runs.convergence_study.has_an_answer() {
             return Err(SavedRunError::Head);
         }
-        let run = Run::restored(&runs.campaign.scenario_of(rung), threads, run)?;
+        let run = Run::restored(&runs.convergence_study.scenario_of(study_run), threads, run)?;
         Ok(Self {
             kept: kept.into_owned(),
             begun: Some((run, of_run.into_owned())),
@@ -94,18 +95,18 @@ impl Runs {
         sink: &mut S,
     ) -> Result<RunEnd, RunError<S::Error>> {
         let mut whole = Whole::new(sink, self.kept);
-        while let Some(rung) = self.campaign.next() {
+        while let Some(study_run) = self.convergence_study.next() {
             let (run, kept) = match self.begun.take() {
                 Some(begun) => begun,
                 None => {
-                    let scenario = self.campaign.scenario_of(rung);
+                    let scenario = self.convergence_study.scenario_of(study_run);
                     (Run::afresh(&scenario, self.threads)?, Vec::new())
                 }
             };
             let mut part = Part {
-                fate: Fate::of(&self.campaign, rung),
+                fate: Fate::of(&self.convergence_study, study_run),
                 whole: &mut whole,
-                campaign: &self.campaign,
+                convergence_study: &self.convergence_study,
                 kept,
             };
             let ended = run.go(stop, &mut part);
@@ -113,21 +114,21 @@ impl Runs {
             match ended {
                 Ok(RunEnd::Stopped) => return Ok(RunEnd::Stopped),
                 Ok(RunEnd::Completed(outcome)) => {
-                    self.campaign.take(Ok(*outcome));
-                    let finest = self.campaign.finest() == Some(rung.cell_size_m);
+                    self.convergence_study.take(Ok(*outcome));
+                    let finest = self.convergence_study.finest() == Some(study_run.cell_size_m);
                     if fate == Fate::Kept && finest {
                         whole.kept = kept;
                     }
                 }
-                Err(RunError::Step(error)) if self.campaign.can_do_without(rung) => {
-                    self.campaign.take(Err(error.to_string()));
+                Err(RunError::Step(error)) if self.convergence_study.can_do_without(study_run) => {
+                    self.convergence_study.take(Err(error.to_string()));
                     self.failure = Some(error);
                 }
                 Err(error) => return Err(error),
             }
         }
         whole.hand_on_kept().map_err(RunError::Sink)?;
-        match (self.campaign.finish(), self.failure) {
+        match (self.convergence_study.finish(), self.failure) {
             (Some(answer), _) => Ok(RunEnd::Completed(Box::new(answer))),
             (None, Some(error)) => Err(error.into()),
             (None, None) => Ok(RunEnd::Stopped),
@@ -138,7 +139,7 @@ impl Runs {
 /// Fate of a run's records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Fate {
-    /// A companion's: nobody wants them.
+    /// A refinement run's: nobody wants them.
     Dropped,
     /// Those of what will be the answer.
     HandedOn,
@@ -147,8 +148,11 @@ enum Fate {
 }
 
 impl Fate {
-    fn of(campaign: &Campaign, rung: Rung) -> Self {
-        match (campaign.may_be_the_answer(rung), campaign.has_a_target()) {
+    fn of(convergence_study: &ConvergenceStudy, study_run: StudyRun) -> Self {
+        match (
+            convergence_study.may_be_the_answer(study_run),
+            convergence_study.has_a_target(),
+        ) {
             (false, _) => Self::Dropped,
             (true, false) => Self::HandedOn,
             (true, true) => Self::Kept,
@@ -197,7 +201,7 @@ impl<'a, S: Sink> Whole<'a, S> {
 /// The sink of one run.
 struct Part<'a, 'b, S> {
     whole: &'a mut Whole<'b, S>,
-    campaign: &'a Campaign,
+    convergence_study: &'a ConvergenceStudy,
     fate: Fate,
     kept: Vec<Record>,
 }
@@ -215,7 +219,7 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
     }
 
     fn progress(&mut self, progress: &Progress) -> Result<(), S::Error> {
-        let fraction = self.campaign.share_done(progress.fraction);
+        let fraction = self.convergence_study.share_done(progress.fraction);
         self.whole.tell(progress, fraction)
     }
 
@@ -224,12 +228,12 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
     }
 
     fn state(&mut self, time_s: f64, run: &[u8]) -> Result<(), S::Error> {
-        let saved = SavedCampaign {
-            done: self.campaign.done().cloned().collect(),
+        let saved = SavedStudy {
+            done: self.convergence_study.done().cloned().collect(),
             kept: Cow::Borrowed(&self.whole.kept),
             of_run: Cow::Borrowed(&self.kept),
         };
-        let state = saved_campaign::write(&saved, run);
+        let state = saved_study::write(&saved, run);
         self.whole.sink.state(time_s, &state)
     }
 }

@@ -1,14 +1,14 @@
 //! Error bars as a table for people.
 
 use super::columns::table;
-use scree_solver::record::{AccuracyReport, Band, Basis, Outcome, Role};
+use scree_solver::record::{AccuracyReport, Basis, Outcome, Role, UncertaintyInterval};
 use std::fmt::Write as _;
 
 /// Sign for an end that is open, or an order there is none of.
 const NOTHING: &str = "–";
 
-/// The bands of an outcome and what they rest on; nothing if none were asked for.
-pub(super) fn bands(outcome: &Outcome) -> Option<String> {
+/// The intervals of an outcome and what they rest on; nothing if none were asked for.
+pub(super) fn intervals(outcome: &Outcome) -> Option<String> {
     let report = outcome.accuracy.as_ref()?;
     let headings = ["of", "quantity", "value", "low", "high", "order", "basis"];
     let mut text = table("error bars", headings, rows(outcome));
@@ -26,7 +26,7 @@ fn rows(outcome: &Outcome) -> Vec<[String; 7]> {
             continue;
         };
         let [x, y, z] = &bars.final_position_m;
-        for (name, band) in [
+        for (name, interval) in [
             ("onset [s]", &bars.onset_time_s),
             ("peak [m/s]", &bars.peak_speed_m_s),
             ("peak at [s]", &bars.peak_speed_time_s),
@@ -37,7 +37,7 @@ fn rows(outcome: &Outcome) -> Vec<[String; 7]> {
             ("final y [m]", y),
             ("final z [m]", z),
         ] {
-            rows.push(row(&format!("body {index}"), name, band));
+            rows.push(row(&format!("body {index}"), name, interval));
         }
     }
     if let Some(bars) = &outcome.flow.error_bars {
@@ -48,18 +48,18 @@ fn rows(outcome: &Outcome) -> Vec<[String; 7]> {
     rows
 }
 
-fn row(of: &str, name: &str, band: &Band) -> [String; 7] {
+fn row(of: &str, name: &str, interval: &UncertaintyInterval) -> [String; 7] {
     let number = |value: Option<f64>, decimals: usize| {
         value.map_or_else(|| NOTHING.to_owned(), |value| format!("{value:.decimals$}"))
     };
     [
         of.to_owned(),
         name.to_owned(),
-        number(band.value, 4),
-        number(band.low, 4),
-        number(band.high, 4),
-        number(band.order, 1),
-        basis(band.basis).to_owned(),
+        number(interval.value, 4),
+        number(interval.low, 4),
+        number(interval.high, 4),
+        number(interval.order, 1),
+        basis(interval.basis).to_owned(),
     ]
 }
 
@@ -68,7 +68,7 @@ fn basis(basis: Basis) -> &'static str {
         Basis::Converging => "converging",
         Basis::Scattered => "scattered",
         Basis::Same => "the same in all runs",
-        Basis::OneCompanion => "one companion",
+        Basis::OneRefinementRun => "one refinement run",
         Basis::NeverHappened => "never happened",
         Basis::SometimesHappened => "happened in some runs",
         Basis::Nothing => "nothing to compare with",
@@ -80,13 +80,13 @@ fn runs(report: &AccuracyReport) -> String {
         .runs
         .iter()
         .map(|run| {
-            let softer = if run.role == Role::Softer {
-                " softer"
+            let reduced_stiffness = if run.role == Role::ReducedStiffness {
+                " reduced stiffness"
             } else {
                 ""
             };
             let failed = if run.failure.is_some() { " failed" } else { "" };
-            format!("{:.4} m{softer}{failed}", run.cell_size_m)
+            format!("{:.4} m{reduced_stiffness}{failed}", run.cell_size_m)
         })
         .collect();
     let wall = report.extra_wall_cost.map_or_else(String::new, |extra| {
@@ -119,14 +119,14 @@ mod tests {
 
     #[test]
     fn an_open_end_is_a_dash_and_the_basis_stands_in_words() {
-        let band = Band {
+        let interval = UncertaintyInterval {
             value: Some(1.25),
             low: Some(1.0),
             high: None,
             order: None,
             basis: Basis::SometimesHappened,
         };
-        let cells = row("body 0", "rest from [s]", &band);
+        let cells = row("body 0", "rest from [s]", &interval);
         assert_eq!(
             cells.join("|"),
             "body 0|rest from [s]|1.2500|1.0000|–|–|happened in some runs"

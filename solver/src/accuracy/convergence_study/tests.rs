@@ -44,17 +44,20 @@ fn outcome(scenario: &Scenario, displacement_m: f64) -> Outcome {
     serde_json::from_value(document).unwrap()
 }
 
-/// Goes through a campaign whose displacement follows the cell size like this.
+/// Goes through a convergence study whose displacement follows the cell size like this.
 fn carried_out(accuracy: &Value, displacement_m: fn(f64) -> f64) -> Outcome {
-    let mut campaign = Campaign::of(&scenario(accuracy)).unwrap();
+    let mut convergence_study = ConvergenceStudy::of(&scenario(accuracy)).unwrap();
     let mut runs = 0;
-    while let Some(rung) = campaign.next() {
-        let scenario = campaign.scenario_of(rung);
-        campaign.take(Ok(outcome(&scenario, displacement_m(rung.cell_size_m))));
+    while let Some(study_run) = convergence_study.next() {
+        let scenario = convergence_study.scenario_of(study_run);
+        convergence_study.take(Ok(outcome(
+            &scenario,
+            displacement_m(study_run.cell_size_m),
+        )));
         runs += 1;
         assert!(runs < 30, "it ends");
     }
-    campaign.finish().unwrap()
+    convergence_study.finish().unwrap()
 }
 
 fn linear(cell_size_m: f64) -> f64 {
@@ -64,43 +67,49 @@ fn linear(cell_size_m: f64) -> f64 {
 #[test]
 fn a_plain_answer_is_one_run_of_the_scenario_as_it_stands() {
     let given = scenario(&json!({}));
-    let campaign = Campaign::of(&given).unwrap();
-    let rung = campaign.next().unwrap();
-    assert_eq!(campaign.scenario_of(rung), given);
-    assert!(campaign.may_be_the_answer(rung) && !campaign.can_do_without(rung));
-    assert_eq!(campaign.share_done(0.3), 0.3);
+    let convergence_study = ConvergenceStudy::of(&given).unwrap();
+    let study_run = convergence_study.next().unwrap();
+    assert_eq!(convergence_study.scenario_of(study_run), given);
+    assert!(
+        convergence_study.may_be_the_answer(study_run)
+            && !convergence_study.can_do_without(study_run)
+    );
+    assert_eq!(convergence_study.share_done(0.3), 0.3);
     let answer = carried_out(&json!({}), linear);
     assert_eq!(answer, outcome(&given, linear(0.01)));
 }
 
 #[test]
-fn companions_are_coarser_and_cost_a_third_at_most() {
+fn refinement_runs_are_coarser_and_cost_a_third_at_most() {
     let given = scenario(&json!({"error_bars": true}));
-    let mut campaign = Campaign::of(&given).unwrap();
+    let mut convergence_study = ConvergenceStudy::of(&given).unwrap();
     let (mut roles, mut shares) = (Vec::new(), vec![0.0]);
-    while let Some(rung) = campaign.next() {
-        let scenario = campaign.scenario_of(rung);
+    while let Some(study_run) = convergence_study.next() {
+        let scenario = convergence_study.scenario_of(study_run);
         let sound_speed = scenario.numerics.sound_speed_m_s;
-        match rung.role {
+        match study_run.role {
             Role::Answer => assert_eq!(scenario, given),
             role => {
-                assert!(rung.cell_size_m > 0.0149, "{rung:?}");
+                assert!(study_run.cell_size_m > 0.0149, "{study_run:?}");
                 assert_eq!(scenario.flow_snapshots, 0);
                 assert!(!scenario.accuracy.is_asked_for());
-                assert_eq!(sound_speed.is_some(), role == Role::Softer);
+                assert_eq!(sound_speed.is_some(), role == Role::ReducedStiffness);
             }
         }
-        roles.push(rung.role);
-        shares.extend([campaign.share_done(0.5), campaign.share_done(1.0)]);
-        campaign.take(Ok(outcome(&scenario, linear(rung.cell_size_m))));
+        roles.push(study_run.role);
+        shares.extend([
+            convergence_study.share_done(0.5),
+            convergence_study.share_done(1.0),
+        ]);
+        convergence_study.take(Ok(outcome(&scenario, linear(study_run.cell_size_m))));
     }
     assert_eq!(roles.last(), Some(&Role::Answer));
-    assert!(roles.contains(&Role::Softer));
+    assert!(roles.contains(&Role::ReducedStiffness));
     assert!(
         shares.is_sorted() && shares.last() == Some(&1.0),
         "{shares:?}"
     );
-    let report = campaign.finish().unwrap().accuracy.unwrap();
+    let report = convergence_study.finish().unwrap().accuracy.unwrap();
     assert!(report.extra_cost < 0.35, "{report:?}");
     assert_eq!(report.runs.len(), roles.len());
     let cells = report.runs.last().unwrap().cells_per_body.unwrap();
@@ -126,8 +135,13 @@ fn the_answer_keeps_its_values_and_gets_bands_round_them() {
 fn a_stiffness_that_is_given_is_not_varied() {
     let mut given = scenario(&json!({"error_bars": true}));
     given.flow.as_mut().unwrap().material.youngs_modulus_pa = Some(1e6);
-    let campaign = Campaign::of(&given).unwrap();
-    assert!(campaign.to_do.iter().all(|rung| rung.role != Role::Softer));
+    let convergence_study = ConvergenceStudy::of(&given).unwrap();
+    assert!(
+        convergence_study
+            .to_do
+            .iter()
+            .all(|study_run| study_run.role != Role::ReducedStiffness)
+    );
 }
 
 #[test]
@@ -135,24 +149,28 @@ fn cells_much_larger_than_a_body_are_not_run() {
     let mut given = scenario(&json!({"error_bars": true}));
     // 1.33 cells across the cube, and 0.67 twice as coarse.
     given.numerics.cell_size_m = Some(0.03);
-    let campaign = Campaign::of(&given).unwrap();
-    let sizes: Vec<f64> = campaign.to_do.iter().map(|rung| rung.cell_size_m).collect();
+    let convergence_study = ConvergenceStudy::of(&given).unwrap();
+    let sizes: Vec<f64> = convergence_study
+        .to_do
+        .iter()
+        .map(|study_run| study_run.cell_size_m)
+        .collect();
     assert!(sizes.iter().all(|size| *size <= 0.04 / 0.75), "{sizes:?}");
     assert!(sizes.len() >= 2, "an answer is never alone: {sizes:?}");
 }
 
 #[test]
-fn a_companion_that_fails_is_left_out_and_named() {
+fn a_refinement_run_that_fails_is_left_out_and_named() {
     let given = scenario(&json!({"error_bars": true}));
-    let mut campaign = Campaign::of(&given).unwrap();
-    let first = campaign.next().unwrap();
-    assert!(campaign.can_do_without(first));
-    campaign.take(Err("it blew up".to_owned()));
-    while let Some(rung) = campaign.next() {
-        let scenario = campaign.scenario_of(rung);
-        campaign.take(Ok(outcome(&scenario, linear(rung.cell_size_m))));
+    let mut convergence_study = ConvergenceStudy::of(&given).unwrap();
+    let first = convergence_study.next().unwrap();
+    assert!(convergence_study.can_do_without(first));
+    convergence_study.take(Err("it blew up".to_owned()));
+    while let Some(study_run) = convergence_study.next() {
+        let scenario = convergence_study.scenario_of(study_run);
+        convergence_study.take(Ok(outcome(&scenario, linear(study_run.cell_size_m))));
     }
-    let report = campaign.finish().unwrap().accuracy.unwrap();
+    let report = convergence_study.finish().unwrap().accuracy.unwrap();
     assert_eq!(report.runs[0].failure.as_deref(), Some("it blew up"));
     assert_eq!(
         (report.runs[0].point_steps, report.runs[0].wall_s),
@@ -220,12 +238,12 @@ fn a_target_beyond_the_budget_says_so_and_answers_all_the_same() {
 #[test]
 fn every_run_that_may_become_the_answer_is_recorded_in_full() {
     let given = scenario(&json!({"target": 0.1, "quantity": "displacement_m"}));
-    let campaign = Campaign::of(&given).unwrap();
-    for rung in &campaign.to_do {
-        let scenario = campaign.scenario_of(*rung);
-        let whole = rung.role != Role::Softer;
+    let convergence_study = ConvergenceStudy::of(&given).unwrap();
+    for study_run in &convergence_study.to_do {
+        let scenario = convergence_study.scenario_of(*study_run);
+        let whole = study_run.role != Role::ReducedStiffness;
         assert_eq!(scenario.flow_snapshots == given.flow_snapshots, whole);
-        assert_eq!(campaign.may_be_the_answer(*rung), whole);
+        assert_eq!(convergence_study.may_be_the_answer(*study_run), whole);
     }
 }
 
@@ -244,19 +262,29 @@ fn a_target_about_what_never_happens_is_given_up() {
 #[test]
 fn softness_beyond_the_target_is_not_met_by_finer_cells() {
     let accuracy = json!({"target": 0.05, "quantity": "displacement_m"});
-    let mut campaign = Campaign::of(&scenario(&accuracy)).unwrap();
+    let mut convergence_study = ConvergenceStudy::of(&scenario(&accuracy)).unwrap();
     let mut runs = 0;
-    while let Some(rung) = campaign.next() {
-        let softer = if rung.role == Role::Softer { 0.1 } else { 0.0 };
-        let scenario = campaign.scenario_of(rung);
-        campaign.take(Ok(outcome(&scenario, linear(rung.cell_size_m) + softer)));
+    while let Some(study_run) = convergence_study.next() {
+        let reduced_stiffness = if study_run.role == Role::ReducedStiffness {
+            0.1
+        } else {
+            0.0
+        };
+        let scenario = convergence_study.scenario_of(study_run);
+        convergence_study.take(Ok(outcome(
+            &scenario,
+            linear(study_run.cell_size_m) + reduced_stiffness,
+        )));
         runs += 1;
     }
     assert!(runs < 9, "{runs} runs");
-    let report = campaign.finish().unwrap().accuracy.unwrap();
+    let report = convergence_study.finish().unwrap().accuracy.unwrap();
     // Once more with finer cells, since the first are so coarse.
-    let softer = report.runs.iter().filter(|run| run.role == Role::Softer);
-    assert_eq!(softer.count(), 2, "{:?}", report.runs);
+    let reduced_stiffness = report
+        .runs
+        .iter()
+        .filter(|run| run.role == Role::ReducedStiffness);
+    assert_eq!(reduced_stiffness.count(), 2, "{:?}", report.runs);
     let verdict = report.target.unwrap();
     assert!(!verdict.met);
     let reason = verdict.reason.unwrap();
@@ -275,10 +303,10 @@ fn a_target_makes_no_run_twice() {
             let accuracy = json!({"target": target, "quantity": "displacement_m",
                                   "budget_point_steps": 1e13});
             let report = carried_out(&accuracy, displacement_m).accuracy.unwrap();
-            let sizes = |softer: bool| -> Vec<f64> {
+            let sizes = |reduced_stiffness: bool| -> Vec<f64> {
                 let runs = report.runs.iter();
                 let mut sizes: Vec<f64> = runs
-                    .filter(|run| (run.role == Role::Softer) == softer)
+                    .filter(|run| (run.role == Role::ReducedStiffness) == reduced_stiffness)
                     .map(|run| run.cell_size_m)
                     .collect();
                 sizes.sort_by(f64::total_cmp);
@@ -288,19 +316,27 @@ fn a_target_makes_no_run_twice() {
                 let ratios = sizes.windows(2).map(|pair| pair[1] / pair[0]);
                 ratios.fold(f64::INFINITY, f64::min)
             };
-            let (grids, softer) = (sizes(false), sizes(true));
+            let (grids, reduced_stiffness) = (sizes(false), sizes(true));
             assert!(ratio(&grids) > 1.05, "{target}: {grids:?}");
-            assert!(ratio(&softer) > 1.25, "{target}: {softer:?}");
+            assert!(
+                ratio(&reduced_stiffness) > 1.25,
+                "{target}: {reduced_stiffness:?}"
+            );
         }
     }
 }
 
 #[test]
-fn every_answer_of_a_target_has_companions_in_the_useful_range() {
+fn every_answer_of_a_target_has_refinement_runs_in_the_useful_range() {
     let accuracy = json!({"target": 0.05, "quantity": "displacement_m",
                           "budget_point_steps": 1e13});
     let report = carried_out(&accuracy, linear).accuracy.unwrap();
-    let grids = || report.runs.iter().filter(|run| run.role != Role::Softer);
+    let grids = || {
+        report
+            .runs
+            .iter()
+            .filter(|run| run.role != Role::ReducedStiffness)
+    };
     let finest = grids()
         .map(|run| run.cell_size_m)
         .fold(f64::INFINITY, f64::min);
@@ -310,7 +346,7 @@ fn every_answer_of_a_target_has_companions_in_the_useful_range() {
 }
 
 #[test]
-fn what_companions_cost_is_told_by_wall_time_too() {
+fn what_refinement_runs_cost_is_told_by_wall_time_too() {
     let answer = carried_out(&json!({"error_bars": true}), linear);
     let report = answer.accuracy.unwrap();
     // Every run made up took a second.

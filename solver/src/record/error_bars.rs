@@ -1,12 +1,12 @@
-//! Bands of an outcome's quantities, and what they cost: types alone. How they are
+//! Uncertainty intervals of an outcome's quantities, and what they cost: types alone. How they are
 //! made: `accuracy`, and docs/method.md, section 12.
 
 use crate::scenario::Quantity;
 use serde::{Deserialize, Serialize};
 
-/// A quantity with the band in which its value without cells is expected.
+/// A quantity with the interval in which its value without cells is expected.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Band {
+pub struct UncertaintyInterval {
     /// The value of the answer, as it stands beside; null if it did not happen.
     pub value: Option<f64>,
     /// Lower end; null if there is none.
@@ -15,22 +15,22 @@ pub struct Band {
     pub high: Option<f64>,
     /// Order at which the values were seen to converge; null if they don't.
     pub order: Option<f64>,
-    /// Basis of the band.
+    /// Basis of the interval.
     pub basis: Basis,
 }
 
-/// Basis of a band.
+/// Basis of a interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Basis {
     /// Values that converge at a plausible order.
     Converging,
-    /// Values that turn, scatter, or change more with finer cells: a wide band.
+    /// Values that turn, scatter, or change more with finer cells: a wide interval.
     Scattered,
     /// The same value in all runs.
     Same,
-    /// One coarser run alone, so no order: a wide band.
-    OneCompanion,
+    /// One coarser run alone, so no order: a wide interval.
+    OneRefinementRun,
     /// It happened in none of the runs.
     NeverHappened,
     /// It happened in some of the runs only: there is no upper end.
@@ -39,37 +39,37 @@ pub enum Basis {
     Nothing,
 }
 
-/// Bands of a body's quantities, under the keys of its outcome.
+/// Uncertainty intervals of a body's quantities, under the keys of its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct BodyBars {
+pub struct BodyErrorBars {
     /// Of `onset_time_s`.
-    pub onset_time_s: Band,
+    pub onset_time_s: UncertaintyInterval,
     /// Of `peak_speed_m_s`.
-    pub peak_speed_m_s: Band,
+    pub peak_speed_m_s: UncertaintyInterval,
     /// Of `peak_speed_time_s`.
-    pub peak_speed_time_s: Band,
+    pub peak_speed_time_s: UncertaintyInterval,
     /// Of `stop_time_s`.
-    pub stop_time_s: Band,
+    pub stop_time_s: UncertaintyInterval,
     /// Of `displacement_m`.
-    pub displacement_m: Band,
+    pub displacement_m: UncertaintyInterval,
     /// Of `path_length_m`.
-    pub path_length_m: Band,
+    pub path_length_m: UncertaintyInterval,
     /// Of each component of `final_position_m`.
-    pub final_position_m: [Band; 3],
+    pub final_position_m: [UncertaintyInterval; 3],
 }
 
-/// Bands of the flow's quantities, under the keys of its outcome.
+/// Uncertainty intervals of the flow's quantities, under the keys of its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FlowBars {
+pub struct FlowErrorBars {
     /// Of `front_m`.
-    pub front_m: Band,
+    pub front_m: UncertaintyInterval,
     /// Of `runout_m`.
-    pub runout_m: Band,
+    pub runout_m: UncertaintyInterval,
     /// Of `outflow_mass_kg`.
-    pub outflow_mass_kg: Band,
+    pub outflow_mass_kg: UncertaintyInterval,
 }
 
-/// The runs behind the bands, and whether a target was met.
+/// The runs behind the intervals, and whether a target was met.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AccuracyReport {
     /// All runs in the order they were made.
@@ -83,7 +83,7 @@ pub struct AccuracyReport {
     pub target: Option<TargetReport>,
 }
 
-/// One of the runs behind a band.
+/// One of the runs behind a interval.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunCost {
     /// Role of the run.
@@ -108,8 +108,8 @@ pub struct RunCost {
 pub enum Role {
     /// Larger cells than the answer's.
     Coarser,
-    /// A softer material, at the cell size of a coarser run.
-    Softer,
+    /// A material of reduced stiffness, at the cell size of a coarser run.
+    ReducedStiffness,
     /// The answer.
     Answer,
 }
@@ -121,9 +121,9 @@ pub struct TargetReport {
     pub quantity: Quantity,
     /// Index of the body whose quantity that is; null for the flow's.
     pub body: Option<u32>,
-    /// Distance that the band may reach from the value, over it, as asked.
+    /// Distance that the interval may reach from the value, over it, as asked.
     pub asked: f64,
-    /// The same, as reached; null if the band has an open end or the value is 0.
+    /// The same, as reached; null if the interval has an open end or the value is 0.
     pub reached: Option<f64>,
     /// True if it is no more than asked.
     pub met: bool,

@@ -6,9 +6,9 @@ use scree_solver::record::{Outcome, Record};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// Knowledge of a campaign besides the run in hand.
+/// Knowledge of a convergence study besides the run in hand.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct SavedCampaign<'a> {
+pub(super) struct SavedStudy<'a> {
     /// Outcome of each run before, in turn.
     pub done: Vec<Result<Outcome, String>>,
     /// Records of the finest run before, if it may be the answer.
@@ -18,7 +18,7 @@ pub(super) struct SavedCampaign<'a> {
 }
 
 /// Bytes from which [`read`] makes both again.
-pub(super) fn write(saved: &SavedCampaign, run: &[u8]) -> Vec<u8> {
+pub(super) fn write(saved: &SavedStudy, run: &[u8]) -> Vec<u8> {
     headed::joined(&(COMMIT, saved), run)
 }
 
@@ -26,8 +26,8 @@ pub(super) fn write(saved: &SavedCampaign, run: &[u8]) -> Vec<u8> {
 ///
 /// # Errors
 /// Bytes of something else, or of another build.
-pub(super) fn read(bytes: &[u8]) -> Result<(SavedCampaign<'static>, &[u8]), SavedRunError> {
-    let head: Option<((String, SavedCampaign<'static>), &[u8])> = headed::parted(bytes);
+pub(super) fn read(bytes: &[u8]) -> Result<(SavedStudy<'static>, &[u8]), SavedRunError> {
+    let head: Option<((String, SavedStudy<'static>), &[u8])> = headed::parted(bytes);
     let ((commit, saved), run) = head.ok_or(SavedRunError::Head)?;
     if commit != COMMIT {
         return Err(SavedRunError::OtherBuild(commit));
