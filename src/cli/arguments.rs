@@ -1,7 +1,7 @@
 //! Arguments of the command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use scree::verify::hard::sweep::Field;
+use scree::verify::robustness::randomised::Field;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
@@ -155,13 +155,13 @@ pub(super) struct VerifyOptions {
     /// Run this case alone; may be given several times [default: all of the suite]
     #[arg(long, value_name = "NAME")]
     pub(super) case: Vec<String>,
-    /// Scenarios of each sweep
+    /// Scenarios of each randomised test
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     pub(super) count: u64,
-    /// Seed of a sweep's first scenario; each takes the next one
+    /// Seed of a randomised test's first scenario; each takes the next one
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) seed: u64,
-    /// More and finer resolutions, longer runs, and how far the hard cases' steps are
+    /// More and finer resolutions, longer runs, and how far the robustness tests' steps are
     /// from unstable ones: takes ten minutes or more instead of one
     #[arg(long)]
     pub(super) full: bool,
@@ -183,12 +183,14 @@ pub(super) enum SuiteWord {
     /// Cases whose answer is known
     Standard,
     /// Scenes that are there to break the computation
-    Hard,
+    #[value(alias = "hard")]
+    Robustness,
     /// Scenarios drawn at random from all that is legal
-    Sweep,
+    #[value(alias = "sweep")]
+    Randomised,
     /// Bodies without a flow drawn at random, whose contacts make no energy
     Bodies,
-    /// Standard, hard, sweep and bodies
+    /// Standard, robustness, randomised and bodies
     All,
 }
 
@@ -198,11 +200,11 @@ impl SuiteWord {
         self == part || self == Self::All
     }
 
-    /// Fields that the scenarios of its sweeps are drawn from.
-    pub(super) fn sweeps(self) -> &'static [Field] {
+    /// Fields that the scenarios of its randomised tests are drawn from.
+    pub(super) fn randomised(self) -> &'static [Field] {
         match self {
-            Self::Standard | Self::Hard => &[],
-            Self::Sweep => &[Field::Everything],
+            Self::Standard | Self::Robustness => &[],
+            Self::Randomised => &[Field::Everything],
             Self::Bodies => &[Field::BodiesAlone],
             Self::All => &[Field::Everything, Field::BodiesAlone],
         }

@@ -104,8 +104,8 @@ mod tests {
         assert_eq!(diagram.series.len(), 4);
         for series in &diagram.series {
             assert!(series.places.len() > 3, "{series:?}");
-            let is_sound = |place: &(f64, f64)| place.0 > 0.0 && place.1 > 0.0 && place.1 < 1.0;
-            assert!(series.places.iter().all(is_sound), "{series:?}");
+            let is_valid = |place: &(f64, f64)| place.0 > 0.0 && place.1 > 0.0 && place.1 < 1.0;
+            assert!(series.places.iter().all(is_valid), "{series:?}");
         }
     }
 }

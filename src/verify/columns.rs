@@ -4,7 +4,7 @@ use super::beads::{
     BULK_DENSITY, FRICTION, GRAIN_DENSITY, GRAIN_DIAMETER, REFERENCE_INERTIAL_NUMBER,
 };
 use super::findings::{Error, Question};
-use super::run::{Answer, Run, Trouble, scene_of};
+use super::run::{Answer, CaseError, Run, scene_of};
 use super::scenes::{GRAVITY, channel};
 use scree_solver::Simulation;
 use scree_solver::simulation::Scene;
@@ -120,7 +120,7 @@ impl Column {
         LONGEST * (self.height() / GRAVITY).sqrt()
     }
 
-    fn scene(&self) -> Result<Scene, Trouble> {
+    fn scene(&self) -> Result<Scene, CaseError> {
         let (width, height) = (self.width(), self.height());
         // Far enough for the front of the tallest.
         let mut document = channel(0.0, BASE, 12.0 * BASE, width);
@@ -161,7 +161,7 @@ impl Column {
     }
 
     /// Lets it go until all of it is at rest.
-    pub(super) fn collapse(&self) -> Result<(Deposit, Run), Trouble> {
+    pub(super) fn collapse(&self) -> Result<(Deposit, Run), CaseError> {
         let mut run = Run::start(self.scene()?)?;
         let slow = REST * (GRAVITY * self.height()).sqrt();
         let begun = 0.1 * self.longest();
@@ -178,7 +178,7 @@ impl Column {
     }
 
     /// Run-outs and share of mass that moves, at what they cost.
-    pub(super) fn answer(&self) -> Result<Answer<4>, Trouble> {
+    pub(super) fn answer(&self) -> Result<Answer<4>, CaseError> {
         let (deposit, run) = self.collapse()?;
         Ok(run.answer([
             deposit.runout,

@@ -2,7 +2,7 @@
 
 use super::limit::Limit;
 use super::order::Order;
-use super::run::{Answer, Cost, Trouble};
+use super::run::{Answer, CaseError, Cost};
 use serde::Serialize;
 
 /// Question, answer by the reference solution, and what is asked of the computation.
@@ -159,12 +159,12 @@ impl Finding {
         }
     }
 
-    fn failed(question: Question, resolution: Resolution, trouble: &Trouble) -> Self {
+    fn failed(question: Question, resolution: Resolution, error: &CaseError) -> Self {
         Self {
             verdict: Verdict::Fail,
             measured: None,
             measured_error: None,
-            failure: Some(trouble.to_string()),
+            failure: Some(error.to_string()),
             question,
             resolution,
             cost: Cost::default(),
@@ -190,7 +190,7 @@ impl Findings {
         &mut self,
         resolution: &Resolution,
         questions: [Question; N],
-        answer: Result<Answer<N>, Trouble>,
+        answer: Result<Answer<N>, CaseError>,
     ) {
         let resolution = || resolution.clone();
         match answer {
@@ -200,9 +200,9 @@ impl Findings {
                     self.values.push(finding);
                 }
             }
-            Err(trouble) => {
+            Err(error) => {
                 for question in questions {
-                    let finding = Finding::failed(question, resolution(), &trouble);
+                    let finding = Finding::failed(question, resolution(), &error);
                     self.values.push(finding);
                 }
             }
@@ -301,8 +301,8 @@ mod tests {
     fn a_failed_run_is_a_miss_even_without_a_bar() {
         let mut findings = Findings::default();
         let question = Question::new("speed", "m/s", 1.0);
-        let trouble = Trouble::Scene("none".to_owned());
-        findings.take(&Resolution::named("one"), [question], Err(trouble));
+        let error = CaseError::Scene("none".to_owned());
+        findings.take(&Resolution::named("one"), [question], Err(error));
         assert_eq!(findings.count().failed, 1);
     }
 }

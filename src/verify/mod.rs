@@ -2,15 +2,15 @@
 //!
 //! The way through it: [`cases::ALL`] lists the cases, each a page of its own
 //! with problem, answer and tolerance; [`verify`] runs them and gathers what each
-//! [`findings::Findings`] holds. Verdicts come out of error and tolerance alone. [`hard`]
+//! [`findings::Findings`] holds. Verdicts come out of error and tolerance alone. [`robustness`]
 //! has the scenes that are there to break the computation; of them no answer is
-//! known but that it has to be a sound one.
+//! known but that it has to be a valid one.
 
 pub mod cases;
 pub mod findings;
-pub mod hard;
 pub mod limit;
 pub mod order;
+pub mod robustness;
 pub mod run;
 pub mod work;
 

@@ -1,6 +1,6 @@
 //! The source paper's scene and what its cube does.
 
-use super::run::{Answer, Run, Trouble, scenario_of, scene_of};
+use super::run::{Answer, CaseError, Run, scenario_of, scene_of};
 use scree_solver::record::Recorder;
 use scree_solver::simulation::Scene;
 use scree_solver::stability::Limits;
@@ -30,9 +30,9 @@ pub(super) fn scene(cells: f64) -> Value {
 ///
 /// # Errors
 /// The scene is refused.
-pub(super) fn limits_of(scene: &Value) -> Result<Limits, Trouble> {
+pub(super) fn limits_of(scene: &Value) -> Result<Limits, CaseError> {
     let flow = scene_of(scene)?.given.flow;
-    Ok(flow.ok_or(Trouble::Never("there is no flow"))?.limits)
+    Ok(flow.ok_or(CaseError::Never("there is no flow"))?.limits)
 }
 
 /// The [`QUANTITIES`] of the cube. It may still move at the end: then it is at
@@ -40,7 +40,7 @@ pub(super) fn limits_of(scene: &Value) -> Result<Limits, Trouble> {
 ///
 /// # Errors
 /// The scene is refused or can't be computed, or the flow doesn't move the cube.
-pub(super) fn motion(scene: &Value) -> Result<Answer<4>, Trouble> {
+pub(super) fn motion(scene: &Value) -> Result<Answer<4>, CaseError> {
     let scenario = scenario_of(scene)?;
     let mut run = Run::start(Scene::whole(&scenario)?)?;
     let mut recorder = Recorder::new(&scenario);
@@ -51,10 +51,10 @@ pub(super) fn motion(scene: &Value) -> Result<Answer<4>, Trouble> {
     })?;
     let outcome = recorder.outcome(&run.simulation, 0.0);
     let [cube] = &outcome.bodies[..] else {
-        return Err(Trouble::Never("there is not one cube"));
+        return Err(CaseError::Never("there is not one cube"));
     };
     let onset = cube.onset_time_s;
-    let onset = onset.ok_or(Trouble::Never("the flow never moved the cube"))?;
+    let onset = onset.ok_or(CaseError::Never("the flow never moved the cube"))?;
     let rest = cube.stop_time_s.unwrap_or(f64::NAN);
     Ok(run.answer([onset, cube.peak_speed_m_s, cube.displacement_m, rest]))
 }

@@ -1,7 +1,7 @@
 //! Plates that are moved through a bed as told, and the force on them.
 
 use super::blocks::{Block, PER_CELL, elastic};
-use super::run::{Run, Trouble};
+use super::run::{CaseError, Run};
 use super::scenes::{GRAVITY, body};
 use scree_solver::contact::law::damping_number;
 use scree_solver::material::{Material, Yielding};
@@ -60,7 +60,7 @@ impl Plate {
     ///
     /// # Errors
     /// There is no such plate.
-    pub(super) fn within(&self, block: &Block) -> Result<Scene, Trouble> {
+    pub(super) fn within(&self, block: &Block) -> Result<Scene, CaseError> {
         let mut scene = block.bed(POISSONS_RATIO);
         // Nothing bounds what a driven plate presses with.
         let flow = scene.given.flow.insert(block.flow(f64::INFINITY));
@@ -141,7 +141,7 @@ impl Push {
     ///
     /// # Errors
     /// There is no such plate, or the computation can't go on.
-    pub(super) fn force(&self, corners: [Vec3; 2]) -> Result<(Run, Vec3), Trouble> {
+    pub(super) fn force(&self, corners: [Vec3; 2]) -> Result<(Run, Vec3), CaseError> {
         let plate = Plate {
             corners,
             friction: FRICTION,
@@ -168,7 +168,7 @@ impl Push {
 ///
 /// # Errors
 /// The computation can't go on.
-pub(super) fn mean_force(run: &mut Run, to_s: f64) -> Result<Vec3, Trouble> {
+pub(super) fn mean_force(run: &mut Run, to_s: f64) -> Result<Vec3, CaseError> {
     let (mut impulse, mut duration) = (Vec3::zeros(), 0.0);
     run.watch(to_s, |simulation, report| {
         impulse += simulation.flow_load(0).load.force * report.substep_s;
@@ -178,7 +178,7 @@ pub(super) fn mean_force(run: &mut Run, to_s: f64) -> Result<Vec3, Trouble> {
     if duration > 0.0 {
         Ok(impulse / duration)
     } else {
-        Err(Trouble::Never(
+        Err(CaseError::Never(
             "no time passed while the force was measured",
         ))
     }

@@ -13,7 +13,7 @@ const MANY_POINTS: usize = 20_000;
 
 /// Why a value could not be measured.
 #[derive(Debug, Error)]
-pub enum Trouble {
+pub enum CaseError {
     /// The scene of the case can't be made.
     #[error("the scene is refused: {0}")]
     Scene(String),
@@ -59,7 +59,7 @@ impl Run {
     ///
     /// # Errors
     /// It can't be set up.
-    pub fn start(scene: Scene) -> Result<Self, Trouble> {
+    pub fn start(scene: Scene) -> Result<Self, CaseError> {
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let threads = if scene.points.len() < MANY_POINTS {
             1
@@ -78,7 +78,7 @@ impl Run {
     ///
     /// # Errors
     /// The computation can't go on.
-    pub fn to(&mut self, time_s: f64) -> Result<(), Trouble> {
+    pub fn to(&mut self, time_s: f64) -> Result<(), CaseError> {
         self.watch(time_s, |_, _| ControlFlow::Continue(()))
     }
 
@@ -90,7 +90,7 @@ impl Run {
         &mut self,
         time_s: f64,
         look: impl FnMut(&Simulation, &SubstepReport) -> ControlFlow<()> + Send,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), CaseError> {
         self.simulation.run(time_s, look)?;
         Ok(())
     }
@@ -105,7 +105,7 @@ impl Run {
         from_s: f64,
         to_s: f64,
         speed: impl Fn(&Simulation) -> f64,
-    ) -> Result<f64, Trouble> {
+    ) -> Result<f64, CaseError> {
         self.to(from_s)?;
         let (start, first) = (self.simulation.time_s(), speed(&self.simulation));
         self.to(to_s)?;
@@ -130,7 +130,7 @@ impl Run {
 ///
 /// # Errors
 /// The scenario is refused.
-pub fn scene_of(document: &serde_json::Value) -> Result<Scene, Trouble> {
+pub fn scene_of(document: &serde_json::Value) -> Result<Scene, CaseError> {
     Ok(Scene::whole(&scenario_of(document)?)?)
 }
 
@@ -138,7 +138,7 @@ pub fn scene_of(document: &serde_json::Value) -> Result<Scene, Trouble> {
 ///
 /// # Errors
 /// It is refused.
-pub fn scenario_of(document: &serde_json::Value) -> Result<Scenario, Trouble> {
-    let refused = |error: ScenarioError| Trouble::Scene(format!("{error:?}"));
+pub fn scenario_of(document: &serde_json::Value) -> Result<Scenario, CaseError> {
+    let refused = |error: ScenarioError| CaseError::Scene(format!("{error:?}"));
     Scenario::from_json(&document.to_string()).map_err(refused)
 }

@@ -1,6 +1,6 @@
 //! Scenes that a scenario can express, as JSON.
 
-use super::run::{Trouble, scene_of};
+use super::run::{CaseError, scene_of};
 use scree_solver::Simulation;
 use scree_solver::math::Vec3;
 use scree_solver::rigid::Body;
@@ -24,7 +24,7 @@ pub(super) fn channel(inclination_deg: f64, incline_m: f64, runout_m: f64, width
 
 /// A cube of 40 mm, just touching a flat floor, that flies down into it at 1 m/s
 /// without gravity or friction; `body` adds to its description or overrides it.
-pub(super) fn thrown_down(body: &Value) -> Result<Scene, Trouble> {
+pub(super) fn thrown_down(body: &Value) -> Result<Scene, CaseError> {
     let mut document = channel(0.0, 0.5, 0.5, 0.2);
     let mut cube = json!({"shape": {"cube": {"side_m": 0.04}},
         "position": {"downstream_m": 0.1, "elevation_m": 0.1},
@@ -67,12 +67,12 @@ pub(super) fn tilted_gravity(inclination_deg: f64) -> Vec3 {
 }
 
 /// A body of this description, in a channel of its own.
-pub(super) fn body(description: &Value) -> Result<Body, Trouble> {
+pub(super) fn body(description: &Value) -> Result<Body, CaseError> {
     let mut document = channel(0.0, 1.0, 1.0, 1.0);
     document["bodies"] = json!([description]);
     document["duration_s"] = json!(1.0);
     let body = scene_of(&document)?.bodies.pop();
-    body.ok_or(Trouble::Never("there is no body"))
+    body.ok_or(CaseError::Never("there is no body"))
 }
 
 /// Velocity of the flow's mass centre [m/s].

@@ -7,7 +7,7 @@
 
 use super::beads;
 use super::blocks::Block;
-use super::run::{Run, Trouble};
+use super::run::{CaseError, Run};
 use super::scenes::{GRAVITY, tilted_gravity};
 use scree_solver::Simulation;
 use scree_solver::material::{Material, Yielding};
@@ -158,7 +158,7 @@ impl Slope {
     }
 
     /// Means from the run's present time until `to` [s].
-    pub(super) fn means(&self, run: &mut Run, to: f64) -> Result<Means, Trouble> {
+    pub(super) fn means(&self, run: &mut Run, to: f64) -> Result<Means, CaseError> {
         let mut sum = Means {
             speeds: vec![0.0; (self.cells * self.per_cell) as usize],
             centre: 0.0,

@@ -2,7 +2,7 @@
 //! The block runs round along the channel, and smooth walls mirror it across.
 
 use super::blocks::{Block, PER_CELL};
-use super::run::{Answer, Run, Trouble};
+use super::run::{Answer, CaseError, Run};
 use super::scenes::body;
 use scree_solver::contact::law::damping_number;
 use scree_solver::material::Material;
@@ -41,7 +41,7 @@ pub(super) struct Stream {
 }
 
 /// A cube that stays where it is, frictionless and never bounced off.
-pub(super) fn fixed_cube(centre: Vec3, scene: &Scene) -> Result<Body, Trouble> {
+pub(super) fn fixed_cube(centre: Vec3, scene: &Scene) -> Result<Body, CaseError> {
     let mut cube = body(&json!({
         "shape": {"cube": {"side_m": SIDE}},
         "sphero_radius_m": ROUNDING * SIDE,
@@ -72,7 +72,7 @@ impl Stream {
         0.5 * (wider - 1.0) * f64::from(self.cells)
     }
 
-    fn scene(&self) -> Result<Scene, Trouble> {
+    fn scene(&self) -> Result<Scene, CaseError> {
         let wide = self.wide;
         // What passes the cube does not reach the floor.
         let below = self.travel + GAP + 2;
@@ -113,7 +113,7 @@ impl Stream {
         &self,
         from: f64,
         windows: [f64; N],
-    ) -> Result<Answer<N>, Trouble> {
+    ) -> Result<Answer<N>, CaseError> {
         let mut run = Run::start(self.scene()?)?;
         let mut touched = None;
         let (mut impulses, mut times) = ([0.0; N], [0.0; N]);
@@ -133,7 +133,7 @@ impl Stream {
             ControlFlow::Continue(())
         })?;
         if times.contains(&0.0) {
-            return Err(Trouble::Never("the stream did not come so far"));
+            return Err(CaseError::Never("the stream did not come so far"));
         }
         let mut forces = impulses;
         for (force, time) in forces.iter_mut().zip(times) {

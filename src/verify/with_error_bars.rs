@@ -1,6 +1,6 @@
 //! Answers with intervals, computed here.
 
-use super::run::{Run, Trouble, scenario_of};
+use super::run::{CaseError, Run, scenario_of};
 use scree_solver::accuracy::ConvergenceStudy;
 use scree_solver::record::{Outcome, Recorder};
 use scree_solver::scenario::Scenario;
@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 ///
 /// # Errors
 /// The scenario is refused, or its answer can't be computed.
-pub(super) fn answer(document: &Value) -> Result<Outcome, Trouble> {
+pub(super) fn answer(document: &Value) -> Result<Outcome, CaseError> {
     let scenario = scenario_of(document)?;
     let mut convergence_study = ConvergenceStudy::of(&scenario)?;
     while let Some(study_run) = convergence_study.next() {
@@ -22,11 +22,11 @@ pub(super) fn answer(document: &Value) -> Result<Outcome, Trouble> {
         }
     }
     let answer = convergence_study.finish();
-    answer.ok_or(Trouble::Never("none of the runs could be computed"))
+    answer.ok_or(CaseError::Never("none of the runs could be computed"))
 }
 
 /// Outcome of one run of a scenario.
-fn outcome(scenario: &Scenario) -> Result<Outcome, Trouble> {
+fn outcome(scenario: &Scenario) -> Result<Outcome, CaseError> {
     let mut run = Run::start(Scene::of(scenario)?)?;
     let mut recorder = Recorder::new(scenario);
     recorder.start(&run.simulation);

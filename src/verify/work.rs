@@ -4,7 +4,7 @@ use super::cases::ALL;
 use super::columns::{Column, Grains};
 use super::findings::Findings;
 use super::limit::extrapolated;
-use super::run::{Answer, Trouble};
+use super::run::{Answer, CaseError};
 use super::{Effort, before_after, paper, verify};
 use serde_json::{Value, json};
 
@@ -152,7 +152,7 @@ fn cube(effort: Effort) -> [Diagram; 2] {
     [diagram("work-peak", 1), diagram("work-displacement", 2)]
 }
 
-type Motion = Result<Answer<4>, Trouble>;
+type Motion = Result<Answer<4>, CaseError>;
 
 /// Choices by which the cube's scene is computed.
 #[derive(Debug, Clone, Copy)]

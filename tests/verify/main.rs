@@ -2,8 +2,8 @@
 //! known miss is asked for what holds. Figures are in the command's own tables.
 
 use scree::verify::findings::{Finding, Verdict};
-use scree::verify::hard::sweep::{self, Field, sweep};
-use scree::verify::{Case, Effort, Verified, cases, hard, verify};
+use scree::verify::robustness::randomised::{self, Field, randomised};
+use scree::verify::{Case, Effort, Verified, cases, robustness, verify};
 use std::collections::BTreeSet;
 
 fn verified(name: &str) -> Verified {
@@ -23,12 +23,12 @@ fn holds(name: &str) {
     assert!(found.count().passed > 0, "{name} asks for nothing");
 }
 
-/// Runs families of hard cases; all must be sound.
-fn sound(families: &[&str]) {
-    for family in hard::cases::ALL {
+/// Runs families of robustness tests; all must be valid.
+fn valid(families: &[&str]) {
+    for family in robustness::cases::ALL {
         if families.contains(&family.name) {
-            for tried in hard::try_family(family, Effort::Quick, false) {
-                assert!(tried.is_sound(), "{tried:#?}");
+            for tried in robustness::try_family(family, Effort::Quick, false) {
+                assert!(tried.is_valid(), "{tried:#?}");
             }
         }
     }
@@ -36,56 +36,59 @@ fn sound(families: &[&str]) {
 
 #[test]
 fn hard_slopes_and_sizes() {
-    sound(&["inclination", "size of the cube", "density of the cube"]);
+    valid(&["inclination", "size of the cube", "density of the cube"]);
 }
 
 #[test]
 fn hard_places() {
-    sound(&["place of the cube", "cubes on cubes"]);
+    valid(&["place of the cube", "cubes on cubes"]);
 }
 
 #[test]
 fn hard_limits_and_restart() {
-    sound(&["limits", "restart", "far away", "dust"]);
+    valid(&["limits", "restart", "far away", "dust"]);
 }
 
 // Some hundred scenarios as they come, and two runs of the same one.
 #[test]
 fn a_sweep_is_sound() {
     let field = Field::Everything;
-    let swept = sweep(field, 1_000_000, 60, &|_| {});
-    assert_eq!(swept.run, 60);
-    assert!(swept.failures.is_empty(), "{:#?}", swept.failures);
-    assert_eq!(sweep::scenario(field, 7), sweep::scenario(field, 7));
+    let report = randomised(field, 1_000_000, 60, &|_| {});
+    assert_eq!(report.run, 60);
+    assert!(report.failures.is_empty(), "{:#?}", report.failures);
+    assert_eq!(
+        randomised::scenario(field, 7),
+        randomised::scenario(field, 7)
+    );
 }
 
 // Bodies of all shapes, frictions and restitutions on each other.
 #[test]
 fn contacts_of_bodies_make_no_energy() {
-    let swept = sweep(Field::BodiesAlone, 1_000_000, 40, &|_| {});
-    assert_eq!(swept.run, 40);
-    assert!(swept.failures.is_empty(), "{:#?}", swept.failures);
+    let report = randomised(Field::BodiesAlone, 1_000_000, 40, &|_| {});
+    assert_eq!(report.run, 40);
+    assert!(report.failures.is_empty(), "{:#?}", report.failures);
 }
 
-// Scenarios of sweeps that once failed: what lay in the foot was lifted out of it (decision
+// Scenarios of randomised tests that once failed: what lay in the foot was lifted out of it (decision
 // 18); points a quarter of a cell behind the floor kept their speed (decision 19); a body
 // came near a wall in the middle of a step, or touched it before it had any speed.
 #[test]
-fn what_sweeps_found_stays_mended() {
+fn what_randomised_tests_found_stays_mended() {
     for seed in [224, 447, 471, 2770, 3040, 2430, 3797, 2735, 3733] {
         let (scenario, _) =
-            sweep::scenario(Field::Everything, seed).expect("the seed has a scenario");
-        let tried = sweep::run(Field::Everything, &scenario);
-        assert!(tried.is_sound(), "seed {seed}: {tried:#?}");
+            randomised::scenario(Field::Everything, seed).expect("the seed has a scenario");
+        let tried = randomised::run(Field::Everything, &scenario);
+        assert!(tried.is_valid(), "seed {seed}: {tried:#?}");
     }
 }
 
 #[test]
 fn every_case_has_a_name_of_its_own() {
     let names = cases::ALL.iter().map(|case| case.name);
-    let names = names.chain(hard::cases::ALL.iter().map(|family| family.name));
+    let names = names.chain(robustness::cases::ALL.iter().map(|family| family.name));
     let names: BTreeSet<&str> = names.collect();
-    assert_eq!(names.len(), cases::ALL.len() + hard::cases::ALL.len());
+    assert_eq!(names.len(), cases::ALL.len() + robustness::cases::ALL.len());
 }
 
 #[test]

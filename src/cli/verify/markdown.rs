@@ -56,9 +56,9 @@ fn parted(text: &str) -> Option<(&str, &str)> {
 
 fn tables(report: &Report) -> String {
     let mut text = report.heading();
-    if !report.hard.is_empty() || !report.sweeps.is_empty() {
+    if !report.robustness.is_empty() || !report.randomised.is_empty() {
         text.push_str("\n\n");
-        text.push_str(&super::hard::markdown(report));
+        text.push_str(&super::robustness_tables::markdown(report));
     }
     if report.cases.is_empty() {
         return text;

@@ -1,8 +1,8 @@
 //! `scree verify`: the solver against cases with a trusted answer.
 
 mod figures;
-mod hard;
 mod markdown;
+mod robustness_tables;
 
 use super::arguments::{SuiteWord, VerifyOptions};
 use super::columns::{millions, table};
@@ -10,11 +10,11 @@ use super::console;
 use super::failure::Failure;
 use super::machine::Machine;
 use scree::verify::findings::{Count, Error, Finding, Verdict};
-use scree::verify::hard::sweep::{Field, Swept, sweep};
-use scree::verify::hard::trial::Tried;
-use scree::verify::hard::{self as hard_cases, Family, try_family};
 use scree::verify::limit::Limit;
 use scree::verify::order::Order;
+use scree::verify::robustness::randomised::{Field, RandomisedReport, randomised};
+use scree::verify::robustness::trial::TrialReport;
+use scree::verify::robustness::{self, Family, try_family};
 use scree::verify::{Case, Effort, How, Verified, cases, count, verify as run_case, work};
 use scree_solver::VERSION;
 use serde::Serialize;
@@ -32,8 +32,8 @@ struct Report {
     effort: Effort,
     count: Count,
     cases: Vec<Verified>,
-    hard: Vec<Tried>,
-    sweeps: Vec<Swept>,
+    robustness: Vec<TrialReport>,
+    randomised: Vec<RandomisedReport>,
 }
 
 /// Runs the cases asked for and prints what was found.
@@ -59,17 +59,17 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
         tell_of(family.name);
         tried.extend(try_family(family, effort, options.full));
     }
-    let tell = |failing: &_| console::note(&hard::in_words(failing));
-    let fields = asked.sweeps.iter();
-    let swept = fields.map(|field| sweep(*field, options.seed, options.count, &tell));
+    let tell = |failing: &_| console::note(&robustness_tables::in_words(failing));
+    let fields = asked.randomised.iter();
+    let report = fields.map(|field| randomised(*field, options.seed, options.count, &tell));
     let report = Report {
         solver_version: VERSION,
         machine: Machine::here(),
         effort,
         count: count(&verified),
         cases: verified,
-        hard: tried,
-        sweeps: swept.collect(),
+        robustness: tried,
+        randomised: report.collect(),
     };
     let answer = if options.json {
         serde_json::to_string_pretty(&report)?
@@ -103,7 +103,7 @@ fn tell_of(name: &str) {
 struct Asked {
     cases: Vec<&'static Case>,
     families: Vec<&'static Family>,
-    sweeps: &'static [Field],
+    randomised: &'static [Field],
 }
 
 impl Asked {
@@ -112,7 +112,7 @@ impl Asked {
     fn of(options: &VerifyOptions) -> Result<Self, Failure> {
         let (suite, names) = (options.suite, &options.case);
         let all = cases::ALL.iter().map(|case| case.name);
-        let all = all.chain(hard_cases::cases::ALL.iter().map(|family| family.name));
+        let all = all.chain(robustness::cases::ALL.iter().map(|family| family.name));
         let all: Vec<&str> = all.collect();
         if let Some(unknown) = names.iter().find(|name| !all.contains(&name.as_str())) {
             let all = all.join(", ");
@@ -125,16 +125,16 @@ impl Asked {
             names => names.iter().any(|one| one == name),
         };
         let cases = cases::ALL.iter();
-        let families = hard_cases::cases::ALL.iter();
+        let families = robustness::cases::ALL.iter();
         Ok(Self {
             cases: cases
                 .filter(|case| asked(case.name, SuiteWord::Standard))
                 .collect(),
             families: families
-                .filter(|family| asked(family.name, SuiteWord::Hard))
+                .filter(|family| asked(family.name, SuiteWord::Robustness))
                 .collect(),
-            sweeps: if names.is_empty() {
-                suite.sweeps()
+            randomised: if names.is_empty() {
+                suite.randomised()
             } else {
                 &[]
             },
@@ -143,13 +143,18 @@ impl Asked {
 }
 
 impl Report {
-    /// Tolerances failed, hard cases that broke something, and of sweeps the failures and what
+    /// Tolerances failed, robustness tests that broke something, and of randomised tests the failures and what
     /// was not run.
     fn failed(&self) -> usize {
-        let broken = self.hard.iter().filter(|tried| !tried.is_sound()).count();
-        let of_sweep = |swept: &Swept| swept.failures.len() + swept.not_run() as usize;
-        let of_sweeps: usize = self.sweeps.iter().map(of_sweep).sum();
-        self.count.failed + broken + of_sweeps
+        let broken = self
+            .robustness
+            .iter()
+            .filter(|tried| !tried.is_valid())
+            .count();
+        let of_report =
+            |report: &RandomisedReport| report.failures.len() + report.not_run() as usize;
+        let of_randomised: usize = self.randomised.iter().map(of_report).sum();
+        self.count.failed + broken + of_randomised
     }
 
     /// Version, machine and effort.
@@ -185,7 +190,7 @@ impl Report {
         if !self.cases.is_empty() {
             let _ = write!(text, "\n{}", self.ending());
         }
-        text.push_str(&hard::tables(self));
+        text.push_str(&robustness_tables::tables(self));
         text
     }
 }
@@ -333,8 +338,8 @@ mod tests {
             effort: Effort::Quick,
             count: Count::default(),
             cases: vec![verified],
-            hard: Vec::new(),
-            sweeps: Vec::new(),
+            robustness: Vec::new(),
+            randomised: Vec::new(),
         };
         let text = report.tables();
         assert!(text.contains("not yet expressible: friction is not negative"));
@@ -345,23 +350,23 @@ mod tests {
     // Once a seed without a legal draw was passed over in silence.
     #[test]
     fn a_sweep_that_ran_less_than_asked_fails() {
-        let swept = |run: u64| Report {
+        let report = |run: u64| Report {
             solver_version: VERSION,
             machine: Machine::here(),
             effort: Effort::Quick,
             count: Count::default(),
             cases: Vec::new(),
-            hard: Vec::new(),
-            sweeps: vec![Swept {
+            robustness: Vec::new(),
+            randomised: vec![RandomisedReport {
                 asked: 10,
                 run,
-                ..Swept::default()
+                ..RandomisedReport::default()
             }],
         };
-        assert_eq!(swept(10).failed(), 0);
-        assert!(!swept(10).tables().contains("NOT RUN"));
-        assert_eq!(swept(8).failed(), 2);
-        let text = swept(8).tables();
+        assert_eq!(report(10).failed(), 0);
+        assert!(!report(10).tables().contains("NOT RUN"));
+        assert_eq!(report(8).failed(), 2);
+        let text = report(8).tables();
         assert!(text.contains("2 of 10 NOT RUN"), "{text}");
     }
 
@@ -371,13 +376,13 @@ mod tests {
         let parts = SuiteWord::value_variants().iter();
         for part in parts.filter(|part| **part != SuiteWord::All) {
             assert!(
-                part.sweeps()
+                part.randomised()
                     .iter()
-                    .all(|field| SuiteWord::All.sweeps().contains(field)),
+                    .all(|field| SuiteWord::All.randomised().contains(field)),
                 "{part:?}"
             );
             assert!(
-                !part.sweeps().is_empty() || SuiteWord::All.takes(*part),
+                !part.randomised().is_empty() || SuiteWord::All.takes(*part),
                 "{part:?}"
             );
         }

@@ -24,7 +24,7 @@
 
 use crate::verify::blocks::PER_CELL;
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::slope::{HEIGHT, Means, Slope, fastest, leverage, wave_speed};
 use crate::verify::{Case, Effort, How};
 
@@ -109,7 +109,7 @@ fn flowing(
     for window in windows {
         let measured = run
             .as_mut()
-            .map_err(|trouble| Trouble::Scene(trouble.to_string()))
+            .map_err(|error| CaseError::Scene(error.to_string()))
             .and_then(|run| means(&slope, run, window));
         if let Ok((means, _)) = &measured {
             speeds.push(means.surface(inclination_deg).0);
@@ -132,7 +132,7 @@ fn means(
     slope: &Slope,
     run: &mut Run,
     [from, to]: &[f64; 2],
-) -> Result<(Means, Answer<0>), Trouble> {
+) -> Result<(Means, Answer<0>), CaseError> {
     run.to(*from)?;
     let means = slope.means(run, *to)?;
     Ok((means, run.answer([])))
@@ -142,7 +142,7 @@ fn take_window(
     slope: f64,
     window: &[f64; 2],
     resolution: &Resolution,
-    measured: Result<(Means, Answer<0>), Trouble>,
+    measured: Result<(Means, Answer<0>), CaseError>,
     findings: &mut Findings,
 ) {
     let [surface, profile, centre] = quantities(slope, window);
@@ -172,7 +172,7 @@ fn take_window(
 }
 
 /// Measured and exact; no number where nothing was measured.
-fn slope_surface(measured: &Result<(Means, Answer<0>), Trouble>, slope: f64) -> (f64, f64) {
+fn slope_surface(measured: &Result<(Means, Answer<0>), CaseError>, slope: f64) -> (f64, f64) {
     match measured {
         Ok((means, _)) => means.surface(slope),
         Err(_) => (f64::NAN, f64::NAN),
@@ -203,7 +203,7 @@ fn too_flat(cells: u32, findings: &mut Findings) {
     }
 }
 
-fn at_the_end(slope: &Slope) -> Result<Answer<1>, Trouble> {
+fn at_the_end(slope: &Slope) -> Result<Answer<1>, CaseError> {
     let mut run = Run::start(slope.scene())?;
     run.to(slope.duration)?;
     Ok(run.answer([fastest(&run.simulation)]))

@@ -15,7 +15,7 @@
 use crate::verify::beads;
 use crate::verify::blocks::{Block, PER_CELL};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::scenes::GRAVITY;
 use crate::verify::stream::{SIDE, fixed_cube};
 use crate::verify::{Case, Effort, How};
@@ -98,7 +98,7 @@ fn liquid(sound_speed: f64) -> Material {
 }
 
 /// The bed round the cube, and the mass left out for it [kg].
-fn scene(block: &Block) -> Result<(Scene, f64), Trouble> {
+fn scene(block: &Block) -> Result<(Scene, f64), CaseError> {
     let mut scene = block.bed(LIQUID);
     let cube = fixed_cube(block.middle(), &scene)?;
     let sphere = scene.given.flow.as_ref();
@@ -113,7 +113,7 @@ fn scene(block: &Block) -> Result<(Scene, f64), Trouble> {
     Ok((scene, left_out))
 }
 
-fn buoyancy(cells: u32, duration: f64) -> Result<Answer<4>, Trouble> {
+fn buoyancy(cells: u32, duration: f64) -> Result<Answer<4>, CaseError> {
     let block = block(cells, duration);
     let (scene, left_out) = scene(&block)?;
     let mut run = Run::start(scene)?;
@@ -128,7 +128,7 @@ fn buoyancy(cells: u32, duration: f64) -> Result<Answer<4>, Trouble> {
 }
 
 /// Mean upward force on the cube from the run's present time until `to` [N].
-fn mean_lift(run: &mut Run, to: f64) -> Result<f64, Trouble> {
+fn mean_lift(run: &mut Run, to: f64) -> Result<f64, CaseError> {
     let (mut impulse, mut time) = (0.0, 0.0);
     run.watch(to, |simulation, report| {
         impulse += simulation.flow_load(0).load.force.z * report.substep_s;

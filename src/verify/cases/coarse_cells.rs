@@ -12,7 +12,7 @@
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::on_all_cores::side_by_side;
-use crate::verify::run::{Answer, Cost, Trouble};
+use crate::verify::run::{Answer, CaseError, Cost};
 use crate::verify::with_error_bars::answer;
 use crate::verify::{Case, Effort, How};
 use serde_json::{Value, json};
@@ -72,7 +72,7 @@ fn run(effort: Effort, findings: &mut Findings) {
 }
 
 /// How far the phases of the reference solution are apart.
-fn apart(sized: &Sized, finest: f64, limit: Result<Phases, Trouble>, findings: &mut Findings) {
+fn apart(sized: &Sized, finest: f64, limit: Result<Phases, CaseError>, findings: &mut Findings) {
     let questions = QUANTITIES.map(|(quantity, unit)| {
         let name = format!("phases apart, {quantity}, {}", sized.name);
         Question::new(name, unit, 0.0).by(Error::Absolute)
@@ -104,7 +104,7 @@ impl Phases {
     }
 }
 
-fn over_phases(sized: &Sized, cells: f64) -> Result<Phases, Trouble> {
+fn over_phases(sized: &Sized, cells: f64) -> Result<Phases, CaseError> {
     let cell_size_m = sized.size / cells;
     let motions = side_by_side(&PHASES, |phase| {
         let mut scene = sized.scene.clone();
@@ -115,9 +115,9 @@ fn over_phases(sized: &Sized, cells: f64) -> Result<Phases, Trouble> {
         let values = [body.peak_speed_m_s, body.displacement_m];
         Ok((values, outcome.cost.wall_s))
     });
-    let motions: Result<Vec<_>, Trouble> = motions.into_iter().collect();
+    let motions: Result<Vec<_>, CaseError> = motions.into_iter().collect();
     let [(one, first_s), (other, second_s)] = motions?[..] else {
-        return Err(Trouble::Never("there are not two phases"));
+        return Err(CaseError::Never("there are not two phases"));
     };
     Ok(Phases {
         values: (

@@ -12,7 +12,7 @@
 //! deepest overlap of two bodies, or of a body and the floor.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble, scene_of};
+use crate::verify::run::{Answer, CaseError, Run, scene_of};
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
 use scree_solver::math::Vec3;
@@ -74,7 +74,7 @@ fn ways(simulation: &Simulation, start: &[Vec3]) -> Vec<Vec3> {
         .collect()
 }
 
-fn impact(cells: f64) -> Result<Answer<6>, Trouble> {
+fn impact(cells: f64) -> Result<Answer<6>, CaseError> {
     let mut run = Run::start(scene_of(&scene(cells))?)?;
     let start = places(&run.simulation);
     let (mut sideways, mut hit) = (0.0f64, false);
@@ -88,7 +88,7 @@ fn impact(cells: f64) -> Result<Answer<6>, Trouble> {
         ControlFlow::Continue(())
     })?;
     if !hit {
-        return Err(Trouble::Never("the sand never reached the cubes"));
+        return Err(CaseError::Never("the sand never reached the cubes"));
     }
     let downstream = ways(&run.simulation, &start).into_iter().map(|way| way.x);
     let downstream: Vec<f64> = downstream.collect();

@@ -21,7 +21,7 @@
 use crate::verify::beads;
 use crate::verify::blocks::{Block, PER_CELL};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::scenes::{GRAVITY, tilted_gravity};
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
@@ -145,7 +145,7 @@ fn scene(cells: u32, theory: &Theory) -> Scene {
     scene
 }
 
-fn flow(cells: u32, theory: &Theory) -> Result<Answer<4>, Trouble> {
+fn flow(cells: u32, theory: &Theory) -> Result<Answer<4>, CaseError> {
     let scene = scene(cells, theory);
     let length = f64::from(LENGTH) * HEIGHT;
     let middle = MIDDLE.0 * length..MIDDLE.1 * length;

@@ -15,7 +15,7 @@
 
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::plates::{DENSITY, Push, SIDE, bed_material};
-use crate::verify::run::{Answer, Trouble};
+use crate::verify::run::{Answer, CaseError};
 use crate::verify::scenes::GRAVITY;
 use crate::verify::{Case, Effort, How};
 use scree_solver::math::Vec3;
@@ -54,7 +54,7 @@ fn run(effort: Effort, findings: &mut Findings) {
 }
 
 /// Force over ½ ρ g w h².
-fn drag(friction: f64, cells: u32) -> Result<Answer<1>, Trouble> {
+fn drag(friction: f64, cells: u32) -> Result<Answer<1>, CaseError> {
     let wave = (GRAVITY * SIDE).sqrt();
     let speed = SPEED * wave;
     let push = Push {

@@ -12,7 +12,7 @@
 
 use crate::verify::blocks::{Block, PER_CELL, elastic};
 use crate::verify::findings::{Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
 use scree_solver::math::Mat3;
@@ -77,7 +77,7 @@ fn scene(cells: u32) -> Scene {
     scene
 }
 
-fn frequency(cells: u32) -> Result<Answer<1>, Trouble> {
+fn frequency(cells: u32) -> Result<Answer<1>, CaseError> {
     let mut run = Run::start(scene(cells))?;
     let mut before = (0.0, share_of_mode(&run.simulation));
     let mut crossings = Vec::new();
@@ -97,7 +97,7 @@ fn frequency(cells: u32) -> Result<Answer<1>, Trouble> {
             let halves = (crossings.len() - 1) as f64;
             Ok(run.answer([PI * halves / (last - first)]))
         }
-        _ => Err(Trouble::Never("the bar did not swing")),
+        _ => Err(CaseError::Never("the bar did not swing")),
     }
 }
 

@@ -12,7 +12,7 @@
 use crate::verify::drawn::{self, Drawn};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::on_all_cores::side_by_side;
-use crate::verify::run::{Answer, Cost, Trouble};
+use crate::verify::run::{Answer, CaseError, Cost};
 use crate::verify::with_error_bars::answer;
 use crate::verify::{Case, Effort, How};
 use scree_solver::record::{Basis, BodyErrorBars, BodyOutcome, Outcome, UncertaintyInterval};
@@ -109,9 +109,9 @@ fn run(effort: Effort, findings: &mut Findings) {
     for (scene, pair) in drawn.iter().zip(pairs) {
         match pair {
             Ok(pair) => trials.push(pair),
-            Err(trouble) => {
+            Err(error) => {
                 let question = Question::new(format!("scene {}", scene.label), "", 1.0);
-                let failed: Result<Answer<1>, Trouble> = Err(trouble);
+                let failed: Result<Answer<1>, CaseError> = Err(error);
                 findings.take(&Resolution::named("both runs"), [question], failed);
             }
         }
@@ -135,7 +135,7 @@ struct Pair {
     finer: Outcome,
 }
 
-fn pair(drawn: &Drawn, coarser: f64) -> Result<Pair, Trouble> {
+fn pair(drawn: &Drawn, coarser: f64) -> Result<Pair, CaseError> {
     let with = |cell_size_m: f64, error_bars: bool| {
         let mut scenario: Value = drawn.scenario.clone();
         scenario["numerics"] = json!({"cell_size_m": cell_size_m});

@@ -18,7 +18,7 @@
 //! come and go in a tumbling collision depends on the step.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Cost, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Cost, Run};
 use crate::verify::scenes::{body, on_vertex, thrown_down};
 use crate::verify::{Case, Effort, How};
 use scree_solver::contact::body_body::{ContactPair, Separation, pair_law};
@@ -90,7 +90,7 @@ fn question(of: &str) -> Question {
 }
 
 /// A cube about the origin, without damping and friction.
-fn cube(orientation: [f64; 4]) -> Result<Body, Trouble> {
+fn cube(orientation: [f64; 4]) -> Result<Body, CaseError> {
     let mut body = body(&json!({"shape": {"cube": {"side_m": SIDE}},
         "sphero_radius_m": RADIUS, "contact_modulus_pa": 1e8, "restitution": 1.0,
         "friction": 0.0, "orientation": orientation,
@@ -109,7 +109,7 @@ struct Slide {
 }
 
 impl Slide {
-    fn new() -> Result<Self, Trouble> {
+    fn new() -> Result<Self, CaseError> {
         let (below, above) = (cube([1.0, 0.0, 0.0, 0.0])?, cube(on_vertex())?);
         let reach = above.shape.extent_along(&above.to_body(&-Vec3::z()));
         Ok(Self {
@@ -141,7 +141,7 @@ impl Slide {
 ///
 /// # Errors
 /// The scene is refused.
-pub fn slide_over_a_rim() -> Result<Vec<(f64, [f64; 3])>, Trouble> {
+pub fn slide_over_a_rim() -> Result<Vec<(f64, [f64; 3])>, CaseError> {
     let mut slide = Slide::new()?;
     let place = |n: i32| {
         let beyond = 2e-5 * f64::from(n);
@@ -151,7 +151,7 @@ pub fn slide_over_a_rim() -> Result<Vec<(f64, [f64; 3])>, Trouble> {
     Ok((-50..=100).map(place).collect())
 }
 
-fn slid(beyond: f64, along_rim: bool) -> Result<Answer<2>, Trouble> {
+fn slid(beyond: f64, along_rim: bool) -> Result<Answer<2>, CaseError> {
     let started = Instant::now();
     let (energy, force) = Slide::new()?.at(beyond, along_rim);
     Ok(Answer {
@@ -165,7 +165,7 @@ fn slid(beyond: f64, along_rim: bool) -> Result<Answer<2>, Trouble> {
 
 /// Largest changes of energy, momentum and angular momentum, as shares, over so many
 /// collisions in steps no longer than `step` [s].
-fn collided(collisions: u32, step: f64) -> Result<Answer<3>, Trouble> {
+fn collided(collisions: u32, step: f64) -> Result<Answer<3>, CaseError> {
     let mut numbers = Numbers(0.3);
     let mut worst = [0.0f64; 3];
     let mut cost = Cost::default();
@@ -182,7 +182,7 @@ fn collided(collisions: u32, step: f64) -> Result<Answer<3>, Trouble> {
     })
 }
 
-fn collision(numbers: &mut Numbers, step: f64) -> Result<Answer<3>, Trouble> {
+fn collision(numbers: &mut Numbers, step: f64) -> Result<Answer<3>, CaseError> {
     let mut run = Run::start(flying(numbers, step)?)?;
     let start = totals(&run.simulation);
     let mut touched = false;
@@ -191,7 +191,7 @@ fn collision(numbers: &mut Numbers, step: f64) -> Result<Answer<3>, Trouble> {
         ControlFlow::Continue(())
     })?;
     if !touched {
-        return Err(Trouble::Never("the bodies flew past each other"));
+        return Err(CaseError::Never("the bodies flew past each other"));
     }
     let end = totals(&run.simulation);
     let momentum = run.simulation.bodies()[1].mass;
@@ -205,7 +205,7 @@ fn collision(numbers: &mut Numbers, step: f64) -> Result<Answer<3>, Trouble> {
 /// Distance at the start [m].
 const APART: f64 = 0.09;
 
-fn flying(numbers: &mut Numbers, step: f64) -> Result<Scene, Trouble> {
+fn flying(numbers: &mut Numbers, step: f64) -> Result<Scene, CaseError> {
     let mut scene = thrown_down(&json!({}))?;
     scene.given.planes.clear();
     scene.given.timing.longest_substep = step;
@@ -224,19 +224,19 @@ fn flying(numbers: &mut Numbers, step: f64) -> Result<Scene, Trouble> {
 
 /// Makes a body a rounded regular tetrahedron of the same density, 5 cm along the
 /// edges of its core.
-fn tetrahedron(body: &mut Body) -> Result<(), Trouble> {
+fn tetrahedron(body: &mut Body) -> Result<(), CaseError> {
     let density = body.mass / body.shape.volume();
     let corner = 0.05 / 8f64.sqrt();
     let vertices = [[1., 1., 1.], [1., -1., -1.], [-1., 1., -1.], [-1., -1., 1.]];
     let loops = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
     let vertices = vertices.map(|v| Vec3::from(v) * corner).to_vec();
-    let refused = |error: scree_solver::shape::ShapeError| Trouble::Scene(error.to_string());
+    let refused = |error: scree_solver::shape::ShapeError| CaseError::Scene(error.to_string());
     let core = ConvexPolyhedron::new(vertices, loops.map(Vec::from).to_vec()).map_err(refused)?;
     body.shape = SpheroPolyhedron::from_core(core, RADIUS).map_err(refused)?;
     body.mass = density * body.shape.volume();
     body.inertia = body.shape.unit_inertia() * density;
     let inverse = InverseInertia::of(&body.inertia);
-    body.inverse_inertia = inverse.ok_or(Trouble::Never("a solid without inertia"))?;
+    body.inverse_inertia = inverse.ok_or(CaseError::Never("a solid without inertia"))?;
     Ok(())
 }
 

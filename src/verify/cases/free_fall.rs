@@ -14,7 +14,7 @@
 
 use crate::verify::blocks::{Block, PER_CELL, elastic};
 use crate::verify::findings::{Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::scenes::{GRAVITY, mean_velocity, thrown_down};
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
@@ -64,7 +64,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     findings.take(&Resolution::named("own steps"), questions, fall_of_body());
 }
 
-fn fall_of_body() -> Result<Answer<2>, Trouble> {
+fn fall_of_body() -> Result<Answer<2>, CaseError> {
     let mut scene = thrown_down(&json!({"velocity_m_s": THROWN.as_slice()}))?;
     scene.given.gravity.z = -GRAVITY;
     scene.given.timing.duration = DURATION;
@@ -82,7 +82,7 @@ struct Fall {
     answer: Answer<2>,
 }
 
-fn fall(precision: Precision, courant: f64) -> Result<Fall, Trouble> {
+fn fall(precision: Precision, courant: f64) -> Result<Fall, CaseError> {
     let block = Block {
         cell: 0.02,
         at: [6, 5, 30],

@@ -14,7 +14,7 @@
 //! Hertz's force is smooth enough at δ = 0 for it, almost.
 
 use crate::verify::findings::{Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::scenes::{height_of_touch, on_vertex, thrown_down};
 use crate::verify::{Case, Effort, How};
 use scree_solver::shape::SpheroPolyhedron;
@@ -71,7 +71,7 @@ fn run(effort: Effort, findings: &mut Findings) {
 
 /// Deepest overlap [mm], duration [ms], largest force [N] and rebound speed
 /// [m/s], seen at steps no longer than `step` [s].
-fn impact(step: f64) -> Result<Answer<4>, Trouble> {
+fn impact(step: f64) -> Result<Answer<4>, CaseError> {
     let mut run = Run::start(scene(step)?)?;
     let touch = height_of_touch(&run.simulation.bodies()[0]);
     let (mut deepest, mut strongest) = (0.0f64, 0.0f64);
@@ -89,15 +89,15 @@ fn impact(step: f64) -> Result<Answer<4>, Trouble> {
         before = (report.time_s, overlap);
         ControlFlow::Continue(())
     })?;
-    let end = end.ok_or(Trouble::Never("the body never left the floor"))?;
+    let end = end.ok_or(CaseError::Never("the body never left the floor"))?;
     let speed = run.simulation.bodies()[0].velocity().z;
     Ok(run.answer([deepest * 1e3, end * 1e3, strongest, speed]))
 }
 
-fn scene(step: f64) -> Result<Scene, Trouble> {
+fn scene(step: f64) -> Result<Scene, CaseError> {
     let side = 0.04;
-    let cube =
-        SpheroPolyhedron::cube(side, RADIUS).map_err(|error| Trouble::Scene(error.to_string()))?;
+    let cube = SpheroPolyhedron::cube(side, RADIUS)
+        .map_err(|error| CaseError::Scene(error.to_string()))?;
     let mut scene = thrown_down(&json!({
         "shape": {"cube": {"side_m": side}}, "sphero_radius_m": RADIUS,
         "density_kg_m3": MASS / cube.volume(), "orientation": on_vertex(),

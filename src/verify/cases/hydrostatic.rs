@@ -18,7 +18,7 @@
 
 use crate::verify::blocks::{Block, PER_CELL, elastic};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::scenes::{GRAVITY, mean_velocity};
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
@@ -153,7 +153,7 @@ fn layers_at_rest(cells: u32, material: &Material) -> Vec<Layer> {
     (0..count).map(layer).collect()
 }
 
-fn rest(cells: u32, precision: Precision) -> Result<Answer<4>, Trouble> {
+fn rest(cells: u32, precision: Precision) -> Result<Answer<4>, CaseError> {
     let layers = cells as usize * LAYERS;
     let mut run = Run::start(scene(cells, precision))?;
     run.to(FROM)?;

@@ -8,7 +8,7 @@
 //! the springs have rung out; 0.3°, the angle being found by bisection.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Cost, Run, Trouble, scene_of};
+use crate::verify::run::{Answer, CaseError, Cost, Run, scene_of};
 use crate::verify::scenes::{GRAVITY, channel, downhill};
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
@@ -51,7 +51,7 @@ fn run(effort: Effort, findings: &mut Findings) {
 }
 
 /// A cube resting flat on a slope 4 m long, 0.3 m below its top.
-fn on_slope(angle: f64, friction: f64, radius: f64, duration: f64) -> Result<Run, Trouble> {
+fn on_slope(angle: f64, friction: f64, radius: f64, duration: f64) -> Result<Run, CaseError> {
     let mut document = channel(angle, 4.0, 1.0, 0.2);
     document["bodies"] = json!([{
         "shape": {"cube": {"side_m": SIDE}}, "sphero_radius_m": radius,
@@ -61,14 +61,14 @@ fn on_slope(angle: f64, friction: f64, radius: f64, duration: f64) -> Result<Run
     Run::start(scene_of(&document)?)
 }
 
-fn acceleration(angle: f64, friction: f64) -> Result<Answer<1>, Trouble> {
+fn acceleration(angle: f64, friction: f64) -> Result<Answer<1>, CaseError> {
     let mut run = on_slope(angle, friction, 0.002, 0.8)?;
     let along = |simulation: &Simulation| simulation.bodies()[0].velocity().dot(&downhill(angle));
     let acceleration = run.acceleration(SETTLED, f64::INFINITY, along)?;
     Ok(run.answer([acceleration]))
 }
 
-fn creep(angle: f64, friction: f64) -> Result<Answer<1>, Trouble> {
+fn creep(angle: f64, friction: f64) -> Result<Answer<1>, CaseError> {
     let mut run = on_slope(angle, friction, 0.002, 5.0 + SETTLED)?;
     run.to(SETTLED)?;
     let start = run.simulation.bodies()[0].state.position;
@@ -78,7 +78,7 @@ fn creep(angle: f64, friction: f64) -> Result<Answer<1>, Trouble> {
 }
 
 /// Angle between staying and tipping [°], to 1/32 of a degree.
-fn tipping_angle(radius: f64, guess: f64) -> Result<Answer<1>, Trouble> {
+fn tipping_angle(radius: f64, guess: f64) -> Result<Answer<1>, CaseError> {
     let (mut stays, mut tips) = (guess - 1.0, guess + 1.0);
     let mut wall_s = 0.0;
     for _ in 0..6 {
@@ -100,7 +100,7 @@ fn tipping_angle(radius: f64, guess: f64) -> Result<Answer<1>, Trouble> {
 }
 
 /// By how much the cube turns within a second, held by much friction [rad].
-fn turned(angle: f64, radius: f64) -> Result<Answer<1>, Trouble> {
+fn turned(angle: f64, radius: f64) -> Result<Answer<1>, CaseError> {
     let mut run = on_slope(angle, 5.0, radius, 1.0)?;
     let start = run.simulation.bodies()[0].state.orientation;
     run.to(f64::INFINITY)?;

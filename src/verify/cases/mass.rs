@@ -28,7 +28,7 @@
 //! of a surface without edges is good to about 1e-5; tolerance 1e-4.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Cost, Trouble};
+use crate::verify::run::{Answer, CaseError, Cost};
 use crate::verify::{Case, Effort, How};
 use scree_solver::math::{Mat3, Vec3};
 use scree_solver::shape::{RegularSolid, ShapeError, SharpPolyhedron, SpheroPolyhedron};
@@ -77,15 +77,15 @@ fn run(_: Effort, findings: &mut Findings) {
                 );
             }
         }
-        Err(trouble) => {
+        Err(error) => {
             let unanswered = Question::new("V", "m³", f64::NAN).within(1e-4);
-            findings.take(&Resolution::named("solids"), [unanswered], Err(trouble));
+            findings.take(&Resolution::named("solids"), [unanswered], Err(error));
         }
     }
 }
 
 /// Solids of a few cm, rounded with a fifth of their inradius, the box with more.
-fn solids() -> Result<Vec<(&'static str, SpheroPolyhedron)>, Trouble> {
+fn solids() -> Result<Vec<(&'static str, SpheroPolyhedron)>, CaseError> {
     const BOULDER: [[f64; 3]; 7] = [
         [0.0, 0.0, 0.0],
         [0.04, 0.0, 0.0],
@@ -108,7 +108,7 @@ fn solids() -> Result<Vec<(&'static str, SpheroPolyhedron)>, Trouble> {
     ];
     let checked = solids.map(|(name, body)| Ok((name, body?)));
     let checked = checked.into_iter().collect::<Result<_, ShapeError>>();
-    checked.map_err(|error| Trouble::Scene(error.to_string()))
+    checked.map_err(|error| CaseError::Scene(error.to_string()))
 }
 
 /// Volume, largest and smallest principal moment for density 1, and how far the
@@ -175,10 +175,10 @@ fn way_out(body: &SpheroPolyhedron, ray: &Vec3) -> f64 {
     way
 }
 
-fn measured(radius: f64) -> Result<Answer<2>, Trouble> {
+fn measured(radius: f64) -> Result<Answer<2>, CaseError> {
     let start = Instant::now();
-    let cube =
-        SpheroPolyhedron::cube(SIDE, radius).map_err(|error| Trouble::Scene(error.to_string()))?;
+    let cube = SpheroPolyhedron::cube(SIDE, radius)
+        .map_err(|error| CaseError::Scene(error.to_string()))?;
     let inertia = cube.unit_inertia().m11;
     let values = [cube.volume() / SIDE.powi(3), inertia * 6.0 / SIDE.powi(5)];
     let cost = Cost {

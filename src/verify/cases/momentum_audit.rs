@@ -9,7 +9,7 @@
 //! angular momentum, without a tolerance.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble, scene_of};
+use crate::verify::run::{Answer, CaseError, Run, scene_of};
 use crate::verify::scenes::{PRECISIONS, channel};
 use crate::verify::{Case, Effort, How};
 use serde_json::json;
@@ -41,7 +41,7 @@ fn run(effort: Effort, findings: &mut Findings) {
 }
 
 /// Linear and angular residual, and the share of steps that ended in an audit.
-fn residuals(precision: &str, cells: f64) -> Result<Answer<3>, Trouble> {
+fn residuals(precision: &str, cells: f64) -> Result<Answer<3>, CaseError> {
     let mut document = channel(40.0, 1.0, 1.0, 0.12);
     document["flow"] = json!({
         "volume_m3": 0.002, "release": {"height_m": 0.1, "toe_distance_m": 0.0}
@@ -58,7 +58,7 @@ fn residuals(precision: &str, cells: f64) -> Result<Answer<3>, Trouble> {
     run.to(f64::INFINITY)?;
     let moved = (run.simulation.bodies()[0].state.position - start).norm();
     if moved < 1e-3 {
-        return Err(Trouble::Never("the flow never moved the cube"));
+        return Err(CaseError::Never("the flow never moved the cube"));
     }
     let (steps, ..) = run.simulation.counts();
     let audit = run.simulation.audit();

@@ -10,7 +10,7 @@
 use crate::verify::beads;
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::limit::limit_or_finest;
-use crate::verify::run::{Answer, Trouble};
+use crate::verify::run::{Answer, CaseError};
 use crate::verify::stream::{SIDE, Stream};
 use crate::verify::{Case, Effort, How};
 
@@ -31,7 +31,7 @@ const NAMES: [&str; 2] = ["drag over ρ v² A, 2–4 sides", "drag over ρ v² A
 /// Width of the stream in sides.
 const WIDE: u32 = 4;
 
-type Drag = Result<Answer<2>, Trouble>;
+type Drag = Result<Answer<2>, CaseError>;
 
 fn run(effort: Effort, findings: &mut Findings) {
     let cells = effort.take(&CELLS, 3);

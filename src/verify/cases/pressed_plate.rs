@@ -14,7 +14,7 @@
 
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::plates::{DENSITY, Push, SIDE, WINDOW, bed_material};
-use crate::verify::run::{Answer, Trouble};
+use crate::verify::run::{Answer, CaseError};
 use crate::verify::scenes::GRAVITY;
 use crate::verify::{Case, Effort, How};
 use scree_solver::math::Vec3;
@@ -54,7 +54,7 @@ fn run(effort: Effort, findings: &mut Findings) {
 }
 
 /// Mean stress over ρ g z, where this is expected.
-fn press(friction: f64, expected: f64, cells: u32) -> Result<Answer<1>, Trouble> {
+fn press(friction: f64, expected: f64, cells: u32) -> Result<Answer<1>, CaseError> {
     let wave = (GRAVITY * SIDE).sqrt();
     let speed = SPEED * wave;
     let push = Push {

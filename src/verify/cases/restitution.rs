@@ -6,7 +6,7 @@
 //! vertices touch at a time and share the mass they stop. Tolerance: 2 % of e.
 
 use crate::verify::findings::{Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::scenes::{on_vertex, thrown_down};
 use crate::verify::{Case, Effort, How};
 use serde_json::json;
@@ -40,7 +40,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-fn rebound(orientation: [f64; 4], restitution: f64) -> Result<Answer<1>, Trouble> {
+fn rebound(orientation: [f64; 4], restitution: f64) -> Result<Answer<1>, CaseError> {
     let scene = thrown_down(&json!({"orientation": orientation, "restitution": restitution}))?;
     let mut run = Run::start(scene)?;
     run.watch(f64::INFINITY, |simulation, _| {

@@ -12,7 +12,7 @@
 //! is shown.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble, scene_of};
+use crate::verify::run::{Answer, CaseError, Run, scene_of};
 use crate::verify::scenes::{GRAVITY, channel, downhill};
 use crate::verify::{Case, Effort, How};
 use scree_solver::math::Vec3;
@@ -80,7 +80,7 @@ fn run(_: Effort, findings: &mut Findings) {
 
 /// Acceleration, and shares of the energy that gravity gave: what it moves with, what its
 /// contacts took, and what was made.
-fn roll(sides: u32) -> Result<Answer<4>, Trouble> {
+fn roll(sides: u32) -> Result<Answer<4>, CaseError> {
     let mut run = Run::start(scene(sides)?)?;
     let start = run.simulation.bodies()[0].state.position;
     let way = |body: &Body| (body.state.position - start).dot(&downhill(ANGLE));
@@ -94,7 +94,7 @@ fn roll(sides: u32) -> Result<Answer<4>, Trouble> {
     let body = &run.simulation.bodies()[0];
     let gone = way(body);
     if gone < WAY {
-        return Err(Trouble::Never("it never rolled so far"));
+        return Err(CaseError::Never("it never rolled so far"));
     }
     let speed = body.velocity().dot(&downhill(ANGLE));
     let given = body.mass * GRAVITY * (start.z - body.state.position.z);
@@ -109,7 +109,7 @@ fn roll(sides: u32) -> Result<Answer<4>, Trouble> {
 }
 
 /// Lying on a side, high on the slope.
-fn scene(sides: u32) -> Result<Scene, Trouble> {
+fn scene(sides: u32) -> Result<Scene, CaseError> {
     let mut document = channel(ANGLE, 3.0, 1.0, 0.6);
     // A scenario holds 32 places at most; more sides are put on the body then.
     let vertices: Vec<[f64; 3]> = edges(16).into_iter().map(Into::into).collect();
@@ -122,13 +122,13 @@ fn scene(sides: u32) -> Result<Scene, Trouble> {
     let mut scene = scene_of(&document)?;
     let shape = SharpPolyhedron::hull_of(&edges(sides))
         .and_then(|solid| solid.rounded(SPHERO_RADIUS))
-        .map_err(|error| Trouble::Scene(error.to_string()))?;
+        .map_err(|error| CaseError::Scene(error.to_string()))?;
     let body = &mut scene.bodies[0];
     let density = body.mass / body.shape.volume();
     body.mass = density * shape.volume();
     body.inertia = shape.unit_inertia() * density;
     body.inverse_inertia = InverseInertia::of(&body.inertia)
-        .ok_or_else(|| Trouble::Scene("a prism without inertia".to_owned()))?;
+        .ok_or_else(|| CaseError::Scene("a prism without inertia".to_owned()))?;
     let down = downhill(ANGLE);
     let normal = Vec3::new(-down.z, 0.0, down.x);
     let low = |shape: &SpheroPolyhedron, body: &Body| shape.extent_along(&body.to_body(&-normal));

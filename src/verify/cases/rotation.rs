@@ -16,7 +16,7 @@
 
 use crate::verify::blocks::{Block, PER_CELL, elastic};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
 use scree_solver::math::Vec3;
@@ -114,7 +114,7 @@ fn scene(cells: u32, travel: f64, courant: f64) -> Scene {
     scene
 }
 
-fn turn(cells: u32, travel: f64, courant: f64) -> Result<Answer<3>, Trouble> {
+fn turn(cells: u32, travel: f64, courant: f64) -> Result<Answer<3>, CaseError> {
     let mut run = Run::start(scene(cells, travel, courant))?;
     let start = Sums::of(&run.simulation);
     let (mut volume, mut steps) = (0.0, 0.0);

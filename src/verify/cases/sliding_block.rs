@@ -11,7 +11,7 @@
 //! so far apart that the block's own ringing averages out.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble, scene_of};
+use crate::verify::run::{Answer, CaseError, Run, scene_of};
 use crate::verify::scenes::{GRAVITY, PRECISIONS, channel, downhill, mean_velocity};
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
@@ -81,7 +81,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-fn acceleration(law: Law, angle: f64, cells: u32) -> Result<Answer<1>, Trouble> {
+fn acceleration(law: Law, angle: f64, cells: u32) -> Result<Answer<1>, CaseError> {
     let down = downhill(angle);
     let mut run = Run::start(block(law, angle, cells)?)?;
     let along = |simulation: &Simulation| mean_velocity(simulation).dot(&down);
@@ -90,7 +90,7 @@ fn acceleration(law: Law, angle: f64, cells: u32) -> Result<Answer<1>, Trouble> 
 }
 
 /// The block: 0.06 m thick, 0.3 m long, two cells wide between smooth walls.
-fn block(law: Law, angle: f64, cells: u32) -> Result<Scene, Trouble> {
+fn block(law: Law, angle: f64, cells: u32) -> Result<Scene, CaseError> {
     let cos = angle.to_radians().cos();
     let (height, length) = (0.06, 0.3);
     let cell = height / f64::from(cells);

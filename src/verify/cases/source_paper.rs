@@ -18,7 +18,7 @@
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::limit::limit_or_finest;
 use crate::verify::paper::{QUANTITIES, limits_of, motion, scene};
-use crate::verify::run::{Answer, Trouble};
+use crate::verify::run::{Answer, CaseError};
 use crate::verify::{Case, Effort, How};
 use serde_json::{Value, json};
 
@@ -35,7 +35,7 @@ const MEASURED: [f64; 2] = [0.17, 1.08];
 /// Cells per side of the cube.
 const CELLS: [f64; 6] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
 
-type Motion = Result<Answer<4>, Trouble>;
+type Motion = Result<Answer<4>, CaseError>;
 
 fn run(effort: Effort, findings: &mut Findings) {
     let cells = effort.take(&CELLS, 3);

@@ -17,7 +17,7 @@ use crate::verify::beads;
 use crate::verify::blocks::{Block, PER_CELL};
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::order::slope;
-use crate::verify::run::{Answer, Cost, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Cost, Run};
 use crate::verify::scenes::{GRAVITY, body};
 use crate::verify::{Case, Effort, How};
 use scree_solver::contact::law::damping_number;
@@ -100,15 +100,15 @@ fn over_prefactor(drop: &Drop, depth: f64) -> f64 {
 }
 
 /// The three exponents, the prefactor, and the depth of the base over its diameter.
-fn exponents(cells: u32) -> Result<Answer<5>, Trouble> {
+fn exponents(cells: u32) -> Result<Answer<5>, CaseError> {
     let mut cost = Cost::default();
-    let mut deep = |drop: Drop| -> Result<(Drop, f64), Trouble> {
+    let mut deep = |drop: Drop| -> Result<(Drop, f64), CaseError> {
         let answer = depth(&drop, cells)?;
         cost.wall_s += answer.cost.wall_s;
         Ok((drop, answer.values[0]))
     };
     let base = deep(BASE)?;
-    let mut of_three = |others: [Drop; 2]| -> Result<[(Drop, f64); 3], Trouble> {
+    let mut of_three = |others: [Drop; 2]| -> Result<[(Drop, f64); 3], CaseError> {
         Ok([deep(others[0])?, base, deep(others[1])?])
     };
     let falls = of_three(FALLS.map(|fall| Drop { fall, ..BASE }))?;
@@ -133,7 +133,7 @@ fn exponents(cells: u32) -> Result<Answer<5>, Trouble> {
 }
 
 /// Depth of the sphere's lowest place below the surface when it stops [m].
-fn depth(drop: &Drop, cells: u32) -> Result<Answer<1>, Trouble> {
+fn depth(drop: &Drop, cells: u32) -> Result<Answer<1>, CaseError> {
     let surface = f64::from(BED[1]) * drop.diameter;
     let mut run = Run::start(scene(drop, cells, surface)?)?;
     let mut stopped = false;
@@ -145,13 +145,13 @@ fn depth(drop: &Drop, cells: u32) -> Result<Answer<1>, Trouble> {
         ControlFlow::Continue(())
     })?;
     if !stopped {
-        return Err(Trouble::Never("the sphere did not stop"));
+        return Err(CaseError::Never("the sphere did not stop"));
     }
     let lowest = run.simulation.bodies()[0].state.position.z - 0.5 * drop.diameter;
     Ok(run.answer([surface - lowest]))
 }
 
-fn scene(drop: &Drop, cells: u32, surface: f64) -> Result<Scene, Trouble> {
+fn scene(drop: &Drop, cells: u32, surface: f64) -> Result<Scene, CaseError> {
     let speed = (2.0 * GRAVITY * drop.fall).sqrt();
     let [wide, deep] = BED.map(|diameters| diameters * cells);
     let block = Block {
@@ -178,7 +178,7 @@ fn scene(drop: &Drop, cells: u32, surface: f64) -> Result<Scene, Trouble> {
     Ok(scene)
 }
 
-fn sphere(drop: &Drop, speed: f64) -> Result<Body, Trouble> {
+fn sphere(drop: &Drop, speed: f64) -> Result<Body, CaseError> {
     body(&json!({
         "shape": {"cube": {"side_m": drop.diameter}},
         "sphero_radius_m": 0.48 * drop.diameter,

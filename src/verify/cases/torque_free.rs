@@ -16,7 +16,7 @@
 //! Its second part is a slender box that spins fast, [`slender`].
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::scenes::thrown_down;
 use crate::verify::{Case, Effort, How};
 use scree_solver::math::{Mat3, Vec3};
@@ -54,9 +54,9 @@ fn run(effort: Effort, findings: &mut Findings) {
 fn run_tumbling(effort: Effort, findings: &mut Findings) {
     let top = match body() {
         Ok(body) => Top::of(&body),
-        Err(trouble) => {
+        Err(error) => {
             let question = Question::new("spin at the end", "rad/s", 0.0);
-            return findings.take(&Resolution::named("none"), [question], Err(trouble));
+            return findings.take(&Resolution::named("none"), [question], Err(error));
         }
     };
     let steps = effort.take(&STEPS, 4);
@@ -88,7 +88,7 @@ fn run_tumbling(effort: Effort, findings: &mut Findings) {
 
 /// Spin off at the end, drift of energy and of angular momentum, time of the
 /// flip.
-fn tumble(top: &Top, step: f64) -> Result<Answer<4>, Trouble> {
+fn tumble(top: &Top, step: f64) -> Result<Answer<4>, CaseError> {
     let end = PERIODS * top.period();
     let mut run = Run::start(scene(body()?, step, end)?)?;
     let start = run.simulation.bodies()[0].state.angular_momentum;
@@ -103,7 +103,7 @@ fn tumble(top: &Top, step: f64) -> Result<Answer<4>, Trouble> {
         before = (report.time_s, middle);
         ControlFlow::Continue(())
     })?;
-    let flip = flip.ok_or(Trouble::Never("the box never flipped"))?;
+    let flip = flip.ok_or(CaseError::Never("the box never flipped"))?;
     let body = &run.simulation.bodies()[0];
     let off = (spin_of(body) - top.spin(end)).norm();
     let energy = body.kinetic_energy() - top.energy;
@@ -120,18 +120,18 @@ fn spin_of(body: &Body) -> Vec3 {
     body.to_body(&body.angular_velocity())
 }
 
-fn body() -> Result<Body, Trouble> {
+fn body() -> Result<Body, CaseError> {
     let body = free_box([0.02, 0.04, 0.06], 0.002)?;
     let spin = Top::start(&body.inertia.diagonal());
     Ok(spinning(body, spin))
 }
 
 /// A rounded box of 1000 kg/m³ that does not move.
-fn free_box(sides_m: [f64; 3], radius_m: f64) -> Result<Body, Trouble> {
+fn free_box(sides_m: [f64; 3], radius_m: f64) -> Result<Body, CaseError> {
     let mut scene = thrown_down(&json!({}))?;
     let mut body = scene.bodies.remove(0);
     let shape = SpheroPolyhedron::cuboid(sides_m, radius_m)
-        .map_err(|error| Trouble::Scene(error.to_string()))?;
+        .map_err(|error| CaseError::Scene(error.to_string()))?;
     let density = 1000.0;
     body.mass = density * shape.volume();
     body.inertia = shape.unit_inertia() * density;
@@ -149,7 +149,7 @@ fn spinning(mut body: Body, spin: Vec3) -> Body {
     body
 }
 
-fn scene(body: Body, step: f64, end: f64) -> Result<Scene, Trouble> {
+fn scene(body: Body, step: f64, end: f64) -> Result<Scene, CaseError> {
     let mut scene = thrown_down(&json!({}))?;
     scene.bodies = vec![body];
     scene.given.planes.clear();

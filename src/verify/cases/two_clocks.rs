@@ -7,7 +7,7 @@
 
 use crate::verify::blocks::PER_CELL;
 use crate::verify::findings::{Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::slope::Slope;
 use crate::verify::{Case, Effort, How};
 use scree_solver::stability::Limits;
@@ -54,7 +54,7 @@ fn run(effort: Effort, findings: &mut Findings) {
 }
 
 /// Surface speed from here to the end of the run [m/s].
-fn surface(slope: &Slope, from: f64, set: fn(&mut Limits)) -> Result<Answer<1>, Trouble> {
+fn surface(slope: &Slope, from: f64, set: fn(&mut Limits)) -> Result<Answer<1>, CaseError> {
     let mut scene = slope.scene();
     if let Some(flow) = &mut scene.given.flow {
         set(&mut flow.limits);

@@ -20,7 +20,7 @@
 use crate::verify::blocks::{Block, PER_CELL};
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::plates::{DENSITY, Plate, bed_material, mean_force};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::scenes::GRAVITY;
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
@@ -89,7 +89,7 @@ fn wave_speed() -> f64 {
     (GRAVITY * HEIGHT).sqrt()
 }
 
-fn scene(froude: f64, cells: u32) -> Result<scree_solver::simulation::Scene, Trouble> {
+fn scene(froude: f64, cells: u32) -> Result<scree_solver::simulation::Scene, CaseError> {
     let ratio = depth_ratio(froude);
     // The bore goes at v r/(r − 1), what the open end sends at √(g h).
     let meet = WINDOW[1] * (froude * ratio / (ratio - 1.0) + 1.0);
@@ -122,7 +122,7 @@ fn scene(froude: f64, cells: u32) -> Result<scree_solver::simulation::Scene, Tro
 }
 
 /// Depth ratio behind the bore, and force on the wall over ½ ρ g h² w.
-fn bore(froude: f64, cells: u32) -> Result<Answer<2>, Trouble> {
+fn bore(froude: f64, cells: u32) -> Result<Answer<2>, CaseError> {
     let mut run = Run::start(scene(froude, cells)?)?;
     let unit = HEIGHT / wave_speed();
     let width = HEIGHT / f64::from(cells);

@@ -10,7 +10,7 @@
 
 use super::{free_box, scene, spinning};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
-use crate::verify::run::{Answer, Run, Trouble};
+use crate::verify::run::{Answer, CaseError, Run};
 use scree_solver::math::Vec3;
 use scree_solver::rigid::Body;
 
@@ -29,9 +29,9 @@ pub(super) fn run(findings: &mut Findings) {
     let over = |of, size| Error::Over { of, size };
     let start = match body() {
         Ok(body) => body,
-        Err(trouble) => {
+        Err(error) => {
             let question = zero("slender: orientation, off at the end", "rad", ORIENTATION);
-            return findings.take(&resolution, [question], Err(trouble));
+            return findings.take(&resolution, [question], Err(error));
         }
     };
     let angular_momentum = start.state.angular_momentum.norm();
@@ -44,11 +44,11 @@ pub(super) fn run(findings: &mut Findings) {
     findings.take(&resolution, questions, spin(&start));
 }
 
-fn body() -> Result<Body, Trouble> {
+fn body() -> Result<Body, CaseError> {
     Ok(spinning(free_box([0.01, 0.01, 0.2], 0.001)?, SPIN))
 }
 
-fn spin(start: &Body) -> Result<Answer<3>, Trouble> {
+fn spin(start: &Body) -> Result<Answer<3>, CaseError> {
     let mut run = Run::start(scene(start.clone(), STEP, END)?)?;
     run.to(END)?;
     let body = &run.simulation.bodies()[0];

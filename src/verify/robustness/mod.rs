@@ -1,23 +1,23 @@
-//! Hard cases: scenes that are there to break the computation. Nobody knows their
+//! Robustness tests: scenes that are there to break the computation. Nobody knows their
 //! answers; a run must end finished, or with an error that says when and who, and in
 //! either case keep its books ([`trial`]). [`cases::ALL`] lists the families, one file
-//! each; [`sweep`] draws scenarios at random from all that is legal.
+//! each; [`randomised`] draws scenarios at random from all that is legal.
 
 pub mod cases;
+pub mod randomised;
 pub mod safety;
-pub mod sweep;
 pub mod trial;
 
 use super::Effort;
 use serde::Serialize;
-use trial::{Trial, Tried};
+use trial::{Trial, TrialReport};
 
 /// Scenes of one kind.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Family {
     /// Name on the command line.
     pub name: &'static str,
-    /// Why it is hard.
+    /// Why it may break the computation.
     pub reason: &'static str,
     /// Its scenes.
     #[serde(skip)]
@@ -44,7 +44,7 @@ impl Member {
 }
 
 /// Runs a family; with the safety factor of the step if asked for.
-pub fn try_family(family: &Family, effort: Effort, with_safety: bool) -> Vec<Tried> {
+pub fn try_family(family: &Family, effort: Effort, with_safety: bool) -> Vec<TrialReport> {
     let members = (family.members)(effort).into_iter();
     members
         .map(|member| match member {

@@ -2,7 +2,7 @@
 
 use super::strike_with;
 use crate::verify::Effort;
-use crate::verify::hard::{Family, Member};
+use crate::verify::robustness::{Family, Member};
 use scree_solver::math::Sym3;
 use scree_solver::simulation::Scene;
 use serde_json::json;

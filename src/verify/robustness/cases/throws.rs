@@ -2,7 +2,7 @@
 
 use super::{strike, strike_with};
 use crate::verify::Effort;
-use crate::verify::hard::{Family, Member, Trial};
+use crate::verify::robustness::{Family, Member, Trial};
 use serde_json::json;
 
 pub(super) const FAMILY: Family = Family {

@@ -2,8 +2,8 @@
 
 use super::strike;
 use crate::verify::Effort;
-use crate::verify::hard::trial::{Compared, Ended, Special, centre};
-use crate::verify::hard::{Family, Member};
+use crate::verify::robustness::trial::{Compared, Ended, Special, centre};
+use crate::verify::robustness::{Family, Member};
 use crate::verify::run::scenario_of;
 use scree_solver::Simulation;
 use serde_json::{Value, json};

@@ -2,7 +2,7 @@
 
 use super::strike_with;
 use crate::verify::Effort;
-use crate::verify::hard::{Family, Member};
+use crate::verify::robustness::{Family, Member};
 use serde_json::{Value, json};
 
 pub(super) const FRICTION: Family = Family {

@@ -1,10 +1,10 @@
-//! Hard cases and sweeps, for people and as Markdown.
+//! Robustness and randomised tests, for people and as Markdown.
 
 use super::{NOTHING, Report};
 use crate::cli::columns::table;
-use scree::verify::hard::cases;
-use scree::verify::hard::sweep::{Failing, Field, Swept};
-use scree::verify::hard::trial::{Compared, Figures, Tried};
+use scree::verify::robustness::cases;
+use scree::verify::robustness::randomised::{FailingScenario, Field, RandomisedReport};
+use scree::verify::robustness::trial::{Compared, Figures, TrialReport};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -30,21 +30,26 @@ const HEADINGS: [&str; 16] = [
 /// All that is no case with a known answer.
 pub(super) fn tables(report: &Report) -> String {
     let mut text = String::new();
-    let figured = || report.hard.iter().filter(|tried| tried.figures.is_some());
+    let figured = || {
+        report
+            .robustness
+            .iter()
+            .filter(|tried| tried.figures.is_some())
+    };
     if figured().next().is_some() {
         let rows = figured().filter_map(row);
         text.push_str(&table("\nhard cases", HEADINGS, rows));
     }
-    for tried in &report.hard {
+    for tried in &report.robustness {
         for line in notes(tried) {
             let _ = writeln!(text, "  {line}");
         }
     }
-    if !report.hard.is_empty() {
-        let _ = write!(text, "\n{}", in_all(&report.hard));
+    if !report.robustness.is_empty() {
+        let _ = write!(text, "\n{}", in_all(&report.robustness));
     }
-    for swept in &report.sweeps {
-        let _ = write!(text, "\n{}", sweep_in_words(swept));
+    for randomised in &report.randomised {
+        let _ = write!(text, "\n{}", randomised_in_words(randomised));
     }
     text
 }
@@ -52,44 +57,44 @@ pub(super) fn tables(report: &Report) -> String {
 /// The same in Markdown.
 pub(super) fn markdown(report: &Report) -> String {
     let mut text = String::new();
-    if !report.hard.is_empty() {
+    if !report.robustness.is_empty() {
         let _ = writeln!(text, "| {} |", HEADINGS.join(" | "));
         let _ = writeln!(text, "|{}", "---|".repeat(HEADINGS.len()));
-        for mut cells in report.hard.iter().filter_map(row) {
-            if cells[15] != "sound" {
+        for mut cells in report.robustness.iter().filter_map(row) {
+            if cells[15] != "valid" {
                 cells[15] = format!("**{}**", cells[15]);
             }
             let _ = writeln!(text, "| {} |", cells.join(" | "));
         }
-        let lines = report.hard.iter().flat_map(notes);
+        let lines = report.robustness.iter().flat_map(notes);
         for line in lines {
             let _ = write!(text, "\n- {line}");
         }
-        let _ = writeln!(text, "\n\n{}", in_all(&report.hard));
-        text.push_str("\n| family | why it is hard |\n|---|---|\n");
-        let met = |family: &&scree::verify::hard::Family| {
+        let _ = writeln!(text, "\n\n{}", in_all(&report.robustness));
+        text.push_str("\n| family | why it may break |\n|---|---|\n");
+        let met = |family: &&scree::verify::robustness::Family| {
             let of_family = format!("{}: ", family.name);
-            let mut all = report.hard.iter();
+            let mut all = report.robustness.iter();
             all.any(|tried| tried.case.starts_with(&of_family))
         };
         for family in cases::ALL.iter().filter(met) {
             let _ = writeln!(text, "| {} | {} |", family.name, family.reason);
         }
     }
-    for swept in &report.sweeps {
-        let _ = writeln!(text, "\n{}", sweep_in_words(swept));
+    for randomised in &report.randomised {
+        let _ = writeln!(text, "\n{}", randomised_in_words(randomised));
     }
     text
 }
 
-fn in_all(hard: &[Tried]) -> String {
-    let sound = hard.iter().filter(|tried| tried.is_sound()).count();
-    let wall: f64 = hard.iter().map(|tried| tried.wall_s).sum();
-    let broken = hard.len() - sound;
-    format!("hard cases: {sound} sound, {broken} not; {wall:.0} s")
+fn in_all(robustness: &[TrialReport]) -> String {
+    let valid = robustness.iter().filter(|tried| tried.is_valid()).count();
+    let wall: f64 = robustness.iter().map(|tried| tried.wall_s).sum();
+    let broken = robustness.len() - valid;
+    format!("robustness tests: {valid} valid, {broken} not; {wall:.0} s")
 }
 
-fn row(tried: &Tried) -> Option<[String; 16]> {
+fn row(tried: &TrialReport) -> Option<[String; 16]> {
     let found: Figures = tried.figures?;
     let small = |value: f64| {
         if value == 0.0 {
@@ -120,16 +125,16 @@ fn row(tried: &Tried) -> Option<[String; 16]> {
     ])
 }
 
-fn verdict(tried: &Tried) -> String {
-    if tried.is_sound() {
-        "sound".to_owned()
+fn verdict(tried: &TrialReport) -> String {
+    if tried.is_valid() {
+        "valid".to_owned()
     } else {
         format!("BROKEN: {}", tried.broken.join(", "))
     }
 }
 
 /// End of a case that did not just finish, and findings of a comparison.
-fn notes(tried: &Tried) -> Vec<String> {
+fn notes(tried: &TrialReport) -> Vec<String> {
     let mut lines = Vec::new();
     if !tried.ended.is_finished() {
         lines.push(format!(
@@ -159,24 +164,24 @@ fn compared(one: &Compared) -> String {
     }
 }
 
-/// One failure of a sweep.
-pub(super) fn in_words(failing: &Failing) -> String {
+/// One failure of a randomised test.
+pub(super) fn in_words(failing: &FailingScenario) -> String {
     format!(
         "seed {}: {}: {}\n  {}",
         failing.seed, failing.kind, failing.words, failing.scenario
     )
 }
 
-fn sweep_in_words(swept: &Swept) -> String {
+fn randomised_in_words(report: &RandomisedReport) -> String {
     let mut kinds: BTreeMap<&str, u64> = BTreeMap::new();
-    for failing in &swept.failures {
+    for failing in &report.failures {
         *kinds.entry(&failing.kind).or_default() += 1;
     }
-    let of = match swept.field {
+    let of = match report.field {
         Field::Everything => "all that is legal",
         Field::BodiesAlone => "bodies alone",
     };
-    let Swept {
+    let RandomisedReport {
         asked,
         run,
         refused,
@@ -186,19 +191,19 @@ fn sweep_in_words(swept: &Swept) -> String {
         longest,
         most_energy,
         ..
-    } = swept;
-    let failed = swept.failures.len();
+    } = report;
+    let failed = report.failures.len();
     let mut text = format!(
         "sweep of {of}: {run} scenarios run ({refused} draws refused on the way), {finished} finished, \
          {failed} failed; {points} points, {substeps} sub-steps; the longest took {:.1} s (seed {}); \
          most energy made {:.0e} (seed {})",
         longest.0, longest.1, most_energy.0, most_energy.1
     );
-    if swept.not_run() > 0 {
+    if report.not_run() > 0 {
         let _ = write!(
             text,
             "\n  {} of {asked} NOT RUN: no draw of these seeds was legal",
-            swept.not_run()
+            report.not_run()
         );
     }
     for (kind, count) in kinds {

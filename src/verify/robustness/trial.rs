@@ -1,6 +1,6 @@
-//! One hard scene, run and looked at.
+//! One robustness scene, run and looked at.
 
-use crate::verify::run::{Trouble, scenario_of};
+use crate::verify::run::{CaseError, scenario_of};
 use scree_solver::contact::point_body::Around;
 use scree_solver::math::Vec3;
 use scree_solver::simulation::Scene;
@@ -94,7 +94,7 @@ impl Trial {
     }
 
     /// Sets it up.
-    pub(super) fn start(&self) -> Result<Simulation, Trouble> {
+    pub(super) fn start(&self) -> Result<Simulation, CaseError> {
         let scenario = scenario_of(&self.scenario)?;
         Ok(match self.alter {
             None => Simulation::new(&scenario, 1)?,
@@ -199,9 +199,9 @@ pub struct Compared {
     pub bound: Option<f64>,
 }
 
-/// A hard case and what came of it.
+/// A robustness test and what came of it.
 #[derive(Debug, Clone, Serialize)]
-pub struct Tried {
+pub struct TrialReport {
     /// Family and name.
     pub case: String,
     /// End.
@@ -214,23 +214,23 @@ pub struct Tried {
     pub compared: Vec<Compared>,
     /// Wall time [s].
     pub wall_s: f64,
-    /// Rules that it breaks; nothing if it is sound.
+    /// Rules that it breaks; nothing if it is valid.
     pub broken: Vec<String>,
 }
 
-impl Tried {
+impl TrialReport {
     /// True if nothing is broken.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.broken.is_empty()
     }
 }
 
 /// Runs a scene to its end.
-pub fn run(family: &str, trial: &Trial) -> Tried {
+pub fn run(family: &str, trial: &Trial) -> TrialReport {
     let started = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(|| watched(trial)));
     let (ended, figures) = outcome.unwrap_or_else(|panic| (Ended::Panicked(words(&*panic)), None));
-    Tried {
+    TrialReport {
         case: format!("{family}: {}", trial.name),
         broken: broken((trial.asked, trial.energy_made), &ended, figures.as_ref()),
         ended,
@@ -242,7 +242,7 @@ pub fn run(family: &str, trial: &Trial) -> Tried {
 }
 
 /// Makes a comparison.
-pub fn compared(family: &str, name: &str, compare: fn() -> Special) -> Tried {
+pub fn compared(family: &str, name: &str, compare: fn() -> Special) -> TrialReport {
     let started = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(compare));
     let special = outcome.unwrap_or_else(|panic| Special {
@@ -256,7 +256,7 @@ pub fn compared(family: &str, name: &str, compare: fn() -> Special) -> Tried {
             broken.push(one.what.clone());
         }
     }
-    Tried {
+    TrialReport {
         case: format!("{family}: {name}"),
         ended: special.ended,
         figures: None,
@@ -276,7 +276,7 @@ fn words(panic: &(dyn std::any::Any + Send)) -> String {
 fn watched(trial: &Trial) -> (Ended, Option<Figures>) {
     let mut simulation = match trial.start() {
         Ok(simulation) => simulation,
-        Err(trouble) => return (Ended::Refused(trouble.to_string()), None),
+        Err(error) => return (Ended::Refused(error.to_string()), None),
     };
     let mut figures = Figures {
         points: simulation.released_points(),

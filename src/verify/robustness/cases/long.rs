@@ -2,9 +2,9 @@
 
 use super::strike;
 use crate::verify::Effort;
-use crate::verify::hard::trial::{Compared, Ended, Special};
-use crate::verify::hard::{Family, Member};
-use crate::verify::run::{Run, Trouble, scenario_of};
+use crate::verify::robustness::trial::{Compared, Ended, Special};
+use crate::verify::robustness::{Family, Member};
+use crate::verify::run::{CaseError, Run, scenario_of};
 use crate::verify::slope::Slope;
 use scree_solver::Simulation;
 use scree_solver::scenario::Scenario;
@@ -61,21 +61,21 @@ fn rest(substeps: u64) -> Special {
             ended: Ended::Finished,
             compared,
         },
-        Err(trouble) => failed(trouble),
+        Err(error) => failed(error),
     }
 }
 
-fn failed(trouble: Trouble) -> Special {
+fn failed(error: CaseError) -> Special {
     Special {
-        ended: match trouble {
-            Trouble::Step(error) => Ended::Failed(error),
+        ended: match error {
+            CaseError::Step(error) => Ended::Failed(error),
             other => Ended::Refused(other.to_string()),
         },
         compared: Vec::new(),
     }
 }
 
-fn at_rest(scenario: &Scenario, substeps: u64) -> Result<Vec<Compared>, Trouble> {
+fn at_rest(scenario: &Scenario, substeps: u64) -> Result<Vec<Compared>, CaseError> {
     let mut simulation = Simulation::new(scenario, 1)?;
     // The front collapses first: what stands afterwards is the bed.
     go(&mut simulation, substeps / 10)?;
@@ -115,7 +115,7 @@ fn at_rest(scenario: &Scenario, substeps: u64) -> Result<Vec<Compared>, Trouble>
     ])
 }
 
-fn go(simulation: &mut Simulation, substeps: u64) -> Result<(), Trouble> {
+fn go(simulation: &mut Simulation, substeps: u64) -> Result<(), CaseError> {
     simulation.run(f64::INFINITY, |_, report| {
         if report.substeps >= substeps && report.step_ended {
             ControlFlow::Break(())
@@ -151,11 +151,11 @@ fn shear(duration: f64) -> Special {
             ended: Ended::Finished,
             compared,
         },
-        Err(trouble) => failed(trouble),
+        Err(error) => failed(error),
     }
 }
 
-fn sheared(duration: f64) -> Result<Vec<Compared>, Trouble> {
+fn sheared(duration: f64) -> Result<Vec<Compared>, CaseError> {
     let slope = Slope {
         inclination_deg: 24.0,
         cells: 8,
@@ -194,7 +194,7 @@ fn sheared(duration: f64) -> Result<Vec<Compared>, Trouble> {
     ])
 }
 
-fn window(run: &mut Run, to: f64) -> Result<Window, Trouble> {
+fn window(run: &mut Run, to: f64) -> Result<Window, CaseError> {
     let mut sum = Window::default();
     run.watch(to, |simulation, report| {
         if report.step_ended {

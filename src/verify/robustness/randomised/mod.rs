@@ -1,4 +1,4 @@
-//! A sweep over all that is legal, or over bodies alone: scenarios drawn at random, each
+//! A randomised test over all that is legal, or over bodies alone: scenarios drawn at random, each
 //! run for a fraction of a second. What fails is made smaller until only what it takes is
 //! left.
 
@@ -6,7 +6,7 @@ mod bodies_alone;
 mod draw;
 mod reduce;
 
-use super::trial::{self, Ended, Trial, Tried};
+use super::trial::{self, Ended, Trial, TrialReport};
 use crate::verify::dice::Dice;
 use crate::verify::on_all_cores::side_by_side;
 use crate::verify::run::scenario_of;
@@ -23,7 +23,7 @@ const MOST_DRAWS: u32 = 400;
 /// Energy that contacts of bodies may make, over the start's and the largest kinetic.
 const ENERGY_OF_CONTACTS: f64 = 1e-3;
 
-/// Field that the scenarios of a sweep are drawn from.
+/// Field that the scenarios of a randomised test are drawn from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Field {
@@ -34,9 +34,9 @@ pub enum Field {
     BodiesAlone,
 }
 
-/// Findings of a sweep.
+/// Findings of a randomised test.
 #[derive(Debug, Default, Serialize)]
-pub struct Swept {
+pub struct RandomisedReport {
     /// Field that they were drawn from.
     pub field: Field,
     /// Scenarios asked for.
@@ -57,12 +57,12 @@ pub struct Swept {
     /// Points of all of them.
     pub points: u64,
     /// Failures, by seed.
-    pub failures: Vec<Failing>,
+    pub failures: Vec<FailingScenario>,
 }
 
 /// A scenario that failed.
 #[derive(Debug, Serialize)]
-pub struct Failing {
+pub struct FailingScenario {
     /// The seed it comes from.
     pub seed: u64,
     /// In which way.
@@ -73,7 +73,7 @@ pub struct Failing {
     pub scenario: Value,
 }
 
-impl Swept {
+impl RandomisedReport {
     /// Scenarios asked for and not run: of their seeds no draw was legal.
     pub fn not_run(&self) -> u64 {
         self.asked.saturating_sub(self.run)
@@ -98,71 +98,81 @@ pub fn scenario(field: Field, seed: u64) -> Option<(Value, u64)> {
 }
 
 /// Runs a scenario of a field.
-pub fn run(field: Field, scenario: &Value) -> Tried {
+pub fn run(field: Field, scenario: &Value) -> TrialReport {
     let mut trial = Trial::new("", scenario.clone());
     match field {
         Field::Everything => trial.budget = Some(BUDGET),
         Field::BodiesAlone => trial.energy_made = ENERGY_OF_CONTACTS,
     }
-    trial::run("sweep", &trial)
+    trial::run("randomised", &trial)
 }
 
 /// Runs `count` scenarios of a field, those of the seeds from `first` on, on all cores.
-pub fn sweep(field: Field, first: u64, count: u64, tell: &(impl Fn(&Failing) + Sync)) -> Swept {
-    let swept = Mutex::new(Swept {
+pub fn randomised(
+    field: Field,
+    first: u64,
+    count: u64,
+    tell: &(impl Fn(&FailingScenario) + Sync),
+) -> RandomisedReport {
+    let report = Mutex::new(RandomisedReport {
         field,
         asked: count,
-        ..Swept::default()
+        ..RandomisedReport::default()
     });
     let seeds: Vec<u64> = (first..first + count).collect();
-    side_by_side(&seeds, |seed| take(field, &swept, *seed, tell));
-    let mut swept = swept
+    side_by_side(&seeds, |seed| take(field, &report, *seed, tell));
+    let mut report = report
         .into_inner()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
-    swept.failures.sort_by_key(|failing| failing.seed);
-    swept
+    report.failures.sort_by_key(|failing| failing.seed);
+    report
 }
 
-fn take(field: Field, swept: &Mutex<Swept>, seed: u64, tell: &(impl Fn(&Failing) + Sync)) {
+fn take(
+    field: Field,
+    report: &Mutex<RandomisedReport>,
+    seed: u64,
+    tell: &(impl Fn(&FailingScenario) + Sync),
+) {
     let Some((scenario, refused)) = scenario(field, seed) else {
         return;
     };
     let tried = run(field, &scenario);
-    let failing = (!tried.is_sound()).then(|| failing(field, seed, &scenario, &tried));
+    let failing = (!tried.is_valid()).then(|| failing(field, seed, &scenario, &tried));
     if let Some(failing) = &failing {
         tell(failing);
     }
-    let mut swept = swept
+    let mut report = report
         .lock()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
-    swept.run += 1;
-    swept.refused += refused;
-    if tried.wall_s > swept.longest.0 {
-        swept.longest = (tried.wall_s, seed);
+    report.run += 1;
+    report.refused += refused;
+    if tried.wall_s > report.longest.0 {
+        report.longest = (tried.wall_s, seed);
     }
-    swept.finished += u64::from(tried.ended == Ended::Finished);
+    report.finished += u64::from(tried.ended == Ended::Finished);
     if let Some(figures) = tried.figures {
-        if figures.energy > swept.most_energy.0 {
-            swept.most_energy = (figures.energy, seed);
+        if figures.energy > report.most_energy.0 {
+            report.most_energy = (figures.energy, seed);
         }
-        swept.substeps += figures.substeps;
-        swept.points += figures.points;
+        report.substeps += figures.substeps;
+        report.points += figures.points;
     }
-    swept.failures.extend(failing);
+    report.failures.extend(failing);
 }
 
-fn failing(field: Field, seed: u64, scenario: &Value, tried: &Tried) -> Failing {
+fn failing(field: Field, seed: u64, scenario: &Value, tried: &TrialReport) -> FailingScenario {
     let kind = reduce::kind(tried);
     let mut last = tried.clone();
     let scenario = reduce::reduced(scenario, &mut |simpler| {
         let again = run(field, simpler);
-        let alike = !again.is_sound() && reduce::kind(&again) == kind;
+        let alike = !again.is_valid() && reduce::kind(&again) == kind;
         if alike {
             last = again;
         }
         alike
     });
-    Failing {
+    FailingScenario {
         seed,
         kind,
         words: format!(

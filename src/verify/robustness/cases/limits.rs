@@ -2,8 +2,8 @@
 
 use super::{strike, strike_with};
 use crate::verify::Effort;
-use crate::verify::hard::trial::Asked;
-use crate::verify::hard::{Family, Member, Trial};
+use crate::verify::robustness::trial::Asked;
+use crate::verify::robustness::{Family, Member, Trial};
 use scree_solver::simulation::Scene;
 use serde_json::{Value, json};
 

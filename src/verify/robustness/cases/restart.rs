@@ -2,8 +2,8 @@
 
 use super::places;
 use crate::verify::Effort;
-use crate::verify::hard::trial::{Compared, Ended, Special};
-use crate::verify::hard::{Family, Member};
+use crate::verify::robustness::trial::{Compared, Ended, Special};
+use crate::verify::robustness::{Family, Member};
 use crate::verify::run::scenario_of;
 use scree_solver::Simulation;
 use scree_solver::scenario::Scenario;

@@ -2,7 +2,7 @@
 
 use super::{CELL, cube_at, strike, strike_with};
 use crate::verify::Effort;
-use crate::verify::hard::{Family, Member, Trial};
+use crate::verify::robustness::{Family, Member, Trial};
 use serde_json::{Value, json};
 
 pub(super) const FAMILY: Family = Family {

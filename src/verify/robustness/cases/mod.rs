@@ -1,4 +1,4 @@
-//! The hard cases, by families. To add one: a file, its `mod` line and its place in
+//! The robustness tests, by families. To add one: a file, its `mod` line and its place in
 //! [`ALL`].
 
 mod contacts;

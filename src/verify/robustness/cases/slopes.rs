@@ -2,7 +2,7 @@
 
 use super::strike;
 use crate::verify::Effort;
-use crate::verify::hard::{Family, Member, Trial};
+use crate::verify::robustness::{Family, Member, Trial};
 
 pub(super) const FAMILY: Family = Family {
     name: "inclination",

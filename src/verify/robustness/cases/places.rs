@@ -3,7 +3,7 @@
 
 use super::{cube_at, strike_with};
 use crate::verify::Effort;
-use crate::verify::hard::{Family, Member, Trial};
+use crate::verify::robustness::{Family, Member, Trial};
 use crate::verify::scenes::on_vertex;
 use serde_json::{Value, json};
 

@@ -1,6 +1,6 @@
 //! A failing scenario made smaller, as long as it fails the same way.
 
-use crate::verify::hard::trial::Tried;
+use crate::verify::robustness::trial::TrialReport;
 use serde_json::Value;
 
 /// Most runs spent on one scenario.
@@ -91,7 +91,7 @@ fn simpler(scenario: &Value) -> Vec<Value> {
 }
 
 /// Kind of failure, the same for two runs that fail alike.
-pub(super) fn kind(tried: &Tried) -> String {
+pub(super) fn kind(tried: &TrialReport) -> String {
     match &tried.ended {
         super::Ended::Failed(error) => {
             let whole = format!("{error:?}");
