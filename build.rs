@@ -1,4 +1,4 @@
-//! The migrations are compiled in: a new one must rebuild the crate. So is the
+//! Migrations are compiled in, so a new one must rebuild the crate; so is the
 //! commit, which every answer names.
 
 use std::process::Command;
@@ -8,9 +8,10 @@ fn main() {
     if let Some(log) = git(&["rev-parse", "--git-path", "logs/HEAD"]) {
         println!("cargo:rerun-if-changed={log}");
     }
-    // Built from an archive there is no commit to name.
+    // A build from an archive has no commit.
     let commit = git(&["rev-parse", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
-    // Not SCREE_…: cargo hands it to what it runs, and there that is configuration.
+    // Not named SCREE_…: cargo passes it on to programs it runs, which would read it as
+    // configuration.
     println!("cargo:rustc-env=BUILD_COMMIT={commit}");
 }
 

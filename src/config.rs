@@ -1,6 +1,6 @@
-//! Configuration by the operator: strict, unit-suffixed, checked before anything is
-//! started. Later sources win: built-in values, the TOML file, the environment
-//! (`SCREE_LISTEN`, `SCREE_WORKERS__COUNT`, …).
+//! Configuration by the operator: strict, with units in the key names, checked before anything
+//! is started. Later sources override earlier ones: built-in values, the TOML file, the
+//! environment (`SCREE_LISTEN`, `SCREE_WORKERS__COUNT`, …).
 
 use figment::providers::{Env, Format, Serialized, Toml};
 use figment::{Figment, Provider};
@@ -24,24 +24,24 @@ pub use upkeep::{Log, LogFormat, Retention};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ServiceConfig {
-    /// Address and port; port 0 takes a free one. Beyond the loopback interface
-    /// only with access tokens.
+    /// Address and port; port 0 selects a free port. An address beyond the loopback interface
+    /// needs access tokens.
     pub listen: SocketAddr,
-    /// The SQLite file; made if it is not there.
+    /// SQLite file; created if it does not exist.
     pub database: PathBuf,
-    /// Who computes.
+    /// Worker pool.
     pub workers: Workers,
-    /// Who may have a job for how long.
+    /// Leases of jobs.
     pub queue: Queue,
-    /// Limits of what a client may ask of the service.
+    /// Limits on clients.
     pub limits: Limits,
     /// Recording of results in the database while a job runs.
     pub recording: Recording,
-    /// Retention of what is kept.
+    /// Retention of stored jobs.
     pub retention: Retention,
-    /// Writing of the log.
+    /// Format of the log.
     pub log: Log,
-    /// Access tokens; without any, nobody is asked for one.
+    /// Access tokens; without any, no request needs one.
     pub tokens: Vec<Token>,
 }
 
@@ -51,7 +51,7 @@ pub struct ServiceConfig {
 pub struct Workers {
     /// Jobs that run at the same time.
     pub count: usize,
-    /// Solver threads of one job; `None`: the cores shared evenly.
+    /// Solver threads of one job; `None`: the cores are shared evenly.
     pub threads_per_worker: Option<usize>,
 }
 
@@ -65,20 +65,20 @@ pub struct Limits {
     pub header_read_timeout_s: f64,
     /// Longest wait for the body of a request [s].
     pub body_read_timeout_s: f64,
-    /// Longest time for which a client may take nothing of its answer [s].
+    /// Longest time for which a client may read nothing of its answer [s].
     pub write_timeout_s: f64,
     /// Longest time from the head of a request to the head of its answer [s].
     pub request_timeout_s: f64,
     /// Connections served at the same time; more wait in the listen queue.
     pub connections: usize,
-    /// Time that requests in hand may take once the service stops [s].
+    /// Time that requests in progress may take once the service stops [s].
     pub drain_timeout_s: f64,
-    /// Most jobs that may wait; more are refused with 429.
+    /// Largest number of jobs that may wait; more are refused with 429.
     pub queued_jobs: u32,
-    /// Most point-steps (points times sub-steps) that a job may be planned to take;
-    /// `None`: as many as it likes.
+    /// Largest number of point-steps (points times sub-steps) that a job may be planned to take;
+    /// `None`: no limit.
     pub job_point_steps: Option<u64>,
-    /// Largest size of the database [bytes]; `None`: as the disk has room.
+    /// Largest size of the database [bytes]; `None`: no limit but the disk.
     pub database_bytes: Option<u64>,
 }
 
@@ -88,33 +88,33 @@ pub struct Limits {
 pub struct Recording {
     /// Longest wall time for which new samples and progress stay unwritten [s].
     pub flush_interval_s: f64,
-    /// Wall time between two saved states of a running job [s]; longer where
+    /// Wall time between two saved states of a running job [s]; longer if
     /// saving one takes more than a fiftieth of that.
     pub state_interval_s: f64,
 }
 
-/// Why a configuration is refused.
+/// Error of a configuration.
 #[derive(Debug, Error)]
 pub enum ConfigError {
     /// The file or the environment can't be read as a configuration.
     #[error("configuration: {0}")]
     Unreadable(#[from] Box<figment::Error>),
-    /// The file is not there.
+    /// The file does not exist.
     #[error("configuration file {0} not found")]
     Missing(PathBuf),
-    /// Read, but not allowed.
+    /// A value is not allowed.
     #[error("configuration: {key} = {value} is not allowed: {reason}")]
     NotAllowed {
         /// Key, with its section.
         key: &'static str,
         /// Value received.
         value: String,
-        /// Why, and what would be allowed.
+        /// Reason, and the allowed values.
         reason: String,
     },
 }
 
-/// Worker sizes that were checked against the machine.
+/// Pool size, checked against the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PoolSize {
     /// Jobs that run at the same time.
@@ -161,10 +161,10 @@ impl Default for ServiceConfig {
 }
 
 impl ServiceConfig {
-    /// Built-in values, then `file` if one is named, then the environment.
+    /// Loads the built-in values, then `file` if one is named, then the environment.
     ///
     /// # Errors
-    /// A named file that is missing, an unknown key, a value of the wrong type.
+    /// A named file is missing, a key is unknown, or a value has the wrong type.
     pub fn load(file: Option<&Path>) -> Result<Self, ConfigError> {
         Self::layered(file, Env::prefixed("SCREE_").split("__"))
     }
@@ -181,7 +181,7 @@ impl ServiceConfig {
         config.map_err(|error| ConfigError::Unreadable(Box::new(error)))
     }
 
-    /// Checks what types can't: loopback, finite durations, workers × threads
+    /// Checks the rules that types can't express: loopback, finite durations, workers × threads
     /// within `cores`.
     ///
     /// # Errors
@@ -279,7 +279,7 @@ impl Limits {
         Duration::from_secs_f64(self.body_read_timeout_s)
     }
 
-    /// Longest time for which a client may take nothing of its answer.
+    /// Longest time for which a client may read nothing of its answer.
     pub fn write_timeout(&self) -> Duration {
         Duration::from_secs_f64(self.write_timeout_s)
     }
@@ -289,7 +289,7 @@ impl Limits {
         Duration::from_secs_f64(self.request_timeout_s)
     }
 
-    /// Time that requests in hand may take once the service stops.
+    /// Time that requests in progress may take once the service stops.
     pub fn drain_timeout(&self) -> Duration {
         Duration::from_secs_f64(self.drain_timeout_s)
     }

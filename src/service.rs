@@ -1,4 +1,4 @@
-//! The service as a whole: started with a configuration, stopped with grace.
+//! The service as a whole: started with a configuration, stopped gracefully.
 
 use crate::config::{ConfigError, PoolSize, ServiceConfig};
 use crate::http;
@@ -13,18 +13,18 @@ use tokio::net::TcpListener;
 use tokio::sync::watch;
 use tokio::task::JoinHandle;
 
-/// Why the service can't start.
+/// Error at the start of the service.
 #[derive(Debug, Error)]
 pub enum StartError {
     /// The configuration is not allowed.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// The address can't be listened on.
+    /// The service can't listen at the address.
     #[error("cannot listen on {address}: {source}")]
     Listen {
         /// The address asked for.
         address: SocketAddr,
-        /// The system's words.
+        /// Error of the system.
         source: std::io::Error,
     },
     /// The database can't be used.
@@ -46,13 +46,13 @@ pub struct RunningService {
 }
 
 impl RunningService {
-    /// Address that it listens at; with port 0 asked for, the port it got.
+    /// Address of the listener; if port 0 was asked for, with the actual port.
     pub fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// Takes no more requests, lets those in hand finish, saves running jobs and
-    /// hands them back into the queue, and returns when all is written.
+    /// Refuses new requests, completes those in progress, saves running jobs and
+    /// releases them into the queue, and returns once all is written.
     pub async fn stop(self) {
         self.stop.send_replace(true);
         let pool = self.pool;
@@ -68,8 +68,8 @@ impl RunningService {
     }
 }
 
-/// Starts the service on the current tokio runtime. Jobs that were waiting
-/// when the last one stopped, or that it died under, are run.
+/// Starts the service on the current tokio runtime. Runs the jobs that were waiting
+/// when the last service stopped, and those under which it died.
 ///
 /// # Errors
 /// [`StartError`]; nothing is left running then.

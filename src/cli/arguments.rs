@@ -5,7 +5,7 @@ use scree::verify::robustness::randomised::Field;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-/// Where does it end up? Simulates objects hit and carried by granular flows.
+/// Simulates objects that are hit and carried by granular flows, and reports where they end up.
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 100, after_help = EXIT_CODES)]
 pub(super) struct Arguments {
@@ -24,7 +24,7 @@ pub(super) enum Command {
     Token(TokenOptions),
     /// Compute one scenario here, without the service
     Run(RunOptions),
-    /// Say what a run of a scenario would compute, leave out and cost
+    /// Print the computation, the reductions and the cost of a scenario's run
     Plan(PlanOptions),
     /// Check a scenario and list everything that is wrong with it
     Validate(ValidateOptions),
@@ -32,34 +32,34 @@ pub(super) enum Command {
     Demo(DemoOptions),
     /// Measure how fast the solver is on this machine
     Bench(BenchOptions),
-    /// Compare the solver with cases whose answer is known
+    /// Compare the solver with cases of known answer
     Verify(VerifyOptions),
 }
 
 #[derive(Debug, Args)]
 pub(super) struct ServeOptions {
-    /// Address and port to listen on, beyond loopback only with access tokens;
-    /// port 0 takes a free one
+    /// Address and port to listen on; port 0 selects a free port; an address beyond
+    /// loopback needs access tokens
     /// [default: 127.0.0.1:8080]
     #[arg(long, value_name = "ADDRESS")]
     pub(super) listen: Option<SocketAddr>,
-    /// The SQLite file; made if it is not there [default: scree.db]
+    /// SQLite file; created if it does not exist [default: scree.db]
     #[arg(long, value_name = "FILE")]
     pub(super) database: Option<PathBuf>,
-    /// Configuration in TOML; flags and environment win over it
-    /// [default: configs/service.toml, if there is one]
+    /// Configuration file in TOML; flags and environment variables override it
+    /// [default: configs/service.toml, if it exists]
     #[arg(long, value_name = "FILE")]
     pub(super) config: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct TokenOptions {
-    /// Whose it is; jobs are kept under this name
+    /// Name of the holder; jobs are stored under this name
     pub(super) name: String,
     /// Scope of the token; may be given several times
     #[arg(long, value_name = "SCOPE", value_enum, required = true)]
     pub(super) scope: Vec<ScopeWord>,
-    /// Most of its jobs that may wait or run [default: as the queue takes]
+    /// Largest number of its jobs that may wait or run [default: limit of the queue]
     #[arg(long, value_name = "N")]
     pub(super) active_jobs: Option<u32>,
 }
@@ -67,26 +67,26 @@ pub(super) struct TokenOptions {
 /// Scopes of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum ScopeWord {
-    /// Submit jobs; dismiss and remove one's own
+    /// Submit jobs; dismiss and remove one's own jobs
     Submit,
-    /// Look at jobs and results
+    /// Read jobs and results
     Read,
-    /// Dismiss and remove anyone's
+    /// Dismiss and remove jobs of any holder
     Admin,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct RunOptions {
-    /// The scenario, a JSON file; - reads standard input
+    /// Scenario, a JSON file; - reads standard input
     #[arg(value_name = "SCENARIO.json")]
     pub(super) scenario: PathBuf,
     /// Write outcome, trajectories and pictures into this directory
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
-    /// Print the outcome as JSON, and nothing else, on standard output
+    /// Print only the outcome, as JSON, on standard output
     #[arg(long)]
     pub(super) json: bool,
-    /// Solver threads [default: the scenario's, else all cores]; results do not
+    /// Number of solver threads [default: the scenario's, else all cores]; results do not
     /// depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
@@ -94,20 +94,20 @@ pub(super) struct RunOptions {
 
 #[derive(Debug, Args)]
 pub(super) struct PlanOptions {
-    /// The scenario, a JSON file; - reads standard input
+    /// Scenario, a JSON file; - reads standard input
     #[arg(value_name = "SCENARIO.json")]
     pub(super) scenario: PathBuf,
-    /// Print the plan as JSON, and nothing else, on standard output
+    /// Print only the plan, as JSON, on standard output
     #[arg(long)]
     pub(super) json: bool,
-    /// Solver threads [default: the scenario's, else all cores]
+    /// Number of solver threads [default: the scenario's, else all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct ValidateOptions {
-    /// The scenario, a JSON file; - reads standard input
+    /// Scenario, a JSON file; - reads standard input
     #[arg(value_name = "SCENARIO.json")]
     pub(super) scenario: PathBuf,
 }
@@ -117,23 +117,23 @@ pub(super) struct DemoOptions {
     /// Directory for outcome, trajectories and pictures
     #[arg(long, value_name = "DIR", default_value = "scree-out/demo")]
     pub(super) out: PathBuf,
-    /// Another scenario than the source paper's
+    /// Scenario to compute instead of the source paper's
     #[arg(long, value_name = "SCENARIO.json")]
     pub(super) scenario: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct BenchOptions {
-    /// Measure this alone; may be given several times [default: everything]
+    /// Run only this measurement; may be given several times [default: all]
     #[arg(long, value_name = "NAME", value_enum)]
     pub(super) only: Vec<Measurement>,
     /// Measure all 0.15 s of the collapse instead of its start, the channel on
-    /// its fine grid and twice as long, and ten million points too: takes many
+    /// a finer grid and for twice as long, and also ten million points; takes many
     /// minutes instead of two
     #[arg(long)]
     pub(super) full: bool,
-    /// Laps each way of computing takes, in turn with what it is compared with;
-    /// medians are given
+    /// Repetitions of every variant, in turn with the variants it is compared with;
+    /// medians are reported
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(super) repeats: u32,
     /// Points of the collapse [default: 200000]
@@ -152,24 +152,24 @@ pub(super) struct VerifyOptions {
     /// Cases to run
     #[arg(long, value_name = "NAME", value_enum, default_value = "standard")]
     pub(super) suite: SuiteWord,
-    /// Run this case alone; may be given several times [default: all of the suite]
+    /// Run only this case; may be given several times [default: all of the suite]
     #[arg(long, value_name = "NAME")]
     pub(super) case: Vec<String>,
-    /// Scenarios of each randomised test
+    /// Number of scenarios of each randomised test
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     pub(super) count: u64,
-    /// Seed of a randomised test's first scenario; each takes the next one
+    /// Seed of the first scenario of a randomised test; each next scenario takes the next seed
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) seed: u64,
-    /// More and finer resolutions, longer runs, and how far the robustness tests' steps are
-    /// from unstable ones: takes ten minutes or more instead of one
+    /// Run more and finer resolutions and longer runs, and measure the margin of the robustness
+    /// tests' steps against instability; takes ten minutes or more instead of one
     #[arg(long)]
     pub(super) full: bool,
-    /// Write diagrams of error against wall time into this directory; takes runs
-    /// of their own
+    /// Write diagrams of error against wall time into this directory; needs additional
+    /// runs
     #[arg(long, value_name = "DIR")]
     pub(super) figures: Option<PathBuf>,
-    /// Put the tables between the marks in this file, in Markdown
+    /// Replace the tables between the marks in this Markdown file
     #[arg(long, value_name = "FILE")]
     pub(super) markdown: Option<PathBuf>,
     /// Print one JSON document instead of tables
@@ -180,27 +180,27 @@ pub(super) struct VerifyOptions {
 /// Suites of `scree verify`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum SuiteWord {
-    /// Cases whose answer is known
+    /// Cases of known answer
     Standard,
-    /// Scenes that are there to break the computation
+    /// Scenes chosen to break the computation
     #[value(alias = "hard")]
     Robustness,
-    /// Scenarios drawn at random from all that is legal
+    /// Scenarios drawn at random from all legal ones
     #[value(alias = "sweep")]
     Randomised,
-    /// Bodies without a flow drawn at random, whose contacts make no energy
+    /// Bodies without a flow, drawn at random, whose contacts must not create energy
     Bodies,
     /// Standard, robustness, randomised and bodies
     All,
 }
 
 impl SuiteWord {
-    /// True if a part of it is asked for.
+    /// True if a part of the suite is asked for.
     pub(super) fn takes(self, part: Self) -> bool {
         self == part || self == Self::All
     }
 
-    /// Fields that the scenarios of its randomised tests are drawn from.
+    /// Fields from which the scenarios of the randomised tests are drawn.
     pub(super) fn randomised(self) -> &'static [Field] {
         match self {
             Self::Standard | Self::Robustness => &[],
@@ -214,7 +214,7 @@ impl SuiteWord {
 /// Measurements of `scree bench`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Measurement {
-    /// A block of 200,000 points collapses: each precision and instruction set,
+    /// Collapse of a block of 200,000 points: each precision and instruction set,
     /// on one thread and on all
     S200k,
     /// The collapse at 10,000 to 1,000,000 points (full: to 10,000,000), on one
@@ -224,23 +224,23 @@ pub(super) enum Measurement {
     Channel,
     /// The channel with none, 1, 10 and 100 small cubes
     Bodies,
-    /// 1, 10 and 100 bodies dropped on each other
+    /// 1, 10 and 100 bodies dropped onto each other
     Heaps,
     /// Shares of the step's stages
     Stages,
-    /// The collapse on one thread to all, with the hash of how it ends
+    /// The collapse on one thread up to all, with the hash of its final state
     Threads,
-    /// The machine's own limits, and how close the collapse comes
+    /// Limits of the machine, and the share of them that the collapse reaches
     Roofline,
-    /// The source paper's scene with and without what need not be computed (full:
-    /// on finer grids too)
+    /// The source paper's scene with and without each reduction (full: also on finer
+    /// grids)
     Plan,
-    /// Ten scenes, with their wall time as foretold and as taken
+    /// Ten scenes, with their predicted and measured wall times
     Forecast,
 }
 
 impl Measurement {
-    /// Its name on the command line.
+    /// Name on the command line.
     pub(super) fn name(self) -> String {
         let value = self.to_possible_value();
         value.map_or_else(String::new, |value| value.get_name().to_owned())

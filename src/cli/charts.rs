@@ -5,8 +5,8 @@ use scree::pictures::Chart;
 use std::fs;
 use std::path::Path;
 
-/// Writes charts, each under its name, into a folder, which is made if it is not
-/// there.
+/// Writes charts, each under its name, into a folder, which is created if it does not
+/// exist.
 pub(super) fn write_charts<'a>(
     charts: impl IntoIterator<Item = (&'a str, Chart)>,
     folder: &Path,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-/// A title, headings, and rows under them; every column ends under its heading.
+/// A title, headings and rows under them; every column is aligned to the right end of its heading.
 pub(super) fn table<const N: usize>(
     title: &str,
     headings: [&str; N],
@@ -22,7 +22,7 @@ pub(super) fn table<const N: usize>(
     text
 }
 
-/// Millions, with three digits or so.
+/// Formats a number in millions, with about three digits.
 pub(super) fn millions(value: f64) -> String {
     format!("{:.2}", value / 1e6)
 }

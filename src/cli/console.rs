@@ -1,12 +1,12 @@
-//! Text to people: standard output for answers, standard error for the rest.
+//! Text for people: standard output for answers, standard error for the rest.
 
 use std::io::{self, Write};
 
-/// Prints an answer on standard output. A reader that has gone away, such as
-/// `head`, has what it wanted: that is no error.
+/// Prints an answer on standard output. A reader that has closed the pipe, such as
+/// `head`, is no error.
 ///
 /// # Errors
-/// The output takes no more, say because a disk is full.
+/// Standard output can't be written, for example because a disk is full.
 pub(super) fn answer(text: &str) -> io::Result<()> {
     let mut output = io::stdout().lock();
     let written = output
@@ -19,7 +19,7 @@ pub(super) fn answer(text: &str) -> io::Result<()> {
     }
 }
 
-/// Tells something on standard error, if anybody listens.
+/// Prints a note on standard error and ignores failures.
 pub(super) fn note(text: &str) {
     let mut output = io::stderr().lock();
     let _ = output.write_all(text.as_bytes());

@@ -1,4 +1,4 @@
-//! Reasons that a command could not do what it was asked.
+//! Reasons for the failure of a command.
 
 use super::console;
 use scree::pictures::PictureError;
@@ -9,25 +9,25 @@ use std::path::Path;
 use std::process::ExitCode;
 use thiserror::Error;
 
-/// A command's failure, by who has to act.
+/// Failure of a command, by the person who can act on it.
 #[derive(Debug, Error)]
 pub(super) enum Failure {
-    /// Arguments, files or the scenario: whoever asked.
+    /// Invalid arguments, files or scenario: the user.
     #[error("{0}")]
     Input(String),
-    /// The computation could not go on: whoever knows the method.
+    /// Failure of the computation: an expert of the method.
     #[error("{0}")]
     Numerical(String),
-    /// So many known answers were missed: whoever knows the method.
+    /// Number of cases that failed their tolerance: an expert of the method.
     #[error("{0} failed")]
     Missed(usize),
-    /// Anything else: whoever runs the machine.
+    /// Any other failure: the operator of the machine.
     #[error("{0}")]
     Other(String),
 }
 
 impl Failure {
-    /// Something outside that went wrong, and what it says.
+    /// An external failure, and its message.
     pub(super) fn other(what: &str, why: impl Display) -> Self {
         Self::Other(format!("{what}: {why}"))
     }
@@ -37,13 +37,13 @@ impl Failure {
         Self::Input(format!("cannot {doing} {}: {why}", path.display()))
     }
 
-    /// Tells it on standard error and says how the process ends.
+    /// Reports the failure on standard error and returns the exit code of the process.
     pub(super) fn report(&self) -> ExitCode {
         console::note(&format!("error: {self}"));
         ExitCode::from(self.exit_code())
     }
 
-    /// Exit code: 2 invalid input, 3 numerical failure, 4 a case missed, 1 other.
+    /// Exit code: 2 invalid input, 3 numerical failure, 4 a failed case, 1 other.
     pub(super) fn exit_code(&self) -> u8 {
         match self {
             Self::Other(_) => 1,
@@ -72,7 +72,7 @@ impl From<PictureError> for Failure {
     }
 }
 
-/// A legal scenario that can't be set up: too large a one is the input's fault.
+/// Failure of a legal scenario that can't be set up: one that is too large is invalid input.
 pub(super) fn not_set_up(error: &SetupError) -> Failure {
     match error {
         SetupError::TooManyPoints { .. } | SetupError::NotReducible { .. } => {

@@ -1,13 +1,13 @@
-//! Error bars as a table for people.
+//! Uncertainty intervals as a table for people.
 
 use super::columns::table;
 use scree_solver::record::{AccuracyReport, Basis, Outcome, Role, UncertaintyInterval};
 use std::fmt::Write as _;
 
-/// Sign for an end that is open, or an order there is none of.
+/// Sign for an open end or a missing order.
 const NOTHING: &str = "–";
 
-/// The intervals of an outcome and what they rest on; nothing if none were asked for.
+/// The intervals of an outcome and their basis; none if none were asked for.
 pub(super) fn intervals(outcome: &Outcome) -> Option<String> {
     let report = outcome.accuracy.as_ref()?;
     let headings = ["of", "quantity", "value", "low", "high", "order", "basis"];

@@ -17,7 +17,7 @@ use std::convert::Infallible;
 ///
 /// # Errors
 /// See [`Failure`]; after a numerical failure the trajectories up to it are
-/// written all the same.
+/// still written.
 pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     let scenario = scenario_file::read(&options.scenario)?;
     let mut directory = options
@@ -57,7 +57,7 @@ pub(super) fn run(options: &RunOptions) -> Result<(), Failure> {
     Ok(console::answer(&answer)?)
 }
 
-/// The flag's threads, the scenario's, or one for every core.
+/// The flag's number of threads, else the scenario's, else one per core.
 fn threads(options: &RunOptions, scenario: &Scenario) -> usize {
     let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let asked = options
@@ -70,7 +70,7 @@ fn threads(options: &RunOptions, scenario: &Scenario) -> usize {
 fn outcome_of(ended: Result<RunEnd, RunError<Infallible>>) -> Result<Box<Outcome>, Failure> {
     match ended {
         Ok(RunEnd::Completed(outcome)) => Ok(outcome),
-        // Nobody raises the flag here; if that changes, say what happened.
+        // No code raises the flag here; the message is for the case that this changes.
         Ok(RunEnd::Stopped) => Err(Failure::Other("the run was stopped".to_owned())),
         Err(RunError::Setup(error)) => Err(not_set_up(&error)),
         Err(RunError::Step(error)) => Err(Failure::Numerical(error.to_string())),
@@ -78,7 +78,7 @@ fn outcome_of(ended: Result<RunEnd, RunError<Infallible>>) -> Result<Box<Outcome
     }
 }
 
-/// Keeps in memory what a run records.
+/// Keeps the records of a run in memory.
 #[derive(Debug)]
 struct Recording {
     samples: Vec<Sample>,
@@ -131,8 +131,8 @@ mod tests {
     use super::*;
     use scree_solver::{SetupError, StepError};
 
-    /// The codes that scripts rely on: 2 for a scene too large to set up, 3 for
-    /// a computation that could not go on, 1 for the machine's own troubles.
+    /// Exit codes that scripts rely on: 2 for a scene too large to set up, 3 for
+    /// a failed computation, 1 for failures of the machine.
     #[test]
     fn every_bad_end_has_its_exit_code() {
         let too_many = SetupError::TooManyPoints {

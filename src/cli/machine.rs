@@ -1,24 +1,24 @@
-//! Machine that it was measured on.
+//! Machine on which a measurement was made.
 
 use scree_solver::Instructions;
 use serde::Serialize;
 use std::fs;
 
-/// The machine, as far as it matters.
+/// Properties of the machine that affect the measurements.
 #[derive(Debug, Serialize)]
 pub(super) struct Machine {
-    /// Model of the processor, where the system tells it.
+    /// Model of the processor, if the system reports it.
     pub(super) processor: Option<String>,
-    /// Threads that can run at a time.
+    /// Number of hardware threads.
     pub(super) cores: usize,
-    /// The best instruction set the fast path has code for.
+    /// Best instruction set for which the fast path has code.
     pub(super) instructions: String,
     /// True if the program was built without optimisation.
     pub(super) debug_build: bool,
 }
 
 impl Machine {
-    /// This one.
+    /// The machine that runs this program.
     pub(super) fn here() -> Self {
         let described = fs::read_to_string("/proc/cpuinfo").ok();
         Self {
@@ -29,7 +29,7 @@ impl Machine {
         }
     }
 
-    /// In one line.
+    /// Description in one line.
     pub(super) fn in_words(&self) -> String {
         let processor = self.processor.as_deref().unwrap_or("unknown processor");
         let warning = if self.debug_build {
@@ -44,19 +44,19 @@ impl Machine {
     }
 }
 
-/// Threads that can run at a time.
+/// Number of hardware threads.
 pub(super) fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
-/// One thread and all; one number if that is the same.
+/// One thread and all; one number if both are the same.
 pub(super) fn one_and_all() -> Vec<usize> {
     let mut threads = vec![1, cores()];
     threads.dedup();
     threads
 }
 
-/// The instruction sets present.
+/// Instruction sets that are present.
 pub(super) fn instruction_sets() -> impl Iterator<Item = Instructions> {
     let all = [
         Instructions::Baseline,

@@ -1,4 +1,4 @@
-//! Shows how far a run is.
+//! Progress of a run for people.
 
 use super::console;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -8,10 +8,10 @@ use std::io::IsTerminal;
 /// Positions of the bar.
 const TICKS: u64 = 1_000;
 
-/// Share of the run between two lines where there is no terminal.
+/// Share of the run between two lines if there is no terminal.
 const LINE_STEP: f64 = 0.1;
 
-/// A progress bar on a terminal; without one, silence or a line at every tenth.
+/// A progress bar on a terminal; otherwise silence or a line at every tenth.
 #[derive(Debug)]
 pub(super) enum Meter {
     /// A bar on standard error.
@@ -21,12 +21,12 @@ pub(super) enum Meter {
         /// Share of the run at which the next line is due.
         next: f64,
     },
-    /// Nothing.
+    /// No output.
     Silent,
 }
 
 impl Meter {
-    /// A bar if standard error is a terminal, else nothing.
+    /// A bar if standard error is a terminal, else no output.
     pub(super) fn bar_or_silence() -> Self {
         Self::bar().unwrap_or(Self::Silent)
     }
@@ -61,7 +61,7 @@ impl Meter {
         }
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(super) fn finish(&self) {
         if let Self::Bar(bar) = self {
             bar.finish_and_clear();
@@ -69,7 +69,7 @@ impl Meter {
     }
 }
 
-/// Simulated time, pace and time to go.
+/// Simulated time, pace and remaining time.
 fn in_words(progress: &Progress) -> String {
     let to_go = progress.eta_s.map_or(String::new(), |eta_s| {
         let seconds = eta_s.ceil().clamp(0.0, 1e9) as u64;
@@ -100,7 +100,7 @@ mod tests {
         assert_eq!(in_words(&progress), expected);
     }
 
-    /// Lines come once a tenth however often progress is told, and a leap over
+    /// Lines are printed once per tenth however often progress is reported, and a jump over
     /// several tenths is one line.
     #[test]
     fn lines_are_due_once_a_tenth() {

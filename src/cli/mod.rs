@@ -1,8 +1,8 @@
-//! The command line: what can be asked, and the exit codes of the answers.
+//! The command line: commands and exit codes.
 //!
-//! 0: fine. 2: the input is at fault (arguments, files, scenario). 3: the
-//! computation could not go on. 4: a case with a known answer was missed.
-//! 1: anything else (a full disk, a busy port).
+//! Exit codes: 0 success; 2 invalid input (arguments, files, scenario); 3 failure of the
+//! computation; 4 a case of known answer failed; 1 any other failure (a full disk, a port
+//! in use).
 
 mod arguments;
 mod bench;
@@ -29,7 +29,7 @@ use clap::Parser;
 use failure::Failure;
 use std::process::ExitCode;
 
-/// Does what the command line asks for.
+/// Executes the command line.
 pub(crate) fn run() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -51,9 +51,9 @@ pub(crate) fn run() -> ExitCode {
     }
 }
 
-/// Help and version asked for, or arguments that can't be understood.
+/// Prints help, version or an argument error.
 fn usage(answer: &clap::Error) -> ExitCode {
-    // Nobody may be listening any more; the exit code still tells.
+    // The output may be closed; the exit code still reports the result.
     let _ = answer.print();
     if answer.use_stderr() {
         ExitCode::from(Failure::Input(String::new()).exit_code())

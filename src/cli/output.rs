@@ -1,4 +1,4 @@
-//! The directory a run is written into.
+//! The output directory of a run.
 
 use super::failure::Failure;
 use scree::pictures;
@@ -6,7 +6,7 @@ use scree_solver::record::{FlowSnapshot, Outcome, Sample};
 use scree_solver::scenario::Scenario;
 use std::path::{Path, PathBuf};
 
-/// A directory for results, and what has been written there.
+/// A directory for results, and the list of files written there.
 #[derive(Debug)]
 pub(super) struct OutputDirectory {
     path: PathBuf,
@@ -14,12 +14,12 @@ pub(super) struct OutputDirectory {
 }
 
 impl OutputDirectory {
-    /// Makes the directory, before any computing, so that a bad name costs no
-    /// time, and clears it of an earlier run's results: a run that fails must
+    /// Creates the directory before any computation, so that a bad name costs no
+    /// time, and removes an earlier run's results: a run that fails must
     /// not leave them beside its own.
     ///
     /// # Errors
-    /// It can't be made or cleared.
+    /// The directory can't be created or cleared.
     pub(super) fn create(path: &Path) -> Result<Self, Failure> {
         std::fs::create_dir_all(path).map_err(|error| Failure::path("make", path, &error))?;
         clear(path).map_err(|error| Failure::path("clear", path, &error))?;
@@ -63,7 +63,7 @@ impl OutputDirectory {
         self.write("aerial.svg", aerial.as_bytes())
     }
 
-    /// Places of the files, for people.
+    /// Paths of the files, for people.
     pub(super) fn summary(&self) -> String {
         let names = self.written.join(", ");
         format!("written to {}: {names}", self.path.display())
@@ -78,7 +78,7 @@ impl OutputDirectory {
     }
 }
 
-/// Removes the files a run writes, and no others.
+/// Removes only the files that a run writes.
 fn clear(directory: &Path) -> std::io::Result<()> {
     for entry in std::fs::read_dir(directory)? {
         let entry = entry?;

@@ -1,4 +1,4 @@
-//! `scree plan`: what a run will compute, what it leaves out, and what it costs.
+//! `scree plan`: computation, reductions and cost of a run.
 
 use super::arguments::PlanOptions;
 use super::failure::{Failure, not_set_up};

@@ -12,8 +12,8 @@ const VALUE_CHARS: usize = 60;
 /// Reads a scenario; `-` is standard input.
 ///
 /// # Errors
-/// An unreadable file, text that is no JSON, a scenario that breaks rules: then
-/// the message lists all of them.
+/// An unreadable file, text that is not JSON, or a scenario that breaks rules; the message
+/// lists all of them.
 pub(super) fn read(path: &Path) -> Result<Scenario, Failure> {
     parse(&read_text(path)?, &name(path))
 }
@@ -33,7 +33,7 @@ pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// A scenario from its text; `name` is what messages call it.
+/// A scenario from its text; `name` stands for the file in messages.
 ///
 /// # Errors
 /// As for [`read`].
@@ -48,7 +48,7 @@ fn name(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// Faults of a scenario, for people.
+/// Message about the faults of a scenario, for people.
 fn explain(error: &ScenarioError, name: &str) -> String {
     match error {
         ScenarioError::Malformed { .. } => format!("{name} is {error}"),

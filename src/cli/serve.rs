@@ -1,4 +1,4 @@
-//! `scree serve`: the HTTP service until it is asked to stop.
+//! `scree serve`: the HTTP service until it is stopped.
 
 use super::arguments::ServeOptions;
 use super::console;
@@ -8,7 +8,7 @@ use scree::service::{self, StartError};
 use std::path::Path;
 use tracing::level_filters::LevelFilter;
 
-/// Configuration read when none is named, if it is there.
+/// Configuration file that is read by default, if it exists.
 const USUAL_CONFIG: &str = "configs/service.toml";
 
 /// Serves until Ctrl-C or SIGTERM.
@@ -23,7 +23,7 @@ pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
     }
     let runtime = tokio::runtime::Runtime::new()?;
     runtime.block_on(async {
-        // Before anyone knows the address: what is asked while nobody listens is lost.
+        // Before the address is announced: signals sent before the handlers exist would be lost.
         let asked_to_stop = StopRequests::listen()?;
         let running = service::start(config)
             .await
@@ -49,7 +49,7 @@ fn configuration(options: &ServeOptions) -> Result<ServiceConfig, Failure> {
     Ok(config)
 }
 
-/// Failure that keeps a service from starting, by who has to act.
+/// Failure of the start of a service, by the person who can act on it.
 pub(super) fn not_started(error: &StartError) -> Failure {
     match error {
         StartError::Config(error) => Failure::Input(error.to_string()),
@@ -65,7 +65,7 @@ pub(super) fn log_to_standard_error(level: LevelFilter) {
         .init();
 }
 
-/// The same, an object a line, with the spans it stands in: request, job.
+/// Sends the log to standard error as one JSON object per line, with its spans: request, job.
 fn log_as_json() {
     tracing_subscriber::fmt()
         .json()
@@ -74,7 +74,7 @@ fn log_as_json() {
         .init();
 }
 
-/// Ctrl-C and SIGTERM, heard from the moment this is made.
+/// Ctrl-C and SIGTERM, received from the moment this is created.
 struct StopRequests {
     #[cfg(unix)]
     signals: [tokio::signal::unix::Signal; 2],
@@ -99,7 +99,7 @@ impl StopRequests {
         Ok(Self { ctrl_c })
     }
 
-    /// Returns on the first of them.
+    /// Returns on the first of the two signals.
     #[cfg(unix)]
     async fn first(self) {
         let [mut interrupt, mut terminate] = self.signals;

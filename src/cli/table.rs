@@ -3,7 +3,7 @@
 use scree_solver::record::{BodyOutcome, Conservation, Cost, FlowOutcome, Outcome};
 use std::fmt::Write as _;
 
-/// Sign for something that did not happen.
+/// Sign for an event that did not happen.
 const NEVER: &str = "–";
 
 /// A named value with its unit.
@@ -122,7 +122,7 @@ const COLUMNS: [(&str, &str); 10] = [
     ("z", "m"),
 ];
 
-/// One line a body under two lines of headings.
+/// One line per body under two lines of headings.
 fn bodies(bodies: &[BodyOutcome]) -> String {
     let mut text = String::new();
     let headings: String = COLUMNS.iter().map(|(name, _)| cell(name)).collect();
@@ -151,7 +151,7 @@ fn row(index: usize, body: &BodyOutcome) -> [String; COLUMNS.len()] {
     ]
 }
 
-/// A length [m] to a tenth of a millimetre; without the sign of a zero.
+/// A length [m] to a tenth of a millimetre; zero has no sign.
 fn metres(length: f64) -> String {
     let text = format!("{length:.4}");
     if text == "-0.0000" {
@@ -215,7 +215,7 @@ mod tests {
         let first = "0 0.170 1.080 0.270 – 0.4123 0.5000 0.4500 0.0000 0.0200";
         assert_eq!(lines[2].join(" "), first);
         assert_eq!(lines[3][..5].join(" "), "1 – 1.080 – –");
-        // Every heading ends in the column where its values end.
+        // Every heading ends in the column in which its values end.
         let ends = |line: &str| line.chars().count();
         assert!(
             text.lines()

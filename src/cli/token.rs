@@ -1,4 +1,4 @@
-//! `scree token`: makes an access token, and what the configuration keeps of it.
+//! `scree token`: generates an access token and its entry for the configuration.
 
 use super::arguments::{ScopeWord, TokenOptions};
 use super::console;
@@ -13,13 +13,13 @@ struct Section {
     tokens: [Token; 1],
 }
 
-/// Makes a token and prints it, the only time it is seen, with the section that
-/// belongs into the configuration.
+/// Generates a token and prints it, once, with the section
+/// to add to the configuration.
 ///
 /// # Errors
 /// Standard output is closed.
 pub(super) fn token(options: &TokenOptions) -> Result<(), Failure> {
-    // 244 random bits: nobody guesses it, so a fast hash of it can be kept.
+    // 244 random bits can't be guessed, so a fast hash is safe to store.
     let text = format!(
         "scree_{}{}",
         Uuid::new_v4().simple(),

@@ -1,4 +1,4 @@
-//! `scree validate`: is this a scenario, and what does it say?
+//! `scree validate`: checks a scenario and prints the facts that follow from it.
 
 use super::arguments::ValidateOptions;
 use super::failure::{Failure, not_set_up};
@@ -8,18 +8,18 @@ use scree_solver::rigid::Body;
 use scree_solver::scenario::{Channel, Scenario, Shape, Support};
 use scree_solver::shape::PrincipalInertia;
 
-/// Prints what a legal scenario comes to.
+/// Prints the facts that follow from a legal scenario.
 ///
 /// # Errors
-/// All that is wrong with it.
+/// All rules that the scenario breaks.
 pub(super) fn validate(options: &ValidateOptions) -> Result<(), Failure> {
     let scenario = scenario_file::read(&options.scenario)?;
-    // Set up as for a run, but on one thread: what can't be set up is not legal.
+    // Set up as for a run, but on one thread: a scenario that can't be set up is not legal.
     let simulation = Simulation::new(&scenario, 1).map_err(|error| not_set_up(&error))?;
     Ok(console::answer(&facts(&scenario, &simulation))?)
 }
 
-/// Facts that the scenario comes to with all defaults in place.
+/// Facts that follow from the scenario with all defaults filled in.
 fn facts(scenario: &Scenario, simulation: &Simulation) -> String {
     let mut facts = vec![
         ("title".to_owned(), format!("{:?}", scenario.title)),
@@ -70,7 +70,7 @@ fn flow(scenario: &Scenario) -> String {
     )
 }
 
-/// A body of the scenario as it was set up.
+/// Description of a body of the scenario as it was set up.
 fn body(scenario: &Scenario, index: usize, set_up: &Body) -> String {
     let body = &scenario.bodies[index];
     let shape = shape(&body.shape);

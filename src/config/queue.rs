@@ -1,4 +1,4 @@
-//! Who may have a job for how long.
+//! Leases of jobs.
 
 use super::{ConfigError, not_allowed};
 use serde::{Deserialize, Serialize};
@@ -9,11 +9,11 @@ use std::time::Duration;
 #[serde(deny_unknown_fields)]
 pub struct Queue {
     /// Name of this service among those that share a database. Its next start
-    /// takes back at once what it left running.
+    /// reclaims at once the jobs that it left running.
     pub name: String,
-    /// Time that a claimed job stays a worker's without a sign of life [s].
+    /// Time that a claimed job stays with its worker without a heartbeat [s].
     pub lease_s: f64,
-    /// Between two signs of life [s].
+    /// Time between two heartbeats [s].
     pub heartbeat_interval_s: f64,
 }
 
@@ -36,12 +36,12 @@ impl Queue {
         Ok(())
     }
 
-    /// Time that a claimed job stays a worker's without a sign of life.
+    /// Time that a claimed job stays with its worker without a heartbeat.
     pub fn lease_duration(&self) -> Duration {
         Duration::from_secs_f64(self.lease_s)
     }
 
-    /// Between two signs of life.
+    /// Time between two heartbeats.
     pub fn heartbeat_interval(&self) -> Duration {
         Duration::from_secs_f64(self.heartbeat_interval_s)
     }

@@ -1,17 +1,17 @@
-//! Access tokens: who may ask for what.
+//! Access tokens and their scopes.
 
 use super::{ConfigError, not_allowed};
 use serde::{Deserialize, Serialize};
 
-/// Scope of what a token lets its holder do.
+/// Scope of an access token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scope {
-    /// Submit jobs; dismiss and remove one's own.
+    /// Submit jobs; dismiss and remove one's own jobs.
     Submit,
-    /// Look at jobs and results.
+    /// Read jobs and results.
     Read,
-    /// Dismiss and remove anyone's.
+    /// Dismiss and remove jobs of any holder.
     Admin,
 }
 
@@ -19,21 +19,21 @@ pub enum Scope {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Token {
-    /// Whose it is; jobs are kept under this name.
+    /// Name of the holder; jobs are stored under this name.
     pub name: String,
     /// BLAKE3 of the token, 64 hexadecimal digits. A token is long and random
     /// (`scree token` makes one), so a fast hash is enough.
     pub blake3: String,
-    /// Scopes that it is good for.
+    /// Scopes of the token.
     pub scopes: Vec<Scope>,
-    /// Most of its jobs that may wait or run at a time; `None`: as many as the
-    /// queue takes.
+    /// Largest number of its jobs that may wait or run at a time; `None`: the limit of
+    /// the queue.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub active_jobs: Option<u32>,
 }
 
 impl Scope {
-    /// Its word in the configuration.
+    /// Name of the scope in the configuration.
     pub fn word(self) -> &'static str {
         match self {
             Self::Submit => "submit",
@@ -44,13 +44,13 @@ impl Scope {
 }
 
 impl Token {
-    /// True if `hash` is that of this token; takes equally long for any.
+    /// True if `hash` is the hash of this token; takes the same time for any hash.
     pub fn is(&self, hash: &blake3::Hash) -> bool {
-        // Comparing hashes takes constant time; reading ours tells nothing.
+        // Hashes are compared in constant time; parsing our own hash reveals nothing.
         blake3::Hash::from_hex(&self.blake3).is_ok_and(|own| own == *hash)
     }
 
-    /// True if it is good for this.
+    /// True if the token has this scope.
     pub fn may(&self, scope: Scope) -> bool {
         self.scopes.contains(&scope)
     }

@@ -1,10 +1,10 @@
-//! Retention of what is kept, and the look of the log.
+//! Retention of jobs, and format of the log.
 
 use super::{ConfigError, not_allowed};
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// Time for which things are kept.
+/// Retention times.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Retention {
@@ -12,15 +12,15 @@ pub struct Retention {
     pub ended_jobs_d: Option<f64>,
 }
 
-/// Look of the log.
+/// Log settings.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Log {
-    /// For people or for programs.
+    /// Format of a line.
     pub format: LogFormat,
 }
 
-/// Form of a line of the log.
+/// Format of a line of the log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LogFormat {

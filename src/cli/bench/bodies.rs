@@ -17,7 +17,7 @@ const COUNTS: [usize; 4] = [0, 1, 10, 100];
 pub(super) struct Growth {
     threads: usize,
     cell_size_m: f64,
-    /// Simulated time that was measured, both ends [s].
+    /// Start and end of the measured simulated time [s].
     simulated_s: [f64; 2],
     scenes: Vec<Crowd>,
 }
@@ -30,8 +30,8 @@ struct Crowd {
     wall_s_per_simulated_s: f64,
     /// Wall time over that of the first scene.
     over_first: f64,
-    /// Wall time of one point-step over that of the first scene: without what
-    /// shorter sub-steps cost.
+    /// Wall time of one point-step over that of the first scene: excludes the cost of
+    /// shorter sub-steps.
     per_point_step_over_first: f64,
     measured: StageLap,
 }
@@ -104,7 +104,7 @@ fn compare(effort: &Effort, scenes: impl IntoIterator<Item = Scenario>) -> Resul
 }
 
 impl Growth {
-    /// For people.
+    /// Table for people.
     pub(super) fn table(&self, title: &str) -> String {
         let [from_s, to_s] = self.simulated_s;
         let points = self.scenes.first().map_or(0, |scene| scene.points);

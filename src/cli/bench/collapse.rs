@@ -1,4 +1,4 @@
-//! The collapse, each way it can be computed.
+//! Rates of the collapse, for each variant of the computation.
 
 use super::Effort;
 use super::scenes::{COLLAPSE_S, Collapse};
@@ -12,25 +12,25 @@ use serde::Serialize;
 /// Sub-steps of a quick lap, in single and in double precision.
 const QUICK_LAP: (u64, u64) = (64, 8);
 
-/// Speeds of the collapse, each way.
+/// Rates of the collapse, by variant.
 #[derive(Debug, Serialize)]
 pub(super) struct Speeds {
     points: usize,
     ways: Vec<Speed>,
 }
 
-/// One way of computing the collapse.
+/// One variant of the computation of the collapse.
 #[derive(Debug, Serialize)]
 struct Speed {
     precision: &'static str,
-    /// None in double precision, which has no code for them.
+    /// None in double precision, which has no code for special instruction sets.
     instructions: Option<String>,
     threads: usize,
-    /// "moving": when the flow has moved; "every": at every sub-step.
+    /// "moving": after the flow has moved by a given distance; "every": at every sub-step.
     transfer: &'static str,
     point_steps_per_s: f64,
     wall_s_per_simulated_s: f64,
-    /// Rate over that of the same with one thread.
+    /// Rate over that of the same variant on one thread.
     over_one_thread: f64,
     measured: StageLap,
 }
@@ -71,8 +71,8 @@ impl Way {
     }
 }
 
-/// All ways: every instruction set with transfers paced by the flow, the best
-/// one and double precision with both paces; one thread and all.
+/// All variants: every instruction set with transfers paced by the flow, the best
+/// one and double precision with both paces; on one thread and on all.
 fn ways(points: u32) -> Vec<Way> {
     let best = Instructions::detected();
     let mut kinds: Vec<_> = instruction_sets().map(|set| (Some(set), false)).collect();
@@ -92,7 +92,7 @@ fn ways(points: u32) -> Vec<Way> {
     ways
 }
 
-/// Times the collapse each way.
+/// Times the collapse in each variant.
 pub(super) fn measure(effort: &Effort) -> Result<Speeds, Failure> {
     let ways = ways(effort.points);
     let mut runners = Vec::new();
@@ -124,7 +124,7 @@ pub(super) fn measure(effort: &Effort) -> Result<Speeds, Failure> {
 }
 
 impl Speeds {
-    /// For people.
+    /// Table for people.
     pub(super) fn table(&self) -> String {
         let title = format!("s200k: collapse of {} points", self.points);
         let headings = [

@@ -1,4 +1,4 @@
-//! Figures of what was measured.
+//! Figures of the measurements.
 
 use super::Report;
 use super::plan::{Saving, Savings};
@@ -13,7 +13,7 @@ use std::path::Path;
 const INTENSITIES: (f64, f64) = (0.5, 64.0);
 
 /// Writes a picture of each measurement that has one into a folder, which is
-/// made if it is not there.
+/// created if it does not exist.
 pub(super) fn write(report: &Report, folder: &Path) -> Result<(), Failure> {
     let machine = report.machine.in_words();
     let size = report
@@ -90,7 +90,7 @@ fn of_roofline(rooflines: &[super::roofline::Roofline], machine: &str) -> Chart 
     }
 }
 
-/// Displacement of the cube off the finest full run, against wall time.
+/// Chart of the error of the cube's displacement against the finest full run, over wall time.
 fn of_plan(savings: &Savings, machine: &str) -> Chart {
     let ways = ["full", "mirror", "all of them"];
     let of = |way: &'static str| savings.runs.iter().filter(move |run| run.way == way);
@@ -99,7 +99,7 @@ fn of_plan(savings: &Savings, machine: &str) -> Chart {
     let off = |run: &Saving| (displaced(run) / finest - 1.0).abs();
     let curve = |way: &'static str| Curve {
         name: way.to_owned(),
-        // The finest is what errors are counted from.
+        // Errors are relative to the finest run.
         points: of(way)
             .map(|run| (run.wall_s, off(run)))
             .filter(|place| place.1 > 1e-4)

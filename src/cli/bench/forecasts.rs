@@ -1,4 +1,4 @@
-//! Errors of forecasts of wall time: ten scenes that nothing was tuned with.
+//! Errors of forecasts of wall time, on ten scenes that were not used to tune the forecast.
 
 use super::Effort;
 use super::plan::timed;
@@ -11,7 +11,7 @@ use scree_solver::scenario::Scenario;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// Scenes, their runs, and what was foretold of them.
+/// Scenes, their runs and their forecasts.
 #[derive(Debug, Serialize)]
 pub(super) struct Forecasts {
     threads: usize,
@@ -68,7 +68,7 @@ const SCENES: [Given; 10] = [
     }),
 ];
 
-/// Foretells and runs every scene.
+/// Forecasts and runs every scene.
 pub(super) fn measure(effort: &Effort) -> Result<Forecasts, Failure> {
     let mut scenes = Vec::new();
     for given in &SCENES {
@@ -133,7 +133,7 @@ impl Foretold {
 }
 
 impl Forecasts {
-    /// For people.
+    /// Table for people.
     pub(super) fn table(&self) -> String {
         let title = format!(
             "forecast: wall time foretold and taken, {} threads",

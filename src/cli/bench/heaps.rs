@@ -1,4 +1,4 @@
-//! Cost of bodies that lie on each other, without a flow.
+//! Cost of bodies in contact with each other, without a flow.
 
 use super::Effort;
 use super::scenes;
@@ -12,14 +12,14 @@ use std::time::Instant;
 /// Bodies dropped into a pit.
 const COUNTS: [usize; 3] = [1, 10, 100];
 
-/// Time at which all lie on each other or the floor, but none sleeps yet, and how long is
-/// measured, quick and full [s].
+/// Time at which all bodies touch each other or the floor, but none sleeps yet, and duration
+/// of the measurement, quick and full [s].
 const TOUCHING_S: (f64, [f64; 2]) = (0.3, [0.02, 0.05]);
 
-/// Heaps of more and more bodies, on one thread: a heap is one island.
+/// Heaps of an increasing number of bodies, on one thread: a heap is one island.
 #[derive(Debug, Serialize)]
 pub(super) struct Heaps {
-    /// Simulated time that was measured, both ends [s].
+    /// Start and end of the measured simulated time [s].
     simulated_s: [f64; 2],
     heaps: Vec<Heap>,
 }
@@ -27,7 +27,7 @@ pub(super) struct Heaps {
 #[derive(Debug, Default, Serialize)]
 struct Heap {
     bodies: usize,
-    /// Pairs of bodies in touch, in the mean.
+    /// Mean number of pairs of bodies in contact.
     touching: f64,
     /// Steps of the scene.
     steps: u64,
@@ -88,7 +88,7 @@ pub(super) fn measure(effort: &Effort) -> Result<Heaps, Failure> {
 }
 
 impl Heaps {
-    /// For people.
+    /// Table for people.
     pub(super) fn table(&self) -> String {
         let [from_s, to_s] = self.simulated_s;
         let title = format!(

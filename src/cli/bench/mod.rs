@@ -24,18 +24,18 @@ use std::io::IsTerminal;
 /// Cell size of the channel, quick and full [m].
 const CHANNEL_CELLS_M: (f64, f64) = (0.0125, 0.01);
 
-/// Time to measure.
+/// Extent of the measurements.
 #[derive(Debug, Serialize)]
 struct Effort {
-    /// The whole of each scene, and the largest.
+    /// True if each scene is measured whole, and the largest scenes too.
     full: bool,
-    /// Laps each way of computing takes, in turn with the others.
+    /// Repetitions of every variant, in turn with the others.
     repeats: u32,
     /// Points of the collapse.
     points: u32,
 }
 
-/// Report of what was measured; what was not is left out.
+/// Report of the measurements; those not made are left out.
 #[derive(Debug, Serialize)]
 struct Report {
     solver_version: &'static str,
@@ -63,7 +63,7 @@ struct Report {
     forecast: Option<forecasts::Forecasts>,
 }
 
-/// Measures what is asked for and prints it.
+/// Runs the measurements asked for and prints them.
 ///
 /// # Errors
 /// See [`Failure`].
@@ -85,7 +85,7 @@ pub(super) fn bench(options: &BenchOptions) -> Result<(), Failure> {
     Ok(console::answer(&answer)?)
 }
 
-/// Does it if it is among those asked for, telling a waiting person so.
+/// Runs a measurement if it is among those asked for, and announces it to the user.
 fn if_asked<T>(
     only: &[Measurement],
     one: Measurement,

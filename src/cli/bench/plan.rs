@@ -1,4 +1,4 @@
-//! Savings of each reduction on the source paper's scene, and what it changes.
+//! Savings of each reduction on the source paper's scene, and the changes it causes.
 
 use super::Effort;
 use super::scenes;
@@ -16,17 +16,17 @@ use std::time::Instant;
 
 /// Cell sizes, coarse ones first [m]: two, three and four cells per cube side.
 const CELLS_M: [f64; 3] = [0.02, 0.04 / 3.0, 0.01];
-/// Until shortly before the flow strikes the cube [s].
+/// End of the run, shortly before the flow strikes the cube [s].
 const BEFORE_IMPACT_S: f64 = 0.16;
 
-/// The scene in every way, at every cell size.
+/// The scene in every variant, at every cell size.
 #[derive(Debug, Serialize)]
 pub(super) struct Savings {
     threads: usize,
     pub(super) runs: Vec<Saving>,
 }
 
-/// The scene computed one way.
+/// One variant of the computation of the scene.
 #[derive(Debug, Serialize)]
 pub(super) struct Saving {
     pub(super) cell_size_m: f64,
@@ -38,10 +38,10 @@ pub(super) struct Saving {
     pub(super) outcome: Outcome,
 }
 
-/// A way to compute the scene: its name, and what it changes of the full model.
+/// A variant of the computation: its name, and its change to the full model.
 type Way = (&'static str, fn(&mut Scenario));
 
-/// The first one of each stretch is the full model.
+/// Variants; the first one of each time range is the full model.
 const WAYS: [Way; 8] = [
     ("full", |_| {}),
     ("mirror", |s| s.numerics.symmetry = Symmetry::Auto),
@@ -58,7 +58,7 @@ const WAYS: [Way; 8] = [
         everything(s);
     }),
 ];
-/// Place of the full model that a way is compared with.
+/// Index of the full model with which a variant is compared.
 const COMPARED_WITH: [usize; WAYS.len()] = [0, 0, 0, 0, 0, 5, 5, 5];
 
 fn everything(scenario: &mut Scenario) {
@@ -71,7 +71,7 @@ fn before_impact(scenario: &mut Scenario) {
     scenario.duration_s = BEFORE_IMPACT_S;
 }
 
-/// Runs the scene in every way, in turns.
+/// Runs the scene in every variant, in turns.
 pub(super) fn measure(effort: &Effort) -> Result<Savings, Failure> {
     let mut runs = Vec::new();
     let sizes = if effort.full {
@@ -143,7 +143,7 @@ impl Sink for Nothing {
     }
 }
 
-/// Runs a scenario as a job would; its set-up counts.
+/// Runs a scenario as a job would; the time of its set-up is included.
 pub(super) fn timed(scenario: &Scenario, threads: usize) -> Result<(f64, Outcome), Failure> {
     let start = Instant::now();
     match runner::run(scenario, threads, &StopFlag::default(), &mut Nothing) {
@@ -156,7 +156,7 @@ pub(super) fn timed(scenario: &Scenario, threads: usize) -> Result<(f64, Outcome
 }
 
 impl Savings {
-    /// For people.
+    /// Table for people.
     pub(super) fn table(&self) -> String {
         let title = format!(
             "plan: the source paper's scene with and without what need not be computed, {} threads",

@@ -1,8 +1,8 @@
-//! The machine's own limits, and how close the solver comes.
+//! Limits of the machine, and the share of them that the solver reaches.
 //!
-//! A sub-step of a point takes a known number of operations and of bytes. What
-//! the processor can multiply and add, and what memory can deliver, is measured
-//! here; the lower of the two bounds is the roof.
+//! A sub-step of a point takes a known number of operations and of bytes. The rate of
+//! multiply-adds of the processor and the bandwidth of the memory are measured here;
+//! the lower of the two bounds is the roof.
 
 use super::Effort;
 use super::scenes::Collapse;
@@ -20,13 +20,13 @@ use std::time::Instant;
 
 /// Multiply-adds of sixteen numbers per sum and measurement.
 const ROUNDS: u32 = 4_000_000;
-/// Numbers of each of the three arrays that are streamed through: half a
-/// gigabyte each, more than caches hold.
+/// Length of each of the three arrays of the stream benchmark: half a
+/// gigabyte each, more than the caches hold.
 const STREAMED: usize = 1 << 27;
 /// Sub-steps of a lap.
 const LAP: u64 = 64;
 
-/// Limits and what the collapse makes of them.
+/// Limits, and the rates of the collapse within them.
 #[derive(Debug, Serialize)]
 pub(super) struct Rooflines {
     operations_per_point_step: f64,
@@ -34,17 +34,17 @@ pub(super) struct Rooflines {
     rooflines: Vec<Roofline>,
 }
 
-/// Limits of so many threads.
+/// Limits of a number of threads.
 #[derive(Debug, Serialize)]
 pub(super) struct Roofline {
     pub(super) threads: usize,
     /// Multiply-adds on registers, two operations each [1/s].
     pub(super) peak_operations_per_s: f64,
-    /// Read and written by a stream a = b + s c [B/s].
+    /// Bytes read and written by a stream a = b + s c [B/s].
     pub(super) bytes_per_s: f64,
-    /// Point-steps per second the operations allow.
+    /// Point-steps per second allowed by the operations.
     operations_allow: f64,
-    /// Point-steps per second memory allows.
+    /// Point-steps per second allowed by the memory.
     memory_allows: f64,
     /// Point-steps per second of the collapse.
     pub(super) collapse: f64,
@@ -90,7 +90,7 @@ pub(super) fn measure(effort: &Effort) -> Result<Rooflines, Failure> {
     })
 }
 
-/// Work of so many threads together in a second: `work` gives that of one of them.
+/// Work per second of a number of threads together: `work` returns that of one of them.
 fn on(threads: usize, work: impl Fn() -> f64 + Sync) -> f64 {
     std::thread::scope(|scope| {
         let workers: Vec<_> = (0..threads).map(|_| scope.spawn(&work)).collect();
@@ -101,8 +101,8 @@ fn on(threads: usize, work: impl Fn() -> f64 + Sync) -> f64 {
     })
 }
 
-/// As many sums go at once as registers hold and the delay of a multiply-add on
-/// two units asks for.
+/// Runs as many sums at once as the registers hold and as the latency of a multiply-add on
+/// two units requires.
 fn peak_operations() -> f64 {
     if Instructions::detected() == Instructions::Avx512 {
         peak_with::<12>()
@@ -140,7 +140,7 @@ fn streamed_bytes(threads: usize, together: &Barrier) -> f64 {
     let share = STREAMED / threads;
     let (b, c) = (vec![1.0f32; share], vec![2.0f32; share]);
     let mut a = vec![0.0f32; share];
-    // The first time round the system has yet to find the memory.
+    // The first pass makes the system allocate the memory.
     dispatch!(Level::new(), _simd => stream(&mut a, &b, &c, black_box(0.25)));
     together.wait();
     let start = Instant::now();
@@ -158,7 +158,7 @@ fn stream(a: &mut [f32], b: &[f32], c: &[f32], factor: f32) {
 }
 
 impl Rooflines {
-    /// For people.
+    /// Table for people.
     pub(super) fn table(&self) -> String {
         let title = format!(
             "roofline: {:.0} operations and {:.0} bytes per point-step; what the machine allows [M point-steps/s]",
@@ -176,7 +176,7 @@ impl Rooflines {
         table(&title, headings, self.rooflines.iter().map(Roofline::row))
     }
 
-    /// Limits, thread number by thread number.
+    /// Limits by number of threads.
     pub(super) fn each(&self) -> &[Roofline] {
         &self.rooflines
     }

@@ -14,13 +14,13 @@ const CELL_M: f64 = 0.01;
 /// Length of the whole collapse [s].
 pub(super) const COLLAPSE_S: f64 = 0.15;
 
-/// Simulated time no measurement comes to [s].
+/// Simulated time beyond the end of any measurement [s].
 const NEVER_S: f64 = 100.0;
 
 /// A flow Courant number at which the flow is transferred at every sub-step.
 const EVERY_SUBSTEP: f64 = 1e-3;
 
-/// Time at which the channel's flow is about the cube: from when, how long [s].
+/// Start and duration of the time range in which the channel's flow surrounds the cube [s].
 pub(super) const IN_THE_FLOW_S: (f64, f64) = (0.25, 0.1);
 
 /// Distance of the small cubes' centres and their side [m].
@@ -28,19 +28,20 @@ const SMALL_CUBES_M: (f64, f64) = (0.03, 0.02);
 /// Small cubes side by side in the channel.
 const ABREAST: usize = 5;
 
-/// Way in which a collapse is computed.
+/// Variant of the computation of a collapse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Collapse {
-    /// Points, about.
+    /// Approximate number of points.
     pub(super) points: u32,
-    /// In 64 bits instead of 32.
+    /// True if computed in 64 bits instead of 32.
     pub(super) double: bool,
-    /// True if the flow is transferred at every sub-step, not when it has moved.
+    /// True if the flow is transferred at every sub-step, not after it has moved by a given
+    /// distance.
     pub(super) every_substep: bool,
 }
 
 impl Collapse {
-    /// In single precision, transferred when the flow has moved.
+    /// In single precision, with transfers paced by the flow.
     pub(super) fn of(points: u32) -> Self {
         Self {
             points,
@@ -49,8 +50,8 @@ impl Collapse {
         }
     }
 
-    /// A block of 0.5 × 0.25 × 0.2 m slumps on a floor. With fewer points the
-    /// cells are larger and so are the sub-steps, in the same ratio.
+    /// A block of 0.5 × 0.25 × 0.2 m slumps on a floor. With fewer points,
+    /// cells and sub-steps are larger in the same ratio.
     pub(super) fn scenario(self) -> Result<Scenario, Failure> {
         let cell = CELL_M * (f64::from(COLLAPSE_POINTS) / f64::from(self.points)).cbrt();
         let mut scene = json!({
@@ -94,7 +95,7 @@ pub(super) fn channel(cube: bool, cell_m: f64) -> Result<Scenario, Failure> {
 }
 
 /// The source paper's channel with small cubes in rows of five instead of its
-/// own.
+/// own cube.
 pub(super) fn small_cubes(count: usize, cell_m: f64) -> Result<Scenario, Failure> {
     let mut scene = source_paper(cell_m)?;
     let (distance, side) = SMALL_CUBES_M;
@@ -114,7 +115,7 @@ pub(super) fn small_cubes(count: usize, cell_m: f64) -> Result<Scenario, Failure
     read(&scene)
 }
 
-/// Cubes, boxes and tetrahedra dropped askew into a pit, layers of at most 4 x 4.
+/// Cubes, boxes and tetrahedra dropped obliquely into a pit, in layers of at most 4 x 4.
 pub(super) fn heap(count: usize) -> Result<Scenario, Failure> {
     let shapes = [
         json!({"cube": {"side_m": 0.04}}),
@@ -138,7 +139,7 @@ pub(super) fn heap(count: usize) -> Result<Scenario, Failure> {
             "orientation": [cos, 0.48 * sin, 0.6 * sin, 0.64 * sin]
         })
     };
-    // Of walls there are three; a barrier is the fourth.
+    // A channel has three walls; a barrier is the fourth.
     let barrier = json!({
         "shape": {"box": {"sides_m": [0.02, side - 1e-3, 1.0]}},
         "position": {"downstream_m": 0.5 * side + 0.01, "elevation_m": 0.5},

@@ -9,11 +9,11 @@ use crate::cli::machine::one_and_all;
 use serde::Serialize;
 
 const SIZES: [u32; 3] = [10_000, 100_000, 1_000_000];
-/// In the full bench besides.
+/// Additional sizes of the full bench.
 const LARGE_SIZES: [u32; 2] = [5_000_000, 10_000_000];
-/// Point-steps of a lap: about a second of a fast machine.
+/// Point-steps of a lap: about a second on a fast machine.
 const WORK: u32 = 20_000_000;
-/// Sub-steps of a lap at least: a transfer comes once in so many.
+/// Minimum number of sub-steps of a lap: a transfer comes once in so many.
 const FEWEST_SUBSTEPS: u32 = 20;
 
 /// Speeds by the number of points.
@@ -95,7 +95,7 @@ fn flatness(sizes: &[Size], threads: usize) -> f64 {
 }
 
 impl Sizes {
-    /// For people.
+    /// Table for people.
     pub(super) fn table(&self) -> String {
         let flatness: Vec<_> = self
             .flatness
@@ -116,7 +116,7 @@ impl Sizes {
         table(&title, headings, self.sizes.iter().map(Size::row))
     }
 
-    /// Size by size.
+    /// Results by size.
     pub(super) fn each(&self) -> &[Size] {
         &self.sizes
     }

@@ -66,7 +66,7 @@ impl Clock {
     }
 }
 
-/// Finds the shares in the collapse and in the channel with its cube.
+/// Measures the shares in the collapse and in the channel with its cube.
 pub(super) fn measure(effort: &Effort) -> Result<Shares, Failure> {
     let collapse = Collapse::of(effort.points).scenario()?;
     let collapse = Runner::new(&collapse, cores())?.warmed_up()?;
@@ -96,7 +96,7 @@ fn watch(mut runner: Runner, length: Length) -> Result<Vec<Share>, Failure> {
     let clock = Arc::new(Mutex::new(Clock::zero()));
     let watched = Arc::clone(&clock);
     runner.simulation.time_stages(Box::new(move |stage| {
-        // Nothing panics while it is locked.
+        // No code panics while it is locked.
         let mut clock = watched.lock().unwrap_or_else(PoisonError::into_inner);
         clock.done(stage);
     }));
@@ -107,7 +107,7 @@ fn watch(mut runner: Runner, length: Length) -> Result<Vec<Share>, Failure> {
 }
 
 impl Shares {
-    /// For people.
+    /// Table for people.
     pub(super) fn table(&self) -> String {
         let title = format!("stages: shares of the step [%], {} threads", self.threads);
         let rows = StepStage::ALL.iter().enumerate().map(|(place, _)| {

@@ -1,4 +1,4 @@
-//! Times simulations lap by lap, turn by turn.
+//! Times simulations lap by lap, in turns.
 
 use crate::cli::failure::{Failure, not_set_up};
 use scree_solver::scenario::Scenario;
@@ -14,9 +14,9 @@ const WARM_UP: u64 = 16;
 /// Length of a lap; it always ends with a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Length {
-    /// So many sub-steps or a few more.
+    /// This many sub-steps or a few more.
     Substeps(u64),
-    /// So much simulated time or a little more [s].
+    /// This much simulated time or a little more [s].
     Simulated(f64),
 }
 
@@ -47,7 +47,7 @@ impl StageLap {
     }
 }
 
-/// A simulation on the bench, and its laps.
+/// A simulation that is timed, and its laps.
 #[derive(Debug)]
 pub(super) struct Runner {
     pub(super) simulation: Simulation,
@@ -55,7 +55,7 @@ pub(super) struct Runner {
 }
 
 impl Runner {
-    /// Sets a scenario up, all of it computed.
+    /// Sets a scenario up, without reductions.
     pub(super) fn new(scenario: &Scenario, threads: usize) -> Result<Self, Failure> {
         let scene = Scene::whole(scenario).map_err(|error| not_set_up(&error))?;
         let simulation =
@@ -64,7 +64,7 @@ impl Runner {
         Ok(Self { simulation, stages })
     }
 
-    /// Uses these instructions, or the best below them.
+    /// Uses these instructions, or the best available below them.
     pub(super) fn with(mut self, instructions: Instructions) -> Self {
         self.simulation.limit_instructions(instructions);
         self
@@ -76,13 +76,13 @@ impl Runner {
         Ok(self)
     }
 
-    /// Goes to a simulated time without timing it.
+    /// Runs to a simulated time without timing it.
     pub(super) fn skipped_to(mut self, time_s: f64) -> Result<Self, Failure> {
         self.go(Length::Simulated(time_s - self.simulation.time_s()))?;
         Ok(self)
     }
 
-    /// One lap.
+    /// Runs one lap.
     pub(super) fn lap(&mut self, length: Length) -> Result<(), Failure> {
         let lap = self.go(length)?;
         self.stages.push(lap);
@@ -118,12 +118,12 @@ impl Runner {
         })
     }
 
-    /// Median of what `of` says of the laps.
+    /// Median over the laps of the value that `of` returns.
     pub(super) fn median(&self, of: impl Fn(&StageLap) -> f64) -> f64 {
         median(self.stages.iter().map(of).collect())
     }
 
-    /// Median over the laps of this one's over the other's.
+    /// Median over the laps of this runner's value over the other's.
     pub(super) fn ratio(&self, other: &Self, of: impl Fn(&StageLap) -> f64) -> f64 {
         let pairs = self.stages.iter().zip(&other.stages);
         median(pairs.map(|(a, b)| of(a) / of(b)).collect())
@@ -143,7 +143,7 @@ impl Runner {
     }
 }
 
-/// Gives every runner a lap, again and again: what else the machine does meets
+/// Runs one lap of every runner in turn, repeatedly: other load on the machine affects
 /// all of them alike.
 pub(super) fn take_turns(
     runners: &mut [Runner],
@@ -159,7 +159,7 @@ pub(super) fn take_turns(
     Ok(())
 }
 
-/// The middle one, or the mean of the two in the middle; not a number if there
+/// The middle value, or the mean of the two in the middle; NaN if there
 /// are none.
 pub(super) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! The collapse on more and more threads, and the bits it ends with.
+//! The collapse on an increasing number of threads, and the bits of its final state.
 
 use super::Effort;
 use super::scenes::Collapse;
@@ -10,9 +10,9 @@ use serde::Serialize;
 
 /// Sub-steps of a lap.
 const LAP: u64 = 64;
-/// Threads whose bits are compared, however many cores there are.
+/// Numbers of threads whose bits are compared, whatever the number of cores.
 const COMPARED: [usize; 4] = [1, 2, 3, 7];
-/// Up to here every number of threads is timed, beyond it every doubling.
+/// Every number of threads up to this one is timed, then every doubling.
 const EVERY_NUMBER: usize = 8;
 
 /// Speeds by the number of threads.
@@ -71,7 +71,7 @@ fn numbers_of_threads() -> Vec<usize> {
     threads
 }
 
-/// Times the collapse on one thread up to all, and compares how it ends.
+/// Times the collapse on one thread up to all, and compares the final states.
 pub(super) fn measure(effort: &Effort) -> Result<Scaling, Failure> {
     let scenario = Collapse::of(effort.points).scenario()?;
     let mut runners = Vec::new();
@@ -90,7 +90,7 @@ pub(super) fn measure(effort: &Effort) -> Result<Scaling, Failure> {
 }
 
 impl Scaling {
-    /// For people.
+    /// Table for people.
     pub(super) fn table(&self) -> String {
         let bits = if self.same_bits { "the same" } else { "OTHER" };
         let title = format!(

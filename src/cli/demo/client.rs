@@ -1,4 +1,4 @@
-//! A small HTTP client for the demo's own service: one connection a request.
+//! A small HTTP client for the demo's own service: one connection per request.
 
 use crate::cli::failure::Failure;
 use http_body_util::{BodyExt, Full};
@@ -11,7 +11,7 @@ use std::fmt::Display;
 use std::net::SocketAddr;
 use tokio::net::TcpStream;
 
-/// Talks to the service at one address.
+/// Client of the service at one address.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Client {
     address: SocketAddr,
@@ -29,7 +29,7 @@ impl Client {
         Self { address }
     }
 
-    /// Gets what is at `path`.
+    /// Gets the document at `path`.
     ///
     /// # Errors
     /// No connection, or no complete answer.
@@ -73,10 +73,10 @@ impl Client {
 }
 
 impl Answer {
-    /// The body, if the service did what was asked.
+    /// The body, if the service accepted the request.
     ///
     /// # Errors
-    /// The service refused: what it said.
+    /// The service refused; the error holds its message.
     pub(super) fn accepted(self) -> Result<Bytes, Failure> {
         if self.status.is_success() {
             return Ok(self.body);
@@ -91,10 +91,10 @@ impl Answer {
         })
     }
 
-    /// The body as JSON, if the service did what was asked.
+    /// The body as JSON, if the service accepted the request.
     ///
     /// # Errors
-    /// As for [`Answer::accepted`], or the body is something else.
+    /// As for [`Answer::accepted`], or the body is other JSON.
     pub(super) fn json<T: DeserializeOwned>(self) -> Result<T, Failure> {
         let body = self.accepted()?;
         serde_json::from_slice(&body)

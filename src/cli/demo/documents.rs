@@ -1,4 +1,4 @@
-//! The service's documents, as its client reads them.
+//! The service's documents, as the client reads them.
 
 use crate::cli::failure::Failure;
 use scree::jobs::progress::Progress;
@@ -7,9 +7,9 @@ use scree_solver::record::{FlowSnapshot, Outcome, Sample};
 use scree_solver::scenario::Scenario;
 use serde::Deserialize;
 
-/// Kind of failure that is the computation's own.
+/// Kind of a failure of the computation.
 const NUMERICAL: &str = "urn:scree:failure:numerical";
-/// Kind of failure that is the scenario's: too large to set up.
+/// Kind of a failure of the scenario: too large to set up.
 const SETUP: &str = "urn:scree:failure:setup";
 
 /// Fields of a job that the demo reads.
@@ -31,7 +31,7 @@ struct Problem {
 }
 
 impl Job {
-    /// End of the job; none while it has not ended.
+    /// End of the job; none while it runs or waits.
     pub(super) fn end(self) -> Option<Result<Outcome, Failure>> {
         if matches!(self.status.as_str(), "accepted" | "running") {
             return None;
@@ -54,7 +54,7 @@ struct Trajectory {
     columns: TrajectoryColumns,
 }
 
-/// Records of a run, put together from the service's documents.
+/// Records of a run, assembled from the service's documents.
 #[derive(Debug, Default)]
 pub(super) struct Recorded {
     pub(super) samples: Vec<Sample>,
@@ -62,10 +62,10 @@ pub(super) struct Recorded {
 }
 
 impl Recorded {
-    /// Adds the next body's trajectory.
+    /// Adds the trajectory of the next body.
     ///
     /// # Errors
-    /// The document is none, or its samples are not those of the bodies before.
+    /// The document is invalid, or its samples are not those of the bodies before.
     pub(super) fn add_trajectory(&mut self, document: &[u8]) -> Result<(), Failure> {
         let trajectory: Trajectory = serde_json::from_slice(document)
             .map_err(|error| Failure::other("the trajectory is not understood", error))?;
@@ -87,7 +87,7 @@ impl Recorded {
         Ok(())
     }
 
-    /// Adds a snapshot, unless it is the last one again.
+    /// Adds a snapshot, unless it equals the last one.
     pub(super) fn add_snapshot(&mut self, snapshot: FlowSnapshot) {
         let known = self
             .snapshots
@@ -99,7 +99,7 @@ impl Recorded {
     }
 }
 
-/// Times [s] at which a scenario's snapshots lie; none without a flow.
+/// Times [s] of a scenario's snapshots; none without a flow.
 pub(super) fn snapshot_times(scenario: &Scenario) -> Vec<f64> {
     if scenario.flow.is_none() {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! `scree demo`: the source paper's scene, all the way through a service of its
+//! `scree demo`: the source paper's scene through a service of its
 //! own: over HTTP into the queue, computed by a worker, kept in a database, and
 //! back over HTTP into files, pictures and a table.
 
@@ -20,10 +20,10 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::time::Duration;
 use tracing::level_filters::LevelFilter;
 
-/// The source paper's scene. Inside the binary, so that the demo runs anywhere.
+/// The source paper's scene, inside the binary so that the demo runs anywhere.
 const SOURCE_PAPER: &str = include_str!("../../../configs/scenarios/source_paper.json");
 
-/// Time between two looks at the job.
+/// Time between two polls of the job.
 const POLL_INTERVAL: Duration = Duration::from_millis(250);
 
 /// Runs the demo.
@@ -47,8 +47,8 @@ pub(super) fn demo(options: &DemoOptions) -> Result<(), Failure> {
     })
 }
 
-/// Starts a service for this demo alone and stops it afterwards; its database
-/// goes with the directory.
+/// Starts a service for this demo and stops it afterwards; its database
+/// is removed with the directory.
 async fn with_own_service(
     text: String,
     scenario: &Scenario,
@@ -71,7 +71,7 @@ async fn with_own_service(
     Ok(())
 }
 
-/// Sends the scenario, waits for its end and fetches the results; returns what
+/// Sends the scenario, waits for the job's end and fetches the results; returns the text
 /// to print.
 async fn send_and_fetch(
     client: Client,
@@ -109,7 +109,7 @@ async fn wait(client: Client, id: &str) -> Result<Outcome, Failure> {
     }
 }
 
-/// Fetches trajectories, which are kept as they come, and the flow.
+/// Fetches trajectories, which are stored as they arrive, and the flow.
 async fn fetch(
     client: Client,
     id: &str,

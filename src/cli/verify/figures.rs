@@ -1,4 +1,4 @@
-//! Error against wall time, and a contact that slides, as pictures.
+//! Error against wall time, and a sliding contact, as pictures.
 
 use crate::cli::charts::write_charts;
 use crate::cli::failure::Failure;
@@ -6,8 +6,8 @@ use scree::pictures::{Axis, Chart, Curve, Scale};
 use scree::verify::work::{Diagram, Series};
 use std::path::Path;
 
-/// Writes a picture of each diagram into a folder, which is made if it is not
-/// there.
+/// Writes a picture of each diagram into a folder, which is created if it does not
+/// exist.
 pub(super) fn write(diagrams: &[Diagram], machine: &str, folder: &Path) -> Result<(), Failure> {
     let charts = diagrams.iter();
     write_charts(charts.map(|one| (one.name, chart(one, machine))), folder)

@@ -7,12 +7,12 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-/// Lines between which the tables stand.
+/// Lines that enclose the tables.
 const BEGIN: &str = "<!-- tables of scree verify: begin -->";
 const END: &str = "<!-- tables of scree verify: end -->";
 
-/// A page whose tables are to be replaced: opened before the cases run, since a
-/// page that is none should not cost their time.
+/// A page whose tables are to be replaced: opened before the cases run, since an
+/// invalid page should not cost their time.
 pub(super) struct Page<'a> {
     file: &'a Path,
     before: String,
@@ -20,7 +20,7 @@ pub(super) struct Page<'a> {
 }
 
 impl<'a> Page<'a> {
-    /// Reads a file, which has to have the marks.
+    /// Reads a file, which must have the marks.
     pub(super) fn open(file: &'a Path) -> Result<Self, Failure> {
         let text = fs::read_to_string(file).map_err(|error| failed(file, &error))?;
         let parts = parted(&text);
@@ -33,7 +33,7 @@ impl<'a> Page<'a> {
         })
     }
 
-    /// Writes it anew, with these tables between the marks.
+    /// Rewrites the file with these tables between the marks.
     pub(super) fn write(&self, report: &Report) -> Result<(), Failure> {
         fs::write(self.file, self.with(&tables(report))).map_err(|error| failed(self.file, &error))
     }

@@ -1,4 +1,4 @@
-//! `scree verify`: the solver against cases with a trusted answer.
+//! `scree verify`: the solver against cases of known answer.
 
 mod figures;
 mod markdown;
@@ -21,10 +21,10 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::IsTerminal;
 
-/// Sign for nothing.
+/// Sign for a missing value.
 const NOTHING: &str = "–";
 
-/// All that was verified.
+/// All results of the verification.
 #[derive(Debug, Serialize)]
 struct Report {
     solver_version: &'static str,
@@ -36,10 +36,10 @@ struct Report {
     randomised: Vec<RandomisedReport>,
 }
 
-/// Runs the cases asked for and prints what was found.
+/// Runs the cases asked for and prints the findings.
 ///
 /// # Errors
-/// A case that is not there, or one that failed its tolerance.
+/// An unknown case, or one that failed its tolerance.
 pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     let effort = if options.full {
         Effort::Full
@@ -92,7 +92,7 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     }
 }
 
-/// Tells a person who waits what is being run.
+/// Announces the case that runs to the user.
 fn tell_of(name: &str) {
     if std::io::stderr().is_terminal() {
         console::note(&format!("verifying: {name}"));
@@ -108,7 +108,7 @@ struct Asked {
 
 impl Asked {
     /// The cases with the names given, in the order of the lists; all of the suite if
-    /// none is named. A name finds its case in whatever suite it is.
+    /// no name is given. A name may belong to any suite.
     fn of(options: &VerifyOptions) -> Result<Self, Failure> {
         let (suite, names) = (options.suite, &options.case);
         let all = cases::ALL.iter().map(|case| case.name);
@@ -143,8 +143,8 @@ impl Asked {
 }
 
 impl Report {
-    /// Tolerances failed, robustness tests that broke something, and of randomised tests the failures and what
-    /// was not run.
+    /// Number of failed tolerances, of robustness tests that broke a rule, and of failures and
+    /// missing runs of randomised tests.
     fn failed(&self) -> usize {
         let broken = self
             .robustness
@@ -195,7 +195,7 @@ impl Report {
     }
 }
 
-/// A case for people.
+/// Report of a case for people.
 fn page(Verified { case, found }: &Verified) -> String {
     let mut text = format!(
         "{} {}: {}\n  reference: {}\n",
@@ -319,8 +319,8 @@ fn limit_in_words(limit: &Limit) -> String {
 mod tests {
     use super::*;
 
-    // Every case of the list can be run; one that is listed before it can be must not
-    // look as if it had been.
+    // Every case of the list can be run: a case listed before it can be run must not
+    // appear to have been run.
     #[test]
     fn a_case_that_cannot_be_run_yet_says_why() {
         let case = Case {
@@ -347,7 +347,7 @@ mod tests {
         assert!(!text.contains("verdict"), "{text}");
     }
 
-    // Once a seed without a legal draw was passed over in silence.
+    // Regression: a seed without a legal draw was once skipped silently.
     #[test]
     fn a_sweep_that_ran_less_than_asked_fails() {
         let report = |run: u64| Report {

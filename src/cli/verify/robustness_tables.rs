@@ -27,7 +27,7 @@ const HEADINGS: [&str; 16] = [
     "verdict",
 ];
 
-/// All that is no case with a known answer.
+/// All results other than those of cases of known answer.
 pub(super) fn tables(report: &Report) -> String {
     let mut text = String::new();
     let figured = || {
@@ -54,7 +54,7 @@ pub(super) fn tables(report: &Report) -> String {
     text
 }
 
-/// The same in Markdown.
+/// The same tables in Markdown.
 pub(super) fn markdown(report: &Report) -> String {
     let mut text = String::new();
     if !report.robustness.is_empty() {
@@ -133,7 +133,7 @@ fn verdict(tried: &TrialReport) -> String {
     }
 }
 
-/// End of a case that did not just finish, and findings of a comparison.
+/// End of a trial other than an ordinary finish, and findings of a comparison.
 fn notes(tried: &TrialReport) -> Vec<String> {
     let mut lines = Vec::new();
     if !tried.ended.is_finished() {
