@@ -1,4 +1,4 @@
-//! Who may ask for what: access tokens, their scopes, and the caller of a
+//! Access control: access tokens, their scopes, and the caller of a
 //! request.
 
 use super::problem::Problem;
@@ -10,19 +10,19 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use std::sync::Arc;
 
-/// Paths that anyone may ask for: they tell nothing of any job.
+/// Paths open without a token: they reveal nothing about jobs.
 const OPEN: [&str; 4] = ["/", "/healthz", "/readyz", "/openapi.json"];
 
-/// Whoever sent a request.
+/// Sender of a request.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Caller {
-    /// Nobody is asked for a token.
+    /// Any sender: the service asks for no token.
     Anyone,
-    /// Somebody with this one.
+    /// Holder of this token.
     Holder(Arc<Token>),
 }
 
-/// The tokens that are good.
+/// The valid tokens.
 #[derive(Debug, Clone)]
 pub(super) struct Gate(Arc<[Arc<Token>]>);
 
@@ -31,7 +31,7 @@ impl Gate {
         Self(tokens.iter().cloned().map(Arc::new).collect())
     }
 
-    /// The caller, if the request shows a good token or none is asked for.
+    /// The caller, if the request shows a valid token or none is required.
     fn caller(&self, headers: &HeaderMap) -> Option<Caller> {
         if self.0.is_empty() {
             return Some(Caller::Anyone);
@@ -39,8 +39,8 @@ impl Gate {
         let shown = bearer(headers)?;
         let hash = blake3::hash(shown.as_bytes());
         let mut found = None;
-        // Every token is compared, and in constant time: how long it takes
-        // tells nothing.
+        // Every token is compared, in constant time, so that the duration
+        // reveals nothing.
         for token in self.0.iter() {
             if token.is(&hash) {
                 found = Some(token);
@@ -59,7 +59,7 @@ impl Caller {
         }
     }
 
-    /// Most jobs that may wait or run at a time.
+    /// Largest number of jobs that may wait or run at a time.
     pub(super) fn quota(&self) -> Option<u32> {
         match self {
             Self::Anyone => None,
@@ -67,7 +67,7 @@ impl Caller {
         }
     }
 
-    /// True if it may do this.
+    /// True if the caller has this scope.
     fn may(&self, scope: Scope) -> bool {
         match self {
             Self::Anyone => true,
@@ -75,10 +75,10 @@ impl Caller {
         }
     }
 
-    /// Checks that it may change a job that `submitter` brought.
+    /// Checks that the caller may change a job submitted by `submitter`.
     ///
     /// # Errors
-    /// The job is another's, and the token none of an administrator.
+    /// The job is another submitter's, and the token has no administrator's scope.
     pub(super) fn may_change(&self, submitter: Option<&str>) -> Result<(), Problem> {
         if self.may(Scope::Admin) || (self.name().is_some() && self.name() == submitter) {
             return Ok(());
@@ -93,13 +93,13 @@ impl<S: Send + Sync> FromRequestParts<S> for Caller {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, _state: &S) -> Result<Self, Problem> {
-        // Put there by `check`, without which nobody is let in.
+        // Inserted by `check`, which every request passes.
         let caller = parts.extensions.get::<Self>().cloned();
         caller.ok_or_else(|| Problem::internal("a request without a caller"))
     }
 }
 
-/// Lets a request in if its token is good for it.
+/// Passes a request on if its token allows it.
 pub(super) async fn check(State(gate): State<Gate>, mut request: Request, next: Next) -> Response {
     if is_open(request.uri().path()) {
         request.extensions_mut().insert(Caller::Anyone);
@@ -117,7 +117,7 @@ pub(super) async fn check(State(gate): State<Gate>, mut request: Request, next: 
     next.run(request).await
 }
 
-/// True if anyone may ask for this.
+/// True if the path is open without a token.
 pub(super) fn is_open(path: &str) -> bool {
     OPEN.contains(&path)
 }

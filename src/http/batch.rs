@@ -1,4 +1,4 @@
-//! Submitting many scenarios at once.
+//! Submission of many scenarios at once.
 
 use super::access::Caller;
 use super::problem::{FieldError, Problem};
@@ -36,23 +36,23 @@ pub(super) struct BatchJob {
     /// The scenario.
     #[schema(value_type = super::contract::ScenarioDocument)]
     scenario: Box<RawValue>,
-    /// Labels of this job besides.
+    /// Additional labels of this job.
     #[serde(default)]
     labels: Vec<String>,
 }
 
-/// Fate of a batch: its jobs, in its order.
+/// Result of a batch: its jobs, in its order.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = BatchAnswer)]
 pub(super) struct BatchAnswer {
-    /// Identities of the jobs.
+    /// Identifiers of the jobs.
     #[schema(value_type = Vec<String>)]
     ids: Vec<String>,
 }
 
 /// Submit many scenarios
 ///
-/// All of them are accepted, in one transaction, or none.
+/// All of them are accepted in one transaction, or none.
 #[utoipa::path(
     post,
     path = "/v1/batches",
@@ -117,14 +117,14 @@ fn read_batch(text: &str) -> Result<BatchDocument, Problem> {
     Ok(batch)
 }
 
-/// The parser's words, which repeat a wrong key or text in full.
+/// The parser's message, which repeats a wrong key or text in full.
 fn without_long_texts(error: &serde_json::Error) -> String {
     let position = format!(" at line {} column {}", error.line(), error.column());
     let message = error.to_string().replace(&position, "");
     format!("{}{position}", excerpt(&message))
 }
 
-/// Checks every scenario and every label; all that is wrong is named at once.
+/// Checks every scenario and every label; the problem lists all faults.
 fn admit_all(jobs: &JobService, batch: &BatchDocument) -> Result<Vec<NewJob>, Problem> {
     let mut wrong = Vec::new();
     let common = read_labels(&batch.labels, "/labels", &mut wrong);

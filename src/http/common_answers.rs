@@ -1,11 +1,11 @@
-//! Answers that any request may get, written into the contract once.
+//! Answers that any request may get, added to the contract in one place.
 
 use super::access::is_open;
 use super::problem::MEDIA_TYPE_TEXT;
 use utoipa::openapi::path::Operation;
 use utoipa::openapi::{ContentBuilder, OpenApi, Ref, ResponseBuilder};
 
-/// Adds them to every request of the contract.
+/// Adds the common answers to every request of the contract.
 pub(super) fn add(contract: &mut OpenApi) {
     for (path, item) in &mut contract.paths.paths {
         let asks_for_token = !is_open(path);
@@ -33,7 +33,7 @@ pub(super) fn add(contract: &mut OpenApi) {
     }
 }
 
-/// Adds a problem document, unless the request says more about it itself.
+/// Adds a problem document, unless the request describes that status itself.
 fn answer(operation: &mut Operation, status: &str, description: &str) {
     let problem = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem")));
     let response = ResponseBuilder::new()

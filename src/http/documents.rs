@@ -1,4 +1,4 @@
-//! Documents that the service answers with.
+//! Documents of the service's answers.
 
 use super::contract::{OutcomeDocument, PlanDocument, ScenarioDocument};
 use crate::jobs::failure::Failure;
@@ -13,7 +13,7 @@ use utoipa::ToSchema;
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Job)]
 pub(super) struct JobDocument {
-    /// Identity.
+    /// Identifier.
     #[schema(format = "uuid")]
     pub id: String,
     /// State.
@@ -21,19 +21,19 @@ pub(super) struct JobDocument {
     /// Time of acceptance (RFC 3339).
     #[schema(format = "date-time")]
     pub created: String,
-    /// Time at which a worker last took it up; null while it waits.
+    /// Time of the last claim by a worker; null while the job waits.
     #[schema(required = true, format = "date-time")]
     pub started: Option<String>,
-    /// Time of its end; null before.
+    /// Time at which the job ended; null before.
     #[schema(required = true, format = "date-time")]
     pub finished: Option<String>,
-    /// Number of times that a worker took it up.
+    /// Number of attempts, that is claims by a worker.
     pub attempt: u32,
-    /// Those times, the first first.
+    /// All attempts, in order.
     pub attempts: Vec<AttemptDocument>,
     /// Its labels, in order.
     pub labels: Vec<String>,
-    /// Name of the access token it came with; null where no token is asked for.
+    /// Name of the access token of the submitter; null if none is required.
     #[schema(required = true)]
     pub submitter: Option<String>,
     /// Provenance of the answer.
@@ -41,7 +41,7 @@ pub(super) struct JobDocument {
     /// The scenario with every default filled in.
     #[schema(value_type = ScenarioDocument)]
     pub scenario: Box<RawValue>,
-    /// Plan of what to compute and its cost, made when it was accepted; null for jobs
+    /// Plan of the computation and its cost, made at submission; null for jobs
     /// accepted by an older version.
     #[schema(required = true, value_type = Option<PlanDocument>)]
     pub plan: Option<Box<RawValue>>,
@@ -50,35 +50,35 @@ pub(super) struct JobDocument {
     /// The answer; null unless successful.
     #[schema(required = true, value_type = Option<OutcomeDocument>)]
     pub outcome: Option<Box<RawValue>>,
-    /// Reason that it failed; null unless failed.
+    /// Reason of the failure; null unless failed.
     #[schema(required = true, value_type = Option<Failure>)]
     pub problem: Option<Box<RawValue>>,
 }
 
-/// One time that a worker took a job up.
+/// One attempt at a job.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Attempt)]
 pub(super) struct AttemptDocument {
-    /// The how manieth, from 1.
+    /// Number of the attempt, from 1.
     pub attempt: u32,
-    /// Service whose worker it was.
+    /// Name of the service whose worker made the attempt.
     pub owner: String,
-    /// Time of its beginning (RFC 3339).
+    /// Start time (RFC 3339).
     #[schema(format = "date-time")]
     pub started: String,
-    /// Simulated time of the saved state it went on from [s]; null: from the
-    /// start.
+    /// Simulated time of the saved state from which the attempt resumed [s]; null: it began at
+    /// the start.
     #[schema(required = true)]
     pub resumed_from_s: Option<f64>,
-    /// Time of its end; null while it goes on.
+    /// End time; null while the attempt continues.
     #[schema(required = true, format = "date-time")]
     pub ended: Option<String>,
-    /// Kind of its end: successful, failed, dismissed, handed-back (the service
-    /// stopped), cut-off (it died), expired (it gave no sign of life),
-    /// infrastructure (it could not run the job); null while it goes on.
+    /// Kind of end: successful, failed, dismissed, handed-back (the service
+    /// stopped), cut-off (the service died), expired (the lease ran out),
+    /// infrastructure (the service could not run the job); null while the attempt continues.
     #[schema(required = true)]
     pub ending: Option<String>,
-    /// More about that; null where there is no more.
+    /// Details of the end; null if there are none.
     #[schema(required = true)]
     pub detail: Option<String>,
 }
@@ -87,7 +87,7 @@ pub(super) struct AttemptDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = JobSummary)]
 pub(super) struct JobSummaryDocument {
-    /// Identity.
+    /// Identifier.
     #[schema(format = "uuid")]
     pub id: String,
     /// State.
@@ -97,10 +97,10 @@ pub(super) struct JobSummaryDocument {
     /// Time of acceptance (RFC 3339).
     #[schema(format = "date-time")]
     pub created: String,
-    /// Time at which a worker took it up; null before.
+    /// Time of the last claim by a worker; null before the first.
     #[schema(required = true, format = "date-time")]
     pub started: Option<String>,
-    /// Time of its end; null before.
+    /// Time at which the job ended; null before.
     #[schema(required = true, format = "date-time")]
     pub finished: Option<String>,
     /// Progress so far.
@@ -115,16 +115,16 @@ pub(super) struct JobSummaryDocument {
 pub(super) struct JobPageDocument {
     /// The jobs of this page.
     pub jobs: Vec<JobSummaryDocument>,
-    /// To be sent as `cursor` for the next page; null on the last.
+    /// Value of `cursor` for the next page; null on the last page.
     #[schema(required = true)]
     pub next_cursor: Option<String>,
 }
 
-/// That the service is well.
+/// Health of the service.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Health)]
 pub(super) struct HealthDocument {
-    /// Always "ok": a service that is not well answers with a problem.
+    /// Always "ok"; an unhealthy service answers with a problem.
     pub status: &'static str,
     /// Version of the service.
     pub version: &'static str,

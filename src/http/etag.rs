@@ -1,4 +1,4 @@
-//! Answers with an ETag: who has the answer already gets 304 and no body.
+//! Answers with an ETag: a client that already has the answer gets 304 and no body.
 
 use super::problem::Problem;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
@@ -19,7 +19,7 @@ pub(super) fn json(asked: &HeaderMap, document: &impl Serialize) -> Result<Respo
     Ok((tag_header, json, body).into_response())
 }
 
-/// True if `If-None-Match` names this tag, as RFC 9110 compares: weakly.
+/// True if `If-None-Match` names this tag, by the weak comparison of RFC 9110.
 fn names(asked: &HeaderMap, tag: &str) -> bool {
     let lists = asked.get_all(header::IF_NONE_MATCH).into_iter();
     lists.filter_map(|list| list.to_str().ok()).any(|list| {

@@ -1,5 +1,5 @@
-//! The stream of events: every change of a job's state, as it happens or once
-//! more for who was away.
+//! The stream of events: every change of a job's state, as it happens or replayed
+//! for a client that was disconnected.
 
 use super::problem::Problem;
 use super::query::Query;
@@ -16,27 +16,27 @@ use std::ops::RangeInclusive;
 use std::time::Duration;
 use tokio::time::{Instant, sleep};
 
-/// Between two looks for news.
+/// Time between two polls for events.
 const LOOK_PAUSE: Duration = Duration::from_millis(200);
 
-/// After so long without news a comment shows both ends that the other is there.
+/// Time without an event after which a comment is sent, so that both ends notice a lost connection.
 const LONGEST_SILENCE: Duration = Duration::from_secs(10);
 
-/// Numbers that an event may have, and 0 for "before the first".
+/// Valid event numbers, and 0 for "before the first".
 const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
 
 /// Follow jobs
 ///
 /// Server-sent events, one for each change of a job's state: `event: status`,
 /// `id:` its number, `data:` an object with `id`, `status` and `attempt`. With
-/// `Last-Event-ID` (or `after`) it begins with what came after that event;
-/// without, events of one job come from its first, those of all from now on. The
-/// stream of one job ends with the job.
+/// `Last-Event-ID` (or `after`) the stream begins after that event; without it, the
+/// stream of one job begins with the job's first event and that of all jobs with the next one.
+/// The stream of one job ends with the job.
 ///
-/// After a number that no event has had (the database was put back from a backup) the
+/// After a number that no event has had (the database was restored from a backup) the
 /// stream begins with `event: reset`, `id: 0`, `data:` an object with `after`, the number
-/// that came, and `last`, the number of the last event; then come all events from the
-/// first. What a client knew from before may be wrong by then.
+/// received, and `last`, the number of the last event; all events from the first follow.
+/// Earlier knowledge of the client may then be wrong.
 #[utoipa::path(
     get,
     path = "/v1/events",
@@ -97,12 +97,12 @@ pub(super) async fn events(
 /// Start of a stream.
 struct Start {
     after: i64,
-    /// Message to a client whose number is of another past.
+    /// Message to a client whose number no event has had.
     reset: Option<String>,
 }
 
 impl Start {
-    /// By the number that a client has, if it has one.
+    /// Start of the stream for a client with this last event number, if it has one.
     fn after(number: Option<i64>, job: Option<JobId>, last: i64) -> Self {
         let (after, reset) = match (number, job) {
             (Some(number), _) if number > last => (0, Some(reset(number, last))),
@@ -114,7 +114,7 @@ impl Start {
     }
 }
 
-/// One client's place in the stream.
+/// Position of one client in the stream.
 struct Follower {
     jobs: JobService,
     job: Option<JobId>,
@@ -125,7 +125,7 @@ struct Follower {
 }
 
 impl Follower {
-    /// The next piece of text; none at the stream's end.
+    /// The next piece of text; none at the end of the stream.
     async fn next(mut self) -> Option<(String, Self)> {
         if let Some(reset) = self.reset.take() {
             return Some((reset, self));
@@ -149,21 +149,21 @@ impl Follower {
         }
     }
 
-    /// True if the one job that is followed has ended and all is told. No answer
-    /// if the database does not give one.
+    /// True if the followed job has ended and all its events are sent; none
+    /// if the database does not answer.
     async fn has_ended(&mut self) -> Option<bool> {
         let Some(job) = self.job else {
             return Some(false);
         };
         let status = self.jobs.status(job).await.ok()?;
         let ended = status.is_none_or(|status| status.is_final());
-        // What came between the last look and this one is still to be told.
+        // Events between the last poll and the job's end are still to be sent.
         self.ready = self.jobs.events(self.after, self.job).await.ok()?;
         Some(ended && self.ready.is_empty())
     }
 }
 
-/// Its id makes a client that is cut off right after it begin at the first event.
+/// With this id, a client that is disconnected right afterwards begins at the first event.
 fn reset(after: i64, last: i64) -> String {
     format!("id: 0\nevent: reset\ndata: {{\"after\":{after},\"last\":{last}}}\n\n")
 }

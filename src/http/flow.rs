@@ -18,7 +18,7 @@ use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::{StreamExt, stream};
 
-/// Look at the flow
+/// Get a snapshot of the flow
 ///
 /// The stored snapshot nearest to a time: position and speed of at most 5000
 /// points.
@@ -61,10 +61,10 @@ pub(super) async fn flow(
     etag::json(&headers, &document)
 }
 
-/// Take the flow's snapshots to ParaView
+/// Export the snapshots of the flow for ParaView
 ///
-/// A ZIP archive of all snapshots so far: `flow.pvd`, to be opened, and a `.vtp`
-/// file for each.
+/// A ZIP archive of all snapshots so far: `flow.pvd`, the file to open, and one `.vtp`
+/// file per snapshot.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/flow.zip",
@@ -99,7 +99,7 @@ pub(super) async fn flow_archive(
     Ok((kind, Body::from_stream(first.chain(rest))).into_response())
 }
 
-/// Snapshots on their way to a client: one of them at a time.
+/// Stream of snapshots to a client: it holds one of them at a time.
 struct Packing {
     jobs: JobService,
     job: JobId,

@@ -1,4 +1,4 @@
-//! Jobs: list, look at, dismiss, remove.
+//! Jobs: list, get, dismiss, remove.
 
 use super::access::Caller;
 use super::documents::{JobDocument, JobPageDocument};
@@ -16,13 +16,13 @@ use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
 use std::time::Duration;
 
-/// Jobs of one page, unless the client says otherwise.
+/// Default number of jobs per page.
 const DEFAULT_LIMIT: u32 = 20;
 
-/// Most jobs of one page.
+/// Largest number of jobs per page.
 const LARGEST_LIMIT: u32 = 100;
 
-/// Longest time that a look at a job may wait for its end [s].
+/// Longest time for which a request may wait for the end of a job [s].
 const LONGEST_WAIT_S: u32 = 60;
 
 /// List jobs, newest first
@@ -48,7 +48,7 @@ pub(super) async fn list(
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let page = read_page(query.as_deref())?;
-    // One more than asked for tells whether there is a next page.
+    // One job more than asked for tells whether there is a next page.
     let mut found = jobs
         .page(&Page {
             limit: page.limit + 1,
@@ -66,9 +66,9 @@ pub(super) async fn list(
     etag::json(&headers, &document)
 }
 
-/// Look at a job
+/// Get a job
 ///
-/// With `wait` the answer comes once the job has ended, or the time is over.
+/// With `wait` the answer comes once the job has ended or that time has passed.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}",
@@ -108,8 +108,8 @@ pub(super) async fn show(
 
 /// Dismiss or remove a job
 ///
-/// Dismissed, a waiting job never starts; a running one stops within half a
-/// second and keeps what it recorded. Dismissing it again changes nothing. With
+/// A dismissed job that waits never starts; a running one stops within half a
+/// second and keeps its records. A second dismissal changes nothing. With
 /// `remove=ended` a job that has ended is removed with all its results.
 #[utoipa::path(
     delete,
@@ -169,7 +169,7 @@ async fn removed(jobs: &JobService, id: &str) -> Result<Response, Problem> {
     }
 }
 
-/// The job of this id, or the problem that there is none.
+/// The job with this identifier, or a "not found" problem.
 pub(super) async fn find(jobs: &JobService, id: &str) -> Result<Job, Problem> {
     jobs.job(parse_id(id)?)
         .await?
@@ -199,7 +199,7 @@ fn read_page(query: Option<&str>) -> Result<Page, Problem> {
     Ok(page)
 }
 
-/// The place in the list after which a page begins; opaque to clients.
+/// Position in the list after which a page begins; opaque to clients.
 mod cursor {
     pub(super) fn write(sequence: i64) -> String {
         format!("j{sequence:x}")

@@ -1,4 +1,4 @@
-//! Figures for whoever watches the service, in the text format of Prometheus.
+//! Metrics of the service, in the text format of Prometheus.
 
 use super::problem::Problem;
 use crate::jobs::JobService;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-/// Upper ends of the classes of answering times [s].
+/// Upper bounds of the response-time classes [s].
 const CLASSES_S: [f64; 6] = [0.001, 0.01, 0.1, 1.0, 10.0, f64::INFINITY];
 
 /// Counts of requests since the start.
@@ -24,7 +24,7 @@ pub(super) struct RequestCounts {
     microseconds: AtomicU64,
 }
 
-/// Counts a request and how long the head of its answer took.
+/// Counts a request and the time until the head of its answer.
 pub(super) async fn count(
     Extension(counts): Extension<Arc<RequestCounts>>,
     request: Request,
@@ -55,7 +55,7 @@ pub(super) async fn metrics(
     let count_jobs = jobs.count_jobs().await?;
     let mut text = String::new();
     let mut family = |name: &str, kind: &str, help: &str, rows: &[(String, f64)]| {
-        // Writing into a string does not fail.
+        // Writing into a string can't fail.
         let _ = writeln!(
             text,
             "# HELP scree_{name} {help}\n# TYPE scree_{name} {kind}"

@@ -1,5 +1,5 @@
-//! The HTTP interface: takes jobs in, gives results out. Holds no SQL and
-//! computes nothing; every answer that is not the wanted one is an RFC 9457
+//! The HTTP interface: receives jobs and returns results. Holds no SQL and
+//! computes nothing; every error is answered with an RFC 9457
 //! problem document.
 
 mod access;

@@ -1,11 +1,11 @@
-//! The job a path names.
+//! The job named by a path.
 
 use super::jobs::unknown_job;
 use super::problem::Problem;
 use axum::extract::{FromRequestParts, Path};
 use axum::http::request::Parts;
 
-/// The `{id}` of a path, as it came. What is no text names no job.
+/// The `{id}` of a path, as received. An `{id}` that is not text names no job.
 pub(super) struct NamedJob(pub(super) String);
 
 impl<S: Send + Sync> FromRequestParts<S> for NamedJob {

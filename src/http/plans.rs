@@ -1,4 +1,4 @@
-//! Plans: what a run would compute and cost.
+//! Plans: computation and cost of a run.
 
 use super::contract::{PlanDocument, PlannedRefinementRunDocument, ScenarioDocument};
 use super::problem::Problem;
@@ -12,24 +12,24 @@ use serde::Serialize;
 use serde_json::Value;
 use utoipa::ToSchema;
 
-/// A plan, the runs behind error bars, and how long all would take.
+/// A plan, the runs behind uncertainty intervals, and the expected wall time of all.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Planned)]
 pub(super) struct PlannedDocument {
-    /// Work to be computed and left out, and its cost.
+    /// Computation, reductions and cost of the run.
     #[schema(value_type = PlanDocument)]
     pub plan: Value,
-    /// Runs that would be made before the answer; with a target, the first ones.
+    /// Runs made before that of the answer; with a target, the first ones.
     #[schema(value_type = Vec<PlannedRefinementRunDocument>)]
     pub refinement_runs: Value,
-    /// Time that everything would take on a worker of this service.
+    /// Expected wall time of all runs on a worker of this service.
     pub wall_time: WallTime,
 }
 
 /// Plan a run
 ///
-/// The body is the bare scenario, which is planned as a job of it would be; its first
-/// steps are timed, for about a second. Nothing is kept.
+/// The body is the bare scenario. It is planned like a job with this scenario; its first
+/// steps are timed, for about a second. Nothing is stored.
 #[utoipa::path(
     post,
     path = "/v1/plans",
@@ -62,7 +62,7 @@ impl From<PlanError> for Problem {
     fn from(error: PlanError) -> Self {
         match error {
             PlanError::Scenario(error) => error.into(),
-            // Legal, but it breaks off within its first steps: as a job it would fail.
+            // A legal scenario that fails within its first steps: it would fail as a job, too.
             PlanError::Forecast(error) => Self::new(
                 StatusCode::UNPROCESSABLE_ENTITY,
                 "no-forecast",

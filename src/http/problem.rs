@@ -14,29 +14,29 @@ use uuid::Uuid;
 pub(super) const MEDIA_TYPE_TEXT: &str = "application/problem+json";
 const MEDIA_TYPE: HeaderValue = HeaderValue::from_static(MEDIA_TYPE_TEXT);
 
-/// After so many seconds a database may be there again.
+/// Seconds after which a client may retry if the database is unavailable.
 const RETRY_AFTER_S: u8 = 5;
 
-/// Reason that a request did not get what it asked for (RFC 9457).
+/// Problem document: reason why a request failed (RFC 9457).
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub(super) struct Problem {
     /// Kind of problem, as a stable name.
     #[serde(rename = "type")]
     pub kind: String,
-    /// The kind in words.
+    /// Name of the kind, for people.
     pub title: &'static str,
     /// HTTP status.
     pub status: u16,
-    /// Cause, this time.
+    /// Cause of this occurrence.
     pub detail: String,
-    /// All that is wrong with the request, field by field.
+    /// All faults of the request, field by field.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schema(required = false)]
     pub errors: Vec<FieldError>,
-    /// After so many seconds it may be worth trying again.
+    /// Seconds after which a retry may succeed.
     #[serde(skip)]
     pub retry_after_s: Option<u8>,
-    /// Under which the service's log has the details of an internal error.
+    /// Identifier of the details of an internal error in the service's log.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_id: Option<String>,
 }
@@ -50,7 +50,7 @@ pub(super) struct FieldError {
     /// Name of the query parameter, or of the header.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parameter: Option<String>,
-    /// The value received, of a long text the beginning; null if it is missing.
+    /// Value received, shortened if it is a long text; null if it is missing.
     pub value: Value,
     /// Allowed values, in words or as a range.
     pub allowed: String,
@@ -80,12 +80,12 @@ impl Problem {
         }
     }
 
-    /// There is no such thing.
+    /// The thing asked for does not exist.
     pub(super) fn not_found(what: &str, detail: impl Into<String>) -> Self {
         Self::new(StatusCode::NOT_FOUND, what, "Not found", detail)
     }
 
-    /// A body that is JSON, but no legal scenario.
+    /// A body that is JSON, but not a legal scenario.
     pub(super) fn invalid_scenario(errors: Vec<FieldError>) -> Self {
         let detail = match errors.as_slice() {
             [only] => only.detail.clone(),
@@ -112,8 +112,8 @@ impl Problem {
         }
     }
 
-    /// An error of the service's own: the details go to the log, the client
-    /// gets the id they stand under.
+    /// An internal error: the details go to the log, the client
+    /// gets their identifier.
     pub(super) fn internal(error: &(impl Display + ?Sized)) -> Self {
         let error_id = Uuid::now_v7().to_string();
         tracing::error!(error_id, %error, "internal error");
@@ -150,7 +150,7 @@ impl From<crate::jobs::store::StoreError> for Problem {
 }
 
 impl FieldError {
-    /// A place in the body that breaks a rule; its value is not repeated.
+    /// Fault of a value in the body; the value is not repeated.
     pub(super) fn of_body(pointer: &str, allowed: &str) -> Self {
         Self {
             pointer: Some(pointer.to_owned()),
@@ -162,7 +162,7 @@ impl FieldError {
         }
     }
 
-    /// The same in a document that holds this one at `pointer`.
+    /// The same fault in a document that contains this one at `pointer`.
     pub(super) fn under(self, pointer: &str) -> Self {
         let own = self.pointer.unwrap_or_default();
         Self {

@@ -1,5 +1,5 @@
-//! Reads a query string strictly: unknown, repeated and illegal parameters are
-//! all named at once.
+//! Strict reading of a query string: unknown, repeated and illegal parameters are
+//! all reported at once.
 
 use super::problem::{FieldError, Problem};
 use crate::jobs::submit::excerpt;
@@ -11,13 +11,13 @@ use std::str::FromStr;
 /// A query string being read, parameter by parameter.
 #[derive(Debug)]
 pub(super) struct Query {
-    /// Parameters not asked for yet.
+    /// Parameters not read yet.
     pairs: Vec<(String, String)>,
     errors: Vec<FieldError>,
 }
 
 impl Query {
-    /// Takes a query string apart.
+    /// Parses a query string.
     pub(super) fn new(query: Option<&str>) -> Self {
         let pairs = form_urlencoded::parse(query.unwrap_or_default().as_bytes());
         Self {
@@ -46,7 +46,7 @@ impl Query {
         self.whole_of(name, &text, &allowed)
     }
 
-    /// A whole number in a range, from a text that came by another way than the query.
+    /// A whole number in a range, from a text that is not part of the query.
     pub(super) fn whole_of<T: FromStr + PartialOrd + Display>(
         &mut self,
         name: &str,
@@ -62,7 +62,7 @@ impl Query {
         number
     }
 
-    /// A text that `read` understands.
+    /// A text that `read` accepts.
     pub(super) fn word<T>(
         &mut self,
         name: &str,
@@ -77,7 +77,7 @@ impl Query {
         word
     }
 
-    /// All texts of a parameter that may be given several times.
+    /// All texts of a parameter that may be repeated.
     pub(super) fn all<T>(
         &mut self,
         name: &str,
@@ -99,7 +99,7 @@ impl Query {
         words
     }
 
-    /// Refuses a parameter for a reason of the caller's.
+    /// Refuses a parameter for a reason of the caller.
     pub(super) fn refuse(&mut self, name: &str, value: &str, allowed: &str, unit: Option<&str>) {
         let (name, value) = (excerpt(name), excerpt(value));
         self.errors.push(FieldError {
@@ -112,11 +112,11 @@ impl Query {
         });
     }
 
-    /// Ends the reading.
+    /// Finishes the reading.
     ///
     /// # Errors
-    /// The problem document for all that was wrong, parameters that nobody
-    /// asked for included.
+    /// The problem document with all faults, including unknown
+    /// parameters.
     pub(super) fn finish(mut self) -> Result<(), Problem> {
         for (name, value) in std::mem::take(&mut self.pairs) {
             self.refuse(&name, &value, "no such parameter", None);

@@ -1,4 +1,4 @@
-//! Routes of requests, and what goes round all of them.
+//! Routes of requests, and the layers around them.
 
 use super::access::{self, Gate};
 use super::metrics::{self, RequestCounts};
@@ -25,7 +25,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 use uuid::Uuid;
 
-/// All routes, with what goes round them.
+/// All routes, with the layers around them.
 pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
     let limits = &config.limits;
     let (router, contract) = documented(limits.request_timeout()).split_for_parts();
@@ -53,12 +53,12 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
         .layer(from_fn(with_id))
 }
 
-/// The contract, made from the code.
+/// The contract, generated from the code.
 pub fn openapi() -> OpenApi {
     documented(Duration::MAX).into_openapi()
 }
 
-/// The routes; those that wait for something by nature have no time limit.
+/// The routes; those that wait by design have no time limit.
 fn documented(limit: Duration) -> OpenApiRouter<JobService> {
     let quick = OpenApiRouter::new()
         .routes(routes!(submission::submit, jobs::list))
@@ -79,13 +79,13 @@ fn documented(limit: Duration) -> OpenApiRouter<JobService> {
     all
 }
 
-/// The name of a request in the log and in its answer.
+/// Identifier of a request in the log and in its answer.
 #[derive(Debug, Clone)]
 struct RequestId(String);
 
 async fn with_id(mut request: Request, next: Next) -> Response {
     let id = Uuid::now_v7().to_string();
-    // Hexadecimal digits and dashes make a header.
+    // Hexadecimal digits and dashes are valid in a header.
     let header = HeaderValue::from_str(&id).ok();
     request.extensions_mut().insert(RequestId(id));
     let mut response = next.run(request).await;
@@ -121,7 +121,7 @@ fn description() -> OpenApi {
 }
 
 fn contract_text(contract: &OpenApi) -> String {
-    // A document of strings and maps can always be written.
+    // A document of strings and maps can always be serialised.
     contract.to_pretty_json().unwrap_or_default()
 }
 
@@ -129,7 +129,7 @@ async fn serve_contract(contract: String) -> Response {
     ([(header::CONTENT_TYPE, "application/json")], contract).into_response()
 }
 
-/// The answer, or a problem if its head is not there in time.
+/// The answer, or a problem if its head is not ready in time.
 async fn in_time(limit: Duration, request: Request, next: Next) -> Response {
     match tokio::time::timeout(limit, next.run(request)).await {
         Ok(response) => response,

@@ -1,4 +1,4 @@
-//! The body of a request that brings a scenario.
+//! Body of a request that contains a scenario.
 
 use super::problem::Problem;
 use axum::body::Bytes;
@@ -57,7 +57,7 @@ fn too_slow() -> Problem {
     )
 }
 
-/// A body that is no JSON at all.
+/// A body that is not JSON.
 pub(super) fn malformed(detail: &str) -> Problem {
     Problem::new(
         StatusCode::BAD_REQUEST,

@@ -1,6 +1,6 @@
-//! Takes connections. `axum::serve` would do, but sets no time limit on the
-//! head of a request: clients that send half of one are held for ever, and
-//! keep the service from stopping.
+//! Accepts connections. `axum::serve` sets no time limit on the
+//! head of a request: clients that send half of one would be kept for ever, and
+//! would keep the service from stopping.
 
 use super::slow_client::SlowClientTimeout;
 use crate::config::Limits;
@@ -19,12 +19,12 @@ use tokio::sync::{Semaphore, watch};
 use tokio::task::JoinSet;
 use tower::ServiceExt;
 
-/// Pause after the system refused a connection (out of file handles, mostly):
-/// trying again at once would only burn a core.
+/// Pause after the system refused a connection (mostly for lack of file handles):
+/// an immediate retry would only burn a core.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 
-/// Serves until `stop` changes, then takes no more connections, lets requests
-/// in hand finish for a while, and closes what is left.
+/// Serves until `stop` changes, then accepts no more connections, gives requests
+/// in progress a limited time to finish, and closes the remaining connections.
 pub async fn serve(
     listener: TcpListener,
     router: Router,
@@ -35,7 +35,7 @@ pub async fn serve(
     let mut connections = JoinSet::new();
     tokio::select! {
         () = accept(&listener, &router, &limits, &graceful, &mut connections) => {}
-        // An error means that the other end is gone, which is a stop as well.
+        // An error means that the other end is gone, which also means stop.
         _ = stop.changed() => {}
     }
     drop(listener);
@@ -74,7 +74,7 @@ async fn accept(
     }
 }
 
-/// One connection, to its end.
+/// Serves one connection to its end.
 fn connection(
     stream: TcpStream,
     router: Router,

@@ -1,5 +1,5 @@
-//! A connection whose other end must take what it is sent: hyper itself would
-//! wait for ever on a client that never reads.
+//! A connection that is closed if the client stops reading: hyper itself would
+//! wait for ever.
 
 use std::io;
 use std::pin::Pin;
@@ -8,7 +8,7 @@ use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::time::{Instant, Sleep, sleep};
 
-/// Breaks a connection off once a write has made no headway for too long.
+/// Closes a connection once a write has made no progress for too long.
 #[derive(Debug)]
 pub(super) struct SlowClientTimeout<T> {
     stream: T,
@@ -27,7 +27,7 @@ impl<T> SlowClientTimeout<T> {
         }
     }
 
-    /// `written`, or an error if the last headway is too long ago.
+    /// `written`, or an error if the last progress is too long ago.
     fn judge<R>(
         &mut self,
         context: &mut Context<'_>,

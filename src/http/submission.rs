@@ -1,4 +1,4 @@
-//! Submitting a scenario.
+//! Submission of a scenario.
 
 use super::access::Caller;
 use super::documents::JobDocument;
@@ -15,14 +15,13 @@ use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 
-/// Seconds after which a client may try again when there is no room.
+/// Seconds after which a client may retry if the queue is full.
 const RETRY_AFTER_S: u8 = 10;
 
 /// Submit a scenario
 ///
-/// The body is the bare scenario. The job is on disk when the answer comes. With
-/// an `Idempotency-Key`, the same request gets the same job however often it is
-/// sent.
+/// The body is the bare scenario. The job is on disk when the answer is sent. With
+/// an `Idempotency-Key`, a repeated request gets the same job.
 #[utoipa::path(
     post,
     path = "/v1/jobs",
@@ -84,7 +83,7 @@ pub(super) async fn submit(
     answer(&jobs, StatusCode::ACCEPTED, *id).await
 }
 
-/// Rule of a label, for people.
+/// Rule for a label, for people.
 pub(super) const LABEL_RULE: &str = "1 to 64 letters, digits or any of . _ : = / -";
 
 async fn answer(jobs: &JobService, status: StatusCode, id: JobId) -> Result<Response, Problem> {
@@ -93,7 +92,7 @@ async fn answer(jobs: &JobService, status: StatusCode, id: JobId) -> Result<Resp
     Ok((status, location, Json(JobDocument::from(job))).into_response())
 }
 
-/// The request's Idempotency-Key, if it has one.
+/// Idempotency-Key of the request, if it has one.
 pub(super) fn key<'a>(headers: &'a HeaderMap, request: &str) -> Result<Option<Key<'a>>, Problem> {
     let Some(value) = headers.get("idempotency-key") else {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! The service itself: its health, its contract, and requests that lead nowhere.
+//! The service itself: its health, its contract, and unknown routes.
 
 use super::documents::HealthDocument;
 use super::problem::Problem;
@@ -9,7 +9,7 @@ use axum::Json;
 use axum::extract::State;
 use axum::http::{Method, StatusCode, Uri};
 
-/// Ask whether the service is well
+/// Check that the service is healthy
 #[utoipa::path(
     get,
     path = "/healthz",
@@ -31,9 +31,9 @@ pub(super) async fn health(
     }
 }
 
-/// Ask whether the service can take jobs in
+/// Check that the service can accept jobs
 ///
-/// Really writes to the database, and takes the room of a job for that.
+/// Performs a real write to the database that needs the space of a job.
 #[utoipa::path(
     get,
     path = "/readyz",

@@ -15,10 +15,10 @@ use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
 
-/// Samples that fit an archive without ZIP64: 4 GiB of 269 bytes, and heads.
+/// Samples that fit an archive without ZIP64: 4 GiB of 269 bytes, and headers.
 const LARGEST_ARCHIVE: usize = 15_000_000;
 
-/// Part of a trajectory that a client wants.
+/// Requested part of a trajectory.
 struct TrajectoryQuery {
     body: usize,
     selection: Selection,
@@ -30,7 +30,7 @@ struct TrajectoryQuery {
 ///
 /// As one JSON document by columns, as NDJSON, CSV or NumPy's NPZ: `format`, or
 /// else the first of `Accept` that is one of these. Both ends of the time range
-/// are inclusive. It is empty before the job starts and grows while it runs.
+/// are inclusive. The trajectory is empty before the job starts and grows while it runs.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/trajectory",
@@ -85,13 +85,13 @@ pub(super) async fn trajectory(
     Ok((kind, reading.into_body()).into_response())
 }
 
-/// A trajectory on its way to a client: one chunk of it at a time.
+/// Stream of a trajectory to a client: it holds one chunk at a time.
 struct Reading {
     jobs: JobService,
     range: TrajectoryRange,
     writer: Box<dyn Writer>,
     pass: usize,
-    /// Place of the pass; none before it has begun.
+    /// Position in the pass; none before the first pass.
     place: Option<(i64, Selector)>,
 }
 
@@ -183,7 +183,7 @@ fn read_query(query: Option<&str>, headers: &HeaderMap) -> Result<TrajectoryQuer
     })
 }
 
-/// The first form that `Accept` names; JSON if it names none.
+/// The first format that `Accept` names; JSON if it names none.
 fn accepted(headers: &HeaderMap) -> Format {
     let lists = headers.get_all(header::ACCEPT).into_iter();
     let lists = lists.filter_map(|list| list.to_str().ok());

@@ -1,25 +1,25 @@
-//! Accuracy: what is asked of an answer, and the intervals that come with it.
+//! Accuracy: the requested accuracy of an answer, and its uncertainty intervals.
 
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// Demands on the answer's accuracy, and whether it shows its own.
+/// Requested accuracy of the answer, and whether it reports uncertainty intervals.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 #[schema(as = Accuracy)]
 pub struct AccuracyDocument {
-    /// Every quantity of the outcome gets a interval.
+    /// True if every quantity of the outcome gets an uncertainty interval.
     #[schema(required = false)]
     pub error_bars: bool,
-    /// Distance that the interval of `quantity` may reach from its value, over it; to be met by
-    /// the choice of cells; null: the cells are those of `numerics`.
+    /// Largest distance of the interval of `quantity` from its value, over the value; the cell
+    /// size is chosen to meet it. Null: the cell size is that of `numerics`.
     pub target: Option<f64>,
-    /// The quantity that `target` is about.
+    /// Quantity to which `target` applies.
     pub quantity: Option<QuantityDocument>,
-    /// Index of the body whose quantity that is.
+    /// Index of the body whose quantity it is.
     #[schema(required = false)]
     pub body: u32,
-    /// Point-steps that may be spent on `target`, those of all runs together.
+    /// Largest number of point-steps that may be spent on `target`, all runs together.
     #[schema(required = false)]
     pub budget_point_steps: f64,
 }
@@ -34,10 +34,10 @@ pub enum QuantityDocument {
     /// Largest speed of a body's centre.
     #[serde(rename = "peak_speed_m_s")]
     PeakSpeed,
-    /// Time of that.
+    /// Time of the largest speed of a body's centre.
     #[serde(rename = "peak_speed_time_s")]
     PeakTime,
-    /// Since when a body has been at rest.
+    /// Time from which on a body is at rest.
     #[serde(rename = "stop_time_s")]
     Stop,
     /// Net horizontal displacement of a body.
@@ -49,49 +49,49 @@ pub enum QuantityDocument {
     /// Front of the flow.
     #[serde(rename = "front_m")]
     Front,
-    /// Front of the flow less that of the release.
+    /// Front of the flow minus the front of the release.
     #[serde(rename = "runout_m")]
     Runout,
 }
 
-/// A quantity with the interval in which its value without cells is expected.
+/// A quantity with the interval in which its grid-converged value (h → 0) is expected.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = UncertaintyInterval)]
 pub struct UncertaintyIntervalDocument {
-    /// The value of the answer, as it stands beside; null if it did not happen.
+    /// Value of the answer, equal to that in the outcome; null if the event did not happen.
     #[schema(required = true)]
     pub value: Option<f64>,
     /// Lower end; null if there is none.
     #[schema(required = true)]
     pub low: Option<f64>,
-    /// Upper end; null if there is none: it may also not happen at all.
+    /// Upper end; null if there is none: the event may also never happen.
     #[schema(required = true)]
     pub high: Option<f64>,
-    /// Order at which the values were seen to converge; null if they don't.
+    /// Observed order of convergence; null if the values don't converge.
     #[schema(required = true)]
     pub order: Option<f64>,
     /// Basis of the interval.
     pub basis: BasisDocument,
 }
 
-/// Basis of a interval.
+/// Basis of an uncertainty interval.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Basis)]
 pub enum BasisDocument {
     /// Values that converge at a plausible order.
     Converging,
-    /// Values that turn, scatter, or change more with finer cells: a wide interval.
+    /// Values that oscillate, scatter, or change more with finer cells: a wide interval.
     Scattered,
     /// The same value in all runs.
     Same,
-    /// One coarser run alone, so no order: a wide interval.
+    /// Only one coarser run, so no order: a wide interval.
     OneRefinementRun,
-    /// It happened in none of the runs.
+    /// The event happened in none of the runs.
     NeverHappened,
-    /// It happened in some of the runs only: there is no upper end.
+    /// The event happened in some of the runs only: there is no upper end.
     SometimesHappened,
-    /// There is no other run to compare with.
+    /// No other run to compare with.
     Nothing,
 }
 
@@ -99,19 +99,19 @@ pub enum BasisDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = BodyErrorBars)]
 pub struct BodyErrorBarsDocument {
-    /// Of `onset_time_s`.
+    /// Interval of `onset_time_s`.
     pub onset_time_s: UncertaintyIntervalDocument,
-    /// Of `peak_speed_m_s`.
+    /// Interval of `peak_speed_m_s`.
     pub peak_speed_m_s: UncertaintyIntervalDocument,
-    /// Of `peak_speed_time_s`.
+    /// Interval of `peak_speed_time_s`.
     pub peak_speed_time_s: UncertaintyIntervalDocument,
-    /// Of `stop_time_s`.
+    /// Interval of `stop_time_s`.
     pub stop_time_s: UncertaintyIntervalDocument,
-    /// Of `displacement_m`.
+    /// Interval of `displacement_m`.
     pub displacement_m: UncertaintyIntervalDocument,
-    /// Of `path_length_m`.
+    /// Interval of `path_length_m`.
     pub path_length_m: UncertaintyIntervalDocument,
-    /// Of each component of `final_position_m`.
+    /// Interval of each component of `final_position_m`.
     #[schema(min_items = 3, max_items = 3)]
     pub final_position_m: Vec<UncertaintyIntervalDocument>,
 }
@@ -120,32 +120,32 @@ pub struct BodyErrorBarsDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = FlowErrorBars)]
 pub struct FlowErrorBarsDocument {
-    /// Of `front_m`.
+    /// Interval of `front_m`.
     pub front_m: UncertaintyIntervalDocument,
-    /// Of `runout_m`.
+    /// Interval of `runout_m`.
     pub runout_m: UncertaintyIntervalDocument,
-    /// Of `outflow_mass_kg`.
+    /// Interval of `outflow_mass_kg`.
     pub outflow_mass_kg: UncertaintyIntervalDocument,
 }
 
-/// The runs behind the intervals, and whether a target was met.
+/// Runs behind the intervals, and the result of the target.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = AccuracyReport)]
 pub struct AccuracyReportDocument {
-    /// All runs in the order they were made.
+    /// All runs, in the order in which they were made.
     pub runs: Vec<RunCostDocument>,
-    /// Point-steps of all runs but the answer's, over those of the answer's.
+    /// Point-steps of all other runs, over those of the run of the answer.
     pub extra_cost: f64,
-    /// The same of their wall times; null if the answer took no time. Larger in small
-    /// scenes, where a step costs more than its points.
+    /// Wall time of all other runs, over that of the run of the answer; null if the latter
+    /// took no time. Larger in small scenes, where the fixed cost of a step prevails.
     #[schema(required = true)]
     pub extra_wall_cost: Option<f64>,
-    /// Fate of the target; null if none was given.
+    /// Result of the target; null if none was given.
     #[schema(required = true)]
     pub target: Option<TargetReportDocument>,
 }
 
-/// One of the runs behind a interval.
+/// One of the runs behind an uncertainty interval.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = RunCost)]
 pub struct RunCostDocument {
@@ -158,13 +158,13 @@ pub struct RunCostDocument {
     pub cells_per_body: Option<f64>,
     /// Speed of sound in the bulk [m/s].
     pub sound_speed_m_s: f64,
-    /// Sub-steps summed over the points that took part; null if it failed.
+    /// Sub-steps summed over the points that took part; null if the run failed.
     #[schema(required = true)]
     pub point_steps: Option<u64>,
-    /// Wall time [s]; null if it failed.
+    /// Wall time [s]; null if the run failed.
     #[schema(required = true)]
     pub wall_s: Option<f64>,
-    /// Reason that it could not be computed; null if it was.
+    /// Reason of the failure; null if the run succeeded.
     #[schema(required = true)]
     pub failure: Option<String>,
 }
@@ -174,31 +174,31 @@ pub struct RunCostDocument {
 #[serde(rename_all = "snake_case")]
 #[schema(as = Role)]
 pub enum RoleDocument {
-    /// Larger cells than the answer's.
+    /// Run with larger cells than those of the answer.
     Coarser,
-    /// A material of reduced stiffness, at the cell size of a coarser run.
+    /// Run with a material of reduced stiffness, at the cell size of a coarser run.
     ReducedStiffness,
-    /// The answer.
+    /// Run of the answer.
     Answer,
 }
 
-/// Verdict on the target.
+/// Result of the target.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = TargetReport)]
 pub struct TargetReportDocument {
-    /// The quantity it is about.
+    /// Quantity to which the target applies.
     pub quantity: QuantityDocument,
-    /// Index of the body whose quantity that is; null for the flow's.
+    /// Index of the body whose quantity it is; null for a quantity of the flow.
     #[schema(required = true)]
     pub body: Option<u32>,
-    /// Distance that the interval may reach from the value, over it, as asked.
+    /// Requested largest distance of the interval from the value, over the value.
     pub asked: f64,
-    /// The same, as reached; null if the interval has an open end or the value is 0.
+    /// Distance reached, over the value; null if the interval has an open end or the value is 0.
     #[schema(required = true)]
     pub reached: Option<f64>,
-    /// True if it is no more than asked.
+    /// True if the distance reached is no larger than the requested one.
     pub met: bool,
-    /// Reason that it was not met; null if it was.
+    /// Reason why the target was not met; null if it was met.
     #[schema(required = true)]
     pub reason: Option<String>,
 }

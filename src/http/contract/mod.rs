@@ -1,7 +1,6 @@
-//! The documents that the service hands through without looking inside, as the
-//! contract describes them: the solver must not know the service, so its types
-//! can't describe themselves. A test holds these against what the solver reads
-//! and writes.
+//! Schemas of the documents that the service passes through without reading them: the solver
+//! must not know the service, so its types can't describe themselves. A test checks these
+//! schemas against the documents that the solver reads and writes.
 
 mod accuracy;
 mod outcome;

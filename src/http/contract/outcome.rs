@@ -5,7 +5,7 @@ use super::{AccuracyReportDocument, BodyErrorBarsDocument, FlowErrorBarsDocument
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// The answer in short. What did not happen is null.
+/// The answer in short. Null stands for an event that did not happen.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Outcome)]
 pub struct OutcomeDocument {
@@ -13,32 +13,32 @@ pub struct OutcomeDocument {
     pub bodies: Vec<BodyOutcomeDocument>,
     /// The flow.
     pub flow: FlowOutcomeDocument,
-    /// Checks that tell whether to trust it.
+    /// Checks that tell whether the run can be trusted.
     pub conservation: ConservationDocument,
-    /// Cost of the run, runs behind intervals apart.
+    /// Cost of the run, without the runs behind intervals.
     pub cost: CostDocument,
-    /// That the run ended before its duration; null if it did not.
+    /// Early stop of the run; null if it ran for its whole duration.
     #[schema(required = true)]
     pub ended_early: Option<EndedEarlyDocument>,
-    /// Plan of the run: computed and left out, as decided before it.
+    /// Plan of the run: computation and reductions, as decided before the run.
     #[schema(required = true)]
     pub plan: Option<PlanDocument>,
-    /// Runs that the intervals rest on; null unless asked for.
+    /// Runs behind the intervals; null unless asked for.
     #[schema(required = true)]
     pub accuracy: Option<AccuracyReportDocument>,
 }
 
-/// That a run ended before its duration, and what the rest could have changed.
+/// Early stop of a run, with bounds on the changes that the rest of the run could have made.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = EndedEarly)]
 pub struct EndedEarlyDocument {
-    /// Time [s].
+    /// Time of the early stop [s].
     pub time_s: f64,
-    /// Reason.
+    /// Reason for the early stop.
     pub reason: String,
-    /// Distance that a body could still have been moved [m].
+    /// Bound on the further displacement of any body [m].
     pub body_bound_m: f64,
-    /// Distance that the front could still have gone [m]; null without a flow.
+    /// Bound on the further advance of the front [m]; null without a flow.
     #[schema(required = true)]
     pub front_bound_m: Option<f64>,
 }
@@ -47,19 +47,20 @@ pub struct EndedEarlyDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = BodyOutcome)]
 pub struct BodyOutcomeDocument {
-    /// First time the flow touched it [s]; null if it never did.
+    /// Time of the first contact with the flow [s]; null if there was none.
     #[schema(required = true)]
     pub first_contact_time_s: Option<f64>,
-    /// First time the centre is a fortieth of the body's size (cube root of its volume)
-    /// from where it started [s].
+    /// First time at which the centre is a fortieth of the body's size (cube root of its volume)
+    /// from its initial position [s].
     #[schema(required = true)]
     pub onset_time_s: Option<f64>,
     /// Largest speed of the centre [m/s].
     pub peak_speed_m_s: f64,
-    /// Time of that [s].
+    /// Time of the largest speed of the centre [s].
     #[schema(required = true)]
     pub peak_speed_time_s: Option<f64>,
-    /// From then to the end at rest [s]; null if it still moves or never moved.
+    /// Time from which on the body is at rest until the end [s]; null if it still moves or never
+    /// moved.
     #[schema(required = true)]
     pub stop_time_s: Option<f64>,
     /// Net horizontal displacement of the centre [m].
@@ -73,14 +74,14 @@ pub struct BodyOutcomeDocument {
     /// Uncertainty intervals of all but the orientation; null unless asked for.
     #[schema(required = true)]
     pub error_bars: Option<BodyErrorBarsDocument>,
-    /// Mass, and resistance to turning.
+    /// Mass and principal moments of inertia.
     pub mass_properties: MassPropertiesDocument,
-    /// Balance of its energy; null if no load moves it.
+    /// Energy balance of the body; null if no load moves it.
     #[schema(required = true)]
     pub energy: Option<BodyEnergyDocument>,
 }
 
-/// Balance of a body's energy: kinetic + potential + stored = start + work of the flow +
+/// Energy balance of a body: kinetic + potential + stored = start + work of the flow +
 /// work of bodies − dissipated + made.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = BodyEnergy)]
@@ -89,23 +90,23 @@ pub struct BodyEnergyDocument {
     pub start_j: f64,
     /// Kinetic energy at the end [J].
     pub kinetic_j: f64,
-    /// Energy of its height over the floor at the end [J].
+    /// Potential energy, relative to the floor, at the end [J].
     pub potential_j: f64,
-    /// Energy that its contacts with walls and bodies hold at the end; half of what those
-    /// with another free body do [J].
+    /// Energy stored in its contacts with walls and bodies at the end; half of that stored in
+    /// contacts with other free bodies [J].
     pub stored_j: f64,
     /// Work of the flow on it [J].
     pub flow_work_j: f64,
-    /// Energy that other bodies gave it: work of prescribed motions, and half of what a contact did
-    /// to it more than to the other free body [J].
+    /// Energy received from other bodies: work of prescribed motions, and half of the difference
+    /// of a contact's work on this and on the other free body [J].
     pub body_work_j: f64,
-    /// Energy that damping and slipping took in its contacts with walls and bodies [J].
+    /// Energy dissipated by damping and slip in its contacts with walls and bodies [J].
     pub dissipated_j: f64,
-    /// Energy that nothing accounts for: made by the computation if positive, lost if not [J].
+    /// Unaccounted energy: created by the computation if positive, lost if negative [J].
     pub made_j: f64,
-    /// Largest rise of that above its running minimum, over the largest kinetic and stored
-    /// energy, all that flow and bodies exchanged with it, what it rose and sank by, and
-    /// m g times its radius. A run ends beyond 0.01.
+    /// Largest rise of `made_j` above its running minimum, over the sum of the largest kinetic and
+    /// stored energy, all energy exchanged with flow and bodies, the potential energy of its
+    /// rises and falls, and m g times its radius. A run ends beyond 0.01.
     pub made_share: f64,
 }
 
@@ -119,7 +120,7 @@ pub struct MassPropertiesDocument {
     pub volume_m3: f64,
     /// Principal moments of inertia, the smallest first [kg m²].
     pub principal_moments_kg_m2: [f64; 3],
-    /// Unit axes of these moments in body axes, right-handed; about equal moments
+    /// Unit vectors of the principal axes in body axes, right-handed; for about equal moments,
     /// those nearest to the body axes.
     pub principal_axes: [[f64; 3]; 3],
 }
@@ -128,17 +129,17 @@ pub struct MassPropertiesDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = FlowOutcome)]
 pub struct FlowOutcomeDocument {
-    /// The x beyond which 0.1 % of the released mass lies [m].
+    /// Position x beyond which 0.1 % of the released mass lies [m].
     #[schema(required = true)]
     pub front_m: Option<f64>,
     /// Front minus the initial toe [m].
     #[schema(required = true)]
     pub runout_m: Option<f64>,
-    /// Mass that left by the open end [kg].
+    /// Mass that left through the open end [kg].
     pub outflow_mass_kg: f64,
-    /// Volume of the release not placed because a body stands there [m³].
+    /// Volume of the release that was not placed because a body occupies it [m³].
     pub excluded_volume_m3: f64,
-    /// Uncertainty intervals of all but the volume left out; null unless asked for.
+    /// Uncertainty intervals of all but the excluded volume; null unless asked for.
     #[schema(required = true)]
     pub error_bars: Option<FlowErrorBarsDocument>,
 }
@@ -151,23 +152,23 @@ pub struct ConservationDocument {
     pub mass_error: f64,
     /// Largest relative residual of the linear momentum balance.
     pub momentum_residual: f64,
-    /// The same for angular momentum.
+    /// Largest relative residual of the angular momentum balance.
     pub angular_momentum_residual: f64,
-    /// Relative angular momentum that spreading the points evenly made; the
-    /// residual does not count it.
+    /// Relative angular momentum created by particle redistribution; the
+    /// residual does not include it.
     pub angular_momentum_from_shifting: f64,
     /// Largest relative rise of mechanical energy.
     pub energy_residual: f64,
-    /// Largest overlap of a point with a body.
+    /// Largest overlap of a point with a body, over the sum of point radius and sphero radius.
     pub max_overlap_ratio: f64,
     /// Largest overlap of a body with a wall or another body, over its sphero
     /// radius (the smaller of two).
     pub max_body_overlap_ratio: f64,
-    /// Penetration corrections out of a body.
+    /// Number of penetration corrections of points out of a body.
     pub penetration_corrections: u64,
-    /// Points that left by the open end.
+    /// Points that left through the open end.
     pub points_outflow: u64,
-    /// Points lost any other way.
+    /// Points lost in any other way.
     pub points_lost: u64,
 }
 
@@ -185,13 +186,13 @@ pub struct CostDocument {
     pub point_steps: u64,
     /// Wall time [s].
     pub wall_s: f64,
-    /// Sub-steps of one point, per second of wall time [1/s].
+    /// Point-steps (sub-steps of one point) per second of wall time [1/s].
     pub point_steps_per_s: f64,
     /// Solver threads.
     pub threads: u32,
     /// Cell size [m].
     pub cell_size_m: f64,
-    /// Speed of sound in use [m/s].
+    /// Sound speed in use [m/s].
     #[schema(required = true)]
     pub sound_speed_m_s: Option<f64>,
 }

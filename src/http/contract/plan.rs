@@ -4,43 +4,43 @@ use super::accuracy::RoleDocument;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// Plan of a run: what it computes, what it leaves out and why, and what it costs.
+/// Plan of a run: its computation, its reductions with their reasons, and its cost.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Plan)]
 pub struct PlanDocument {
-    /// Each thing that could be left out.
+    /// Every reduction that was considered.
     pub choices: Vec<ChoiceDocument>,
-    /// Things to look at once more before it runs; absent from plans of an older version.
+    /// Warnings to check before the run; absent from plans of an older version.
     #[schema(required = false)]
     pub hints: Vec<HintDocument>,
     /// Cost of the run.
     pub cost: PlannedCostDocument,
 }
 
-/// Something that could be left out of a computation.
+/// A reduction of the computation.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Choice)]
 pub struct ChoiceDocument {
-    /// Thing that would be done.
+    /// Reduction that was considered.
     pub what: String,
-    /// True if it is.
+    /// True if the reduction is made.
     pub taken: bool,
-    /// Reason for or against.
+    /// Reason for or against the reduction.
     pub why: String,
-    /// Error that it makes.
+    /// Error caused by the reduction.
     pub error: String,
-    /// The field of the scenario that decides otherwise, as a JSON pointer; null:
-    /// there is none.
+    /// Field of the scenario that overrides the decision, as a JSON pointer; null
+    /// if there is none.
     #[schema(required = true)]
     pub decided_by: Option<String>,
 }
 
-/// Something that whoever wrote a scenario may want to look at once more: it is allowed,
-/// but probably not meant, or costs more than it looks.
+/// Warning about a scenario: something that is allowed, but probably not intended or
+/// unexpectedly costly.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Hint)]
 pub struct HintDocument {
-    /// The field that it is about, as a JSON pointer.
+    /// Field that the warning is about, as a JSON pointer.
     pub field: String,
     /// One sentence for people.
     pub detail: String,
@@ -54,57 +54,57 @@ pub struct PlannedCostDocument {
     pub cell_size_m: f64,
     /// Material points of the flow at the start.
     pub points: u64,
-    /// Acoustic sub-steps, if the run goes on for its whole duration.
+    /// Acoustic sub-steps of a run of the whole duration.
     pub substeps: u64,
-    /// Transfers between points and grid of as long a run.
+    /// Transfers between points and grid of a run of the whole duration.
     pub steps: u64,
-    /// Sub-steps summed over the points that are computed, of as long a run.
+    /// Sub-steps summed over the computed points, of a run of the whole duration.
     pub point_steps: u64,
     /// Memory for points and grid once the flow has spread [bytes].
     pub memory_bytes: u64,
     /// Time at which the run is expected to end [s].
     pub expected_end_s: f64,
-    /// Shares of the flow that are computed, one after the other.
+    /// Parts of the run, one after the other, by the share of the flow that is computed.
     pub stages: Vec<StageDocument>,
 }
 
-/// Range of a run in which the same share of the flow is computed.
+/// Part of a run during which the same share of the flow is computed.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Stage)]
 pub struct StageDocument {
     /// Share of the flow.
     pub share: ShareDocument,
-    /// Points of it.
+    /// Points of the share.
     pub points: u64,
-    /// Sub-steps, as far as can be expected.
+    /// Expected number of sub-steps.
     pub substeps: u64,
-    /// Those of them before the expected end.
+    /// Expected number of sub-steps before the expected end.
     pub expected_substeps: u64,
 }
 
-/// Share of the flow that is computed; the rest are its images.
+/// Share of the flow that is computed; images stand for the rest.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "lowercase")]
 #[schema(as = Share)]
 pub enum ShareDocument {
-    /// All of it.
+    /// The full flow.
     Whole,
-    /// The right half.
+    /// The right half, with a symmetry plane.
     Half,
-    /// One cell next to the right wall.
+    /// A quasi-2D slab: one cell next to the right wall.
     Slab,
 }
 
-/// A run behind error bars, before it is made.
+/// A planned run behind uncertainty intervals.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = PlannedRefinementRun)]
 pub struct PlannedRefinementRunDocument {
-    /// Purpose.
+    /// Purpose of the run.
     pub role: RoleDocument,
     /// Cell size [m].
     pub cell_size_m: f64,
-    /// Sub-steps summed over its points, to the end of the duration.
+    /// Sub-steps summed over its points, for the whole duration.
     pub point_steps: u64,
-    /// Time it will take [s].
+    /// Expected wall time [s].
     pub expected_s: f64,
 }

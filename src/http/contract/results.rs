@@ -12,11 +12,11 @@ pub struct TrajectorySchema {
     pub job_id: String,
     /// Index of the body in the scenario.
     pub body: u32,
-    /// One entry a sample in every column.
+    /// Columns with one entry per sample.
     pub columns: TrajectoryColumnsSchema,
 }
 
-/// The columns of a trajectory, all of equal length. Forces and torques are
+/// Columns of a trajectory, all of equal length. Forces and torques are
 /// means since the sample before.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = TrajectoryColumns)]
@@ -58,13 +58,13 @@ pub struct TrajectoryColumnsSchema {
 pub enum ModeSchema {
     /// At rest, or fixed.
     Resting,
-    /// On a wall or another body, and hardly turning over as it travels.
+    /// In contact with a wall or another body, and hardly turning over as it travels.
     Sliding,
-    /// On a wall or another body, turning over about as fast as it travels.
+    /// In contact with a wall or another body, turning over about as fast as it travels.
     Rolling,
-    /// Off walls and other bodies most of the time since the last sample.
+    /// Without contact with walls and other bodies for most of the time since the last sample.
     Saltating,
-    /// Borne by the flow, more than by walls and other bodies.
+    /// Supported by the flow more than by walls and other bodies.
     Carried,
 }
 
@@ -77,9 +77,9 @@ pub struct FlowSchema {
     pub job_id: String,
     /// Simulated time [s].
     pub time_s: f64,
-    /// Points in the flow then.
+    /// Number of points in the flow at that time.
     pub points: u64,
-    /// One in how many of them is kept.
+    /// Thinning factor: one in this many points is kept.
     pub thinning: u32,
     /// Position of each kept point [m].
     pub position_m: Vec<[f32; 3]>,

@@ -4,8 +4,8 @@ use super::AccuracyDocument;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// A scenario. Whatever has a default may be left out; what the service answers
-/// with has everything filled in, and null stands for "automatic".
+/// A scenario. Fields with a default may be left out; the service's answer has
+/// all of them filled in, and null stands for "automatic".
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 #[schema(as = Scenario)]
@@ -23,25 +23,25 @@ pub struct ScenarioDocument {
     /// Gravity [m/s²].
     #[schema(required = false)]
     pub gravity_m_s2: f64,
-    /// Simulated time [s]; by default 3, or as long as the flow is expected to take.
+    /// Simulated time [s]; by default 3, or the expected duration of the flow.
     #[schema(required = false)]
     pub duration_s: f64,
-    /// Time between samples [s]: they lie at k · interval and at the end.
+    /// Time between samples [s]; samples lie at k · interval and at the end.
     #[schema(required = false)]
     pub sample_interval_s: f64,
-    /// Snapshots of the flow, spread evenly over the run.
+    /// Number of snapshots of the flow, spread evenly over the run.
     #[schema(required = false)]
     pub flow_snapshots: u32,
     /// Numerical choices.
     #[schema(required = false)]
     pub numerics: NumericsDocument,
-    /// Demands on the answer's accuracy.
+    /// Requested accuracy of the answer.
     #[schema(required = false)]
     pub accuracy: AccuracyDocument,
 }
 
-/// Incline and floor between two side walls. x downstream, 0 at the foot of the
-/// incline; y across, 0 on the centre line; z up, 0 on the floor.
+/// Incline and floor between two side walls. x runs downstream and is 0 at the foot of the
+/// incline; y runs across and is 0 on the centre line; z runs up and is 0 on the floor.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 #[schema(as = Channel)]
@@ -58,7 +58,7 @@ pub struct ChannelDocument {
     /// Coulomb friction between flow and incline or floor.
     #[schema(required = false)]
     pub base_friction: f64,
-    /// Coulomb friction between flow and the upright walls.
+    /// Coulomb friction between flow and the vertical walls.
     #[schema(required = false)]
     pub side_friction: f64,
 }
@@ -70,7 +70,7 @@ pub struct ChannelDocument {
 pub struct FlowDocument {
     /// Released volume [m³].
     pub volume_m3: f64,
-    /// Place and shape of the release.
+    /// Position and shape of the release.
     #[schema(required = false)]
     pub release: ReleaseDocument,
     /// Material.
@@ -78,7 +78,7 @@ pub struct FlowDocument {
     pub material: MaterialDocument,
 }
 
-/// The release: the whole width, vertical front and back, upper face parallel
+/// The release: as wide as the channel, with vertical front and back and an upper face parallel
 /// to the slope.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
@@ -118,7 +118,7 @@ pub struct MaterialDocument {
     /// Poisson's ratio.
     #[schema(required = false)]
     pub poissons_ratio: f64,
-    /// Young's modulus [Pa]; null: from the sound speed.
+    /// Young's modulus [Pa]; null: derived from the sound speed.
     pub youngs_modulus_pa: Option<f64>,
 }
 
@@ -129,19 +129,19 @@ pub struct MaterialDocument {
 pub struct BodyDocument {
     /// Shape.
     pub shape: ShapeDocument,
-    /// Radius of the rounding sphere [m].
+    /// Sphero radius, the radius of the rounding sphere [m].
     #[schema(required = false)]
     pub sphero_radius_m: f64,
     /// Density [kg/m³].
     #[schema(required = false)]
     pub density_kg_m3: f64,
-    /// Place of its centre at the start.
+    /// Initial position of its centre.
     #[schema(required = false)]
     pub position: PositionDocument,
-    /// Turn about the normal of its support [°].
+    /// Angle by which the body is turned about the normal of the bed [°].
     #[schema(required = false)]
     pub yaw_deg: f64,
-    /// Free orientation [w, x, y, z] instead of `yaw_deg`.
+    /// Orientation [w, x, y, z], instead of `yaw_deg`.
     pub orientation: Option<[f64; 4]>,
     /// Initial velocity [m/s].
     #[schema(required = false)]
@@ -168,10 +168,10 @@ pub struct BodyDocument {
     /// Hertz contact modulus E* with rigid walls, of two bodies
     /// 1/E* = 1/E_A + 1/E_B [Pa]; null: automatic.
     pub contact_modulus_pa: Option<f64>,
-    /// A fixed body is a barrier.
+    /// True if the body is fixed: a barrier.
     #[schema(required = false)]
     pub fixed: bool,
-    /// Motion whatever acts on it; null: it is free, or fixed.
+    /// Prescribed motion, whatever load acts on the body; null: the body is free or fixed.
     pub motion: Option<MotionDocument>,
 }
 
@@ -180,19 +180,19 @@ pub struct BodyDocument {
 #[serde(untagged)]
 #[schema(as = Motion)]
 pub enum MotionDocument {
-    /// By a table: velocities are linear in time between its times, and constant before
+    /// Motion by a table: velocities are linear between its times, and constant before
     /// the first and after the last one.
     Table {
-        /// Times, each after the one before [s].
+        /// Times, in increasing order [s].
         times_s: Vec<f64>,
-        /// Velocity of the centre at each of them [m/s].
+        /// Velocity of the centre at each time [m/s].
         #[schema(required = false)]
         velocity_m_s: Vec<[f64; 3]>,
-        /// Angular velocity at each of them [rad/s].
+        /// Angular velocity at each time [rad/s].
         #[schema(required = false)]
         angular_velocity_rad_s: Vec<[f64; 3]>,
     },
-    /// Always alike.
+    /// Constant motion.
     Constant {
         /// Velocity of the centre [m/s].
         #[schema(required = false)]
@@ -203,31 +203,31 @@ pub enum MotionDocument {
     },
 }
 
-/// Shape of a body before it is rounded; its flats stay where they are.
+/// Shape of a body before rounding; rounding does not move its faces.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Shape)]
 pub enum ShapeDocument {
     /// A cube.
     Cube {
-        /// Distance between opposite flats, rounding included [m].
+        /// Distance between opposite faces, rounding included [m].
         side_m: f64,
     },
-    /// A box, its faces along the axes.
+    /// A box with its faces along the axes.
     Box {
-        /// Distances between opposite flats, rounding included [m].
+        /// Distances between opposite faces, rounding included [m].
         sides_m: [f64; 3],
     },
-    /// A regular solid, lying on a face of which an edge runs along y.
+    /// A regular solid that lies on a face, one edge of which runs along y.
     Regular {
         /// Kind of solid.
         solid: RegularSolidDocument,
-        /// Length of its edges before they are rounded [m].
+        /// Edge length before rounding [m].
         size_m: f64,
     },
     /// The convex hull of 4 to 32 points.
     Polyhedron {
-        /// The points, in axes of the body from anywhere [m].
+        /// The points, in body axes with any origin [m].
         #[schema(min_items = 4, max_items = 32)]
         vertices_m: Vec<[f64; 3]>,
     },
@@ -275,38 +275,38 @@ pub struct NumericsDocument {
     /// Material points per cell.
     #[schema(required = false)]
     pub points_per_cell: u32,
-    /// Speed of sound in the flow, √(K/ρ) [m/s].
+    /// Sound speed in the flow, √(K/ρ) [m/s].
     pub sound_speed_m_s: Option<f64>,
     /// Courant number of the acoustic sub-step.
     pub courant: Option<f64>,
-    /// Courant number of the flow's own step.
+    /// Courant number of the flow, which sets the step.
     pub flow_courant: Option<f64>,
-    /// Arithmetic of points and grid.
+    /// Arithmetic precision of points and grid.
     #[schema(required = false)]
     pub precision: PrecisionDocument,
-    /// Use of a scene's symmetry about the centre plane: to be computed by
-    /// halves.
+    /// Computation of a scene that is symmetric about the centre plane: in full or as
+    /// a symmetric half.
     #[schema(required = false)]
     pub symmetry: SymmetryDocument,
-    /// Computation of a flow before it varies across the channel.
+    /// Computation of a flow that does not vary across the channel yet.
     #[schema(required = false)]
     pub approach: ApproachDocument,
-    /// Formulation of contacts between points and bodies.
+    /// Contact formulation between points and bodies.
     #[schema(required = false)]
     pub coupling: CouplingDocument,
-    /// End of the run.
+    /// Condition that ends the run.
     #[schema(required = false)]
     pub ending: EndingDocument,
-    /// Solver threads; at most those of a worker.
+    /// Number of solver threads; at most that of a worker.
     pub threads: Option<u32>,
 }
 
-/// Arithmetic of points and grid; bodies, time and audits are in 64 bits.
+/// Arithmetic precision of points and grid; bodies, time and audits are in 64 bits.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Precision)]
 pub enum PrecisionDocument {
-    /// 32 bits, the faster one.
+    /// 32 bits, the faster choice.
     Single,
     /// 64 bits, the reference.
     Double,
@@ -317,45 +317,46 @@ pub enum PrecisionDocument {
 #[serde(rename_all = "snake_case")]
 #[schema(as = Symmetry)]
 pub enum SymmetryDocument {
-    /// By halves where it is exact.
+    /// As a symmetric half where that is exact.
     Auto,
-    /// All of it.
+    /// In full.
     Full,
-    /// By halves; a scene that is not symmetric is refused.
+    /// As a symmetric half; a scene that is not symmetric is refused.
     Mirror,
 }
 
-/// Computation of a flow in which nothing varies across the channel yet.
+/// Computation of a flow that does not vary across the channel yet.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Approach)]
 pub enum ApproachDocument {
-    /// In a slab of one cell where it is exact.
+    /// As a quasi-2D slab of one cell where that is exact.
     Auto,
-    /// All across.
+    /// Over the full width.
     Full,
-    /// In a slab; a scene that varies across from the start is refused.
+    /// As a quasi-2D slab; a scene that varies across the channel from the start is refused.
     Slab,
 }
 
-/// Formulation of contacts between points and bodies.
+/// Contact formulation between points and bodies.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Coupling)]
 pub enum CouplingDocument {
-    /// A point's centre stands off by half the point spacing.
+    /// A point's centre keeps a distance of half the point spacing.
     HalfSpacing,
     /// A point is a sphere of its own volume (source paper, P3).
     SourcePaper,
 }
 
-/// End of a run.
+/// Condition that ends a run.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Ending)]
 pub enum EndingDocument {
-    /// Once nothing can move a body or the front any more, or with its duration.
+    /// Early stop once nothing can move a body or the front any more; at the latest after the
+    /// duration.
     Auto,
-    /// With its duration.
+    /// At the end of the duration.
     Full,
 }
