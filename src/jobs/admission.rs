@@ -1,4 +1,4 @@
-//! Jobs coming in through the door: none twice, none beyond the room there is.
+//! Admission of jobs: no request is admitted twice, and none beyond the capacity of the queue.
 
 use super::JobService;
 use super::job::JobId;
@@ -13,52 +13,52 @@ use thiserror::Error;
 pub struct SubmissionRequest<'a> {
     /// Its jobs.
     pub jobs: &'a [NewJob],
-    /// Name of the access token it came with.
+    /// Name of the access token of the request.
     pub submitter: Option<&'a str>,
-    /// Most jobs of this submitter that may wait or run.
+    /// Largest number of jobs of this submitter that may wait or run.
     pub quota: Option<u32>,
     /// Its Idempotency-Key.
     pub key: Option<Key<'a>>,
 }
 
-/// Why jobs are not let in.
+/// Reason why jobs are refused.
 #[derive(Debug, Error)]
 pub enum SubmitError {
-    /// The scenario is none.
+    /// The scenario is invalid.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// They can't be kept.
+    /// The jobs can't be stored.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// A request with this key is being answered.
+    /// A request with this key is in progress.
     #[error("a request with this Idempotency-Key is being answered")]
     InFlight,
-    /// The key came before with another body.
+    /// The key was used before with another body.
     #[error("this Idempotency-Key came before with another request")]
     OtherBody,
     /// Too many jobs wait.
     #[error("{waiting} jobs wait, and the queue of this service takes {limit}")]
     QueueFull {
-        /// Jobs that wait.
+        /// Number of waiting jobs.
         waiting: u32,
-        /// Most that may.
+        /// Largest number allowed.
         limit: u32,
     },
     /// Too many jobs of this submitter wait or run.
     #[error("{active} jobs of this token wait or run, and it may have {limit}")]
     QuotaSpent {
-        /// Jobs of the submitter that wait or run.
+        /// Number of jobs of the submitter that wait or run.
         active: u32,
-        /// Most that may.
+        /// Largest number allowed.
         limit: u32,
     },
 }
 
-/// Keys of requests that are being answered.
+/// Keys of requests in progress.
 #[derive(Debug, Clone, Default)]
 pub(super) struct InFlight(Arc<Mutex<BTreeSet<(String, String)>>>);
 
-/// A key that is taken until this is dropped.
+/// A key that is reserved until this is dropped.
 struct Taken {
     keys: InFlight,
     key: (String, String),
@@ -87,10 +87,10 @@ impl Drop for Taken {
 
 impl JobService {
     /// Puts the jobs of a request into the queue, all or none; they are on disk
-    /// when this returns. A request that came before gets the jobs it got then.
+    /// when this returns. A repeated request gets the jobs of the first one.
     ///
     /// # Errors
-    /// There is no room, the key is not good, or they can't be kept.
+    /// The queue is full, the key is invalid, or the jobs can't be stored.
     pub async fn submit(
         &self,
         admission: &SubmissionRequest<'_>,
@@ -133,7 +133,7 @@ impl JobService {
         }
     }
 
-    /// A successful job with the same scenario, run by this very program.
+    /// A successful job with the same scenario, run by this same program.
     ///
     /// # Errors
     /// The store's own.

@@ -1,9 +1,9 @@
-//! Present time.
+//! Time of day.
 
 use jiff::Timestamp;
 use std::fmt::Debug;
 
-/// Tells the time of day, which may jump: durations within the process are
+/// Source of the time of day, which may jump: durations within the process are
 /// measured otherwise.
 pub trait Clock: Debug + Send + Sync {
     /// Now.

@@ -1,4 +1,4 @@
-//! Runs all that a scenario's answer needs: the refinement runs of its intervals, then the
+//! Executes all runs that a scenario's answer needs: the refinement runs of its intervals, then the
 //! answer, or as many runs as its target takes.
 
 use super::progress::Progress;
@@ -13,12 +13,12 @@ use std::borrow::Cow;
 use std::time::Instant;
 
 /// Runs `scenario` on `threads` solver threads from its start to its end or until
-/// `stop` is raised. The sink gets the records of the answer alone, as they come; of
-/// an answer whose cells a target chooses, once it is found. Progress is that of
-/// everything together.
+/// `stop` is raised. The sink gets only the records of the answer, as they are made; if
+/// a target chooses the cells of the answer, once the answer is found. Progress is that of
+/// all runs together.
 ///
 /// # Errors
-/// See [`RunError`]; what the sink had taken by then stays valid.
+/// See [`RunError`]; records that the sink has taken stay valid.
 pub fn run<S: Sink>(
     scenario: &Scenario,
     threads: usize,
@@ -28,22 +28,22 @@ pub fn run<S: Sink>(
     Runs::afresh(scenario, threads)?.go(stop, sink)
 }
 
-/// The runs of a scenario that takes several.
+/// The runs of a scenario that needs several.
 #[derive(Debug)]
 pub struct Runs {
     convergence_study: ConvergenceStudy,
     threads: usize,
-    /// Records of the finest run so far, where a target may still ask for a finer one.
+    /// Records of the finest run so far, if a target may still require a finer one.
     kept: Vec<Record>,
-    /// The run in hand, gone on with where it was saved, and its records if they are
+    /// The current run, resumed from its saved state, and its records if they are
     /// kept.
     begun: Option<(Run, Vec<Record>)>,
-    /// Why the last run that failed did.
+    /// Error of the last run that failed.
     failure: Option<StepError>,
 }
 
 impl Runs {
-    /// None of them made yet.
+    /// At the first run.
     ///
     /// # Errors
     /// The solver can't set the scenario up.
@@ -57,10 +57,10 @@ impl Runs {
         })
     }
 
-    /// Where they were when `state` was saved.
+    /// Restores the runs from a saved `state`.
     ///
     /// # Errors
-    /// Bytes that are no state of this scenario and this build.
+    /// The bytes are not a state of this scenario and this build.
     pub fn restored(
         scenario: &Scenario,
         threads: usize,
@@ -72,7 +72,7 @@ impl Runs {
         let any_before = !done.is_empty();
         done.into_iter()
             .for_each(|done| runs.convergence_study.take(done));
-        // Where all runs failed so far, why the last one did is to be found out anew.
+        // If all runs failed so far, the last one is repeated to find its error again.
         let study_run = runs.convergence_study.next().ok_or(SavedRunError::Head)?;
         if any_before && !runs.convergence_study.has_an_answer() {
             return Err(SavedRunError::Head);
@@ -88,7 +88,7 @@ impl Runs {
     /// Runs to the end or until `stop` is raised.
     ///
     /// # Errors
-    /// See [`RunError`]; what the sink had taken by then stays valid.
+    /// See [`RunError`]; records that the sink has taken stay valid.
     pub fn go<S: Sink>(
         mut self,
         stop: &StopFlag,
@@ -136,14 +136,14 @@ impl Runs {
     }
 }
 
-/// Fate of a run's records.
+/// Destination of a run's records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Fate {
-    /// A refinement run's: nobody wants them.
+    /// Discarded: those of a refinement run.
     Dropped,
-    /// Those of what will be the answer.
+    /// Passed on at once: those of the answer.
     HandedOn,
-    /// Those of what will be the answer unless a finer run follows.
+    /// Kept: those of the answer unless a finer run follows.
     Kept,
 }
 
@@ -160,12 +160,12 @@ impl Fate {
     }
 }
 
-/// All runs together, and the sink behind them.
+/// All runs together, and the sink of their records.
 struct Whole<'a, S> {
     sink: &'a mut S,
     kept: Vec<Record>,
     began: Instant,
-    /// Share told last: it never goes back, though a target may ask for more.
+    /// Fraction reported last: it never decreases, though a target may require more runs.
     told: f64,
 }
 
@@ -179,7 +179,7 @@ impl<'a, S: Sink> Whole<'a, S> {
         }
     }
 
-    /// The progress of a run as part of the whole.
+    /// Reports the progress of a run as part of the whole.
     fn tell(&mut self, run: &Progress, fraction: f64) -> Result<(), S::Error> {
         let fraction = fraction.clamp(self.told, 1.0);
         self.told = fraction;

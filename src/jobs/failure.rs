@@ -1,23 +1,23 @@
-//! Why a job failed, as the problem document that stays with it.
+//! Failure of a job, as the problem document stored with it.
 
 use scree_solver::{Mover, SetupError, StepError};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use utoipa::ToSchema;
 
-/// Why a job failed: an RFC 9457 problem document without the HTTP status,
-/// since no request failed. The numbers of the failure stand beside the text.
+/// Failure of a job: an RFC 9457 problem document without the HTTP status,
+/// since no request failed. The numbers of the failure are members beside the text.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Failure {
-    /// What kind of failure, as a stable name.
+    /// Kind of failure, as a stable name.
     #[serde(rename = "type")]
     pub kind: String,
-    /// The kind in words.
+    /// Name of the kind, for people.
     pub title: String,
-    /// What happened this time.
+    /// Description of this occurrence.
     pub detail: String,
-    /// The numbers of the failure, with units in their names: `time_s`, the
-    /// culprit `point` or `body`, `substep_s`, …
+    /// Numbers of the failure, with units in their names: `time_s`, the
+    /// offending `point` or `body`, `substep_s`, …
     #[serde(flatten)]
     pub numbers: Map<String, Value>,
 }
@@ -36,7 +36,7 @@ impl Failure {
         }
     }
 
-    /// The computation could not go on. Final: it would fail again.
+    /// The computation could not go on. Final: a retry would fail again.
     pub fn numerical(error: &StepError) -> Self {
         Self::new(
             "numerical",
@@ -67,7 +67,7 @@ impl Failure {
         )
     }
 
-    /// The solver broke off in a way it should not; the log has the details
+    /// The solver failed unexpectedly; the log has the details
     /// under `error_id`.
     pub fn internal(error_id: &str) -> Self {
         Self::new(
@@ -78,7 +78,7 @@ impl Failure {
         )
     }
 
-    /// What the run needs was missing as often as is tolerated.
+    /// A resource of the run was missing more often than tolerated.
     pub fn infrastructure(times: u32, last: &str) -> Self {
         Self::new(
             "infrastructure",
@@ -88,7 +88,7 @@ impl Failure {
         )
     }
 
-    /// The process died under the job as often as is tolerated.
+    /// The process died during the job more often than tolerated.
     pub fn cut_off(times: u32) -> Self {
         Self::new(
             "cut-off",
@@ -204,7 +204,7 @@ fn step_numbers(error: &StepError) -> Value {
     }
 }
 
-/// The numbers of a failure and whose motion it is.
+/// Numbers of a failure, with the object whose motion failed.
 fn moving(mover: Mover, mut numbers: Value) -> Value {
     match mover {
         Mover::Point(point) => numbers["point"] = json!(point),

@@ -1,4 +1,4 @@
-//! How long a run will take on this machine: its own first steps, timed.
+//! Forecast of the wall time of a run on this machine, from its first steps.
 
 use scree_solver::accuracy::ConvergenceStudy;
 use scree_solver::plan::{self, Cost, Plan, Stage};
@@ -11,76 +11,78 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 use utoipa::ToSchema;
 
-/// How long the steps of one share are timed.
+/// Time for which the steps of one share are timed.
 const TIMED_FOR: Duration = Duration::from_millis(400);
-/// The same of a refinement run, which is a small part of the whole.
+/// The same for a refinement run, which is a small part of the whole.
 const COMPANION_TIMED_FOR: Duration = Duration::from_millis(100);
-/// Steps before timing starts: they touch all memory for the first time.
+/// Steps before the timing starts: they touch all memory for the first time.
 const WARM_UP: u64 = 2;
-/// Steps that are timed at least.
+/// Minimum number of timed steps.
 const FEWEST_STEPS: u64 = 3;
-/// A larger run is timed with coarser cells, and counted in point-steps.
+/// Largest number of points that is timed; a larger run is timed with coarser cells, and scaled by
+/// point-steps.
 const MOST_POINTS: f64 = 200_000.0;
-/// A sub-step of a flow that has spread over one of its start: its points lie in
-/// more blocks. Fitted to drawn scenes that ended when they were expected to.
+/// Cost of a sub-step of a flow that has spread, over that at its start: its points lie in
+/// more blocks. Fitted to randomly drawn scenes that ended at their expected time.
 const SPREADING: f64 = 1.2;
-/// How far a forecast may be off, as a share.
+/// Relative uncertainty of a forecast.
 const UNCERTAINTY: f64 = 0.3;
 
-/// A run's plan, the runs behind its error bars, and how long all will take here.
+/// Plan of a run, the runs behind its uncertainty intervals, and the wall time of all on this
+/// machine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Planned {
     /// The plan.
     pub plan: Plan,
-    /// Runs that are made before the answer; with a target, the first ones.
+    /// Runs made before that of the answer; with a target, the first ones.
     pub refinement_runs: Vec<PlannedRefinementRun>,
-    /// How long everything will take.
+    /// Wall time of all runs.
     pub wall_time: WallTime,
 }
 
-/// A run behind error bars, before it is made.
+/// A planned run behind uncertainty intervals.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PlannedRefinementRun {
-    /// What it is for.
+    /// Purpose of the run.
     pub role: Role,
     /// Cell size [m].
     pub cell_size_m: f64,
-    /// Sub-steps summed over its points, to the end of the duration.
+    /// Sub-steps summed over its points, for the whole duration.
     pub point_steps: u64,
-    /// How long it will take [s].
+    /// Expected wall time [s].
     pub expected_s: f64,
 }
 
-/// How long a run will take on this machine, with its refinement runs.
+/// Forecast of the wall time of a run on this machine, with its refinement runs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct WallTime {
-    /// Expected [s]; null with a target, whose cells are found by its first runs.
+    /// Expected wall time [s]; null with a target, whose cells are found by its first runs.
     #[schema(required = true)]
     pub expected_s: Option<f64>,
-    /// At least, most likely [s].
+    /// Lower bound of the likely wall time [s].
     pub low_s: f64,
-    /// At most, most likely [s]: to the end of the duration, or of a target's budget.
+    /// Upper bound of the likely wall time [s]: for the whole duration, or a target's whole budget.
     pub high_s: f64,
-    /// Threads that this holds for.
+    /// Number of solver threads of the forecast.
     pub threads: usize,
 }
 
-/// Why there is no forecast.
+/// Reason why there is no forecast.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ForecastError {
     /// The scenario can't be set up.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// Its first steps can't be taken.
+    /// The first steps fail.
     #[error(transparent)]
     Step(#[from] StepError),
 }
 
-/// Plans a scenario's run and times its first steps on so many threads; takes about
+/// Plans a scenario's run and times its first steps on this number of threads; takes about
 /// a second.
 ///
 /// # Errors
-/// It can't be set up, or can't take its first steps.
+/// The scenario can't be set up, or its first steps fail.
 pub fn forecast(scenario: &Scenario, threads: usize) -> Result<Planned, ForecastError> {
     let plan = plan::of(scenario)?;
     let refinement_runs = refinement_runs(scenario, threads)?;
@@ -106,7 +108,7 @@ pub fn forecast(scenario: &Scenario, threads: usize) -> Result<Planned, Forecast
     })
 }
 
-/// The runs that come before the answer.
+/// The runs made before that of the answer.
 fn refinement_runs(
     scenario: &Scenario,
     threads: usize,
@@ -130,11 +132,11 @@ fn refinement_runs(
         .collect()
 }
 
-/// How long one run takes.
+/// Wall time of one run.
 struct Span {
-    /// To its expected end [s].
+    /// To the expected end [s].
     expected: f64,
-    /// To the end of its duration [s].
+    /// To the end of the duration [s].
     longest: f64,
 }
 
@@ -164,7 +166,7 @@ impl Span {
     }
 }
 
-/// The scenario with cells so large that timing it is no matter.
+/// The scenario with cells so large that its timing is cheap.
 fn coarsened(scenario: &Scenario, cost: &Cost) -> Scenario {
     let mut coarse = scenario.clone();
     let more = cost.points as f64 / MOST_POINTS;
@@ -175,7 +177,7 @@ fn coarsened(scenario: &Scenario, cost: &Cost) -> Scenario {
     coarse
 }
 
-/// What a sub-step of a stage takes, by the first ones of this scenario.
+/// Wall time of a sub-step of a stage, measured on the first ones of this scenario.
 fn seconds_per_substep(
     timed: &Scenario,
     stage: &Stage,
@@ -201,9 +203,9 @@ fn seconds_per_substep(
 #[derive(Debug)]
 struct Timing {
     lasts: Duration,
-    /// When, and how many steps and sub-steps had been taken by then.
+    /// Start of the timing, and the numbers of steps and sub-steps taken before it.
     began: Option<(Instant, u64, u64)>,
-    /// Mean since then [s].
+    /// Mean wall time of a sub-step since the start of the timing [s].
     per_substep: f64,
 }
 

@@ -1,9 +1,9 @@
-//! Bytes with a head before them: its length (u32, little-endian), the head, the rest.
+//! Bytes after a header: length of the header (u32, little-endian), the header, the rest.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// A head of plain data, and what comes behind it.
+/// Joins a header of plain data and the bytes after it.
 pub(super) fn joined(head: &impl Serialize, rest: &[u8]) -> Vec<u8> {
     let head = postcard::to_allocvec(head).expect("plain data always serialises");
     let length = u32::try_from(head.len()).expect("a head is shorter than 4 GiB");
@@ -14,7 +14,7 @@ pub(super) fn joined(head: &impl Serialize, rest: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// The head and the rest; nothing if these bytes have no such head.
+/// The header and the rest; none if the bytes have no such header.
 pub(super) fn parted<Head: DeserializeOwned>(bytes: &[u8]) -> Option<(Head, &[u8])> {
     let (length, rest) = bytes.split_first_chunk::<4>()?;
     let length = u32::from_le_bytes(*length) as usize;

@@ -1,4 +1,4 @@
-//! A job as it is known outside the database.
+//! A job as seen outside the database.
 
 use super::progress::Progress;
 use jiff::Timestamp;
@@ -9,12 +9,12 @@ use std::str::FromStr;
 use utoipa::ToSchema;
 use uuid::Uuid;
 
-/// Identity of a job: a UUID of version 7, so that identities sort by age.
+/// Identifier of a job: a UUID of version 7, so that identifiers sort by age.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct JobId(Uuid);
 
 impl JobId {
-    /// A new identity.
+    /// A new identifier.
     pub fn new() -> Self {
         Self(Uuid::now_v7())
     }
@@ -48,11 +48,11 @@ pub enum JobStatus {
     Accepted,
     /// Being computed.
     Running,
-    /// Computed to the end; has an outcome.
+    /// Computed to the end, with an outcome.
     Successful,
-    /// Ended without an answer; has a problem.
+    /// Ended without an answer, with a problem.
     Failed,
-    /// Called off; what was computed by then is kept.
+    /// Cancelled; the results recorded by then are kept.
     Dismissed,
 }
 
@@ -66,7 +66,7 @@ impl JobStatus {
         Self::Dismissed,
     ];
 
-    /// The state's word.
+    /// Name of the state.
     pub fn word(self) -> &'static str {
         match self {
             Self::Accepted => "accepted",
@@ -77,12 +77,12 @@ impl JobStatus {
         }
     }
 
-    /// True if a job never leaves it.
+    /// True if a job never leaves this state.
     pub fn is_final(self) -> bool {
         matches!(self, Self::Successful | Self::Failed | Self::Dismissed)
     }
 
-    /// The state of this word.
+    /// The state with this name.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|status| status.word() == word)
     }
@@ -91,7 +91,7 @@ impl JobStatus {
 /// A job without its scenario and its answer, as lists show it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JobSummary {
-    /// Identity.
+    /// Identifier.
     pub id: JobId,
     /// Order of submission.
     pub sequence: i64,
@@ -99,83 +99,84 @@ pub struct JobSummary {
     pub status: JobStatus,
     /// The scenario's title.
     pub title: String,
-    /// When it was accepted.
+    /// Time of acceptance.
     pub created: Timestamp,
-    /// When a worker took it up; none before.
+    /// Time of the last claim by a worker; none before the first.
     pub started: Option<Timestamp>,
-    /// When it ended; none before.
+    /// Time of the end; none before.
     pub finished: Option<Timestamp>,
-    /// How far it is.
+    /// Progress of the run.
     pub progress: Progress,
     /// Its labels, in order.
     pub labels: Vec<String>,
 }
 
-/// One time that a worker took a job up.
+/// One attempt at a job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attempt {
-    /// The how manieth, from 1.
+    /// Number of the attempt, from 1.
     pub attempt: u32,
-    /// Service whose worker it was.
+    /// Name of the service whose worker made the attempt.
     pub owner: String,
-    /// When it began.
+    /// Start time.
     pub started: Timestamp,
-    /// Simulated time of the saved state it went on from [s]; none: from the
-    /// start.
+    /// Simulated time of the saved state from which the attempt resumed [s]; none: it began at
+    /// the start.
     pub resumed_from_s: Option<f64>,
-    /// When it ended; none while it goes on.
+    /// End time; none while the attempt continues.
     pub ended: Option<Timestamp>,
-    /// How it ended, in a word.
+    /// Kind of end.
     pub ending: Option<String>,
-    /// More about that.
+    /// Details of the end.
     pub detail: Option<String>,
 }
 
-/// What has to be the same for the same answer, and how to tell.
+/// Provenance: all conditions that must be equal for equal answers, and a fingerprint to compare
+/// them.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct Provenance {
     /// BLAKE3 of the scenario's JSON with every default filled in, as the job
     /// shows it, 64 hexadecimal digits.
     pub scenario_hash: String,
-    /// Version of the solver that runs it, or checked it if it has not started.
+    /// Version of the solver that runs the job, or that validated it if it has not started.
     pub solver_version: String,
-    /// Commit of the program that runs it; null before the start.
+    /// Commit of the program that runs the job; null before the start.
     #[schema(required = true)]
     pub solver_commit: Option<String>,
-    /// Instructions of its fast path (baseline, AVX2, AVX-512); null before the
+    /// Instruction set of the fast path (baseline, AVX2, AVX-512); null before the
     /// start.
     #[schema(required = true)]
     pub instructions: Option<String>,
-    /// Solver threads; null before the start. Results do not depend on it.
+    /// Number of solver threads; null before the start. Results do not depend on it.
     #[schema(required = true)]
     pub threads: Option<u32>,
-    /// Fingerprint of all that the run recorded, 64 hexadecimal digits: equal
-    /// fingerprints, equal bits. Null unless successful.
+    /// Fingerprint of all records of the run, 64 hexadecimal digits: equal
+    /// fingerprints mean equal bits. Null unless successful.
     #[schema(required = true)]
     pub fingerprint: Option<String>,
 }
 
-/// A whole job.
+/// A full job.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// What lists show.
+    /// Summary, as lists show it.
     pub summary: JobSummary,
-    /// Bodies in the scenario.
+    /// Number of bodies in the scenario.
     pub bodies: usize,
-    /// How often a worker took it up.
+    /// Number of attempts, that is claims by a worker.
     pub attempt: u32,
-    /// Those times, the first first.
+    /// All attempts, in order.
     pub attempts: Vec<Attempt>,
-    /// Name of the access token it came with; none where no token is asked for.
+    /// Name of the access token of the submitter; none if none is required.
     pub submitter: Option<String>,
-    /// What the answer comes from.
+    /// Provenance of the answer.
     pub provenance: Provenance,
     /// The scenario's JSON with every default filled in.
     pub scenario: Box<RawValue>,
-    /// The plan's JSON; none for jobs from before there were plans.
+    /// The plan's JSON; none for jobs older than plans.
     pub plan: Option<Box<RawValue>>,
-    /// The outcome's JSON, once successful.
+    /// The outcome's JSON; none unless successful.
     pub outcome: Option<Box<RawValue>>,
-    /// The failure's JSON, once failed.
+    /// The failure's JSON; none unless failed.
     pub problem: Option<Box<RawValue>>,
 }

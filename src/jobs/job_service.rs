@@ -1,4 +1,4 @@
-//! The door to the jobs: what a client may ask for, in the service's own words.
+//! Job service: all operations on jobs that clients may ask for.
 
 use super::admission::InFlight;
 use super::forecast::{ForecastError, Planned, forecast};
@@ -14,14 +14,14 @@ use tokio::sync::Mutex;
 use tokio::task::spawn_blocking;
 use tokio::time::{Instant, sleep, timeout};
 
-/// Time that a dismissal waits for the run to end, so that its answer shows the job as it
-/// stays. A run stops after the sub-step in hand, well within this.
+/// Time that a dismissal waits for the run to end, so that its answer shows the job's final
+/// state. A run stops after the current sub-step, well within this time.
 const STOP_WAIT: Duration = Duration::from_millis(450);
 
-/// Between two looks whether a job has ended.
+/// Time between two polls for the end of a job.
 const LOOK_PAUSE: Duration = Duration::from_millis(50);
 
-/// Jobs, as a client deals with them.
+/// Service that clients use to submit, follow, dismiss and remove jobs.
 #[derive(Debug, Clone)]
 pub struct JobService {
     pub(super) store: Store,
@@ -32,33 +32,33 @@ pub struct JobService {
     planning: Arc<Mutex<()>>,
 }
 
-/// Why there is no plan.
+/// Reason why there is no plan.
 #[derive(Debug, Error)]
 pub enum PlanError {
-    /// The scenario is none.
+    /// The scenario is invalid.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// Its first steps can't be taken.
+    /// The first steps fail.
     #[error(transparent)]
     Forecast(#[from] ForecastError),
-    /// Planning broke off.
+    /// The planning task panicked or was cancelled.
     #[error("planning broke off: {0}")]
     BrokenOff(String),
 }
 
-/// Fate of a wish to dismiss a job.
+/// Result of a request to dismiss a job.
 #[derive(Debug, Clone)]
 pub enum Dismissed {
-    /// There is no such job.
+    /// The job does not exist.
     Unknown,
-    /// It is dismissed, now or since before.
+    /// The job is dismissed, by this or an earlier request.
     Done(Box<Job>),
-    /// It had ended otherwise.
+    /// The job had already ended in this state.
     TooLate(JobStatus),
 }
 
 impl JobService {
-    /// Jobs in this store, run by the workers of this registry.
+    /// Service for the jobs in this store, run by the workers of this registry.
     pub fn new(
         store: Store,
         registry: Arc<RunningJobRegistry>,
@@ -78,7 +78,7 @@ impl JobService {
     /// Checks a scenario.
     ///
     /// # Errors
-    /// All the rules that it breaks.
+    /// All rules that the scenario breaks.
     pub fn validate(&self, scenario: &str, labels: Vec<String>) -> Result<NewJob, ScenarioError> {
         let means = Means {
             threads_per_worker: self.threads_per_worker,
@@ -87,15 +87,15 @@ impl JobService {
         submit::validate(scenario, &means, labels)
     }
 
-    /// Plan of a job of this scenario, and how long it would take.
+    /// Plan of a job with this scenario, and a forecast of its wall time.
     ///
     /// # Errors
-    /// It is no scenario, or its first steps can't be taken.
+    /// The scenario is invalid, or its first steps fail.
     pub async fn plan(&self, scenario: &str) -> Result<Planned, PlanError> {
         let threads = self.threads_per_worker;
         let scenario = submit::read(scenario, threads)?;
         let threads = scenario.numerics.threads.unwrap_or(threads);
-        // One after the other: what is timed side by side is slow.
+        // One plan at a time: concurrent timings would slow each other.
         let _alone = self.planning.lock().await;
         let planned = spawn_blocking(move || forecast(&scenario, threads)).await;
         planned
@@ -119,7 +119,7 @@ impl JobService {
         self.store.page(page).await
     }
 
-    /// Calls a job off. A running one is stopped and keeps what it recorded.
+    /// Dismisses a job. A running one is stopped and keeps its records.
     ///
     /// # Errors
     /// The store's own.
@@ -130,8 +130,8 @@ impl JobService {
             Dismissal::Dismissed => {}
         }
         if let Some(mut ended) = self.registry.stop_job(id) {
-            // Nothing is ever sent: the wait ends when the run leaves its place.
-            // One that takes longer is dismissed all the same.
+            // Nothing is ever sent: the wait ends when the run's guard is dropped.
+            // A run that takes longer is dismissed all the same.
             drop(timeout(STOP_WAIT, ended.changed()).await);
         }
         let job = self.store.job(id).await?;
@@ -146,7 +146,7 @@ impl JobService {
         self.store.status(id).await
     }
 
-    /// Waits until a job has ended, is gone, or the time is over.
+    /// Waits until a job has ended or been removed, or until the time is over.
     ///
     /// # Errors
     /// The store's own.
@@ -165,7 +165,7 @@ impl JobService {
         Ok(())
     }
 
-    /// Removes a job that has ended, and all that it recorded.
+    /// Removes a job that has ended, with all its records.
     ///
     /// # Errors
     /// The store's own.
@@ -189,7 +189,7 @@ impl JobService {
         self.store.last_event().await
     }
 
-    /// True if the service stops.
+    /// True if the service is stopping.
     pub fn is_closing(&self) -> bool {
         self.registry.submissions().is_none()
     }
@@ -202,9 +202,9 @@ impl JobService {
         self.store.count_jobs().await
     }
 
-    /// Checks that a job could be taken in now: really writes.
+    /// Checks with a real write that a job could be stored now.
     ///
-    /// # Errors
+    /// A job could not be stored.
     /// It could not.
     pub async fn probe(&self) -> Result<(), StoreError> {
         self.store.probe().await
@@ -213,7 +213,7 @@ impl JobService {
     /// Checks that the database answers.
     ///
     /// # Errors
-    /// It does not.
+    /// The database does not answer.
     pub async fn ping(&self) -> Result<(), StoreError> {
         self.store.ping().await
     }

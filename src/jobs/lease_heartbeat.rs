@@ -1,6 +1,6 @@
-//! Keeps the leases of running jobs, on a thread of its own: however busy the
-//! workers are, their jobs stay theirs. Also reclaims jobs whose lease, with
-//! another service, has run out, and removes what has been kept long enough.
+//! Renews the leases of running jobs on a thread of its own, so that busy
+//! workers don't lose their jobs. Also reclaims jobs whose lease, held by
+//! another service, has run out, and removes jobs after their retention time.
 
 use super::pool::Equipment;
 use super::store::{Renewal, StoreError};
@@ -11,7 +11,7 @@ use std::thread::JoinHandle;
 use std::time::Instant;
 use tracing::{error, info, warn};
 
-/// A clock that is this far off the time that passed has jumped [s].
+/// Difference between the clock and the time that passed above which the clock has jumped [s].
 const TRUSTED_S: f64 = 60.0;
 
 /// Thread of the heartbeat; it ends once this is dropped.
@@ -33,7 +33,7 @@ impl LeaseHeartbeat {
             .name("keeper".to_owned())
             .spawn(move || {
                 let retention = RetentionTask::new();
-                // Nothing is ever sent: the end is a closed channel.
+                // Nothing is ever sent: a closed channel marks the end.
                 while ended.recv_timeout(beat) == Err(RecvTimeoutError::Timeout) {
                     renew_leases(&equipment);
                     retention.remove_old(&equipment);
@@ -84,7 +84,7 @@ fn renew_leases(equipment: &Equipment) {
     }
 }
 
-/// Removes what has been kept for long enough, by a clock that can be trusted.
+/// Removes jobs after their retention time, if the clock can be trusted.
 struct RetentionTask {
     began: Instant,
     wall: Timestamp,
@@ -98,7 +98,7 @@ impl RetentionTask {
         }
     }
 
-    /// A clock that jumped must not remove anything: nobody knows which of its
+    /// A clock that jumped must not remove anything: it is unknown which of its
     /// two times was right.
     fn clock_jumped(&self) -> bool {
         let passed = Timestamp::now().duration_since(self.wall).as_secs_f64();

@@ -1,6 +1,6 @@
-//! Jobs: what they are ([`job`]), which are let in ([`submit`]), where they are
-//! kept ([`store`]), who runs them ([`pool`], [`convergence_study`], [`runner`]) and how one that can't
-//! be finished says so ([`failure`]), how long one will take ([`forecast`]). [`JobService`] is the door for HTTP.
+//! Jobs: their data ([`job`]), validation ([`submit`]), storage ([`store`]), execution
+//! ([`pool`], [`convergence_study`], [`runner`]), failures ([`failure`]) and forecasts of their
+//! wall time ([`forecast`]). HTTP uses them through [`JobService`].
 
 mod admission;
 pub mod clock;

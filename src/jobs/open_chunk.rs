@@ -1,4 +1,4 @@
-//! The last chunk of one body's trajectory, still growing.
+//! The last chunk of one body's trajectory, while it still grows.
 
 use super::store::NewChunk;
 use crate::results::chunk::{self, BlockError, CHUNK_SAMPLES};
@@ -14,8 +14,8 @@ pub(super) struct OpenChunk {
 }
 
 impl OpenChunk {
-    /// The last stored chunk (index of its first sample, samples) cut to the
-    /// first `samples` of the trajectory; none if it does not reach that far.
+    /// The last stored chunk (index of its first sample, samples), cut to the
+    /// first `samples` of the trajectory; none if the chunk begins after them.
     pub(super) fn reopened(
         last: Option<(usize, TrajectoryColumns)>,
         samples: usize,
@@ -26,7 +26,7 @@ impl OpenChunk {
         columns.truncate(kept);
         (columns.len() == kept).then_some(Self {
             first_sample,
-            // One that was longer is to be written again.
+            // A longer stored chunk must be written again.
             written: if stored == kept { kept } else { 0 },
             columns,
         })
@@ -40,7 +40,7 @@ impl OpenChunk {
         self.columns.len() >= CHUNK_SAMPLES
     }
 
-    /// The chunk as it is to be written; nothing if nothing is new in it.
+    /// The chunk as it is to be stored; none if it has no new samples.
     pub(super) fn sealed(&self, body: usize) -> Result<Option<NewChunk>, BlockError> {
         let times = &self.columns.time_s;
         let (Some(&first_time_s), Some(&last_time_s)) = (times.first(), times.last()) else {
@@ -59,7 +59,7 @@ impl OpenChunk {
         }))
     }
 
-    /// Notes that all is written; a full chunk makes way for the next.
+    /// Marks all samples as written; a full chunk is replaced by the next.
     pub(super) fn mark_written(&mut self) {
         self.written = self.columns.len();
         if self.is_full() {

@@ -1,5 +1,5 @@
-//! The workers: threads of their own, so that a long computation never holds up
-//! an answer, and an answer never holds up a computation.
+//! The workers: threads of their own, so that computations and answers
+//! don't delay each other.
 
 use super::job::JobId;
 use super::lease_heartbeat::LeaseHeartbeat;
@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 use tokio::runtime::Handle;
 use tokio::sync::watch;
 
-/// Time that an idle worker sleeps before it looks for work unasked, in case a job had to
+/// Time after which an idle worker looks for work without being woken, in case a job had to
 /// wait after a failed attempt.
 const IDLE_LOOK: Duration = Duration::from_secs(1);
 
@@ -25,11 +25,11 @@ const IDLE_LOOK: Duration = Duration::from_secs(1);
 pub struct Pool {
     registry: Arc<RunningJobRegistry>,
     threads: Vec<JoinHandle<()>>,
-    /// Dropped last: leases are kept until every worker has gone home.
+    /// Dropped last: leases are renewed until every worker has ended.
     _keeper: LeaseHeartbeat,
 }
 
-/// Equipment that a worker needs to work.
+/// Resources that a worker needs.
 #[derive(Debug, Clone)]
 pub(super) struct Equipment {
     pub(super) store: Store,
@@ -51,7 +51,7 @@ pub struct RunningJobRegistry {
 
 #[derive(Debug, Default)]
 struct State {
-    /// Grows with every job that was submitted.
+    /// Number of jobs submitted so far.
     submissions: u64,
     closing: bool,
     running: BTreeMap<JobId, RegisteredRun>,
@@ -63,7 +63,7 @@ struct RegisteredRun {
     ended: watch::Receiver<()>,
 }
 
-/// A running job, for whoever keeps its lease.
+/// A running job, as seen by the lease heartbeat.
 #[derive(Debug, Clone)]
 pub(super) struct RunningJob {
     pub(super) lease: Lease,
@@ -71,7 +71,7 @@ pub(super) struct RunningJob {
     pub(super) board: Arc<ProgressBoard>,
 }
 
-/// Guard of a running job's entry in the registry; dropping it tells those who wait.
+/// Guard of a running job's entry in the registry; dropping it notifies those who wait.
 #[derive(Debug)]
 pub(super) struct RunningJobGuard {
     registry: Arc<RunningJobRegistry>,
@@ -115,8 +115,8 @@ impl Pool {
         Arc::clone(&self.registry)
     }
 
-    /// Has running jobs save their state and go back into the queue, and waits
-    /// until every worker has gone home. Blocks.
+    /// Makes running jobs save their state and return to the queue, and waits
+    /// until every worker has ended. Blocks.
     pub fn stop(mut self) {
         self.registry.close();
         for thread in self.threads.drain(..) {
@@ -128,7 +128,7 @@ impl Pool {
 }
 
 /// A pool that is dropped, because the service could not start or was never
-/// stopped, at least sends its workers home.
+/// stopped, still ends its workers.
 impl Drop for Pool {
     fn drop(&mut self) {
         self.registry.close();
@@ -136,13 +136,13 @@ impl Drop for Pool {
 }
 
 impl RunningJobRegistry {
-    /// Tells the workers that a job was submitted.
+    /// Notifies the workers of a submitted job.
     pub fn announce(&self) {
         self.state().submissions += 1;
         self.changed.notify_all();
     }
 
-    /// Asks a running job to stop, and returns what to wait on for its end;
+    /// Asks a running job to stop, and returns a receiver that signals its end;
     /// `None` if no worker runs it.
     pub fn stop_job(&self, job: JobId) -> Option<watch::Receiver<()>> {
         let state = self.state();
@@ -160,7 +160,7 @@ impl RunningJobRegistry {
         self.changed.notify_all();
     }
 
-    /// The jobs that run.
+    /// The running jobs.
     pub(super) fn runs(&self) -> Vec<RunningJob> {
         let state = self.state();
         state
@@ -170,7 +170,7 @@ impl RunningJobRegistry {
             .collect()
     }
 
-    /// Waits a while, or less if the registry closes. True if it is still open.
+    /// Waits for this time, or less if the registry closes. True if it is still open.
     pub(super) fn pause(&self, pause: Duration) -> bool {
         let state = self.state();
         let waited = self
@@ -180,7 +180,7 @@ impl RunningJobRegistry {
         !state.closing
     }
 
-    /// Submissions so far; `None` once the registry is closed.
+    /// Number of submissions so far; `None` once the registry is closed.
     pub fn submissions(&self) -> Option<u64> {
         let state = self.state();
         (!state.closing).then_some(state.submissions)
@@ -190,7 +190,7 @@ impl RunningJobRegistry {
     pub(super) fn wait(&self, seen: u64) {
         let state = self.state();
         let idle = |state: &mut State| !state.closing && state.submissions == seen;
-        // Woken or timed out: the worker looks for work either way.
+        // Woken or timed out, the worker looks for work in either case.
         drop(self.changed.wait_timeout_while(state, IDLE_LOOK, idle));
     }
 
@@ -219,7 +219,7 @@ impl RunningJobRegistry {
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
-        // Every critical section leaves the state whole, even one that panicked.
+        // Every critical section leaves the state consistent, even if it panics.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,4 +1,4 @@
-//! Reading what runs recorded, a chunk at a time.
+//! Reading the records of runs, a chunk at a time.
 
 use super::JobService;
 use super::job::JobId;
@@ -6,20 +6,20 @@ use super::store::{StoreError, StoredChunk};
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, Selector};
 
-/// Range of one body's trajectory: what there was of it when it was asked
-/// for, however far the run gets meanwhile.
+/// Range of one body's trajectory: fixed to the samples that existed at the time of the
+/// request, however far the run gets meanwhile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrajectoryRange {
     job: JobId,
     body: usize,
-    /// Samples there were.
+    /// Number of samples at the time of the request.
     end: usize,
-    /// Which of them.
+    /// Samples that are selected.
     pub selection: Selection,
 }
 
 impl JobService {
-    /// A body's trajectory as far as it is now.
+    /// A body's trajectory up to its present end.
     ///
     /// # Errors
     /// The store's own.
@@ -37,8 +37,8 @@ impl JobService {
         })
     }
 
-    /// The first chunk from sample `from_sample` on that reaches into the
-    /// stretch, cut to it.
+    /// The first chunk from sample `from_sample` on that overlaps the
+    /// range, cut to it.
     ///
     /// # Errors
     /// The store's own.
@@ -60,7 +60,7 @@ impl JobService {
         Ok(chunk.and_then(|mut chunk| {
             let next = usize::try_from(chunk.next_sample).unwrap_or(usize::MAX);
             let first = next.saturating_sub(chunk.columns.len());
-            // What came after the question does not belong to the answer.
+            // Samples recorded after the request do not belong to the answer.
             chunk.columns.truncate(end.saturating_sub(first));
             (!chunk.columns.is_empty()).then_some(chunk)
         }))

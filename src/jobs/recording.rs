@@ -1,5 +1,5 @@
-//! The sink of the service: gathers what a run records and writes it to the
-//! store every so often, in few large blocks, now and then with the run's state.
+//! The sink of the service: collects the records of a run and writes them to the
+//! store at intervals, in few large blocks, at times with the run's state.
 
 use super::open_chunk::OpenChunk;
 use super::progress::{Progress, ProgressBoard};
@@ -16,34 +16,35 @@ use thiserror::Error;
 use tokio::runtime::Handle;
 use tracing::warn;
 
-/// Time that a database may refuse results before the run is given up. Until then they
-/// are kept in memory: a full disk is often soon seen to.
+/// Time for which the database may refuse results before the run is given up. Until then they
+/// are kept in memory: a full disk is often fixed soon.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Saving states takes at most one in so many parts of the time.
+/// Saving of states takes at most one in this many parts of the time.
 const STATE_SHARE: u32 = 50;
 
-/// When a run that was cut off before saves its first state: soon, so that it gets on.
+/// Time until the first saved state of a run that was cut off before: short, so that it makes
+/// progress.
 const EARLY_STATE: Duration = Duration::from_millis(500);
 
-/// Why results can't be kept.
+/// Reason why results can't be stored.
 #[derive(Debug, Error)]
 pub enum KeepError {
-    /// The job is not this run's any more.
+    /// The job's lease was lost.
     #[error("the job was taken away from its worker")]
     Lost,
     /// The store's own error.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// A block can't be made.
+    /// A block can't be encoded.
     #[error(transparent)]
     Block(#[from] BlockError),
-    /// What a saved state presupposes is not there.
+    /// Records that a saved state depends on are missing.
     #[error("samples recorded before the saved state are missing")]
     Missing,
 }
 
-/// Writes a run into the store. Lives on a worker's own thread and waits there
+/// Sink that writes a run into the store. Lives on a worker's own thread and waits there
 /// for the database, which runs on the service's runtime.
 #[derive(Debug)]
 pub struct StoreSink {
@@ -51,31 +52,31 @@ pub struct StoreSink {
     runtime: Handle,
     lease: Lease,
     recording: Recording,
-    /// When the first state is due after the start.
+    /// Time after the start at which the first state is due.
     first_state: Duration,
     board: Arc<ProgressBoard>,
     open_chunks: Vec<OpenChunk>,
     samples: usize,
     fingerprint: Fingerprint,
-    /// Not written yet.
+    /// Snapshots not written yet.
     snapshots: Vec<StoredSnapshot>,
     state: Option<StoredState>,
     progress: Progress,
     times: Times,
 }
 
-/// When what happened last, and when what is due.
+/// Times of the last writes, and of those due.
 #[derive(Debug)]
 struct Times {
     flushed: Instant,
-    /// Since when the database refuses what is to be written.
+    /// Time since which the database has refused writes.
     refused_since: Option<Instant>,
     state_begun: Instant,
     state_due: Instant,
 }
 
 impl StoreSink {
-    /// A sink for the job of this lease, which tells its progress on `board`.
+    /// A sink for the job of this lease, which writes its progress to `board`.
     pub fn new(
         (store, runtime): (Store, Handle),
         lease: Lease,
@@ -105,7 +106,7 @@ impl StoreSink {
         }
     }
 
-    /// A sink for the same job that has seen nothing yet.
+    /// A sink for the same job without any records.
     pub fn afresh(&self) -> Self {
         let mut sink = Self::new(
             (self.store.clone(), self.runtime.clone()),
@@ -117,7 +118,7 @@ impl StoreSink {
         sink
     }
 
-    /// Has the first state saved early.
+    /// Makes the first state be saved early.
     pub fn save_early(&mut self) {
         self.begin_with_a_state_in(self.first_state.min(EARLY_STATE));
     }
@@ -127,11 +128,11 @@ impl StoreSink {
         self.times.state_due = Instant::now() + pause;
     }
 
-    /// Goes on with what was recorded up to a saved state of a run with
+    /// Continues the records up to a saved state of a run with
     /// `bodies` bodies.
     ///
     /// # Errors
-    /// The store fails, or does not have what the state presupposes.
+    /// The store fails, or lacks records that the state depends on.
     pub fn go_on_from(
         &mut self,
         resume_point: &ResumePoint,
@@ -149,16 +150,16 @@ impl StoreSink {
         Ok(())
     }
 
-    /// Fingerprint of all that was recorded.
+    /// Fingerprint of all records.
     pub fn fingerprint(&self) -> Fingerprint {
         self.fingerprint
     }
 
-    /// Writes all that is not written yet, however often it takes.
+    /// Writes all that is not written yet, with retries.
     ///
     /// # Errors
-    /// The job is lost, or the store has refused for too long, or refuses while
-    /// `give_up` says that there is no time.
+    /// The lease is lost, the store has refused for too long, or it refuses while
+    /// `give_up` is true.
     pub fn finish(&mut self, give_up: impl Fn() -> bool) -> Result<(), KeepError> {
         loop {
             match self.flush() {
@@ -170,8 +171,8 @@ impl StoreSink {
         }
     }
 
-    /// Tries to write all that is not written yet. A database that refuses is
-    /// borne for a while.
+    /// Tries to write all that is not written yet. A refusal by the database is
+    /// tolerated for a while.
     fn flush(&mut self) -> Result<(), KeepError> {
         let mut results = NewResults {
             chunks: Vec::new(),

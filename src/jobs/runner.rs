@@ -1,5 +1,5 @@
-//! Runs one scenario: the simulation, watched by a recorder, into a sink. The
-//! service's workers and the command line both run jobs through here.
+//! Runs one scenario: the simulation, with a recorder, into a sink. The
+//! service's workers and the command line both run jobs through this module.
 
 use super::progress::Progress;
 use super::saved_run::{self, SavedRunError, Spent};
@@ -12,7 +12,7 @@ use thiserror::Error;
 
 /// Sink of a run's records and progress.
 pub trait Sink: Send {
-    /// Why the sink can't take any more; ends the run.
+    /// Reason why the sink can't take any more; ends the run.
     type Error: Send;
 
     /// Takes a sample or a flow snapshot, in order of time.
@@ -21,20 +21,20 @@ pub trait Sink: Send {
     /// The sink's own; the run ends.
     fn record(&mut self, record: Record) -> Result<(), Self::Error>;
 
-    /// Hears how far the run is, about ten times a second and at the end.
+    /// Takes the progress of the run, about ten times a second and at the end.
     ///
     /// # Errors
     /// The sink's own; the run ends.
     fn progress(&mut self, progress: &Progress) -> Result<(), Self::Error>;
 
-    /// True if it is time to save the run's state. Asked wherever that can be done; a
-    /// sink that keeps no states never wants one.
+    /// True if it is time to save the run's state. Called wherever a state can be saved; a
+    /// sink that keeps no states always returns false.
     fn wants_state(&mut self) -> bool {
         false
     }
 
-    /// Takes the run's state after all records so far; [`Run::restored`] makes
-    /// the run from it again.
+    /// Takes the run's state after all records so far; [`Run::restored`] restores
+    /// the run from it.
     ///
     /// # Errors
     /// The sink's own; the run ends.
@@ -43,34 +43,34 @@ pub trait Sink: Send {
     }
 }
 
-/// When a run is to stop.
+/// Point at which a run is to stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Stop {
     /// At the end of the scenario.
     AtTheEnd,
-    /// Once its state is saved, at the end of the step in hand.
+    /// Once its state is saved, at the end of the current step.
     OnceSaved,
-    /// After the sub-step in hand.
+    /// After the current sub-step.
     AtOnce,
 }
 
-/// Asks a run to stop. What was asked for once is never taken back.
+/// Request to a run to stop. A request is never withdrawn.
 #[derive(Debug, Default)]
 pub struct StopFlag(AtomicU8);
 
 impl StopFlag {
-    /// Asks for the stop after the sub-step in hand.
+    /// Asks for a stop after the current sub-step.
     pub fn raise(&self) {
         self.ask(Stop::AtOnce);
     }
 
-    /// Asks for a stop; the sooner of two counts.
+    /// Asks for a stop; the earlier of two requests counts.
     pub fn ask(&self, stop: Stop) {
         self.0.fetch_max(stop as u8, Ordering::Relaxed);
     }
 
-    /// Stop that was asked for.
+    /// The stop asked for.
     pub fn asked(&self) -> Stop {
         [Stop::AtTheEnd, Stop::OnceSaved, Stop::AtOnce][usize::from(self.0.load(Ordering::Relaxed))]
     }
@@ -81,22 +81,22 @@ impl StopFlag {
     }
 }
 
-/// Good end of a run.
+/// Regular end of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RunEnd {
     /// The simulated time is over.
     Completed(Box<Outcome>),
-    /// The [`StopFlag`] was raised first; what was recorded stays valid.
+    /// The [`StopFlag`] was raised first; the records so far stay valid.
     Stopped,
 }
 
-/// Bad end of a run.
+/// Error of a run.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError<E> {
     /// The solver can't set the scenario up.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// The computation can't go on; never worth retrying.
+    /// The computation can't go on; a retry would fail again.
     #[error(transparent)]
     Step(#[from] StepError),
     /// The sink can't take any more.
@@ -108,7 +108,7 @@ pub enum RunError<E> {
 /// until `stop` is raised.
 ///
 /// # Errors
-/// See [`RunError`]; what the sink had taken by then stays valid.
+/// See [`RunError`]; records that the sink has taken stay valid.
 pub fn run<S: Sink>(
     scenario: &Scenario,
     threads: usize,
@@ -118,7 +118,7 @@ pub fn run<S: Sink>(
     Run::afresh(scenario, threads)?.go(stop, sink)
 }
 
-/// A run that is set up and not yet under way.
+/// A run that is set up and not started yet.
 #[derive(Debug)]
 pub struct Run {
     simulation: Simulation,
@@ -128,7 +128,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// At the start of a scenario.
+    /// A run at the start of a scenario.
     ///
     /// # Errors
     /// The solver can't set it up.
@@ -141,10 +141,10 @@ impl Run {
         })
     }
 
-    /// Where it was when `state` was saved; it goes on with the same bits.
+    /// A run restored from a saved `state`; it continues with the same bits.
     ///
     /// # Errors
-    /// Bytes that are no state of this scenario and this build.
+    /// The bytes are not a state of this scenario and this build.
     pub fn restored(
         scenario: &Scenario,
         threads: usize,
@@ -162,7 +162,7 @@ impl Run {
     /// Runs to the scenario's end or until `stop` is raised.
     ///
     /// # Errors
-    /// See [`RunError`]; what the sink had taken by then stays valid.
+    /// See [`RunError`]; records that the sink has taken stay valid.
     pub fn go<S: Sink>(self, stop: &StopFlag, sink: &mut S) -> Result<RunEnd, RunError<S::Error>> {
         let Self {
             mut simulation,

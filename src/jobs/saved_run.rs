@@ -1,5 +1,5 @@
-//! A run's state as bytes: the simulation's own, and what the recorder and the
-//! stopwatch know besides.
+//! A run's state as bytes: the state of the simulation, preceded by those of the recorder and the
+//! stopwatch.
 
 use super::headed;
 use scree_solver::record::Recorder;
@@ -20,24 +20,24 @@ pub struct Spent {
     pub point_steps: u64,
 }
 
-/// Head before the simulation's own bytes.
+/// Header before the simulation's own bytes.
 #[derive(Serialize, Deserialize)]
 struct Head {
-    /// Another build may round otherwise.
+    /// Commit of the build; another build may round otherwise.
     commit: String,
-    /// So do instructions that multiply and add in one: [`Instructions::fuse`].
+    /// True if multiply-adds are fused, which also changes rounding: [`Instructions::fuse`].
     fused: bool,
     recorder: Recorder,
     spent: Spent,
 }
 
-/// Why a saved state can't be gone on from.
+/// Reason why a saved state can't be resumed.
 #[derive(Debug, Error)]
 pub enum SavedRunError {
-    /// The simulation's part.
+    /// The simulation's part can't be read.
     #[error(transparent)]
     Restore(#[from] RestoreError),
-    /// What stands before it.
+    /// The header can't be read.
     #[error("the head of the saved state can't be read")]
     Head,
     /// It was saved by another build of this version.
@@ -48,10 +48,10 @@ pub enum SavedRunError {
     OtherInstructions(&'static str),
 }
 
-/// Bytes from which [`restore`] makes the run again: a head, then the simulation.
+/// Bytes from which [`restore`] restores the run: a header, then the simulation.
 ///
 /// # Errors
-/// The simulation stands amid a step, or has failed.
+/// The simulation is in the middle of a step, or has failed.
 pub fn save(
     simulation: &Simulation,
     recorder: &Recorder,
@@ -67,10 +67,10 @@ pub fn save(
     Ok(headed::joined(&head, &simulation))
 }
 
-/// The run of this scenario as it was saved.
+/// Restores the run of this scenario.
 ///
 /// # Errors
-/// Bytes of something else: another version, another scenario, no state at all.
+/// The bytes are of another version or another scenario, or no state at all.
 pub fn restore(
     scenario: &Scenario,
     threads: usize,
@@ -114,12 +114,12 @@ mod tests {
         other.duration_s = 0.2;
         assert!(restore(&other, 1, &bytes).is_err());
         let mut other_build = bytes.clone();
-        // Head's length, then the commit's length, then the commit.
+        // Length of the header, then length of the commit, then the commit.
         other_build[5] ^= 1;
         let refused = restore(&scenario, 1, &other_build);
         assert!(matches!(refused, Err(SavedRunError::OtherBuild(_))));
         let mut other_instructions = bytes.clone();
-        // Behind the commit.
+        // The byte after the commit.
         other_instructions[5 + COMMIT.len()] ^= 1;
         let refused = restore(&scenario, 1, &other_instructions);
         assert!(matches!(refused, Err(SavedRunError::OtherInstructions(_))));

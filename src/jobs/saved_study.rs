@@ -1,4 +1,4 @@
-//! The state of several runs as bytes: what those before gave, then the run in hand.
+//! The state of several runs as bytes: results of the completed runs, then the current run.
 
 use super::headed;
 use super::saved_run::{COMMIT, SavedRunError};
@@ -6,26 +6,26 @@ use scree_solver::record::{Outcome, Record};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// Knowledge of a convergence study besides the run in hand.
+/// State of a convergence study besides the current run.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct SavedStudy<'a> {
-    /// Outcome of each run before, in turn.
+    /// Outcome of each completed run, in order.
     pub done: Vec<Result<Outcome, String>>,
-    /// Records of the finest run before, if it may be the answer.
+    /// Records of the finest completed run, if it may be the answer.
     pub kept: Cow<'a, [Record]>,
-    /// Records of the run in hand, if it may be.
+    /// Records of the current run, if it may be the answer.
     pub of_run: Cow<'a, [Record]>,
 }
 
-/// Bytes from which [`read`] makes both again.
+/// Bytes from which [`read`] restores both.
 pub(super) fn write(saved: &SavedStudy, run: &[u8]) -> Vec<u8> {
     headed::joined(&(COMMIT, saved), run)
 }
 
-/// What was written, and the run's own bytes.
+/// The saved study, and the bytes of the current run.
 ///
 /// # Errors
-/// Bytes of something else, or of another build.
+/// The bytes are something else, or of another build.
 pub(super) fn read(bytes: &[u8]) -> Result<(SavedStudy<'static>, &[u8]), SavedRunError> {
     let head: Option<((String, SavedStudy<'static>), &[u8])> = headed::parted(bytes);
     let ((commit, saved), run) = head.ok_or(SavedRunError::Head)?;

@@ -1,4 +1,4 @@
-//! Which scenarios are let in.
+//! Validation of submitted scenarios.
 
 use super::job::JobId;
 use scree_solver::scenario::Scenario;
@@ -9,25 +9,25 @@ use serde_json::{Value, json};
 /// A job that may enter the queue.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewJob {
-    /// Its identity.
+    /// Its identifier.
     pub id: JobId,
     /// The scenario's title.
     pub title: String,
-    /// Bodies in the scenario.
+    /// Number of bodies in the scenario.
     pub bodies: usize,
     /// The scenario's JSON with every default filled in.
     pub scenario: String,
     /// BLAKE3 of that JSON, in hexadecimal digits.
     pub scenario_hash: String,
-    /// The JSON of its plan: what will be computed, left out, and what it costs.
+    /// The JSON of its plan: computation, reductions and cost.
     pub plan: String,
     /// Its labels, each once.
     pub labels: Vec<String>,
-    /// Solver that checked it.
+    /// Version of the solver that validated it.
     pub solver_version: &'static str,
 }
 
-/// Most labels of a list.
+/// Largest number of labels in a list.
 pub const LABELS_AT_MOST: usize = 16;
 
 /// The text as a label: 1 to 64 letters, digits or any of `. _ : = / -`.
@@ -37,19 +37,19 @@ pub fn label(text: &str) -> Option<String> {
     is_legal.then(|| text.to_owned())
 }
 
-/// Means of a service for a job.
+/// Resources of a service for a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Means {
     /// Solver threads of a worker.
     pub threads_per_worker: usize,
-    /// Most point-steps that a job may be planned to take.
+    /// Largest number of point-steps that a job may be planned to take.
     pub point_steps: Option<u64>,
 }
 
-/// Checks a scenario for a service with these means, and plans its run.
+/// Validates a scenario for a service with these resources, and plans its run.
 ///
 /// # Errors
-/// All the rules that it breaks.
+/// All rules that the scenario breaks.
 pub fn validate(
     text: &str,
     means: &Means,
@@ -79,7 +79,7 @@ pub fn validate(
 /// threads.
 ///
 /// # Errors
-/// All the rules that it breaks.
+/// All rules that the scenario breaks.
 pub fn read(text: &str, threads_per_worker: usize) -> Result<Scenario, ScenarioError> {
     match Scenario::from_json(text) {
         Ok(scenario) => {
@@ -106,8 +106,8 @@ pub fn read(text: &str, threads_per_worker: usize) -> Result<Scenario, ScenarioE
     }
 }
 
-/// A flow that no run can hold, or a reduction that the scene does not allow, is
-/// refused where it is submitted, not when its turn has come.
+/// A flow too large for any run, or a reduction that the scene does not allow, is
+/// refused at submission, not when the job's turn has come.
 fn not_set_up(scenario: &Scenario) -> Option<Violation> {
     let error = Simulation::check(scenario).err()?;
     let detail = error.to_string();
@@ -132,15 +132,15 @@ fn not_set_up(scenario: &Scenario) -> Option<Violation> {
     }
 }
 
-/// The threads an otherwise illegal scenario asks for, so that all that is
-/// wrong with it is said at once.
+/// The threads that an otherwise illegal scenario asks for, so that all faults
+/// are reported at once.
 fn threads_asked_for(text: &str) -> Option<usize> {
     let document: Value = serde_json::from_str(text).ok()?;
     let threads = document.pointer(THREADS)?.as_u64()?;
     usize::try_from(threads).ok()
 }
 
-/// A legal scenario that can't be written down or planned after all.
+/// A legal scenario that can't be serialised or planned.
 fn unwritable(error: &impl ToString) -> ScenarioError {
     ScenarioError::Malformed {
         message: error.to_string(),
@@ -149,7 +149,7 @@ fn unwritable(error: &impl ToString) -> ScenarioError {
     }
 }
 
-/// A run that would take longer than this service gives a job.
+/// A run that would take longer than this service allows for a job.
 fn too_costly(planned: u64, most: Option<u64>) -> Option<Violation> {
     let most = most.filter(|&most| planned > most)?;
     Some(Violation {

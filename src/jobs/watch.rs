@@ -1,5 +1,5 @@
-//! Watches a run: records, progress, states and wishes to stop all go through
-//! here, between two sub-steps.
+//! Watches a run between two sub-steps: handles records, progress, states and requests to
+//! stop.
 
 use super::progress::Progress;
 use super::runner::{Sink, Stop, StopFlag};
@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 /// Least time between two reports of progress to a sink: often enough for a progress bar,
-/// rare enough to cost nothing.
+/// rarely enough to cost nothing.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Watch between a running simulation and the sink.
@@ -20,7 +20,7 @@ pub(super) struct Watch<'a, S: Sink> {
     stop: &'a StopFlag,
     sink: &'a mut S,
     refused: Option<S::Error>,
-    /// True if nothing can move any more.
+    /// True if the run ended because nothing can move any more.
     ended_early: bool,
 }
 
@@ -46,20 +46,20 @@ impl<'a, S: Sink> Watch<'a, S> {
         self.ended_early
     }
 
-    /// Hands on the records of time 0.
+    /// Passes on the records of time 0.
     pub(super) fn start(&mut self, simulation: &Simulation) -> Result<(), S::Error> {
         let records = self.recorder.start(simulation);
         self.hand_on(records)
     }
 
-    /// Takes one sub-step in.
+    /// Handles one sub-step.
     pub(super) fn observe(
         &mut self,
         simulation: &Simulation,
         report: &SubstepReport,
     ) -> ControlFlow<()> {
-        // After a refusal or a wish to stop the solver still finishes the step
-        // in hand: what it shows then belongs to the run, unless the sink is shut.
+        // After a refusal or a stop request the solver still finishes the current
+        // step: its records belong to the run, unless the sink has refused.
         if self.refused.is_some() {
             return ControlFlow::Break(());
         }
@@ -68,7 +68,7 @@ impl<'a, S: Sink> Watch<'a, S> {
         if report.step_ended {
             records.extend(self.end_early(simulation));
         }
-        // Asked once: a wish that comes in between is heard next time.
+        // Read once: a request that arrives in between is handled next time.
         let stop = self.stop.asked();
         let stop_here = stop == Stop::AtOnce || (stop == Stop::OnceSaved && report.step_ended);
         let taken = self
@@ -94,7 +94,7 @@ impl<'a, S: Sink> Watch<'a, S> {
         last.unwrap_or_default()
     }
 
-    /// Saves the state where a step ended, when it is time to or the last chance.
+    /// Saves the state at the end of a step, if it is due or this is the last chance.
     fn save(
         &mut self,
         simulation: &Simulation,
@@ -107,7 +107,7 @@ impl<'a, S: Sink> Watch<'a, S> {
         }
         match saved_run::save(simulation, &self.recorder, self.pace.spent()) {
             Ok(state) => self.sink.state(report.time_s, &state),
-            // The run itself will say what is wrong with it.
+            // The run itself will report the error.
             Err(error) => {
                 tracing::warn!(%error, "the run's state can't be saved");
                 Ok(())
@@ -133,7 +133,7 @@ impl<'a, S: Sink> Watch<'a, S> {
         }
     }
 
-    /// Tells the last progress, or why the sink took no more.
+    /// Reports the last progress, or the sink's refusal.
     pub(super) fn end(&mut self) -> Result<(), S::Error> {
         match self.refused.take() {
             Some(error) => Err(error),
@@ -142,9 +142,9 @@ impl<'a, S: Sink> Watch<'a, S> {
     }
 }
 
-/// Counts and times a run.
+/// Counters and timers of a run.
 struct Pace {
-    /// By the attempts before this one.
+    /// Cost of the attempts before this one.
     before: Spent,
     began: Instant,
     told: Instant,
@@ -188,7 +188,7 @@ impl Pace {
         }
     }
 
-    /// Progress, if it was last told long enough ago.
+    /// Progress, if a report is due.
     fn due(&mut self) -> Option<Progress> {
         if self.told.elapsed() < PROGRESS_INTERVAL {
             return None;

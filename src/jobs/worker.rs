@@ -1,4 +1,4 @@
-//! One worker: claims jobs, runs them, and says how they ended.
+//! One worker: claims jobs, runs them, and records their ends.
 
 use super::convergence_study::Runs;
 use super::failure::Failure;
@@ -17,18 +17,18 @@ use std::time::Duration;
 use tracing::{error, info, info_span, warn};
 use uuid::Uuid;
 
-/// Between two tries to write how a job ended.
+/// Time between two attempts to record the end of a job.
 const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
-/// End of one run, as far as the job is concerned.
+/// Result of one run for its job.
 enum JobResult {
     Successful(Box<Outcome>, String),
     Failed(Failure),
-    /// Through no fault of the scenario.
+    /// Failed attempt, through no fault of the scenario.
     AttemptFailed(String),
     /// Stopped because the service stops.
     Released,
-    /// Dismissed or taken away: what there is to say is said.
+    /// Dismissed or lost: nothing is left to record.
     Gone,
 }
 
@@ -68,24 +68,24 @@ fn instructions() -> &'static str {
 fn execute(equipment: &Equipment, claim: &Claim) {
     let lease = claim.lease;
     let _span = info_span!("job", id = %lease.job, attempt = lease.attempt).entered();
-    // Seated before its row is looked at: a dismissal that came before finds the
-    // row changed, one that comes after finds the entry.
+    // Registered before its row is read: a dismissal before this finds the
+    // row changed, one after this finds the entry.
     let guard = equipment.registry.register(lease);
     info!("started");
     let result = catching_panics(|| run(equipment, claim, &guard));
     while let Err(error) = record_result(equipment, lease, &result) {
         error!(%error, "the job's end can't be written now");
         if !equipment.registry.pause(RETRY_PAUSE) {
-            // The row stays as it is, and the next start takes it back.
+            // The row stays as it is, and the next start reclaims the job.
             return;
         }
     }
 }
 
-/// Whatever the run does, a panic included, there is a result.
+/// Returns a result whatever the run does, even if it panics.
 fn catching_panics(run: impl FnOnce() -> JobResult) -> JobResult {
-    // Nothing that the run touches is used after a panic but the database,
-    // whose transactions are whole or not at all.
+    // After a panic only the database is used of all that the run touches,
+    // and its transactions are applied whole or not at all.
     match catch_unwind(AssertUnwindSafe(run)) {
         Ok(result) => result,
         Err(panic) => internal_failure(panic_text(panic.as_ref())),
@@ -121,7 +121,7 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResu
         (&scenario, threads),
         (stop, &mut sink),
     );
-    // What was recorded is kept however the run ended.
+    // Records are kept however the run ended.
     let ended = match (ended, sink.finish(|| stop.is_raised())) {
         (Ok(_), Err(error)) => Err(RunError::Sink(error)),
         (ended, _) => ended,
@@ -133,7 +133,7 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResu
     }
 }
 
-/// The run to its end, or the several that intervals or a target take.
+/// Executes the run, or the several runs that intervals or a target need.
 fn run_to_end(
     equipment: &Equipment,
     lease: Lease,
@@ -149,13 +149,13 @@ fn run_to_end(
     set_up(equipment, lease, what, sink, ways)?.go(stop, sink)
 }
 
-/// Ways in which a run is made from its saved state, and at its start.
+/// Functions that make a run from its saved state, and at its start.
 type Ways<T> = (
     fn(&Scenario, usize, &[u8]) -> Result<T, SavedRunError>,
     fn(&Scenario, usize) -> Result<T, SetupError>,
 );
 
-/// Says where the run begins.
+/// Records the start of the attempt.
 fn begin(
     equipment: &Equipment,
     lease: Lease,
@@ -170,7 +170,7 @@ fn begin(
     }
 }
 
-/// The run where its saved state stands, or else at its start.
+/// The run restored from its saved state, or else at its start.
 fn set_up<T>(
     equipment: &Equipment,
     lease: Lease,
@@ -195,8 +195,8 @@ fn set_up<T>(
     Ok(afresh(scenario, threads)?)
 }
 
-/// The run made from its saved state. A state that can't be used, and why, is
-/// for the log: the run then starts over.
+/// The run restored from its saved state. If the state can't be used, the reason
+/// is logged and the run starts over.
 fn restored<T>(
     equipment: &Equipment,
     lease: Lease,
@@ -244,8 +244,8 @@ fn result_of_error(error: &RunError<KeepError>) -> JobResult {
     }
 }
 
-/// Writes the result. A job that was dismissed meanwhile stays dismissed: each
-/// of these changes a running job only.
+/// Records the result. A job dismissed meanwhile stays dismissed: each
+/// of these calls changes only a running job.
 fn record_result(
     equipment: &Equipment,
     lease: Lease,

@@ -1,21 +1,21 @@
-//! A stretch of one body's trajectory as one compressed, checksummed block.
+//! A range of one body's trajectory as one compressed block with a checksum.
 
 use super::columns::TrajectoryColumns;
 use super::planes::{self, PlaneReader};
 use scree_solver::record::Mode;
 use thiserror::Error;
 
-/// Samples in a full chunk. Larger ones compress no better and make a short
-/// read dearer.
+/// Samples in a full chunk. Larger chunks compress no better and make short
+/// reads more expensive.
 pub const CHUNK_SAMPLES: usize = 512;
 
-/// Name of the encoding, kept with each block so that a later one can differ.
+/// Name of the encoding, stored with each block so that a later one can differ.
 pub const ENCODING: &str = "planes-zstd-1";
 
 /// Bytes of one sample before compression: 33 f64, one u32, one byte.
 const BYTES_PER_SAMPLE: usize = 33 * 8 + 4 + 1;
 
-/// Speed over size: level 3 is zstd's own default.
+/// Compression level: 3 is zstd's own default.
 const ZSTD_LEVEL: i32 = 3;
 
 /// Level for saved states.
@@ -30,13 +30,13 @@ pub struct Block {
     pub checksum: [u8; 32],
 }
 
-/// Why a stored block can't be read.
+/// Reason why a stored block can't be read.
 #[derive(Debug, Error)]
 pub enum BlockError {
-    /// The bytes are not those that were written.
+    /// The bytes differ from those written.
     #[error("the checksum does not match")]
     Checksum,
-    /// The block does not hold what its row says.
+    /// The block does not hold the number of rows in its table row.
     #[error("the block does not hold {rows} rows")]
     Contents {
         /// Rows it should hold.
@@ -56,7 +56,7 @@ impl Block {
         Self::sealed_at(raw, ZSTD_LEVEL)
     }
 
-    /// The same for what is soon replaced: speed counts more than size.
+    /// Seals data that is soon replaced: speed matters more than size.
     ///
     /// # Errors
     /// Only if the compressor is out of memory.
@@ -73,7 +73,7 @@ impl Block {
     /// Checks and decompresses into at most `limit` bytes.
     ///
     /// # Errors
-    /// [`BlockError`], if the bytes are not those that were sealed.
+    /// [`BlockError`], if the bytes differ from those sealed.
     pub fn open(&self, limit: usize) -> Result<Vec<u8>, BlockError> {
         if blake3::hash(&self.data).as_bytes() != &self.checksum {
             return Err(BlockError::Checksum);
@@ -82,7 +82,7 @@ impl Block {
     }
 }
 
-/// Encodes a stretch of a trajectory.
+/// Encodes a range of a trajectory.
 ///
 /// # Errors
 /// Only if the compressor is out of memory.
@@ -108,7 +108,7 @@ pub fn encode(columns: &TrajectoryColumns) -> Result<Block, BlockError> {
 /// Decodes a block of `samples` samples.
 ///
 /// # Errors
-/// [`BlockError`], if the block is not what [`encode`] made.
+/// [`BlockError`], if the block was not made by [`encode`].
 pub fn decode(block: &Block, samples: usize) -> Result<TrajectoryColumns, BlockError> {
     let raw = block.open(samples * BYTES_PER_SAMPLE)?;
     read_columns(&raw, samples).ok_or(BlockError::Contents { rows: samples })
@@ -139,7 +139,7 @@ fn read_columns(raw: &[u8], samples: usize) -> Option<TrajectoryColumns> {
     reader.is_done().then_some(columns)
 }
 
-/// A column that blocks did not have when bodies did not touch each other: then it
+/// A column that is missing in blocks from before contacts between bodies existed: then it
 /// was zero.
 fn rows_since(reader: &mut PlaneReader, samples: usize) -> Option<Vec<[f64; 3]>> {
     if reader.is_done() {
@@ -245,8 +245,8 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Whatever bytes a block has, with a checksum that is right: they are
-        /// read as what they are, or refused.
+        /// Any bytes with a correct checksum are either decoded to
+        /// as many samples as they hold, or refused.
         #[test]
         fn reading_any_bytes_is_safe(
             raw in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..2000),

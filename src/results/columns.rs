@@ -38,8 +38,8 @@ pub struct TrajectoryColumns {
 }
 
 impl TrajectoryColumns {
-    /// The trajectory of body number `body` in `samples`; empty if there is no
-    /// such body.
+    /// The trajectory of body number `body` in `samples`; empty if the body
+    /// does not exist.
     pub fn of_body(samples: &[Sample], body: usize) -> Self {
         let mut columns = Self::default();
         for sample in samples {
@@ -50,12 +50,12 @@ impl TrajectoryColumns {
         columns
     }
 
-    /// Samples held.
+    /// Number of samples.
     pub fn len(&self) -> usize {
         self.time_s.len()
     }
 
-    /// True if no sample is held.
+    /// True if there is no sample.
     pub fn is_empty(&self) -> bool {
         self.time_s.is_empty()
     }
@@ -121,14 +121,14 @@ impl TrajectoryColumns {
     }
 }
 
-/// Which samples of a trajectory are asked for.
+/// Selection of samples of a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Selection {
     /// First time [s], inclusive; `None`: from the start.
     pub from_s: Option<f64>,
     /// Last time [s], inclusive; `None`: to the end.
     pub to_s: Option<f64>,
-    /// One in how many, counted from the first sample in the range; at least 1.
+    /// Stride, counted from the first sample in the range; at least 1.
     pub stride: usize,
 }
 
@@ -142,7 +142,7 @@ impl Default for Selection {
     }
 }
 
-/// Both ends of a range are meant: a sample at 7 × 0.01 s, which is not quite
+/// Both ends of a range are inclusive: a sample at 7 × 0.01 s, which is not exactly
 /// 0.07 in binary, still belongs to `to_s=0.07`. A nanosecond is far above the
 /// rounding of any simulated time and far below any sample interval.
 const TIME_TOLERANCE_S: f64 = 1e-9;
@@ -161,7 +161,7 @@ impl Selection {
     }
 }
 
-/// Picks samples out of chunks that come one after the other.
+/// Selects samples from successive chunks.
 #[derive(Debug)]
 pub struct Selector {
     selection: Selection,
@@ -169,7 +169,7 @@ pub struct Selector {
 }
 
 impl Selector {
-    /// A selector that has seen nothing yet.
+    /// A selector before the first chunk.
     pub fn new(selection: Selection) -> Self {
         Self {
             selection,
@@ -177,7 +177,7 @@ impl Selector {
         }
     }
 
-    /// The chosen samples of the next chunk of the trajectory.
+    /// The selected samples of the next chunk of the trajectory.
     pub fn choose(&mut self, chunk: &TrajectoryColumns) -> TrajectoryColumns {
         let mut chosen = TrajectoryColumns::default();
         let (earliest_s, latest_s) = (self.selection.earliest_s(), self.selection.latest_s());
@@ -200,7 +200,7 @@ impl Selector {
 pub(crate) mod tests {
     use super::*;
 
-    /// Distinct numbers in every place, so that a swapped column shows.
+    /// Distinct numbers in every place, so that swapped columns are detected.
     pub(crate) fn numbered(index: u32) -> BodySample {
         let base = f64::from(index) * 100.0;
         let triple = |offset: f64| [base + offset, base + offset + 0.25, -(base + offset + 0.5)];

@@ -1,6 +1,6 @@
-//! A fingerprint of all that a run records: equal fingerprints, equal bits.
+//! Fingerprint of all records of a run: equal fingerprints mean equal bits.
 //!
-//! A chain, so that a run can be cut anywhere and go on: each record is hashed
+//! A chain, so that a run can be interrupted anywhere and resumed: each record is hashed
 //! together with the fingerprint of those before it (docs/service.md,
 //! "Fingerprint").
 
@@ -12,7 +12,7 @@ use scree_solver::record::{BodySample, FlowSnapshot, Mode, Record, Sample};
 pub struct Fingerprint([u8; 32]);
 
 impl Fingerprint {
-    /// Of records that were fingerprinted before.
+    /// Fingerprint of earlier records, from its bytes.
     pub fn of_bytes(bytes: [u8; 32]) -> Self {
         Self(bytes)
     }
@@ -22,12 +22,12 @@ impl Fingerprint {
         self.0
     }
 
-    /// As hexadecimal digits.
+    /// The fingerprint as hexadecimal digits.
     pub fn hex(self) -> String {
         blake3::Hash::from_bytes(self.0).to_hex().to_string()
     }
 
-    /// Takes in the next record.
+    /// Adds the next record.
     pub fn take_in(&mut self, record: &Record) {
         let mut hasher = Hasher::new();
         hasher.update(&self.0);
@@ -47,7 +47,7 @@ fn take_sample(hasher: &mut Hasher, sample: &Sample) {
     }
 }
 
-/// In the order of the trajectory's columns.
+/// Hashes a body's sample in the order of the trajectory's columns.
 fn take_body(hasher: &mut Hasher, body: &BodySample) {
     take_f64s(hasher, &body.position_m);
     take_f64s(hasher, &body.orientation);

@@ -8,14 +8,14 @@ use serde::Serialize;
 /// Bytes of one point before compression: three coordinates and a speed, f32.
 const BYTES_PER_POINT: usize = 4 * 4;
 
-/// A stored snapshot: its block and what the block does not hold.
+/// A stored snapshot: its block, and the data that the block does not hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredSnapshot {
     /// Simulated time [s].
     pub time_s: f64,
-    /// Points in the flow then.
+    /// Number of points in the flow at that time.
     pub points: u64,
-    /// One in how many of them is kept.
+    /// Thinning factor: one in this many points is kept.
     pub thinning: u32,
     /// Points kept.
     pub kept: usize,
@@ -50,7 +50,7 @@ impl StoredSnapshot {
     /// Unpacks the snapshot.
     ///
     /// # Errors
-    /// [`BlockError`], if the block is not what [`StoredSnapshot::pack`] made.
+    /// [`BlockError`], if the block was not made by [`StoredSnapshot::pack`].
     pub fn unpack(&self) -> Result<FlowSnapshot, BlockError> {
         let raw = self.block.open(self.kept * BYTES_PER_POINT)?;
         self.read(&raw)
@@ -74,7 +74,7 @@ impl StoredSnapshot {
     }
 }
 
-/// The flow document of the service: whose snapshot, and the snapshot.
+/// The flow document of the service: the job, and the snapshot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FlowDocument {
     /// The job; null for a run without a service.

@@ -1,6 +1,6 @@
-//! Records of a run, in the forms they take: columns in memory ([`columns`]), compressed
-//! chunks in the database ([`chunk`], [`flow`]), and what clients get ([`table`],
-//! [`vtk`]). Knows the recorder's data types, and neither the database nor HTTP.
+//! Records of a run in their forms: columns in memory ([`columns`]), compressed
+//! chunks in the database ([`chunk`], [`flow`]), and formats for clients ([`table`],
+//! [`vtk`]). Depends on the recorder's data types, and on neither the database nor HTTP.
 
 pub mod chunk;
 pub mod columns;

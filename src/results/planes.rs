@@ -1,6 +1,6 @@
 //! Numbers as byte planes: first the lowest byte of every number, then the
-//! next, and so on. The slowly changing high bytes then stand side by side,
-//! which is what makes a trajectory compress.
+//! next, and so on. The slowly changing high bytes are then adjacent,
+//! so that a trajectory compresses well.
 
 /// Appends a column of f64, eight planes of one byte a number.
 pub(super) fn put_f64(out: &mut Vec<u8>, column: &(impl Iterator<Item = f64> + Clone)) {
@@ -21,7 +21,7 @@ pub(super) fn put_u32(out: &mut Vec<u8>, column: &(impl Iterator<Item = u32> + C
     put_f32(out, &column.clone().map(f32::from_bits));
 }
 
-/// Takes columns off the front of a byte string.
+/// Reads columns from the front of a byte string.
 pub(super) struct PlaneReader<'a> {
     bytes: &'a [u8],
     rows: usize,
@@ -72,7 +72,7 @@ impl<'a> PlaneReader<'a> {
         Some(rows)
     }
 
-    /// True if every byte was taken.
+    /// True if every byte was read.
     pub(super) fn is_done(&self) -> bool {
         self.bytes.is_empty()
     }

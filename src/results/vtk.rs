@@ -1,5 +1,5 @@
 //! Snapshots of the flow for ParaView: VTK's XML format of points (.vtp), and
-//! the collection that gives each its time (.pvd).
+//! the collection that assigns times to them (.pvd).
 
 use scree_solver::record::FlowSnapshot;
 use std::fmt::{Display, Write as _};
@@ -42,14 +42,14 @@ pub fn vtp(snapshot: &FlowSnapshot) -> String {
     text
 }
 
-/// The collection of snapshots at these times [s], in files named as
-/// [`file_name`] says.
+/// The collection of snapshots at these times [s], in files named by
+/// [`file_name`].
 pub fn pvd(times_s: &[f64]) -> String {
     let mut text = "<?xml version=\"1.0\"?>\n\
                     <VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n"
         .to_owned();
     for (index, time_s) in times_s.iter().enumerate() {
-        // Writing into a string does not fail.
+        // Writing into a string can't fail.
         let _ = writeln!(
             text,
             "<DataSet timestep=\"{time_s:?}\" part=\"0\" file=\"{}\"/>",

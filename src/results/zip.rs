@@ -18,7 +18,7 @@ struct File {
 
 /// Flags: lengths come after the file (bit 3), names are UTF-8 (bit 11).
 const FLAGS: u16 = 1 << 3 | 1 << 11;
-/// 1 January 1980, midnight: the archive of a run is the same whenever it is made.
+/// 1 January 1980, midnight: the archive of a run does not depend on its time of creation.
 const TIME_AND_DATE: u32 = 0x0021_0000;
 const VERSION: u16 = 20;
 

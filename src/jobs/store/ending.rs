@@ -1,47 +1,47 @@
-//! Ends of running jobs, and their ways back to where they came from.
+//! Ends of running jobs: success, failure, release, failed attempts.
 
 use super::history::end_attempt;
 use super::{Lease, Store, StoreError};
 use crate::jobs::failure::Failure;
 use sqlx::sqlite::SqliteConnection;
 
-/// Number of failed attempts in a row that a job may have before it fails: what takes the
-/// service down must not do so for ever.
+/// Number of failed attempts in a row after which a job fails: a job that crashes the
+/// service must not do so for ever.
 pub const TOLERATED_SETBACKS: u32 = 3;
 
-/// Times that a job waits after its first, second, … failed attempt [ms], and that a service has
-/// to have been up before it takes the job up again.
+/// Waiting times of a job after its first, second, … failed attempt [ms], and least uptime of
+/// the service before it claims the job again.
 pub(super) const BACK_OFF_MS: [i64; 2] = [2_000, 8_000];
 
-/// Longest wait after a failed attempt [ms]. A job that seems to wait longer does so
-/// because the clock was set back.
+/// Longest wait after a failed attempt [ms]. A longer remaining wait means
+/// that the clock was set back.
 pub(super) const LONGEST_BACK_OFF_MS: i64 = BACK_OFF_MS[1];
 
-/// Why an attempt ended through no fault of the scenario.
+/// Cause of the end of an attempt through no fault of the scenario.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FailedAttempt {
     /// The process died.
     CutOff,
     /// The lease ran out.
     Expired,
-    /// Something the run needs was not there.
+    /// A resource of the run was missing.
     Infrastructure(String),
 }
 
-/// Fate of a job that an attempt gave back.
+/// Result of a failed attempt for its job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Returned {
-    /// It waits for another attempt.
+    /// The job waits for another attempt.
     Waiting,
-    /// That was once too often: it failed.
+    /// The job failed, after too many failed attempts.
     Failed,
-    /// It no longer was this lease's; nothing was changed.
+    /// The job no longer belonged to this lease; nothing was changed.
     Lost,
 }
 
 impl Store {
-    /// Ends a running job with its outcome and the fingerprint of what it
-    /// recorded. `false` if it no longer runs under this lease.
+    /// Ends a running job with its outcome and the fingerprint of its
+    /// records. `false` if it no longer runs under this lease.
     ///
     /// # Errors
     /// The database's own.
@@ -107,8 +107,8 @@ impl Store {
         Ok(done)
     }
 
-    /// Fails an attempt at a running job: it goes back into the queue, to
-    /// be claimed again after a while, or fails if that happened too often.
+    /// Fails an attempt at a running job: the job returns to the queue, to
+    /// be claimed again after a wait, or fails after too many such attempts.
     ///
     /// # Errors
     /// The database's own.
@@ -178,7 +178,7 @@ pub(super) async fn set_back_row(
         FailedAttempt::CutOff | FailedAttempt::Expired
     );
     if got_on && by_death {
-        // It ran well for a while, and goes on from there.
+        // The attempt made progress, and the next one continues from there.
         put_back_row(connection, lease, 0, now_ms).await?;
         return Ok(Returned::Waiting);
     }
@@ -188,7 +188,7 @@ pub(super) async fn set_back_row(
         return Ok(Returned::Failed);
     }
     let wait_ms = match failed_attempt {
-        // The next start makes it wait.
+        // The next start of the service makes it wait.
         FailedAttempt::CutOff => 0,
         FailedAttempt::Expired | FailedAttempt::Infrastructure(_) => BACK_OFF_MS[before as usize],
     };
@@ -221,8 +221,8 @@ async fn fail_row(
     Ok(done.rows_affected() == 1)
 }
 
-/// Puts a running job back into the queue. Its progress stays if the next
-/// attempt can go on from a saved state.
+/// Puts a running job back into the queue. Its progress is kept if the next
+/// attempt can resume from a saved state.
 async fn put_back_row(
     connection: &mut SqliteConnection,
     lease: Lease,

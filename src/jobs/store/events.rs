@@ -1,22 +1,22 @@
-//! Changes of state, in the order they came.
+//! Changes of state, in order.
 
 use super::{Store, StoreError};
 use crate::jobs::job::{JobId, JobStatus};
 use sqlx::FromRow;
 
-/// Events read at one go.
+/// Largest number of events read at once.
 const EVENTS_AT_ONCE: u32 = 100;
 
-/// A job changed its state.
+/// Change of a job's state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Event {
-    /// Its place among all events.
+    /// Sequence number of the event.
     pub sequence: i64,
     /// The job.
     pub job: JobId,
-    /// Its new state.
+    /// New state of the job.
     pub status: JobStatus,
-    /// How often a worker had taken it up.
+    /// Number of attempts by then.
     pub attempt: u32,
 }
 
@@ -53,7 +53,7 @@ impl Store {
         rows.into_iter().map(EventRow::read).collect()
     }
 
-    /// Number of the last event there ever was, one whose job is removed included; 0
+    /// Number of the last event ever, even if its job was removed; 0
     /// before the first.
     ///
     /// # Errors

@@ -1,15 +1,15 @@
-//! Health of the database, and how much is in it.
+//! Health and size of the database.
 
 use super::{Store, StoreError};
 use crate::jobs::job::JobStatus;
 
-/// A database that has no room for this much can't take a job in [bytes].
+/// Space whose lack means that the database can't store a job [bytes].
 const PROBED_ROOM: u32 = 65_536;
 
-/// Kind of error that keeps the database from answering, by who has to act.
+/// Kind of a database error, by the person who can act on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StoreErrorKind {
-    /// The disk, or the database's own limit, is full.
+    /// The disk is full, or the database has reached its own limit.
     Full,
     /// The database can't be read or written now.
     Unavailable,
@@ -22,7 +22,7 @@ pub enum StoreErrorKind {
 pub struct JobCounts {
     /// Jobs of each state, in the order of [`JobStatus::ALL`].
     pub jobs: [(JobStatus, u64); 5],
-    /// Ended attempts of each ending.
+    /// Number of ended attempts, by kind of end.
     pub attempts: Vec<(String, u64)>,
     /// Length of the database [bytes].
     pub database_bytes: u64,
@@ -64,16 +64,16 @@ impl Store {
     /// Checks that the database answers.
     ///
     /// # Errors
-    /// It does not.
+    /// The database does not answer.
     pub async fn ping(&self) -> Result<(), StoreError> {
         sqlx::query("SELECT 1").execute(&self.readers).await?;
         Ok(())
     }
 
-    /// Checks that a job could be taken in: takes the room for one, and writes to the disk.
+    /// Checks that a job could be stored: allocates space for one, and writes to the disk.
     ///
     /// # Errors
-    /// It could not.
+    /// A job could not be stored.
     pub async fn probe(&self) -> Result<(), StoreError> {
         let mut transaction = self.begin_write().await?;
         sqlx::query(
@@ -126,7 +126,7 @@ impl Store {
                 .map(|(ending, count)| (ending, count.unsigned_abs()))
                 .collect(),
             oldest_waiting_s: oldest_waiting_ms.map_or(0.0, |since| {
-                // A clock that was set back makes no job younger than new.
+                // A clock that was set back must not give a negative age.
                 ((self.now_ms() - since) as f64 * 1e-3).max(0.0)
             }),
         })

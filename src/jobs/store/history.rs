@@ -1,4 +1,4 @@
-//! The attempts at a job: when a worker took it up, and how that ended.
+//! The attempts at a job: start, end and kind of end.
 
 use super::{Lease, StoreError};
 use crate::jobs::job::{Attempt, JobId};
@@ -17,7 +17,7 @@ struct AttemptRow {
     detail: Option<String>,
 }
 
-/// All attempts at a job, the first first.
+/// All attempts at a job, in order.
 pub(super) async fn attempts_of(
     connection: &mut SqliteConnection,
     job: JobId,
@@ -52,7 +52,7 @@ impl AttemptRow {
     }
 }
 
-/// Notes that a worker of `owner` took a job up.
+/// Records that a worker of `owner` claimed a job.
 pub(super) async fn begin_attempt(
     connection: &mut SqliteConnection,
     lease: Lease,
@@ -71,7 +71,7 @@ pub(super) async fn begin_attempt(
     Ok(())
 }
 
-/// Notes how an attempt ended: in a word, and in more where there is more.
+/// Records the end of an attempt: its kind, and details if there are any.
 pub(super) async fn end_attempt(
     connection: &mut SqliteConnection,
     lease: Lease,

@@ -1,4 +1,4 @@
-//! Who has a job, until when, and how jobs come back from those who lost them.
+//! Leases: their renewal, and the reclaiming of jobs from those who lost them.
 
 use super::ending::{FailedAttempt, set_back_row};
 use super::queue::lease;
@@ -11,16 +11,16 @@ use std::time::Duration;
 /// Answer to a heartbeat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Renewal {
-    /// The lease is renewed: the job stays with this worker.
+    /// The lease is renewed.
     Held,
-    /// A client called it off.
+    /// A client dismissed the job.
     Dismissed,
-    /// It is another's, or has ended.
+    /// The job has another lease, or has ended.
     Lost,
 }
 
 impl Store {
-    /// Renews the lease of a running job from now on, and keeps its progress.
+    /// Renews the lease of a running job from now on, and stores its progress.
     ///
     /// # Errors
     /// The database's own.
@@ -48,9 +48,8 @@ impl Store {
         Ok(renewal)
     }
 
-    /// Takes back what a former process of this name left running: it died
-    /// under these jobs. They may be claimed again at once. Returns how many
-    /// there were.
+    /// Reclaims the jobs that a former process of this name left running when it died.
+    /// They may be claimed again at once. Returns their number.
     ///
     /// # Errors
     /// The database's own.
@@ -77,11 +76,11 @@ impl Store {
         Ok(left.len())
     }
 
-    /// Takes back jobs of others whose lease, of at most `longest`, has run
-    /// out. Returns how many there were.
+    /// Reclaims jobs of other services whose lease, of at most `longest`, has run
+    /// out. Returns their number.
     ///
-    /// A lease that ends later than any could is from before the clock was set
-    /// back: whoever is alive renews it, and the token keeps the rest harmless.
+    /// A lease that ends later than possible is from before the clock was set
+    /// back: a live worker renews it, and the fencing token makes other writes harmless.
     ///
     /// # Errors
     /// The database's own.

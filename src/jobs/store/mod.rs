@@ -1,10 +1,10 @@
 //! Store of jobs and results: one SQLite file. All SQL of the project is in this folder,
-//! behind [`JobStore`], and nothing here knows HTTP or the solver.
+//! behind [`JobStore`]; this folder uses neither HTTP nor the solver.
 //!
 //! One connection writes, in transactions that take the write lock at once; a
-//! few read-only ones read beside it (write-ahead log). Every commit reaches
-//! the disk before it is answered (`synchronous=FULL`). A lock file beside the
-//! database keeps a second service off it.
+//! few read-only connections read concurrently (write-ahead log). Every commit reaches
+//! the disk before it is acknowledged (`synchronous=FULL`). A lock file beside the
+//! database keeps a second service from using it.
 
 mod ending;
 mod events;
@@ -50,11 +50,11 @@ use thiserror::Error;
 /// Connections that read. More would only wait for the same disk.
 const READERS: u32 = 4;
 
-/// Time that a connection waits for a lock that another holds. Only a backup tool could
+/// Time that a connection waits for a lock held by another. Only a backup tool could
 /// hold one for long.
 const BUSY_TIMEOUT: Duration = Duration::from_secs(5);
 
-/// Length to which the write-ahead log is cut back [bytes].
+/// Length to which the write-ahead log is truncated [bytes].
 const LOG_BYTES: u32 = 16 << 20;
 
 /// The database of one service. Clones share it.
@@ -66,29 +66,29 @@ pub struct Store {
     _lock: Arc<File>,
 }
 
-/// One worker's hold on a job: every write by the worker names it.
+/// Lease of one worker on a job: every write by the worker names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lease {
     /// The job.
     pub job: JobId,
-    /// Which attempt at it.
+    /// Number of the attempt.
     pub attempt: u32,
-    /// The fencing token: good until the job changes hands.
+    /// Fencing token: valid until the job gets another lease.
     pub token: i64,
 }
 
-/// Why the store can't do what it was asked.
+/// Error of the store.
 #[derive(Debug, Error)]
 pub enum StoreError {
-    /// The lock file can't be made.
+    /// The lock file can't be created.
     #[error("lock file {path}: {source}")]
     LockFile {
         /// The lock file.
         path: PathBuf,
-        /// The system's words.
+        /// Error of the system.
         source: std::io::Error,
     },
-    /// Another service has the database.
+    /// Another service uses the database.
     #[error("another service is using this database (it holds {0})")]
     InUse(PathBuf),
     /// The database does not fit this version.
@@ -97,15 +97,15 @@ pub enum StoreError {
     /// The database's own error.
     #[error("database: {0}")]
     Database(#[from] sqlx::Error),
-    /// The database has refused for so long that there is no time left.
+    /// The database has refused writes for too long.
     #[error("the database refuses what is to be written")]
     Refused,
-    /// A row holds what it never should.
+    /// A row holds an invalid value.
     #[error("job {job}: {what} can't be read")]
     Row {
         /// The job.
         job: String,
-        /// Which part of it.
+        /// Part of the job that can't be read.
         what: &'static str,
     },
     /// A stored block can't be read.
@@ -113,26 +113,26 @@ pub enum StoreError {
     Block {
         /// The job.
         job: JobId,
-        /// What is wrong with it.
+        /// Error of the block.
         source: BlockError,
     },
 }
 
 impl Store {
-    /// Opens the database, makes it if it is not there, and brings it to this
-    /// version's form.
+    /// Opens the database, creates it if it does not exist, and migrates it to this
+    /// version's schema.
     ///
     /// # Errors
-    /// Another service has it, or it can't be opened.
+    /// Another service uses the database, or it can't be opened.
     pub async fn open(path: &Path) -> Result<Self, StoreError> {
         Self::open_with(path, None, Arc::new(SystemClock)).await
     }
 
-    /// The same, with a largest size of the database [bytes] and by a clock that
-    /// may be another than the system's.
+    /// The same, with a largest size of the database [bytes] and a clock that
+    /// may differ from the system's.
     ///
     /// # Errors
-    /// Another service has it, or it can't be opened.
+    /// Another service uses the database, or it can't be opened.
     pub async fn open_with(
         path: &Path,
         largest_bytes: Option<u64>,
@@ -145,12 +145,12 @@ impl Store {
             .synchronous(SqliteSynchronous::Full)
             .foreign_keys(true)
             .busy_timeout(BUSY_TIMEOUT)
-            // A log that grew under a saved state shrinks again.
+            // A log that grew under a saved state is truncated again.
             .pragma("journal_size_limit", LOG_BYTES.to_string());
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
             // On a full disk SQLite ends a transaction itself, which the
-            // connection does not notice: it could never begin another one.
+            // connection does not notice; it could never begin another one.
             .before_acquire(|connection, _| {
                 let usable = !connection.is_in_transaction();
                 Box::pin(async move { Ok(usable) })
@@ -170,20 +170,20 @@ impl Store {
         })
     }
 
-    /// Closes the database: readers first, so that the writer, as the last,
-    /// folds the write-ahead log into the file.
+    /// Closes the database: readers first, so that the writer, as the last connection,
+    /// merges the write-ahead log into the file.
     pub async fn close(&self) {
         self.readers.close().await;
         self.writer.close().await;
     }
 
     /// A transaction that has the write lock from its beginning, so that it
-    /// can't fail half-way for want of it.
+    /// can't fail half-way for lack of it.
     async fn begin_write(&self) -> Result<Transaction<'static, Sqlite>, StoreError> {
         Ok(self.writer.begin_with("BEGIN IMMEDIATE").await?)
     }
 
-    /// The time of day, as rows have it [ms].
+    /// The time of day, as stored in rows [ms].
     fn now_ms(&self) -> i64 {
         self.clock.now().as_millisecond()
     }
@@ -202,7 +202,7 @@ fn limited(options: SqliteConnectOptions, largest_bytes: Option<u64>) -> SqliteC
 }
 
 fn lock(database: &Path) -> Result<File, StoreError> {
-    // By its real name, so that a link to it meets the same lock.
+    // By its canonical path, so that a link to it uses the same lock.
     let real = database
         .canonicalize()
         .unwrap_or_else(|_| database.to_owned());

@@ -1,5 +1,5 @@
-//! The port between jobs and their database: what another driver has to do, and
-//! what `tests/conformance.rs` holds every one of them to.
+//! Port between jobs and their database: operations that a driver must implement, and
+//! that `tests/conformance.rs` tests.
 
 use super::{
     AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, JobCounts, Lease, NewResults,
@@ -17,7 +17,7 @@ type Answer<T> = Result<T, StoreError>;
 
 macro_rules! port {
     ($($(#[$doc:meta])* fn $name:ident($($argument:ident: $kind:ty),*) -> $answer:ty;)*) => {
-        /// A database of jobs. Every call is one transaction, whole or not at
+        /// A database of jobs. Every call is one transaction, applied whole or not at
         /// all, and on disk when it returns.
         pub trait JobStore: Clone + Send + Sync + 'static {
             $($(#[$doc])* fn $name(&self, $($argument: $kind),*) -> impl Future<Output = Answer<$answer>> + Send;)*
@@ -36,11 +36,11 @@ port! {
     fn submit(submission: &Submission<'_>) -> Submitted;
     /// The newest successful job with a scenario, by version and commit.
     fn finished_like(scenario_hash: &str, solver: (&str, &str)) -> Option<JobId>;
-    /// Takes up the oldest accepted job that has not to wait.
+    /// Claims the oldest accepted job that need not wait.
     fn claim(claimant: &Claimant) -> Option<Claim>;
-    /// Says where an attempt begins.
+    /// Records the start of an attempt.
     fn begin(lease: Lease, beginning: &AttemptStart, threads: usize) -> bool;
-    /// Renews a lease and keeps the progress.
+    /// Renews a lease and stores the progress.
     fn renew(lease: Lease, lease_duration: Duration, progress: &Progress) -> Renewal;
     /// Writes results, progress and state.
     fn keep(lease: Lease, results: &NewResults) -> bool;
@@ -52,21 +52,21 @@ port! {
     fn release(lease: Lease) -> bool;
     /// Fails an attempt.
     fn fail_attempt(lease: Lease, failed_attempt: &FailedAttempt) -> Returned;
-    /// Takes back what a former process of this name left running.
+    /// Reclaims the jobs that a former process of this name left running.
     fn reclaim_own(owner: &str) -> usize;
-    /// Takes back jobs of others whose lease has run out.
+    /// Reclaims jobs of other services whose lease has run out.
     fn reclaim_expired(owner: &str, longest: Duration) -> usize;
     /// Dismisses a job.
     fn dismiss(id: JobId) -> Dismissal;
     /// Removes a job that has ended.
     fn remove(id: JobId) -> Removal;
-    /// Removes some of the jobs that ended so long ago [ms].
+    /// Removes some of the jobs that ended at least this long ago [ms].
     fn remove_ended(age_ms: i64) -> u64;
     /// The state of a job, if there is one.
     fn status(id: JobId) -> Option<JobStatus>;
     /// The next events after a number.
     fn events(after: i64, job: Option<JobId>) -> Vec<Event>;
-    /// Number of the last event there ever was.
+    /// Number of the last event ever.
     fn last_event() -> i64;
     /// Counts jobs.
     fn count_jobs() -> JobCounts;
@@ -76,7 +76,7 @@ port! {
     fn page(page: &Page) -> Vec<JobSummary>;
     /// The saved state of a job.
     fn state(job: JobId) -> Option<StoredState>;
-    /// The first chunk from a sample on that reaches into a range.
+    /// The first chunk from a sample on that overlaps a range.
     fn chunk(job: JobId, body: usize, from_sample: i64, selection: &Selection) -> Option<StoredChunk>;
     /// Number of samples of a body's trajectory.
     fn samples(job: JobId, body: usize) -> usize;

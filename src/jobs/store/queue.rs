@@ -1,4 +1,4 @@
-//! The life of a job: submitted, claimed, dismissed. The row is the queue.
+//! The life of a job: submission, claim, dismissal. The table of jobs is the queue.
 
 use super::ending::{BACK_OFF_MS, LONGEST_BACK_OFF_MS};
 use super::history::{begin_attempt, end_attempt};
@@ -8,16 +8,16 @@ use crate::jobs::job::{JobId, JobStatus};
 use sqlx::FromRow;
 use std::time::Duration;
 
-/// Who claims jobs, and on which terms.
+/// Claimant of jobs, and the terms of its claims.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claimant {
-    /// Name of the service; its next start reclaims at once what it left.
+    /// Name of the service; its next start reclaims at once the jobs it left running.
     pub owner: String,
-    /// Time that a claim holds unless it is renewed.
+    /// Duration of a lease unless it is renewed.
     pub lease_duration: Duration,
     /// Program that runs the jobs.
     pub solver: Solver,
-    /// Time that the service has been up.
+    /// Uptime of the service.
     pub up_for: Duration,
 }
 
@@ -28,29 +28,29 @@ pub struct Solver {
     pub version: &'static str,
     /// Commit the program was built from.
     pub commit: &'static str,
-    /// The instructions its fast path uses.
+    /// Instruction set of its fast path.
     pub instructions: &'static str,
 }
 
-/// A job that a worker just took up.
+/// A job that a worker has just claimed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claim {
-    /// The worker's hold on it.
+    /// The worker's lease.
     pub lease: Lease,
     /// The scenario's JSON.
     pub scenario: String,
-    /// Setbacks in a row before this attempt.
+    /// Failed attempts in a row before this attempt.
     pub setbacks: u32,
 }
 
-/// Fate of a wish to dismiss a job.
+/// Result of a request to dismiss a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dismissal {
-    /// There is no such job.
+    /// The job does not exist.
     Unknown,
-    /// It is dismissed, now or since before.
+    /// The job is dismissed, by this or an earlier request.
     Dismissed,
-    /// It had ended otherwise.
+    /// The job had already ended in this state.
     Ended(JobStatus),
 }
 
@@ -64,9 +64,9 @@ struct ClaimedRow {
 }
 
 impl Store {
-    /// Takes up the oldest accepted job that has not to wait after a failed attempt. One that
-    /// a failed attempt is held against waits until the service has lived as long without it:
-    /// a service that dies sooner does not die of it.
+    /// Claims the oldest accepted job that need not wait after a failed attempt. A job with
+    /// failed attempts waits until the service has been up for its waiting time, so that
+    /// a service that keeps crashing sooner does not fail the job.
     ///
     /// # Errors
     /// The database's own.
@@ -103,8 +103,8 @@ impl Store {
         Ok(Some(claim))
     }
 
-    /// Dismisses a job. A worker that runs it finds out at its next write or
-    /// heartbeat; the caller tells it sooner.
+    /// Dismisses a job. A worker that runs it notices at its next write or
+    /// heartbeat; the caller notifies it sooner.
     ///
     /// # Errors
     /// The database's own.

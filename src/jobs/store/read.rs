@@ -1,4 +1,4 @@
-//! Reading jobs.
+//! Reading of jobs.
 
 use super::history::attempts_of;
 use super::rows::{JobRow, SummaryRow};
@@ -16,14 +16,14 @@ macro_rules! with_labels {
     };
 }
 
-/// The same for a page of them.
+/// The same for a page of jobs.
 macro_rules! listed {
     ($condition:expr) => {
         with_labels!(concat!($condition, " ORDER BY sequence DESC LIMIT ?2"))
     };
 }
 
-/// Which jobs a list shows, newest first.
+/// Selection of jobs for a list, newest first.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Page {
     /// Only jobs of this state.
@@ -42,7 +42,7 @@ impl Store {
     /// # Errors
     /// The database's own, or an unreadable row.
     pub async fn job(&self, id: JobId) -> Result<Option<Job>, StoreError> {
-        // One transaction, so that the attempts are those of the row.
+        // One transaction, so that the attempts match the row.
         let mut transaction = self.readers.begin().await?;
         let row: Option<JobRow> = sqlx::query_as(with_labels!("WHERE id = ?1"))
             .bind(id.to_string())
@@ -76,7 +76,7 @@ impl Store {
     /// # Errors
     /// The database's own, or an unreadable row.
     pub async fn page(&self, page: &Page) -> Result<Vec<JobSummary>, StoreError> {
-        // A statement for each, so that it can use its index.
+        // Separate statements, so that each can use its index.
         let query = match (page.status, &page.label) {
             (None, None) => sqlx::query_as(listed!("WHERE sequence < ?1")),
             (Some(_), None) => sqlx::query_as(listed!("WHERE sequence < ?1 AND status = ?3")),

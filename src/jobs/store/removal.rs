@@ -1,19 +1,19 @@
-//! Removing jobs that have ended, with all that belongs to them.
+//! Removal of jobs that have ended, with all that belongs to them.
 
 use super::{Store, StoreError};
 use crate::jobs::job::JobId;
 
-/// Jobs removed at one go: a long list must not hold up those who submit.
+/// Largest number of jobs removed at once: a long list must not delay submissions.
 const REMOVED_AT_ONCE: u32 = 20;
 
-/// Fate of a wish to remove a job.
+/// Result of a request to remove a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Removal {
-    /// There is no such job.
+    /// The job does not exist.
     Unknown,
-    /// It is gone, with its results.
+    /// The job is removed, with its results.
     Removed,
-    /// It has not ended.
+    /// The job has not ended.
     Active,
 }
 
@@ -42,11 +42,11 @@ impl Store {
         Ok(Removal::Removed)
     }
 
-    /// Removes some of the jobs that ended at least this long ago [ms]; how
-    /// many. To be called again until there are none left.
+    /// Removes some of the jobs that ended at least this long ago [ms] and returns their
+    /// number. To be called until it returns 0.
     ///
-    /// A job that ended by an evidently wrong clock counts as ended now, as soon as the
-    /// clock is not evidently wrong any more.
+    /// A job with an evidently wrong end time counts as ended now, as soon as the
+    /// clock is no longer evidently wrong.
     ///
     /// # Errors
     /// The database's own.

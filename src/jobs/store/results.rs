@@ -1,4 +1,4 @@
-//! Writing and reading what runs recorded.
+//! Writing and reading the records of runs.
 
 use super::rows::integer;
 use super::states::{StoredState, write_state};
@@ -19,7 +19,7 @@ pub struct NewChunk {
     pub body: usize,
     /// Index of its first sample.
     pub first_sample: usize,
-    /// Samples in it.
+    /// Number of samples in it.
     pub samples: usize,
     /// Time of its first sample [s].
     pub first_time_s: f64,
@@ -29,7 +29,7 @@ pub struct NewChunk {
     pub block: Block,
 }
 
-/// Results that a run adds to the database at one go.
+/// Results that a run writes to the database at once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct NewResults {
     /// Chunks of trajectories.
@@ -38,11 +38,11 @@ pub struct NewResults {
     pub snapshots: Vec<StoredSnapshot>,
     /// Progress of the run.
     pub progress: Progress,
-    /// The run's state after all that.
+    /// State of the run after these results.
     pub state: Option<StoredState>,
 }
 
-/// A chunk read back.
+/// A chunk read from the store.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredChunk {
     /// Index of the first sample after it.
@@ -71,8 +71,8 @@ struct SnapshotRow {
 
 impl Store {
     /// Writes results and progress of a job. `false`, with nothing written, if
-    /// the job is no longer this lease's; a job dismissed under the worker
-    /// still takes what the worker had.
+    /// the job no longer belongs to this lease; a job dismissed meanwhile
+    /// still takes the worker's results.
     ///
     /// # Errors
     /// The database's own.
@@ -96,11 +96,10 @@ impl Store {
     }
 
     /// The first chunk of a body's trajectory from sample `from_sample` on that
-    /// reaches into the selected range. One short query a chunk: no read
-    /// transaction outlives it, however slowly the client takes the answer.
-    ///
+    /// overlaps the selected range. One short query per chunk: no read
+    /// transaction outlives it, however slowly the client reads the answer.
     /// # Errors
-    /// The database's own, or a block that is not what was written.
+    /// The database's own, or a corrupt block.
     pub async fn chunk(
         &self,
         job: JobId,
@@ -155,7 +154,7 @@ impl Store {
     /// The last chunk of a body's trajectory, and the index of its first sample.
     ///
     /// # Errors
-    /// The database's own, or a block that is not what was written.
+    /// The database's own, or a corrupt block.
     pub async fn last_chunk(
         &self,
         job: JobId,
@@ -180,7 +179,7 @@ impl Store {
     /// a time the latest. `None` if there is none yet.
     ///
     /// # Errors
-    /// The database's own, or a block that is not what was written.
+    /// The database's own, or a corrupt block.
     pub async fn snapshot(
         &self,
         job: JobId,
@@ -201,7 +200,7 @@ impl Store {
     }
 }
 
-/// Keeps the progress of a job that this lease still owns, and says whether it
+/// Stores the progress of a job that this lease still owns; returns whether the job
 /// runs or was dismissed meanwhile.
 pub(super) async fn keep_progress(
     connection: &mut SqliteConnection,
@@ -309,7 +308,7 @@ fn block(checksum: Vec<u8>, data: Vec<u8>) -> Result<Block, BlockError> {
     Ok(Block { data, checksum })
 }
 
-/// A length that the table's CHECK keeps from being negative.
+/// A length; the table's CHECK keeps it from being negative.
 fn length(stored: i64) -> usize {
     usize::try_from(stored).unwrap_or(0)
 }

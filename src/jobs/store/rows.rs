@@ -1,4 +1,4 @@
-//! Rows of the `jobs` table, and what they say.
+//! Rows of the `jobs` table, and their conversion.
 
 use super::StoreError;
 use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
@@ -110,12 +110,12 @@ impl JobRow {
     }
 }
 
-/// A text that is empty until a worker takes the job up.
+/// A text that is empty until a worker claims the job.
 fn started(text: String) -> Option<String> {
     (!text.is_empty()).then_some(text)
 }
 
-/// A count as SQLite keeps it; counts of a run stay far below the limit.
+/// A count as SQLite stores it; counts of a run stay far below the limit.
 pub(super) fn integer(count: u64) -> i64 {
     i64::try_from(count).unwrap_or(i64::MAX)
 }

@@ -1,5 +1,5 @@
-//! Saved states of runs: what the next attempt goes on from. To the store they
-//! are bytes.
+//! Saved states of runs, from which the next attempt resumes. The store treats them
+//! as bytes.
 
 use super::rows::integer;
 use super::{Lease, Store, StoreError};
@@ -11,21 +11,21 @@ use sqlx::sqlite::SqliteConnection;
 /// Bytes of one stored piece.
 const PIECE_BYTES: usize = 8 << 20;
 
-/// Point in what a run recorded from which its saved state resumes.
+/// Point in the records of a run from which its saved state resumes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResumePoint {
     /// Simulated time [s].
     pub time_s: f64,
-    /// Samples recorded by then.
+    /// Number of samples recorded by then.
     pub samples: usize,
-    /// Fingerprint of what was recorded by then.
+    /// Fingerprint of the records by then.
     pub fingerprint: [u8; 32],
 }
 
 /// A run's state, compressed and checksummed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredState {
-    /// Where the run's records stand.
+    /// Resume point of the run's records.
     pub resume_point: ResumePoint,
     /// Length of the state [bytes].
     pub bytes: usize,
@@ -36,9 +36,9 @@ pub struct StoredState {
 /// Start of an attempt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AttemptStart {
-    /// At the start: whatever was recorded before is removed.
+    /// At the start of the run: all earlier records are removed.
     Afresh,
-    /// At a saved state: what was recorded after it is removed.
+    /// At a saved state: all later records are removed.
     At(ResumePoint),
 }
 
@@ -79,7 +79,7 @@ impl Store {
     /// # Errors
     /// The database's own.
     pub async fn state(&self, job: JobId) -> Result<Option<StoredState>, StoreError> {
-        // One transaction, so that no piece is of another state.
+        // One transaction, so that all pieces belong to one state.
         let mut transaction = self.readers.begin().await?;
         let row: Option<StateRow> = sqlx::query_as(
             "SELECT time_s, samples, fingerprint, bytes, checksum FROM run_states WHERE job_id = ?1",
@@ -100,8 +100,8 @@ impl Store {
             .map_err(|source| StoreError::Block { job, source })
     }
 
-    /// Says where an attempt begins and on how many solver threads, and makes
-    /// what is recorded fit that. `false`, with nothing changed, if the job no
+    /// Records the start of an attempt and its number of solver threads, and removes
+    /// records that don't fit it. `false`, with nothing changed, if the job no
     /// longer runs under this lease.
     ///
     /// # Errors
@@ -153,8 +153,8 @@ impl StateRow {
     }
 }
 
-/// Puts a state in the place of the one before, and forgets failed attempts: the job
-/// has got on.
+/// Replaces the saved state, and resets the count of failed attempts: the job
+/// has made progress.
 pub(super) async fn write_state(
     connection: &mut SqliteConnection,
     lease: Lease,
@@ -212,9 +212,9 @@ async fn clear(connection: &mut SqliteConnection, job: JobId) -> Result<(), Stor
     Ok(())
 }
 
-/// What lies beyond the mark would come again with the same bits; removed, it
-/// can't clash with that. The chunk that holds the mark stays, and its rest is
-/// written over.
+/// Removes records after the resume point: they will be recorded again with the same bits and
+/// would clash. The chunk that contains the resume point stays, and its rest is
+/// overwritten.
 async fn rewind(
     connection: &mut SqliteConnection,
     lease: Lease,

@@ -1,4 +1,4 @@
-//! Jobs coming in: one request, one transaction, all of its jobs or none.
+//! Submission of jobs: one request, one transaction, all of its jobs or none.
 
 use super::rows::integer;
 use super::{Store, StoreError};
@@ -9,17 +9,17 @@ use sqlx::sqlite::SqliteConnection;
 /// Contents of one request.
 #[derive(Debug, Clone, Copy)]
 pub struct Submission<'a> {
-    /// Its jobs, to be run in this order.
+    /// Its jobs, in the order in which they are to run.
     pub jobs: &'a [NewJob],
-    /// Name of the access token it came with.
+    /// Name of the access token of the request.
     pub submitter: Option<&'a str>,
     /// Its Idempotency-Key.
     pub key: Option<Key<'a>>,
-    /// Room for jobs that wait.
+    /// Capacity for jobs that wait.
     pub room: Room,
 }
 
-/// An Idempotency-Key, and the body that came with it.
+/// An Idempotency-Key, and the body of its request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Key<'a> {
     /// The key.
@@ -28,27 +28,27 @@ pub struct Key<'a> {
     pub body_hash: [u8; 32],
 }
 
-/// Number of jobs that may wait, those of the request included.
+/// Largest number of jobs that may wait, those of the request included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Room {
     /// Of all submitters together.
     pub queue: u32,
-    /// Of this one.
+    /// Of this submitter.
     pub submitter: Option<u32>,
 }
 
-/// Fate of a submission.
+/// Result of a submission.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Submitted {
-    /// Its jobs wait.
+    /// The jobs wait.
     Accepted,
-    /// It came before, and these are its jobs.
+    /// A repeated request: the jobs of the first one.
     Before(Vec<JobId>),
-    /// The key came before with another body.
+    /// The key was used before with another body.
     OtherBody,
-    /// So many jobs wait already.
+    /// The queue is full: number of waiting jobs.
     QueueFull(u32),
-    /// So many jobs of this submitter wait or run already.
+    /// The quota is used up: number of jobs of this submitter that wait or run.
     QuotaSpent(u32),
 }
 

@@ -26,7 +26,7 @@ const NAMES: [&str; 14] = [
     "mode",
 ];
 
-/// Bytes of a mode's word: that of the longest.
+/// Length of the longest mode name [bytes].
 const MODE_BYTES: usize = 9;
 
 /// The cells of one column.
@@ -44,18 +44,18 @@ impl Field {
         (0..NAMES.len()).map(Self).collect()
     }
 
-    /// The column of this name.
+    /// The column with this name.
     pub fn from_name(name: &str) -> Option<Self> {
         NAMES.iter().position(|other| *other == name).map(Self)
     }
 
-    /// Its name.
+    /// Name of the column.
     pub fn name(self) -> &'static str {
         NAMES[self.0]
     }
 
-    /// Names of what stands in a cell: x, y, z of a vector, w, x, y, z of an
-    /// orientation, nothing where it is one thing.
+    /// Names of the components of a cell: x, y, z of a vector, w, x, y, z of an
+    /// orientation, none for a scalar.
     pub(super) fn parts(self) -> &'static [&'static str] {
         match self.name() {
             "time_s" | "touching_points" | "submerged_fraction" | "mode" => &[],
@@ -157,14 +157,14 @@ fn put_parts(parts: &[f64], text: &mut String) {
     }
 }
 
-/// The shortest text that reads back as this number; a run records no others
-/// than finite ones.
+/// The shortest text that parses to this number; a run records only
+/// finite numbers.
 fn put_number(number: f64, text: &mut String) {
     put(format_args!("{number:?}"), text);
 }
 
 fn put(what: impl std::fmt::Display, text: &mut String) {
-    // Writing into a string does not fail.
+    // Writing into a string can't fail.
     let _ = write!(text, "{what}");
 }
 

@@ -1,4 +1,4 @@
-//! Comma-separated values (RFC 4180): a heading, and a line a sample.
+//! Comma-separated values (RFC 4180): a heading, and one line per sample.
 
 use super::{Field, Writer};
 use crate::results::columns::TrajectoryColumns;

@@ -22,11 +22,11 @@ pub fn trajectory_json(job_id: Option<&str>, body: usize, columns: &TrajectoryCo
     String::from_utf8_lossy(&out).into_owned()
 }
 
-/// One pass a column.
+/// Writes one column per pass.
 pub(super) struct JsonWriter {
     head: String,
     fields: Vec<Field>,
-    /// True if the column in hand has a row already.
+    /// True if the current column has a row already.
     has_rows: bool,
 }
 
@@ -87,7 +87,7 @@ mod tests {
     fn every_column_stands_under_its_own_name() {
         let text = trajectory_json(Some("abc"), 2, &numbered_columns(2));
         let document: Value = serde_json::from_str(&text).unwrap();
-        // The numbers come from `numbered`: sample index × 100 + the column's own.
+        // The numbers come from `numbered`: sample index × 100 + the number of the column.
         let expected = json!({"job_id": "abc", "body": 2, "columns": {
             "time_s": [0.0, 0.01],
             "position_m": [[1.0, 1.25, -1.5], [101.0, 101.25, -101.5]],

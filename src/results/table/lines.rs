@@ -1,4 +1,4 @@
-//! A JSON object a sample, each on its line.
+//! One JSON object per sample, each on its own line.
 
 use super::{Field, Writer};
 use crate::results::columns::TrajectoryColumns;

@@ -1,8 +1,8 @@
 //! A trajectory as bytes, written while it is read chunk by chunk: JSON by
-//! columns ([`json`]), a JSON object a line ([`lines`]), CSV ([`csv`]) or NumPy's
+//! columns ([`json`]), one JSON object per line ([`lines`]), CSV ([`csv`]) or NumPy's
 //! NPZ ([`npz`]). None of them holds more than a chunk.
 //!
-//! A format of columns goes over the trajectory once for each column: reading a
+//! A format by columns reads the trajectory once for each column: reading a
 //! chunk again is cheaper than keeping it.
 
 mod cells;
@@ -16,22 +16,22 @@ pub use json::trajectory_json;
 
 use super::columns::TrajectoryColumns;
 
-/// Form of a trajectory.
+/// Format of a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// One JSON document, column by column.
     Json,
-    /// One JSON object a sample, each on its line.
+    /// One JSON object per sample, each on its own line.
     Ndjson,
-    /// A line a sample, a vector's components in columns of their own.
+    /// One line per sample, with a column for each component of a vector.
     Csv,
-    /// A ZIP archive of NumPy arrays, one a column.
+    /// A ZIP archive of NumPy arrays, one per column.
     Npz,
 }
 
 /// Writes a trajectory: for each pass `begin`, `rows` for every chunk, `end`.
 pub trait Writer: Send {
-    /// Number of times that the trajectory has to be gone over.
+    /// Number of passes over the trajectory.
     fn passes(&self) -> usize;
 
     /// Begins a pass.
@@ -40,26 +40,26 @@ pub trait Writer: Send {
     /// Writes the next samples.
     fn rows(&mut self, pass: usize, samples: &TrajectoryColumns, out: &mut Vec<u8>);
 
-    /// Ends a pass; the last one ends the whole.
+    /// Ends a pass; the last one ends the document.
     fn end(&mut self, pass: usize, out: &mut Vec<u8>);
 }
 
-/// Whose trajectory it is.
+/// Identification of a trajectory.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Heading {
     /// The job; none for a run without a service.
     pub job_id: Option<String>,
     /// Index of the body.
     pub body: usize,
-    /// Samples that will be written. Only NPZ has to know beforehand.
+    /// Number of samples that will be written. Only NPZ needs it beforehand.
     pub rows: usize,
 }
 
 impl Format {
-    /// All forms.
+    /// All formats.
     pub const ALL: [Self; 4] = [Self::Json, Self::Ndjson, Self::Csv, Self::Npz];
 
-    /// Its word in a query.
+    /// Name in a query.
     pub fn word(self) -> &'static str {
         match self {
             Self::Json => "json",
@@ -69,7 +69,7 @@ impl Format {
         }
     }
 
-    /// Its media type.
+    /// Media type.
     pub fn media_type(self) -> &'static str {
         match self {
             Self::Json => "application/json",
@@ -79,7 +79,7 @@ impl Format {
         }
     }
 
-    /// Writer of it.
+    /// Writer of this format.
     pub fn writer(self, heading: &Heading, fields: Vec<Field>) -> Box<dyn Writer> {
         match self {
             Self::Json => Box::new(json::JsonWriter::new(heading, fields)),
@@ -90,7 +90,7 @@ impl Format {
     }
 }
 
-/// The whole of a trajectory that is in memory.
+/// A whole trajectory in memory as bytes.
 #[cfg(test)]
 fn written(format: Format, columns: &[TrajectoryColumns], fields: Vec<Field>) -> Vec<u8> {
     let heading = Heading {

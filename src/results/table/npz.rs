@@ -1,10 +1,10 @@
-//! NumPy's NPZ: a ZIP archive of arrays, one a column.
+//! NumPy's NPZ: a ZIP archive of arrays, one per column.
 
 use super::{Field, Writer};
 use crate::results::columns::TrajectoryColumns;
 use crate::results::zip::ZipWriter;
 
-/// One pass a column.
+/// Writes one column per pass.
 pub(super) struct NpzWriter {
     rows: usize,
     fields: Vec<Field>,
@@ -46,7 +46,7 @@ impl Writer for NpzWriter {
     }
 }
 
-/// Head before an array's numbers: NPY format, version 1.0.
+/// Header before an array's numbers: NPY format, version 1.0.
 fn array_head(field: Field, rows: usize) -> Vec<u8> {
     let shape = match field.parts().len() {
         0 => format!("({rows},)"),
@@ -79,7 +79,7 @@ mod tests {
         let field = Field::from_name("position_m").unwrap();
         let bytes = written(Format::Npz, &[numbered_columns(2)], vec![field]);
         let name = b"position_m.npy";
-        // A local head of 30 bytes and the name, then the array.
+        // A local header of 30 bytes and the name, then the array.
         assert_eq!(&bytes[30..30 + name.len()], name);
         let array = &bytes[30 + name.len()..];
         assert_eq!(&array[..8], b"\x93NUMPY\x01\x00");

@@ -1,5 +1,5 @@
-//! Rules of what goes by the clock, which may jump: leases, waits, and how long a job that
-//! has ended is kept.
+//! Rules that depend on the clock, which may jump: leases, waits, and retention of jobs that
+//! have ended.
 
 use super::*;
 
@@ -77,7 +77,7 @@ async fn retention_counts_from_the_end<S: JobStore>(fixture: &Fixture<S>) {
     assert_eq!(fixture.remove_older_than_a_day().await, 0, "it never ended");
 }
 
-// Once these were removed the moment the clock was right again.
+// Regression: these were removed the moment the clock was right again.
 async fn what_ended_by_a_clock_set_back_is_kept_as_long_as_anything<S: JobStore>(
     fixture: &Fixture<S>,
 ) {

@@ -1,4 +1,4 @@
-//! Rules that any driver of the job store must hold to, one a test.
+//! Rules for every driver of the job store, one per test.
 
 use super::*;
 use crate::jobs::failure::Failure;
@@ -257,8 +257,8 @@ async fn the_third_setback_in_a_row_is_the_last<S: JobStore>(fixture: &Fixture<S
     assert_eq!(fixture.try_claim("a").await, None);
 }
 
-// A service that is killed again and again, sooner than it could have run the job, fails
-// nothing: the job waits for one that has lived a while, and others go first.
+// A service that is killed repeatedly, sooner than it could have run the job, fails
+// nothing: the job waits for a service that stays up longer, and other jobs go first.
 async fn a_job_cut_off_waits_until_the_service_has_lived_as_long<S: JobStore>(
     fixture: &Fixture<S>,
 ) {
@@ -324,7 +324,7 @@ async fn a_saved_state_comes_back_and_ends_the_row_of_setbacks<S: JobStore>(fixt
         ..claimant("a")
     };
     for count in 1..=2 * TOLERATED_SETBACKS {
-        // What has got on waits for nothing.
+        // A job that made progress waits for nothing.
         let claim = fixture.store.claim(&at_once).await.unwrap().unwrap();
         let lease = claim.lease;
         assert_eq!(claim.setbacks, 0);

@@ -1,7 +1,7 @@
-//! The job store under test: what any driver must hold to ([`conformance`],
-//! [`clocks`], [`races`], [`model`]), and what only SQLite has ([`sqlite`]).
+//! Tests of the job store: rules for every driver ([`conformance`],
+//! [`clocks`], [`races`], [`model`]), and those of SQLite alone ([`sqlite`]).
 
-/// Makes each rule a test of every driver; another driver adds itself here.
+/// Makes each rule a test of every driver; a further driver is added here.
 macro_rules! conformance {
     ($($rule:ident)*) => {
         mod sqlite {
@@ -35,10 +35,10 @@ use scree_solver::record::FlowSnapshot;
 use std::sync::Mutex;
 use tempfile::TempDir;
 
-/// Time that claims hold in these tests.
+/// Duration of leases in these tests.
 const LEASE: Duration = Duration::from_secs(30);
 
-/// A clock that stands until it is set.
+/// A clock that stands still until it is set.
 #[derive(Debug)]
 struct SetClock(Mutex<Timestamp>);
 
@@ -111,7 +111,7 @@ impl<S: JobStore> Fixture<S> {
         self.job(id).await.summary.status
     }
 
-    /// Ends of the attempts at a job, in words; "" for one that goes on.
+    /// Kinds of end of the attempts at a job; "" for one that continues.
     async fn endings(&self, id: JobId) -> Vec<String> {
         let attempts = self.job(id).await.attempts;
         attempts
@@ -182,7 +182,7 @@ fn results(count: u32) -> NewResults {
     }
 }
 
-/// The same, with the run's state after them.
+/// The same, with the run's state after the results.
 fn results_and_state(count: u32) -> NewResults {
     let resume_point = ResumePoint {
         time_s: f64::from(count),

@@ -1,5 +1,5 @@
-//! The job store against a model of it: random lives of a few jobs under two
-//! services, with workers that come too late, clocks that jump, and crashes.
+//! The job store against a model of it: random histories of a few jobs under two
+//! services, with late workers, clocks that jump, and crashes.
 
 use super::*;
 use crate::jobs::failure::Failure;
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 const OWNERS: [&str; 2] = ["a", "b"];
 
-/// One thing that happens. `usize`s pick a job, or a lease that was ever given.
+/// One event. `usize`s select a job, or one of all leases ever given.
 #[derive(Debug, Clone)]
 enum Event {
     Submit,
@@ -42,19 +42,19 @@ fn event() -> impl Strategy<Value = Event> {
     ]
 }
 
-/// Knowledge of a job without a look into the database.
+/// State of a job as predicted without the database.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct ModelJob {
     status: Option<JobStatus>,
     attempt: u32,
-    /// Its holder's number among all holds, while it runs or was dismissed.
+    /// Index of its lease among all leases, while it runs or was dismissed.
     holder: Option<usize>,
     owner: usize,
     expires_ms: i64,
     not_before_ms: i64,
     setbacks: u32,
     saved: bool,
-    /// In the attempt that goes on.
+    /// True if the current attempt has saved a state.
     saved_now: bool,
 }
 
@@ -66,7 +66,7 @@ struct Model {
 
 const LEASE_MS: i64 = 30_000;
 
-/// Why a job is set back.
+/// Cause of a failed attempt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Why {
     CutOff,
@@ -79,7 +79,7 @@ impl Model {
         job.status == Some(status)
     }
 
-    /// The job that a lease is good for.
+    /// The job for which a lease is valid.
     fn held(&mut self, lease: usize) -> Option<&mut ModelJob> {
         self.jobs.values_mut().find(|job| job.holder == Some(lease))
     }
@@ -129,7 +129,7 @@ impl Model {
         Returned::Waiting
     }
 
-    /// Sets back every running job that `lost` says; how many.
+    /// Reclaims every running job for which `lost` is true; returns their number.
     fn reclaim_expired(&mut self, why: Why, lost: impl Fn(&ModelJob, i64) -> bool) -> usize {
         let now = self.now_ms;
         let mut count = 0;
@@ -143,7 +143,7 @@ impl Model {
     }
 }
 
-/// The store and its model, and all holds that were ever given.
+/// The store and its model, and all leases ever given.
 struct Pair {
     fixture: Fixture<Store>,
     model: Model,
@@ -222,7 +222,7 @@ impl Pair {
         assert_eq!(dismissal.unwrap(), expected);
     }
 
-    /// A write under some hold, good or stale.
+    /// A write under some lease, valid or stale.
     async fn write(&mut self, event: &Event) {
         let store = &self.fixture.store;
         let model = &mut self.model;
@@ -323,7 +323,7 @@ proptest! {
             let mut pair = Pair {
                 fixture,
                 model: Model {
-                    // Not near 0, which is "never waits" to the store.
+                    // Not near 0, which means "never waits" to the store.
                     now_ms: 1_700_000_000_000,
                     ..Model::default()
                 },

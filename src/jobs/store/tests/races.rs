@@ -1,14 +1,14 @@
-//! Leases that run out under workers who do not notice.
+//! Leases that run out while their workers don't notice.
 
 use super::*;
 use crate::jobs::failure::Failure;
 
-/// Times that a lease is forced to run out.
+/// Number of times that a lease is made to run out.
 const RACES: u32 = 200;
 
-/// A worker sleeps through its lease, another takes the job up, and both write
-/// at the same time. Whatever order the database makes of it, only the second
-/// one's writes count.
+/// A worker sleeps through its lease, another claims the job, and both write
+/// at the same time. In whatever order the database executes them, only the writes of the second
+/// worker count.
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn no_stale_worker_ever_writes() {
     let fixture = Fixture::sqlite().await;
@@ -35,7 +35,7 @@ async fn no_stale_worker_ever_writes() {
     assert_eq!(stale_writes, 0, "of {RACES} races");
 }
 
-/// Tries every way of writing; how many were let in.
+/// Tries every kind of write; returns the number of accepted ones.
 async fn write_as_a_stale_worker(store: Store, lease: Lease, race: u32) -> u32 {
     let mut written = 0;
     let progress = Progress::default();
@@ -57,7 +57,7 @@ async fn write_to_the_end(store: Store, lease: Lease) {
     assert!(ended.unwrap());
 }
 
-/// Many workers claim at once: every job goes to one of them.
+/// Many workers claim at once: every job goes to exactly one of them.
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_job_is_claimed_by_one_of_many() {
     let fixture = Fixture::sqlite().await;

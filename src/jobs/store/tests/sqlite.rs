@@ -1,5 +1,5 @@
-//! Rules of the SQLite driver alone: those that the database itself enforces, one file,
-//! one lock.
+//! Rules of the SQLite driver alone: those that the database enforces, the single file,
+//! the lock.
 
 use super::*;
 use crate::jobs::failure::Failure;
@@ -184,7 +184,7 @@ async fn a_closed_database_leaves_one_file_and_the_lock() {
     assert_eq!(names, ["test.db", "test.db.lock"]);
 }
 
-// Once a link to the database let a second service take over its jobs.
+// Regression: a link to the database let a second service take over its jobs.
 #[cfg(unix)]
 #[tokio::test]
 async fn a_database_has_one_service_by_whatever_name() {
