@@ -22,7 +22,7 @@ const FONT_SIZE_FACTOR: f64 = 1.24;
 
 /// Ink of axes and texts.
 pub(super) const INK: RGBColor = RGBColor(38, 42, 48);
-/// Ink of what should stay in the background.
+/// Ink of secondary elements.
 pub(super) const FAINT_INK: RGBColor = RGBColor(105, 112, 122);
 /// Grid lines and the like.
 pub(super) const HAIRLINE: RGBColor = RGBColor(222, 225, 229);
@@ -76,8 +76,8 @@ pub(super) fn paint(
     Ok(finish(&svg, size, (width_px, height_px)))
 }
 
-/// Shows the sheet at its size in pixels and leaves out attributes that only
-/// repeat what SVG takes as given: they are half of a picture of many dots.
+/// Sets the size of the sheet in pixels and removes attributes that only
+/// repeat SVG's defaults: they are half of a picture of many dots.
 fn finish(svg: &str, device: (u32, u32), shown_px: (f64, f64)) -> String {
     let device = format!("width=\"{}\" height=\"{}\"", device.0, device.1);
     let shown = format!("width=\"{:.0}\" height=\"{:.0}\"", shown_px.0, shown_px.1);

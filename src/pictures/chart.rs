@@ -30,13 +30,13 @@ struct Field {
 pub struct Chart {
     /// Title.
     pub title: String,
-    /// Under which circumstances.
+    /// Conditions of the data.
     pub subtitle: String,
-    /// Along the lower edge.
+    /// Axis along the lower edge.
     pub x: Axis,
-    /// Along the left edge.
+    /// Axis along the left edge.
     pub y: Axis,
-    /// At most six are told apart by colour.
+    /// Curves; colours distinguish at most six.
     pub curves: Vec<Curve>,
 }
 
@@ -52,22 +52,22 @@ pub struct Axis {
 /// Scale of values on an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// Evenly, from zero.
+    /// Linear, from zero.
     Linear,
-    /// By their logarithms; values must be positive.
+    /// Logarithmic; values must be positive.
     Logarithmic,
 }
 
 /// Points joined by a line, each with a dot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Its name in the legend.
+    /// Name in the legend.
     pub name: String,
-    /// (x, y), in the order in which they are joined.
+    /// Points (x, y), in the order in which they are joined.
     pub points: Vec<(f64, f64)>,
 }
 
-/// An axis with its ends, as numbers that lie evenly.
+/// An axis with its ends, in the units of its scale (logarithms if logarithmic).
 struct Span {
     scale: Scale,
     low: f64,
@@ -99,7 +99,7 @@ impl Span {
         }
     }
 
-    /// Share of the way along the axis.
+    /// Position of a value along the axis, from 0 to 1.
     fn share(&self, value: f64) -> f64 {
         let even = match self.scale {
             Scale::Linear => value,
@@ -108,7 +108,7 @@ impl Span {
         (even - self.low) / (self.high - self.low)
     }
 
-    /// Values that get a mark.
+    /// Values that get a tick.
     fn ticks(&self) -> Vec<f64> {
         match self.scale {
             Scale::Linear => {
@@ -122,7 +122,7 @@ impl Span {
         }
     }
 
-    /// Powers of ten; with fewer than three in sight also twice and five times
+    /// Powers of ten; with fewer than three in range also twice and five times
     /// these.
     fn logarithmic_ticks(&self) -> Vec<f64> {
         let decades = (self.low.floor() as i32)..=(self.high.ceil() as i32);
@@ -147,10 +147,10 @@ impl Span {
 }
 
 impl Chart {
-    /// As an SVG document.
+    /// Draws the chart as an SVG document.
     ///
     /// # Errors
-    /// When the drawing library refuses to draw.
+    /// The drawing library fails.
     pub fn draw(&self) -> Result<String, PictureError> {
         let points = || self.curves.iter().flat_map(|curve| &curve.points);
         let x = Span::of(self.x.scale, points().map(|point| point.0));
@@ -202,7 +202,7 @@ impl Chart {
     fn draw_legend(&self, sheet: &Area<'_>) -> Result<(), PictureError> {
         let mut at = FIELD.right;
         for (place, curve) in self.curves.iter().enumerate().rev() {
-            // The texts are not measured: a letter is about half its size wide.
+            // Estimated width of the text: a letter is about half as wide as its size.
             at -= 6.2 * curve.name.chars().count() as f64 + 22.0;
             let dot = (px(at), px(FIELD.top - 34.0));
             sheet.draw(&Circle::new(dot, stroke(4.0), body_color(place).filled()))?;
@@ -254,7 +254,7 @@ fn draw_curve(
     Ok(())
 }
 
-/// A number at a tick: plain as long as that is short.
+/// A number at a tick: plain if that is short.
 fn number(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e4).contains(&value.abs()) {
         format!("{value:.0e}")

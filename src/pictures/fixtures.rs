@@ -1,4 +1,4 @@
-//! Made-up runs for the tests of the pictures.
+//! Artificial runs for the tests of the pictures.
 
 use scree_solver::record::{
     BodyOutcome, BodySample, Conservation, Cost, FlowOutcome, FlowSnapshot, MassProperties, Mode,
@@ -87,7 +87,7 @@ pub(super) fn empty_snapshot(time_s: f64) -> FlowSnapshot {
     }
 }
 
-/// A slab of 2,000 points whose front has come to `front_m`.
+/// A slab of 2,000 points whose front is at `front_m`.
 pub(super) fn slab(time_s: f64, front_m: f32, speed_m_s: f32) -> FlowSnapshot {
     let point = |k: u16| {
         let (column, row) = (f32::from(k / 20), f32::from(k % 20));

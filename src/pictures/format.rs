@@ -1,4 +1,4 @@
-//! Numbers and texts as people read them.
+//! Numbers and texts for people.
 
 /// Longest title shown; a longer one is cut with an ellipsis.
 const TITLE_CHARS: usize = 90;
@@ -22,8 +22,8 @@ pub(super) fn plain(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// A title fit for an XML text: control characters, which XML 1.0 has no way
-/// to write, become spaces; blank titles become `fallback`.
+/// A title that is valid in XML: control characters, which XML 1.0 can't
+/// represent, become spaces; blank titles become `fallback`.
 pub(super) fn title(text: &str, fallback: &str) -> String {
     let legal = |c: char| if is_xml_char(c) { c } else { ' ' };
     let clean: String = text.chars().map(legal).collect();
@@ -42,14 +42,14 @@ fn is_xml_char(c: char) -> bool {
     !c.is_control() && c != '\u{fffe}' && c != '\u{ffff}'
 }
 
-/// The smallest round number (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten) that is not below `value`;
-/// 1 for what is no positive number.
+/// The smallest round number (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten) that is not below
+/// `value`; 1 if `value` is not a positive number.
 pub(super) fn round_up(value: f64) -> f64 {
     if !value.is_finite() || value <= 0.0 {
         return 1.0;
     }
     let decade = 10_f64.powf(value.log10().floor());
-    // A hair of slack: 0.3 / 0.1 must not count as more than 3.
+    // Tolerance for rounding: 0.3 / 0.1 must not count as more than 3.
     let fits = |step: &f64| step * decade >= value * (1.0 - 1e-12);
     let steps = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
     steps.into_iter().find(fits).unwrap_or(10.0) * decade
@@ -70,7 +70,7 @@ mod tests {
         assert_eq!(plain(0.0), "0");
     }
 
-    /// Three times 0.1 is a hair more than 0.3, and must not become 0.4.
+    /// Three times 0.1 is slightly more than 0.3, and must not become 0.4.
     #[test]
     fn axis_ends_are_the_next_round_number() {
         let cases = [

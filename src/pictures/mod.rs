@@ -1,9 +1,9 @@
-//! Pictures of a run, as SVG text: what a person looks at before the numbers.
+//! Pictures of a run, as SVG text.
 //!
 //! [`motion`] shows displacement and speed of every body against time;
 //! [`aerial_view`] shows flow and bodies from above at about six instants.
-//! Both are pure functions of what a run recorded. The texts ask for the
-//! generic sans-serif family and leave room for a wider one, so no font has to
+//! Both are pure functions of the records of a run. The texts use the
+//! generic sans-serif family and leave space for a wider font, so no font has to
 //! be installed where the picture is drawn or shown.
 
 mod aerial;

@@ -1,4 +1,4 @@
-//! A body's outline as seen from above.
+//! Outline of a body as seen from above.
 
 use scree_solver::record::BodySample;
 use scree_solver::shape::SpheroPolyhedron;
@@ -95,7 +95,7 @@ mod tests {
         let sharp = SharpPolyhedron::regular(RegularSolid::Tetrahedron, 0.04).unwrap();
         let body = sharp.rounded(0.002).unwrap();
         let outline = from_above(&body, &resting_at([0.0; 3]));
-        // The core is the same solid, smaller by the radius over the inradius.
+        // The core is the same solid, scaled by 1 − radius/inradius.
         let core = 0.04 * (1.0 - 0.002 / sharp.inradius());
         assert!((extent(&outline, 1) - (core + 0.004)).abs() < 1e-9);
         let height = core * 0.75_f64.sqrt() + 0.004;
@@ -107,7 +107,7 @@ mod tests {
             .sum();
         let triangle = core * core * 0.75_f64.sqrt() / 2.0;
         let expected = triangle + 3.0 * core * 0.002 + std::f64::consts::PI * 0.002_f64.powi(2);
-        // Thirty-two points on a circle have 0.6 % less than it.
+        // A circle of thirty-two points has 0.6 % less area.
         assert!((area / expected - 1.0).abs() < 1e-3, "{area} {expected}");
     }
 

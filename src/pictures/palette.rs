@@ -16,8 +16,8 @@ const BODY_COLORS: [RGBColor; 6] = [
     RGBColor(86, 160, 220),
 ];
 
-/// Share of the flow's points whose speed the scale must cover: a few grains
-/// that fly ahead shall not darken all others.
+/// Share of the flow's points whose speed the scale must cover: a few fast
+/// points must not darken all others.
 const COVERED_SHARE: f64 = 0.995;
 
 /// Colour of the body with this index.
@@ -31,7 +31,7 @@ pub(super) fn body_color(body: usize) -> RGBColor {
 pub(super) struct SpeedScale {
     /// Upper end [m/s].
     pub top_m_s: f64,
-    /// Some points are faster than that and have its colour.
+    /// True if some points are faster than that and share its colour.
     pub exceeded: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Flow as one sees it from above.
+//! Flow as seen from above.
 
 use scree_solver::record::FlowSnapshot;
 use std::collections::BTreeMap;
@@ -16,7 +16,8 @@ pub(super) struct Dot {
 }
 
 /// The topmost point in every square of side `bin_m` [m] whose x is in `x`:
-/// thins the flow to what is seen from above. Lowest first, so that in drawing
+/// thins the flow to the visible points. Lowest first, so that in drawing
+/// order higher points hide lower ones.
 /// order the higher hides the lower.
 pub(super) fn seen_from_above(snapshot: &FlowSnapshot, x: &Range<f64>, bin_m: f64) -> Vec<Dot> {
     let mut top: BTreeMap<(i64, i64), Dot> = BTreeMap::new();

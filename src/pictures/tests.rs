@@ -1,4 +1,4 @@
-//! Pictures of made-up runs: what they say, and that odd ones are drawn too.
+//! Pictures of artificial runs: their texts, and unusual cases.
 
 use super::fixtures::{
     cube, empty_snapshot, never_moved, outcome, resting_at, scenario, slab, slid, sliding_samples,
@@ -7,7 +7,7 @@ use super::{aerial_view, motion};
 use scree_solver::record::{FlowSnapshot, Sample};
 use scree_solver::scenario::Body;
 
-/// Well-formed XML, an SVG of plain numbers; returns all its texts.
+/// Checks for well-formed XML and an SVG of plain numbers; returns all its texts.
 fn texts_of(svg: &str) -> Vec<String> {
     let document = roxmltree::Document::parse(svg).expect("well-formed XML");
     assert!(
@@ -128,14 +128,14 @@ fn a_crowded_flow_stays_within_the_dots_of_a_page() {
         .collect();
     let svg = aerial_view(&scenario(Vec::new()), &[], &snapshots).unwrap();
     texts_of(&svg);
-    // 7,500 dots of about 50 bytes and the rest.
+    // 7,500 dots of about 50 bytes, and the rest of the picture.
     assert!(svg.len() < 500_000, "{} bytes", svg.len());
 }
 
 /// Name, bodies, samples and snapshots of a run.
 type OddRun<'a> = (&'static str, Vec<Body>, &'a [Sample], Vec<FlowSnapshot>);
 
-/// What a failing, dismissed or trivial run leaves must be drawn all the same.
+/// Failed, dismissed and trivial runs must be drawn as well.
 #[test]
 fn odd_runs_are_drawn() {
     let one_cube = || vec![cube(0.04, 0.002)];
@@ -193,7 +193,7 @@ fn odd_runs_are_drawn() {
     }
 }
 
-/// Any legal channel gets a page of sensible size: wide, narrow, flat, long.
+/// Any legal channel gets a page of reasonable size: wide, narrow, flat, long.
 #[test]
 fn channels_of_all_proportions_fit_a_page() {
     for (width_m, runout_m, inclination_deg) in

@@ -1,22 +1,22 @@
-//! Glass beads, the material of the cases that experiments answer. Fixed
+//! Glass beads, the material of the cases with experimental answers. Fixed
 //! beforehand: friction and I0 as in Jop, Forterre & Pouliquen 2006; diameter of
 //! those in Lajeunesse, Monnerie & Homsy 2005; packed to 0.6.
 
 use scree_solver::material::{Material, Yielding};
 
-/// Of a bead [kg/m³].
+/// Density of a bead [kg/m³].
 pub(super) const GRAIN_DENSITY: f64 = 2500.0;
-/// Of the bulk [kg/m³].
+/// Density of the bulk [kg/m³].
 pub(super) const BULK_DENSITY: f64 = 1500.0;
-/// [m].
+/// Diameter of a bead [m].
 pub(super) const GRAIN_DIAMETER: f64 = 1.15e-3;
-/// Static and limiting.
+/// Static and limiting friction.
 pub(super) const FRICTION: (f64, f64) = (0.382, 0.644);
 pub(super) const REFERENCE_INERTIAL_NUMBER: f64 = 0.279;
-/// Of the bulk; what the solver takes where nothing is given.
+/// Poisson's ratio of the bulk, the solver's default.
 pub(super) const POISSONS_RATIO: f64 = 0.3;
 
-/// Beads in which sound is so fast [m/s].
+/// Beads with this sound speed [m/s].
 pub(super) fn with_sound_speed(sound_speed: f64) -> Material {
     let bulk_modulus = BULK_DENSITY * sound_speed * sound_speed;
     let shear_modulus = bulk_modulus * 1.5 * (1.0 - 2.0 * POISSONS_RATIO) / (1.0 + POISSONS_RATIO);

@@ -1,16 +1,16 @@
 //! Error against computing time of the source paper's cube, before and after decisions 20
-//! to 23. The version before is gone, so both are drawn from recorded runs.
+//! to 23. The earlier version no longer exists, so both are drawn from recorded runs.
 
 use super::work::{Diagram, Series, listed, off};
 use serde::Deserialize;
 
-/// Runs of both versions, in turns on one machine, by one thread each.
+/// Runs of both versions, in turns on one machine, on one thread each.
 const RECORDED: &str = include_str!("before_after.json");
 
 #[derive(Debug, Deserialize)]
 struct Recorded {
     machine: String,
-    /// Limits errors are counted from: peak speed [m/s] and displacement [m].
+    /// Reference values of the errors: peak speed [m/s] and displacement [m].
     limit: [f64; 2],
     versions: Vec<Version>,
 }
@@ -21,13 +21,13 @@ struct Version {
     runs: Vec<Runs>,
 }
 
-/// Runs of one number of cells, which differ in where the slope break lies between the
+/// Runs of one number of cells, which differ in the position of the slope break between the
 /// nodes: 0, ¼, ½ and ¾ of a cell.
 #[derive(Debug, Deserialize)]
 struct Runs {
-    /// Per side of the cube.
+    /// Cells per side of the cube.
     cells: f64,
-    /// Processor time of a simulated second, their mean [s].
+    /// Mean processor time per simulated second [s].
     processor_s_per_s: f64,
     peak_m_s: [f64; 4],
     displacement_m: [f64; 4],
@@ -36,7 +36,7 @@ struct Runs {
 /// A quantity's values, one for each phase.
 type Values = fn(&Runs) -> [f64; 4];
 
-/// The largest error of all phases, for both quantities and versions.
+/// Largest error of all phases, for both quantities and versions.
 pub(super) fn diagram() -> Diagram {
     let recorded: Recorded = serde_json::from_str(RECORDED).expect("the record is JSON");
     let [peak, way] = recorded.limit;

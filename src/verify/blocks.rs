@@ -1,5 +1,5 @@
-//! Scenes in the solver's own terms: blocks of points where no scenario puts
-//! them, and of materials it doesn't know.
+//! Scenes in the solver's own terms: blocks of points at places, and of materials, that no
+//! scenario can express.
 
 use scree_solver::kernel::Lattice;
 use scree_solver::material::{Material, Yielding};
@@ -17,7 +17,7 @@ pub(super) const PER_CELL: u32 = 2;
 pub(super) struct Block {
     /// Cell size [m].
     pub(super) cell: f64,
-    /// Its lowest cell, counted from the back, the right side and the floor.
+    /// Lowest cell, counted from the back, the right side and the floor.
     pub(super) at: [u32; 3],
     /// Cells along each side.
     pub(super) cells: [u32; 3],
@@ -25,11 +25,11 @@ pub(super) struct Block {
     pub(super) cells_across: u32,
     /// Points per cell and axis.
     pub(super) per_cell: u32,
-    /// True if it runs round instead of having a back wall and a front.
+    /// True if it is periodic along the channel instead of having a back wall and a front.
     pub(super) endless: bool,
     /// Material.
     pub(super) material: Material,
-    /// [m/s²], downward.
+    /// Gravity, downward [m/s²].
     pub(super) gravity: f64,
     /// Speed the flow is expected to reach [m/s].
     pub(super) expected_speed: f64,
@@ -64,7 +64,7 @@ impl Block {
     }
 
     /// The scene, its points at rest under their weight between smooth walls: with
-    /// the stress of an elastic bed, and as far apart as that leaves them.
+    /// the stress of an elastic bed, and at the distances of the compressed points.
     pub(super) fn bed(&self, poissons_ratio: f64) -> Scene {
         let mut scene = self.scene();
         let lateral = poissons_ratio / (1.0 - poissons_ratio);
@@ -75,7 +75,7 @@ impl Block {
             let z = point.position.z;
             let pressed = weight * (height - z);
             point.volume /= 1.0 + strain * (height - z);
-            // What is below, each layer thinner by its own strain.
+            // Settlement of the layers below, each compressed by its own strain.
             point.position.z -= strain * z * (height - 0.5 * z);
             point.stress.xx = -lateral * pressed;
             point.stress.yy = -lateral * pressed;
@@ -84,7 +84,7 @@ impl Block {
         scene
     }
 
-    /// Its middle [m].
+    /// Centre of the block [m].
     pub(super) fn middle(&self) -> Vec3 {
         let lattice = self.lattice();
         let place = |axis: usize| f64::from(self.at[axis]) + 0.5 * f64::from(self.cells[axis]);
@@ -120,7 +120,7 @@ impl Block {
         }
     }
 
-    /// The flow, which presses on bodies with so much at most [Pa].
+    /// The flow, with this upper bound of its pressure on bodies [Pa].
     pub(super) fn flow(&self, contact_pressure: f64) -> GivenFlow {
         let height = self.cell * f64::from(self.cells[2]);
         let expected = Expected {

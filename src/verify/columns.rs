@@ -1,4 +1,4 @@
-//! Columns of grains that are let go on a rough floor.
+//! Columns of grains that are released on a rough floor.
 
 use super::beads::{
     BULK_DENSITY, FRICTION, GRAIN_DENSITY, GRAIN_DIAMETER, REFERENCE_INERTIAL_NUMBER,
@@ -13,16 +13,16 @@ use std::ops::ControlFlow;
 
 /// Half width of a plane column, radius of a round one [m].
 const BASE: f64 = 0.1;
-/// A point slower than this share of √(g H0) is at rest.
+/// Speed below which a point is at rest, in shares of √(g H0).
 const REST: f64 = 0.01;
-/// Time after which a column is taken as it is, in √(H0/g); experiments stop
+/// Time after which the run of a column ends in any case, in √(H0/g); experiments stop
 /// after about 3.3 (Lube et al. 2005).
 const LONGEST: f64 = 10.0;
-/// The front leaves this share of the mass beyond it.
+/// Share of the mass beyond the front.
 const FRONT_SHARE: f64 = 1e-3;
 
-/// Grains of a column. Densities and grain size are those of the beads: a run-out is free
-/// of the first, and friction without a rate of the second.
+/// Grains of a column. Densities and grain size are those of the beads: a run-out does not depend
+/// on the first, and friction without a rate not on the second.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Grains {
     /// Name.
@@ -38,31 +38,31 @@ impl Grains {
         name: "beads",
         friction: FRICTION,
     };
-    /// Sand that rests at 32°, whatever its rate.
+    /// Sand that rests at 32°, independent of its rate.
     pub(super) const SAND: Self = Self {
         name: "sand",
         friction: (0.625, 0.625),
     };
 }
 
-/// A column, half of a plane one or a quarter of a round one, between the walls
-/// that mirror the rest of it.
+/// A column, half of a plane one or a quarter of a round one, at its
+/// symmetry planes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
     /// Height over half width or radius.
     pub(super) aspect: f64,
-    /// Grains that it is made of.
+    /// Grains of the column.
     pub(super) grains: Grains,
     /// Cells over half width or radius.
     pub(super) cells: u32,
     /// Points per cell.
     pub(super) per_cell: u32,
-    /// Width of the channel over half width or radius; a plane column, one cell
-    /// wide, where there is none.
+    /// Width of the channel over half width or radius; none for a plane column, one cell
+    /// wide.
     pub(super) round: Option<f64>,
 }
 
-/// The run-out of these grains at this aspect, as a quantity.
+/// Name of the run-out of these grains at this aspect, as a quantity.
 pub(super) fn runout(grains: Grains, aspect: f64) -> String {
     format!("run-out, {}, a = {aspect}", grains.name)
 }
@@ -72,9 +72,9 @@ pub(super) fn runout(grains: Grains, aspect: f64) -> String {
 pub(super) struct Deposit {
     /// (L∞ − L0)/L0 at the front.
     pub(super) runout: f64,
-    /// The same with a hundredth of the mass beyond it.
+    /// The run-out with a hundredth of the mass beyond the front.
     pub(super) at_a_hundredth: f64,
-    /// The same out to where the deposit is one grain thick.
+    /// The run-out to the place where the deposit is one grain thick.
     pub(super) one_grain_thick: f64,
     /// Share of the mass that was not at rest at the end.
     pub(super) moving: f64,
@@ -92,7 +92,7 @@ impl Column {
         }
     }
 
-    /// Questions to [`Column::answer`], an `reference` standing beside every run-out.
+    /// Questions to [`Column::answer`], with a `reference` for every run-out.
     pub(super) fn questions(&self, reference: f64) -> [Question; 4] {
         let of = format!("{}, a = {}", self.grains.name, self.aspect);
         let about = |words: &str| Question::new(format!("{words}, {of}"), "", reference);
@@ -122,7 +122,7 @@ impl Column {
 
     fn scene(&self) -> Result<Scene, CaseError> {
         let (width, height) = (self.width(), self.height());
-        // Far enough for the front of the tallest.
+        // Long enough for the front of the tallest column.
         let mut document = channel(0.0, BASE, 12.0 * BASE, width);
         document["channel"]["base_friction"] = json!(self.grains.friction.1);
         document["flow"] = json!({
@@ -152,7 +152,7 @@ impl Column {
         Ok(scene)
     }
 
-    /// Distance from the mirrors' plane or axis [m].
+    /// Distance from the symmetry plane or axis [m].
     fn distance(&self, x: f64, y: f64) -> f64 {
         match self.round {
             None => x + BASE,
@@ -160,7 +160,7 @@ impl Column {
         }
     }
 
-    /// Lets it go until all of it is at rest.
+    /// Releases the column and runs until all of it is at rest.
     pub(super) fn collapse(&self) -> Result<(Deposit, Run), CaseError> {
         let mut run = Run::start(self.scene()?)?;
         let slow = REST * (GRAVITY * self.height()).sqrt();
@@ -177,7 +177,7 @@ impl Column {
         Ok((self.deposit(&run.simulation, slow), run))
     }
 
-    /// Run-outs and share of mass that moves, at what they cost.
+    /// Run-outs and moving share of the mass, with their cost.
     pub(super) fn answer(&self) -> Result<Answer<4>, CaseError> {
         let (deposit, run) = self.collapse()?;
         Ok(run.answer([

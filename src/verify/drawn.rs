@@ -1,13 +1,13 @@
 //! Scenes drawn at random from a fixed seed: short channels in which a flow
-//! meets one or two bodies. Nobody chose them, so nothing is tuned on them.
+//! meets one or two bodies. They were not selected by hand, so nothing is tuned to them.
 
 use super::dice::Dice;
 use serde_json::{Value, json};
 
-/// Every scene ends then [s].
+/// Duration of every scene [s].
 const DURATION: f64 = 1.0;
 
-/// A scene and how fine it is to be computed.
+/// A scene and its resolution.
 #[derive(Debug, Clone)]
 pub(super) struct Drawn {
     /// Label in words.
@@ -18,7 +18,7 @@ pub(super) struct Drawn {
     pub(super) cell_size_m: f64,
 }
 
-/// The scene of this number.
+/// The scene with this number.
 pub(super) fn scene(number: u64) -> Drawn {
     let mut dice = Dice::of(number);
     let mut scenario = json!({
@@ -79,7 +79,7 @@ fn flow(dice: &mut Dice, inclination: f64, width: f64, incline: f64) -> Value {
     })
 }
 
-/// A body of this least size [m], and what it is.
+/// A body of this least size [m], and its description.
 fn body(dice: &mut Dice, size: f64, width: f64) -> (&'static str, Value) {
     let (what, shape) = match dice.next() % 4 {
         0 => ("a cube", json!({"cube": {"side_m": size}})),
@@ -91,7 +91,7 @@ fn body(dice: &mut Dice, size: f64, width: f64) -> (&'static str, Value) {
             ];
             ("a box", json!({"box": {"sides_m": sides}}))
         }
-        // Edges that set the distance of opposite flats to the size.
+        // Edge lengths for which the distance of opposite faces equals the size.
         2 => (
             "an octahedron",
             json!({"regular": {"solid": "octahedron", "size_m": size / 0.8165}}),
@@ -123,7 +123,7 @@ fn body(dice: &mut Dice, size: f64, width: f64) -> (&'static str, Value) {
     (what, body)
 }
 
-/// A cube further on, free or fixed.
+/// A second cube downstream, free or fixed.
 fn companion(dice: &mut Dice, size: f64, first: Option<f64>) -> Value {
     json!({
         "shape": {"cube": {"side_m": size}},

@@ -1,26 +1,26 @@
-//! Findings of a case: measured against reference solution, and the verdict.
+//! Findings of a case: measured values against the reference solution, and verdicts.
 
 use super::limit::Limit;
 use super::order::Order;
 use super::run::{Answer, CaseError, Cost};
 use serde::Serialize;
 
-/// Question, answer by the reference solution, and what is asked of the computation.
+/// Question: a quantity, its reference solution, and the tolerance of the computation.
 #[derive(Debug, Clone, Serialize)]
 pub struct Question {
     /// Quantity that is measured.
     pub quantity: String,
-    /// Its unit.
+    /// Unit of the quantity.
     pub unit: &'static str,
-    /// The right answer.
+    /// Reference value.
     pub reference: f64,
-    /// Way in which the error is counted.
+    /// Normalisation of the error.
     pub error: Error,
     /// Largest error allowed; none if it is only reported.
     pub tolerance: Option<f64>,
 }
 
-/// Way in which an error is counted.
+/// Normalisation of an error.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Error {
@@ -28,7 +28,7 @@ pub enum Error {
     Relative,
     /// In the quantity's own unit.
     Absolute,
-    /// As a share of something else.
+    /// As a share of another quantity.
     Over {
         /// Name.
         of: &'static str,
@@ -49,14 +49,14 @@ impl Question {
         }
     }
 
-    /// Counts the error another way.
+    /// Normalises the error another way.
     #[must_use]
     pub fn by(mut self, error: Error) -> Self {
         self.error = error;
         self
     }
 
-    /// Asks for an error no larger than this.
+    /// Sets the tolerance.
     #[must_use]
     pub fn within(mut self, tolerance: f64) -> Self {
         self.tolerance = Some(tolerance);
@@ -77,15 +77,15 @@ impl Question {
 /// Resolution of a computation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Resolution {
-    /// In words.
+    /// Label.
     pub label: String,
-    /// Length of a cell or of a step, in whatever unit the label has; none
-    /// where nothing was divided.
+    /// Length of a cell or of a step, in the unit of the label; none
+    /// if nothing was divided.
     pub size: Option<f64>,
 }
 
 impl Resolution {
-    /// With a size that an order can be taken over.
+    /// With a size over which an order can be taken.
     pub fn sized(label: impl Into<String>, size: f64) -> Self {
         Self {
             label: label.into(),
@@ -93,7 +93,7 @@ impl Resolution {
         }
     }
 
-    /// In words only.
+    /// With a label only.
     pub fn named(label: impl Into<String>) -> Self {
         Self {
             label: label.into(),
@@ -108,14 +108,14 @@ impl Resolution {
 pub enum Verdict {
     /// Within the tolerance.
     Pass,
-    /// Beyond it, or no number, or the run failed.
+    /// Beyond it, NaN, or the run failed.
     Fail,
-    /// There is no tolerance.
+    /// No tolerance.
     Report,
 }
 
 impl Verdict {
-    /// Of the size of an error; one that is no number is beyond every tolerance.
+    /// Verdict on the size of an error; NaN is beyond every tolerance.
     fn of(error: f64, tolerance: Option<f64>) -> Self {
         match tolerance {
             None if error.is_finite() => Self::Report,
@@ -133,11 +133,11 @@ pub struct Finding {
     pub question: Question,
     /// Resolution of the computation.
     pub resolution: Resolution,
-    /// Value that came out; none if the run failed.
+    /// Measured value; none if the run failed.
     pub measured: Option<f64>,
-    /// Its error as the question counts it; none if the run failed.
+    /// Error by the question's normalisation; none if the run failed.
     pub measured_error: Option<f64>,
-    /// Why the run failed.
+    /// Reason why the run failed.
     pub failure: Option<String>,
     /// Computed from error and tolerance.
     pub verdict: Verdict,
@@ -184,7 +184,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Takes in the answers of one run to these questions; a run that failed
+    /// Adds the answers of one run to these questions; a run that failed
     /// answers none of them.
     pub fn take<const N: usize>(
         &mut self,
@@ -209,14 +209,14 @@ impl Findings {
         }
     }
 
-    /// Takes the order at which the errors of a quantity shrink with the size
+    /// Adds the order at which the errors of a quantity shrink with the size
     /// of its resolutions. Errors no larger than `floor` are left out of it.
     pub fn take_order(&mut self, quantity: &str, floor: f64, asked: Option<f64>) {
         let order = Order::of(quantity, self.of(quantity), floor, asked);
         self.orders.push(order);
     }
 
-    /// Takes where the values of a quantity go as cells get finer.
+    /// Adds the limit of a quantity as cells get finer.
     pub fn take_limit(&mut self, quantity: &str) {
         let limit = Limit::of(quantity, self.of(quantity));
         self.limits.push(limit);
@@ -256,7 +256,7 @@ pub struct Count {
 }
 
 impl Count {
-    /// Both together.
+    /// Sum of both.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         Self {

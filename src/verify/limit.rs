@@ -3,20 +3,20 @@
 use super::findings::Finding;
 use serde::Serialize;
 
-/// Orders that are looked for. Below the least a limit lies farther off than the
-/// values themselves are apart, and says nothing.
+/// Range of possible orders. Below the least, the limit is farther away than the
+/// values are apart, and is meaningless.
 const ORDERS: (f64, f64) = (0.5, 12.0);
 
-/// A quantity without cells, extrapolated (Richardson).
+/// Grid-converged limit of a quantity (h → 0), by Richardson extrapolation.
 #[derive(Debug, Clone, Serialize)]
 pub struct Limit {
-    /// Of which quantity.
+    /// Name of the quantity.
     pub quantity: String,
     /// Its unit.
     pub unit: &'static str,
     /// The three finest resolutions, in words.
     pub over: Vec<String>,
-    /// Observed order and limit; none if the values don't settle: if they turn,
+    /// Observed order and limit; none if the values don't settle: if they oscillate,
     /// or change by more with finer cells.
     pub found: Option<Extrapolated>,
 }
@@ -31,7 +31,7 @@ pub struct Extrapolated {
 }
 
 impl Limit {
-    /// Of the findings about one quantity, coarse ones first.
+    /// Limit from the findings about one quantity, coarse ones first.
     pub(super) fn of<'a>(quantity: &str, findings: impl Iterator<Item = &'a Finding>) -> Self {
         let mut places = Vec::new();
         let (mut over, mut unit) = (Vec::new(), "");
@@ -52,21 +52,21 @@ impl Limit {
     }
 }
 
-/// Limit of these sizes and values; the finest value where they don't settle, no number
-/// where there is none.
+/// Limit of these sizes and values; the finest value if they don't settle, NaN
+/// if there is none.
 pub(super) fn limit_or_finest(places: &[(f64, f64)]) -> f64 {
     let finest = places.last().map_or(f64::NAN, |place| place.1);
     extrapolated(places).map_or(finest, |found| found.limit)
 }
 
-/// From the last three of these sizes and values.
+/// Extrapolation from the last three of these sizes and values.
 pub(super) fn extrapolated(places: &[(f64, f64)]) -> Option<Extrapolated> {
     let [.., coarse, middle, fine] = places else {
         return None;
     };
     let steps = (coarse.1 - middle.1, middle.1 - fine.1);
     let power = |size: f64, order: f64| (size / fine.0).powf(order);
-    // Grows with the order.
+    // Increases with the order.
     let ratio =
         |order| (power(coarse.0, order) - power(middle.0, order)) / (power(middle.0, order) - 1.0);
     let (mut low, mut high) = ORDERS;

@@ -1,10 +1,10 @@
-//! Verification: cases with a trusted answer, computed and compared with it.
+//! Verification: cases of known answer, computed and compared with it.
 //!
-//! The way through it: [`cases::ALL`] lists the cases, each a page of its own
-//! with problem, answer and tolerance; [`verify`] runs them and gathers what each
-//! [`findings::Findings`] holds. Verdicts come out of error and tolerance alone. [`robustness`]
-//! has the scenes that are there to break the computation; of them no answer is
-//! known but that it has to be a valid one.
+//! Structure: [`cases::ALL`] lists the cases, each a module of its own
+//! with problem, answer and tolerance; [`verify`] runs them and collects the
+//! [`findings::Findings`] of each. Verdicts follow from error and tolerance alone. [`robustness`]
+//! has the scenes chosen to break the computation; no answer is
+//! known for them, but the result has to be valid.
 
 pub mod cases;
 pub mod findings;
@@ -42,7 +42,7 @@ pub enum Effort {
 }
 
 impl Effort {
-    /// The first `quick` of these, or all of them: coarse ones come first.
+    /// The first `quick` elements, or all of them: coarse ones come first.
     fn take<T>(self, all: &[T], quick: usize) -> &[T] {
         match self {
             Self::Quick => &all[..quick],
@@ -51,7 +51,7 @@ impl Effort {
     }
 }
 
-/// A case with a trusted answer.
+/// A case of known answer.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Case {
     /// Name on the command line.
@@ -62,21 +62,21 @@ pub struct Case {
     pub title: &'static str,
     /// Source of the answer.
     pub source: &'static str,
-    /// Way in which it is computed.
+    /// Method of computation.
     #[serde(rename = "not_yet_expressible", serialize_with = "reason")]
     pub how: How,
 }
 
-/// Way in which a case is computed.
+/// Method of computation of a case.
 #[derive(Debug, Clone, Copy)]
 pub enum How {
-    /// By this.
+    /// Computed by this function.
     Runs(fn(Effort, &mut Findings)),
-    /// Not yet: what it needs and the solver can't do.
+    /// Not possible yet: the capability that the solver lacks.
     NotYet(&'static str),
 }
 
-/// In JSON: why not, or null.
+/// In JSON: the missing capability, or null.
 fn reason<S: Serializer>(how: &How, serializer: S) -> Result<S::Ok, S::Error> {
     match how {
         How::Runs(_) => serializer.serialize_none(),
@@ -84,10 +84,10 @@ fn reason<S: Serializer>(how: &How, serializer: S) -> Result<S::Ok, S::Error> {
     }
 }
 
-/// A case and what came of it.
+/// A case and its findings.
 #[derive(Debug, Serialize)]
 pub struct Verified {
-    /// Which case.
+    /// The case.
     pub case: Case,
     /// Findings.
     pub found: Findings,
@@ -102,7 +102,7 @@ pub fn verify(case: &Case, effort: Effort) -> Verified {
     Verified { case: *case, found }
 }
 
-/// All verdicts of these together.
+/// Total of all verdicts.
 pub fn count(verified: &[Verified]) -> Count {
     let each = verified.iter().map(|one| one.found.count());
     each.fold(Count::default(), Count::plus)

@@ -1,9 +1,9 @@
-//! Runs that know nothing of each other, on all cores.
+//! Independent runs on all cores.
 
 use std::sync::Mutex;
 use std::thread;
 
-/// Does the same for all, on all cores, in any order.
+/// Applies a function to all elements, on all cores, in any order.
 pub(super) fn side_by_side<T: Sync, R: Send>(all: &[T], each: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let cores = thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let to_do = Mutex::new(all.iter().enumerate());

@@ -3,33 +3,33 @@
 use super::findings::{Finding, Verdict};
 use serde::Serialize;
 
-/// Resolutions an order is taken over, at least.
+/// Minimum number of resolutions for an order.
 const FEWEST: usize = 3;
 
 /// Rate at which the error of a quantity shrinks with the size of cells or steps.
 #[derive(Debug, Clone, Serialize)]
 pub struct Order {
-    /// Whose error.
+    /// Quantity whose error is fitted.
     pub quantity: String,
     /// Slope of the logarithm of the error over that of the size, by least
     /// squares; none with fewer than three resolutions.
     pub fitted: Option<f64>,
-    /// The same from each resolution to the next.
+    /// Order from each resolution to the next.
     pub pairwise: Vec<f64>,
-    /// The resolutions it was taken over, in words.
+    /// Labels of the resolutions used.
     pub used: Vec<String>,
-    /// Those left out because their error is on the floor.
+    /// Labels of those left out because their error is at the floor.
     pub on_the_floor: Vec<String>,
-    /// The floor: errors no larger than this are of another origin.
+    /// The floor: errors no larger than this have another origin.
     pub floor: f64,
-    /// The least order asked for; none if it is only reported.
+    /// Least order asked for; none if it is only reported.
     pub asked: Option<f64>,
-    /// Computed from both.
+    /// Verdict from `fitted` and `asked`.
     pub verdict: Verdict,
 }
 
 impl Order {
-    /// Of the findings about one quantity.
+    /// Order from the findings about one quantity.
     pub(super) fn of<'a>(
         quantity: &str,
         findings: impl Iterator<Item = &'a Finding>,
@@ -66,7 +66,7 @@ impl Order {
         order
     }
 
-    /// An order that was asked for and can't be shown is failed.
+    /// An order that was asked for and can't be determined counts as failed.
     fn judged(&self) -> Verdict {
         match (self.asked, self.fitted) {
             (None, _) => Verdict::Report,
@@ -76,7 +76,7 @@ impl Order {
     }
 }
 
-/// Slope of the line nearest to these places.
+/// Slope of the line fitted to these places.
 pub(super) fn slope(places: &[(f64, f64)]) -> f64 {
     let count = places.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| places.iter().map(of).sum::<f64>() / count;

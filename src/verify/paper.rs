@@ -1,4 +1,4 @@
-//! The source paper's scene and what its cube does.
+//! The source paper's scene and the motion of its cube.
 
 use super::run::{Answer, CaseError, Run, scenario_of, scene_of};
 use scree_solver::record::Recorder;
@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 const SCENE: &str = include_str!("../../configs/scenarios/source_paper.json");
 /// Side of its cube [m].
 const SIDE: f64 = 0.04;
-/// Names of what [`motion`] measures, and their units.
+/// Quantities measured by [`motion`], and their units.
 pub(super) const QUANTITIES: [(&str, &str); 4] = [
     ("onset", "s"),
     ("peak speed", "m/s"),
@@ -18,7 +18,7 @@ pub(super) const QUANTITIES: [(&str, &str); 4] = [
     ("at rest from", "s"),
 ];
 
-/// The scene at so many cells per side of the cube.
+/// The scene with this number of cells per side of the cube.
 pub(super) fn scene(cells: f64) -> Value {
     let mut scene: Value = serde_json::from_str(SCENE).expect("the scene is JSON");
     scene["numerics"] = json!({"cell_size_m": SIDE / cells});
@@ -26,7 +26,7 @@ pub(super) fn scene(cells: f64) -> Value {
     scene
 }
 
-/// Limits that the solver chooses for the steps of the scene.
+/// Step limits that the solver chooses for the scene.
 ///
 /// # Errors
 /// The scene is refused.
@@ -35,8 +35,8 @@ pub(super) fn limits_of(scene: &Value) -> Result<Limits, CaseError> {
     Ok(flow.ok_or(CaseError::Never("there is no flow"))?.limits)
 }
 
-/// The [`QUANTITIES`] of the cube. It may still move at the end: then it is at
-/// rest from no time that is a number.
+/// The [`QUANTITIES`] of the cube. If it still moves at the end, the time
+/// of rest is NaN.
 ///
 /// # Errors
 /// The scene is refused or can't be computed, or the flow doesn't move the cube.

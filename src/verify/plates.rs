@@ -1,4 +1,4 @@
-//! Plates that are moved through a bed as told, and the force on them.
+//! Plates with prescribed motion through a bed, and the force on them.
 
 use super::blocks::{Block, PER_CELL, elastic};
 use super::run::{CaseError, Run};
@@ -17,16 +17,16 @@ use std::ops::ControlFlow;
 pub(super) const DENSITY: f64 = 1500.0;
 /// Poisson's ratio of the beds.
 pub(super) const POISSONS_RATIO: f64 = 0.3;
-/// Friction of the plates that are not smooth with the bed.
+/// Friction of the rough plates with the bed.
 const FRICTION: f64 = 0.4;
 /// Side of a plate that is pushed [m].
 pub(super) const SIDE: f64 = 0.1;
 /// Travel over which the force on it is averaged, over its side.
 pub(super) const WINDOW: [f64; 2] = [0.5, 0.8];
-/// Travel at full speed in the time that its ramp takes, over its side.
+/// Travel at full speed during the duration of its ramp, over its side.
 const RAMP: f64 = 0.2;
 
-/// A bed with this friction at any rate (Drucker–Prager), in which sound is so fast [m/s].
+/// A bed with this friction at any rate (Drucker–Prager) and this sound speed [m/s].
 pub(super) fn bed_material(friction: f64, sound_speed: f64) -> Material {
     let bulk_modulus = DENSITY * sound_speed * sound_speed;
     let youngs_modulus = 3.0 * (1.0 - 2.0 * POISSONS_RATIO) * bulk_modulus;
@@ -51,7 +51,7 @@ pub(super) struct Plate {
     pub(super) friction: f64,
     /// Velocity after the ramp [m/s].
     pub(super) velocity: Vec3,
-    /// Time that it takes to get there from rest [s].
+    /// Duration of the ramp from rest [s].
     pub(super) ramp: f64,
 }
 
@@ -59,13 +59,13 @@ impl Plate {
     /// The bed of a block with the plate in it.
     ///
     /// # Errors
-    /// There is no such plate.
+    /// The plate is invalid.
     pub(super) fn within(&self, block: &Block) -> Result<Scene, CaseError> {
         let mut scene = block.bed(POISSONS_RATIO);
-        // Nothing bounds what a driven plate presses with.
+        // The pressure of a driven plate has no upper bound.
         let flow = scene.given.flow.insert(block.flow(f64::INFINITY));
         let sphere = flow.sphere;
-        // Points that fill their room up to the corners' planes then just touch it.
+        // Points that fill their volume up to the planes of the corners then just touch the plate.
         let inset = Vec3::repeat(sphere.radius - 0.5 * sphere.spacing);
         let [low, high] = [self.corners[0] + inset, self.corners[1] - inset];
         let sides: [f64; 3] = (high - low).into();
@@ -97,7 +97,7 @@ impl Plate {
     }
 }
 
-/// A rough plate of side [`SIDE`] that is pushed through an endless bed at constant speed
+/// A rough plate of side [`SIDE`] that is pushed through a periodic bed at constant speed
 /// after a ramp.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Push {
@@ -137,10 +137,10 @@ impl Push {
     }
 
     /// Mean force over the window [N] on a plate that starts between these corners, and
-    /// the run that it was measured in.
+    /// the run in which it was measured.
     ///
     /// # Errors
-    /// There is no such plate, or the computation can't go on.
+    /// The plate is invalid, or the computation fails.
     pub(super) fn force(&self, corners: [Vec3; 2]) -> Result<(Run, Vec3), CaseError> {
         let plate = Plate {
             corners,
@@ -158,16 +158,16 @@ impl Push {
         RAMP * SIDE / self.speed
     }
 
-    /// Time at which the plate has travelled so many sides [s]: half of the ramp is lost.
+    /// Time at which the plate has travelled this many sides [s]: half of the ramp is lost.
     fn time_of(&self, travel: f64) -> f64 {
         travel * SIDE / self.speed + 0.5 * self.ramp()
     }
 }
 
-/// Mean force of the bed on the plate from now to a time [N].
+/// Mean force of the bed on the plate from the present to a time [N].
 ///
 /// # Errors
-/// The computation can't go on.
+/// The computation fails.
 pub(super) fn mean_force(run: &mut Run, to_s: f64) -> Result<Vec3, CaseError> {
     let (mut impulse, mut duration) = (Vec3::zeros(), 0.0);
     run.watch(to_s, |simulation, report| {

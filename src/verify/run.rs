@@ -1,4 +1,4 @@
-//! A run of a case, timed.
+//! A timed run of a case.
 
 use scree_solver::scenario::{Scenario, ScenarioError};
 use scree_solver::simulation::Scene;
@@ -8,13 +8,13 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 use thiserror::Error;
 
-/// Points from which a run takes all cores.
+/// Number of points from which a run uses all cores.
 const MANY_POINTS: usize = 20_000;
 
-/// Why a value could not be measured.
+/// Reason why a value could not be measured.
 #[derive(Debug, Error)]
 pub enum CaseError {
-    /// The scene of the case can't be made.
+    /// The scene of the case is invalid.
     #[error("the scene is refused: {0}")]
     Scene(String),
     /// The scene can't be set up.
@@ -23,7 +23,7 @@ pub enum CaseError {
     /// The computation could not go on.
     #[error(transparent)]
     Step(#[from] StepError),
-    /// What was to be measured never happened.
+    /// The event to be measured never happened.
     #[error("{0}")]
     Never(&'static str),
 }
@@ -31,9 +31,9 @@ pub enum CaseError {
 /// Values measured in one run, and its cost.
 #[derive(Debug, Clone, Copy)]
 pub struct Answer<const N: usize> {
-    /// One for each question.
+    /// One value for each question.
     pub values: [f64; N],
-    /// Of all of them together.
+    /// Cost of all of them together.
     pub cost: Cost,
 }
 
@@ -42,14 +42,14 @@ pub struct Answer<const N: usize> {
 pub struct Cost {
     /// Wall time [s].
     pub wall_s: f64,
-    /// Point-steps per second of it; none without points.
+    /// Point-steps per second of wall time; none without points.
     pub point_steps_per_s: Option<f64>,
 }
 
-/// A simulation with a clock beside it.
+/// A timed simulation.
 #[derive(Debug)]
 pub struct Run {
-    /// Simulation that runs.
+    /// The simulation.
     pub simulation: Simulation,
     started: Instant,
 }
@@ -58,7 +58,7 @@ impl Run {
     /// Sets a scene up.
     ///
     /// # Errors
-    /// It can't be set up.
+    /// The scene can't be set up.
     pub fn start(scene: Scene) -> Result<Self, CaseError> {
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let threads = if scene.points.len() < MANY_POINTS {
@@ -74,18 +74,18 @@ impl Run {
         })
     }
 
-    /// Runs on to a time.
+    /// Runs to a time.
     ///
     /// # Errors
-    /// The computation can't go on.
+    /// The computation fails.
     pub fn to(&mut self, time_s: f64) -> Result<(), CaseError> {
         self.watch(time_s, |_, _| ControlFlow::Continue(()))
     }
 
-    /// Runs on to a time or until told to stop, showing every sub-step.
+    /// Runs to a time or until told to stop, and shows every sub-step.
     ///
     /// # Errors
-    /// The computation can't go on.
+    /// The computation fails.
     pub fn watch(
         &mut self,
         time_s: f64,
@@ -95,11 +95,11 @@ impl Run {
         Ok(())
     }
 
-    /// Mean change of a speed [m/s²] from the first step's end after one time to the
-    /// first after another.
+    /// Mean change of a speed [m/s²] between the ends of the first steps after two
+    /// times.
     ///
     /// # Errors
-    /// The computation can't go on.
+    /// The computation fails.
     pub fn acceleration(
         &mut self,
         from_s: f64,
@@ -113,7 +113,7 @@ impl Run {
         Ok((last - first) / (end - start))
     }
 
-    /// These values at what the run has cost so far.
+    /// These values, with the cost of the run so far.
     pub fn answer<const N: usize>(&self, values: [f64; N]) -> Answer<N> {
         let wall_s = self.started.elapsed().as_secs_f64();
         let (_, _, point_steps) = self.simulation.counts();
@@ -137,7 +137,7 @@ pub fn scene_of(document: &serde_json::Value) -> Result<Scene, CaseError> {
 /// A scenario in JSON.
 ///
 /// # Errors
-/// It is refused.
+/// The scenario is refused.
 pub fn scenario_of(document: &serde_json::Value) -> Result<Scenario, CaseError> {
     let refused = |error: ScenarioError| CaseError::Scene(format!("{error:?}"));
     Scenario::from_json(&document.to_string()).map_err(refused)

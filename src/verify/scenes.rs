@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 /// Gravity of every scenario here [m/s²].
 pub(super) const GRAVITY: f64 = 9.81;
 
-/// In which a flow can be computed.
+/// Precisions in which a flow can be computed.
 pub(super) const PRECISIONS: [&str; 2] = ["double", "single"];
 
 /// A channel with neither flow nor bodies, lengths in metres.
@@ -22,7 +22,7 @@ pub(super) fn channel(inclination_deg: f64, incline_m: f64, runout_m: f64, width
     })
 }
 
-/// A cube of 40 mm, just touching a flat floor, that flies down into it at 1 m/s
+/// A cube of 40 mm, just touching a flat floor, that moves down into it at 1 m/s
 /// without gravity or friction; `body` adds to its description or overrides it.
 pub(super) fn thrown_down(body: &Value) -> Result<Scene, CaseError> {
     let mut document = channel(0.0, 0.5, 0.5, 0.2);
@@ -41,12 +41,12 @@ pub(super) fn thrown_down(body: &Value) -> Result<Scene, CaseError> {
     Ok(scene)
 }
 
-/// Height of a body's centre when it touches the floor as it stands [m].
+/// Height of a body's centre at contact with the floor, in its present orientation [m].
 pub(super) fn height_of_touch(body: &Body) -> f64 {
     body.shape.extent_along(&body.to_body(&-Vec3::z()))
 }
 
-/// Orientation that stands a cube on a vertex: its diagonal (1, 1, 1) upright.
+/// Orientation in which a cube stands on a vertex: its diagonal (1, 1, 1) is vertical.
 pub(super) fn on_vertex() -> [f64; 4] {
     // About (1, −1, 0)/√2 by acos(1/√3).
     let half = 0.5 * (1.0f64 / 3.0).sqrt().acos();
@@ -60,13 +60,13 @@ pub(super) fn downhill(inclination_deg: f64) -> Vec3 {
     Vec3::new(cos, 0.0, -sin)
 }
 
-/// Gravity of a slope whose surface lies flat [m/s²].
+/// Gravity of a slope whose surface is horizontal in the scene [m/s²].
 pub(super) fn tilted_gravity(inclination_deg: f64) -> Vec3 {
     let (sin, cos) = inclination_deg.to_radians().sin_cos();
     Vec3::new(sin, 0.0, -cos) * GRAVITY
 }
 
-/// A body of this description, in a channel of its own.
+/// A body with this description, in a channel of its own.
 pub(super) fn body(description: &Value) -> Result<Body, CaseError> {
     let mut document = channel(0.0, 1.0, 1.0, 1.0);
     document["bodies"] = json!([description]);

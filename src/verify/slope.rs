@@ -17,35 +17,35 @@ use scree_solver::scenario::Precision;
 use scree_solver::simulation::Scene;
 use std::ops::ControlFlow;
 
-/// Of the layer [m].
+/// Height of the layer [m].
 pub(super) const HEIGHT: f64 = 0.02;
-/// [m].
+/// Diameter of a grain [m].
 const GRAIN_DIAMETER: f64 = 0.53e-3;
-/// Sound speed over that of the surface, or √(g h) if that is more.
+/// Sound speed over that of the surface, or over √(g h) if that is larger.
 const STIFFNESS: f64 = 10.0;
-/// Length of the layer [cells]; it runs round.
+/// Length of the layer [cells]; it is periodic.
 const ALONG: u32 = 4;
-/// Width of the scatter of points about their lattice, over their distance: on a
-/// lattice they would travel in rows, which no flow keeps.
+/// Width of the random scatter of points about their lattice, over their distance: on a
+/// lattice they would travel in rows, which does not happen in a flow.
 const SCATTER: f64 = 0.2;
-/// Friction of the floor: nothing slips on it.
+/// Friction of the floor: high enough to prevent slip.
 const ROUGH: f64 = 1e6;
-/// Time between two looks at a window [s].
+/// Time between two samples of a window [s].
 const BETWEEN_LOOKS: f64 = 0.004;
 
 /// Slope and resolution of a layer.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slope {
-    /// [°].
+    /// Inclination [°].
     pub(super) inclination_deg: f64,
     /// Cells over the height.
     pub(super) cells: u32,
     /// Points per cell and axis.
     pub(super) per_cell: u32,
-    /// Slope whose profile it starts with [°]; one that is not steep enough for
-    /// a flow starts at rest.
+    /// Slope whose profile it starts with [°]; if it is too flat for
+    /// a flow, the layer starts at rest.
     pub(super) start_deg: f64,
-    /// Longest run [s].
+    /// Longest duration of the run [s].
     pub(super) duration: f64,
 }
 
@@ -58,7 +58,7 @@ pub(super) struct Means {
     pub(super) centre: f64,
 }
 
-/// I of a steady layer; none on a slope that holds the beads at rest.
+/// Inertial number of a steady layer; none on a slope that holds the beads at rest.
 fn inertial_number(inclination_deg: f64) -> f64 {
     let tangent = inclination_deg.to_radians().tan();
     let (at_rest, limiting) = beads::FRICTION;
@@ -66,7 +66,7 @@ fn inertial_number(inclination_deg: f64) -> f64 {
     beads::REFERENCE_INERTIAL_NUMBER * share.max(0.0)
 }
 
-/// u(y) [m/s].
+/// Exact velocity u(y) [m/s].
 pub(super) fn exact_speed(inclination_deg: f64, y: f64) -> f64 {
     let packing = beads::BULK_DENSITY / beads::GRAIN_DENSITY;
     let cos = inclination_deg.to_radians().cos();
@@ -74,14 +74,14 @@ pub(super) fn exact_speed(inclination_deg: f64, y: f64) -> f64 {
     2.0 / 3.0 * rate * (HEIGHT.powf(1.5) - (HEIGHT - y).max(0.0).powf(1.5))
 }
 
-/// d ln u / d ln μ: percent of speed that one percent of friction makes.
+/// d ln u / d ln μ: change of speed in percent for one percent of friction.
 pub(super) fn leverage(inclination_deg: f64) -> f64 {
     let tangent = inclination_deg.to_radians().tan();
     let (at_rest, limiting) = beads::FRICTION;
     tangent * (1.0 / (tangent - at_rest) + 1.0 / (limiting - tangent))
 }
 
-/// √(g h) [m/s].
+/// Wave speed √(g h) [m/s].
 pub(super) fn wave_speed() -> f64 {
     (GRAVITY * HEIGHT).sqrt()
 }
@@ -91,15 +91,15 @@ impl Slope {
         HEIGHT / f64::from(self.cells)
     }
 
-    /// The fastest it is expected to flow [m/s].
+    /// Largest expected speed of the flow [m/s].
     fn fastest(&self) -> f64 {
         let steepest = self.inclination_deg.max(self.start_deg);
         exact_speed(steepest, HEIGHT).max(wave_speed())
     }
 
-    /// Poisson's ratio 0, so that G = 1.5 K: the sub-step is that of a lone point
-    /// with it as with a softer one, and the normal stresses that elastic shear
-    /// turns up, of order τ²/G and unknown to the exact profile, stay small.
+    /// Material with Poisson's ratio 0, so that G = 1.5 K: the sub-step is the same as with a
+    /// softer one, that of a lone point, and the normal stresses caused by elastic shear, of order
+    /// τ²/G and absent from the exact profile, stay small.
     fn material(&self) -> Material {
         let beads = beads::with_sound_speed(STIFFNESS * self.fastest());
         Material {
@@ -136,7 +136,7 @@ impl Slope {
         let mut chance = Chance(1);
         let spacing = self.cell() / f64::from(self.per_cell);
         for point in &mut scene.points {
-            // Across, half as far: the mirrors are near.
+            // Half as wide across the channel, since the symmetry planes are near.
             let scatter = Vec3::new(chance.next(), 0.5 * chance.next(), chance.next());
             point.position += scatter * (SCATTER * spacing);
             self.set_off(point, &block.material);
@@ -144,7 +144,7 @@ impl Slope {
         scene
     }
 
-    /// Gives a point the stress of its depth and the velocity of its height.
+    /// Sets a point's stress by its depth and its velocity by its height.
     fn set_off(&self, point: &mut Point, material: &Material) {
         let gravity = tilted_gravity(self.inclination_deg);
         let above = beads::BULK_DENSITY * (HEIGHT - point.position.z).max(0.0);
@@ -157,7 +157,7 @@ impl Slope {
         point.velocity.x = exact_speed(self.start_deg, point.position.z);
     }
 
-    /// Means from the run's present time until `to` [s].
+    /// Means from the present time of the run until `to` [s].
     pub(super) fn means(&self, run: &mut Run, to: f64) -> Result<Means, CaseError> {
         let mut sum = Means {
             speeds: vec![0.0; (self.cells * self.per_cell) as usize],
@@ -190,12 +190,12 @@ impl Means {
         self.centre += points.iter().map(|point| point.0).sum::<f64>() / points.len() as f64;
     }
 
-    /// Height of a layer's middle, were the layer as dense as at rest [m].
+    /// Height of a layer's middle if the layer is as dense as at rest [m].
     fn height(&self, layer: usize) -> f64 {
         HEIGHT * (layer as f64 + 0.5) / self.speeds.len() as f64
     }
 
-    /// Speed of the topmost layer [m/s], and what the exact profile says of it.
+    /// Speed of the topmost layer [m/s], and the exact value.
     pub(super) fn surface(&self, inclination_deg: f64) -> (f64, f64) {
         let top = self.speeds.len() - 1;
         (
@@ -204,7 +204,7 @@ impl Means {
         )
     }
 
-    /// Root mean square distance from the exact profile, over that of the profile.
+    /// Root mean square difference from the exact profile, over that of the profile.
     pub(super) fn off(&self, inclination_deg: f64) -> f64 {
         let (mut off, mut whole) = (0.0, 0.0);
         for (layer, speed) in self.speeds.iter().enumerate() {
@@ -223,7 +223,7 @@ pub(super) fn fastest(simulation: &Simulation) -> f64 {
     fastest
 }
 
-/// The same numbers every time, spread evenly from −½ to ½.
+/// Reproducible random numbers, uniform from −½ to ½.
 struct Chance(u64);
 
 impl Chance {

@@ -1,5 +1,5 @@
-//! A fixed cube in a block of points: in the way of a stream, or buried in a bed.
-//! The block runs round along the channel, and smooth walls mirror it across.
+//! A fixed cube in a block of points: in the path of a stream, or buried in a bed.
+//! The block is periodic along the channel, and smooth walls mirror it across.
 
 use super::blocks::{Block, PER_CELL};
 use super::run::{Answer, CaseError, Run};
@@ -15,12 +15,12 @@ use std::ops::ControlFlow;
 
 /// Side of the cube [m].
 pub(super) const SIDE: f64 = 0.04;
-/// Radius of its edges, over the side: as sharp as they may be, the areas and
-/// volumes here are those of a sharp cube.
+/// Radius of its edges, over the side: as small as allowed, so that areas and
+/// volumes are those of a sharp cube.
 const ROUNDING: f64 = 0.01;
-/// Of the stream [m/s].
+/// Speed of the stream [m/s].
 const SPEED: f64 = 1.0;
-/// The stream starts so many cells above the cube.
+/// Distance of the stream above the cube at the start [cells].
 const GAP: u32 = 1;
 
 /// A stream falling onto the cube at constant speed, without gravity.
@@ -30,17 +30,17 @@ pub(super) struct Stream {
     pub(super) cells: u32,
     /// Cells of stream along and across the channel, the cube in their middle.
     pub(super) wide: u32,
-    /// Made of this, at rest as dense as it says.
+    /// Material of the stream, before thinning to `share`.
     pub(super) material: Material,
-    /// Density over that.
+    /// Density over that of the material.
     pub(super) share: f64,
-    /// Radius of the points' spheres over what it usually is.
+    /// Radius of the points' spheres over its usual value.
     pub(super) sphere: f64,
-    /// Cells that it travels after the first contact.
+    /// Travel after the first contact [cells].
     pub(super) travel: u32,
 }
 
-/// A cube that stays where it is, frictionless and never bounced off.
+/// A fixed, frictionless cube with restitution 0.
 pub(super) fn fixed_cube(centre: Vec3, scene: &Scene) -> Result<Body, CaseError> {
     let mut cube = body(&json!({
         "shape": {"cube": {"side_m": SIDE}},
@@ -60,13 +60,13 @@ impl Stream {
         SIDE / f64::from(self.cells)
     }
 
-    /// ρ v² A [N].
+    /// Momentum flux ρ v² A [N].
     pub(super) fn momentum_flux(&self) -> f64 {
         self.share * self.material.bulk_density * (SPEED * SIDE).powi(2)
     }
 
-    /// Side over that of the cube, were all of the stream stopped that this force
-    /// [N] stops, less the cube's own, on each side [cells].
+    /// Distance from the cube on each side within which the stream would have to be stopped
+    /// to give this force [N] [cells].
     pub(super) fn stand_off(&self, force: f64) -> f64 {
         let wider = (force / self.momentum_flux()).max(0.0).sqrt();
         0.5 * (wider - 1.0) * f64::from(self.cells)
@@ -74,12 +74,12 @@ impl Stream {
 
     fn scene(&self) -> Result<Scene, CaseError> {
         let wide = self.wide;
-        // What passes the cube does not reach the floor.
+        // Points that pass the cube do not reach the floor.
         let below = self.travel + GAP + 2;
         let block = Block {
             cell: self.cell(),
             at: [0, 0, below + self.cells + GAP],
-            // And what comes last is still above it.
+            // The end of the stream is still above the cube.
             cells: [wide, wide, self.travel + 4],
             cells_across: wide,
             per_cell: PER_CELL,

@@ -1,4 +1,4 @@
-//! Answers with intervals, computed here.
+//! Answers with uncertainty intervals, computed in this process.
 
 use super::run::{CaseError, Run, scenario_of};
 use scree_solver::accuracy::ConvergenceStudy;
@@ -8,7 +8,7 @@ use scree_solver::simulation::Scene;
 use serde_json::Value;
 use std::ops::ControlFlow;
 
-/// The answer to a scenario, with the intervals it asks for.
+/// The answer to a scenario, with the uncertainty intervals it asks for.
 ///
 /// # Errors
 /// The scenario is refused, or its answer can't be computed.

@@ -1,4 +1,4 @@
-//! Error against wall time: what a choice of resolution, points or stiffness buys.
+//! Error against wall time, by choice of resolution, points or stiffness.
 
 use super::cases::ALL;
 use super::columns::{Column, Grains};
@@ -8,31 +8,31 @@ use super::run::{Answer, CaseError};
 use super::{Effort, before_after, paper, verify};
 use serde_json::{Value, json};
 
-/// A picture's worth of runs.
+/// The runs of one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagram {
-    /// Name as a file.
+    /// Name of the file.
     pub name: &'static str,
-    /// Quantity that is shown.
+    /// Quantity shown.
     pub title: String,
-    /// Values that errors are counted from.
+    /// Reference values of the errors.
     pub against: String,
-    /// Which time recorded runs took, in words; none: wall time, here and now.
+    /// Label of the time of recorded runs; none: wall time, measured now.
     pub recorded: Option<String>,
-    /// One for every choice.
+    /// One series for every choice.
     pub series: Vec<Series>,
 }
 
-/// Runs that differ in their cells alone.
+/// Runs that differ only in their cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// The choice they share.
+    /// Name of the choice they share.
     pub name: String,
     /// Time [s] and size of the relative error, coarse ones first.
     pub places: Vec<(f64, f64)>,
 }
 
-/// Makes the runs, for minutes; what can't be computed is left out.
+/// Makes the runs, which takes minutes; runs that fail are left out.
 pub fn diagrams(effort: Effort) -> Vec<Diagram> {
     let mut all = vec![known(effort), collapse(effort)];
     all.extend(cube(effort));
@@ -40,7 +40,7 @@ pub fn diagrams(effort: Effort) -> Vec<Diagram> {
     all
 }
 
-/// Cases with an exact answer.
+/// Cases of exact answer.
 fn known(effort: Effort) -> Diagram {
     let found = |name: &str| {
         let case = ALL.iter().find(|case| case.name == name);
@@ -67,7 +67,7 @@ fn known(effort: Effort) -> Diagram {
     }
 }
 
-/// The plane collapse of sand at a = 1, against the finest.
+/// The plane collapse of sand at a = 1, against the finest run.
 fn collapse(effort: Effort) -> Diagram {
     let cells = effort.take(&[4, 8, 16, 32], 3);
     let finest = 2 * cells[cells.len() - 1];
@@ -154,15 +154,15 @@ fn cube(effort: Effort) -> [Diagram; 2] {
 
 type Motion = Result<Answer<4>, CaseError>;
 
-/// Choices by which the cube's scene is computed.
+/// Settings of the computation of the cube's scene.
 #[derive(Debug, Clone, Copy)]
 struct Choice {
-    /// Sound speed over what the solver chooses, which is ten times the flow's.
+    /// Sound speed over the solver's choice, which is ten times the flow's speed.
     stiffer: f64,
     per_cell: u32,
 }
 
-/// The first is the solver's own.
+/// Choices; the first is the solver's own.
 const CHOICES: [Choice; 5] = [
     Choice {
         stiffer: 1.0,
@@ -216,7 +216,7 @@ pub(super) fn off(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()
 }
 
-/// Numbers one after the other.
+/// The numbers, separated by commas.
 pub(super) fn listed(numbers: &[impl ToString]) -> String {
     let words: Vec<String> = numbers.iter().map(ToString::to_string).collect();
     words.join(", ")

@@ -1,11 +1,11 @@
-//! Which instants the aerial view shows.
+//! Selection of the instants of the aerial view.
 
 use scree_solver::record::{FlowSnapshot, Sample};
 
-/// Panels of the picture.
+/// Number of panels of the picture.
 const INSTANTS: usize = 6;
 
-/// Weight of the bodies' travel against that of time in the choice.
+/// Weight of the bodies' travel relative to time in the selection.
 const TRAVEL_WEIGHT: f64 = 0.7;
 
 /// One panel: the flow and the bodies at one time.
@@ -13,7 +13,7 @@ const TRAVEL_WEIGHT: f64 = 0.7;
 pub(super) struct Instant<'a> {
     /// Simulated time [s].
     pub time_s: f64,
-    /// The flow then.
+    /// Flow at this time.
     pub snapshot: Option<&'a FlowSnapshot>,
     /// Index of the sample nearest in time.
     pub sample: Option<usize>,
@@ -44,10 +44,10 @@ pub(super) fn choose<'a>(samples: &[Sample], snapshots: &'a [FlowSnapshot]) -> V
     progress.spread(&times).into_iter().map(at).collect()
 }
 
-/// Progress of a run: partly in time, partly in the bodies' travel, so that most panels
-/// show something happen.
+/// Progress of a run, measured partly in time and partly in the bodies' travel, so that most panels
+/// show motion.
 struct Progress {
-    /// Time [s] and share of the way, both increasing.
+    /// Time [s] and share of the progress, both increasing.
     shares: Vec<(f64, f64)>,
 }
 
@@ -64,7 +64,7 @@ impl Progress {
         let end = shares.last().map_or(0.0, |s| s.0);
         for (time, share) in &mut shares {
             let of_time = if end > 0.0 { *time / end } else { 0.0 };
-            // With nothing travelled, time alone decides.
+            // If no body travels, time alone decides.
             let of_way = if travelled > 0.0 {
                 *share / travelled
             } else {
@@ -84,7 +84,7 @@ impl Progress {
     }
 
     /// Indices of at most six of these times, first and last among them,
-    /// whose progress is spread as evenly as they allow.
+    /// whose progress is spread as evenly as possible.
     fn spread(&self, times: &[f64]) -> Vec<usize> {
         if times.len() <= INSTANTS {
             return (0..times.len()).collect();
@@ -94,7 +94,7 @@ impl Progress {
         let mut chosen = vec![0];
         for panel in 1..INSTANTS {
             let wanted = first + (last - first) * panel as f64 / (INSTANTS - 1) as f64;
-            // One at least after the one before, and enough left for those to come.
+            // At least one after the previous one, with enough left for those to come.
             let free = chosen[panel - 1] + 1..=times.len() - (INSTANTS - panel);
             let gap = |index: &usize| (progress[*index] - wanted).abs();
             let best = free.clone().min_by(|a, b| gap(a).total_cmp(&gap(b)));
@@ -108,7 +108,7 @@ impl Progress {
     }
 }
 
-/// Way of all bodies' centres between two samples [m].
+/// Path length of all bodies' centres between two samples [m].
 fn travel(before: &Sample, after: &Sample) -> f64 {
     let way = |(a, b): (
         &scree_solver::record::BodySample,
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
     use crate::pictures::fixtures::{empty_snapshot, sliding_samples};
 
-    /// The body travels in the first second of three only: most panels, not
+    /// The body travels only in the first second of three: most panels, not
     /// two of six, lie there; both ends are always shown.
     #[test]
     fn panels_gather_where_bodies_travel() {

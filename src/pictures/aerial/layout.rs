@@ -38,7 +38,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// The fewest columns with which the picture does not get too tall.
+    /// The smallest number of columns for which the picture is not too tall.
     pub(super) fn of(scene: &Scene<'_>, instants: &[Instant<'_>]) -> Self {
         let panels = instants.len();
         let half = 0.52 * scene.scenario.channel.width_m;
@@ -79,12 +79,12 @@ impl Layout {
         (x, y)
     }
 
-    /// The panel has the y axis' numbers at its left.
+    /// True if the panel has the y axis' numbers on its left.
     pub(super) fn is_first_of_row(&self, panel: usize) -> bool {
         panel.is_multiple_of(self.columns)
     }
 
-    /// The panel has the x axis' numbers below it: none stands there.
+    /// True if the panel has the x axis' numbers below it, as no panel follows there.
     pub(super) fn is_last_of_column(&self, panel: usize) -> bool {
         panel + self.columns >= self.panels
     }

@@ -18,12 +18,12 @@ use scree_solver::scenario::Scenario;
 
 /// Dots in the whole picture: enough to see the flow, few enough for a page.
 const DOT_BUDGET: usize = 7_500;
-/// Side of the squares of which one dot each is shown, at best [px].
+/// Smallest side of the squares, each of which is shown as one dot [px].
 const FINEST_BIN_PX: f64 = 2.6;
-/// The same for a coarse flow [px]: larger dots would hide what they show.
+/// Largest side for a coarse flow [px]: larger dots would hide detail.
 const COARSEST_BIN_PX: f64 = 12.0;
-/// Points a square should hold on average: with fewer, many squares of a
-/// coarse flow stay empty and the ground shows through.
+/// Mean number of points in a square: with fewer, many squares of a
+/// coarse flow stay empty and the background shows through.
 const POINTS_PER_DOT: usize = 2;
 /// Size of the colour bar [px].
 const BAR: (f64, f64) = (180.0, 9.0);
@@ -34,13 +34,13 @@ const BAR: (f64, f64) = (180.0, 9.0);
 /// [m] on equal scales. Returns an SVG document.
 ///
 /// The instants are those of `snapshots`, or of `samples` if there is no flow;
-/// of more than six, those that share time and the bodies' travel out evenly.
+/// of more than six, those that are spread most evenly over time and the bodies' travel.
 ///
 /// # Panics
-/// If the scenario did not come from the parser.
+/// If the scenario was not made by the parser.
 ///
 /// # Errors
-/// When the drawing library refuses to draw.
+/// The drawing library fails.
 pub fn aerial_view(
     scenario: &Scenario,
     samples: &[Sample],
@@ -64,8 +64,8 @@ pub fn aerial_view(
     })
 }
 
-/// The finest squares [m] with which the picture stays within its dots and the
-/// points lie dense enough to leave no gaps.
+/// The smallest squares [m] for which the picture stays within its number of dots and the
+/// points are dense enough to leave no gaps.
 fn bin_within_budget(layout: &Layout, shown: &[&FlowSnapshot]) -> f64 {
     let points: usize = shown.iter().map(|snapshot| snapshot.position_m.len()).sum();
     let most = DOT_BUDGET.min(points / POINTS_PER_DOT);
@@ -89,9 +89,9 @@ fn draw_header(sheet: &Area<'_>, scenario: &Scenario) -> Result<(), PictureError
     Ok(())
 }
 
-/// The scale of speed, at the right of the subtitle.
+/// Draws the scale of speed, to the right of the subtitle.
 fn draw_color_bar(sheet: &Area<'_>, speeds: &SpeedScale) -> Result<(), PictureError> {
-    // The label at its end is wider than the tick it stands under.
+    // The label at its end is wider than the tick above it.
     let left = layout::WIDTH - layout::RIGHT - BAR.0 - 8.0;
     let top = 38.0;
     let steps = 90;
@@ -100,7 +100,7 @@ fn draw_color_bar(sheet: &Area<'_>, speeds: &SpeedScale) -> Result<(), PictureEr
         let share = (f64::from(index) + 0.5) / f64::from(steps);
         let color = speeds.color(share * speeds.top_m_s);
         let from = (px(left + step * f64::from(index)), px(top));
-        // To the end of the bar, under those that follow: no seams.
+        // Drawn to the end of the bar, and covered by those that follow: no gaps.
         let to = (px(left + BAR.0), px(top + BAR.1));
         sheet.draw(&Rectangle::new([from, to], color.filled()))?;
     }

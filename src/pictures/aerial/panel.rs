@@ -15,12 +15,12 @@ use scree_solver::scenario::Scenario;
 use scree_solver::shape::SpheroPolyhedron;
 use std::ops::Range;
 
-/// Ground of the inclined part; the floor stays white.
+/// Background of the inclined part; the floor stays white.
 const INCLINE: RGBColor = RGBColor(240, 241, 243);
 /// Radius of a dot in sides of its square: neighbours overlap a little.
 const DOT_RADIUS_BINS: f64 = 0.85;
 
-/// Scene that all panels share.
+/// Scene, common to all panels.
 #[derive(Debug)]
 pub(super) struct Scene<'a> {
     pub scenario: &'a Scenario,
@@ -38,7 +38,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Part of the channel [m] in which anything is or ever was, with the foot
+    /// Part of the channel [m] in which flow or bodies are at any time, with the foot
     /// of the incline and a margin.
     pub(super) fn extent(&self, instants: &[Instant<'_>]) -> Range<f64> {
         let channel = &self.scenario.channel;
@@ -55,7 +55,7 @@ impl<'a> Scene<'a> {
         let seen = |x: &f64| x.is_finite() && *x >= whole.start && *x <= whole.end;
         let seen = || flow.clone().chain(bodies.clone()).chain([0.0]).filter(seen);
         let (low, high) = (seen().fold(0.0, f64::min), seen().fold(0.0, f64::max));
-        // Never closer than a few channel widths: a scene is seen in its place.
+        // Never narrower than a few channel widths, to show the surroundings.
         let least = (3.0 * channel.width_m).min(whole.end - whole.start);
         let margin = (0.03 * (high - low)).max((least - (high - low)) / 2.0);
         let beyond = 0.01 * (whole.end - whole.start);
@@ -111,7 +111,7 @@ impl<'a> Scene<'a> {
         }
         let foot = left - layout.x.start * layout.px_per_m;
         let style = text(11.0, &FAINT_INK).pos(Pos::new(HPos::Center, VPos::Bottom));
-        // Clear of the time at its left.
+        // Clear of the time to its left.
         let at = (px(foot.max(left + 150.0)), px(base));
         let label = format!("foot of the {}° incline", significant(degrees, 2));
         sheet.draw_text(&label, &style, at)?;
@@ -129,7 +129,7 @@ impl<'a> Scene<'a> {
         Ok(())
     }
 
-    /// Side walls, the wall that closes the channel, its open end and the foot.
+    /// Draws the side walls, the back wall, the open end and the foot of the incline.
     fn draw_channel(&self, plane: &Plane<'_>, layout: &Layout) -> Result<(), PictureError> {
         let channel = &self.scenario.channel;
         let half = channel.width_m / 2.0;
@@ -176,7 +176,7 @@ impl<'a> Scene<'a> {
         Ok(())
     }
 
-    /// Way of a body's centre so far, white-edged to show on any colour.
+    /// Draws the path of a body's centre so far, with a white edge to be visible on any colour.
     fn draw_trail(&self, plane: &Plane<'_>, body: usize, last: usize) -> Result<(), PictureError> {
         let states = self.samples[..=last]
             .iter()
@@ -199,7 +199,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// The panel's axes; their numbers only at the outer panels.
+/// The panel's axes, with numbers only at the outer panels.
 fn axes<'a>(sheet: &Area<'a>, layout: &Layout, index: usize) -> Result<Plane<'a>, PictureError> {
     let ((x, y), (width, height)) = (layout.corner(index), layout.strip());
     let left = if layout.is_first_of_row(index) {

@@ -22,18 +22,18 @@ const PANEL: f64 = 268.0;
 const HEADER: f64 = 54.0;
 /// Height of one line of the list of bodies [px].
 const LINE: f64 = 17.0;
-/// Bodies described in words above the panels; more are only drawn.
+/// Largest number of bodies described in words above the panels; more are only drawn.
 const LISTED: usize = 8;
 
-/// Net horizontal displacement [m] and speed [m/s] of every free body's centre, and
-/// where there is a flow the share of its height that is submerged, against time [s],
+/// Net horizontal displacement [m] and speed [m/s] of every free body's centre and, if
+/// there is a flow, the submerged share of its height, against time [s],
 /// in panels over one time axis, with onset, peak and rest marked and their values
 /// written out. Returns an SVG document.
 ///
 /// Values come from `outcome`, curves from `samples`; either may be empty.
 ///
 /// # Errors
-/// When the drawing library refuses to draw.
+/// The drawing library fails.
 pub fn motion(
     scenario: &Scenario,
     samples: &[Sample],
@@ -43,7 +43,7 @@ pub fn motion(
     let listed = list_of_bodies(&tracks);
     let top = HEADER + LINE * listed.len() as f64;
     let last = samples.last().map_or(0.0, |sample| sample.time_s);
-    // An axis has a length, even if a run of duration 0 has none.
+    // An axis needs a length, even for a run of duration 0.
     let ends = [last, scenario.duration_s, 1.0];
     let end_s = ends.into_iter().find(|end| *end > 0.0).unwrap_or(1.0);
     let shown = Quantity::of(scenario);
@@ -58,7 +58,7 @@ pub fn motion(
     })
 }
 
-/// One line a body, unless there is only one: its values stand at its curve.
+/// One line per body; none if there is only one, whose values are written at its curve.
 fn list_of_bodies(tracks: &[Track<'_>]) -> Vec<(String, RGBColor)> {
     if tracks.len() < 2 {
         return Vec::new();
@@ -102,7 +102,7 @@ fn draw_panel(
 ) -> Result<(), PictureError> {
     let largest = (tracks.iter().map(|t| t.largest(quantity))).fold(0.0, f64::max);
     let top = match quantity {
-        // Head room for the texts above the curves.
+        // Space for the texts above the curves.
         Quantity::Displacement | Quantity::Speed => round_up(largest * 1.12),
         Quantity::Submergence => 1.0,
     };
@@ -144,7 +144,7 @@ fn draw_panel(
     Ok(())
 }
 
-/// A dot on the curve; its text near it if this body is alone in the picture.
+/// Draws a dot on the curve, with its text near it if there is only one body.
 fn draw_note(
     plane: &Plane<'_>,
     note: &Note,
@@ -176,7 +176,7 @@ fn draw_note_text(
         let style = FAINT_INK.stroke_width(stroke(0.9));
         plane.draw(&DashedPathElement::new(line, px(4.0), px(3.0), style))?;
     }
-    // Towards the side with more room, or where the curve is not.
+    // Placed on the side with more space, or away from the curve.
     let room = match note.placement {
         Placement::Above | Placement::Head => 0.62,
         Placement::Beyond => 0.8,

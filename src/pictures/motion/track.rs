@@ -6,7 +6,7 @@ use plotters::style::RGBColor;
 use scree_solver::record::{BodyOutcome, BodySample, Outcome, Sample};
 use scree_solver::scenario::Scenario;
 
-/// Most points one curve is drawn with: more than two a pixel show nothing.
+/// Largest number of points of a curve: more than two per pixel are not visible.
 const CURVE_POINTS: usize = 2_000;
 
 /// Quantity that a panel shows.
@@ -21,7 +21,7 @@ pub(super) enum Quantity {
 }
 
 impl Quantity {
-    /// Parts of a scene that can be shown, from above.
+    /// Quantities of a scene that can be shown, from top to bottom.
     pub(super) fn of(scenario: &Scenario) -> Vec<Self> {
         let mut shown = vec![Self::Displacement, Self::Speed];
         if scenario.flow.is_some() {
@@ -40,14 +40,14 @@ impl Quantity {
     }
 }
 
-/// Placement of the text of a mark, to keep clear of the curve.
+/// Placement of the text of a mark, clear of the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Placement {
-    /// Above the mark: the curve is level there, or falls to both sides.
+    /// Above the mark, where the curve is level or falls to both sides.
     Above,
-    /// At the head of a dashed line: the curve rises from there.
+    /// At the top of a dashed line, where the curve rises.
     Head,
-    /// Beyond the mark, if there is room: the curve comes down to it.
+    /// To the right of the mark, if there is space, where the curve descends to it.
     Beyond,
 }
 
@@ -56,7 +56,7 @@ pub(super) enum Placement {
 pub(super) struct Note {
     /// Time [s] and value.
     pub at: (f64, f64),
-    /// Text in words.
+    /// Text of the mark.
     pub text: String,
     /// Placement of the text.
     pub placement: Placement,
@@ -70,7 +70,7 @@ pub(super) struct Track<'a> {
     displacement: Vec<(f64, f64)>,
     speed: Vec<(f64, f64)>,
     submergence: Vec<(f64, f64)>,
-    /// Its colour in all panels.
+    /// Colour of the body in all panels.
     pub color: RGBColor,
 }
 
@@ -202,7 +202,7 @@ fn speed(state: &BodySample) -> f64 {
     x.hypot(y).hypot(z)
 }
 
-/// Every n-th point and the last, without what is no number.
+/// Every n-th point and the last, without values that are not numbers.
 fn thinned(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     points.retain(|(time, value)| time.is_finite() && value.is_finite());
     let stride = points.len().div_ceil(CURVE_POINTS).max(1);

@@ -1,16 +1,16 @@
 //! Case 12: a round column of grains collapses.
 //!
-//! A column of radius R0 and height H0 = a R0 is let go on a rough floor. Its
-//! run-out was measured to be
+//! A column of radius R0 and height H0 = a R0 is released on a rough floor. Its
+//! measured run-out is
 //!
 //! (R∞ − R0)/R0 = 1.24 a for a < 1.7, 1.6 √a above (Lube, Huppert, Sparks &
 //! Hallworth 2004),
 //!
 //! which is quoted from memory: a guide within ±20 %, without a tolerance. A quarter of
-//! the column stands in the corner of back wall and one side, the mirrors of the
-//! rest; the other side is beyond reach. Rest and front are those of the plane column;
-//! so is the sand, since theirs rested at about its angle. Beads are shown beside at
-//! full effort.
+//! the column stands in the corner of back wall and one side, which are the symmetry planes of
+//! the rest; the flow does not reach the other side. Rest and front are defined as for the plane
+//! column; the sand is the same, since theirs rested at about its angle. At full effort beads are
+//! shown as well.
 
 use crate::verify::columns::{Column, Grains, runout};
 use crate::verify::findings::{Findings, Resolution};
@@ -27,7 +27,7 @@ pub(super) const CASE: Case = Case {
 const ASPECTS: [f64; 3] = [0.5, 1.0, 2.0];
 /// Cells over R0.
 const CELLS: [u32; 3] = [8, 12, 16];
-/// Width of the channel over R0: farther than the flow at a = 2 comes.
+/// Width of the channel over R0: wider than the spread of the flow at a = 2.
 const WIDTH: f64 = 4.5;
 
 fn run(effort: Effort, findings: &mut Findings) {

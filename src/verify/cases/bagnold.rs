@@ -2,23 +2,23 @@
 //!
 //! The exact profile is that of a steady layer without side walls (Bagnold's, with
 //! μ(I)): see `slope.rs`. h = 20 mm, d = 0.53 mm; steady between 20.91° and 32.78°.
-//! The layer runs round, four cells long and one wide between smooth sides. It
-//! starts with the exact profile and is asked what it has made of it in two windows
+//! The layer is periodic, four cells long and one wide between smooth sides. It
+//! starts with the exact profile and is compared with it in two windows
 //! of time, so that a drift shows. Tolerances: 3 % of surface speed, 3 % of the profile
-//! (root mean square, layers counted by the mass below them), 1 % of the mass
-//! centre's height, all together, since a layer that gets thinner can keep two of
+//! (root mean square, layers counted by the mass below them), 1 % of the height of the centre of
+//! mass, all together, since a layer that gets thinner can keep two of
 //! them; and 1 % between the surface speeds of the first two windows, a third of
-//! what is allowed to be wrong. Of the height, the softness of the beads as computed
-//! takes ⅔ ρ g h cos θ/K: 0.6, 0.2 and 0.05 % at 22, 24 and 26°.
+//! the error allowed. Of the height error, the softness of the beads as computed
+//! accounts for ⅔ ρ g h cos θ/K: 0.6, 0.2 and 0.05 % at 22, 24 and 26°.
 //!
-//! Speed is a hard measure of friction: d ln u/d ln μ = μ/(μ − μ_s) + μ/(μ_2 − μ) is
-//! 20, 10 and 8 at 22, 24 and 26°. So the error of friction that would make that of
+//! Speed is a sensitive measure of friction: d ln u/d ln μ = μ/(μ − μ_s) + μ/(μ_2 − μ) is
+//! 20, 10 and 8 at 22, 24 and 26°. So the error of friction that would cause that of
 //! the speed is shown too, without a tolerance.
 //!
-//! With finer cells or more points per cell the points' unevenness matters less: at
-//! full effort 27 points a cell instead of 8 are shown beside.
+//! With finer cells or more points per cell the unevenness of the points matters less: at
+//! full effort, 27 points per cell instead of 8 are shown as well.
 //!
-//! At 20° nothing may flow: what starts at rest stays there, and what starts with
+//! At 20° nothing may flow: a layer that starts at rest stays there, and one that starts with
 //! the profile of 24° comes to rest. Tolerance: the fastest point ends slower than a
 //! thousandth of √(g h).
 
@@ -36,15 +36,15 @@ pub(super) const CASE: Case = Case {
     how: How::Runs(run),
 };
 
-/// [°], and cells over the height.
+/// Slopes [°], and cells over the height.
 const SLOPES: [f64; 3] = [24.0, 22.0, 26.0];
 const CELLS: [u32; 3] = [10, 20, 40];
-/// More points per cell and axis, and with which cells.
+/// More points per cell and axis, and the numbers of cells they are used with.
 const DENSE: (u32, [u32; 2]) = (3, [10, 20]);
-/// Start and end of windows [s].
+/// Start and end of the windows [s].
 const WINDOWS: [[f64; 2]; 3] = [[2.0, 2.5], [2.5, 3.0], [5.5, 6.0]];
 const QUICK_WINDOWS: [[f64; 2]; 2] = [[1.0, 1.25], [1.25, 1.5]];
-/// Too flat [°].
+/// Slope too flat for a flow [°].
 const FLAT: f64 = 20.0;
 /// Time that a layer has to stay or come to rest [s].
 const RESTING: f64 = 2.0;
@@ -76,7 +76,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-/// Quantities that are asked of a window, and the tolerances.
+/// Quantities of a window, with their tolerances.
 fn quantities(slope: f64, [from, to]: &[f64; 2]) -> [(String, f64); 3] {
     let named = |what: &str| format!("{what}, {slope}°, {from}–{to} s");
     [
@@ -171,7 +171,7 @@ fn take_window(
     findings.take(resolution, questions, answer);
 }
 
-/// Measured and exact; no number where nothing was measured.
+/// Measured and exact surface speed; NaN if nothing was measured.
 fn slope_surface(measured: &Result<(Means, Answer<0>), CaseError>, slope: f64) -> (f64, f64) {
     match measured {
         Ok((means, _)) => means.surface(slope),
@@ -179,7 +179,7 @@ fn slope_surface(measured: &Result<(Means, Answer<0>), CaseError>, slope: f64) -
     }
 }
 
-/// A slope that holds the beads: from rest, and from the profile of a steep one.
+/// A slope that holds the beads: started from rest, and from the profile of a steep one.
 fn too_flat(cells: u32, findings: &mut Findings) {
     let starts = [
         ("from rest", FLAT, RESTING),

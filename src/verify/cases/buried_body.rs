@@ -7,10 +7,10 @@
 //!
 //! The cube is fixed and frictionless, its faces on nodes, four cells of bed on every
 //! side. Points that would overlap it are left out at the start; the bed then settles
-//! into what room there is, and the force is averaged over the second half of the run.
-//! What the bed stands off adds: were it a distance s from the cube all round,
-//! F = ρ g (L + 2 s)³; s is given in cells. Beside the force, the weight of the bed
-//! that was left out for the cube. No tolerance.
+//! into the remaining space, and the force is averaged over the second half of the run.
+//! The gap between bed and cube adds to the force: with a gap s all round,
+//! F = ρ g (L + 2 s)³; s is given in cells. The weight of the bed
+//! left out for the cube is shown beside the force. No tolerance.
 
 use crate::verify::beads;
 use crate::verify::blocks::{Block, PER_CELL};
@@ -34,13 +34,13 @@ pub(super) const CASE: Case = Case {
 
 /// Cells per side of the cube.
 const CELLS: [u32; 4] = [1, 2, 4, 8];
-/// Cells of bed on every side of it.
+/// Cells of bed on every side of the cube.
 const MARGIN: u32 = 4;
-/// Length of the run, in √(depth/g): nothing but the bulk's viscosity and the
-/// transfers stills a liquid.
+/// Length of the run, in √(depth/g): a liquid is damped only by the bulk's viscosity and the
+/// transfers.
 const DURATION: f64 = 32.0;
 const QUICK_DURATION: f64 = 12.0;
-/// Poisson's ratio of a liquid: the same pressure all round.
+/// Poisson's ratio of a liquid: isotropic pressure.
 const LIQUID: f64 = 0.5;
 
 fn run(effort: Effort, findings: &mut Findings) {
@@ -97,7 +97,7 @@ fn liquid(sound_speed: f64) -> Material {
     }
 }
 
-/// The bed round the cube, and the mass left out for it [kg].
+/// The bed around the cube, and the mass left out for it [kg].
 fn scene(block: &Block) -> Result<(Scene, f64), CaseError> {
     let mut scene = block.bed(LIQUID);
     let cube = fixed_cube(block.middle(), &scene)?;
@@ -127,7 +127,7 @@ fn buoyancy(cells: u32, duration: f64) -> Result<Answer<4>, CaseError> {
     Ok(run.answer([over, stand_off, left_out / displaced, change]))
 }
 
-/// Mean upward force on the cube from the run's present time until `to` [N].
+/// Mean upward force on the cube from the present time of the run until `to` [N].
 fn mean_lift(run: &mut Run, to: f64) -> Result<f64, CaseError> {
     let (mut impulse, mut time) = (0.0, 0.0);
     run.watch(to, |simulation, report| {

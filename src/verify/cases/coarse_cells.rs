@@ -1,14 +1,14 @@
-//! Case 19: bodies in coarse cells against their own limit.
+//! Case 19: bodies in coarse cells against their grid-converged limit.
 //!
-//! Scenes unlike the source paper's, so that what holds there is not a matter of its
-//! numbers: a solid of twenty faces that rolls off a flatter slope, a cube in the way of a
+//! Scenes unlike the source paper's, so that the result does not depend on its
+//! numbers: an icosahedron that rolls down a flatter slope, a cube in the path of a
 //! column that collapses on a flat floor, two cubes of which the first pushes the other.
 //! Every scene is computed at two grid phases, half a cell apart: the incline is longer by
-//! half a cell while all else stays where it is, so the problem is the same. Reference solution: the
-//! mean of both phases at six cells across the body, with the phases apart as a measure
-//! of how well it is known. Tolerances, of the mean of both phases at 2, 3 and 4 cells: 10, 5 and
+//! half a cell while all else stays in place, so the problem is the same. Reference solution: the
+//! mean of both phases at six cells across the body, with the difference of the phases as a measure
+//! of its uncertainty. Tolerances, of the mean of both phases at 2, 3 and 4 cells: 10, 5 and
 //! 2 % of the peak speed, 5, 2 and 1 % of the displacement. The small version has three
-//! cells for an reference solution, which is no limit, and so no tolerances.
+//! cells for its reference solution, which is no limit, and so no tolerances.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::on_all_cores::side_by_side;
@@ -25,18 +25,18 @@ pub(super) const CASE: Case = Case {
     how: How::Runs(run),
 };
 
-/// What is measured of a scene's first body, and its unit.
+/// Quantities measured on a scene's first body, and their units.
 const QUANTITIES: [(&str, &str); 2] = [("peak speed", "m/s"), ("displacement", "m")];
 /// Cells across a body, and the largest errors of both quantities.
 const CELLS: [(f64, [f64; 2]); 3] = [(2.0, [0.1, 0.05]), (3.0, [0.05, 0.02]), (4.0, [0.02, 0.01])];
 /// Cells across a body for the reference solution.
 const FINEST: f64 = 6.0;
-/// By how many cells the slope break is shifted against the nodes.
+/// Shifts of the slope break against the nodes [cells].
 const PHASES: [f64; 2] = [0.0, 0.5];
 /// Length of every incline at phase 0 [m].
 const INCLINE: f64 = 0.5;
 
-/// A scene, and over which length cells are counted.
+/// A scene, and the length over which cells are counted.
 struct Sized {
     name: &'static str,
     /// Smallest extent of its bodies [m].
@@ -71,7 +71,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-/// How far the phases of the reference solution are apart.
+/// Difference of the phases of the reference solution.
 fn apart(sized: &Sized, finest: f64, limit: Result<Phases, CaseError>, findings: &mut Findings) {
     let questions = QUANTITIES.map(|(quantity, unit)| {
         let name = format!("phases apart, {quantity}, {}", sized.name);
@@ -83,7 +83,7 @@ fn apart(sized: &Sized, finest: f64, limit: Result<Phases, CaseError>, findings:
 
 /// Both quantities at one number of cells.
 struct Phases {
-    /// Mean over the phases, and how far they are apart.
+    /// Mean over the phases, and their difference.
     values: ([f64; 2], [f64; 2]),
     cost: Cost,
 }
@@ -131,7 +131,7 @@ fn over_phases(sized: &Sized, cells: f64) -> Result<Phases, CaseError> {
     })
 }
 
-/// It rolls and slides off; cells are counted between opposite faces.
+/// A solid that rolls and slides down; cells are counted between opposite faces.
 fn icosahedron() -> Sized {
     let mut solid = body(0.06);
     solid["shape"] = json!({"regular": {"solid": "icosahedron", "size_m": 0.0331}});
@@ -143,7 +143,7 @@ fn icosahedron() -> Sized {
     }
 }
 
-/// The column may spread both ways; the cube is as dense as the flow.
+/// A column that may spread both ways; the cube is as dense as the flow.
 fn flat() -> Sized {
     let mut cube = body(0.04);
     cube["density_kg_m3"] = json!(1500);
@@ -155,7 +155,7 @@ fn flat() -> Sized {
     }
 }
 
-/// The second cube lies two centimetres behind the first.
+/// Two cubes, the second two centimetres behind the first.
 fn pushed() -> Sized {
     Sized {
         name: "first of two cubes at 40°",

@@ -1,28 +1,29 @@
 //! Case 11: a plane column of grains collapses.
 //!
-//! A column, half as wide as L0 and as high as H0 = a L0, is let go on a rough
-//! floor; how much farther than L0 it comes to rest was measured to be
+//! A column, half as wide as L0 and as high as H0 = a L0, is released on a rough
+//! floor; its measured run-out beyond L0 is
 //!
 //! (L∞ − L0)/L0 = 1.2 a for small a, 1.9 a^⅔ for large (turning at a = 1.8 … 2.8)
 //!                (Lube, Huppert, Sparks & Freundt 2005),
 //!              = 1.8 a for a < 3, 2.3 a^⅔ above
 //!                (Lajeunesse, Monnerie & Homsy 2005).
 //!
-//! Tolerance: between the smallest and the largest of these laws at each a. That wide
-//! because channels, grains and the place taken for the front differ. A material
-//! with a friction of 2 has to fall outside, or the band would say nothing.
+//! Tolerance: between the smallest and the largest of these laws at each a. It is that wide
+//! because channels, grains and definitions of the front differ. A material
+//! with a friction of 2 must fall outside, or the range would be meaningless.
 //!
-//! Materials are fixed beforehand, one for each experiment: for the first sand that
-//! rests at 32°, whatever its rate (theirs rested at about that, and their law holds
-//! for all of it); for the second glass beads with the friction of Jop, Forterre &
+//! Materials are fixed beforehand, one for each experiment: for the first, sand that
+//! rests at 32°, independent of its rate (theirs rested at about that, and their law holds
+//! for all of it); for the second, glass beads with the friction of Jop, Forterre &
 //! Pouliquen 2006. Neither slips on the floor. The column stands at the back wall,
-//! the mirror of its other half, between smooth sides one cell apart, until nothing
+//! the symmetry plane of its other half, between smooth sides one cell apart, until nothing
 //! is faster than a hundredth of √(g H0). The front leaves 0.1 % of the mass beyond
-//! it; the same with 1 %, and out to where the deposit is one grain thick, shows what
-//! that choice makes. The thin end needs cells: the tolerance holds from 16 over the
-//! column's shorter side on, coarser ones are shown. At a = 2 the published solution
-//! of μ(I) (Lagrée, Staron & Popinet 2011: 4.40) is shown too; its material is
-//! another, closer to the beads.
+//! it; the run-outs with 1 %, and to the place where the deposit is one grain thick, show the
+//! effect
+//! of that choice. The thin end needs fine cells: the tolerance holds from 16 over the
+//! column's shorter side on, coarser ones are only shown. At a = 2 the published solution
+//! of μ(I) (Lagrée, Staron & Popinet 2011: 4.40) is shown too; its material
+//! differs, and is closer to the beads.
 
 use crate::verify::columns::{Column, Grains, runout};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
@@ -38,10 +39,10 @@ pub(super) const CASE: Case = Case {
 };
 
 const ASPECTS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
-/// Cells over the column's shorter side, and from which on the tolerance holds.
+/// Cells over the column's shorter side, and the number from which on the tolerance holds.
 const CELLS: [u32; 3] = [8, 16, 32];
 const JUDGED: u32 = 16;
-/// A material that has to fall outside.
+/// A material that must fall outside.
 const CONTROL: Grains = Grains {
     name: "control, μ_s = 2",
     friction: (2.0, 2.0),
@@ -49,7 +50,7 @@ const CONTROL: Grains = Grains {
 
 fn run(effort: Effort, findings: &mut Findings) {
     for aspect in ASPECTS {
-        // The tallest takes longest.
+        // The tallest column takes longest.
         let quick = if aspect > 2.0 { 1 } else { 2 };
         for (grains, quick) in [(Grains::SAND, quick), (Grains::BEADS, 1)] {
             for &cells in effort.take(&CELLS, quick) {
@@ -63,7 +64,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-/// The column with so many cells over its shorter side, and what that is called.
+/// The column with this number of cells over its shorter side, and its label.
 fn column(grains: Grains, aspect: f64, cells: u32) -> (Column, Resolution) {
     let over_base = (f64::from(cells) / aspect.min(1.0)).round() as u32;
     let name = format!("{over_base} cells over L0");

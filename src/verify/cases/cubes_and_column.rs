@@ -1,14 +1,16 @@
 //! Case 17: a column of sand collapses against six cubes stacked 3-2-1.
 //!
-//! Place and material are those of GeoTaichi's granular-impact scene
+//! Geometry and material are those of GeoTaichi's granular-impact scene
 //! (`configs/scenarios/cubes_and_column.json`): a column of 0.1 × 0.1 × 0.2 m, 0.1 m
-//! from cubes of 30 mm, over 0.4 s. What the cubes have with each other and with the
-//! floor is ours. There are no figures to compare with, so the case is qualitative.
+//! from cubes of 30 mm, over 0.4 s. The contact properties of the cubes and of the
+//! floor are ours. There are no figures to compare with, so the case is qualitative.
 //!
 //! Conditions that must hold: until the sand arrives no cube moves sideways by more than
-//! a hundredth of its sphero radius (the upper three sink in to where they are carried);
-//! and momentum is kept to 1e-6, as in case 14. Shown without a tolerance: how many of the six
-//! are driven on by a tenth of their side or more; the least and the largest way; and the
+//! a hundredth of its sphero radius (the upper three sink until they are supported);
+//! and momentum is conserved to 1e-6, as in case 14. Shown without a tolerance: the number of the
+//! six
+//! that are moved by a tenth of their side or more; the smallest and the largest displacement; and
+//! the
 //! deepest overlap of two bodies, or of a body and the floor.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
@@ -65,7 +67,7 @@ fn places(simulation: &Simulation) -> Vec<Vec3> {
     bodies.map(|body| body.state.position).collect()
 }
 
-/// Ways of all cubes since they were there [m].
+/// Displacements of all cubes since the start [m].
 fn ways(simulation: &Simulation, start: &[Vec3]) -> Vec<Vec3> {
     let now = places(simulation);
     now.iter()

@@ -1,22 +1,22 @@
 //! Case 13: a dam breaks on an incline.
 //!
-//! A layer of thickness h0 on a slope, with a base it slips on, is let go at one
+//! A layer of thickness h0 on a slope, with a base on which it slips, is released at one
 //! end. For a shallow layer with friction at its base alone (Mangeney, Heinrich &
-//! Roche 2000), x counted down the slope from the dam,
+//! Roche 2000), with x counted down the slope from the dam,
 //!
 //! h = (2 c0 − x/t + mt/2)² / (9 g cos θ),  front at 2 c0 t + mt²/2,
 //! c0 = √(g h0 cos θ),  m = g (sin θ − μ cos θ);
 //!
-//! what the dam's break hasn't reached yet moves at u = mt (Coulomb). Tolerance: 2 % of
-//! that speed. A material with elasticity has it jump once, by about the lateral
-//! stress over ρ c_P, when the wave from the opened end runs through, since a base
-//! that slips holds nothing more; so the acceleration in the second half of the
-//! time, after the first such wave, has the same tolerance beside it. The profile is
-//! shown without a tolerance, since the theory knows neither the friction inside the
-//! layer nor vertical motion, and a dam is not shallow.
+//! the part that the dam break has not reached yet moves at u = mt (Coulomb). Tolerance: 2 % of
+//! that speed. In a material with elasticity this speed jumps once, by about the lateral
+//! stress over ρ c_P, when the wave from the opened end passes, since a slipping
+//! base holds nothing more; so the acceleration in the second half of the
+//! time, after the first such wave, has the same tolerance as well. The profile is
+//! shown without a tolerance, since the theory neglects friction inside the
+//! layer and vertical motion, and a dam is not shallow.
 //!
-//! The slope is a flat floor with gravity inclined. The material sticks to itself
-//! better than to the floor, so the layer starts as one.
+//! The slope is a flat floor with inclined gravity. The internal friction exceeds
+//! that of the floor, so the layer starts as one.
 
 use crate::verify::beads;
 use crate::verify::blocks::{Block, PER_CELL};
@@ -39,20 +39,20 @@ pub(super) const CASE: Case = Case {
 
 const HEIGHT: f64 = 0.1;
 const INCLINATION_DEG: f64 = 20.0;
-/// Of the base.
+/// Friction of the base.
 const FRICTION: f64 = 0.3;
 /// Length of the layer, in heights.
 const LENGTH: u32 = 10;
-/// When it is looked at, in h0/c0.
+/// Time of the comparison, in h0/c0.
 const UNTIL: f64 = 3.0;
-/// The undisturbed part is judged between these shares of the length.
+/// Range of the undisturbed part, in shares of the length.
 const MIDDLE: (f64, f64) = (0.4, 0.6);
-/// The front leaves this share of the mass beyond it, the theory's too.
+/// Share of the mass beyond the front, also in the theory.
 const FRONT_SHARE: f64 = 1e-3;
 /// Cells over the height.
 const CELLS: [u32; 3] = [8, 16, 32];
 
-/// The theory, at the time it is compared at.
+/// The theory, at the time of the comparison.
 struct Theory {
     time: f64,
     c0: f64,
@@ -79,14 +79,14 @@ impl Theory {
         2.0 * self.c0 * self.time + 0.5 * self.m * self.time.powi(2)
     }
 
-    /// Place where the front leaves its share of the mass beyond it: at a distance s from
+    /// Position of the front with its share of the mass beyond it: at a distance s from
     /// the tip, h = (s/t)²/(9 g cos θ).
     fn front_of_mass(&self) -> f64 {
         let beyond = FRONT_SHARE * f64::from(LENGTH) * HEIGHT * HEIGHT;
         self.front() - (27.0 * self.across * self.time.powi(2) * beyond).cbrt()
     }
 
-    /// Up to where the layer is as it was.
+    /// End of the part where the layer is undisturbed.
     fn tail(&self) -> f64 {
         -self.c0 * self.time + 0.5 * self.m * self.time.powi(2)
     }
@@ -178,11 +178,11 @@ fn speed(simulation: &Simulation, points: &BTreeSet<u32>) -> f64 {
     sum / points.len() as f64
 }
 
-/// Root mean square of measured less theoretical height, between tail and front.
+/// Root mean square of the measured minus the theoretical height, between tail and front.
 fn profile_off(simulation: &Simulation, places: &[f64], theory: &Theory) -> f64 {
     let (cell, tail) = (simulation.cell_size_m(), theory.tail());
     let bins = ((theory.front() - tail) / cell) as usize;
-    // One cell across.
+    // One cell wide.
     let area_of_point = cell * cell / f64::from(PER_CELL.pow(3));
     let mut heights = vec![0.0; bins];
     for x in places.iter().filter(|x| **x >= tail) {

@@ -1,17 +1,18 @@
-//! Case 10f: an upright plate is dragged through a bed.
+//! Case 10f: a vertical plate is dragged through a bed.
 //!
 //! Resistive-force theory in three dimensions (Agarwal, Goldman & Kamrin 2023) gives a
-//! stress that grows with depth and does not ask for the speed as long as that is below
+//! stress that grows with depth and does not depend on the speed as long as that is below
 //! 0.4 √(g L). For a plate of width w, immersed to h and dragged along its normal,
 //!
 //! F / (½ ρ g w h²) = 6.0–7.1, 11.5–13.7, 20.6–24.7   at μ = 0.4, 0.5, 0.6
 //!
-//! of the bed. The reference solution is the middle of the range, the tolerance its half-width. The plate
+//! of the bed. The reference solution is the middle of the range, the tolerance its half-width. The
+//! plate
 //! starts in the bed; the force is the mean from 0.5 h to 0.8 h of travel, at 0.35 √(g h) after
-//! a ramp. w = h, thickness ½ h; friction with the plate 0.4. The bed is 8 h long (where
-//! it ends, it begins again), 6 h wide and 2 h deep: what slides up before the plate starts
-//! 1.8 h ahead of its foot at μ = 0.6 if it is plane (tan(45° + φ/2)), and side walls are
-//! 2.5 h off.
+//! a ramp. w = h, thickness ½ h; friction with the plate 0.4. The bed is 8 h long with a periodic
+//! boundary, 6 h wide and 2 h deep: a plane slip surface before the plate reaches the bed's surface
+//! 1.8 h ahead of its foot at μ = 0.6 (tan(45° + φ/2)), and side walls are
+//! 2.5 h away.
 
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::plates::{DENSITY, Push, SIDE, bed_material};
@@ -34,9 +35,9 @@ const RANGES: [(f64, [f64; 2]); 3] = [(0.4, [6.0, 7.1]), (0.6, [20.6, 24.7]), (0
 const CELLS: [u32; 3] = [4, 6, 8];
 /// The bed, in depths of the plate.
 const BED: [u32; 3] = [8, 6, 2];
-/// Over √(g h).
+/// Speed over √(g h).
 const SPEED: f64 = 0.35;
-/// Sound speed over √(g h): the stress on the plate yields the bed by a few hundredths.
+/// Sound speed over √(g h): the stress on the plate compresses the bed by a few hundredths.
 const SOUND: f64 = 20.0;
 
 fn run(effort: Effort, findings: &mut Findings) {

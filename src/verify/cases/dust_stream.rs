@@ -1,25 +1,25 @@
 //! Case 10a: dust streams onto a fixed cube.
 //!
-//! The stream is so thin that nothing in it touches anything but the cube: its
-//! points have a quarter of the mass that would fill their volume, and no stress.
-//! What hits the cube loses its momentum, and the force is that of a plastic impact,
+//! The stream is so thin that its points interact only with the cube: they
+//! have a quarter of the mass that would fill their volume, and no stress.
+//! Points that hit the cube lose their momentum, and the force is that of a plastic impact,
 //!
 //! F = ρ v² A.
 //!
-//! Dust that was stopped stays there, since no scene can take it away, and what has
-//! piled up bears load once it is four times as dense. So the force is taken between
+//! Dust that was stopped stays there, since no scene can remove it, and the
+//! pile bears load once it is four times as dense. So the force is taken between
 //! two and six cells of travel after the first contact, when the kernel has filled
-//! and a cell and a half of beads is there at most; from six to ten it is shown
-//! beside. A thinner stream would pile up less, but at a tenth of the density and
-//! below runs break off with a point that is no number, even with sub-steps shorter
-//! by as much, in single and double precision; why is not known yet. No gravity,
+//! and at most a cell and a half of beads is there; the force from six to ten is shown
+//! as well. A thinner stream would pile up less, but at a tenth of the density and
+//! below runs break off with a non-finite point, even with sub-steps shorter
+//! by as much, in single and double precision; the cause is not known yet. No gravity,
 //! no friction, restitution 0; the stream is eight cells wider than the cube, whose
 //! faces lie on nodes.
 //!
-//! The grid slows what only passes by. Were all of the stream stopped within a
-//! distance s of the cube, F = ρ v² (L + 2 s)²: s is given in cells. The spheres of
-//! the points (R_p = 0.31 cells at eight points a cell) make part of it; with a tenth
-//! of their radius the rest shows. No tolerance.
+//! The grid also slows points that pass beside the cube. If all of the stream within a
+//! distance s of the cube were stopped, F = ρ v² (L + 2 s)²: s is given in cells. The spheres of
+//! the points (R_p = 0.31 cells at eight points per cell) cause part of it; with a tenth
+//! of their radius the rest is seen. No tolerance.
 
 use crate::verify::beads;
 use crate::verify::findings::{Error, Findings, Question, Resolution};

@@ -1,14 +1,14 @@
 //! Case 8: longitudinal vibration of an elastic bar.
 //!
-//! A bar lies at the back wall, a mirror, and is free at its other end; it has
+//! A bar lies at the back wall, a symmetry plane, and is free at its other end; it has
 //! smooth walls beside it and nothing above or below. Without Poisson's effect,
-//! ν = 0, its motion is along itself alone, and its lowest mode (Rayleigh 1877)
+//! ν = 0, it moves only along its axis, and its lowest mode (Rayleigh 1877)
 //!
 //! v = V sin(πx/2L) cos ωt,  ω = (π/2L) √(M/ρ),
 //!
-//! is started as it is at t = 0. ω is that of the zero crossings of the velocity's
-//! share of the mode, Σ m v sin(πx/2L). Strains of 1e-4 keep it linear. Bar: order
-//! 1.8 over the cell size, the sub-step going with it; no bar on the error itself.
+//! is imposed at t = 0. ω follows from the zero crossings of the velocity's
+//! component in the mode, Σ m v sin(πx/2L). Strains of 1e-4 keep it linear. Tolerance: order
+//! 1.8 in the cell size, with the sub-step proportional to it; none for the error itself.
 
 use crate::verify::blocks::{Block, PER_CELL, elastic};
 use crate::verify::findings::{Findings, Question, Resolution};
@@ -60,7 +60,7 @@ fn scene(cells: u32) -> Scene {
         endless: false,
         material: elastic(DENSITY, DENSITY * WAVE_SPEED * WAVE_SPEED, 0.0),
         gravity: 0.0,
-        // Four sub-steps a step, about.
+        // About four sub-steps per step.
         expected_speed: WAVE_SPEED / 8.0,
         precision: Precision::Double,
         duration: f64::from(HALF_PERIODS as u32 + 1) * 2.0 * LENGTH / WAVE_SPEED,

@@ -1,13 +1,14 @@
-//! Case 18: whether intervals hold what they promise.
+//! Case 18: coverage of the uncertainty intervals.
 //!
 //! Scenes drawn at random (`drawn.rs`): a channel, a release, one or two bodies of some
-//! shape, with everything about them thrown by dice. Each is answered with error bars,
+//! shape, with all their parameters random. Each is answered with uncertainty intervals,
 //! at 2.2 to 3 cells across its body, and computed once more with cells half as large.
-//! Oracle: that finer run. Bar: nine in ten of its values lie inside the intervals, quantity
-//! by quantity. Forty other scenes served to choose the estimator's numbers; none
-//! of them is judged here. A quantity counts where it happened in the finer
-//! run or in one of those behind the interval, and not of bodies that never moved. How wide
-//! the intervals are and what they cost is reported beside: wide enough is easy.
+//! Reference solution: that finer run. Tolerance: nine in ten of its values lie inside the
+//! intervals,
+//! quantity by quantity. Forty other scenes were used to choose the estimator's numbers; none
+//! of them is judged here. A quantity counts if the event happened in the finer
+//! run or in one of those behind the interval, and not for bodies that never moved. The width of
+//! the intervals and their cost are reported as well, since wide intervals are easy.
 
 use crate::verify::drawn::{self, Drawn};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
@@ -26,11 +27,11 @@ pub(super) const CASE: Case = Case {
     how: How::Runs(run),
 };
 
-/// Scenes that are judged; 0 to 19 and 40 to 59 served to choose the estimator.
+/// Scenes that are judged; 0 to 19 and 40 to 59 were used to choose the estimator.
 const SCENES: [u64; 20] = [
     20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39,
 ];
-/// Those of the small version, and its cells over the full ones'.
+/// Number of scenes of the small version, and its cells over the full ones'.
 const QUICK: (usize, f64) = (4, 1.6);
 /// Cells of the finer run over the answer's.
 const FINER: f64 = 0.5;
@@ -46,7 +47,7 @@ const TWO_SIDED_95: f64 = 1.96;
 struct Seen {
     value: Option<f64>,
     interval: Option<UncertaintyInterval>,
-    /// What the width of its interval is to be compared with.
+    /// Scale for the width of its interval.
     scale: Option<f64>,
 }
 
@@ -88,7 +89,7 @@ fn plain(
     }
 }
 
-/// A component of the place where a body ends up, compared with its way.
+/// A component of the final position of a body, scaled by its displacement.
 fn place(body: &BodyOutcome, axis: usize) -> Seen {
     let interval = |bars: &BodyErrorBars| bars.final_position_m[axis];
     Seen {
@@ -154,7 +155,7 @@ fn pair(drawn: &Drawn, coarser: f64) -> Result<Pair, CaseError> {
 struct Trial {
     interval: UncertaintyInterval,
     finer: Option<f64>,
-    /// What the width is to be compared with.
+    /// Scale for the width.
     scale: f64,
 }
 
@@ -202,7 +203,7 @@ fn of_flows(pairs: &[Pair]) -> Vec<Trial> {
     pairs.iter().filter_map(of_flow).collect()
 }
 
-/// Nothing where nothing happened in any of the runs.
+/// A trial; none if the event happened in none of the runs.
 fn trial(seen: Seen, finer: Option<f64>) -> Option<Trial> {
     let interval = seen.interval?;
     let happened = finer.is_some() || interval.basis != Basis::NeverHappened;
@@ -213,7 +214,7 @@ fn trial(seen: Seen, finer: Option<f64>) -> Option<Trial> {
     })
 }
 
-/// Whether enough of the values lie inside, and how wide the intervals are.
+/// Judges the share of values inside the intervals, and reports their width.
 fn judge(name: &str, trials: &[Trial], findings: &mut Findings) {
     let count = trials.len();
     let inside = trials.iter().filter(|trial| trial.is_inside()).count();
@@ -233,7 +234,7 @@ fn judge(name: &str, trials: &[Trial], findings: &mut Findings) {
     findings.take(&resolution, questions, Ok(answer));
 }
 
-/// How many intervals rest on values that converge.
+/// Reports the share of intervals that rest on converging values.
 fn converging(trials: &[Trial], findings: &mut Findings) {
     let converge = trials
         .iter()
@@ -268,7 +269,7 @@ fn extra_cost(pairs: &[Pair], findings: &mut Findings) {
     findings.take(&resolution, questions, Ok(answer));
 }
 
-/// Wilson's interval of 95 % for a share of which so many of so many were seen.
+/// Wilson's interval of 95 % for a share, from `inside` of `count` observations.
 fn interval(inside: usize, count: usize) -> (f64, f64) {
     let (n, z) = (count as f64, TWO_SIDED_95);
     let share = inside as f64 / n;
@@ -278,7 +279,7 @@ fn interval(inside: usize, count: usize) -> (f64, f64) {
     ((middle - half) / whole, (middle + half) / whole)
 }
 
-/// The middle one of these, the upper of two; not a number of none.
+/// The middle value, the upper of two; NaN if there is none.
 fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);

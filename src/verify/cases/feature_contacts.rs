@@ -1,21 +1,22 @@
 //! Case 7: contacts of vertices, edges and faces between bodies.
 //!
-//! **Sliding.** A cube that stands on a vertex is slid over another one, always as
-//! deep below the level of its top: over the face, off a rim, or off along a rim over
-//! its end, a vertex. Of the contact the geometry says all: over the face the distance of the cores is
-//! d = R − δ, c beyond the rim it is √(d² + c²), so energy and force are those of *one*
-//! Hertz contact (Hertz 1882) all along,
+//! **Sliding.** A cube that stands on a vertex slides over another one at a constant
+//! depth below the level of its top: over the face, across a rim, or along a rim and across
+//! its end, a vertex. The contact follows from the geometry: over the face the distance of the
+//! cores is
+//! d = R − δ, at c beyond the rim it is √(d² + c²), so energy and force are those of *one*
+//! Hertz contact (Hertz 1882) throughout,
 //!
 //! U/U₀ = ((R − √(d² + c²))/δ)^2.5,   F/F₀ = ((R − √(d² + c²))/δ)^1.5,
 //!
 //! 1 on the face, continuous over rim and vertex. Tolerance: 1e-9.
 //!
-//! **Colliding.** A cube and a tetrahedron fly at each other at 1 m/s, turned and
-//! turning at random, without damping and friction. Energy, momentum and angular
-//! momentum are what they were (Newton 1687). Tolerances: 1e-6 of the energy in steps of
-//! 10 µs and less (an impact takes some 3 ms) and as the solver chooses its steps, and
-//! 1e-12 of the momenta at every one. No order is asked for: which contacts
-//! come and go in a tumbling collision depends on the step.
+//! **Colliding.** A cube and a tetrahedron collide at 1 m/s, with random orientations and
+//! spins, without damping and friction. Energy, momentum and angular
+//! momentum are conserved (Newton 1687). Tolerances: 1e-6 of the energy in steps of
+//! 10 µs and less (an impact takes some 3 ms) and in the solver's own steps, and
+//! 1e-12 of the momenta at every step. No order is asked for: the sequence of contacts
+//! in a tumbling collision depends on the step.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, CaseError, Cost, Run};
@@ -136,7 +137,7 @@ impl Slide {
     }
 }
 
-/// For a picture: way from 1 mm before a rim on [mm]; energy, upward force and
+/// For a picture: distance from 1 mm before a rim on [mm]; energy, upward force and
 /// outward force over energy and force of one contact on the face.
 ///
 /// # Errors
@@ -163,7 +164,7 @@ fn slid(beyond: f64, along_rim: bool) -> Result<Answer<2>, CaseError> {
     })
 }
 
-/// Largest changes of energy, momentum and angular momentum, as shares, over so many
+/// Largest relative changes of energy, momentum and angular momentum, over this number of
 /// collisions in steps no longer than `step` [s].
 fn collided(collisions: u32, step: f64) -> Result<Answer<3>, CaseError> {
     let mut numbers = Numbers(0.3);
@@ -222,8 +223,8 @@ fn flying(numbers: &mut Numbers, step: f64) -> Result<Scene, CaseError> {
     Ok(scene)
 }
 
-/// Makes a body a rounded regular tetrahedron of the same density, 5 cm along the
-/// edges of its core.
+/// Makes a body a rounded regular tetrahedron of the same density, with a core of 5 cm
+/// edge length.
 fn tetrahedron(body: &mut Body) -> Result<(), CaseError> {
     let density = body.mass / body.shape.volume();
     let corner = 0.05 / 8f64.sqrt();

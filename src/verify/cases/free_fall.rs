@@ -1,16 +1,16 @@
 //! Case 1: free fall.
 //!
-//! A block of flow, and then a body, is thrown with v₀ in the air and falls without
-//! touching anything. Its mass centre follows the parabola
+//! A block of flow, and then a body, is thrown with v₀ and falls without
+//! any contact. Its centre of mass follows the parabola
 //!
 //! x(t) = x₀ + v₀ t + ½ g t²,  v(t) = v₀ + g t
 //!
-//! (Galilei 1638). Uniform acceleration strains nothing, so that no stress may
+//! (Galilei 1638). Uniform acceleration causes no strain, so no stress may
 //! arise, whatever the grid. Tolerances: rounding. In double precision 1e-12 of the
-//! path; in single 6e-8 per operation, on places of order 1 m over some hundred
+//! path; in single 6e-8 per operation, for positions of order 1 m over some hundred
 //! steps, 2e-6 in all. The flow's path has an error of its own: symplectic
-//! Euler is ½ g t Δt below the parabola, a bound the path is held to, and of order
-//! 1. The body moves by velocity Verlet, which is exact under a constant force.
+//! Euler is ½ g t Δt below the parabola, which is the tolerance for the path, an error of first
+//! order. The body moves by velocity Verlet, which is exact under a constant force.
 
 use crate::verify::blocks::{Block, PER_CELL, elastic};
 use crate::verify::findings::{Findings, Question, Resolution};
@@ -48,7 +48,7 @@ fn run(effort: Effort, findings: &mut Findings) {
             let path = 0.5 * gain * DURATION;
             let questions = [
                 Question::new(format!("speed gained, {word}"), "m/s", gain).within(rounding),
-                // Symplectic Euler's own lag, and rounding.
+                // Lag of symplectic Euler, and rounding.
                 Question::new(format!("height lost, {word}"), "m", path)
                     .within(0.5 * gain * substep / path + rounding),
             ];
@@ -111,7 +111,7 @@ fn fall(precision: Precision, courant: f64) -> Result<Fall, CaseError> {
     }
     if let Some(flow) = &mut scene.given.flow {
         flow.limits.courant = courant;
-        // Equal sub-steps over the whole fall, so that their length tells the error.
+        // Equal sub-steps over the whole fall, so that their length determines the error.
         let longest = flow.limits.substep(THROWN.norm() + GRAVITY * DURATION);
         scene.given.timing.longest_substep = DURATION / (DURATION / longest).ceil();
     }

@@ -1,17 +1,17 @@
 //! Case 3: an undamped impact.
 //!
 //! A ball of mass m meets a rigid plane at the speed v. With Hertz's force k δ^1.5,
-//! k = 4/3 E* √R, energy gives the deepest overlap, and a quadrature the duration
+//! k = 4/3 E* √R, conservation of energy gives the largest overlap, and a quadrature the duration
 //! (Hertz 1882):
 //!
 //! δ = (5 m v²/4k)^⅖,  F = k δ^1.5,  t = 2 ∫₀¹ dx/√(1 − x^2.5) δ/v = 2.943275 δ/v,
 //!
 //! and it rebounds with v. The ball is the rounded vertex of a cube whose diagonal
-//! stands upright, so that the force goes through its centre; the next vertices
+//! is vertical, so that the force passes through its centre; the next vertices
 //! stay far from the plane. m 0.0642 kg, R 0.01 m, E* 1e8 Pa, v 1 m/s give
-//! 0.51499 mm, 155.83 N, 1.51573 ms. Tolerance: 0.1 %, at every step; the
-//! rebound also in the steps the solver chooses. Velocity Verlet has order 2;
-//! Hertz's force is smooth enough at δ = 0 for it, almost.
+//! 0.51499 mm, 155.83 N, 1.51573 ms. Tolerance: 0.1 %, at every step; for the
+//! rebound also in the solver's own steps. Velocity Verlet has order 2;
+//! Hertz's force is almost smooth enough at δ = 0 for it.
 
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::run::{Answer, CaseError, Run};

@@ -1,19 +1,19 @@
 //! Case 8: a column at rest under its weight.
 //!
 //! A layer without ends stands on the floor between smooth sides, one cell apart.
-//! Statics give the vertical stress everywhere:
+//! Statics gives the vertical stress everywhere:
 //!
 //! σ_zz = −g × mass above / area,
 //!
-//! whatever has settled, since mass is counted by points. It starts in that
-//! state, as compressed as it says, and rings because the grid's own state is
-//! another; stresses are averaged over the second half of the run. Tolerances: order
+//! even after settlement, since mass is counted by points. It starts in that
+//! state, compressed accordingly, and oscillates because the equilibrium of the grid
+//! differs slightly; stresses are averaged over the second half of the run. Tolerances: order
 //! 1.8 in the L2 error of the profile over its value at the bottom; the floor
 //! carries the weight within 1 %.
 //!
-//! What is off lies in the uppermost cell: its two layers of points share their
-//! load unevenly, since the kernel of the nodes above them is cut, and the one has
-//! too much of what the other lacks. So the profile is shown without that cell too,
+//! The error lies in the uppermost cell: its two layers of points share their
+//! load unevenly, since the kernel of the nodes above them is cut, and one has
+//! the excess that the other lacks. So the profile is shown without that cell too,
 //! and as means over whole cells.
 
 use crate::verify::blocks::{Block, PER_CELL, elastic};
@@ -39,7 +39,7 @@ pub(super) const CASE: Case = Case {
 const HEIGHT: f64 = 0.08;
 const DENSITY: f64 = 1500.0;
 const DURATION: f64 = 0.8;
-/// From here on stresses are averaged [s].
+/// Start of the averaging of stresses [s].
 const FROM: f64 = 0.4;
 /// Layers of points per cell.
 const LAYERS: usize = 2;
@@ -74,7 +74,7 @@ fn run(effort: Effort, findings: &mut Findings) {
 }
 
 fn material() -> Material {
-    // Sound ten times as fast as the height falls, ν = 0.3.
+    // Sound speed ten times √(g H), ν = 0.3.
     let bulk_modulus = DENSITY * 100.0 * GRAVITY * HEIGHT;
     Material {
         yielding: Yielding::Granular {
@@ -115,7 +115,7 @@ fn scene(cells: u32, precision: Precision) -> Scene {
 
 /// A layer of points in equilibrium.
 struct Layer {
-    /// Of its middle [m].
+    /// Height of its middle [m].
     height: f64,
     stress: Sym3,
     /// Volume over that without stress.
@@ -123,10 +123,10 @@ struct Layer {
 }
 
 /// The layers under each other's weight, lowest first. Heights follow from the
-/// volumes: points as compressed as their stress says, yet as far apart as without
-/// it, would carry p/K too much.
+/// volumes: points compressed according to their stress, but at the distances of unstressed
+/// points, would carry p/K too much.
 fn layers_at_rest(cells: u32, material: &Material) -> Vec<Layer> {
-    // Lateral over vertical stress of an elastic bed, ν/(1 − ν).
+    // Ratio of lateral to vertical stress of an elastic bed, ν/(1 − ν).
     let lateral = 0.3 / 0.7;
     let count = cells as usize * LAYERS;
     let thickness = HEIGHT / count as f64;

@@ -1,11 +1,11 @@
 //! Case 6: a cube on an incline.
 //!
-//! It slides at a = g (sin θ − μ cos θ) where tan θ > μ, sticks where tan θ < μ
-//! (Coulomb 1781), and tips where its weight points past the lowest line it
-//! stands on, the ends of its rounded lower edge: tan θ = (L/2 − r)/(L/2), which
+//! It slides at a = g (sin θ − μ cos θ) if tan θ > μ, sticks if tan θ < μ
+//! (Coulomb 1781), and tips if the line of its weight passes the lowest line on which it
+//! stands, the end of its rounded lower edge: tan θ = (L/2 − r)/(L/2), which
 //! is 43.53 / 41.99 / 38.66° for r = 1 / 2 / 4 mm and L = 40 mm. Tolerances: 0.1 % of the
 //! acceleration, once the contacts have settled; 1e-6 m of creep in the 5 s after
-//! the springs have rung out; 0.3°, the angle being found by bisection.
+//! the oscillation of the springs has decayed; 0.3°, with the angle found by bisection.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, CaseError, Cost, Run, scene_of};
@@ -23,7 +23,7 @@ pub(super) const CASE: Case = Case {
 };
 
 const SIDE: f64 = 0.04;
-/// Time in which the springs ring out [s].
+/// Time in which the oscillation of the springs decays [s].
 const SETTLED: f64 = 0.2;
 
 fn run(effort: Effort, findings: &mut Findings) {
@@ -99,7 +99,7 @@ fn tipping_angle(radius: f64, guess: f64) -> Result<Answer<1>, CaseError> {
     Ok(Answer { values, cost })
 }
 
-/// By how much the cube turns within a second, held by much friction [rad].
+/// Rotation of the cube within a second, held by high friction [rad].
 fn turned(angle: f64, radius: f64) -> Result<Answer<1>, CaseError> {
     let mut run = on_slope(angle, 5.0, radius, 1.0)?;
     let start = run.simulation.bodies()[0].state.orientation;

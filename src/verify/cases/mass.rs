@@ -1,12 +1,12 @@
 //! Case 2: mass properties of rounded solids.
 //!
 //! A cube of side L rounded with r is a cube of side a = L − 2r swept by a ball
-//! of r. It falls apart into the core, six slabs on its faces, twelve quarter
+//! of r. It consists of the core, six slabs on its faces, twelve quarter
 //! cylinders along its edges and eight octants of a ball (Steiner 1840):
 //!
 //! V = a³ + 6 a² r + 3π a r² + 4/3 π r³
 //!
-//! and ∫ x² dV is, part by part,
+//! and ∫ x² dV is, by parts,
 //!
 //! core a⁵/12, slabs across x ⅔ a² [(a/2 + r)³ − (a/2)³], slabs along x a⁴ r/3,
 //! edges along x π r² a³/12, edges across x 2a [π r² a²/4 + 4/3 a r³ + π r⁴/4],
@@ -23,8 +23,8 @@
 //!
 //! V = ⅓ ∫ R³ dΩ,  ∫ x dV = ¼ ∫ R⁴ u dΩ = 0,  ∫ x xᵀ dV = ⅕ ∫ R⁵ u uᵀ dΩ.
 //!
-//! R solves distance(R u) = r, the distance from the core being that of the
-//! contacts, which knows nothing of Steiner. The midpoint rule on 400 × 800 rays
+//! R solves distance(R u) = r, with the distance from the core used for the
+//! contacts, which is independent of Steiner's formula. The midpoint rule on 400 × 800 rays
 //! of a surface without edges is good to about 1e-5; tolerance 1e-4.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
@@ -111,8 +111,8 @@ fn solids() -> Result<Vec<(&'static str, SpheroPolyhedron)>, CaseError> {
     checked.map_err(|error| CaseError::Scene(error.to_string()))
 }
 
-/// Volume, largest and smallest principal moment for density 1, and how far the
-/// centre of mass is from the origin, by the solver.
+/// Volume, largest and smallest principal moment for density 1, and distance of the
+/// centre of mass from the origin, by the solver.
 fn solved(body: &SpheroPolyhedron) -> Answer<4> {
     let start = Instant::now();
     let moments = body.unit_inertia().symmetric_eigenvalues();
@@ -126,7 +126,7 @@ fn solved(body: &SpheroPolyhedron) -> Answer<4> {
     }
 }
 
-/// The same, along rays.
+/// The same quantities, by integration along rays.
 fn along_rays(body: &SpheroPolyhedron) -> [Question; 4] {
     const BELTS: u32 = 400;
     let (mut volume, mut first, mut second) = (0.0, Vec3::zeros(), Mat3::zeros());
@@ -159,7 +159,7 @@ fn along_rays(body: &SpheroPolyhedron) -> [Question; 4] {
     ]
 }
 
-/// Way from the centre of mass to the rounded surface along a unit vector [m]: by
+/// Distance from the centre of mass to the rounded surface along a unit vector [m]: by
 /// Newton's method from outside, which can't overshoot since the distance is
 /// convex.
 fn way_out(body: &SpheroPolyhedron, ray: &Vec3) -> f64 {
@@ -188,7 +188,7 @@ fn measured(radius: f64) -> Result<Answer<2>, CaseError> {
     Ok(Answer { values, cost })
 }
 
-/// V/L³ and I/(ρ L⁵/6) of the head comment.
+/// V/L³ and I/(ρ L⁵/6) of the module comment.
 fn closed(r: f64) -> [f64; 2] {
     let a = SIDE - 2.0 * r;
     let volume = a.powi(3) + 6.0 * a * a * r + 3.0 * PI * a * r * r + 4.0 / 3.0 * PI * r.powi(3);

@@ -1,12 +1,12 @@
 //! Case 14: momentum of flow and body against walls and gravity.
 //!
-//! A flow on 40° strikes a cube at the foot. What flow and body have is what they
-//! had at the start, plus every impulse of walls and gravity (Newton 1687):
+//! A flow on 40° strikes a cube at the foot of the incline. The momentum of flow and body equals
+//! that at the start plus every impulse of walls and gravity (Newton 1687):
 //! nothing is lost between points, nodes, body and walls. The residual is that of
-//! the audit, the largest over all steps, over all momentum there is and all
+//! the audit, the largest over all steps, relative to all momentum present and all
 //! impulses so far, and every step is audited. Tolerances: 1e-6 in
-//! single, 1e-12 in double precision, for linear momentum; the same is shown of
-//! angular momentum, without a tolerance.
+//! single, 1e-12 in double precision, for linear momentum; the residual of
+//! angular momentum is shown without a tolerance.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, CaseError, Run, scene_of};

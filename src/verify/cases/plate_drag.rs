@@ -1,10 +1,10 @@
 //! Case 10c: drag of a dense stream on a fixed cube.
 //!
-//! Beads that just touch stream onto the cube at constant speed and part round it.
-//! Nothing gives the drag exactly; asked is where it goes as cells get finer, the
-//! cube and everything else staying the same. The stream is four sides wide (it runs
-//! round along the channel, and is mirrored across), and without gravity: its only
-//! stress is what the cube makes. The force is averaged from two to four and from
+//! A stream of beads that just touch flows onto the cube at constant speed and divides around it.
+//! No theory gives the drag exactly; the case finds its limit as cells get finer, with the
+//! cube and everything else unchanged. The stream is four sides wide (it is periodic
+//! along the channel, and mirrored across), and without gravity: its only
+//! stress is that caused by the cube. The force is averaged from two to four and from
 //! four to six sides of travel after the first contact, in ρ v² A. No tolerance.
 
 use crate::verify::beads;
@@ -22,7 +22,7 @@ pub(super) const CASE: Case = Case {
     how: How::Runs(run),
 };
 
-/// Cells per side of the cube. One alone has its faces amid cells.
+/// Cells per side of the cube. With one cell, its faces lie between nodes.
 const CELLS: [u32; 4] = [1, 2, 4, 8];
 /// Sides of travel.
 const FROM: u32 = 2;
@@ -58,7 +58,7 @@ fn limit(cells: &[u32], drags: &[Drag], window: usize) -> f64 {
     limit_or_finest(&places)
 }
 
-/// Over ρ v² A.
+/// Drag over ρ v² A.
 fn drag(cells: u32) -> Drag {
     let stream = Stream {
         cells,

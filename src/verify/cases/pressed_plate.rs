@@ -1,16 +1,17 @@
 //! Case 10g: a flat plate is pressed down into a bed.
 //!
 //! Resistive-force theory in three dimensions (Agarwal, Goldman & Kamrin 2023) gives the
-//! mean stress under a level plate at depth z, moved straight down,
+//! mean stress under a horizontal plate at depth z, moved vertically downward,
 //!
 //! σ / (ρ g z) = 27.2, 94.2   at μ = 0.4, 0.6
 //!
-//! of the bed. It gives no width for them; the bar of 9 % is half the width of the ranges
-//! that it gives for a plate dragged upright (case 10f). The plate starts on the surface and
-//! goes down at 0.3 √(g L) after a ramp; σ/(ρ g z) is that of the mean force and the mean
+//! of the bed. It gives no width for them; the tolerance of 9 % is half the width of the ranges
+//! that it gives for a vertical plate that is dragged (case 10f). The plate starts on the surface
+//! and
+//! moves down at 0.3 √(g L) after a ramp; σ/(ρ g z) is that of the mean force and the mean
 //! depth from 0.5 L to 0.8 L. It is square, of side L, ½ L thick; friction with it 0.4. The bed is
-//! 7 L long (where it ends, it begins again), 7 L wide and 3 L deep: side walls and the
-//! plate's next image are 3 L and 6 L off, the floor 2.2 L at the end.
+//! 7 L long with a periodic boundary, 7 L wide and 3 L deep: side walls and the
+//! plate's next image are 3 L and 6 L away, the floor 2.2 L at the end.
 
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::plates::{DENSITY, Push, SIDE, WINDOW, bed_material};
@@ -34,9 +35,9 @@ const TOLERANCE: f64 = 0.09;
 const CELLS: [u32; 3] = [4, 6, 8];
 /// The bed, in sides of the plate.
 const BED: [u32; 3] = [7, 7, 3];
-/// Over √(g L).
+/// Speed over √(g L).
 const SPEED: f64 = 0.3;
-/// Sound speed over √(g L) and over √(σ/ρ): the bed yields by a few hundredths.
+/// Sound speed over √(g L) and over √(σ/ρ): the bed is compressed by a few hundredths.
 const SOUND: f64 = 20.0;
 const STIFF: f64 = 4.0;
 
@@ -53,7 +54,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-/// Mean stress over ρ g z, where this is expected.
+/// Mean stress over ρ g z; the value `expected` sets the stiffness of the bed.
 fn press(friction: f64, expected: f64, cells: u32) -> Result<Answer<1>, CaseError> {
     let wave = (GRAVITY * SIDE).sqrt();
     let speed = SPEED * wave;

@@ -1,8 +1,8 @@
 //! Case 4: restitution.
 //!
-//! A body that falls on one vertex below its centre leaves with e times the speed
-//! it came with: that is what the damping number of the contact law is solved
-//! for. The same is asked of a fall on an edge and on a face, where two and four
+//! A body that falls on one vertex below its centre rebounds with e times its impact
+//! speed: the damping number of the contact law is solved
+//! for this. The same is asked of a fall on an edge and on a face, where two and four
 //! vertices touch at a time and share the mass they stop. Tolerance: 2 % of e.
 
 use crate::verify::findings::{Findings, Question, Resolution};
@@ -21,7 +21,7 @@ pub(super) const CASE: Case = Case {
 };
 
 const UPRIGHT: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
-/// An edge along y below, by a turn of 45° about it.
+/// Orientation with an edge along y below: a turn of 45° about y.
 const ON_EDGE: [f64; 4] = [0.923_879_532_511_286_7, 0.0, 0.382_683_432_365_089_8, 0.0];
 
 fn run(effort: Effort, findings: &mut Findings) {
@@ -51,7 +51,7 @@ fn rebound(orientation: [f64; 4], restitution: f64) -> Result<Answer<1>, CaseErr
             ControlFlow::Continue(())
         }
     })?;
-    // It came with 1 m/s.
+    // The impact speed is 1 m/s.
     let speed = run.simulation.bodies()[0].velocity().z;
     Ok(run.answer([speed]))
 }

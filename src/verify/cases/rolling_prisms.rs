@@ -1,14 +1,15 @@
 //! Case 6b: prisms of 6 to 32 sides roll down an incline.
 //!
-//! A cylinder that rolls has the acceleration ⅔ g sin θ, and all of m g s sin θ as kinetic
-//! energy. A prism of n sides loses some at every edge that strikes: of a rimless wheel that
-//! rolls over inelastic edges the share 1 − ((i + cos 2π/n)/(i + 1))² with i = I/(m R²)
-//! (McGeer 1990), so that what it loses on the same way goes with 1/n and the prism becomes the
-//! cylinder. At 40° all of them hop as well, so the wheel says by what law, not by how much,
-//! and that only once many edges have struck: six on 0.8 m are a matter of chance.
+//! A rolling cylinder has the acceleration ⅔ g sin θ, and all of m g s sin θ as kinetic
+//! energy. A prism of n sides loses energy at every edge that strikes: a rimless wheel that
+//! rolls over inelastic edges loses the share 1 − ((i + cos 2π/n)/(i + 1))² with i = I/(m R²)
+//! (McGeer 1990), so its loss over a given distance is proportional to 1/n and the prism tends to
+//! the
+//! cylinder. At 40° all of them also hop, so the wheel gives the scaling, not the amount,
+//! and only after many edges have struck: six on 0.8 m are a matter of chance.
 //!
-//! Tolerances: what nothing accounts for (38a), a thousandth of the energy that gravity gave;
-//! acceleration and kinetic energy of 32 sides, a tenth below the cylinder's. The order in 1/n
+//! Tolerances: for the unaccounted energy (38a), a thousandth of the energy released by gravity;
+//! for acceleration and kinetic energy of 32 sides, a tenth below the cylinder's. The order in 1/n
 //! is shown.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
@@ -33,15 +34,15 @@ pub(super) const CASE: Case = Case {
 
 const SIDES: [u32; 4] = [6, 8, 16, 32];
 const ANGLE: f64 = 40.0;
-/// Radius of the circle that the edges lie on before rounding, and length [m].
+/// Radius of the circle of the edges before rounding, and length [m].
 const RADIUS: f64 = 0.05;
 const LENGTH: f64 = 0.1;
 const SPHERO_RADIUS: f64 = 0.001;
-/// Enough for none to slide.
+/// Friction high enough that none slides.
 const FRICTION: f64 = 2.0;
-/// Way of the centre down the slope [m].
+/// Distance travelled by the centre down the slope [m].
 const WAY: f64 = 0.8;
-/// None takes longer for it [s].
+/// Longest time that any of them takes [s].
 const LONGEST: f64 = 2.0;
 
 fn run(_: Effort, findings: &mut Findings) {
@@ -78,8 +79,8 @@ fn run(_: Effort, findings: &mut Findings) {
     }
 }
 
-/// Acceleration, and shares of the energy that gravity gave: what it moves with, what its
-/// contacts took, and what was made.
+/// Acceleration, and shares of the energy released by gravity: kinetic energy, energy
+/// dissipated by the contacts, and energy created.
 fn roll(sides: u32) -> Result<Answer<4>, CaseError> {
     let mut run = Run::start(scene(sides)?)?;
     let start = run.simulation.bodies()[0].state.position;
@@ -108,10 +109,10 @@ fn roll(sides: u32) -> Result<Answer<4>, CaseError> {
     ]))
 }
 
-/// Lying on a side, high on the slope.
+/// The prism lying on a side, high on the slope.
 fn scene(sides: u32) -> Result<Scene, CaseError> {
     let mut document = channel(ANGLE, 3.0, 1.0, 0.6);
-    // A scenario holds 32 places at most; more sides are put on the body then.
+    // A scenario has at most 32 vertices; for more sides they are set on the body afterwards.
     let vertices: Vec<[f64; 3]> = edges(16).into_iter().map(Into::into).collect();
     document["bodies"] = json!([{
         "shape": {"polyhedron": {"vertices_m": vertices}}, "sphero_radius_m": SPHERO_RADIUS,
@@ -139,7 +140,7 @@ fn scene(sides: u32) -> Result<Scene, CaseError> {
     Ok(scene)
 }
 
-/// Ends of the edges along y, a side lowest.
+/// Ends of the edges along y, with a side at the bottom.
 fn edges(sides: u32) -> Vec<Vec3> {
     let angle = |side: u32| (f64::from(side) + 0.5) * TAU / f64::from(sides);
     let end = |side: u32, y: f64| {

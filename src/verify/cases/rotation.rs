@@ -1,18 +1,18 @@
 //! Case 1b: an elastic block spins.
 //!
-//! A cube of the elastic test law spins about an oblique axis, free of gravity
+//! A cube of the elastic test law spins about an oblique axis, without gravity
 //! and walls. Its angular momentum is constant, its energy never rises, and its
-//! volume grows by what the spin stretches it: by the virial theorem the mean of
-//! tr σ is 2 E_kin/V, and the volume therefore larger by
+//! volume grows by the strain of the spin: by the virial theorem the mean of
+//! tr σ is 2 E_kin/V, and the volume is therefore larger by
 //!
 //! ε = 2 E_kin/(3 K V) = ρ ω² ⟨r²⟩/(3 K),  ⟨r²⟩ = side²/6
 //!
-//! on average over its ringing. It is a test of the frozen grid: a step turns the
-//! block while its weights stand still. The kernel spreads every point's mass by
+//! on average over its oscillation. It is a test of the frozen grid: a step turns the
+//! block while its weights stay constant. The kernel spreads every point's mass by
 //! h²/4 per axis, which adds to ⟨r²⟩: ε is too large by an error of order 2 in the
 //! cell size. Tolerances: rounding, 1e-12, for the angular
-//! momentum (the forces on displaced nodes are free of torque); the spin's own
-//! stretch ε for the volume; 1e-3 of the kinetic energy for its rise.
+//! momentum (the forces on displaced nodes are free of torque); the strain ε of the
+//! spin for the volume; 1e-3 of the kinetic energy for its rise.
 
 use crate::verify::blocks::{Block, PER_CELL, elastic};
 use crate::verify::findings::{Error, Findings, Question, Resolution};
@@ -32,7 +32,7 @@ pub(super) const CASE: Case = Case {
     how: How::Runs(run),
 };
 
-/// About one turn [s].
+/// Duration of about one turn [s].
 const DURATION: f64 = 0.6;
 const SIDE: f64 = 0.1;
 const DENSITY: f64 = 1500.0;

@@ -4,11 +4,11 @@
 //!
 //! a = g max(0, sin θ − μ cos θ)
 //!
-//! (Coulomb 1781). Nodes lie on no plane of the incline, so that this is a test
+//! (Coulomb 1781). The nodes lie on no plane of the incline, so this is a test
 //! of the wall between nodes. Two materials don't yield: the granular law with a
 //! friction of 10, in both precisions, and the elastic test law, in double. Tolerance:
-//! 1 % of g at every angle. The speed is taken between two times after the start,
-//! so far apart that the block's own ringing averages out.
+//! 1 % of g at every angle. The acceleration is taken between two times after the start,
+//! far enough apart to average out the oscillation of the block.
 
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, CaseError, Run, scene_of};
@@ -32,7 +32,7 @@ const FRICTION: f64 = 0.2;
 const ANGLES_DEG: [f64; 8] = [0.0, 10.0, 20.0, 30.0, 40.0, 45.0, 50.0, 60.0];
 const FEWER_ANGLES_DEG: [f64; 3] = [10.0, 30.0, 60.0];
 
-/// The speeds compared are those at these times [s].
+/// Times at which speeds are compared [s].
 const FROM: f64 = 0.1;
 const TO: f64 = 0.4;
 
@@ -44,7 +44,7 @@ enum Law {
 }
 
 impl Law {
-    /// All angles, but for the slow ones where it has to be quick.
+    /// All angles, without the slow ones at quick effort.
     fn angles(self, effort: Effort) -> &'static [f64] {
         match (self, effort) {
             (Self::Granular("single"), _) | (_, Effort::Full) => &ANGLES_DEG,

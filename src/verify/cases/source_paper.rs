@@ -3,17 +3,17 @@
 //! A cube of 4 cm at the foot of an incline is struck and carried by a dry flow.
 //! Its motion was measured: it sets off at about 0.17 s, peaks once, at 1.08 m/s,
 //! and comes to rest (Ji, Liang & Choi, figure 7). Inclination, volume and
-//! materials are not given; ours were chosen so that these two come close at four
-//! cells per side (docs/source-paper.md), so standing beside them is a comparison
-//! and proves nothing. No tolerance.
+//! materials are not given; ours were chosen to match these two values closely at four
+//! cells per side (docs/source-paper.md), so the comparison
+//! proves nothing. No tolerance.
 //!
-//! What can be asked is how the answer depends on the computation: where each
-//! quantity goes as cells get finer, beside which every resolution is shown (beside
-//! the finest where they don't settle); and what the two clocks do. Neither the
-//! length of a sub-step nor that of a step is part of the problem. Tolerance: peak and
+//! The case shows how the answer depends on the computation: the limit of each
+//! quantity as cells get finer, with the values of every resolution (or only
+//! the finest value if they don't settle); and the effect of the lengths of step and sub-step,
+//! neither of which is part of the problem. Tolerance: peak and
 //! displacement change by less than 1 % when either is halved and halved again.
 //! Twice the sound speed, and Drucker–Prager's law instead of μ(I), change the
-//! problem; what they do is shown without a tolerance.
+//! problem; their effects are shown without a tolerance.
 
 use crate::verify::findings::{Findings, Question, Resolution};
 use crate::verify::limit::limit_or_finest;
@@ -85,7 +85,7 @@ fn resolved(cells: f64, references: &[f64; 4], motion: Motion, findings: &mut Fi
     findings.take(&resolution, questions, motion);
 }
 
-/// Finds the influences of other things on the cube's motion, against the scene as it is.
+/// Finds the effects of other parameters on the cube's motion, relative to the original scene.
 fn influences(cells: f64, findings: &mut Findings) {
     let references = match motion(&scene(cells)) {
         Ok(answer) => answer.values,

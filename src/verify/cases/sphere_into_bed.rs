@@ -1,17 +1,17 @@
 //! Case 15: a sphere falls into a bed of grains.
 //!
-//! How deep it comes was measured to be (Uehara, Ambroso, Ojha & Durian 2003)
+//! Its measured depth is (Uehara, Ambroso, Ojha & Durian 2003)
 //!
 //! d = (0.14/μ) (ρ_b/ρ)^½ D^⅔ H^⅓,
 //!
 //! ρ_b and D the sphere's density and diameter, ρ the bed's, μ its friction at
 //! rest, H the whole drop, d included. Tolerance: 15 % of each exponent, from three
-//! values of each quantity, the others held; H can't be held, so what it does is
-//! taken out with the exponent found for it. The prefactor is shown without a tolerance.
+//! values of each quantity, with the others constant; H can't be held constant, so its effect is
+//! removed with the exponent found for it. The prefactor is shown without a tolerance.
 //!
 //! The sphere is a cube whose core has a twenty-fifth of its side. It starts at the
-//! surface, as fast as it would be there. The bed is of glass beads, five diameters
-//! wide and four deep; where it ends along the channel, it begins again.
+//! surface, with the speed it would have there. The bed is of glass beads, five diameters
+//! wide and four deep, with a periodic boundary along the channel.
 
 use crate::verify::beads;
 use crate::verify::blocks::{Block, PER_CELL};
@@ -38,15 +38,15 @@ pub(super) const CASE: Case = Case {
 /// A sphere and its fall to the surface.
 #[derive(Debug, Clone, Copy)]
 struct Drop {
-    /// [kg/m³].
+    /// Density of the sphere [kg/m³].
     density: f64,
-    /// [m].
+    /// Diameter of the sphere [m].
     diameter: f64,
-    /// [m].
+    /// Fall to the surface [m].
     fall: f64,
 }
 
-/// Drop that the others differ from in one quantity.
+/// Base drop; the others differ from it in one quantity.
 const BASE: Drop = Drop {
     density: 2500.0,
     diameter: 0.02,
@@ -59,7 +59,7 @@ const FALLS: [f64; 2] = [0.05, 0.2];
 const CELLS: [u32; 3] = [4, 6, 8];
 /// Width and depth of the bed, in diameters.
 const BED: [u32; 2] = [5, 4];
-/// Longer than any of them takes [s].
+/// Upper bound of the duration [s].
 const LONGEST: f64 = 0.5;
 
 fn run(effort: Effort, findings: &mut Findings) {
@@ -83,7 +83,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-/// Depth over diameter the formula gives: d³ ∝ d + fall, solved by iteration.
+/// Depth over diameter by the formula: d³ ∝ d + fall, solved by iteration.
 fn scaled(drop: &Drop) -> f64 {
     let mut depth = drop.diameter;
     for _ in 0..50 {
@@ -92,7 +92,7 @@ fn scaled(drop: &Drop) -> f64 {
     depth / drop.diameter
 }
 
-/// Depth that the prefactor is multiplied by [m].
+/// Depth over the prefactor [m].
 fn over_prefactor(drop: &Drop, depth: f64) -> f64 {
     let density = (drop.density / beads::BULK_DENSITY).sqrt();
     let drop = drop.diameter.powf(2.0 / 3.0) * (drop.fall + depth).cbrt();
@@ -132,7 +132,7 @@ fn exponents(cells: u32) -> Result<Answer<5>, CaseError> {
     })
 }
 
-/// Depth of the sphere's lowest place below the surface when it stops [m].
+/// Depth of the sphere's lowest point below the surface when it stops [m].
 fn depth(drop: &Drop, cells: u32) -> Result<Answer<1>, CaseError> {
     let surface = f64::from(BED[1]) * drop.diameter;
     let mut run = Run::start(scene(drop, cells, surface)?)?;

@@ -1,4 +1,4 @@
-//! Case 5: boxes that nothing touches.
+//! Case 5: boxes free of torque.
 //!
 //! A rounded box of sides 1 : 2 : 3 tumbles about its middle axis. Energy and
 //! angular momentum are constant, and the angular velocity in body axes is given
@@ -8,7 +8,7 @@
 //! ω₁ ∝ cn τ, ω₂ ∝ sn τ, ω₃ ∝ dn τ,  τ = t √((I₃ − I₂)(M² − 2 E I₁)/(I₁ I₂ I₃)),
 //! k² = (I₂ − I₁)(2 E I₃ − M²)/((I₃ − I₂)(M² − 2 E I₁)).
 //!
-//! Twice in a period 4 K(k) the spin about the middle axis changes its sign: the
+//! Twice per period 4 K(k) the spin about the middle axis changes its sign: the
 //! box flips. Tolerances: order 1.9 in the step for spin and energy; the angular
 //! momentum to rounding; the flip within 1 % of a period at the finest step. The
 //! end is not at a symmetric instant of the period, where errors cancel.
@@ -39,7 +39,7 @@ pub(super) const CASE: Case = Case {
 
 /// Spin about the axis of the largest inertia [rad/s].
 const SPIN: f64 = 100.0;
-/// Share of the way to the separatrix.
+/// Fraction of the distance to the separatrix.
 const NEAR: f64 = 0.95;
 /// End, in periods.
 const PERIODS: f64 = 1.3;
@@ -86,7 +86,7 @@ fn run_tumbling(effort: Effort, findings: &mut Findings) {
     findings.take_order("time of the flip", 1e-9, None);
 }
 
-/// Spin off at the end, drift of energy and of angular momentum, time of the
+/// Error of the spin at the end, drift of energy and of angular momentum, time of the
 /// flip.
 fn tumble(top: &Top, step: f64) -> Result<Answer<4>, CaseError> {
     let end = PERIODS * top.period();
@@ -171,8 +171,8 @@ struct Top {
 }
 
 impl Top {
-    /// Spin at the start: none about the middle axis, and as much about the
-    /// least as nearly makes it one of the middle's.
+    /// Spin at the start: none about the middle axis, and about the axis of least inertia
+    /// `NEAR` times the spin on the separatrix.
     fn start(inertia: &Vec3) -> Vec3 {
         let [i1, i2, i3] = [LEAST, MIDDLE, LARGEST].map(|axis| inertia[axis]);
         let least = NEAR * SPIN * (i3 * (i3 - i2) / (i1 * (i2 - i1))).sqrt();

@@ -1,8 +1,8 @@
-//! Case 10d: what the two clocks do to a flowing layer.
+//! Case 10d: effect of the lengths of step and sub-step on a flowing layer.
 //!
 //! The layer of case 10 at 24°. Neither the length of a sub-step (`courant`) nor that
-//! of a step (`flow_courant`) is part of the problem; each is varied over a factor of
-//! four. Tolerance: the surface speed changes by less than 1 % (case 16 asks the same of the
+//! of a step (`flow_courant`) is part of the problem; each is varied by a factor of
+//! four. Tolerance: the surface speed changes by less than 1 % (case 16 requires the same of the
 //! source paper's cube).
 
 use crate::verify::blocks::PER_CELL;
@@ -20,7 +20,7 @@ pub(super) const CASE: Case = Case {
     how: How::Runs(run),
 };
 
-/// A length, in words, and how it is set.
+/// A length of step or sub-step: its label, and the function that sets it.
 type Clock = (&'static str, fn(&mut Limits));
 
 const CLOCKS: [Clock; 5] = [
@@ -53,7 +53,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
 }
 
-/// Surface speed from here to the end of the run [m/s].
+/// Surface speed from `from` to the end of the run [m/s].
 fn surface(slope: &Slope, from: f64, set: fn(&mut Limits)) -> Result<Answer<1>, CaseError> {
     let mut scene = slope.scene();
     if let Some(flow) = &mut scene.given.flow {

@@ -1,21 +1,22 @@
-//! Case 10e: a bore before a wall that is pushed into a layer at rest.
+//! Case 10e: a bore ahead of a wall that is pushed into a layer at rest.
 //!
-//! A smooth wall of the whole width is moved at v into a layer of depth h at rest on a
-//! smooth base; seen from the wall, a flow of the Froude number Fr = v/√(g h) is
-//! stopped by it. With the material frictionless inside its pressure is hydrostatic, and
-//! mass and momentum through the bore that runs ahead of the wall (shallow water) give
+//! A smooth wall of the full width is moved at v into a layer of depth h at rest on a
+//! smooth base; relative to the wall, a flow of the Froude number Fr = v/√(g h) is
+//! stopped by it. In a material without friction the pressure is hydrostatic, and
+//! the balances of mass and momentum across the bore that runs ahead of the wall (shallow water)
+//! give
 //! the depth ratio r behind it and the force on the wall,
 //!
 //! (r − 1)² (r + 1) = 2 r Fr²,   F = r² · ½ ρ g h² w:
 //!
 //! r = 2.170, 3.494, 4.864 and r² = 4.71, 12.2, 23.7 at Fr = 1, 2, 3. Tolerance: 5 % of
-//! both. Theory knows no vertical motion, which a bore has in its front alone, and the
-//! layer yields by about a hundredth.
+//! both. The theory neglects vertical motion, which a bore has only in its front, and the
+//! compression of the layer, which is about a hundredth.
 //!
-//! The channel is one cell wide and open at its far end, so long that what starts from
-//! there meets the bore only after the time measured over: from 6 to 9 h/√(g h), after a
-//! ramp of 2 h/√(g h). Depth is mass over area within 2 h of the wall. A wall that starts
-//! throws the layer up, which falls back later: what is still in the air counts as depth.
+//! The channel is one cell wide and open at its far end, and long enough that waves from
+//! there meet the bore only after the time of measurement: from 6 to 9 h/√(g h), after a
+//! ramp of 2 h/√(g h). Depth is mass over area within 2 h of the wall. The start of the wall
+//! throws the layer up, which falls back later: points in the air count towards the depth.
 
 use crate::verify::blocks::{Block, PER_CELL};
 use crate::verify::findings::{Findings, Question, Resolution};
@@ -40,14 +41,14 @@ const HEIGHT: f64 = 0.1;
 const FROUDE: [f64; 3] = [1.0, 2.0, 3.0];
 /// Cells over the depth.
 const CELLS: [u32; 2] = [6, 12];
-/// Cells that the wall is thick and has behind it.
+/// Thickness of the wall, and of the space behind it [cells].
 const WALL: u32 = 2;
-/// In h/√(g h).
+/// Duration of the ramp, in h/√(g h).
 const RAMP: f64 = 2.0;
 const WINDOW: [f64; 2] = [6.0, 9.0];
-/// Times in it at which the depth is taken.
+/// Number of times in it at which the depth is taken.
 const LOOKS: u32 = 20;
-/// Distance before the wall within which the depth is taken, over h.
+/// Distance ahead of the wall within which the depth is taken, over h.
 const NEAR: f64 = 2.0;
 
 fn run(effort: Effort, findings: &mut Findings) {
@@ -91,7 +92,7 @@ fn wave_speed() -> f64 {
 
 fn scene(froude: f64, cells: u32) -> Result<scree_solver::simulation::Scene, CaseError> {
     let ratio = depth_ratio(froude);
-    // The bore goes at v r/(r − 1), what the open end sends at √(g h).
+    // The bore moves at v r/(r − 1), the wave from the open end at √(g h).
     let meet = WINDOW[1] * (froude * ratio / (ratio - 1.0) + 1.0);
     let cell = HEIGHT / f64::from(cells);
     let speed = froude * wave_speed();

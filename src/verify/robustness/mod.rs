@@ -1,7 +1,8 @@
-//! Robustness tests: scenes that are there to break the computation. Nobody knows their
-//! answers; a run must end finished, or with an error that says when and who, and in
-//! either case keep its books ([`trial`]). [`cases::ALL`] lists the families, one file
-//! each; [`randomised`] draws scenarios at random from all that is legal.
+//! Robustness tests: scenes chosen to break the computation. Their answers are
+//! unknown; a run must finish, or end with an error that gives time and offender, and in
+//! either case satisfy the conservation audits ([`trial`]). [`cases::ALL`] lists the families, one
+//! file
+//! each; [`randomised`] draws scenarios at random from all legal ones.
 
 pub mod cases;
 pub mod randomised;
@@ -17,17 +18,17 @@ use trial::{Trial, TrialReport};
 pub struct Family {
     /// Name on the command line.
     pub name: &'static str,
-    /// Why it may break the computation.
+    /// Reason why it may break the computation.
     pub reason: &'static str,
-    /// Its scenes.
+    /// Scenes of the family.
     #[serde(skip)]
     pub members: fn(Effort) -> Vec<Member>,
 }
 
-/// One of them.
+/// One scene of a family.
 #[derive(Debug)]
 pub enum Member {
-    /// A scene to be run and looked at.
+    /// A scene to be run and checked.
     Scene(Box<Trial>),
     /// A comparison of its own.
     Other(&'static str, fn() -> trial::Special),
@@ -43,7 +44,7 @@ impl Member {
     }
 }
 
-/// Runs a family; with the safety factor of the step if asked for.
+/// Runs a family, with the safety factor of the step if asked for.
 pub fn try_family(family: &Family, effort: Effort, with_safety: bool) -> Vec<TrialReport> {
     let members = (family.members)(effort).into_iter();
     members

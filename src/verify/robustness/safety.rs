@@ -1,20 +1,20 @@
-//! Distance of a scene's step from an unstable one.
+//! Margin of a scene's step against instability.
 
 use super::trial::Trial;
 use scree_solver::Simulation;
 use scree_solver::simulation::Scene;
 use std::ops::ControlFlow;
 
-/// Multiples of the chosen sub-step that are tried, one after the other.
+/// Multiples of the chosen sub-step that are tried in order.
 const MULTIPLES: [f64; 7] = [1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0];
-/// Point-steps one try may take.
+/// Largest number of point-steps of one try.
 const BUDGET: u64 = 1_500_000;
 /// A run whose energy rises by more than this share of its scale is unstable.
 const UNSTABLE: f64 = 0.02;
 
 /// Largest stable sub-step of the flow over the chosen one, of those tried; none
-/// without a flow. The number of sub-steps in a step stays what it was in length of
-/// time, and bodies divide what they get into steps of their own as always.
+/// without a flow. The step keeps its length in
+/// time, and bodies divide their steps into body sub-steps as always.
 pub fn factor(trial: &Trial) -> Option<f64> {
     let mut stable = None;
     for multiple in MULTIPLES {

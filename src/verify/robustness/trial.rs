@@ -1,4 +1,4 @@
-//! One robustness scene, run and looked at.
+//! One robustness scene, run and checked.
 
 use crate::verify::run::{CaseError, scenario_of};
 use scree_solver::contact::point_body::Around;
@@ -12,62 +12,62 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-/// Mass may be off by rounding alone.
+/// Largest relative error of mass: rounding only.
 const MASS: f64 = 1e-9;
-/// Linear momentum, relative (case 14).
+/// Largest relative error of linear momentum (case 14).
 const MOMENTUM: f64 = 1e-6;
-/// Rise of the mechanical energy over what there was at the start and the largest
+/// Largest rise of the mechanical energy, over the sum of the initial and the largest
 /// kinetic energy.
 const ENERGY: f64 = 0.02;
-/// Overlap of point and body δ/(R_p + r): at 1 the point is at the core.
+/// Largest overlap of point and body δ/(R_p + r): at 1 the point is at the core.
 const OVERLAP: f64 = 1.0;
-/// Overlap of bodies over the sphero radius, beyond which a run ends.
+/// Overlap of bodies over the sphero radius beyond which a run ends.
 const BODY_OVERLAP: f64 = 0.9;
-/// Speed over that of a fall from the highest place and the fastest throw together:
-/// an elastic impact on something lighter doubles it at most.
+/// Largest speed, over that of a fall from the highest place and the fastest throw together:
+/// an elastic impact on a lighter body at most doubles it.
 const SPEED: f64 = 2.0;
-/// A point of single precision lies on the surface but for this, in cells.
+/// Distance by which a point of single precision may miss the surface [cells].
 const ROUNDING: f64 = 1e-4;
-/// Costs of a sub-step and of one of a body, in point-steps.
+/// Cost of a sub-step and of a body sub-step, in point-steps.
 const OF_ITSELF: u64 = 300;
 const OF_A_BODY: u64 = 200;
-/// A step is broken off once so many budgets are spent.
+/// Multiple of the budget at which a step is broken off.
 const PATIENCE: u64 = 4;
-/// Looks at points and bodies during a run.
+/// Number of checks of points and bodies during a run.
 const LOOKS: u32 = 8;
 
-/// A scene and what may be spent on it.
+/// A scene and its budget.
 #[derive(Debug, Clone)]
 pub struct Trial {
     /// Name within its family.
     pub name: String,
     /// The scenario.
     pub scenario: Value,
-    /// Changes to the scene that no scenario can express.
+    /// Change to the scene that no scenario can express.
     pub alter: Option<fn(&mut Scene)>,
-    /// End that is asked for.
+    /// Required end.
     pub asked: Asked,
-    /// Point-steps it may take, sub-steps and those of bodies counted as so many; none:
-    /// as many as it needs.
+    /// Budget in point-steps, including the cost of sub-steps and body sub-steps; none:
+    /// unlimited.
     pub budget: Option<u64>,
-    /// Rise of the mechanical energy that it may show, over what there was at the start
+    /// Allowed rise of the mechanical energy, over the sum of the initial
     /// and the largest kinetic energy.
     pub energy_made: f64,
 }
 
-/// End that is asked of a scene.
+/// Required end of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Asked {
     /// Finished.
     Finish,
-    /// Finished, or by a typed error: the scene is beyond what can be computed.
+    /// Finished, or with a typed error: the scene is beyond the limits of the computation.
     Orderly,
     /// Refused before it starts.
     Refusal,
 }
 
 impl Trial {
-    /// A scene that is to be finished.
+    /// A scene that must finish.
     pub fn new(name: impl Into<String>, scenario: Value) -> Self {
         Self {
             name: name.into(),
@@ -79,21 +79,21 @@ impl Trial {
         }
     }
 
-    /// The same, but to end so.
+    /// The same scene with another required end.
     #[must_use]
     pub fn asking(mut self, asked: Asked) -> Self {
         self.asked = asked;
         self
     }
 
-    /// The same scene, changed by hand.
+    /// The same scene with a change that no scenario can express.
     #[must_use]
     pub fn altered(mut self, alter: fn(&mut Scene)) -> Self {
         self.alter = Some(alter);
         self
     }
 
-    /// Sets it up.
+    /// Sets the scene up.
     pub(super) fn start(&self) -> Result<Simulation, CaseError> {
         let scenario = scenario_of(&self.scenario)?;
         Ok(match self.alter {
@@ -114,14 +114,14 @@ pub enum Ended {
     Finished,
     /// By a guard of the solver.
     Failed(StepError),
-    /// Before it began.
+    /// Refused before it began.
     Refused(String),
-    /// In a way it never should.
+    /// Panicked, which must never happen.
     Panicked(String),
 }
 
 impl Ended {
-    /// True if nothing went wrong.
+    /// True if the run finished.
     pub fn is_finished(&self) -> bool {
         *self == Self::Finished
     }
@@ -144,14 +144,14 @@ impl Serialize for Ended {
     }
 }
 
-/// Figures found by looking.
+/// Figures found by the checks.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Figures {
     /// Points at the start.
     pub points: u64,
     /// Sub-steps taken.
     pub substeps: u64,
-    /// Missing mass, relative.
+    /// Relative error of mass.
     pub mass: f64,
     /// Linear momentum residual.
     pub momentum: f64,
@@ -163,23 +163,23 @@ pub struct Figures {
     pub overlap: f64,
     /// Largest overlap of bodies with walls and each other over r.
     pub body_overlap: f64,
-    /// Points in the core of a body, the most at any look.
+    /// Largest number of points in the core of a body at any check.
     pub inside: u64,
-    /// Penetration corrections to a body's surface.
+    /// Number of penetration corrections to a body's surface.
     pub penetration_correction: u64,
-    /// Points that left by the open end.
+    /// Points that left through the open end.
     pub left: u64,
-    /// Points neither there nor left.
+    /// Points that are neither present nor left.
     pub lost: u64,
-    /// Largest speed over the largest that falling and throwing give, of a light body over
-    /// half of what the energy of all could make it.
+    /// Largest speed over the largest that falling and throwing give; for a light body over
+    /// half of the speed that the energy of all bodies could give it.
     pub speed: f64,
-    /// True if every place and velocity is a number.
+    /// True if every position and velocity is finite.
     pub finite: bool,
 }
 
-/// A comparison that a family makes: finished scenes, and what is to be no larger than
-/// a bound.
+/// A comparison made by a family: ends of its runs, and figures with their
+/// bounds.
 #[derive(Debug, Clone)]
 pub struct Special {
     /// Ends of its runs.
@@ -193,33 +193,33 @@ pub struct Special {
 pub struct Compared {
     /// Quantity compared.
     pub what: String,
-    /// Value that came out.
+    /// Value found.
     pub found: f64,
-    /// Largest size allowed; none: it is told only.
+    /// Largest size allowed; none: only reported.
     pub bound: Option<f64>,
 }
 
-/// A robustness test and what came of it.
+/// A robustness test and its result.
 #[derive(Debug, Clone, Serialize)]
 pub struct TrialReport {
     /// Family and name.
     pub case: String,
-    /// End.
+    /// End of the run.
     pub ended: Ended,
-    /// Figures found; none if it did not start.
+    /// Figures found; none if the run did not start.
     pub figures: Option<Figures>,
-    /// Largest stable step over the chosen one; at least that, if it is the last tried.
+    /// Largest stable step over the chosen one; a lower bound if it is the last tried.
     pub safety: Option<f64>,
     /// Findings of comparisons.
     pub compared: Vec<Compared>,
     /// Wall time [s].
     pub wall_s: f64,
-    /// Rules that it breaks; nothing if it is valid.
+    /// Rules broken; none if the result is valid.
     pub broken: Vec<String>,
 }
 
 impl TrialReport {
-    /// True if nothing is broken.
+    /// True if no rule is broken.
     pub fn is_valid(&self) -> bool {
         self.broken.is_empty()
     }
@@ -305,7 +305,7 @@ fn watched(trial: &Trial) -> (Ended, Option<Figures>) {
             ended = Ended::Failed(error);
             break;
         }
-        // Amid a step the points' motion lies on the grid.
+        // In the middle of a step the points' motion is still on the grid.
         if !amid_step {
             look(&simulation, &mut figures);
         }
@@ -317,7 +317,7 @@ fn watched(trial: &Trial) -> (Ended, Option<Figures>) {
     (ended, Some(figures))
 }
 
-/// Looks at every point and body.
+/// Checks every point and body.
 fn look(simulation: &Simulation, figures: &mut Figures) {
     let mut fastest = 0.0f64;
     let mut finite = true;
@@ -329,8 +329,8 @@ fn look(simulation: &Simulation, figures: &mut Figures) {
     let free = simulation.bodies().iter().filter(|body| body.is_free());
     let free_mass: f64 = free.map(|body| body.mass).sum();
     for body in simulation.bodies() {
-        // As fast as its energy would make it without turning: how fast a corner gets by
-        // turning is a matter of shape. Heavy bodies may give a light one all of theirs.
+        // Speed of the energy without rotation: the speed of a rotating corner
+        // depends on the shape. Heavy bodies may give a light one all of their energy.
         let speed = (2.0 * body.kinetic_energy() / body.mass).sqrt();
         let lighter = ((free_mass / body.mass).sqrt() / SPEED).max(1.0);
         fastest = fastest.max(speed / lighter);
@@ -365,7 +365,7 @@ fn close_books(simulation: &Simulation, figures: &mut Figures) {
     figures.lost = simulation.released_points().abs_diff(present);
 }
 
-/// Rules broken by a run that has to end so, and may make so much energy.
+/// Rules broken by a run with this required end and this allowed rise of energy.
 fn broken(
     (asked, energy_made): (Asked, f64),
     ended: &Ended,
@@ -381,7 +381,7 @@ fn broken(
     if !as_asked {
         broken.push("its end".to_owned());
     }
-    // What a run that ended early leaves behind is no answer.
+    // The results of a run that ended early are no answer.
     let Some(found) = figures.filter(|_| ended.is_finished()) else {
         return broken;
     };

@@ -1,11 +1,12 @@
 //! A box of 1 : 1 : 20 that spins fast about its length, and precesses.
 //!
-//! Two of its moments of inertia are equal, so its turning is known (Landau & Lifshitz,
-//! Mechanics, §33): about the angular momentum H with |H|/I across its length, and about
-//! its length with (1 − I_l/I) ω_l besides. Splitting turns it so exactly; rounding over
-//! some 80,000 sub-steps is left: 3e-14 if it adds up at random. H is 42 times as large
+//! Two of its moments of inertia are equal, so its rotation is known (Landau & Lifshitz,
+//! Mechanics, §33): about the angular momentum H with |H|/I across its length, and additionally
+//! about
+//! its length with (1 − I_l/I) ω_l. Splitting integrates it exactly; only rounding over
+//! some 80,000 sub-steps is left: 3e-14 if it accumulates at random. H is 42 times as large
 //! across the length as along it, so a tilt changes the spin along it by 42 times as much,
-//! and over 4,000 rad that comes to 5e-9. Tolerances: twenty times that for the orientation, 1e-9
+//! and over 4,000 rad that amounts to 5e-9. Tolerances: twenty times that for the orientation, 1e-9
 //! for the energy.
 
 use super::{free_box, scene, spinning};
@@ -57,7 +58,7 @@ fn spin(start: &Body) -> Result<Answer<3>, CaseError> {
     Ok(run.answer([off(start, body), energy.abs(), momentum.norm()]))
 }
 
-/// Largest angle by which two of its axes are off [rad].
+/// Largest angle between the axes of the two orientations, for two of the axes [rad].
 fn off(start: &Body, end: &Body) -> f64 {
     let (across, along) = (start.inertia.m11, start.inertia.m33);
     let own = Vec3::z() * (SPIN.z * (1.0 - along / across) * END);
@@ -69,7 +70,7 @@ fn off(start: &Body, end: &Body) -> f64 {
     offs[0].max(offs[1])
 }
 
-/// A vector turned about another, by its length as an angle [rad] (Rodrigues).
+/// A vector rotated about another, by its length as an angle [rad] (Rodrigues).
 fn rotated(v: &Vec3, turn: &Vec3) -> Vec3 {
     let (sin, cos) = turn.norm().sin_cos();
     let about = turn.normalize();

@@ -1,4 +1,4 @@
-//! No friction and a lot of it; impacts that take everything and nothing.
+//! No friction and high friction; perfectly plastic and perfectly elastic impacts.
 
 use super::strike_with;
 use crate::verify::Effort;

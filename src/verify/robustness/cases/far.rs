@@ -1,4 +1,4 @@
-//! A hundred metres from the origin in single precision.
+//! Scenes a hundred metres from the origin in single precision.
 
 use super::strike;
 use crate::verify::Effort;
@@ -16,15 +16,15 @@ pub(super) const FAMILY: Family = Family {
 
 /// Distance [m].
 const FAR: f64 = 100.0;
-/// A collapse moves its mass centre by centimetres; what differs may be a
-/// thousandth of that, since rounding alone changes which point goes where.
+/// A collapse moves its centre of mass by centimetres; the difference may be a
+/// thousandth of that, since rounding alone changes the paths of points.
 const APART: f64 = 1e-3;
 
 fn members(_: Effort) -> Vec<Member> {
     vec![Member::Other("collapse 100 m upstream", compare)]
 }
 
-/// A column collapses on the flat, this far upstream.
+/// A column that collapses on the flat, this far upstream.
 fn collapse(toe_distance_m: f64) -> Value {
     let mut scenario = strike(0.0);
     scenario["bodies"] = json!([]);

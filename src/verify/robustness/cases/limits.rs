@@ -1,4 +1,4 @@
-//! Nothing, no time, too much in a step, and the way out.
+//! Nothing, no time, too long a step, and the open end.
 
 use super::{strike, strike_with};
 use crate::verify::Effort;
@@ -48,7 +48,7 @@ fn members(_: Effort) -> Vec<Member> {
     scenes.map(|trial| Member::Scene(Box::new(trial))).into()
 }
 
-/// A sub-step of four times what (25) and (26) allow.
+/// Sets a sub-step of four times the limit of (25) and (26).
 fn four_times(scene: &mut Scene) {
     if let Some(flow) = &mut scene.given.flow {
         flow.limits.courant *= 4.0;
@@ -56,7 +56,7 @@ fn four_times(scene: &mut Scene) {
     }
 }
 
-/// The floor ends behind the cube, and so does the flow.
+/// A scene whose floor ends behind the cube, so that the flow leaves.
 fn leaving() -> Trial {
     let mut scenario = strike(60.0);
     scenario["channel"]["runout_length_m"] = 0.1.into();

@@ -20,12 +20,12 @@ pub(super) const FAMILY: Family = Family {
 
 const REST: u64 = 1_000_000;
 const QUICK_REST: u64 = 20_000;
-/// Largest way of any point or body at rest, from a tenth of the run to its end [cells].
+/// Largest displacement of any point or body at rest, from a tenth of the run to its end [cells].
 const CREEP: f64 = 0.01;
-/// [s].
+/// Duration of the shear [s].
 const SHEAR: f64 = 10.0;
 const QUICK_SHEAR: f64 = 3.0;
-/// Change that height and shear stress may show from the fourth to the last tenth: a
+/// Largest change of height and shear stress from the fourth to the last tenth: a
 /// layer that starts with its profile takes a second to settle.
 const DRIFT: f64 = 0.02;
 
@@ -42,7 +42,7 @@ fn members(effort: Effort) -> Vec<Member> {
     }
 }
 
-/// A bed from wall to wall on a slope of 10°, a cube standing in it: nothing moves.
+/// A bed from wall to wall on a slope of 10°, with a cube in it: nothing moves.
 fn bed() -> Value {
     let mut scenario = strike(0.0);
     scenario["channel"]["incline_length_m"] = json!(0.12);
@@ -77,7 +77,7 @@ fn failed(error: CaseError) -> Special {
 
 fn at_rest(scenario: &Scenario, substeps: u64) -> Result<Vec<Compared>, CaseError> {
     let mut simulation = Simulation::new(scenario, 1)?;
-    // The front collapses first: what stands afterwards is the bed.
+    // The front collapses first: the deposit afterwards is the bed.
     go(&mut simulation, substeps / 10)?;
     let settled = places(&simulation);
     let energy = simulation.audit().energy_rise();

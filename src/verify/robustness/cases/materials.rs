@@ -1,4 +1,4 @@
-//! Very soft and very stiff materials, grains of no size, dust.
+//! Very soft and very stiff materials, very small grains, dust.
 
 use super::strike_with;
 use crate::verify::Effort;

@@ -39,11 +39,11 @@ pub const ALL: &[Family] = &[
 
 /// Cells of the small scenes [m].
 const CELL: f64 = 0.02;
-/// Duration [s]: until the flow has struck the cube and gone round it.
+/// Duration [s]: until the flow has struck the cube and passed it.
 const DURATION: f64 = 0.4;
 
-/// Two litres on a slope and a cube of 40 mm at its foot, coarse and narrow; all of
-/// it is computed, since the halves of a scene hide nothing but time.
+/// Two litres on a slope and a cube of 40 mm at its foot, coarse and narrow; computed
+/// in full, since the symmetric half saves only time.
 fn strike(inclination_deg: f64) -> Value {
     json!({
         "channel": {"inclination_deg": inclination_deg, "incline_length_m": 0.6,
@@ -55,12 +55,12 @@ fn strike(inclination_deg: f64) -> Value {
     })
 }
 
-/// A cube of 40 mm, its centre so far downstream [m].
+/// A cube of 40 mm, its centre this far downstream [m].
 fn cube_at(downstream_m: f64) -> Value {
     json!({"shape": {"cube": {"side_m": 0.04}}, "position": {"downstream_m": downstream_m}})
 }
 
-/// The striking flow on 40° with fields at these places set otherwise.
+/// The striking flow on 40° with changed fields.
 fn strike_with(name: impl Into<String>, changes: &[(&str, Value)]) -> Trial {
     let mut scenario = strike(40.0);
     for (pointer, value) in changes {
@@ -69,7 +69,7 @@ fn strike_with(name: impl Into<String>, changes: &[(&str, Value)]) -> Trial {
     Trial::new(name, scenario)
 }
 
-/// Sets the field at a JSON pointer, making the objects on the way.
+/// Sets the field at a JSON pointer, and creates the objects on its path.
 fn set(document: &mut Value, pointer: &str, value: Value) {
     let mut here = document;
     for key in pointer.split('/').skip(1) {

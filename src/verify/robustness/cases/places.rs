@@ -32,7 +32,7 @@ fn places(_: Effort) -> Vec<Member> {
     let side = 0.04f64;
     let half_diagonal = side / 2f64.sqrt();
     let on_edge = [0.5f64.sqrt().mul_add(0.5, 0.5).sqrt(), 0.0, 0.0, 0.0];
-    // 45° about y: the axis across the channel.
+    // 45° about y, the axis across the channel.
     let (cos, sin) = (on_edge[0], (1.0 - on_edge[0] * on_edge[0]).sqrt());
     let stand = |x: f64, height: f64, orientation: [f64; 4]| {
         json!([{"shape": {"cube": {"side_m": side}}, "orientation": orientation,
@@ -71,7 +71,7 @@ fn places(_: Effort) -> Vec<Member> {
     ])
 }
 
-/// A free cube before a fixed one, so far apart.
+/// A free cube ahead of a fixed one, with this gap.
 fn gap(width: f64) -> Value {
     let mut fixed = cube_at(0.1 + 0.04 + width);
     fixed["fixed"] = json!(true);
@@ -95,13 +95,13 @@ fn heaps(_: Effort) -> Vec<Member> {
     ])
 }
 
-/// The striking flow and ten cubes that fall on each other before it comes.
+/// The striking flow and ten cubes that fall onto each other before it arrives.
 pub(super) fn ten_cubes() -> Value {
     let ten: Vec<Value> = (0..10).map(falling).collect();
     scene("", &json!(ten)).scenario
 }
 
-/// One of ten: three layers, each turned a little.
+/// One of the ten cubes: three layers, each turned a little.
 fn falling(which: u32) -> Value {
     let (layer, place) = (which / 4, which % 4);
     let (x, y) = (f64::from(place / 2), f64::from(place % 2));

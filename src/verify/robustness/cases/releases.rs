@@ -1,4 +1,4 @@
-//! Releases that begin on, round and thinner than everything else.
+//! Releases on and around bodies, and thinner than a cell.
 
 use super::{CELL, cube_at, strike, strike_with};
 use crate::verify::Effort;

@@ -1,4 +1,4 @@
-//! A run taken up again from every state it was saved in.
+//! A run resumed from each of its saved states.
 
 use super::places;
 use crate::verify::Effort;
@@ -50,7 +50,7 @@ fn told(what: &str, found: f64, bound: Option<f64>) -> Compared {
     }
 }
 
-/// Number of states, and of those that end otherwise than the run they are of.
+/// Number of states, and of those whose runs end differently from the uninterrupted run.
 fn differing() -> Result<(f64, f64), String> {
     let in_words = |error: &dyn std::fmt::Display| error.to_string();
     let scenario = scenario_of(&places::ten_cubes()).map_err(|error| in_words(&error))?;

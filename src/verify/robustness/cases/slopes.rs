@@ -1,4 +1,4 @@
-//! Flat, nearly flat, very steep and nearly upright inclines.
+//! Flat, nearly flat, very steep and nearly vertical inclines.
 
 use super::strike;
 use crate::verify::Effort;
@@ -19,7 +19,7 @@ fn members(_: Effort) -> Vec<Member> {
 fn slope(inclination_deg: f64) -> Member {
     let mut scenario = strike(inclination_deg);
     if inclination_deg > 85.0 {
-        // As high as 5.7 m: a thin one, and not its whole fall.
+        // The incline is 5.7 m high: a thin release, and not its whole fall.
         scenario["flow"]["release"]["height_m"] = 0.04.into();
         scenario["flow"]["volume_m3"] = 0.001.into();
         scenario["duration_s"] = 0.2.into();

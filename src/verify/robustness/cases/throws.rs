@@ -42,7 +42,7 @@ fn members(_: Effort) -> Vec<Member> {
     scenes.map(|trial| Member::Scene(Box::new(trial))).into()
 }
 
-/// A smooth slope so long that the flow strikes the cube at 20 m/s: 24 m of fall.
+/// A smooth slope long enough for the flow to strike the cube at 20 m/s: 24 m of fall.
 fn flow_at_speed() -> Trial {
     let mut scenario = strike(60.0);
     scenario["channel"]["base_friction"] = 0.0.into();

@@ -1,18 +1,18 @@
-//! Bodies without a flow, thrown on each other: all shapes, from compact to twenty times as
+//! Bodies without a flow, thrown onto each other: all shapes, from compact to twenty times as
 //! long as thick, with any friction and restitution.
 
 use crate::verify::dice::Dice;
 use serde_json::{Value, json};
 
-/// Most bodies.
+/// Largest number of bodies.
 const MOST_BODIES: u64 = 5;
-/// Where they start, up the incline or on the floor [m].
+/// Range of their initial positions, up the incline or on the floor [m].
 const ON_THE_INCLINE: f64 = -0.5;
 const ON_THE_FLOOR: f64 = 0.3;
 /// Gap under the first body, and between bodies [m].
 const GAP: f64 = 0.03;
 
-/// One draw.
+/// One random scenario.
 pub(super) fn scenario(dice: &mut Dice) -> Value {
     let (inclination, downstream) = if dice.once_in(2) {
         (0.0, ON_THE_FLOOR)
@@ -59,7 +59,7 @@ pub(super) fn scenario(dice: &mut Dice) -> Value {
     })
 }
 
-/// A shape, and a length of its order [m].
+/// A shape, and a length of its order of magnitude [m].
 fn shape(dice: &mut Dice) -> (Value, f64) {
     let size = dice.decades(0.03, 0.2);
     let shape = match dice.next() % 5 {
@@ -88,14 +88,14 @@ fn shape(dice: &mut Dice) -> (Value, f64) {
     (shape, size)
 }
 
-/// A quaternion of length 1, not evenly drawn.
+/// A quaternion of length 1, not uniformly distributed.
 fn orientation(dice: &mut Dice) -> Vec<f64> {
     let parts: Vec<f64> = (0..4).map(|_| dice.share() - 0.5).collect();
     let length = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
     parts.iter().map(|part| part / length).collect()
 }
 
-/// Gives a body speed or spin now and then.
+/// Gives some bodies speed or spin.
 fn throw(dice: &mut Dice, body: &mut Value) {
     let vector = |dice: &mut Dice, most: f64| json!([(); 3].map(|()| dice.within(-most, most)));
     if dice.once_in(3) {

@@ -1,17 +1,17 @@
-//! A scenario drawn from all that is legal, of a size that a run of a fraction of a
-//! second can do something with.
+//! A scenario drawn from all legal ones, of a size for which a run of a fraction of a
+//! second is meaningful.
 
 use crate::verify::dice::Dice;
 use serde_json::{Value, json};
 
-/// Most points a release is cut into.
+/// Largest number of points of a release.
 const MOST_POINTS: f64 = 1_500.0;
-/// Most bodies.
+/// Largest number of bodies.
 const MOST_BODIES: u64 = 5;
 
-/// One draw; it may be refused, since the rules between fields are not drawn.
+/// One random scenario; it may be refused, since rules between fields are not taken into account.
 pub(super) fn scenario(dice: &mut Dice) -> Value {
-    // Most scenes are of the size of a flume, some of a matchbox or a mountain.
+    // Most scenes have the size of a flume, some of a matchbox or a mountain.
     let scale = if dice.once_in(3) {
         dice.decades(0.005, 500.0)
     } else {
@@ -40,7 +40,7 @@ pub(super) fn scenario(dice: &mut Dice) -> Value {
     })
 }
 
-/// True if a draw is cut into few enough points for a short run.
+/// True if a scenario has few enough points for a short run.
 pub(super) fn is_small(scenario: &Value) -> bool {
     let numerics = &scenario["numerics"];
     let per_cell = number(numerics, "points_per_cell");
@@ -48,7 +48,8 @@ pub(super) fn is_small(scenario: &Value) -> bool {
     cells * per_cell <= 2.0 * MOST_POINTS
 }
 
-/// Usual once in two, from a wide range once in four, at one of its ends otherwise.
+/// A value of the usual range with probability 1/2, of the wide range with 1/4, otherwise one of
+/// its ends.
 fn field(dice: &mut Dice, usual: (f64, f64), wide: (f64, f64)) -> f64 {
     match dice.next() % 8 {
         0..4 => dice.decades(usual.0, usual.1),
@@ -57,7 +58,7 @@ fn field(dice: &mut Dice, usual: (f64, f64), wide: (f64, f64)) -> f64 {
     }
 }
 
-/// As [`field`], but 0 now and then.
+/// As [`field`], but sometimes 0.
 fn coefficient(dice: &mut Dice, most: f64) -> f64 {
     if dice.once_in(5) {
         0.0
@@ -207,7 +208,7 @@ fn set_in_motion(dice: &mut Dice, body: &mut Value, size: f64) {
 fn numerics(dice: &mut Dice, channel: &Value, flow: &Value, scale: f64) -> Value {
     let width = number(channel, "width_m");
     let per_cell = dice.one_of(&[8, 8, 8, 4, 1, 27, 64]);
-    // As many points as are drawn, cells no wider than the channel.
+    // Cells for the number of points drawn, and no wider than the channel.
     let volume = if flow.is_null() {
         scale.powi(3)
     } else {

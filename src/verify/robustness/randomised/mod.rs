@@ -1,6 +1,7 @@
-//! A randomised test over all that is legal, or over bodies alone: scenarios drawn at random, each
-//! run for a fraction of a second. What fails is made smaller until only what it takes is
-//! left.
+//! A randomised test over all legal scenarios, or over bodies alone: scenarios drawn at random,
+//! each
+//! run for a fraction of a second. A failing scenario is reduced to the parts needed for its
+//! failure.
 
 mod bodies_alone;
 mod draw;
@@ -15,46 +16,47 @@ use serde::Serialize;
 use serde_json::Value;
 use std::sync::Mutex;
 
-/// Point-steps of one run, and what counts as such.
+/// Budget of one run in point-steps, including the equivalents of other work.
 const BUDGET: u64 = 60_000;
-/// Draws until one is legal.
+/// Largest number of draws until one is legal.
 const MOST_DRAWS: u32 = 400;
 
-/// Energy that contacts of bodies may make, over the start's and the largest kinetic.
+/// Energy that contacts of bodies may create, over the sum of the initial and the largest kinetic
+/// energy.
 const ENERGY_OF_CONTACTS: f64 = 1e-3;
 
-/// Field that the scenarios of a randomised test are drawn from.
+/// Field from which the scenarios of a randomised test are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Field {
-    /// All that is legal, coarse, each within a budget of computing.
+    /// All legal scenarios, coarse, each within a budget of computation.
     #[default]
     Everything,
-    /// Bodies without a flow, each to its end; their contacts make no energy.
+    /// Bodies without a flow, each run to its end; their contacts must not create energy.
     BodiesAlone,
 }
 
 /// Findings of a randomised test.
 #[derive(Debug, Default, Serialize)]
 pub struct RandomisedReport {
-    /// Field that they were drawn from.
+    /// Field of the scenarios.
     pub field: Field,
-    /// Scenarios asked for.
+    /// Number of scenarios asked for.
     pub asked: u64,
-    /// Scenarios run.
+    /// Number of scenarios run.
     pub run: u64,
-    /// Draws that validation or the set-up refused on the way, or that would have been
-    /// cut into too many points.
+    /// Number of draws refused by validation or set-up, or because they had
+    /// too many points.
     pub refused: u64,
-    /// Runs that came to the end of their duration or budget.
+    /// Number of runs that reached the end of their duration or budget.
     pub finished: u64,
     /// Wall time of the longest run [s], and its seed.
     pub longest: (f64, u64),
-    /// Most energy made in a run over what there was, and its seed.
+    /// Largest relative energy created in a run, and its seed.
     pub most_energy: (f64, u64),
-    /// Sub-steps of all of them.
+    /// Sub-steps of all runs.
     pub substeps: u64,
-    /// Points of all of them.
+    /// Points of all runs.
     pub points: u64,
     /// Failures, by seed.
     pub failures: Vec<FailingScenario>,
@@ -63,24 +65,24 @@ pub struct RandomisedReport {
 /// A scenario that failed.
 #[derive(Debug, Serialize)]
 pub struct FailingScenario {
-    /// The seed it comes from.
+    /// Seed of the scenario.
     pub seed: u64,
-    /// In which way.
+    /// Kind of failure.
     pub kind: String,
-    /// Event in words.
+    /// Description of the failure.
     pub words: String,
-    /// As small as it could be made.
+    /// Scenario, reduced as far as possible.
     pub scenario: Value,
 }
 
 impl RandomisedReport {
-    /// Scenarios asked for and not run: of their seeds no draw was legal.
+    /// Number of scenarios asked for and not run, because no draw of their seed was legal.
     pub fn not_run(&self) -> u64 {
         self.asked.saturating_sub(self.run)
     }
 }
 
-/// A legal scenario of this seed, and how many draws were refused before it.
+/// A legal scenario of this seed, and the number of draws refused before it.
 pub fn scenario(field: Field, seed: u64) -> Option<(Value, u64)> {
     let mut dice = Dice::of(seed.wrapping_add(1));
     for refused in 0..MOST_DRAWS {
@@ -107,7 +109,7 @@ pub fn run(field: Field, scenario: &Value) -> TrialReport {
     trial::run("randomised", &trial)
 }
 
-/// Runs `count` scenarios of a field, those of the seeds from `first` on, on all cores.
+/// Runs `count` scenarios of a field, with the seeds from `first` on, on all cores.
 pub fn randomised(
     field: Field,
     first: u64,

@@ -1,12 +1,12 @@
-//! A failing scenario made smaller, as long as it fails the same way.
+//! Reduction of a failing scenario, as long as it fails the same way.
 
 use crate::verify::robustness::trial::TrialReport;
 use serde_json::Value;
 
-/// Most runs spent on one scenario.
+/// Largest number of runs spent on one scenario.
 const MOST_RUNS: usize = 60;
 
-/// The smallest scenario found that fails as this one does.
+/// The smallest scenario found that fails in the same way as this one.
 pub(super) fn reduced(scenario: &Value, fails_alike: &mut impl FnMut(&Value) -> bool) -> Value {
     let mut smallest = scenario.clone();
     let mut runs = 0;
@@ -23,7 +23,7 @@ pub(super) fn reduced(scenario: &Value, fails_alike: &mut impl FnMut(&Value) -> 
     }
 }
 
-/// Scenarios a little simpler than this one, the simplest first.
+/// Scenarios slightly simpler than this one, the simplest first.
 fn simpler(scenario: &Value) -> Vec<Value> {
     let mut all = Vec::new();
     let mut try_with = |change: &dyn Fn(&mut Value)| {
@@ -45,7 +45,7 @@ fn simpler(scenario: &Value) -> Vec<Value> {
         copy["duration_s"] = half.into();
         copy["sample_interval_s"] = half.clamp(1e-5, 3600.0).into();
     });
-    // Every field that may be left out.
+    // Every optional field.
     let required = [
         "inclination_deg",
         "incline_length_m",
@@ -90,7 +90,7 @@ fn simpler(scenario: &Value) -> Vec<Value> {
     all
 }
 
-/// Kind of failure, the same for two runs that fail alike.
+/// Kind of failure, equal for two runs that fail in the same way.
 pub(super) fn kind(tried: &TrialReport) -> String {
     match &tried.ended {
         super::Ended::Failed(error) => {
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    // What fails is that a body is fast; everything else goes.
+    // The failure is caused by a fast body; everything else is removed.
     #[test]
     fn what_does_not_matter_goes() {
         let scenario = json!({
