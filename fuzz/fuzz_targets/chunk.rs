@@ -1,6 +1,7 @@
-//! Any bytes as a stored stretch of a trajectory: as many samples as its row says, or
-//! refused. The first two bytes are that number; the checksum is right, or nothing
-//! behind it would be reached.
+//! Arbitrary bytes as a stored range of a trajectory: decoded to the number of samples in its row,
+//! or
+//! refused. The first two bytes are that number; the checksum is correct, since otherwise no
+//! code behind its check would run.
 
 #![no_main]
 

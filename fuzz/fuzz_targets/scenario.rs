@@ -1,5 +1,5 @@
-//! Any bytes as a scenario: it is read and comes back the same, or every violation
-//! says something.
+//! Arbitrary bytes as a scenario: it is read and written back the same, or every violation
+//! has a message.
 
 #![no_main]
 

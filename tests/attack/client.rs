@@ -1,4 +1,4 @@
-//! A client that blocks, one connection a request.
+//! A blocking client, one connection per request.
 
 use serde_json::Value;
 use std::io::{self, Read, Write};
@@ -12,7 +12,7 @@ pub(crate) struct Answer {
     pub(crate) body: Value,
 }
 
-/// Asks once; an error if the service goes away meanwhile.
+/// Sends one request; an error if the service closes the connection.
 pub(crate) fn ask(address: &str, method: &str, path: &str, body: &str) -> io::Result<Answer> {
     let mut stream = TcpStream::connect(address)?;
     stream.set_read_timeout(Some(Duration::from_secs(60)))?;
@@ -34,7 +34,7 @@ pub(crate) fn ask(address: &str, method: &str, path: &str, body: &str) -> io::Re
     })
 }
 
-/// Gets a document that must be there.
+/// Gets a document that must exist.
 pub(crate) fn get(address: &str, path: &str) -> Value {
     let answer = ask(address, "GET", path, "").expect("an answer");
     assert_eq!(answer.status, 200, "{path}: {}", answer.body);

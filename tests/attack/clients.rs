@@ -1,5 +1,5 @@
-//! Clients that hold on to what they have: half a head, a body in drops, an
-//! answer that nobody reads.
+//! Slow clients: half a request head, a body in small pieces, an
+//! answer that is not read.
 
 use crate::client::ask;
 use crate::served::Place;
@@ -11,10 +11,10 @@ use std::time::{Duration, Instant};
 /// Slow clients of each kind in turn.
 const CLIENTS: usize = 50;
 
-/// However long that takes them, all of them are gone by then [s].
+/// Upper bound for the time until all of them are disconnected [s].
 const ALL_GONE_S: f64 = 12.0;
 
-/// All of them are gone soon after the time they are given, and others are
+/// All of them are disconnected soon after their time limit, and other clients are
 /// answered meanwhile.
 #[test]
 fn slow_clients_are_shown_out_and_others_are_answered() {
@@ -58,7 +58,7 @@ fn slow_clients_are_shown_out_and_others_are_answered() {
     assert!(last < ALL_GONE_S, "{last} s");
 }
 
-/// How long the service bore this client [s].
+/// Acts as a slow client; returns the time until it was disconnected [s].
 fn be_slow(address: &str, client: usize) -> f64 {
     let began = Instant::now();
     let connect = || TcpStream::connect(address).expect("a connection");
@@ -67,12 +67,12 @@ fn be_slow(address: &str, client: usize) -> f64 {
         1 => a_body_in_drops(connect()),
         _ => read_nothing(connect_narrowly(address)),
     };
-    // However the connection ends, it ends.
+    // The kind of end does not matter.
     drop(ended);
     began.elapsed().as_secs_f64()
 }
 
-/// A connection that takes little unread, so that it soon stalls.
+/// A connection with small buffers, so that it soon stalls.
 fn connect_narrowly(address: &str) -> TcpStream {
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
@@ -101,7 +101,7 @@ fn a_body_in_drops(mut stream: TcpStream) -> io::Result<()> {
     stream.set_read_timeout(Some(Duration::from_millis(100)))?;
     loop {
         stream.write_all(b" ")?;
-        // The answer is 408, and then the end.
+        // The answer is 408, then the connection ends.
         match stream.read(&mut [0; 1024]) {
             Ok(0) => return Ok(()),
             Ok(_) => {}
@@ -111,7 +111,7 @@ fn a_body_in_drops(mut stream: TcpStream) -> io::Result<()> {
     }
 }
 
-/// Asks for far more than the buffers between the two take, and reads none of it.
+/// Asks for far more than the buffers on both sides hold, and reads none of it.
 fn read_nothing(mut stream: TcpStream) -> io::Result<()> {
     loop {
         stream.write_all(b"GET /openapi.json HTTP/1.1\r\nHost: x\r\n\r\n")?;

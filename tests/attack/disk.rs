@@ -1,12 +1,12 @@
-//! A database that is full, broken, or cut off.
+//! A database that is full, corrupt, or truncated.
 
 use crate::client::{ask, get};
 use crate::served::{Place, trifle};
 use std::fs::{self, OpenOptions};
 use std::io::{Seek, SeekFrom, Write};
 
-/// Full: a clear 507, `/readyz` red, `/healthz` and reading as ever; once there
-/// is room again the service takes jobs again, by itself.
+/// Full disk: a clear 507, `/readyz` fails, `/healthz` and reading work; once there
+/// is space again the service accepts jobs again by itself.
 #[test]
 fn a_full_database_says_so_and_recovers_by_itself() {
     let _turn = crate::turn();
@@ -40,7 +40,7 @@ fn a_full_database_says_so_and_recovers_by_itself() {
     for job in &done {
         remove(address, job);
     }
-    // The acknowledged jobs end now that there is room for what they record.
+    // The acknowledged jobs end now that there is space for their records.
     for job in &jobs {
         served.wait_for_success(job);
         remove(address, job);
@@ -60,8 +60,8 @@ fn remove(address: &str, job: &str) {
     assert_eq!(removed.status, 204, "{}", removed.body);
 }
 
-/// A file that is no database, or was overwritten in the middle: said at the
-/// start or in the answer, never taken for something else.
+/// A file that is no database, or was overwritten in the middle, is reported at the
+/// start or in the answer, never read as valid data.
 #[test]
 fn a_broken_database_is_noticed() {
     let _turn = crate::turn();
@@ -97,8 +97,8 @@ fn a_broken_database_is_noticed() {
     );
 }
 
-/// The write-ahead log as a crash may leave it, cut anywhere: the service starts
-/// and has a whole past, if not always all of it.
+/// A write-ahead log as a crash may leave it, truncated anywhere: the service starts
+/// with a consistent state, if not always the latest.
 #[test]
 fn a_log_cut_off_anywhere_leaves_a_whole_past() {
     let _turn = crate::turn();

@@ -1,4 +1,4 @@
-//! kill -9, under submissions and mid-run.
+//! kill -9, during submissions and during a run.
 
 use crate::client::{ask, get};
 use crate::served::{Place, finest_scene, has_ended, scene, trifle};
@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// Killed again and again while clients submit: every job that was acknowledged
-/// is there afterwards and was run to an end once; none fails for the kills.
+/// Killed repeatedly while clients submit: every acknowledged job
+/// exists afterwards and was completed once; none fails because of the kills.
 #[test]
 fn no_acknowledged_job_is_lost_and_none_is_run_twice() {
     let _turn = crate::turn();
@@ -25,7 +25,7 @@ fn no_acknowledged_job_is_lost_and_none_is_run_twice() {
             while answered.load(Ordering::Relaxed) <= cycle % 4 {
                 std::thread::sleep(Duration::from_millis(1));
             }
-            // From "just answered" to "some jobs done", without a pattern.
+            // From "just answered" to "some jobs done", irregularly.
             std::thread::sleep(Duration::from_millis((cycle as u64 * 37) % 100));
             served.kill();
             stop.store(true, Ordering::Relaxed);
@@ -69,20 +69,20 @@ fn submit_until(address: &str, stop: &AtomicBool, answered: &AtomicUsize) -> Vec
                 answered.fetch_add(1, Ordering::Relaxed);
             }
             Ok(answer) => panic!("{answer:?}"),
-            // Killed: what was not answered is not acknowledged.
+            // The service was killed: a job without an answer is not acknowledged.
             Err(_) => return taken,
         }
     }
     taken
 }
 
-/// Killed in the middle of a run, the job goes on from its last saved state and
-/// ends with the bits of a run that nobody disturbed.
+/// After a kill in the middle of a run, the job resumes from its last saved state and
+/// ends with the bits of an uninterrupted run.
 #[test]
 fn a_run_killed_many_times_ends_with_the_same_bits() {
     let _turn = crate::turn();
-    // Long enough apart for a state in between, all within the run: what a run loses by a
-    // kill its progress still shows, so that the pause counts as well.
+    // Long enough apart for a saved state in between, all within the run: the progress lost by a
+    // kill is included in the reported progress, so the pause counts as well.
     let kills = at_length(2, 22);
     let settings = [
         ("SCREE_RECORDING__STATE_INTERVAL_S", "0.05"),
@@ -131,7 +131,7 @@ fn a_run_killed_many_times_ends_with_the_same_bits() {
     ));
 }
 
-/// A job that takes the service down each time does so three times.
+/// A job that crashes the service each time does so three times.
 #[test]
 fn a_job_that_never_gets_on_fails_after_three_kills() {
     let _turn = crate::turn();

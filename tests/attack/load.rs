@@ -1,5 +1,5 @@
-//! Much at once: thousands of jobs, calls to stop, ten clients with a large
-//! trajectory; and what the service costs beside the computation.
+//! High load: thousands of jobs, requests to stop, ten clients with a large
+//! trajectory; and the overhead of the service over the computation.
 
 use crate::client::{ask, get};
 use crate::served::{Place, binary, fine_scene, finest_scene, has_ended, scene, trifle};
@@ -16,7 +16,7 @@ fn seconds<T>(what: impl FnOnce() -> T) -> (f64, T) {
     (began.elapsed().as_secs_f64(), result)
 }
 
-/// Jobs come in by the thousand while one runs, and a look at one stays quick.
+/// Thousands of jobs are submitted while one runs, and reading a job stays fast.
 #[test]
 fn thousands_of_waiting_jobs_are_no_burden() {
     let _turn = crate::turn();
@@ -64,7 +64,7 @@ fn thousands_of_waiting_jobs_are_no_burden() {
     assert_eq!(get(address, &running)["status"], "running");
 }
 
-/// From the request to the answer that shows a running job as it stays.
+/// Time from the request to the answer that shows the job in its final state.
 #[test]
 fn running_jobs_are_dismissed_at_once() {
     let _turn = crate::turn();
@@ -89,7 +89,7 @@ fn running_jobs_are_dismissed_at_once() {
     assert!(p99 < 0.5, "{p99} s");
 }
 
-/// Ten clients with a trajectory much larger than the bound take no more memory
+/// Ten clients with a trajectory much larger than the bound need no more memory
 /// than the bound.
 #[cfg(target_os = "linux")]
 #[test]
@@ -101,7 +101,7 @@ fn a_large_trajectory_goes_out_in_little_memory() {
     let mut large = trifle();
     large["sample_interval_s"] = 1e-3.into();
     large["duration_s"] = (samples as f64 * 1e-3).into();
-    // It comes to rest at once.
+    // The body comes to rest at once.
     large["numerics"]["ending"] = "full".into();
     let job = served.submit(&large);
     served.wait_for_success(&job);
@@ -129,7 +129,7 @@ fn a_large_trajectory_goes_out_in_little_memory() {
             "ten clients pull {samples} samples as {format}, {:.0} MB in all: memory grows by {grown_mib:.1} MiB",
             bytes as f64 * 1e-6
         ));
-        // All of them came: a cube that stands takes 199 bytes a sample as JSON.
+        // All answers were complete: a resting cube takes 199 bytes per sample as JSON.
         assert!(bytes > 10 * samples * 150, "{bytes} bytes");
         assert!(grown_mib < 64.0, "{grown_mib} MiB");
     }
@@ -151,9 +151,9 @@ fn count_bytes(address: &str, path: &str) -> usize {
     }
 }
 
-/// The same scene with the service and without, in turn. A machine whose speed changes
-/// from one run to the next shows little in a few rounds: the figure is the mean ratio of
-/// neighbours over many, with its standard error.
+/// The same scene with and without the service, in turn. On a machine of varying speed
+/// a few rounds show little: the figure is the mean ratio of
+/// neighbouring runs over many rounds, with its standard error.
 #[test]
 fn the_service_costs_little_beside_the_computation() {
     let _turn = crate::turn();
@@ -177,7 +177,7 @@ fn the_service_costs_little_beside_the_computation() {
     let as_job = || served.wait(&served.submit(&long), has_ended)["outcome"].clone();
     let (mut alone_s, mut with_s) = (Vec::new(), Vec::new());
     for round in 0..rounds {
-        // Whichever comes first has no advantage.
+        // The order alternates, so that neither has an advantage.
         let (run, job) = if round % 2 == 0 {
             let run = alone();
             (run, as_job())

@@ -8,18 +8,18 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// How long anything may take to happen.
+/// Longest wait for any event.
 pub(crate) fn deadline() -> Duration {
     Duration::from_secs(crate::at_length(120, 1_200) as u64)
 }
 
-/// The program that is attacked: this build's, or the one that `ATTACK_BINARY` names.
+/// The program under attack: this build's, or the one that `ATTACK_BINARY` names.
 pub(crate) fn binary() -> PathBuf {
     let named = std::env::var_os("ATTACK_BINARY");
     named.map_or_else(|| env!("CARGO_BIN_EXE_scree").into(), PathBuf::from)
 }
 
-/// Between two looks.
+/// Time between two polls.
 pub(crate) const PAUSE: Duration = Duration::from_millis(10);
 
 /// A directory with a database, and settings for services on it.
@@ -89,7 +89,7 @@ impl Place {
         }
     }
 
-    /// Starts a service that must refuse; its exit code and last words.
+    /// Starts a service that must refuse to start; returns its exit code and error output.
     pub(crate) fn refuse(&self) -> (Option<i32>, String) {
         let child = self.command().stderr(Stdio::piped()).spawn();
         let mut child = child.expect("the binary starts");
@@ -102,13 +102,13 @@ impl Place {
 }
 
 impl Served {
-    /// kill -9.
+    /// Kills the service with kill -9.
     pub(crate) fn kill(mut self) {
         self.child.kill().expect("it runs");
         self.child.wait().expect("it ends");
     }
 
-    /// Memory it takes.
+    /// Memory of the process.
     #[cfg(target_os = "linux")]
     pub(crate) fn resident_bytes(&self) -> usize {
         let path = format!("/proc/{}/status", self.child.id());
@@ -118,7 +118,7 @@ impl Served {
         1024 * kilobytes.expect("a number")
     }
 
-    /// Submits a scenario that must be accepted; the job's path.
+    /// Submits a scenario that must be accepted; returns the job's path.
     pub(crate) fn submit(&self, scenario: &Value) -> String {
         let answer = ask(&self.address, "POST", "/v1/jobs", &scenario.to_string());
         let answer = answer.expect("an answer");
@@ -126,7 +126,7 @@ impl Served {
         format!("/v1/jobs/{}", answer.body["id"].as_str().expect("an id"))
     }
 
-    /// Looks at a job until it is as wanted.
+    /// Polls a job until it satisfies a condition.
     pub(crate) fn wait(&self, job: &str, wanted: impl Fn(&Value) -> bool) -> Value {
         let began = Instant::now();
         loop {
@@ -167,12 +167,12 @@ pub(crate) fn scene(duration_s: f64) -> Value {
         "duration_s": duration_s,
         "sample_interval_s": 0.01,
         "flow_snapshots": 5,
-        // To the end, although it comes to rest before.
+        // Run for the full duration, although it comes to rest before.
         "numerics": {"cell_size_m": 0.02, "points_per_cell": 4, "ending": "full"}
     })
 }
 
-/// The same in finer cells: minutes of computing for a few simulated seconds.
+/// The same in finer cells: minutes of computation for a few simulated seconds.
 pub(crate) fn fine_scene(duration_s: f64) -> Value {
     let mut scene = scene(duration_s);
     scene["numerics"]["cell_size_m"] = json!(0.01);
@@ -180,14 +180,14 @@ pub(crate) fn fine_scene(duration_s: f64) -> Value {
     scene
 }
 
-/// The same in cells as fine as a run of half a minute takes.
+/// The same in cells fine enough for a run of half a minute.
 pub(crate) fn finest_scene(duration_s: f64) -> Value {
     let mut scene = fine_scene(duration_s);
     scene["numerics"]["cell_size_m"] = json!(0.005);
     scene
 }
 
-/// A cube alone for a moment: next to nothing to compute.
+/// A cube alone for a short time: almost nothing to compute.
 pub(crate) fn trifle() -> Value {
     let mut scene = scene(0.01);
     scene["flow"] = Value::Null;

@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// What a command came back with.
+/// Result of a command.
 #[derive(Debug)]
 pub(crate) struct Answer {
     pub(crate) code: Option<i32>,
@@ -25,7 +25,7 @@ impl From<Output> for Answer {
     }
 }
 
-/// The binary, in a directory where no configuration lies.
+/// The binary, in a directory without a configuration.
 pub(crate) fn scree() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_scree"));
     command
@@ -55,7 +55,7 @@ pub(crate) fn ask_with_input(arguments: &[&str], input: &str) -> Answer {
     child.wait_with_output().expect("the binary ends").into()
 }
 
-/// A directory of its own, and a scenario file in it.
+/// A directory with a scenario file in it.
 pub(crate) struct Scene {
     directory: tempfile::TempDir,
 }
@@ -79,7 +79,7 @@ impl Scene {
 }
 
 /// A scene of a few hundred points and a tenth of a second in which the flow
-/// hits the cube: real, but computed in no time.
+/// hits the cube: realistic, but fast to compute.
 pub(crate) fn tiny() -> Value {
     json!({
         "title": "tiny",
@@ -97,7 +97,7 @@ pub(crate) fn tiny() -> Value {
 }
 
 /// The tiny scene with a block of 1,000,000 kg/m³ that falls on the cube, whose
-/// contact carries its own weight and no more.
+/// contact can only carry its own weight.
 pub(crate) fn unstable() -> Value {
     let mut scenario = tiny();
     let mut block = scenario["bodies"][0].clone();

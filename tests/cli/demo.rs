@@ -1,9 +1,9 @@
-//! `scree demo`: the whole way through a service and back.
+//! `scree demo`: all the way through a service and back.
 
 use crate::command::{Answer, Scene, ask, json_file, tiny, unstable};
 
-/// Through HTTP, queue, worker and database comes what the solver computes
-/// here, to the last bit.
+/// The results through HTTP, queue, worker and database equal those computed directly,
+/// bit by bit.
 #[test]
 fn the_service_gives_what_a_local_run_gives() {
     let scene = Scene::new(&tiny());
@@ -41,7 +41,7 @@ fn the_service_gives_what_a_local_run_gives() {
     }
 }
 
-/// The demo on another scene, its results beside the scene's file.
+/// Runs the demo on another scene, with the results beside the scene's file.
 fn demo_of(scene: &Scene) -> Answer {
     let (file, out) = (scene.file(), scene.path("results"));
     ask(&[&"demo", &"--scenario", &file, &"--out", &out])

@@ -1,4 +1,4 @@
-//! The command line, as a user meets it: arguments in; exit code, texts and
+//! The command line as a user sees it: arguments in; exit code, texts and
 //! files out.
 
 mod bench;

@@ -10,7 +10,7 @@ fn planned(scenario: &Value) -> Value {
     serde_json::from_str(&answer.stdout).expect("JSON")
 }
 
-/// Whether a choice that begins like this is taken.
+/// True if the choice that begins with this text is taken.
 fn taken(planned: &Value, what: &str) -> bool {
     let choices = planned["plan"]["choices"].as_array().expect("a list");
     let begins = |choice: &&Value| {

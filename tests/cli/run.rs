@@ -95,7 +95,7 @@ fn an_illegal_scenario_makes_no_files() {
 #[test]
 fn a_directory_that_cannot_be_made_is_told_before_computing() {
     let scene = Scene::new(&tiny());
-    // A file stands where the directory should be.
+    // A file is at the path of the directory.
     let answer = ask(&[&"run", &scene.file(), &"--out", &scene.file()]);
     assert_eq!((answer.code, answer.stdout.as_str()), (Some(2), ""));
     assert!(answer.stderr.contains("scenario.json"), "{}", answer.stderr);
@@ -114,8 +114,8 @@ fn a_scene_beyond_the_point_limit_is_invalid_input() {
 fn a_numerical_failure_has_its_own_exit_code_and_keeps_what_there_is() {
     let scene = Scene::new(&unstable());
     let out = scene.path("results");
-    // An earlier run's outcome must not stand beside this one's trajectory;
-    // files of the user's own stay.
+    // An earlier run's outcome must not remain beside this one's trajectory;
+    // the user's own files stay.
     std::fs::create_dir_all(&out).unwrap();
     for name in ["outcome.json", "trajectory-7.json", "notes.json"] {
         std::fs::write(out.join(name), "{}").unwrap();

@@ -1,4 +1,4 @@
-//! Arguments: help, version, and what is not understood.
+//! Arguments: help, version, and invalid arguments.
 
 use crate::command::{ask, scree};
 use std::process::Stdio;
@@ -44,8 +44,8 @@ fn arguments_not_understood_are_invalid_input() {
     }
 }
 
-/// `scree … | head -0`: the reader is gone before the first byte. Rust's own
-/// `println!` panics then.
+/// `scree … | head -0`: the reader is closed before the first byte. Rust's own
+/// `println!` panics in this case.
 #[test]
 fn a_reader_that_left_is_no_error() {
     let mut child = scree()

@@ -22,8 +22,8 @@ fn a_case_that_holds_is_no_failure() {
     }
 }
 
-// The shallow theory of the dam break is not exact for a flow of three dimensions: a
-// known miss.
+// Known failure: the shallow theory of the dam break is not exact for a flow in three
+// dimensions.
 #[test]
 fn a_case_that_misses_is_shown_and_told_by_the_exit_code() {
     let answer = ask(&[&"verify", &"--case", &"dam-break"]);

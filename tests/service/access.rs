@@ -1,4 +1,4 @@
-//! Who may do what.
+//! Access control.
 
 use crate::app::{Answer, TestApp, endless_scene, is_running, tiny_scene};
 use reqwest::{Method, StatusCode};

@@ -8,11 +8,11 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// How long anything may take to happen. Generous: a machine that builds
+/// Longest wait for any event. Generous, since a machine that builds
 /// something else at the same time is slow, not wrong.
 pub(crate) const DEADLINE: Duration = Duration::from_secs(60);
 
-/// Between two questions whether something has happened.
+/// Time between two polls.
 const POLL_PAUSE: Duration = Duration::from_millis(5);
 
 /// A service on a free port with a database of its own.
@@ -47,7 +47,7 @@ impl TestApp {
         let mut config = config(&directory);
         change(&mut config);
         let service = service::start(config).await.unwrap();
-        // A proxy of the environment has no business between the two.
+        // A proxy set in the environment must not be used.
         let client = Client::builder().no_proxy().build().unwrap();
         Self {
             service,
@@ -56,13 +56,13 @@ impl TestApp {
         }
     }
 
-    /// Stops the service; what it stored stays.
+    /// Stops the service; its stored data stays.
     pub(crate) async fn stop(self) -> TempDir {
         self.service.stop().await;
         self.directory
     }
 
-    /// Stops the service once the job has got on for a while.
+    /// Stops the service once the job has made some progress.
     pub(crate) async fn stop_under(self, job: &str) -> TempDir {
         let steps = |job: &Value| job["progress"]["steps"].as_u64().unwrap();
         let before = steps(&self.get(job).await.body);
@@ -120,7 +120,7 @@ impl TestApp {
         answer.location.unwrap()
     }
 
-    /// Asks for the job until it is as wanted.
+    /// Polls the job until it satisfies a condition.
     pub(crate) async fn wait(&self, job: &str, wanted: impl Fn(&Value) -> bool) -> Value {
         let began = Instant::now();
         loop {
@@ -138,7 +138,7 @@ impl TestApp {
         }
     }
 
-    /// Waits for a job to end, and to end well.
+    /// Waits for a job to end successfully.
     pub(crate) async fn wait_for_success(&self, job: &str) -> Value {
         let job = self.wait(job, has_ended).await;
         assert_eq!(job["status"], "successful", "{job:#}");
@@ -178,7 +178,7 @@ impl Answer {
         }
     }
 
-    /// Checks that this is a problem document of a status and kind.
+    /// Checks that this is a problem document with this status and kind.
     pub(crate) fn assert_problem(&self, status: StatusCode, kind: &str) {
         assert_eq!(self.status, status, "{:#}", self.body);
         assert_eq!(self.content_type, "application/problem+json");
@@ -188,7 +188,7 @@ impl Answer {
         assert!(!self.body["detail"].as_str().unwrap().is_empty());
     }
 
-    /// The fields that the problem's errors name, of the body or of the query.
+    /// The fields of the body or the query that the problem's errors name.
     pub(crate) fn wrong_fields(&self) -> Vec<&str> {
         let errors = self.body["errors"]
             .as_array()
@@ -206,7 +206,7 @@ impl Answer {
     }
 }
 
-/// One worker with one thread, results written as soon as there are any.
+/// One worker with one thread; results are written at once.
 pub(crate) fn config(directory: &TempDir) -> ServiceConfig {
     let mut config = ServiceConfig {
         listen: "127.0.0.1:0".parse().unwrap(),
@@ -234,8 +234,8 @@ fn is_one_of(job: &Value, words: &[&str]) -> bool {
     words.contains(&job["status"].as_str().unwrap())
 }
 
-/// A cube on a slope with a little flow behind it: done in a blink. Two
-/// bodies' worth of numbers would only make it slower.
+/// A cube on a slope with a little flow behind it: computed very fast. Two
+/// bodies would only make it slower.
 pub(crate) fn tiny_scene() -> Value {
     json!({
         "title": "tiny",
@@ -250,7 +250,7 @@ pub(crate) fn tiny_scene() -> Value {
     })
 }
 
-/// The same, but it takes long enough to be disturbed a few times, and records
+/// The same, but long enough to be interrupted a few times, with records of
 /// more than one chunk.
 pub(crate) fn long_scene() -> Value {
     let mut scene = tiny_scene();
@@ -262,7 +262,7 @@ pub(crate) fn long_scene() -> Value {
     scene
 }
 
-/// The same, but it runs until someone stops it.
+/// The same, but it runs until it is stopped.
 pub(crate) fn endless_scene() -> Value {
     let mut scene = tiny_scene();
     scene["title"] = json!("endless");

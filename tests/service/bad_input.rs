@@ -78,7 +78,7 @@ async fn all_broken_rules_are_named_at_once() {
     scene["duration_s"] = json!("long");
     let answer = app.post("application/json", scene.to_string()).await;
     answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-scenario");
-    // In the order of the document, whose keys this client writes sorted.
+    // In the order of the document; this client sorts its keys.
     assert_eq!(
         answer.wrong_fields(),
         [
@@ -110,7 +110,7 @@ async fn a_body_must_be_json_and_not_too_large() {
     app.stop().await;
 }
 
-/// The tiny scene with one value put in by its pointer.
+/// The tiny scene with one value replaced at a pointer.
 fn broken(pointer: &str, value: Value) -> Value {
     let mut scene = tiny_scene();
     let (parent, key) = pointer.rsplit_once('/').unwrap();

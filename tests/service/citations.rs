@@ -1,12 +1,12 @@
-//! Every file that a comment or a document names exists.
+//! Checks that every file named in a comment or a document exists.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Endings of files that are named only if they are in the repository; JSON files
-/// may be what a command writes.
+/// Endings of names that must be files of the repository; JSON files
+/// may be output of a command.
 const ENDINGS: [&str; 5] = [".md", ".rs", ".svg", ".toml", ".sql"];
-/// Folders that are not ours.
+/// Folders that are not part of the project.
 const SKIPPED: [&str; 2] = ["target", ".git"];
 
 fn files_under(folder: &Path) -> Vec<PathBuf> {
@@ -20,7 +20,7 @@ fn files_under(folder: &Path) -> Vec<PathBuf> {
     .collect()
 }
 
-/// Text of a file that speaks of other files: comments of code, all of a document.
+/// Text of a file in which other files may be named: comments of code, all of a document.
 fn prose(file: &Path) -> Option<String> {
     let ending = file.extension()?.to_str()?;
     let text = || fs::read_to_string(file).unwrap();
@@ -37,7 +37,7 @@ fn prose(file: &Path) -> Option<String> {
     }
 }
 
-/// Names of files in a text, without what leads to them from elsewhere.
+/// Names of files in a text, without relative prefixes.
 fn named_files(text: &str) -> Vec<&str> {
     let in_name = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
     let words = text

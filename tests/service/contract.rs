@@ -1,12 +1,12 @@
-//! The contract in `api/openapi.json`: it is what the code says, the service
-//! serves it, and real answers keep to it.
+//! The contract in `api/openapi.json`: it equals the one generated from the code, the service
+//! serves it, and real answers conform to it.
 
 use crate::app::{TestApp, tiny_scene};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// To renew the file after a wanted change:
+/// To update the file after an intended change:
 /// `UPDATE_OPENAPI=1 cargo test --test service contract`
 #[test]
 fn the_committed_contract_is_that_of_the_code() {
@@ -37,7 +37,7 @@ async fn the_service_serves_its_contract_and_keeps_to_it() {
     scene["accuracy"] = serde_json::json!({"error_bars": true});
     let path = app.submit(&scene).await;
     let mut job = app.wait_for_success(&path).await;
-    // Only a failed job has one.
+    // Only a failed job has a problem.
     job["problem"] = serde_json::json!({"type": "", "title": "", "detail": ""});
     contract.assert_matches("Job", &job);
     let scene = scene.to_string();
@@ -56,8 +56,8 @@ async fn the_service_serves_its_contract_and_keeps_to_it() {
 struct Contract(Value);
 
 impl Contract {
-    /// Checks that a document has exactly the fields that a schema names, all
-    /// the way down. Types are the tests' own business.
+    /// Checks that a document has exactly the fields of a schema, at all
+    /// levels. Other tests check the types.
     fn assert_matches(&self, schema: &str, document: &Value) {
         let schema = &self.0["components"]["schemas"][schema];
         assert!(schema.is_object(), "no such schema");

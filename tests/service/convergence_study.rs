@@ -1,4 +1,4 @@
-//! Answers that take several runs.
+//! Answers that need several runs.
 
 use crate::app::{TestApp, tiny_scene};
 use scree::jobs::convergence_study;
@@ -8,7 +8,7 @@ use scree_solver::record::{Outcome, Record, Role, Sample};
 use scree_solver::scenario::Scenario;
 use serde_json::{Value, json};
 
-/// Keeps samples and progress; raises a flag after so many words of progress.
+/// Keeps samples and progress; raises a flag after a number of progress reports.
 #[derive(Default)]
 struct Recording {
     samples: Vec<Sample>,
@@ -48,7 +48,7 @@ fn completed(scenario: &Scenario) -> (Outcome, Recording) {
     }
 }
 
-/// What is left when intervals and wall times are taken away.
+/// The outcome without intervals and wall times.
 fn bare(mut outcome: Outcome) -> Outcome {
     outcome.accuracy = None;
     outcome.flow.error_bars = None;

@@ -18,7 +18,7 @@ async fn a_waiting_job_is_dismissed_and_never_starts() {
     assert_eq!(answer.body["status"], "dismissed");
     assert_eq!(answer.body["started"], Value::Null);
     app.delete(&running).await;
-    // The job behind it ran, so its own turn has passed.
+    // The job after it ran, so its own turn has passed.
     app.wait_for_success(&next).await;
     let job = app.get(&waiting).await.body;
     assert_eq!(

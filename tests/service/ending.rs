@@ -53,7 +53,7 @@ fn a_body_that_stands_alone_needs_no_more_than_a_tenth_of_a_second() {
     let (early, counted) = run(&scene, "auto");
     let ended = early.ended_early.expect("it ended");
     assert_eq!((ended.body_bound_m, ended.front_bound_m), (0.0, None));
-    // The rest time of a cube of 4 cm, at the end of a millisecond.
+    // Rest time of a cube of 4 cm, at the end of a millisecond.
     assert!(ended.time_s > 0.094 && ended.time_s < 0.098, "{ended:?}");
     // Time 0, every hundredth of a second, and the end.
     assert_eq!((counted.samples, counted.snapshots), (11, 2));

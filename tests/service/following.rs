@@ -1,4 +1,4 @@
-//! Following jobs: tags, waiting, events; and what tells of the service itself.
+//! Following jobs: ETags, waiting, events; and health, metrics and start page of the service.
 
 use crate::app::{Answer, TestApp, endless_scene, is_running, tiny_scene};
 use reqwest::{Response, StatusCode};
@@ -46,7 +46,7 @@ async fn a_look_can_wait_for_the_end() {
     app.stop().await;
 }
 
-/// The stream's text up to its end.
+/// The text of the stream up to its end.
 async fn events(app: &TestApp, query: &str, after: Option<&str>) -> (StatusCode, String) {
     let mut request = app.client.get(app.url(&format!("/v1/events{query}")));
     if let Some(after) = after {
@@ -85,7 +85,7 @@ async fn events_come_in_order_and_again_for_who_was_away() {
     app.stop().await;
 }
 
-// A database put back from a backup has fewer events than its clients have seen.
+// A database restored from a backup has fewer events than its clients have seen.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_client_of_another_past_is_told_so_and_hears_everything_again() {
     let app = TestApp::start().await;
@@ -105,7 +105,7 @@ async fn a_client_of_another_past_is_told_so_and_hears_everything_again() {
     let (all, directory) = tokio::join!(response.text(), app.stop());
     assert_eq!(all.unwrap(), text, "the stream of all jobs");
 
-    // Events of a job that was removed are no other past.
+    // A removed job's events don't make the client's number invalid.
     let app = TestApp::start_in(directory, |_| {}).await;
     app.delete(&format!("{job}?remove=ended")).await;
     let job = app.submit(&tiny_scene()).await;
@@ -174,7 +174,7 @@ async fn the_stream_of_all_jobs_ends_with_the_service() {
         .unwrap();
     let began = Instant::now();
     let (text, directory) = tokio::join!(response.text(), app.stop());
-    // Far below the five seconds that requests in hand may take.
+    // Far below the five seconds that requests in progress may take.
     assert!(began.elapsed().as_secs_f64() < 4.0, "{:?}", began.elapsed());
     let text = text.unwrap();
     assert_eq!(statuses(&text)[..2], ["accepted", "running"], "{text}");
@@ -203,7 +203,7 @@ async fn the_service_tells_of_itself() {
     assert_eq!(request_id.len(), 36);
     let page = page.text().await.unwrap();
     assert!(page.contains("openapi.json"));
-    // A lab without the internet sees the page, too.
+    // The page must also work without internet access.
     assert!(
         !page.contains("http://") && !page.contains("https://"),
         "{page}"

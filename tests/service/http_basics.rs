@@ -1,4 +1,4 @@
-//! What every request meets: routes, methods, limits.
+//! Behaviour common to all requests: routes, methods, limits.
 
 use crate::app::{DEADLINE, TestApp};
 use reqwest::{Method, StatusCode};
@@ -98,7 +98,7 @@ async fn half_a_request_does_not_hold_the_service() {
             .unwrap();
         held.push(stream);
     }
-    // Both places are taken: the answer comes once the service gave up on one.
+    // Both connections are in use: the answer comes once the service closed one of them.
     assert_eq!(app.get("/healthz").await.status, StatusCode::OK);
     for mut stream in held {
         let mut answer = Vec::new();

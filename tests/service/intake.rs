@@ -1,4 +1,4 @@
-//! What may come in, how often, and how it is found again.
+//! Submissions: limits, repetition, and search of jobs.
 
 use crate::app::{Answer, TestApp, endless_scene, is_running, tiny_scene};
 use reqwest::StatusCode;

@@ -1,4 +1,4 @@
-//! Submitting, looking at and listing jobs.
+//! Submitting, reading and listing jobs.
 
 use crate::app::{TestApp, endless_scene, has_ended, is_running, tiny_scene};
 use reqwest::StatusCode;
@@ -49,7 +49,7 @@ async fn the_scenario_comes_back_with_its_defaults_filled_in() {
     let app = TestApp::start().await;
     let job = app.submit(&tiny_scene()).await;
     let scenario = app.get(&job).await.body["scenario"].take();
-    // Given in the request, and the documented defaults of what was not.
+    // Values of the request, and the documented defaults of fields that were left out.
     assert_eq!(scenario["channel"]["width_m"], 0.1);
     assert_eq!(scenario["gravity_m_s2"], 9.81);
     assert_eq!(scenario["bodies"][0]["sphero_radius_m"], 0.002);
@@ -78,8 +78,8 @@ async fn a_flow_of_too_many_points_is_refused_at_once() {
 async fn a_numerical_failure_is_final_says_where_and_keeps_what_there_is() {
     let app = TestApp::start().await;
     let mut scene = tiny_scene();
-    // A block of 1,000,000 kg/m³ falls on the cube, whose contact carries its own
-    // weight and no more.
+    // A block of 1,000,000 kg/m³ falls on the cube, whose contact can only carry its own
+    // weight.
     let cube = json!({"shape": {"cube": {"side_m": 0.04}}, "contact_modulus_pa": 1e6,
                       "position": {"downstream_m": 0.1}});
     let block = json!({"shape": {"cube": {"side_m": 0.04}}, "density_kg_m3": 1e6,

@@ -1,11 +1,11 @@
-//! Who may know whom. The map stands in the folders' own words: HTTP holds no
-//! SQL, the jobs and their store no HTTP, and HTTP never reaches round the jobs
-//! to the solver.
+//! Allowed dependencies between layers, checked by the names of the folders: HTTP holds no
+//! SQL, the jobs and their store no HTTP, and HTTP accesses the solver only through
+//! the jobs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A folder of the service, and what none of its files may name.
+/// A folder of the service, and the names that none of its files may contain.
 const RULES: [(&str, &[&str]); 5] = [
     ("src/http", &["sqlx", "scree_solver", "SELECT ", "rayon"]),
     ("src/jobs", &["axum", "hyper", "crate::http"]),
@@ -46,7 +46,7 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The code of a file, without its comments: those may speak of neighbours.
+/// The code of a file without its comments, which may mention other layers.
 fn code(file: &Path) -> String {
     let text = fs::read_to_string(file).unwrap();
     let lines = text

@@ -1,6 +1,6 @@
 //! The service through a real HTTP client, on a port and a database of its own
-//! for every test. Nothing sleeps to wait for something: it is asked for until
-//! it is there, or a deadline passes.
+//! for every test. No test sleeps for a fixed time to wait for an event: it polls until
+//! the event has happened, or a deadline passes.
 
 mod access;
 mod app;

@@ -1,4 +1,4 @@
-//! What a stop or a crash does to jobs.
+//! Effect of a stop or a crash on jobs.
 
 use crate::app::{
     TestApp, config, database, endless_scene, has_ended, is_running, long_scene, tiny_scene,
@@ -26,7 +26,7 @@ async fn results_and_waiting_jobs_survive_a_restart() {
         app.get(&format!("{done}/trajectory")).await.body,
         trajectory
     );
-    // The interrupted job was put back, so it is the first to run again.
+    // The interrupted job is in the queue again, so it is the first to run.
     let again = app.wait(&running, is_running).await;
     assert_eq!(again["attempt"], 2);
     app.delete(&running).await;
@@ -34,8 +34,8 @@ async fn results_and_waiting_jobs_survive_a_restart() {
     app.stop().await;
 }
 
-/// A stop in the middle of a run saves it, and the next start goes on from there
-/// to the bits of a run that nobody disturbed.
+/// A stop in the middle of a run saves it, and after the next start it continues
+/// to the bits of an uninterrupted run.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_stopped_job_goes_on_where_it_was_with_the_same_bits() {
     let app = TestApp::start().await;
@@ -76,7 +76,7 @@ async fn a_stopped_job_goes_on_where_it_was_with_the_same_bits() {
     app.stop().await;
 }
 
-/// The same of runs behind error bars, and of those on the way to a target.
+/// The same for runs behind uncertainty intervals, and for those of a target.
 #[tokio::test(flavor = "multi_thread")]
 async fn several_runs_go_on_where_they_were_with_the_same_bits() {
     for accuracy in [
@@ -142,7 +142,7 @@ async fn a_job_that_keeps_taking_the_service_down_fails() {
     app.stop().await;
 }
 
-/// Leaves a database as services leave it that died `times` times under a job.
+/// Leaves a database like that of services that died `times` times during a job.
 async fn cut_off(directory: &TempDir, times: u32) -> Lease {
     let store = Store::open(&database(directory)).await.unwrap();
     let means = submit::Means {
@@ -218,7 +218,7 @@ async fn more_threads_than_a_worker_has_are_refused() {
     );
     assert_eq!(answer.wrong_fields(), ["/numerics/threads"]);
     assert_eq!(answer.body["errors"][0]["allowed"], "1 <= x <= 1");
-    // Said together with whatever else is wrong.
+    // Reported together with all other faults.
     scene["gravity_m_s2"] = json!(-1);
     let answer = app.post("application/json", scene.to_string()).await;
     assert_eq!(

@@ -51,9 +51,9 @@ async fn a_trajectory_has_all_columns_at_the_sample_times() {
             .values()
             .all(|column| column.as_array().unwrap().len() == 6)
     );
-    // The cube begins where the scenario puts it: its side downstream of the
-    // foot, on the centre line, half its side above the floor, less the few
-    // micrometres that its weight presses it in.
+    // The cube begins where the scenario places it: its side downstream of the
+    // foot, on the centre line, half its side above the floor, minus the few
+    // micrometres of penetration under its weight.
     let start = &columns["position_m"][0];
     assert_eq!((&start[0], &start[1]), (&json!(0.04), &json!(0.0)));
     assert!(
@@ -74,10 +74,10 @@ async fn ranges_include_both_ends_and_strides_count_from_the_first() {
     let app = TestApp::start().await;
     let mut scene = tiny_scene();
     scene["sample_interval_s"] = json!(0.001);
-    // It comes to rest at once.
+    // The body comes to rest at once.
     scene["numerics"]["ending"] = json!("full");
     scene["flow"] = Value::Null;
-    // More samples than one stored chunk takes (512).
+    // More samples than one stored chunk holds (512).
     scene["duration_s"] = json!(1.2);
     scene["numerics"]["ending"] = json!("full");
     let job = app.submit(&scene).await;
@@ -155,7 +155,7 @@ async fn the_flow_is_shown_at_the_nearest_snapshot() {
         assert_eq!(answer.status, StatusCode::OK);
         let flow = answer.body;
         let time_s = flow["time_s"].as_f64().unwrap();
-        // A snapshot lies at the first step end at or after its time; a step
+        // A snapshot is at the first end of a step at or after its time; a step
         // of this scene takes less than 5 ms.
         assert!(
             (0.0..0.005).contains(&(time_s - expected_s)),
@@ -224,7 +224,7 @@ async fn a_trajectory_comes_in_every_form_with_the_same_numbers() {
     scene["flow"] = Value::Null;
     scene["duration_s"] = json!(0.7);
     scene["sample_interval_s"] = json!(0.001);
-    // It comes to rest at once.
+    // The body comes to rest at once.
     scene["numerics"]["ending"] = json!("full");
     let job = app.submit(&scene).await;
     app.wait_for_success(&job).await;
@@ -266,7 +266,7 @@ async fn a_trajectory_comes_in_every_form_with_the_same_numbers() {
     app.stop().await;
 }
 
-/// The last file of an archive, by its directory.
+/// The last file of an archive, found by its directory.
 fn last_file(archive: &[u8]) -> (String, &[u8]) {
     let number = |place: usize, bytes: usize| {
         let digits = archive[place..place + bytes].iter().rev();
@@ -304,7 +304,7 @@ async fn arrays_and_snapshots_come_as_archives() {
     let archive = ask(&format!("{path}&format=npz&from_s=0.01")).await;
     let (name, array) = last_file(&archive);
     assert_eq!(name, "time_s.npy");
-    // Magic and version, the head's length, the head; then the numbers.
+    // Magic and version, the length of the header, the header; then the numbers.
     let start = 10 + usize::from(u16::from_le_bytes([array[8], array[9]]));
     assert!(String::from_utf8_lossy(&array[10..start]).contains("'shape': (5,)"));
     let numbers = array[start..].chunks(8);

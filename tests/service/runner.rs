@@ -1,4 +1,4 @@
-//! The runner that the service and the command line share.
+//! The runner, used by the service and the command line.
 
 use crate::app::tiny_scene;
 use scree::jobs::progress::Progress;
@@ -7,7 +7,7 @@ use scree::results::TrajectoryColumns;
 use scree_solver::record::{Record, Sample};
 use scree_solver::scenario::Scenario;
 
-/// Keeps samples, up to a number of them.
+/// Keeps samples, up to a maximum number.
 struct Samples {
     kept: Vec<Sample>,
     room: usize,

@@ -1,4 +1,4 @@
-//! Every scenario that is shipped can be run.
+//! Checks that every scenario of the repository can be run.
 
 use scree::jobs::progress::Progress;
 use scree::jobs::runner::{self, RunEnd, Sink, StopFlag};
@@ -7,10 +7,10 @@ use scree_solver::scenario::Scenario;
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
-/// Long enough for the flow to start, short enough for a test [s].
+/// Duration long enough for the flow to start, short enough for a test [s].
 const LONGEST_RUN_S: f64 = 0.05;
 
-/// Cells across the channel: as coarse as is legal and still a computation.
+/// Cells across the channel: the coarsest legal number that is still meaningful.
 const CELLS_ACROSS: f64 = 4.0;
 
 #[derive(Default)]

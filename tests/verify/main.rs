@@ -1,5 +1,5 @@
 //! The quick cases of `scree verify`, by their own tolerances and orders. A case with a
-//! known miss is asked for what holds. Figures are in the command's own tables.
+//! known failure is tested for the parts that hold. Figures are in the command's own tables.
 
 use scree::verify::findings::{Finding, Verdict};
 use scree::verify::robustness::randomised::{self, Field, randomised};
@@ -11,7 +11,7 @@ fn verified(name: &str) -> Verified {
     verify(case.expect("there is such a case"), Effort::Quick)
 }
 
-/// Runs a case of which nothing may be failed.
+/// Runs a case that must have no failures.
 fn holds(name: &str) {
     let found = verified(name).found;
     let failed = |finding: &&Finding| finding.verdict == Verdict::Fail;
@@ -49,7 +49,7 @@ fn hard_limits_and_restart() {
     valid(&["limits", "restart", "far away", "dust"]);
 }
 
-// Some hundred scenarios as they come, and two runs of the same one.
+// Some hundred consecutive scenarios, and two runs of the same one.
 #[test]
 fn a_sweep_is_sound() {
     let field = Field::Everything;
@@ -62,7 +62,7 @@ fn a_sweep_is_sound() {
     );
 }
 
-// Bodies of all shapes, frictions and restitutions on each other.
+// Bodies of all shapes, frictions and restitutions in contact with each other.
 #[test]
 fn contacts_of_bodies_make_no_energy() {
     let report = randomised(Field::BodiesAlone, 1_000_000, 40, &|_| {});
@@ -70,9 +70,10 @@ fn contacts_of_bodies_make_no_energy() {
     assert!(report.failures.is_empty(), "{:#?}", report.failures);
 }
 
-// Scenarios of randomised tests that once failed: what lay in the foot was lifted out of it (decision
+// Scenarios of randomised tests that once failed: a deposit at the slope break was lifted out of it
+// (decision
 // 18); points a quarter of a cell behind the floor kept their speed (decision 19); a body
-// came near a wall in the middle of a step, or touched it before it had any speed.
+// approached a wall in the middle of a step, or touched it before it had any speed.
 #[test]
 fn what_randomised_tests_found_stays_mended() {
     for seed in [224, 447, 471, 2770, 3040, 2430, 3797, 2735, 3733] {
@@ -121,7 +122,8 @@ fn cube_on_incline() {
     holds("cube-on-incline");
 }
 
-// The more sides, the less they lose; six have not yet lost as much as eight on this way.
+// The more sides, the smaller the loss; over this distance six sides have not yet lost as much as
+// eight.
 #[test]
 fn rolling_prisms() {
     holds("rolling-prisms");
@@ -141,7 +143,7 @@ fn elastic_bar() {
     holds("elastic-bar");
 }
 
-// Known miss: close to its angle of friction, 11.3°, the block creeps.
+// Known failure: close to its angle of friction, 11.3°, the block creeps.
 #[test]
 fn sliding_block() {
     let found = verified("sliding-block").found;
@@ -174,7 +176,7 @@ fn feature_contacts() {
     holds("feature-contacts");
 }
 
-// Known miss: the uppermost cell holds the order of the whole profile down.
+// Known failure: the uppermost cell reduces the order of the whole profile.
 #[test]
 fn hydrostatic() {
     let found = verified("hydrostatic").found;
@@ -198,9 +200,9 @@ fn hydrostatic() {
     }
 }
 
-// Sand comes to rest where it was measured to. Beads go on, from a = 1 beyond the
-// measured band, as the published μ(I) continuum does (4.40 at a = 2). Taller columns
-// run farther, and a friction of 2 holds its column up.
+// Sand comes to rest at the measured run-out. Beads flow farther, from a = 1 on beyond the
+// measured range, like the published μ(I) continuum (4.40 at a = 2). Taller columns
+// run farther, and a column with a friction of 2 stays short.
 #[test]
 fn column_collapse() {
     let found = verified("column-collapse").found;
@@ -223,8 +225,8 @@ fn column_collapse() {
     assert_eq!(control.unwrap().measured, Some(1.0));
 }
 
-// Without tolerances: at eight cells within a third, short of the law as the thin end needs
-// more of them.
+// Without tolerances: at eight cells within a third, below the law because the thin end needs
+// more cells.
 #[test]
 fn axisymmetric_collapse() {
     let found = verified("axisymmetric-collapse").found;
@@ -235,7 +237,7 @@ fn axisymmetric_collapse() {
     }
 }
 
-// Known miss: the speed of the undisturbed part, which leaves little between slope
+// Known failure: the speed of the undisturbed part, a small difference between slope
 // and friction.
 #[test]
 fn dam_break() {
@@ -248,7 +250,7 @@ fn dam_break() {
     }
 }
 
-// Known miss: at four cells per diameter a light sphere stays too high.
+// Known failure: at four cells per diameter a light sphere stays too high.
 #[test]
 fn sphere_into_bed() {
     for finding in verified("sphere-into-bed").found.values {
@@ -260,7 +262,7 @@ fn sphere_into_bed() {
     }
 }
 
-// All six are driven on.
+// All six cubes are moved.
 #[test]
 fn cubes_and_column() {
     let found = verified("cubes-and-column").found;
@@ -273,7 +275,7 @@ fn cubes_and_column() {
     assert_eq!(driven, [Some(6.0); 2]);
 }
 
-// Known misses: what the step of the flow does to the peak.
+// Known failures: effect of the step of the flow on the peak.
 #[test]
 fn source_paper() {
     let found = verified("source-paper").found;
@@ -288,7 +290,7 @@ fn source_paper() {
     near("peak speed, courant ×½", 0.05);
 }
 
-// Known miss: at ten cells the layer is 3 % too thick.
+// Known failure: at ten cells the layer is 3 % too thick.
 #[test]
 fn bagnold() {
     for finding in verified("bagnold").found.values {
@@ -302,7 +304,7 @@ fn bagnold() {
     }
 }
 
-// Known miss: at ten cells a longer step of the flow makes it faster.
+// Known failure: at ten cells a longer step of the flow makes it faster.
 #[test]
 fn two_clocks() {
     for finding in verified("two-clocks").found.values {
@@ -316,7 +318,7 @@ fn two_clocks() {
     }
 }
 
-// Without tolerances: what a cube seems larger by stays within a cell.
+// Without tolerances: the apparent enlargement of a cube stays within a cell.
 #[test]
 fn cube_in_dust_and_in_a_liquid() {
     for name in ["dust-stream", "buried-body"] {
@@ -329,7 +331,7 @@ fn cube_in_dust_and_in_a_liquid() {
     }
 }
 
-// Without tolerances: a drag, and less of it with finer cells.
+// Without tolerances: a drag, which decreases with finer cells.
 #[test]
 fn plate_drag() {
     let found = verified("plate-drag").found;
@@ -349,7 +351,7 @@ fn wall_bore() {
     holds("wall-bore");
 }
 
-// Known misses: in a bed of more friction a plate meets more resistance, but too little.
+// Known failures: in a bed of higher friction a plate meets more resistance, but too little.
 #[test]
 fn plates_moved_through_a_bed() {
     for (name, grows_by) in [("dragged-plate", 1.4), ("pressed-plate", 2.5)] {
@@ -364,7 +366,7 @@ fn plates_moved_through_a_bed() {
     }
 }
 
-// Its tolerances are of the full version; the small one has to answer every question.
+// Its tolerances are those of the full version; the small one has to answer every question.
 #[test]
 fn coarse_cells() {
     let found = verified("coarse-cells").found;
