@@ -1,5 +1,5 @@
-//! The parts a sub-step is made of, on one block of 512 points or one body:
-//! `cargo bench -p scree-solver`.
+//! Benchmarks of the stages of a sub-step, on one block of 512 points or one body: `cargo bench
+//! -p scree-solver`.
 
 use criterion::{BatchSize, Bencher, Criterion, Throughput};
 use fearless_simd::dispatch;
@@ -26,7 +26,7 @@ use std::hint::black_box;
 
 /// Distance of nodes [m].
 const CELL: f64 = 0.01;
-/// Points along each side of a block, two a cell.
+/// Points along each side of a block, two per cell.
 const SIDE: usize = 2 * BLOCK;
 /// Length of a sub-step [s].
 const DT: f64 = 1e-4;
@@ -85,7 +85,7 @@ fn points_of_a_block() -> Vec<Point> {
     (0..SIDE.pow(3)).map(point).collect()
 }
 
-/// The same on the fast path, with the nodes' motion it makes.
+/// A full block on the fast path, with the motion of the nodes that it causes.
 fn block_and_motion(law: &Law) -> (Block, Tile) {
     let packing = Packing {
         lattice: LATTICE,
@@ -109,7 +109,7 @@ fn block_and_motion(law: &Law) -> (Block, Tile) {
     (block.clone(), motion)
 }
 
-/// Times something that changes a copy.
+/// Times a closure that changes a copy.
 fn on_a_copy<T: Clone, O>(bencher: &mut Bencher, of: &T, work: impl FnMut(&mut T) -> O) {
     bencher.iter_batched_ref(|| of.clone(), work, BatchSize::SmallInput);
 }
@@ -255,7 +255,7 @@ fn shapes() -> Vec<(String, SpheroPolyhedron)> {
     ]
 }
 
-/// Places all round a body, near enough to ask for, each once.
+/// Closest-feature search for places all round a body, each once.
 fn closest_feature(criterion: &mut Criterion) {
     let along = |k: i32| f64::from(k) * 0.003;
     let places: Vec<Vec3> = (-8..=8)
@@ -314,7 +314,7 @@ fn resting_cube(place: Vec3) -> Body {
     }
 }
 
-/// Bodies, what their contacts remember, and what was done to them.
+/// Bodies, the histories of their contacts, and their reports.
 type Crowd = (Vec<Body>, Vec<ContactPair>, Vec<BodyReport>);
 
 /// Cubes on the floor under their weight, per body sub-step of one of them: scattered,

@@ -1,6 +1,6 @@
-//! Takes so many sub-steps of a small collapse on one thread, and says of how
-//! many points and with which instructions. `.ci/count-instructions` runs it
-//! where instructions are counted.
+//! Computes a number of sub-steps of a small collapse on one thread, and prints the number of
+//! points and the instructions in use. `.ci/count-instructions` runs it where instructions are
+//! counted.
 
 use scree_solver::scenario::Scenario;
 use scree_solver::{Instructions, Simulation};
@@ -8,8 +8,8 @@ use std::error::Error;
 use std::io::Write;
 use std::ops::ControlFlow;
 
-/// A block of 0.5 × 0.25 × 0.2 m slumps on a floor. The Courant number is fixed, so that a
-/// transfer is shared by as many sub-steps whatever the default.
+/// A block of 0.5 × 0.25 × 0.2 m slumps on a floor. The Courant number is fixed, so that the
+/// number of sub-steps per transfer does not follow the default.
 const COLLAPSE: &str = r#"{
     "channel": {"inclination_deg": 0, "incline_length_m": 0.5, "runout_length_m": 1,
                 "width_m": 0.25, "base_friction": 0.5},

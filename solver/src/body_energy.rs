@@ -9,23 +9,23 @@ use serde::{Deserialize, Serialize};
 /// Balance of a free body's energy so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct BodyEnergy {
-    /// Energy at the start, that of its height and its contacts included [J].
+    /// Energy at the start, including potential energy and that of its contacts [J].
     pub start: f64,
     /// Work of the flow on it [J].
     pub flow_work: f64,
-    /// Energy that other bodies gave it, as [`EnergyReport::bodies`] counts it [J].
+    /// Energy received from other bodies, as [`EnergyReport::bodies`] counts it [J].
     pub body_work: f64,
-    /// Energy that damping and slipping took in its contacts [J].
+    /// Energy dissipated by damping and slip in its contacts [J].
     pub dissipated: f64,
-    /// Part of what the last sub-step says of that, which it has not taken yet [J].
+    /// Part of the last sub-step's dissipation that takes effect in the next kick [J].
     pending: f64,
-    /// Energy that nothing accounts for: made if positive [J].
+    /// Energy that nothing accounts for, positive if made [J].
     pub made: f64,
     least_made: f64,
     largest_rise: f64,
-    /// Accumulated sizes of the work of flow and bodies [J].
+    /// Accumulated magnitudes of the work of flow and bodies [J].
     exchanged: f64,
-    /// Largest kinetic energy with what its contacts held [J].
+    /// Largest kinetic energy, that of its contacts included [J].
     largest_present: f64,
     /// Least and largest potential energy [J].
     lowest: f64,
@@ -33,7 +33,7 @@ pub struct BodyEnergy {
 }
 
 impl BodyEnergy {
-    /// The balances of bodies that start like this, under gravity [m/s²].
+    /// The balances of bodies that start in this state, under gravity [m/s²].
     pub fn of(bodies: &[Body], contact_pairs: &[ContactPair], gravity: &Vec3) -> Vec<Self> {
         let start = |(place, body): (usize, &Body)| {
             let present = body.kinetic_energy() + stored(place, bodies, contact_pairs);
@@ -49,7 +49,7 @@ impl BodyEnergy {
         bodies.iter().enumerate().map(start).collect()
     }
 
-    /// Takes in a sub-step of the flow, after which the body is as it is.
+    /// Adds a sub-step of the flow, which ended with the body in this state.
     pub fn take_in(&mut self, report: &EnergyReport, body: &Body, gravity: &Vec3) {
         self.flow_work += report.flow;
         self.body_work += report.bodies;
@@ -66,21 +66,21 @@ impl BodyEnergy {
         self.highest = self.highest.max(potential);
     }
 
-    /// Largest rise of what was made above its running minimum [J].
+    /// Largest rise of the energy made above its running minimum [J].
     pub fn rise(&self) -> f64 {
         self.largest_rise
     }
 
-    /// Energy that a rise is to be compared with [J]: the largest that the body had, what flow
-    /// and bodies exchanged with it, that of its way up and down and of a fall by its own size.
+    /// Energy that a rise is compared with [J]: the largest that the body had, its exchange with
+    /// flow and bodies, the range of its potential energy, and that of a fall by its own size.
     pub fn scale(&self, body: &Body, gravity: &Vec3) -> f64 {
         let own_size = body.mass * gravity.norm() * body.shape.bounding_radius();
         self.largest_present + self.exchanged + (self.highest - self.lowest) + own_size
     }
 }
 
-/// Energy that the contacts of a body hold now; half of what those with another free body
-/// do [J].
+/// Energy stored in the contacts of a body [J]; half of that in contacts with another free
+/// body.
 pub fn stored(place: usize, bodies: &[Body], contact_pairs: &[ContactPair]) -> f64 {
     let with_bodies = contact_pairs
         .iter()
@@ -99,7 +99,7 @@ pub fn stored(place: usize, bodies: &[Body], contact_pairs: &[ContactPair]) -> f
     bodies[place].state.wall_energy + with_bodies.sum::<f64>()
 }
 
-/// Energy of a body's height over the floor [J].
+/// Potential energy of a body, counted from the floor [J].
 pub fn potential(body: &Body, gravity: &Vec3) -> f64 {
     -body.mass * gravity.dot(&body.state.position)
 }

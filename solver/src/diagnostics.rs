@@ -30,7 +30,7 @@ pub struct Totals {
 }
 
 impl Totals {
-    /// Both together.
+    /// The sum of both.
     pub fn plus(mut self, other: &Self) -> Self {
         self.mass += other.mass;
         self.first_moment += other.first_moment;
@@ -42,8 +42,8 @@ impl Totals {
         self
     }
 
-    /// Sums over so many images, which lie symmetrically about the plane y = 0. One
-    /// alone is what it is.
+    /// Sums over so many images, which lie symmetrically about the plane y = 0. One image leaves
+    /// the sums unchanged.
     pub fn of_images(&self, count: f64) -> Self {
         if count == 1.0 {
             return *self;
@@ -119,7 +119,7 @@ impl Totals {
     }
 }
 
-/// Sums of the flow that move with it from one audit to the next.
+/// Moments of the flow, updated with its motion from one audit to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct FlowMoments {
     mass: f64,
@@ -130,7 +130,7 @@ pub struct FlowMoments {
 }
 
 impl FlowMoments {
-    /// At an audit.
+    /// Moments at an audit.
     pub fn of(flow: &Totals) -> Self {
         Self {
             mass: flow.mass,
@@ -139,7 +139,7 @@ impl FlowMoments {
         }
     }
 
-    /// Takes out what left.
+    /// Subtracts the points that left.
     pub fn lose(&mut self, gone: &Totals) {
         self.mass -= gone.mass;
         self.first_moment -= gone.first_moment;
@@ -155,36 +155,36 @@ impl FlowMoments {
     }
 }
 
-/// The audit of a run: what should be there against what is.
+/// The conservation audit of a run: expected sums against the actual ones.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Audit {
     /// Mass at the start [kg].
     pub released_mass: f64,
-    /// Momentum there should be: the start's, plus every impulse from outside,
-    /// less what left.
+    /// Expected momentum: the initial one, plus every impulse from outside, less the momentum of
+    /// outflow.
     expected: Impulse,
-    /// Accumulated sizes of those impulses, linear and angular.
+    /// Accumulated magnitudes of those impulses, linear and angular.
     exchanged: (f64, f64),
-    /// Totals that left by the open end.
+    /// Totals of the outflow through the open end.
     left: Totals,
-    /// Points that left by the open end.
+    /// Points that left through the open end.
     pub points_outflow: u64,
     /// Penetration corrections out of a body's core.
     pub penetration_corrections: u64,
-    /// Times the sums were compared.
+    /// Number of comparisons.
     pub checks: u64,
-    /// Largest residuals so far.
+    /// Largest mass residual so far, relative.
     pub mass_error: f64,
-    /// Linear momentum, relative.
+    /// Largest residual of linear momentum, relative.
     pub momentum_residual: f64,
-    /// Angular momentum, relative.
+    /// Largest residual of angular momentum, relative.
     pub angular_momentum_residual: f64,
     /// Largest overlap δ/(R_p + r).
     pub deepest_overlap_ratio: f64,
     /// Largest overlap of a body with a wall or another body, δ/r.
     pub deepest_body_overlap_ratio: f64,
     spread: Vec3,
-    /// Angular momentum that spreading the points made, relative as the residual.
+    /// Angular momentum from particle shifting, relative as the residual.
     pub angular_momentum_from_shifting: f64,
     start_energy: f64,
     lowest_energy: f64,
@@ -192,7 +192,7 @@ pub struct Audit {
     largest_kinetic_energy: f64,
     /// Work that prescribed motions have done.
     given: f64,
-    /// Accumulated sizes of it.
+    /// Accumulated magnitudes of it.
     given_size: f64,
 }
 
@@ -209,7 +209,7 @@ impl Audit {
         }
     }
 
-    /// Takes in an impulse from outside.
+    /// Adds an impulse from outside.
     pub fn exchange(&mut self, impulse: &Impulse) {
         self.expected.linear += impulse.linear;
         self.expected.angular += impulse.angular;
@@ -217,7 +217,7 @@ impl Audit {
         self.exchanged.1 += impulse.angular.norm();
     }
 
-    /// Takes in work from outside, done by a prescribed motion [J].
+    /// Adds work of a prescribed motion [J].
     pub fn give(&mut self, work: f64) {
         self.given += work;
         self.given_size += work.abs();
@@ -228,23 +228,23 @@ impl Audit {
         self.given
     }
 
-    /// Takes in the angular momentum that spreading the points made [N m s].
+    /// Adds the angular momentum from particle shifting [N m s].
     pub fn spread(&mut self, angular: &Vec3) {
         self.expected.angular += angular;
         self.spread += angular;
     }
 
-    /// Takes in how deep a point and a body overlapped, δ/(R_p + r).
+    /// Adds an overlap of a point and a body, δ/(R_p + r).
     pub fn meet(&mut self, overlap_ratio: f64) {
         self.deepest_overlap_ratio = self.deepest_overlap_ratio.max(overlap_ratio);
     }
 
-    /// Takes in how deep a body and a wall or another body overlapped, δ/r.
+    /// Adds an overlap of a body and a wall or another body, δ/r.
     pub fn meet_solid(&mut self, overlap_ratio: f64) {
         self.deepest_body_overlap_ratio = self.deepest_body_overlap_ratio.max(overlap_ratio);
     }
 
-    /// Takes in points that left by the open end.
+    /// Adds points that left through the open end.
     pub fn leave(&mut self, count: u64, gone: &Totals) {
         self.points_outflow += count;
         self.left = self.left.plus(gone);
@@ -252,13 +252,13 @@ impl Audit {
         self.expected.angular -= gone.momentum.angular;
     }
 
-    /// Mass that left by the open end [kg].
+    /// Mass that left through the open end [kg].
     pub fn outflow_mass(&self) -> f64 {
         self.left.mass
     }
 
-    /// Compares what is with what should be, after a step; `contact_energy` is
-    /// held between points and bodies [J].
+    /// Compares the actual sums with the expected ones, after a step; `contact_energy` is stored
+    /// between points and bodies [J].
     pub fn check(&mut self, flow: &Totals, bodies: &Totals, contact_energy: f64) {
         self.checks += 1;
         let total = flow.plus(bodies);
@@ -292,9 +292,9 @@ impl Audit {
         self.largest_rise
     }
 
-    /// Energy that a rise is to be compared with where little moves: the size of the
-    /// start's energy, heights counted from the floor, the largest kinetic energy, and
-    /// what prescribed motions gave and took [J].
+    /// Energy that a rise is compared with where little moves: the magnitude of the initial energy,
+    /// heights counted from the floor, the largest kinetic energy, and the accumulated work of
+    /// prescribed motions [J].
     pub fn energy_scale(&self) -> f64 {
         self.start_energy.abs() + self.largest_kinetic_energy + self.given_size
     }

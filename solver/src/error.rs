@@ -1,9 +1,9 @@
-//! Errors of a scenario that is legal.
+//! Errors of a valid scenario.
 
 use std::fmt;
 use thiserror::Error;
 
-/// A legal scenario that this solver nevertheless can't set up.
+/// A valid scenario that this solver can't set up.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SetupError {
     /// More material points than one run may hold.
@@ -18,14 +18,14 @@ pub enum SetupError {
         /// Cell size in use [m].
         cell_size_m: f64,
     },
-    /// A reduction asked for that the scene does not allow.
+    /// A requested reduction that the scene does not allow.
     #[error("numerics.{key} can't be \"{word}\" in this scene: {why}")]
     NotReducible {
-        /// Which of the numerics.
+        /// Key among the numerics.
         key: &'static str,
-        /// Word that was to be read.
+        /// Requested value.
         word: &'static str,
-        /// Why it can't.
+        /// Reason for the refusal.
         why: String,
     },
     /// The worker threads could not be started.
@@ -33,12 +33,12 @@ pub enum SetupError {
     Threads {
         /// Threads asked for.
         threads: usize,
-        /// The thread pool's own words.
+        /// Error message of the thread pool.
         reason: String,
     },
 }
 
-/// Whose motion it is.
+/// A point or body that moves too fast.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mover {
     /// The point of this identity.
@@ -56,11 +56,11 @@ impl fmt::Display for Mover {
     }
 }
 
-/// A run that can't go on. It names the simulated time and the culprit, and is
-/// never worth retrying: the same scenario fails again in the same place.
+/// An error that ends a run. It names the simulated time and the offending particle or body,
+/// and is never worth retrying: the same scenario fails again in the same place.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StepError {
-    /// A point's state stopped being a number.
+    /// A point's state became non-finite.
     #[error("t = {time_s:.6} s: point {point} has a non-finite {quantity}")]
     NonFinitePoint {
         /// Simulated time [s].
@@ -70,7 +70,7 @@ pub enum StepError {
         /// Name of the quantity.
         quantity: &'static str,
     },
-    /// A body's state stopped being a number.
+    /// A body's state became non-finite.
     #[error("t = {time_s:.6} s: body {body} has a non-finite {quantity}")]
     NonFiniteBody {
         /// Simulated time [s].
@@ -94,8 +94,8 @@ pub enum StepError {
         /// Smallest sub-step accepted [s].
         limit_s: f64,
     },
-    /// A body would take more sub-steps of its own than are ever taken: its
-    /// contact is too stiff for what it weighs, or it spins too fast.
+    /// A body needs more sub-steps of its own than the limit: its contact is too stiff for its
+    /// mass, or it spins too fast.
     #[error(
         "t = {time_s:.6} s: body {body} needs {asked:.0} sub-steps of its own within one of {substep_s:e} s, more than {limit:.0}: its contact is too stiff for its mass (contact_modulus_pa), or it spins too fast"
     )]
@@ -111,22 +111,21 @@ pub enum StepError {
         /// Most body sub-steps taken.
         limit: f64,
     },
-    /// Something is faster than anything at the start could have made it.
+    /// A point or body is faster than the initial state allows.
     #[error(
         "t = {time_s:.6} s: {mover} moves at {speed_m_s:.3} m/s; what could fall and what was thrown gives no more than {limit_m_s:.3} m/s, a wide margin included"
     )]
     SpeedRunaway {
         /// Simulated time [s].
         time_s: f64,
-        /// Who.
+        /// The point or body.
         mover: Mover,
         /// Its speed [m/s].
         speed_m_s: f64,
         /// Largest speed accepted [m/s].
         limit_m_s: f64,
     },
-    /// There is more mechanical energy than there was: nothing but an unstable
-    /// computation makes any.
+    /// The mechanical energy has risen: only an unstable computation makes energy.
     #[error(
         "t = {time_s:.6} s: the mechanical energy has risen by {rise_j:.4e} J above its lowest value, more than {limit_j:.4e} J; fastest is {mover} with {speed_m_s:.3} m/s"
     )]
@@ -137,12 +136,12 @@ pub enum StepError {
         rise_j: f64,
         /// Largest rise accepted [J].
         limit_j: f64,
-        /// Who moves fastest.
+        /// The fastest point or body.
         mover: Mover,
         /// Speed [m/s].
         speed_m_s: f64,
     },
-    /// A body has energy that nothing gave it: its contacts made it.
+    /// A body has gained energy that nothing accounts for: its contacts made it.
     #[error(
         "t = {time_s:.6} s: the contacts of body {body} have made {made_j:.4e} J, more than {limit_j:.4e} J"
     )]
@@ -151,7 +150,7 @@ pub enum StepError {
         time_s: f64,
         /// Index of the body in the scenario.
         body: usize,
-        /// Rise of what was made above its running minimum [J].
+        /// Rise of the energy made above its running minimum [J].
         made_j: f64,
         /// Largest rise accepted [J].
         limit_j: f64,
@@ -170,7 +169,7 @@ pub enum StepError {
         /// Largest density accepted [kg/m³].
         limit_kg_m3: f64,
     },
-    /// A point is in the core of a body and there is no room to put it back.
+    /// A point is in the core of a body and there is no room for a penetration correction.
     #[error(
         "t = {time_s:.6} s: point {point} is {depth_m:.6} m inside the core of body {body}, with walls on every way out"
     )]
@@ -196,8 +195,7 @@ pub enum StepError {
         /// Distance behind the wall [m].
         depth_m: f64,
     },
-    /// The core of a body went through a wall: its contact is too soft for
-    /// what presses on it.
+    /// The core of a body went through a wall: its contact is too soft for its load.
     #[error(
         "t = {time_s:.6} s: the core of body {body} is {depth_m:.6} m behind the {wall}: its contact with walls is too soft (contact_modulus_pa)"
     )]
@@ -211,8 +209,7 @@ pub enum StepError {
         /// Distance behind the wall [m].
         depth_m: f64,
     },
-    /// The cores of two bodies all but meet: their contact is too soft for what
-    /// presses on it.
+    /// The cores of two bodies nearly touch: their contact is too soft for its load.
     #[error(
         "t = {time_s:.6} s: bodies {body} and {other} overlap by {overlap_m:.6} m, almost to their cores: their contact is too soft (contact_modulus_pa)"
     )]
@@ -254,7 +251,7 @@ pub enum SaveError {
     /// The run can't go on from here.
     #[error("a run that failed is not saved: {0}")]
     Failed(StepError),
-    /// Some of a step's sub-steps are still to come.
+    /// A step is not complete: some of its sub-steps are still to come.
     #[error("t = {time_s:.6} s: amid a step; save where a step ended")]
     AmidStep {
         /// Simulated time [s].
@@ -262,7 +259,7 @@ pub enum SaveError {
     },
 }
 
-/// A saved state that can't be taken up again.
+/// A saved state that can't be restored.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RestoreError {
     /// The bytes are not a saved state of this solver version.
@@ -271,7 +268,7 @@ pub enum RestoreError {
     /// The state belongs to another scenario.
     #[error("the saved state belongs to another scenario ({what} differs)")]
     OtherScenario {
-        /// Thing that differs.
+        /// The difference.
         what: &'static str,
     },
 }

@@ -1,8 +1,8 @@
 //! The background grid: nodes in blocks of 4³, only where points are.
 //!
-//! The points of a block scatter into a tile of 6³ nodes of their own; the
-//! tiles are then added to the nodes in a fixed order. So the work runs in
-//! parallel without locks and gives the same bits for any number of threads.
+//! The points of a block scatter into a tile of 6³ nodes of their own; the tiles are then added
+//! to the nodes in a fixed order. This runs in parallel without locks and gives the same bits
+//! for any number of threads.
 
 use crate::kernel::{Lattice, PointStencil, Stencil, WIDTH};
 use crate::math::{Sym3, Vec3};
@@ -21,7 +21,7 @@ pub const TILE: usize = BLOCK + WIDTH - 1;
 /// Nodes of a tile.
 pub const TILE_NODES: usize = TILE * TILE * TILE;
 
-/// Shares that the points of one block give to each node they touch.
+/// Contributions of the points of one block to the nodes of its tile.
 pub type Tile = [[f64; 4]; TILE_NODES];
 
 /// Index of a block along x, y, z.
@@ -38,7 +38,7 @@ pub struct Node {
     pub displacement: Vec3,
     /// Force of stress and contact [N].
     pub force: Vec3,
-    /// Volume of points over room for them, at the transfer.
+    /// Nodal volume fraction at the transfer.
     pub volume_fraction: f64,
     /// Mean compressive volumetric strain min(φ, 0) of its points at the transfer.
     pub compressive_strain: f64,
@@ -69,11 +69,11 @@ impl Node {
 /// A block that holds points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointBlock {
-    /// Which block.
+    /// Its key.
     pub key: BlockKey,
-    /// Its points, by their place in the sorted list.
+    /// Its points, by their index in the sorted list.
     pub points: Range<usize>,
-    /// The node blocks its tile reaches, in the order of the octants.
+    /// The node blocks that its tile overlaps, in the order of the octants.
     reach: [u32; 8],
 }
 
@@ -142,7 +142,7 @@ impl Grid {
         &self.nodes
     }
 
-    /// Bytes held.
+    /// Bytes allocated.
     pub fn bytes(&self) -> usize {
         self.nodes.capacity() * size_of::<Node>()
             + self.tiles.capacity() * size_of::<Tile>()
@@ -155,8 +155,8 @@ impl Grid {
         &mut self.nodes[place]
     }
 
-    /// Empties the grid and lays blocks round the occupied ones, which come
-    /// sorted with the range of their points.
+    /// Empties the grid and lays blocks round the occupied ones, which are sorted and come with the
+    /// range of their points.
     pub fn reset_around(&mut self, occupied: &[(BlockKey, Range<usize>)]) {
         self.layout.lay_around(occupied.iter().map(|(key, _)| *key));
         let count = self.layout.node_blocks().len();
@@ -194,8 +194,7 @@ impl Grid {
         self.layout.place_of(index)
     }
 
-    /// Lets every block of points fill its tile, then adds the tiles up and
-    /// hands each node its sum.
+    /// Fills the tile of every block of points, then sums the tiles and gives each node its sum.
     pub fn scatter(
         &mut self,
         fill: impl Fn(&PointBlock, &mut Tile) + Sync,
@@ -220,7 +219,7 @@ impl Grid {
             });
     }
 
-    /// A quantity of the nodes a block of points touches, as a tile.
+    /// A quantity of the nodes of a block of points, as a tile.
     pub fn tile_of(&self, block: &PointBlock, quantity: impl Fn(&Node) -> [f64; 4]) -> Tile {
         let mut tile = [[0.0; 4]; TILE_NODES];
         for (octant, reached) in OCTANTS.iter().zip(block.reach) {
@@ -262,7 +261,7 @@ impl Grid {
         (velocity, displacement)
     }
 
-    /// Nodes at a point's transfer position: place and weight of each.
+    /// Stencil at a point's transfer position: place and weight of each node.
     pub fn stencil_at(&self, block: &PointBlock, stencil: &Stencil) -> PointStencil {
         let local =
             [0, 1, 2].map(|axis| (stencil.base[axis] - block.key[axis] * BLOCK as i32) as usize);

@@ -1,18 +1,17 @@
-//! Quadratic B-spline kernel: the 3 × 3 × 3 nodes a point touches
-//! (docs/method.md, equation 7).
+//! Quadratic B-spline kernel: the stencil of 3 × 3 × 3 nodes of a point (docs/method.md,
+//! equation 7).
 
 use crate::math::Vec3;
 
-/// Nodes per axis a point touches.
+/// Nodes of a stencil per axis.
 pub const WIDTH: usize = 3;
-/// Nodes a point exchanges momentum with: place and weight of each.
+/// Nodes with which a point exchanges momentum: place and weight of each.
 pub type PointStencil = [(u32, f64); WIDTH * WIDTH * WIDTH];
 /// Half the kernel's width [node distances].
 pub const REACH: f64 = 1.5;
 
-/// The nodes one point touches, per axis. The weight of node (a, b, c) is
-/// `weight[0][a] · weight[1][b] · weight[2][c]`, and it lies at
-/// `offset[axis][·]` from the point [m].
+/// The stencil of a point, per axis. The weight of node (a, b, c) is `weight[0][a] ·
+/// weight[1][b] · weight[2][c]`, and it lies at `offset[axis][·]` from the point [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stencil {
     /// Lowest node index per axis.
@@ -48,8 +47,8 @@ impl Lattice {
         self.spacing.product()
     }
 
-    /// Largest volume of a point [m³], that of its kernel, two cells wide along every
-    /// axis: a point alone in it can't tell how much more room there is.
+    /// Largest volume of a point [m³], that of its kernel, two cells wide along every axis: a point
+    /// alone in it can't detect more available volume.
     pub fn largest_point_volume(&self) -> f64 {
         8.0 * self.cell_volume()
     }
@@ -64,13 +63,13 @@ impl Lattice {
         self.spacing.component_mul(&self.spacing) * 0.25
     }
 
-    /// Lowest node a point at `x` touches, per axis.
+    /// Lowest node of the stencil of a point at `x`, per axis.
     pub fn base(&self, x: &Vec3) -> [i32; 3] {
         let in_cells = (x - self.origin).component_div(&self.spacing);
         [0, 1, 2].map(|axis| floor(in_cells[axis] - 0.5))
     }
 
-    /// The nodes a point at `x` touches, their weights and offsets.
+    /// The stencil of a point at `x`, with weights and offsets.
     pub fn stencil(&self, x: &Vec3) -> Stencil {
         let mut stencil = Stencil {
             base: [0; 3],
@@ -94,8 +93,8 @@ impl Lattice {
     }
 }
 
-/// Largest whole number not above `x`. The library's own is a call on
-/// processors that are not assumed to round in hardware.
+/// Largest whole number not above `x`. The library's version is a call on processors that are
+/// not assumed to round in hardware.
 fn floor(x: f64) -> i32 {
     let towards_zero = x as i32;
     towards_zero - i32::from(f64::from(towards_zero) > x)
@@ -115,7 +114,7 @@ pub fn share_above(height: f64) -> f64 {
 /// Share of the kernel above two planes, each so many node distances below its node;
 /// `cosine` is that of the angle between their normals.
 pub fn share_above_both(heights: [f64; 2], cosine: f64) -> f64 {
-    /// Strips across the first plane's normal: good to some 1e-3.
+    /// Strips across the first plane's normal: accurate to some 1e-3.
     const STRIPS: u32 = 32;
     let [first, second] = heights;
     if first.min(second) <= -REACH {
@@ -124,7 +123,7 @@ pub fn share_above_both(heights: [f64; 2], cosine: f64) -> f64 {
     if first.max(second) >= REACH {
         return share_above(first.min(second));
     }
-    // Planes that are nearly one still have a side each.
+    // Planes that nearly coincide still have a side each.
     let sine = (1.0 - cosine * cosine).max(1e-12).sqrt();
     let width = (first + REACH) / f64::from(STRIPS);
     let of_strip = |strip| {
@@ -168,7 +167,7 @@ mod tests {
         }
     }
 
-    // The midpoint rule on 3,000 strips, good to some 1e-7.
+    // The midpoint rule on 3,000 strips, accurate to some 1e-7.
     #[test]
     fn the_room_above_a_wall_is_the_integral_of_the_kernel() {
         for height in [-1.6, -1.2, -0.5, -0.2, 0.0, 0.3, 0.5, 1.1, 1.5, 2.0] {
@@ -178,8 +177,8 @@ mod tests {
             assert!((share_above(height) - sum).abs() < 1e-6, "{height}: {sum}");
         }
     }
-    // Two planes that are one; a right angle, where shares multiply; and one at 150°,
-    // by squares of a hundredth of a node distance.
+    // Two coincident planes; a right angle, where shares multiply; and one at 150°, by squares of
+    // a hundredth of a node distance.
     #[test]
     fn the_room_above_two_walls_is_the_integral_of_the_kernel() {
         for height in [-0.7, 0.0, 0.4] {

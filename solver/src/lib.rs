@@ -1,13 +1,12 @@
-//! Scree's computation: a granular flow solved by the Material Point Method
-//! (MPM) coupled to rigid sphero-polyhedra (SDM), in three dimensions.
+//! Scree's computation: a granular flow solved by the Material Point Method (MPM) coupled to
+//! rigid sphero-polyhedra (SDM), in three dimensions.
 //!
-//! The way through the crate: a [`scenario::Scenario`] (validated JSON) makes a
-//! [`Simulation`], which is [`run`](Simulation::run) while a
-//! [`record::Recorder`] turns what it sees into samples, flow snapshots and an
-//! [`record::Outcome`]. What
-//! runs it takes to say how far off that is, an [`accuracy::ConvergenceStudy`] lists. The crate has no clock, files, environment or service
-//! of its own. SI units throughout; axes: x downstream (0 at the foot of the
-//! incline), y across (0 on the centre line), z up (0 on the floor).
+//! A [`scenario::Scenario`] (validated JSON) makes a [`Simulation`], which is
+//! [`run`](Simulation::run) while a [`record::Recorder`] turns its states into samples, flow
+//! snapshots and an [`record::Outcome`]. An [`accuracy::ConvergenceStudy`] lists the runs from
+//! which the error of the outcome is estimated. The crate has no clock, files, environment or
+//! service of its own. SI units throughout; axes: x downstream (0 at the foot of the incline),
+//! y across (0 on the centre line), z up (0 on the floor).
 
 pub mod accuracy;
 pub mod body_energy;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Bulk viscosity over ρ_c c_P h, b of equation 3a.
 const BULK_DAMPING: f64 = 0.2;
 
-/// When shear yields.
+/// Yield condition in shear.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Yielding {
     /// Drucker–Prager at rest, μ(I) in motion.
@@ -22,7 +22,7 @@ pub enum Yielding {
         /// Grain density ρ_s [kg/m³].
         grain_density: f64,
     },
-    /// Never, and tension is carried: the elastic test law.
+    /// No yielding, and tension is carried: the elastic test law.
     Never,
 }
 
@@ -35,18 +35,18 @@ pub struct Material {
     pub bulk_modulus: f64,
     /// Shear modulus G [Pa].
     pub shear_modulus: f64,
-    /// When shear yields.
+    /// Yield condition in shear.
     pub yielding: Yielding,
 }
 
 impl Material {
-    /// True if it is made of grains, which may part.
+    /// True if it consists of grains, which may separate.
     pub fn is_granular(&self) -> bool {
         matches!(self.yielding, Yielding::Granular { .. })
     }
 
-    /// Density that it can't exceed [kg/m³]: its grains, or twice the bulk at rest if
-    /// that is more; no bound for a solid.
+    /// Largest density [kg/m³]: that of its grains, or twice the bulk at rest if that is more; no
+    /// bound for a solid.
     pub fn densest(&self) -> f64 {
         match self.yielding {
             Yielding::Granular { grain_density, .. } => grain_density.max(2.0 * self.bulk_density),
@@ -64,7 +64,7 @@ impl Material {
         (self.p_wave_modulus() / self.bulk_density).sqrt()
     }
 
-    /// Pressure of a bulk of this density [Pa] (equation 3); zero for grains apart.
+    /// Pressure of a bulk of this density [Pa] (equation 3); zero for separated grains.
     pub fn pressure(&self, density: f64) -> f64 {
         let pressure = self.bulk_modulus * (density / self.bulk_density - 1.0);
         match self.yielding {
@@ -89,10 +89,9 @@ impl Material {
         self.bulk_density * (1.0 + pressure / self.bulk_modulus)
     }
 
-    /// Stress [Pa] after `dt` [s] of the velocity gradient [1/s], for a point
-    /// that now has the density `density` [kg/m³]. A bulk viscosity [Pa s] resists
-    /// the change of volume of grains in touch, but never pulls; yielding does not
-    /// know of it.
+    /// Stress [Pa] after `dt` [s] of the velocity gradient [1/s], for a point that now has the
+    /// density `density` [kg/m³]. A bulk viscosity [Pa s] resists the change of volume of grains in
+    /// contact, but is never tensile; it does not enter the yield condition.
     pub fn stress(
         &self,
         stress: &Sym3,
@@ -185,8 +184,8 @@ mod tests {
         }
     }
 
-    // Values worked out by hand from the quadratic for τ (docs/method.md, equation 6):
-    // p = 500 Pa, Δt = 1e-5 s; printed to six digits, hence the tolerance.
+    // Values computed by hand from the quadratic for τ (docs/method.md, equation 6): p = 500 Pa,
+    // Δt = 1e-5 s; printed to six digits, hence the tolerance.
     #[test]
     fn the_return_mapping_solves_its_quadratic() {
         let beads = glass_beads(0.644);

@@ -1,4 +1,4 @@
-//! Symmetric 3 × 3 tensors; everything else is nalgebra's.
+//! Symmetric 3 × 3 tensors; all else is nalgebra's.
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};

@@ -20,7 +20,7 @@ struct Knot {
     /// [s].
     time: f64,
     velocities: Velocities,
-    /// Way of the centre since the first knot [m].
+    /// Displacement of the centre since the first knot [m].
     way: Vec3,
 }
 
@@ -28,12 +28,12 @@ struct Knot {
 /// after the last one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PrescribedMotion {
-    /// At least one; their times ascend.
+    /// At least one knot, in order of time.
     knots: Arc<[Knot]>,
 }
 
 impl Velocities {
-    /// No motion at all.
+    /// No motion.
     pub const NONE: Self = Self {
         linear: Vec3::new(0.0, 0.0, 0.0),
         angular: Vec3::new(0.0, 0.0, 0.0),
@@ -53,7 +53,7 @@ impl Velocities {
 }
 
 impl PrescribedMotion {
-    /// The same velocities at all times.
+    /// Constant velocities.
     pub fn constant(velocities: Velocities) -> Self {
         Self::table([(0.0, velocities)])
     }
@@ -61,7 +61,7 @@ impl PrescribedMotion {
     /// Velocities at ascending times [s].
     ///
     /// # Panics
-    /// Without any, or if the times do not ascend: whoever reads a table refuses such a one.
+    /// Without any, or if the times do not ascend: the reader of a table refuses such a one.
     pub fn table(rows: impl IntoIterator<Item = (f64, Velocities)>) -> Self {
         let mut knots: Vec<Knot> = Vec::new();
         for (time, velocities) in rows {
@@ -94,12 +94,12 @@ impl PrescribedMotion {
         }
     }
 
-    /// Way of the centre from time 0 to a time [m], exact.
+    /// Displacement of the centre from time 0 to a time [m], exact.
     pub fn way(&self, time: f64) -> Vec3 {
         self.way_from_first(time) - self.way_from_first(0.0)
     }
 
-    /// Way since the first knot; against the velocity before it.
+    /// Displacement since the first knot; negative before it.
     fn way_from_first(&self, time: f64) -> Vec3 {
         let from = match self.around(time) {
             (Some(before), _) => before,
@@ -110,9 +110,8 @@ impl PrescribedMotion {
         from.way + mean * (time - from.time)
     }
 
-    /// Turn from one time to a later one: the exponential of the integrated angular
-    /// velocity, exact while its axis stays and of second order otherwise. `None` if
-    /// there is none.
+    /// Rotation from one time to a later one: the exponential of the integrated angular velocity,
+    /// exact while its axis stays and of second order otherwise. `None` if there is none.
     pub fn turn(&self, from: f64, to: f64) -> Option<UnitQuaternion<f64>> {
         let inside = self.knots.iter().map(|knot| knot.time);
         let inside = inside.filter(|time| from < *time && *time < to);
@@ -125,7 +124,7 @@ impl PrescribedMotion {
         (angle != Vec3::zeros()).then(|| UnitQuaternion::from_scaled_axis(angle))
     }
 
-    /// Bound of the speed that any place within `radius` of the centre ever has [m/s].
+    /// Bound of the speed of all places within `radius` of the centre at all times [m/s].
     pub fn fastest(&self, radius: f64) -> f64 {
         let speeds = self
             .knots
@@ -134,7 +133,7 @@ impl PrescribedMotion {
         speeds.fold(0.0, f64::max)
     }
 
-    /// Bound of how far the centre rises above its start until a time [m].
+    /// Bound of the rise of the centre above its start until a time [m].
     pub fn rise(&self, until: f64) -> f64 {
         let inside = self.knots.iter().map(|knot| knot.time);
         let inside = inside.filter(|time| 0.0 < *time && *time < until);

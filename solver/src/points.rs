@@ -8,10 +8,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// One material point, as it stands between two steps.
+/// A material point between two steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// Identity, kept for life.
+    /// Identity, constant over the run.
     pub id: u32,
     /// Mass [kg].
     pub mass: f64,
@@ -61,7 +61,7 @@ impl Point {
             * (pressure * pressure / material.bulk_modulus + shear * shear / material.shear_modulus)
     }
 
-    /// Name of the first quantity that is no number, if any.
+    /// Name of the first non-finite quantity, if any.
     pub fn non_finite(&self) -> Option<&'static str> {
         let finite = [
             ("position", self.position.sum().is_finite()),
@@ -76,21 +76,20 @@ impl Point {
     }
 }
 
-/// A point's state within one step, while the grid is frozen.
+/// A point's state within one step, while the weights stay constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deformation {
     /// Deformation since the transfer, F̂.
     pub gradient: Mat3,
-    /// Its inverse; not a number once the point has turned inside out, which
-    /// ends the run.
+    /// Its inverse; NaN once the point has turned inside out, which ends the run.
     pub inverse: Mat3,
-    /// Volume since the transfer, det F̂.
+    /// Volume over that at the transfer, det F̂.
     pub volume_ratio: f64,
     /// Velocity gradient with respect to the present positions, L [1/s].
     pub velocity_gradient: Mat3,
     /// Volume at the transfer [m³].
     pub transfer_volume: f64,
-    /// Strain rate that it feels besides its own [1/s], a deviator.
+    /// Smoothed part of the effective strain rate [1/s], a deviator.
     pub shared: Sym3,
 }
 
@@ -107,8 +106,8 @@ impl Deformation {
         }
     }
 
-    /// min(1, det F̂) F̂⁻¹: the inverse, but for a point that has been compressed: its
-    /// kernel keeps its size, and would carry a steeper gradient as far as before.
+    /// min(1, det F̂) F̂⁻¹: the inverse, except for a point that has been compressed: its kernel
+    /// keeps its size, and would carry a steeper gradient as far as before.
     pub fn inverse_at_most(&self) -> Mat3 {
         self.inverse * self.volume_ratio.min(1.0)
     }
@@ -153,16 +152,16 @@ pub fn update_stress(
         });
 }
 
-/// Brings the points into the order of their blocks (their own order within a
-/// block is kept) and returns the occupied blocks.
+/// Re-sorts the points by block (their order within a block is kept) and returns the occupied
+/// blocks.
 pub fn sort_by_block(points: &mut Vec<Point>, lattice: &Lattice) -> Vec<(BlockKey, Range<usize>)> {
     let mut order: Vec<(BlockKey, u32)> = points
         .iter()
         .zip(0u32..)
         .map(|(point, place)| (block_of(lattice.base(&point.position)), place))
         .collect();
-    // Stable, so that the order does not depend on anything but the state;
-    // nearly sorted, so that it costs little.
+    // Stable, so that the order depends on the state alone; nearly sorted, so that it costs
+    // little.
     order.sort_by_key(|(key, _)| *key);
     if order.iter().zip(0u32..).any(|((_, from), to)| *from != to) {
         *points = order

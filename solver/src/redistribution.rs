@@ -1,11 +1,10 @@
-//! Points kept evenly spread, and their volumes true to the room they take
-//! (docs/method.md, equations 39–42b).
+//! Particle redistribution (docs/method.md, equations 39–42b).
 //!
-//! A point's volume follows the velocity gradient along its path; where points
-//! gather, nothing in that tells. In long shear they gather, the volumes scatter,
-//! and the flow settles into less room than its volumes say. So once per step the
-//! volumes are averaged over the grid, points move away from crowds, and those in
-//! a crowd are pressed together on paper, so that pressure drives them apart.
+//! A point's volume follows the velocity gradient along its path, which does not depend on the
+//! distribution of the points. In long shear points cluster, the volumes scatter, and the flow
+//! settles into less space than the sum of its volumes. Once per step the compressive strains
+//! are therefore smoothed over the grid, points are shifted out of clusters, and the pressure
+//! of those in a cluster is raised, so that it drives them apart.
 
 use crate::grid::{BLOCK, BlockKey, block_of};
 use crate::kernel::{Lattice, REACH, share_above};
@@ -14,24 +13,24 @@ use crate::rigid::Body;
 use crate::walls::{Boundary, Impulse, NodeAccess, Plane, filled, in_plane};
 use std::ops::Range;
 
-/// Points move by this share of −h² ∇excess volume fraction per cell of travel.
+/// Shift of points over −h² ∇excess volume fraction per cell of travel.
 const SHIFT: f64 = 1.0;
 /// Largest shift in a step [cells].
 pub const LARGEST_SHIFT: f64 = 0.1;
-/// Share of its own compressive strain min(φ, 0) a point exchanges for the mean per cell
+/// Share of its own compressive strain min(φ, 0) that a point exchanges for the mean per cell
 /// of travel.
 const VOLUMETRIC_SMOOTHING: f64 = 2.0;
 /// Relative rise of pressure per excess volume fraction and cell of travel.
 const PRESSURE_CORRECTION: f64 = 5.0;
 /// Largest relative rise of pressure in a step.
 pub const LARGEST_RISE: f64 = 0.5;
-/// A point that travels less than this share of what the fastest may is redistributed
-/// less, by the square: what only trembles is left alone.
+/// Share of the largest possible travel below which a point is redistributed less, by the
+/// square: particle noise alone has no effect.
 const SLOW: f64 = 0.2;
 
-/// Height above a base plane below which no point is shifted towards it [cells].
+/// Height above a plane of the bed below which no point is shifted towards it [cells].
 pub const NO_SHIFT_HEIGHT: f64 = 0.5;
-/// Depth behind a base plane from which on no point is moved farther behind [cells].
+/// Depth behind a plane of the bed beyond which no point penetrates further [cells].
 pub const DEEPEST_PENETRATION: f64 = 0.25;
 
 /// Rates of a step, by its length.
@@ -43,12 +42,12 @@ pub struct RedistributionRates {
     pub volumetric_smoothing: f64,
     /// Relative rise of pressure per excess volume fraction.
     pub pressure_correction: f64,
-    /// Travel from which on a point is fully redistributed [cells].
+    /// Travel above which a point is fully redistributed [cells].
     pub full_travel: f64,
 }
 
 impl RedistributionRates {
-    /// None at all: an elastic body keeps its points.
+    /// No redistribution: an elastic body keeps its points.
     pub const NONE: Self = Self {
         shift: 0.0,
         volumetric_smoothing: 0.0,
@@ -56,7 +55,7 @@ impl RedistributionRates {
         full_travel: 0.0,
     };
 
-    /// After a step in which the fastest point could travel so many cells.
+    /// Rates after a step in which the fastest point could travel so many cells.
     pub fn after(travel: f64) -> Self {
         Self {
             shift: SHIFT * travel,
@@ -66,7 +65,7 @@ impl RedistributionRates {
         }
     }
 
-    /// Change of a point that travelled `travel` cells, where the nodes say this of it.
+    /// Change of a point that travelled `travel` cells, with this state.
     pub fn of(&self, seen: &PointState, travel: f64, spacing: &Vec3) -> RedistributedPoint {
         let degree = if travel < self.full_travel {
             (travel / self.full_travel).powi(2)
@@ -93,7 +92,7 @@ impl RedistributionRates {
     }
 }
 
-/// State of a point, and of the nodes as it sees them.
+/// State of a point, and of the nodes at the point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointState {
     /// V ρ_c/m − 1 now.
@@ -111,19 +110,19 @@ pub struct PointState {
 /// Change of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RedistributedPoint {
-    /// Shift from where it is [m].
+    /// Shift from its position [m].
     pub shift: Vec3,
     /// Its volumetric strain.
     pub volumetric_strain: f64,
-    /// By which share of itself its stress rises.
+    /// Relative rise of its stress.
     pub rise: f64,
 }
 
-/// A shift [m] of a point that was `moved` to a position, without its part into a base
-/// plane that the point is near to or behind: nodes behind a wall can't say how crowded
-/// it is there. A point deep behind is also given back what it was moved into the wall:
-/// where the flow spreads over its base, nodes behind go on inward (equation 29), and
-/// the deeper a point is the faster they take it (equation 42b).
+/// A shift [m] of a point that was `moved` to a position, without its component into a plane of
+/// the bed that the point is near to or behind: the volume fraction of nodes behind a wall is
+/// not defined. For a point deep behind, the component of `moved` into the wall is removed,
+/// too: where the flow spreads over the bed, nodes behind move inwards (equation 29), and
+/// points follow them the faster the deeper they are (equation 42b).
 pub fn limit_shift_at_bed(
     shift: &Vec3,
     moved: &Vec3,
@@ -146,8 +145,8 @@ pub fn limit_shift_at_bed(
     shift
 }
 
-/// Change of a velocity [m/s] so that a point deep behind a base plane goes no deeper
-/// (equation 42c).
+/// Change of a velocity [m/s] by which a point deep behind a plane of the bed does not
+/// penetrate further (equation 42c).
 pub fn clamp_normal_velocity(
     velocity: &Vec3,
     position: &Vec3,
@@ -165,19 +164,19 @@ pub fn clamp_normal_velocity(
     change
 }
 
-/// Changes of the points' sums by redistributing them. A shift leaves the velocity.
+/// Changes of the points' sums by redistribution. A shift does not change the velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Shifting {
     /// Σ m δx [kg m].
     pub first_moment: Vec3,
     /// Σ m δx × v [N m s].
     pub angular: Vec3,
-    /// Impulse of walls on those deep behind them.
+    /// Impulse of walls on points deep behind them.
     pub stopped: Impulse,
 }
 
 impl Shifting {
-    /// Both together.
+    /// The sum of both.
     pub fn plus(self, other: &Self) -> Self {
         Self {
             first_moment: self.first_moment + other.first_moment,
@@ -186,8 +185,8 @@ impl Shifting {
         }
     }
 
-    /// Of so many images, which lie symmetrically about the plane y = 0. One alone is
-    /// what it is.
+    /// Sums over so many images, which lie symmetrically about the plane y = 0. One image leaves
+    /// them unchanged.
     pub fn of_images(&self, count: f64) -> Self {
         if count == 1.0 {
             return *self;
@@ -199,28 +198,28 @@ impl Shifting {
         }
     }
 
-    /// Takes in a point of this mass [kg] and velocity [m/s].
+    /// Adds a point of this mass [kg] and velocity [m/s].
     pub fn add(&mut self, mass: f64, shift: &Vec3, velocity: &Vec3) {
         self.first_moment += shift * mass;
         self.angular += shift.cross(velocity) * mass;
     }
 }
 
-/// Excess volume fraction of a node of this volume fraction.
+/// Excess volume fraction of a node with this volume fraction.
 pub fn excess_volume_fraction(volume_fraction: f64) -> f64 {
     (volume_fraction - 1.0).clamp(0.0, 1.0)
 }
 
-/// Kernel weight of a node at its own place.
+/// Kernel weight of a node at its own position.
 const PEAK: f64 = 0.75 * 0.75 * 0.75;
 
-/// Walls and bodies leave less room at the nodes round them.
+/// Reduces the available nodal volume near walls and bodies.
 pub fn exclude_volume(boundary: &Boundary, bodies: &[Body], nodes: &mut impl NodeAccess) {
     boundary.exclude_volume(nodes);
     for body in bodies {
         exclude_body(body, nodes);
     }
-    // A body in the channel takes room from a node's images as well.
+    // A body in the channel excludes volume of a node's images as well.
     boundary.fill_ghost_nodes(nodes);
 }
 
@@ -255,15 +254,15 @@ fn exclude_body(body: &Body, nodes: &mut impl NodeAccess) {
     }
 }
 
-/// Range of those of the blocks, which come sorted, that lie between two along x: a large
-/// body holds millions of cells, most of them without a point near.
+/// Range of the blocks, which are sorted, between two coordinates along x: a large body
+/// contains millions of cells, most of them without a point near.
 fn blocks_along(blocks: &[BlockKey], first: i32, last: i32) -> Range<usize> {
     let start = blocks.partition_point(|block| block[0] < first);
     let end = blocks.partition_point(|block| block[0] <= last);
     start..end
 }
 
-/// Lowest and highest node whose kernel may meet a body.
+/// Lowest and highest node whose kernel may overlap a body.
 fn box_of(body: &Body, lattice: &Lattice) -> ([i32; 3], [i32; 3]) {
     let reach = body.shape.bounding_radius() + REACH * lattice.spacing.max();
     let at = |sign: f64| {

@@ -14,21 +14,21 @@ mod inertia;
 
 pub use inertia::InverseInertia;
 
-/// Freedom of a body to move.
+/// Degrees of freedom of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Freedom {
-    /// Loads do.
+    /// Loads move it.
     Free,
-    /// Loads do, but it never leaves the plane y = 0 nor turns out of it: loads that
-    /// would do that are rounding.
+    /// Loads move it, but it never leaves the plane y = 0 nor turns out of it: loads that would do
+    /// that are rounding.
     InPlane,
-    /// Nothing: it is a barrier.
+    /// Nothing moves it: it is a barrier.
     Fixed,
-    /// A motion that is given, whatever acts on it.
+    /// A prescribed motion, whatever acts on it.
     Prescribed(Prescribed),
 }
 
-/// A prescribed motion from a place on.
+/// A prescribed motion from a starting position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prescribed {
     /// Centre at time 0 [m].
@@ -37,7 +37,7 @@ pub struct Prescribed {
     pub motion: PrescribedMotion,
 }
 
-/// A body: what it is, and how it stands.
+/// A rigid body: its properties and its state.
 #[derive(Debug, Clone)]
 pub struct Body {
     /// Its shape.
@@ -57,7 +57,7 @@ pub struct Body {
     pub rolling_friction: f64,
     /// Freedom to move.
     pub freedom: Freedom,
-    /// Its contacts with walls, as last found; kept so that none is allocated anew.
+    /// Its contacts with walls, as last found; kept to avoid allocations.
     pub wall_touches: Vec<WallTouch>,
     /// State.
     pub state: BodyState,
@@ -79,20 +79,20 @@ pub struct BodyState {
     pub springs: Vec<Spring>,
     /// Their springs against rolling; empty without rolling resistance.
     pub rolling: Vec<Spring>,
-    /// Present load of the walls.
+    /// Current load of the walls.
     pub wall_load: Load,
-    /// Energy its wall contacts hold now [J].
+    /// Energy stored in its wall contacts now [J].
     pub wall_energy: f64,
     /// Its deepest overlap with a wall now [m]; 0 off all walls.
     pub wall_overlap: f64,
-    /// Present load of other free bodies.
+    /// Current load of other free bodies.
     pub body_load: Load,
-    /// Present load of fixed bodies, and of those with a prescribed motion.
+    /// Current load of fixed bodies, and of those with a prescribed motion.
     pub barrier_load: Load,
     /// Number of bodies it touches now.
     pub touching_bodies: u32,
-    /// Time for which it has hardly moved, without a flow on it [s]; infinite while it
-    /// stands as it did at the start, held by the walls.
+    /// Time for which it has hardly moved, without a flow on it [s]; infinite while it is in its
+    /// initial static equilibrium on the walls.
     pub still_for: f64,
 }
 
@@ -118,7 +118,7 @@ impl Load {
         self.torque += arm.cross(force);
     }
 
-    /// A share of it, or its multiple.
+    /// The load times a factor.
     pub fn times(&self, factor: f64) -> Self {
         Self {
             force: self.force * factor,
@@ -126,7 +126,7 @@ impl Load {
         }
     }
 
-    /// Power at these velocities of the body that it acts on [W].
+    /// Power at these velocities of the body on which it acts [W].
     pub fn power(&self, at: &Velocities) -> f64 {
         self.force.dot(&at.linear) + self.torque.dot(&at.angular)
     }
@@ -143,7 +143,7 @@ impl Body {
         self.inverse_inertia_times(&self.state.orientation, &self.state.angular_momentum)
     }
 
-    /// Both, in world axes; a fixed body has none.
+    /// Both velocities, in world axes; zero for a fixed body.
     pub fn velocities(&self) -> Velocities {
         match self.freedom {
             Freedom::Fixed => Velocities::NONE,
@@ -153,7 +153,7 @@ impl Body {
         }
     }
 
-    /// The same with other momenta, as it stands.
+    /// Velocities with other momenta, in the current orientation.
     pub fn velocities_with(&self, momentum: &Vec3, angular_momentum: &Vec3) -> Velocities {
         Velocities {
             linear: momentum / self.mass,
@@ -183,26 +183,24 @@ impl Body {
         closest.distance - self.shape.sphero_radius()
     }
 
-    /// Acceleration at `arm` that a load gives to a body that does not turn yet
-    /// [m/s²].
+    /// Acceleration at `arm` that a load gives to a body with zero angular velocity [m/s²].
     pub fn acceleration_at(&self, load: &Load, arm: &Vec3) -> Vec3 {
         load.force / self.mass + self.angular_acceleration(&load.torque).cross(arm)
     }
 
-    /// F·F/m + T·I⁻¹T [W/s]: the power of a load against the accelerations that it gives,
-    /// over the time they last.
+    /// F·F/m + T·I⁻¹T [W/s]: the power of a load at the accelerations that it gives, over their
+    /// duration.
     pub fn response(&self, load: &Load) -> f64 {
         let turning = load.torque.dot(&self.angular_acceleration(&load.torque));
         load.force.norm_squared() / self.mass + turning
     }
 
-    /// Angular acceleration that a torque gives to a body that does not turn yet
-    /// [rad/s²].
+    /// Angular acceleration that a torque gives to a body with zero angular velocity [rad/s²].
     pub fn angular_acceleration(&self, torque: &Vec3) -> Vec3 {
         self.inverse_inertia_times(&self.state.orientation, torque)
     }
 
-    /// 1/m [1/kg]; 0 for a body that no load moves.
+    /// 1/m [1/kg]; 0 for a fixed or prescribed body.
     pub fn inverse_mass(&self) -> f64 {
         if self.is_free() { 1.0 / self.mass } else { 0.0 }
     }
@@ -239,15 +237,14 @@ impl Body {
         self.set_velocities(&velocities);
     }
 
-    /// Gives it the momenta of these velocities as it stands.
+    /// Sets the momenta to those of these velocities in the current orientation.
     pub fn set_velocities(&mut self, velocities: &Velocities) {
         self.state.momentum = velocities.linear * self.mass;
         let spin = self.to_body(&velocities.angular);
         self.state.angular_momentum = self.to_world(&(self.inertia * spin));
     }
 
-    /// Work that it does in `dt` by its prescribed motion against a load on it [J]; none
-    /// if it has no such motion.
+    /// Work of its prescribed motion against a load on it in `dt` [J]; none without such a motion.
     pub fn work_against(&self, load: &Load, dt: f64) -> f64 {
         match self.freedom {
             Freedom::Prescribed(_) => -load.power(&self.velocities()) * dt,
@@ -268,7 +265,7 @@ impl Body {
         0.5 * (self.state.momentum.norm_squared() / self.mass + spinning)
     }
 
-    /// True if it stands as it did at the start, held by the walls alone.
+    /// True if it is in its initial static equilibrium, held by the walls alone.
     pub fn is_held(&self) -> bool {
         self.state.still_for == f64::INFINITY
     }
@@ -289,9 +286,9 @@ impl Body {
             .fastest_place(&self.to_body(linear), &self.to_body(angular))
     }
 
-    /// Speed that turning freely never gives to any place of it [m/s]: of the energy of
-    /// turning a place has no more than its compliance allows, (ω×c)·n = ω·(c×n) ≤
-    /// √(ω·Iω) √((c×n)·I⁻¹(c×n)).
+    /// Upper bound of the speed that free turning can give to any place of it [m/s]: of the energy
+    /// of turning a place has no more than its compliance allows, (ω×c)·n = ω·(c×n) ≤ √(ω·Iω)
+    /// √((c×n)·I⁻¹(c×n)).
     pub fn turning_bound(&self) -> f64 {
         let twice_energy = self.state.angular_momentum.dot(&self.angular_velocity());
         (twice_energy.max(0.0) * self.shape.turning_compliance() / self.mass).sqrt()
@@ -302,8 +299,8 @@ impl Body {
         self.mass / (1.0 + self.shape.turning_compliance())
     }
 
-    /// Largest speed to reckon with in a step that begins now [m/s]: the present one, or
-    /// the largest of a prescribed motion.
+    /// Largest speed in a step that begins now [m/s]: the current one, or the largest of a
+    /// prescribed motion.
     pub fn speed_ahead(&self) -> f64 {
         match &self.freedom {
             Freedom::Prescribed(prescribed) => {
@@ -313,8 +310,8 @@ impl Body {
         }
     }
 
-    /// Largest acceleration of a place under gravity [m/s²] and a load, its present turning
-    /// left out [m/s²]; 0 for a body that no load moves.
+    /// Largest acceleration of a place under gravity [m/s²] and a load, without the effect of its
+    /// current turning [m/s²]; 0 for a fixed or prescribed body.
     pub fn largest_acceleration(&self, gravity: &Vec3, load: &Load) -> f64 {
         match self.freedom {
             Freedom::Fixed | Freedom::Prescribed(_) => 0.0,
@@ -325,8 +322,8 @@ impl Body {
         }
     }
 
-    /// Speed that no place of it exceeds while its momenta last, however it turns, or
-    /// ever by a prescribed motion [m/s]; 0 for a fixed body.
+    /// Bound of the speed of any place of it while its momenta are constant, however it turns, or
+    /// at any time of a prescribed motion [m/s]; 0 for a fixed body.
     pub fn speed_bound(&self) -> f64 {
         match self.freedom {
             Freedom::Fixed => 0.0,
@@ -338,8 +335,8 @@ impl Body {
         }
     }
 
-    /// Changes momentum and angular momentum by `load` over `dt`; their means meanwhile, at
-    /// whose velocities the load does the work that the kinetic energy changes by.
+    /// Changes momentum and angular momentum by `load` over `dt`; returns their means in that time.
+    /// The work of the load at their velocities is the change of kinetic energy.
     pub fn kick(&mut self, load: &Load, dt: f64) -> [Vec3; 2] {
         let before = (self.state.momentum, self.state.angular_momentum);
         self.state.momentum += load.force * dt;
@@ -366,15 +363,15 @@ impl Body {
         };
     }
 
-    /// Orientation after `dt` of turning about the direction of y, which is a principal
-    /// axis but for rounding: that would turn it out of the plane.
+    /// Orientation after turning for `dt` about the direction of y, which is a principal axis
+    /// except for rounding, which would turn the body out of the plane.
     fn turned_in_plane(&self, dt: f64) -> UnitQuaternion<f64> {
         let (sin, cos) = (0.5 * self.angular_velocity().y * dt).sin_cos();
         let turn = Quaternion::new(cos, 0.0, sin, 0.0);
         UnitQuaternion::new_normalize(turn * self.state.orientation.into_inner())
     }
 
-    /// Name of the first quantity that is no number, if any.
+    /// Name of the first non-finite quantity, if any.
     pub fn non_finite(&self) -> Option<&'static str> {
         let state = &self.state;
         let finite = [

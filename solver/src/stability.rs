@@ -5,7 +5,7 @@ pub const SUBSTEP_WITHOUT_FLOW: f64 = 1e-3;
 /// Largest travel of a body in a sub-step [cells]: less than a point's spacing, so that
 /// it meets every point on its way.
 const BODY_TRAVEL: f64 = 0.4;
-/// A flow this many times faster than its own sound has blown up.
+/// Mach number above which a flow has blown up.
 const LARGEST_MACH_NUMBER: f64 = 20.0;
 
 /// Bounds of a run's steps.
@@ -19,16 +19,16 @@ pub struct Limits {
     pub cell_size: f64,
     /// Courant number of the sub-step.
     pub courant: f64,
-    /// Cells the fastest point may travel per step.
+    /// Largest travel of the fastest point per step [cells].
     pub flow_courant: f64,
-    /// Share of a body's own time scale against points allowed per sub-step.
+    /// Largest sub-step over a body's own time scale against points.
     pub body_contact_share: f64,
-    /// A flow slower than this steps as if it had this speed [m/s]: one at rest
-    /// would otherwise never be transferred.
+    /// Speed below which a flow steps as if it had this speed [m/s]: one at rest would otherwise
+    /// never be transferred.
     pub slow: f64,
 }
 
-/// The next step: so many sub-steps of so long.
+/// The next step: number and length of its sub-steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
     /// Length of a sub-step [s].
@@ -60,7 +60,7 @@ impl Limits {
         fastest.max(self.slow)
     }
 
-    /// Cells that a point at that speed travels in `duration` [s].
+    /// Travel of a point at that speed in `duration` [s], in cells.
     pub fn travel(&self, duration: f64, fastest: f64) -> f64 {
         self.governing_speed(fastest) * duration / self.cell_size
     }
@@ -91,10 +91,10 @@ pub fn pace_without_flow(longest: f64, remaining: f64) -> Pace {
     divide(remaining, longest, 1.0)
 }
 
-/// A step of `allowed` sub-steps of the longest size. What remains for the last two
-/// is divided evenly, so that no sub-step is cut short alone.
+/// A step of `allowed` sub-steps of the longest size. The remaining time of the last two steps
+/// is divided evenly, so that no single sub-step is cut short.
 fn divide(remaining: f64, longest: f64, allowed: f64) -> Pace {
-    // A whole number but for rounding is that number.
+    // A whole number up to rounding counts as that number.
     let needed = (remaining / longest - 1e-9).ceil().max(1.0);
     Pace {
         substep: if needed > 2.0 * allowed {
@@ -142,7 +142,7 @@ mod tests {
         assert!((pace.substep - 0.875 * longest).abs() < 1e-18);
     }
 
-    // Of 8 sub-steps a step, 8.01 remain: nine, each a little shorter.
+    // With 8 sub-steps per step, 8.01 remain: nine, each a little shorter.
     #[test]
     fn no_sub_step_is_cut_short_alone() {
         let longest = 1e-3;

@@ -1,17 +1,17 @@
 //! Strain-rate smoothing (docs/method.md, equation 42a).
 //!
-//! Strain rates shared between points. Where these lie unevenly, the velocity gradient
-//! that each of them sees is off, by 3 % in steady shear with eight points a cell. Shear
-//! stress follows the direction of the strain rate, so part of it does not point against
-//! the flow, and friction comes out too weak. What the points around see is off another
-//! way: so a point feels a mixture of its own strain rate and their mean.
+//! Where points are unevenly distributed, the velocity gradient at each of them has an error, 3
+//! % in steady shear with eight points a cell. Shear stress follows the direction of the strain
+//! rate, so part of it does not oppose the flow, and friction is too low. The errors of
+//! neighbours are nearly independent: the effective strain rate is therefore a mixture of a
+//! point's own and their mean.
 
 use crate::math::Sym3;
 
 /// Share of the mean in the effective strain rate of a point.
 const SHARE: f64 = 0.5;
-/// A point slower than this share of the fastest shares less, by the square: what
-/// only trembles is left alone.
+/// Share of the fastest speed below which a point is smoothed less, by the square: particle
+/// noise alone has no effect.
 const SLOW: f64 = 0.2;
 
 /// Smoothing of strain rates in a step.
@@ -19,18 +19,18 @@ const SLOW: f64 = 0.2;
 pub struct StrainRateSmoothing {
     /// Share of the mean.
     pub share: f64,
-    /// Speed from which on a point shares fully [m/s].
+    /// Speed above which a point is fully smoothed [m/s].
     pub full_speed: f64,
 }
 
 impl StrainRateSmoothing {
-    /// None at all: an elastic body keeps its own.
+    /// No smoothing: an elastic body keeps its own strain rates.
     pub const NONE: Self = Self {
         share: 0.0,
         full_speed: f64::MIN_POSITIVE,
     };
 
-    /// In a flow that governs its steps by this speed [m/s].
+    /// Smoothing in a flow that governs its steps by this speed [m/s].
     pub fn at(speed: f64) -> Self {
         Self {
             share: SHARE,
@@ -38,8 +38,8 @@ impl StrainRateSmoothing {
         }
     }
 
-    /// Strain rate [1/s] that a point of this speed [m/s] feels besides its own, a
-    /// deviator, where its nodes say that of the points around is `mean`.
+    /// Smoothed part of the effective strain rate [1/s] of a point of this speed [m/s], a deviator,
+    /// for the mean of its neighbourhood `mean`.
     pub fn of(&self, own: &Sym3, mean: &Sym3, speed: f64) -> Sym3 {
         let degree = (speed / self.full_speed).min(1.0).powi(2);
         let lacking = mean.plus(&own.times(-1.0)).deviator();

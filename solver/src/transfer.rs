@@ -1,10 +1,10 @@
 //! Transfers between points and grid (docs/method.md, equations 8–13).
 //!
-//! ∇w_i stands for w_i M⁻¹ (x_i − x_p) with the kernel's second moment M, the
-//! gradient of moving least squares (equation 7).
+//! ∇w_i stands for w_i M⁻¹ (x_i − x_p) with the kernel's second moment M, the gradient of
+//! moving least squares (equation 7).
 //!
-//! Within one step the weights stay those of the transfer; the displaced nodes
-//! carry the deformation F̂ of every point (two clocks).
+//! Within one step the weights stay those of the transfer; the displaced nodes carry the
+//! deformation F̂ of every point (transfer sub-cycling).
 
 use crate::grid::{Grid, Node, PointBlock, TILE, Tile, in_tile};
 use crate::kernel::{Stencil, WIDTH};
@@ -30,8 +30,8 @@ const ROWS: [usize; WIDTH * WIDTH] = {
     rows
 };
 
-/// Node mass and velocity from the points (equation 8): m_i = Σ w m,
-/// m_i v_i = Σ w m (v + C (x_i − x_p)).
+/// Scatters node mass and velocity from the points (equation 8): m_i = Σ w m, m_i v_i = Σ w m
+/// (v + C (x_i − x_p)).
 pub fn scatter_momentum(points: &[Point], grid: &mut Grid) {
     let lattice = *grid.lattice();
     grid.scatter(
@@ -57,9 +57,9 @@ pub fn scatter_momentum(points: &[Point], grid: &mut Grid) {
     );
 }
 
-/// Hands over what the first scatter lost, and the compressive strain: the nodes' motion
-/// seen at the points falls short of the points' own, and what is missing goes to
-/// the nodes as well (equations 8a and 39).
+/// Scatters the residual of the first scatter, and the compressive strain: the difference
+/// between the points' own motion and that of the nodes at the points goes to the nodes as well
+/// (equations 8a and 39).
 pub fn residual_transfer(points: &[Point], bulk_density: f64, grid: &mut Grid) {
     let lattice = *grid.lattice();
     let inverse_moment = Mat3::from_diagonal(&lattice.kernel_moment().map(f64::recip));
@@ -148,7 +148,7 @@ fn scatter_means(
     );
 }
 
-/// Finds the strain rate that every point feels besides its own (equation 42a).
+/// Computes the smoothed part of every point's effective strain rate (equation 42a).
 pub fn smooth_strain_rates(
     grid: &Grid,
     points: &[Point],
@@ -225,13 +225,13 @@ pub fn gather_gradient(grid: &Grid, points: &[Point], dt: f64, deformations: &mu
     });
 }
 
-/// Ends a step: velocity, affine velocity and position of every point from
-/// the displaced nodes (equations 12 and 13), and keeps the points evenly spread
-/// (equations 39–42). Returns what that did to their sums.
+/// Ends a step: velocity, affine velocity and position of every point from the displaced nodes
+/// (equations 12 and 13), and particle redistribution (equations 39–42). Returns the changes of
+/// their sums.
 ///
-/// The affine velocity is the gradient on the displaced nodes, C F̂⁻¹, but no
-/// steeper for a point having been compressed, with its skew part set so that points
-/// and displaced nodes have the same angular momentum.
+/// The affine velocity is the gradient on the displaced nodes, C F̂⁻¹, but no steeper for a
+/// point having been compressed, with its skew part set so that points and displaced nodes have
+/// the same angular momentum.
 pub fn gather_motion(
     grid: &Grid,
     deformations: &[Deformation],
@@ -304,8 +304,7 @@ pub fn gather_motion(
     spread.iter().fold(Shifting::default(), Shifting::plus)
 }
 
-/// `gradient` with the skew part that makes (affine · h²/4) have the skew part
-/// of `target`.
+/// `gradient` with the skew part for which (affine · h²/4) has the skew part of `target`.
 fn with_angular_momentum(gradient: &Mat3, target: &Mat3, moment: &Vec3) -> Mat3 {
     let mut affine = *gradient;
     for (a, b) in [(0, 1), (0, 2), (1, 2)] {
@@ -377,7 +376,7 @@ fn scatter_affine(block: &PointBlock, stencil: &Stencil, carried: &Carried, tile
 struct Moments {
     zeroth: Vec3,
     first: Mat3,
-    /// The same of the number beside it.
+    /// The moment of the scalar beside it.
     last: f64,
     last_first: Vec3,
 }
@@ -428,8 +427,8 @@ fn gather_outer(block: &PointBlock, stencil: &Stencil, q: &Tile, r: &Tile) -> Ma
     outer
 }
 
-/// Runs over the blocks of points in parallel, each with its own share of a
-/// list that has one entry per point; the answers come in the order of the blocks.
+/// Runs over the blocks of points in parallel, each with its own part of a list with one entry
+/// per point; the results are in the order of the blocks.
 fn for_each_block<T: Send, R: Send>(
     grid: &Grid,
     list: &mut [T],

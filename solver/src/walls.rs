@@ -1,10 +1,9 @@
 //! The channel's walls: planes for bodies, and constraints on grid nodes.
 //!
-//! The channel is convex: it lies above the floor and above the incline, and
-//! between the vertical walls. The vertical walls lie on grid planes and act as
-//! mirrors: a node and its images move as one, so a smooth wall reflects
-//! exactly (docs/method.md, equation 28). Incline and floor act on columns of
-//! nodes, each where it meets them (equation 29).
+//! The channel is convex: it lies above the floor and above the incline, and between the
+//! vertical walls. The vertical walls lie on grid planes and act as mirrors: a node and its
+//! images move as one, so a smooth wall reflects exactly (docs/method.md, equation 28). Incline
+//! and floor act on columns of nodes at their intersection with them (equation 29).
 
 use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
@@ -21,14 +20,14 @@ pub use constraint::WallPace;
 pub use nodes::NodeAccess;
 pub use vertical_walls::{Ends, VerticalBoundary, VerticalWalls};
 
-/// A wall's surface; the channel lies on the side its normal points to.
+/// A wall's surface; its normal points into the channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
-    /// Name for people.
+    /// Name in messages.
     pub name: &'static str,
     /// Unit normal into the channel.
     pub normal: Vec3,
-    /// normal · x of its points [m].
+    /// normal · x of its places [m].
     pub offset: f64,
     /// Coulomb friction of the flow.
     pub flow_friction: f64,
@@ -46,11 +45,11 @@ impl Plane {
 pub struct Walls {
     /// Incline and floor: every place of the channel is above each of them.
     pub base: Vec<Plane>,
-    /// The mirrors.
+    /// The vertical walls.
     pub vertical_walls: VerticalWalls,
 }
 
-/// Impulse that walls gave, linear [N s] and angular about the origin [N m s].
+/// Impulse of the walls, linear [N s] and angular about the origin [N m s].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Impulse {
     /// Linear [N s].
@@ -66,7 +65,7 @@ impl Impulse {
         self.angular += x.cross(linear);
     }
 
-    /// Both together.
+    /// The sum of both.
     pub fn plus(&self, other: &Self) -> Self {
         Self {
             linear: self.linear + other.linear,
@@ -74,8 +73,8 @@ impl Impulse {
         }
     }
 
-    /// Sum over so many images, which lie symmetrically about the plane y = 0: twice as
-    /// much of two, and nothing across. One alone is what it is.
+    /// Sum over so many images, which lie symmetrically about the plane y = 0: doubled in the plane
+    /// for two, and zero across it. One image leaves it unchanged.
     pub fn of_images(&self, count: f64) -> Self {
         if count == 1.0 {
             return *self;
@@ -87,13 +86,14 @@ impl Impulse {
     }
 }
 
-/// Part that is left of a vector and its mirror images in the plane y = 0.
+/// In-plane part of a vector, which remains in the sum with its mirror image in the plane y =
+/// 0.
 pub fn in_plane(v: &Vec3) -> Vec3 {
     Vec3::new(v.x, 0.0, v.z)
 }
 
 impl Walls {
-    /// Every plane a body can touch.
+    /// Every plane that a body can touch.
     pub fn planes(&self) -> impl Iterator<Item = &Plane> {
         let back = match &self.vertical_walls.ends {
             Ends::Back(bound) => Some(bound.plane()),

@@ -1,4 +1,4 @@
-//! What a steady run must not do: allocate.
+//! A steady run must not allocate.
 
 use scree_solver::scenario::Scenario;
 use scree_solver::{Ending, Simulation, StepStage};
@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 mod counting {
-    //! The system's allocator, counted.
+    //! A counting allocator on top of the system's.
     #![allow(unsafe_code, reason = "an allocator is unsafe by its signature")]
 
     use std::alloc::{GlobalAlloc, Layout, System};
@@ -22,29 +22,29 @@ mod counting {
     #[global_allocator]
     static ALLOCATOR: Counting = Counting;
 
-    // SAFETY: every call goes to the system's allocator as it came; a counter
-    // beside it allocates nothing.
+    // SAFETY: every call goes to the system's allocator unchanged; the counter beside it allocates
+    // nothing.
     unsafe impl GlobalAlloc for Counting {
         unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
             ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-            // SAFETY: the caller's promises are those System asks for.
+            // SAFETY: the caller's guarantees are those required by System.
             unsafe { System.alloc(layout) }
         }
 
         unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
             ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-            // SAFETY: the caller's promises are those System asks for.
+            // SAFETY: the caller's guarantees are those required by System.
             unsafe { System.alloc_zeroed(layout) }
         }
 
         unsafe fn realloc(&self, place: *mut u8, layout: Layout, size: usize) -> *mut u8 {
             ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-            // SAFETY: the caller's promises are those System asks for.
+            // SAFETY: the caller's guarantees are those required by System.
             unsafe { System.realloc(place, layout, size) }
         }
 
         unsafe fn dealloc(&self, place: *mut u8, layout: Layout) {
-            // SAFETY: the caller's promises are those System asks for.
+            // SAFETY: the caller's guarantees are those required by System.
             unsafe { System.dealloc(place, layout) }
         }
     }
@@ -63,7 +63,7 @@ fn heap_round_a_cube() -> Scenario {
     Scenario::from_json(&text.to_string()).expect("it is valid")
 }
 
-/// Sub-steps before counting starts, and those counted: some sixty transfers.
+/// Sub-steps before counting starts, and counted ones: some sixty transfers.
 const WARM_UP: u64 = 2000;
 const COUNTED: u64 = 400;
 
@@ -104,11 +104,11 @@ fn counted(threads: usize) -> ByVerb {
     std::array::from_fn(|stage| after[stage] - before[stage])
 }
 
-/// On one thread and on two. One count at a time: all threads are counted.
+/// Counts on one thread and on two. One count at a time: all threads are counted.
 static COUNTS: LazyLock<[ByVerb; 2]> = LazyLock::new(|| [1, 2].map(counted));
 
-// Only a flow that grows into new blocks, or bodies that meet more points than
-// ever before, may need memory.
+// Only a flow that grows into new blocks, or bodies in contact with more points than ever
+// before, may need memory.
 #[test]
 fn a_steady_run_allocates_nothing() {
     for counts in &*COUNTS {

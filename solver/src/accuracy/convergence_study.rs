@@ -1,4 +1,4 @@
-//! The runs that an answer needs, one after the other, and the answer they make.
+//! The runs that an answer needs, one after the other, and the answer made from them.
 
 use super::error_bars::{StudyOutcomes, interval_of, relative, value_of};
 use super::refinement_runs::{
@@ -10,20 +10,19 @@ use crate::record::{AccuracyReport, Cost, Outcome, Role, RunCost, TargetReport};
 use crate::scenario::Scenario;
 use std::collections::VecDeque;
 
-/// Refinement runs that a interval rests on, at least.
+/// Least number of refinement runs behind an interval.
 const FEWEST_NEAR: usize = 2;
 
-/// Everything to be computed for one scenario: the answer alone, or refinement runs
-/// before it, or as many runs as a target takes. Whoever runs it takes the
-/// [`next`](Self::next) run, computes [its scenario](Self::scenario_of) and hands in
-/// what came [out](Self::take), until there is no next.
+/// All runs for one scenario: the answer alone, or refinement runs before it, or as many runs
+/// as a target takes. The caller takes the [`next`](Self::next) run, computes [its
+/// scenario](Self::scenario_of) and hands in the [outcome](Self::take), until no run is next.
 #[derive(Debug)]
 pub struct ConvergenceStudy {
     given: Scenario,
     lengths: ResolvedLengths,
     to_do: VecDeque<StudyRun>,
     done: Vec<FinishedRun>,
-    /// Why a target won't be met; `None` while it may.
+    /// Reason for which a target won't be met; `None` while it may.
     given_up: Option<String>,
 }
 
@@ -34,7 +33,7 @@ struct FinishedRun {
 }
 
 impl FinishedRun {
-    /// A run that may be an answer or a refinement run of one.
+    /// Outcome of a run that may be the answer or a refinement run of one.
     fn grid(&self) -> Option<&Outcome> {
         let counts = self.study_run.role != Role::ReducedStiffness;
         self.outcome.as_ref().ok().filter(|_| counts)
@@ -42,7 +41,7 @@ impl FinishedRun {
 }
 
 impl ConvergenceStudy {
-    /// What a scenario asks for.
+    /// The study that a scenario asks for.
     ///
     /// # Errors
     /// Too many points for one run.
@@ -72,17 +71,17 @@ impl ConvergenceStudy {
         self.to_do.front().copied()
     }
 
-    /// All runs that are known to be made yet, in turn.
+    /// All runs that are known to be still needed, in order.
     pub fn to_do(&self) -> impl Iterator<Item = StudyRun> {
         self.to_do.iter().copied()
     }
 
-    /// What came of the runs that are done, in turn.
+    /// Outcomes of the runs that are done, in order.
     pub fn done(&self) -> impl Iterator<Item = &Result<Outcome, String>> {
         self.done.iter().map(|done| &done.outcome)
     }
 
-    /// Whether there is an outcome that may be the answer.
+    /// True if there is an outcome that may be the answer.
     pub fn has_an_answer(&self) -> bool {
         self.finest().is_some()
     }
@@ -95,29 +94,29 @@ impl ConvergenceStudy {
             .reduce(f64::min)
     }
 
-    /// The scenario of a run. That of an answer whose cells are not chosen here is
-    /// the one given, word for word, so its answer has the same bits.
+    /// The scenario of a run. That of an answer whose cells are not chosen here is the given one,
+    /// word for word, so its answer has the same bits.
     pub fn scenario_of(&self, study_run: StudyRun) -> Scenario {
         scenario_of(&self.given, &self.lengths, study_run)
     }
 
-    /// Whether a target chooses the cells.
+    /// True if a target chooses the cells.
     pub fn has_a_target(&self) -> bool {
         self.given.accuracy.target.is_some()
     }
 
-    /// Whether a run's records may be those of the answer.
+    /// True if a run's records may be those of the answer.
     pub fn may_be_the_answer(&self, study_run: StudyRun) -> bool {
         refinement_runs::may_be_the_answer(&self.given, study_run)
     }
 
-    /// Whether there may be an answer without this run.
+    /// True if there may be an answer without this run.
     pub fn can_do_without(&self, study_run: StudyRun) -> bool {
         self.has_a_target() || study_run.role != Role::Answer
     }
 
-    /// Takes what came of the run in hand; a refinement run that could not be computed is
-    /// left out of the intervals.
+    /// Adds the outcome of the current run; a refinement run that could not be computed is left out
+    /// of the intervals.
     pub fn take(&mut self, outcome: Result<Outcome, String>) {
         let Some(study_run) = self.to_do.pop_front() else {
             return;
@@ -128,7 +127,7 @@ impl ConvergenceStudy {
         }
     }
 
-    /// Share of the work that is done when this share of the run in hand is.
+    /// Share of the work that is done, for this share of the current run.
     pub fn share_done(&self, of_this_run: f64) -> f64 {
         let cost = |study_run: &StudyRun| study_run.cost_over(self.lengths.cell_size_m);
         let before: f64 = self.done.iter().map(|done| cost(&done.study_run)).sum();
@@ -168,7 +167,7 @@ impl ConvergenceStudy {
         Some(with_error_bars)
     }
 
-    /// Every reduced-stiffness run and the one it is to be compared with, in turn.
+    /// Every reduced-stiffness run and the run it is compared with, in order.
     fn reduced_stiffness(&self) -> impl DoubleEndedIterator<Item = [&Outcome; 2]> {
         let is_softer = |done: &&FinishedRun| done.study_run.role == Role::ReducedStiffness;
         self.done
@@ -186,8 +185,8 @@ impl ConvergenceStudy {
             })
     }
 
-    /// What half the sound speed changes of the quantity that a target is about, over
-    /// its value, by every reduced-stiffness run in turn.
+    /// Change of the target quantity with half the sound speed, over the value, for every
+    /// reduced-stiffness run in order.
     fn softness(&self, answer: &Outcome) -> Vec<f64> {
         let accuracy = &self.given.accuracy;
         let Some((_, quantity)) = accuracy.goal() else {
@@ -313,8 +312,8 @@ impl ConvergenceStudy {
     }
 }
 
-/// Those of the coarser outcomes that tell of an answer's error: runs of a target's
-/// beginning, far coarser than its end, only as long as there are no others.
+/// The coarser outcomes that are evidence of an answer's error: pilot runs of a target, far
+/// coarser than the last run, only as long as there are no others.
 fn near<'a>(answer: &Outcome, coarser: &'a [&'a Outcome]) -> &'a [&'a Outcome] {
     let limit = FARTHEST * answer.cost.cell_size_m;
     let near = coarser.partition_point(|of| of.cost.cell_size_m <= limit);

@@ -1,17 +1,18 @@
-//! Uncertainty intervals of everything in an outcome, from the outcomes of its refinement runs.
+//! Uncertainty intervals of all quantities of an outcome, from the outcomes of its refinement
+//! runs.
 
 use super::series::{ErrorScale, GridSeries, QuantityKind};
 use crate::record::{BodyErrorBars, BodyOutcome, FlowErrorBars, Outcome, UncertaintyInterval};
 use crate::scenario::Quantity;
 
-/// The outcomes a interval is made of.
+/// The outcomes from which an interval is made.
 #[derive(Debug)]
 pub(super) struct StudyOutcomes<'a> {
-    /// What the intervals are about.
+    /// The outcome whose quantities get intervals.
     pub(super) answer: &'a Outcome,
     /// With larger cells, finer ones first.
     pub(super) coarser: Vec<&'a Outcome>,
-    /// With a material of reduced stiffness, and the one among the coarser of the same cells.
+    /// With a material of reduced stiffness, and the coarser outcome with the same cells.
     pub(super) reduced_stiffness: Option<[&'a Outcome; 2]>,
     /// Width of the thinnest body, or the thickness of the release without bodies [m].
     pub(super) across_m: f64,
@@ -117,8 +118,8 @@ pub(super) fn value_of(outcome: &Outcome, quantity: Quantity, body: u32) -> Opti
     }
 }
 
-/// How far a interval reaches from its value, over the value; `None` if an end is open or
-/// the value is 0.
+/// Distance from the value to the farther end of an interval, over the value; `None` if an end
+/// is open or the value is 0.
 pub(super) fn relative(interval: &UncertaintyInterval) -> Option<f64> {
     let value = interval.value.filter(|value| *value != 0.0)?;
     let reach = (interval.high? - value).max(value - interval.low?);

@@ -1,12 +1,12 @@
-//! Which runs stand behind a interval (docs/method.md, section 13).
+//! Runs behind an interval (docs/method.md, section 13).
 
 use crate::error::SetupError;
 use crate::record::Role;
 use crate::scenario::{Accuracy, Scenario};
 use crate::simulation::Simulation;
 
-/// A refinement run's cell size over the answer's, and the range within which one that is done
-/// already serves as well.
+/// A refinement run's cell size over the answer's, and the range within which a run that is
+/// done already serves as well.
 struct RefinementRange {
     factor: f64,
     least: f64,
@@ -15,14 +15,14 @@ struct RefinementRange {
 
 /// Cells of a refinement run over those of the answer, at most.
 pub(super) const FARTHEST: f64 = 2.7;
-/// Largest cells first: with the reduced-stiffness run together 0.19 of the answer's cost. More of
-/// them make intervals no narrower.
+/// Largest cells first: with the reduced-stiffness run together 0.19 of the answer's cost. More
+/// runs do not make intervals narrower.
 const COARSE: RefinementRange = RefinementRange {
     factor: 2.5,
     least: 2.1,
     most: FARTHEST,
 };
-/// The finer refinement run, beside which there is a reduced-stiffness run.
+/// The finer refinement run, which has a reduced-stiffness run beside it.
 const FINE: RefinementRange = RefinementRange {
     factor: 1.75,
     least: 1.45,
@@ -38,7 +38,7 @@ const FEWEST_PER_RELEASE: f64 = 1.0;
 /// A run to be made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StudyRun {
-    /// What it is for.
+    /// Its purpose.
     pub role: Role,
     /// Cell size [m].
     pub cell_size_m: f64,
@@ -57,7 +57,7 @@ impl StudyRun {
     }
 }
 
-/// What of a scene bounds its cells, and what they are.
+/// Lengths of a scene that bound its cells, and the cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ResolvedLengths {
     /// Least width of the thinnest body [m]; `None` without bodies.
@@ -70,7 +70,7 @@ pub(super) struct ResolvedLengths {
     pub(super) cell_size_m: f64,
     /// √(K/ρ) of the plain answer [m/s], or 0 without a flow.
     pub(super) sound_speed_m_s: f64,
-    /// Whether the scenario names the stiffness of its material.
+    /// True if the scenario gives the stiffness of its material.
     pub(super) stiffness_is_given: bool,
 }
 
@@ -91,7 +91,7 @@ impl ResolvedLengths {
         })
     }
 
-    /// The largest cells that tell anything [m].
+    /// The largest cells that are of use [m].
     pub(super) fn coarsest(&self) -> f64 {
         let of_body = self.thinnest_m.unwrap_or(f64::INFINITY) / FEWEST_PER_BODY;
         of_body
@@ -99,7 +99,7 @@ impl ResolvedLengths {
             .min(self.width_m)
     }
 
-    /// What its cells are to be compared with [m]: the width of the thinnest body, or the
+    /// Length that its cells are compared with [m]: the width of the thinnest body, or the
     /// thickness of the release without bodies.
     pub(super) fn across_m(&self) -> f64 {
         self.thinnest_m.unwrap_or(self.release_m)
@@ -111,8 +111,8 @@ impl ResolvedLengths {
     }
 }
 
-/// The refinement runs that an answer needs beside runs that are done, cheap ones first. One
-/// with too large cells is left out, but the finer never is.
+/// The refinement runs that an answer needs beside runs that are done, cheap ones first. A run
+/// with too large cells is left out, but the finer one never is.
 pub(super) fn refinement_runs(lengths: &ResolvedLengths, done: &[StudyRun]) -> Vec<StudyRun> {
     let coarser = |cell_size_m: f64| StudyRun {
         role: Role::Coarser,
@@ -148,7 +148,8 @@ impl RefinementRange {
     }
 }
 
-/// Whether a reduced-stiffness run is done whose cells are near enough: it tells of a small share.
+/// True if a reduced-stiffness run with similar cells is done: its share of an interval is
+/// small.
 fn has_reduced_stiffness_run(done: &[StudyRun], lengths: &ResolvedLengths) -> bool {
     let mut reduced_stiffness = done
         .iter()
@@ -156,8 +157,7 @@ fn has_reduced_stiffness_run(done: &[StudyRun], lengths: &ResolvedLengths) -> bo
     reduced_stiffness.any(|study_run| study_run.cell_size_m <= FARTHEST * lengths.cell_size_m)
 }
 
-/// Whether a run's records may be those of the answer: of all runs that a target
-/// takes, the finest one is.
+/// True if a run's records may be those of the answer: those of the finest run of a target.
 pub(super) fn may_be_the_answer(given: &Scenario, study_run: StudyRun) -> bool {
     match study_run.role {
         Role::Answer => true,
@@ -166,8 +166,8 @@ pub(super) fn may_be_the_answer(given: &Scenario, study_run: StudyRun) -> bool {
     }
 }
 
-/// The scenario of a run. That of an answer which keeps its cells is the one given,
-/// word for word.
+/// The scenario of a run. That of an answer which keeps its cells is the given one, word for
+/// word.
 pub(super) fn scenario_of(
     given: &Scenario,
     lengths: &ResolvedLengths,

@@ -4,26 +4,26 @@
 use super::fit::{LinearFit, observed_order};
 use crate::record::{Basis, UncertaintyInterval};
 
-/// Half the width over the only difference there is.
+/// Half the width over the difference, if there is only one.
 const SAFETY_OF_ONE: f64 = 3.0;
 /// Observed orders that are plausible.
 const PLAUSIBLE: (f64, f64) = (0.5, 4.0);
-/// What no run of another cell size tells, in cells of the answer for a length: where
-/// points lie within their cells.
+/// Error that runs of other cell sizes do not show, in cells of the answer for a length: it
+/// depends on the positions of points within their cells.
 const FLOOR_CELLS: f64 = 0.01;
-/// The same as a share of the value.
+/// Lower bound of half the width, as a share of the value.
 const FLOOR_SHARE: f64 = 0.002;
 
-/// What a quantity is: how its interval is made, and its natural bounds.
+/// Kind of a quantity, which decides how its interval is made, and its natural bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum QuantityKind {
-    /// When something begins or is at its height: not negative.
+    /// Time at which something begins or is largest: not negative.
     Moment,
-    /// When something has come to rest: not negative.
+    /// Time at which something comes to rest: not negative.
     Stop,
     /// A speed: not negative.
     Speed,
-    /// A length of a body's way: not negative.
+    /// A length of a body's path: not negative.
     Length,
     /// A coordinate along the channel.
     Along,
@@ -31,24 +31,24 @@ pub(super) enum QuantityKind {
     Across,
     /// A height.
     Up,
-    /// Where the front of a flow is, or how far it went.
+    /// Position of a flow's front, or its run-out.
     Reach,
     /// A mass: not negative.
     Mass,
 }
 
-/// Weights of a interval's shares (equation 72).
+/// Weights of the parts of an interval (equation 72).
 #[derive(Debug)]
 struct IntervalWeights {
-    /// How much of the trend is followed.
+    /// Of the extrapolated trend.
     trend: f64,
-    /// How far the rest reaches against the trend, over how far with it.
+    /// Width against the trend, over the width with it.
     against: f64,
     /// Of the scatter.
     scatter: f64,
     /// Error to be expected at one cell across the thinnest body, over the scale.
     across: f64,
-    /// The same at a way of one cell.
+    /// Error to be expected at a path of one cell, over the scale.
     way: f64,
 }
 
@@ -65,7 +65,7 @@ impl IntervalWeights {
 }
 
 impl QuantityKind {
-    /// Fitted to scenes that served for nothing else (decision 24), and rounded.
+    /// Weights fitted to scenes that served for nothing else (decision 24), and rounded.
     const fn weights(self) -> IntervalWeights {
         IntervalWeights::of(match self {
             Self::Moment => [0.0, 1.0, 2.0, 0.15, 0.2],
@@ -75,7 +75,7 @@ impl QuantityKind {
             Self::Across => [0.0, 1.0, 2.0, 0.05, 0.0],
             Self::Up => [0.0, 1.0, 2.5, 0.0125, 0.0],
             Self::Reach => [1.0, 1.0, 2.0, 0.25, 0.2],
-            // Nothing was fitted: as far as a first-order line leads.
+            // Nothing was fitted: extrapolation along a first-order line.
             Self::Mass => [1.0, 1.0, 2.5, 0.0, 0.0],
         })
     }
@@ -84,32 +84,33 @@ impl QuantityKind {
         self.is_a_place() || matches!(self, Self::Length)
     }
 
-    /// A coordinate's origin says nothing, so its errors go with the way.
+    /// True if the quantity is a coordinate. Its origin is arbitrary, so its errors are relative to
+    /// the path.
     const fn is_a_place(self) -> bool {
         matches!(self, Self::Along | Self::Across | Self::Up | Self::Reach)
     }
 }
 
-/// What the cells of the answer are to be compared with.
+/// Lengths that the cells of the answer are compared with.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ErrorScale {
     /// Width of the thinnest body, or the thickness of the release without bodies [m].
     pub(super) across_m: f64,
-    /// How far the body got, or the flow [m].
+    /// Length of the path of the body or the flow [m].
     pub(super) way_m: f64,
 }
 
 /// A quantity at several cell sizes.
 #[derive(Debug, Clone)]
 pub(super) struct GridSeries {
-    /// What it is.
+    /// Its kind.
     pub(super) kind: QuantityKind,
-    /// What its cells are to be compared with.
+    /// Lengths that its cells are compared with.
     pub(super) scale: ErrorScale,
     /// Cell size [m] and value, those of the answer first, then ever larger cells;
     /// no value where it did not happen.
     pub(super) places: Vec<(f64, Option<f64>)>,
-    /// With a material of reduced stiffness, and with the same cells and the usual one.
+    /// Value with a material of reduced stiffness, and with the same cells and the usual stiffness.
     pub(super) reduced_stiffness: Option<[Option<f64>; 2]>,
 }
 
@@ -151,7 +152,7 @@ impl GridSeries {
         }
     }
 
-    /// It happened in some of the runs: not before the earliest, if at all.
+    /// Interval of a quantity that exists in some of the runs only: not before the earliest.
     fn of_some(
         &self,
         happened: &[(f64, f64)],
@@ -201,7 +202,7 @@ impl GridSeries {
         }
     }
 
-    /// The error that scenes at large have at such cells, whatever these values show.
+    /// The error that scenes in general have with such cells, whatever these values show.
     fn expected(&self, weights: &IntervalWeights, size: f64, value: f64) -> f64 {
         let ErrorScale { across_m, way_m } = self.scale;
         let scale = if self.kind.is_a_place() {
@@ -210,12 +211,12 @@ impl GridSeries {
             value.abs()
         };
         let across = weights.across * size / across_m;
-        // A way of less than a cell is as uncertain as one of a cell.
+        // A path of less than a cell is as uncertain as one of a cell.
         let way = weights.way * size / way_m.max(size);
         scale * across.hypot(way)
     }
 
-    /// What half the sound speed changes (equation 73).
+    /// Change of the value with half the sound speed (equation 73).
     fn of_softness(&self) -> f64 {
         match self.reduced_stiffness {
             Some([Some(reduced_stiffness), Some(usual)]) => (reduced_stiffness - usual).abs(),
@@ -272,7 +273,7 @@ mod tests {
         assert_eq!(interval.basis, Basis::Converging);
         assert!((interval.order.unwrap() - 1.0).abs() < 0.05, "{interval:?}");
         let weights = QuantityKind::Speed.weights();
-        // Without scatter what is left is what scenes at large have.
+        // Without scatter the remainder is the error of scenes in general.
         let around = 1.1 * (weights.across / 3.0).hypot(weights.way / 20.0);
         let floor = 1.1 * FLOOR_SHARE;
         // The limit is 1.0.
@@ -317,7 +318,8 @@ mod tests {
         }
         assert!(width(1.0, 0.4, QuantityKind::Speed) < width(1.0, 0.2, QuantityKind::Speed));
         assert!(width(1.0, 0.4, QuantityKind::Across) > width(1.0, 0.2, QuantityKind::Across));
-        // Less than a cell of way is no less certain than a cell, and none at all has an end.
+        // A path of less than a cell is no less certain than a cell, and no path has a finite
+        // interval.
         assert_eq!(
             width(1.0, 0.0, QuantityKind::Speed),
             width(1.0, 0.01, QuantityKind::Speed)

@@ -1,4 +1,4 @@
-//! Which cells meet a target (docs/method.md, section 13).
+//! Choice of the cells that meet a target (docs/method.md, section 13).
 
 use super::error_bars::relative;
 use super::refinement_runs::{ResolvedLengths, StudyRun};
@@ -6,20 +6,20 @@ use crate::record::{Basis, Role, UncertaintyInterval};
 use crate::scenario::Scenario;
 use crate::simulation::Simulation;
 
-/// Cell sizes that are tried first, over the largest that tell anything. The
-/// last but one is run with a material of reduced stiffness, too.
+/// Cell sizes that are tried first, over the largest of use. The last but one is also run with
+/// a material of reduced stiffness.
 const PILOTS: [f64; 3] = [1.0, 0.8, 0.64];
-/// A interval is expected to narrow with this power of the cell size.
+/// Power of the cell size with which an interval is expected to narrow.
 const ORDER: f64 = 1.0;
 /// Cost of an answer with its refinement runs over its own.
 const WITH_REFINEMENT_RUNS: f64 = 1.2;
-/// Aims below the target, so that a guess a little off still meets it.
+/// Aim over the target, so that a slightly wrong prediction still meets it.
 const AIM: f64 = 0.9;
-/// Least and largest ratio of two cell sizes that follow each other: less is not
-/// worth a run, more is beyond what coarse cells can foresee.
+/// Least and largest ratio of two successive cell sizes: less is not worth a run, more can't be
+/// predicted from coarse cells.
 const RATIOS: (f64, f64) = (1.25, 2.0);
 
-/// The first runs.
+/// The pilot runs.
 pub(super) fn pilots(lengths: &ResolvedLengths) -> Vec<StudyRun> {
     let mut study_runs: Vec<StudyRun> = PILOTS
         .iter()
@@ -37,27 +37,27 @@ pub(super) fn pilots(lengths: &ResolvedLengths) -> Vec<StudyRun> {
     study_runs
 }
 
-/// How far the way to a target is.
+/// Progress towards a target.
 #[derive(Debug)]
 pub(super) struct Progress {
-    /// How far the interval may reach from the value, over it.
+    /// Largest distance of the interval's ends from the value, over the value.
     pub(super) asked: f64,
     /// The interval so far.
     pub(super) interval: Option<UncertaintyInterval>,
-    /// Its share that finer cells don't narrow, the softness of the material, by every
-    /// reduced-stiffness run so far in turn.
+    /// The part of the interval that finer cells don't narrow: the effect of reduced stiffness, by
+    /// every reduced-stiffness run so far in order.
     pub(super) softness: Vec<f64>,
     /// Cells of the finest run [m].
     pub(super) cell_size_m: f64,
-    /// Its point-steps.
+    /// Point-steps of the finest run.
     pub(super) cost: f64,
     /// Point-steps left of the budget.
     pub(super) left: f64,
-    /// Why the last run could not be computed.
+    /// Error of the last run, if it could not be computed.
     pub(super) failed: Option<String>,
 }
 
-/// What to do now.
+/// The next action.
 #[derive(Debug, PartialEq)]
 pub(super) enum NextRun {
     /// The target is met.
@@ -98,7 +98,8 @@ pub(super) fn next(progress: &Progress, given: &Scenario) -> NextRun {
     let wanted = match reached {
         Some(reached) if softness < aim => (of_cells(reached) / of_cells(aim)).powf(1.0 / ORDER),
         Some(_) => most,
-        // Without a interval of two ends nothing can be foreseen but that it takes more.
+        // Without a two-sided interval nothing can be predicted, except that finer cells are
+        // needed.
         None => least,
     };
     let affordable = (progress.left / (WITH_REFINEMENT_RUNS * progress.cost)).powf(0.25);
@@ -114,8 +115,8 @@ pub(super) fn next(progress: &Progress, given: &Scenario) -> NextRun {
     }
 }
 
-/// Whether no cells meet the target. A single reduced-stiffness run, of the first and coarsest
-/// cells, shows how much these scatter rather than how soft the material is.
+/// True if no cells meet the target. A single reduced-stiffness run, with the first and
+/// coarsest cells, shows scatter rather than the effect of stiffness.
 fn is_too_soft(softness: &[f64], aim: f64) -> bool {
     softness.len() > 1 && softness.iter().all(|share| *share >= aim)
 }

@@ -1,5 +1,4 @@
-//! Bodies on bodies: what two of them do to each other, and what their
-//! contacts remember (docs/method.md, equations 43–47).
+//! Contacts of two bodies: their forces and their history (docs/method.md, equations 43–47).
 
 use crate::contact::dissipation::{Damping, Taken, stopping};
 use crate::contact::friction::{Held, Spring};
@@ -18,15 +17,15 @@ use contact_points::{Contact, ContactPoint, FeaturePair, contacts};
 use motion::Motion;
 pub use separation::{Separation, distance, least_gap};
 
-/// What the contacts of two bodies remember from one body sub-step to the next.
+/// History of the contacts of two bodies, kept from one body sub-step to the next.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ContactPair {
-    /// Places of the two in the list of bodies, the lower first.
+    /// Indices of the two in the list of bodies, the lower first.
     pub bodies: [usize; 2],
     springs: Vec<FeatureSprings>,
     /// Deepest overlap now [m]; 0 when apart.
     pub deepest: f64,
-    /// Energy their contacts hold now [J].
+    /// Energy stored in their contacts now [J].
     pub energy: f64,
     /// Load on the second now, the torque being about the first's centre.
     pub push: Load,
@@ -36,25 +35,25 @@ pub struct ContactPair {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct FeatureSprings {
     between: FeaturePair,
-    /// Where the contact is, from the first body's centre [m].
+    /// Position of the contact, from the first body's centre [m].
     place: Vec3,
     /// Spring against sliding of the second body on the first.
     sliding: Spring,
-    /// Spring against rolling, stretched by an angle × the equivalent radius.
+    /// Spring against rolling; its stretch is an angle × the equivalent radius.
     rolling: Spring,
 }
 
-/// What two bodies do to each other.
+/// Loads that two bodies exert on each other.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Exchange {
-    /// On the first.
+    /// On the first body.
     pub on_first: Load,
-    /// On the second: the opposite force on the same line.
+    /// On the second body: the opposite force on the same line.
     pub on_second: Load,
 }
 
 impl ContactPair {
-    /// Of two bodies that have not met.
+    /// History of two bodies that have not touched yet.
     pub fn new(bodies: [usize; 2]) -> Self {
         Self {
             bodies,
@@ -65,12 +64,12 @@ impl ContactPair {
         }
     }
 
-    /// Whether they touch.
+    /// True if they touch.
     pub fn touches(&self) -> bool {
         self.deepest > 0.0
     }
 
-    /// Finds the contacts of the two after a drift, and what is known of the gap.
+    /// Finds the contacts of the two after a drift, and updates the bound of their gap.
     pub fn find(
         &mut self,
         [first, second]: [&Body; 2],
@@ -83,8 +82,8 @@ impl ContactPair {
         found
     }
 
-    /// Renews springs and forces of the contacts found after a drift of `dt`; what they
-    /// take for good.
+    /// Updates springs and forces of the contacts found after a drift of `dt`; returns their
+    /// dissipation.
     pub fn touch(
         &mut self,
         [first, second]: [&Body; 2],
@@ -122,21 +121,21 @@ impl ContactPair {
         taken
     }
 
-    /// Exchange of the two now.
+    /// Loads that the two exert on each other now.
     pub fn exchange(&self, pair: [&Body; 2]) -> Exchange {
         Exchange::between(pair, &self.push)
     }
 }
 
-/// Energy that springs hold [J].
+/// Energy stored in springs [J].
 fn energy_of(springs: &[FeatureSprings]) -> f64 {
     let of_contact = |springs: &FeatureSprings| springs.sliding.energy() + springs.rolling.energy();
     springs.iter().map(of_contact).sum()
 }
 
-/// The springs of the contacts found, from those `before`. A contact that comes up where
-/// another was, as when a vertex slides over a rim, takes that one's stretch over.
-/// Together they hold no more energy than those before.
+/// The springs of the contacts found, from those `before`. A contact that appears at the place
+/// of another, as when a vertex slides over a rim, takes over its stretch. Together they store
+/// no more energy than those before.
 fn carry_history(
     before: &[FeatureSprings],
     contacts: &[Contact],
@@ -187,11 +186,11 @@ fn history_of<'a>(
     })
 }
 
-/// Two bodies, and what does not depend on the contact.
+/// Two bodies, and the quantities that do not depend on the contact.
 struct Pair<'a> {
     bodies: [&'a Body; 2],
     law: &'a ContactLaw,
-    /// From the first's centre to the second's.
+    /// From the first body's centre to the second's.
     apart: Vec3,
     /// Sum of the sphero radii.
     radii: f64,
@@ -199,20 +198,20 @@ struct Pair<'a> {
     /// Accelerations that the elastic forces of all contacts give.
     accelerations: [Motion; 2],
     reduced_mass: f64,
-    /// Rolling resistance: that of the body that resists more.
+    /// Rolling resistance: the larger of the two bodies'.
     rolling: f64,
 }
 
-/// One contact that the two press on.
+/// A contact with its normal force.
 struct Pressed<'a> {
     contact: &'a Contact,
-    /// Velocity of the second body there relative to the first's [m/s].
+    /// Velocity of the second body at the contact relative to the first's [m/s].
     velocity: Vec3,
-    /// Mass that it has to stop [kg].
+    /// Effective contact mass [kg].
     mass: f64,
     /// Normal force of the whole contact [N].
     force: f64,
-    /// The part of damping in that, with the contact's share [N].
+    /// The damping part of the force, with the contact's share [N].
     damping: f64,
 }
 
@@ -220,9 +219,9 @@ struct Pressed<'a> {
 /// centre.
 struct Rubbed {
     load: Load,
-    /// Energy that their springs hold [J].
+    /// Energy stored in their springs [J].
     energy: f64,
-    /// Damping and losses of friction and rolling alone.
+    /// Damping and losses of friction and rolling only.
     taken: Taken,
 }
 
@@ -354,13 +353,13 @@ impl<'a> Pair<'a> {
 }
 
 impl Exchange {
-    /// When the second of two bodies is pushed, the torque being about the first's centre.
+    /// Loads on two bodies when the second is pushed, the torque being about the first's centre.
     pub fn between([first, second]: [&Body; 2], push: &Load) -> Self {
         Self::of(push, &(second.state.position - first.state.position))
     }
 
-    /// When the second body is pushed, the torque being about the first's centre;
-    /// `apart` is the way from there to the second's.
+    /// Loads when the second body is pushed, the torque being about the first's centre; `apart` is
+    /// the vector from there to the second's.
     fn of(push: &Load, apart: &Vec3) -> Self {
         Self {
             on_first: Load {
@@ -375,7 +374,7 @@ impl Exchange {
     }
 }
 
-/// Mass of the motion of two bodies towards each other [kg]; of two that no load moves none.
+/// Reduced mass of two bodies [kg]; of two fixed or prescribed bodies none.
 pub fn reduced_mass(first: &Body, second: &Body) -> f64 {
     1.0 / (first.inverse_mass() + second.inverse_mass())
 }

@@ -16,7 +16,7 @@ pub fn deepest_overlap(body: &Body, planes: &[Plane]) -> f64 {
 
 /// A core vertex and a wall.
 pub struct WallOverlap {
-    /// Place of its spring among the body's.
+    /// Index of its spring among the body's.
     place: usize,
     /// Vertex, from the body's centre [m].
     pub arm: Vec3,
@@ -48,8 +48,8 @@ pub fn overlaps<'a>(body: &'a Body, planes: &'a [Plane]) -> impl Iterator<Item =
         })
 }
 
-/// Renews the body's wall load and its springs after a drift of `dt`; what the contacts
-/// take for good.
+/// Updates the body's wall load and its springs after a drift of `dt`; returns the dissipation
+/// of the contacts.
 pub fn evaluate_wall_contacts(body: &mut Body, planes: &[Plane], dt: f64) -> Taken {
     let mut taken = Taken::default();
     let count = body.shape.core_vertices().len() * planes.len();
@@ -96,7 +96,7 @@ fn deepest_of(touches: &[WallTouch]) -> f64 {
     overlaps.fold(0.0, f64::max)
 }
 
-/// Energy that the springs forgotten held [J].
+/// Releases the springs of contacts that have parted; returns the energy they stored [J].
 fn forget_what_is_apart(state: &mut BodyState, touches: &[WallTouch]) -> f64 {
     let mut lost = 0.0;
     for springs in [&mut state.springs, &mut state.rolling] {
@@ -189,7 +189,7 @@ fn rub(body: &mut Body, touches: &[WallTouch], taken: &mut Taken, dt: f64) {
     (body.state.springs, body.state.rolling) = (springs, rolling);
 }
 
-/// Whether no wall comes as near as the bounding ball.
+/// True if no wall reaches into the bounding ball.
 fn clear_of(body: &Body, planes: &[Plane]) -> bool {
     let radius = body.shape.bounding_radius();
     let heights = planes.iter();

@@ -1,9 +1,9 @@
-//! Who may meet whom: bounding balls, sorted along the axis they spread most on
-//! (sweep and prune).
+//! Broad phase: bounding balls, sorted along the axis of their largest spread (sweep and
+//! prune).
 
 use crate::math::Vec3;
 
-/// A ball round a body and all that it can reach.
+/// A ball round the region that a body can reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ball {
     /// Centre [m].
@@ -23,7 +23,7 @@ pub fn overlapping_pairs(balls: &[Ball]) -> Vec<[usize; 2]> {
             .then(a.cmp(&b))
     });
     let mut pairs = Vec::new();
-    // Balls met so far that reach beyond the start of the present one.
+    // Balls passed so far that reach beyond the start of the current one.
     let mut open: Vec<usize> = Vec::new();
     for &next in &order {
         let ball = &balls[next];
@@ -57,7 +57,7 @@ fn widest_axis(balls: &[Ball]) -> usize {
 mod tests {
     use super::*;
 
-    // Against all pairs, for crowds of several densities and shapes.
+    // Against all pairs, for sets of several densities and shapes.
     #[test]
     fn no_pair_is_missed_and_none_made_up() {
         let mut number = 0.0f64;

@@ -1,4 +1,4 @@
-//! Friction of a contact: a spring in its plane that slides where Coulomb's cap binds
+//! Friction of a contact: a tangential spring that slides where Coulomb's cap binds
 //! (docs/method.md, equations 18 and 18a).
 
 use crate::math::Vec3;
@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 /// The tangential spring of a contact, or its spring against rolling.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
-    /// ξ, how far the contact slid [m].
+    /// Stretch ξ [m].
     pub stretch: Vec3,
-    /// k_t, with the contact's share [N/m]; 0 of a contact that only begins.
+    /// k_t, with the contact's share [N/m]; 0 for a new contact.
     pub stiffness: f64,
 }
 
 impl Spring {
-    /// The spring of a contact that only begins.
+    /// The spring of a new contact.
     pub const NEW: Self = Self {
         stretch: Vec3::new(0.0, 0.0, 0.0),
         stiffness: 0.0,
@@ -25,9 +25,9 @@ impl Spring {
         0.5 * self.stiffness * self.stretch.norm_squared()
     }
 
-    /// Takes on another stiffness. A softer spring keeps its stretch, so that its force
-    /// falls, a stiffer one its force, so that its stretch does (Thornton & Randall
-    /// 1988): in both cases the energy falls.
+    /// Sets another stiffness. A softer spring keeps its stretch, so that its force falls; a
+    /// stiffer one keeps its force, so that its stretch falls (Thornton & Randall 1988). In both
+    /// cases the energy falls.
     pub fn stiffen(&mut self, stiffness: f64) {
         if stiffness > self.stiffness {
             self.stretch *= self.stiffness / stiffness;
@@ -35,9 +35,9 @@ impl Spring {
         self.stiffness = stiffness;
     }
 
-    /// Energy taken for good from motion and spring while the contact slid by `way` [m] and
-    /// the spring became what it is from what it was `before` [J]: what it held, and what
-    /// both forces in the mean put in, less what it holds.
+    /// Energy dissipated while the contact slid by `way` [m] and the spring changed from `before`
+    /// to its present state [J]: the energy stored before, plus the work of the mean of both
+    /// forces, less the energy stored now.
     fn lost_since(&self, before: &Self, way: &Vec3) -> f64 {
         let force = before.stretch * before.stiffness + self.stretch * self.stiffness;
         (before.energy() + 0.5 * force.dot(way) - self.energy()).max(0.0)
@@ -55,8 +55,8 @@ impl Spring {
         }
     }
 
-    /// Resists sliding at a `velocity` [m/s] for `dt` [s] (equation 18), after it changed by
-    /// stiffness or turning from what it was `before`.
+    /// Resists sliding at a `velocity` [m/s] for `dt` [s] (equation 18); `before` is the spring
+    /// before its change by stiffness or turning.
     pub fn resist(
         &mut self,
         before: &Self,
@@ -74,8 +74,8 @@ impl Spring {
         }
     }
 
-    /// Slides by `way` [m]; the elastic force then [N], at most `cap`. Where that binds
-    /// the contact slips, and the stretch is what the cap can hold.
+    /// Slides by `way` [m]; returns the elastic force [N], at most `cap`. Where the cap binds the
+    /// contact slips, and the stretch is that of the cap.
     fn slide(&mut self, way: &Vec3, cap: f64) -> Vec3 {
         self.stretch += way;
         let size = self.stiffness * self.stretch.norm();
@@ -106,7 +106,7 @@ pub struct Resistance {
     pub elastic: Vec3,
     /// Force of damping, before its share is taken [N].
     pub viscous: Vec3,
-    /// Energy that the spring lost for good [J].
+    /// Energy that the spring dissipated [J].
     pub lost: f64,
 }
 
@@ -120,7 +120,7 @@ pub struct Held {
 }
 
 impl Held {
-    /// Of these springs.
+    /// Total of these springs.
     pub fn by<'a>(springs: impl Iterator<Item = &'a Spring>) -> Self {
         springs.fold(Self::default(), |sum, spring| Self {
             stiffness: sum.stiffness + spring.stiffness,
@@ -128,10 +128,10 @@ impl Held {
         })
     }
 
-    /// Factor on every stretch of springs that hold `self` now and held `before` until
-    /// their stiffnesses changed, and features took over what others held: 1 where they
-    /// got softer, the ratio of stiffnesses where they got stiffer together, and never so
-    /// much that they hold more energy.
+    /// Factor on every stretch of springs that have the totals `self` now and had `before` until
+    /// their stiffnesses changed and features took over springs of others: 1 where they got softer,
+    /// the ratio of stiffnesses where they got stiffer together, and never so large that they store
+    /// more energy.
     pub fn relaxed(&self, before: &Self) -> f64 {
         let ratio = |before: f64, now: f64| if now > before { before / now } else { 1.0 };
         let of_energy = ratio(before.energy, self.energy).sqrt();
@@ -185,7 +185,7 @@ mod tests {
         }
     }
 
-    // Whatever the elastic force and the cap: it takes energy, and no more force than c v.
+    // For any elastic force and cap: it dissipates energy, and its force is at most c v.
     #[test]
     fn viscous_friction_takes_energy() {
         let elastic = Vec3::new(0.3, -0.4, 0.0);

@@ -1,5 +1,5 @@
-//! The bodies' own sub-steps: bodies that may meet within a sub-step of the flow
-//! form an island and move together (docs/method.md, equations 15, 20 and 48).
+//! Body sub-steps: bodies that may touch within a sub-step of the flow form an island and move
+//! together (docs/method.md, equations 15, 20 and 48).
 
 use crate::contact::body_body::{ContactPair, Contacts, Separation, least_gap};
 use crate::contact::body_wall::evaluate_wall_contacts;
@@ -32,17 +32,17 @@ pub use pace::{MOST_SUBSTEPS, substeps_ahead};
 use strides::Strides;
 use touching::{evaluate_body_contacts, find_contacts};
 
-/// A body none of whose places is faster is still [m/s].
+/// Speed below which all places of a body must be for it to be still [m/s].
 const STILL: f64 = 1e-5;
-/// An island all of whose bodies were still for so long sleeps [s].
+/// Time after which an island whose bodies were all still sleeps [s].
 const FALLS_ASLEEP_AFTER: f64 = 0.1;
 
-/// What one flow sub-step did to a body.
+/// Report of one flow sub-step of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyReport {
     /// Impulse of the walls, about the origin.
     pub wall: Impulse,
-    /// Impulse of bodies that no load moves, about the origin.
+    /// Impulse of fixed and prescribed bodies, about the origin.
     pub barrier: Impulse,
     /// Impulse of gravity, about the origin.
     pub gravity: Impulse,
@@ -56,10 +56,10 @@ pub struct BodyReport {
     pub energy: EnergyReport,
     /// Body sub-steps.
     pub substeps: u32,
-    /// Body sub-steps that contacts and spin ask for; none are taken if they are more
-    /// than [`MOST_SUBSTEPS`].
+    /// Body sub-steps that contacts and spin require; none are taken if they are more than
+    /// [`MOST_SUBSTEPS`].
     pub substeps_asked: f64,
-    /// Share of the time in body sub-steps that ended in touch with a wall or another body.
+    /// Share of the time in body sub-steps that ended in contact with a wall or another body.
     pub supported_share: f64,
     /// Its deepest overlap with a wall or another body, over its sphero radius
     /// or that of the other if smaller.
@@ -67,13 +67,13 @@ pub struct BodyReport {
 }
 
 impl BodyReport {
-    /// Takes in an overlap over a sphero radius.
+    /// Adds an overlap over a sphero radius.
     fn overlap(&mut self, ratio: f64) {
         self.deepest_overlap_ratio = self.deepest_overlap_ratio.max(ratio);
     }
 }
 
-/// What bodies move under besides each other.
+/// External conditions of the bodies' motion.
 #[derive(Debug, Clone, Copy)]
 pub struct Surroundings<'a> {
     /// The walls.
@@ -84,9 +84,9 @@ pub struct Surroundings<'a> {
     pub time: f64,
 }
 
-/// Advances all bodies by `dt` under a constant load of the flow each (force, and
-/// torque about the centre at the start), gravity, walls and each other. `contact_pairs`
-/// is what contacts remember; it holds the pairs that may meet, in order.
+/// Advances all bodies by `dt` under a constant load of the flow each (force, and torque about
+/// the centre at the start), gravity, walls and each other. `contact_pairs` are the contact
+/// histories of the pairs that may touch, in order.
 pub fn advance(
     bodies: &mut [Body],
     contact_pairs: &mut Vec<ContactPair>,
@@ -132,8 +132,7 @@ fn follow_motions(bodies: &mut [Body], time: f64, dt: f64) {
     }
 }
 
-/// Advances bodies of which none is near another: as many islands, with nothing
-/// allocated for them.
+/// Advances bodies none of which is near another: each is an island, with no allocations.
 fn advance_apart(
     bodies: &mut [Body],
     reports: &mut [BodyReport],
@@ -161,7 +160,7 @@ fn advance_apart(
     });
 }
 
-/// Finds who touches whom at the start, before anything moved.
+/// Finds the contacts at the start, before anything moved.
 pub fn meet(bodies: &mut [Body]) -> Vec<ContactPair> {
     let pairs = broad_phase(bodies, |_| 0.0, 0.0);
     let mut contact_pairs: Vec<ContactPair> =
@@ -192,8 +191,8 @@ pub fn meet(bodies: &mut [Body]) -> Vec<ContactPair> {
     contact_pairs
 }
 
-/// Notes at the start which bodies the walls alone hold: at rest, with loads that
-/// balance but for this share of their weight.
+/// Marks the bodies that the walls alone hold at the start: at rest, with loads that balance up
+/// to this share of their weight.
 pub fn hold(bodies: &mut [Body], gravity: &Vec3) {
     const BALANCED: f64 = 1e-6;
     for body in bodies.iter_mut().filter(|body| is_free(body)) {
@@ -234,8 +233,8 @@ fn is_free(body: &Body) -> bool {
     body.is_free()
 }
 
-/// What a body can travel in `dt` under an acceleration [m/s²], with room for what else
-/// accelerates it [m].
+/// Distance that a body can travel in `dt` under an acceleration [m/s²], with an allowance for
+/// other accelerations [m].
 fn reach(body: &Body, acceleration: f64, dt: f64) -> f64 {
     let margin = 0.01 * body.shape.sphero_radius();
     match body.freedom {
@@ -246,8 +245,8 @@ fn reach(body: &Body, acceleration: f64, dt: f64) -> f64 {
     }
 }
 
-/// Takes over what those that are still near remember, and begins the others.
-/// Both are in order.
+/// Keeps the histories of the pairs that are still near, and begins those of the others. Both
+/// lists are in order.
 fn renew(contact_pairs: &mut Vec<ContactPair>, pairs: &[[usize; 2]]) {
     let mut before = std::mem::take(contact_pairs).into_iter().peekable();
     contact_pairs.extend(pairs.iter().map(|&pair| {
@@ -261,7 +260,7 @@ fn renew(contact_pairs: &mut Vec<ContactPair>, pairs: &[[usize; 2]]) {
     }));
 }
 
-/// Free bodies that have to move together.
+/// Free bodies that move together.
 #[derive(Default)]
 struct Island<'a> {
     members: Vec<Member<'a>>,
@@ -275,17 +274,17 @@ struct Member<'a> {
     body: &'a mut Body,
     report: &'a mut BodyReport,
     flow: Load,
-    /// Where its centre is at the start of the flow's sub-step [m].
+    /// Position of its centre at the start of the flow's sub-step [m].
     start: Vec3,
-    /// Mean velocities in the last half kick in which flow or bodies pushed it.
+    /// Mean velocities in the last half kick in which flow or bodies acted on it.
     mean: Velocities,
     /// Damping and losses of its contacts with walls in the last sub-step.
     taken: Taken,
-    /// Shortest sub-steps over which it was in touch.
+    /// Shortest sub-steps over which it was in contact.
     supported: u32,
 }
 
-/// Two bodies of which one at least is a member.
+/// Two bodies of which at least one is a member.
 struct IslandPair<'a> {
     contact_pair: ContactPair,
     law: ContactLaw,
@@ -303,7 +302,7 @@ enum Side<'a> {
     Member(usize),
     /// A fixed body.
     Barrier(&'a Body),
-    /// One with a prescribed motion, by its place among the island's.
+    /// A body with a prescribed motion, by its place among the island's.
     Mover(usize),
 }
 
@@ -322,9 +321,9 @@ impl Island<'_> {
     }
 }
 
-/// Time stands still on an island where nothing has moved for a while and nothing from
-/// outside is near: contacts, momentum and all stay as they are until another body comes
-/// near or a point touches.
+/// True if an island sleeps: nothing has moved for a while and nothing from outside is near.
+/// Contacts, momentum and all else stay as they are until another body comes near or a point
+/// touches.
 fn sleeps(members: &[Member], movers: &[Mover], contact_pairs: &[IslandPair]) -> bool {
     movers.iter().all(Mover::stands)
         && match members {
@@ -335,9 +334,9 @@ fn sleeps(members: &[Member], movers: &[Mover], contact_pairs: &[IslandPair]) ->
         }
 }
 
-/// Velocity Verlet in sub-steps as short as the member that needs most asks for, if that
-/// can be done; a body whose speed is no number asks for no number of them. While nothing
-/// touches, or contacts are weak, one sub-step is as long as several of these.
+/// Velocity Verlet in sub-steps as short as the most demanding member requires, if possible; a
+/// body with a non-finite speed requires no number of them. While nothing touches, or contacts
+/// are weak, one sub-step is as long as several of these.
 fn advance_together(
     members: &mut [Member],
     movers: &mut [Mover],

@@ -1,5 +1,5 @@
-//! The contact law of two rounded surfaces: numbers in, force out
-//! (docs/method.md, equations 17–19).
+//! Contact law of two rounded surfaces: numbers in, force out (docs/method.md, equations
+//! 17–19).
 
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +29,7 @@ impl ContactLaw {
         )
     }
 
-    /// The same with a damping number known.
+    /// Law with a known damping number.
     pub fn damped(contact_modulus: f64, radius: f64, damping: f64, friction: f64) -> Self {
         Self {
             stiffness: 4.0 / 3.0 * contact_modulus * radius.sqrt(),
@@ -52,7 +52,7 @@ impl ContactLaw {
         self.stiffness * overlap * overlap.sqrt()
     }
 
-    /// Energy the overlap holds, 2/5 k δ^2.5 [J].
+    /// Elastic energy of the overlap, 2/5 k δ^2.5 [J].
     pub fn elastic_energy(&self, overlap: f64) -> f64 {
         0.4 * self.elastic_force(overlap) * overlap
     }
@@ -85,7 +85,7 @@ impl ContactLaw {
     pub fn of_pair([a, b]: [&Self; 2], radii: [f64; 2]) -> Self {
         let modulus = |law: &Self, radius: f64| 0.75 * law.stiffness / radius.sqrt();
         let moduli = [modulus(a, radii[0]), modulus(b, radii[1])];
-        // Nothing at all where nothing presses: no gravity and no speed.
+        // Zero where nothing presses: no gravity and no speed.
         let in_series = |[a, b]: [f64; 2]| if a > 0.0 { a * b / (a + b) } else { 0.0 };
         Self {
             stiffness: 4.0 / 3.0 * in_series(moduli) * in_series(radii).sqrt(),
@@ -100,9 +100,9 @@ impl ContactLaw {
     }
 }
 
-/// Mass [kg] that the contact of an elastic `force` [N] has to stop when all the
-/// contacts of a pair part it there with `acceleration` [m/s²]: its own share of
-/// the mass, if others push along; at most all of the mass, `most` [kg].
+/// Effective contact mass [kg] of the contact of an elastic `force` [N], when all the contacts
+/// of a pair part it there with `acceleration` [m/s²]: its own share of the mass, if others
+/// push along; at most all of the mass, `most` [kg].
 pub fn effective_contact_mass(force: f64, acceleration: f64, most: f64) -> f64 {
     if force < most * acceleration {
         force / acceleration
@@ -111,17 +111,16 @@ pub fn effective_contact_mass(force: f64, acceleration: f64, most: f64) -> f64 {
     }
 }
 
-/// Damping number η whose *clamped* impact returns the restitution asked for.
+/// Damping number η whose *clamped* impact returns the given restitution.
 ///
-/// The impact of a unit mass with unit stiffness, ẍ = −max(0, x^1.5 + η x^¼ ẋ),
-/// is independent of the impact speed but for scale (Tsuji 1992), so one
-/// search serves every contact: regula falsi after Illinois, which halves the
-/// weight of an end that stays. Restitutions below what `MAX_DAMPING`
-/// gives (about 0.008) get that.
+/// The impact of a unit mass with unit stiffness, ẍ = −max(0, x^1.5 + η x^¼ ẋ), is independent
+/// of the impact speed except for scale (Tsuji 1992), so one search serves every contact: the
+/// Illinois variant of regula falsi, which halves the weight of a retained end. Restitutions
+/// below that of `MAX_DAMPING` (about 0.008) get that.
 pub fn damping_number(restitution: f64) -> f64 {
-    /// Of a restitution, good enough.
+    /// Tolerance of the restitution.
     const CLOSE: f64 = 1e-12;
-    /// Far more evaluations than that takes.
+    /// Far more evaluations than are needed.
     const MOST: u32 = 100;
     let excess = |damping| rebound_speed(damping) - restitution;
     let (mut low, mut high) = ((0.0, 1.0 - restitution), (MAX_DAMPING, excess(MAX_DAMPING)));
@@ -203,8 +202,8 @@ fn rebound_speed(damping: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Drops a mass on a plane and returns the rebound speed, independent of
-    /// the product's own unit-impact integration: real units, other scheme.
+    /// Drops a mass on a plane and returns the rebound speed, independent of the product's own
+    /// unit-impact integration: real units, another scheme.
     fn impact(restitution: f64, speed: f64) -> f64 {
         let law = ContactLaw::hertz(1e8, 0.01, restitution, 0.0);
         let (mass, dt) = (0.0642, 1e-8);
@@ -218,7 +217,7 @@ mod tests {
         }
     }
 
-    // docs/accuracy.md, case 4: asked = got within 2 %, at two speeds.
+    // docs/accuracy.md, case 4: the restitution is the given one within 2 %, at two speeds.
     #[test]
     fn restitution_asked_is_restitution_got() {
         for restitution in [0.1, 0.3, 0.5, 0.8, 1.0] {
@@ -257,7 +256,7 @@ mod tests {
         assert!((rate + 1.0).abs() < 1e-3, "{rate}");
     }
 
-    // Two equal bodies: E*/2 and r/2; friction and damping those of each.
+    // Two equal bodies: E*/2 and r/2; friction and damping of each.
     #[test]
     fn two_equal_bodies_are_softer_than_one_on_a_wall() {
         let law = ContactLaw::hertz(1e6, 0.01, 0.5, 0.4);

@@ -1,4 +1,4 @@
-//! Contact: the law, and who meets whom.
+//! Contact: the law, the broad phase and contact evaluation.
 
 pub mod body_body;
 pub mod body_wall;

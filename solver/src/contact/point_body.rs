@@ -18,35 +18,34 @@ use effective_mass::{ContactSum, GridCompliance};
 use force::{PointContact, PointForce};
 pub use penetration_correction::{PenetratingPoint, PenetrationCorrection, penetration_correction};
 
-/// Candidates one task looks at.
+/// Candidates per task.
 const TASK: usize = 64;
 
-/// Spheres that the points are to a body.
+/// Spheres that represent points in contact with bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointSphere {
-    /// Stand-off of a point's centre from a surface that it touches, R_p [m].
+    /// Stand-off of a point's centre from a surface in contact, R_p [m].
     pub radius: f64,
     /// Distance of neighbouring points, l [m].
     pub spacing: f64,
 }
 
 impl PointSphere {
-    /// Points that find room on a body's largest projected area, at least one.
+    /// Number of points that fit on a body's largest projected area, at least one.
     pub fn most_touching(&self, body: &Body) -> f64 {
         let radius = body.shape.shadow_radius();
         (std::f64::consts::PI * (radius / self.spacing).powi(2)).max(1.0)
     }
 }
 
-/// Grid that points and bodies exchange momentum through.
+/// Grid through which points and bodies exchange momentum.
 #[derive(Debug)]
 pub struct CouplingGrid<'a, N> {
     /// Its nodes.
     pub nodes: &'a N,
-    /// Nodes at walls, with their ghosts.
+    /// Nodes at walls, with their ghost nodes.
     pub boundary: &'a Boundary,
-    /// Mirror image of each body, where half of a symmetric flow is computed; empty
-    /// where all is.
+    /// Mirror image of each body, if half of a symmetric flow is computed; else empty.
     pub partners: &'a [usize],
 }
 
@@ -55,11 +54,11 @@ pub struct CouplingGrid<'a, N> {
 pub struct ContactTime {
     /// Length of the sub-step [s].
     pub dt: f64,
-    /// Share of the step that is over, 0..1.
+    /// Elapsed share of the step, 0..1.
     pub passed: f64,
 }
 
-/// The points of a flow as bodies meet them within a step.
+/// Access to the points of a flow for contacts within a step.
 pub trait PointAccess: Sync {
     /// Place of a point in memory, from one transfer to the next.
     type Place: Copy + Send + Sync;
@@ -69,16 +68,16 @@ pub trait PointAccess: Sync {
     fn resting(&self, place: Self::Place) -> Vec3;
     /// Nodes that a point exchanges momentum with until the next transfer.
     fn stencil(&self, place: Self::Place) -> PointStencil;
-    /// A point as it is now.
+    /// Current state of a point.
     fn moving(&self, place: Self::Place) -> Moving;
 }
 
-/// A point amid a step.
+/// State of a point within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moving {
-    /// Present position [m].
+    /// Current position [m].
     pub position: Vec3,
-    /// Present velocity [m/s].
+    /// Current velocity [m/s].
     pub velocity: Vec3,
 }
 
@@ -87,12 +86,11 @@ pub struct Moving {
 pub struct Candidate<P> {
     /// Place of the point in memory.
     pub place: P,
-    /// Share of the step before which it is too far off to touch.
+    /// Share of the step before which it is too far away to touch.
     earliest: f64,
 }
 
-/// Distance at which a point can be at a transfer and still touch a body before the next
-/// one.
+/// Largest distance at which a point at a transfer may touch a body before the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach {
     /// Radius of a point's sphere [m].
@@ -101,12 +99,12 @@ pub struct Reach {
     pub travel: f64,
 }
 
-/// Contact forces of one sub-step, on points that are kept at places `P`.
+/// Contact forces of one sub-step, on points at places `P`.
 #[derive(Debug)]
 pub struct Loads<P> {
     /// Loads of the flow on every body.
     pub on_bodies: Vec<FlowLoad>,
-    /// Points in touch and the force on them [N]; one of several bodies comes
+    /// Points in contact and the force on them [N]; a point in contact with several bodies occurs
     /// several times.
     pub on_points: Vec<(P, Vec3)>,
     /// Per body, the points that may touch it within the step.
@@ -146,7 +144,7 @@ pub struct FlowLoad {
     pub touching_points: u32,
     /// Largest overlap δ/(R_p + r).
     pub deepest_overlap_ratio: f64,
-    /// Energy the contacts hold [J].
+    /// Energy stored in the contacts [J].
     pub energy: f64,
 }
 
@@ -179,7 +177,7 @@ impl<P: Copy + Send + Sync> Loads<P> {
         }
     }
 
-    /// Evaluates the contact forces at the points' present positions and velocities.
+    /// Evaluates the contact forces at the points' current positions and velocities.
     pub fn evaluate<N: NodeAccess>(
         &mut self,
         points: &impl PointAccess<Place = P>,
@@ -231,7 +229,7 @@ impl<P: Copy + Send + Sync> Loads<P> {
             });
     }
 
-    /// Sums up the contacts of every body, those of its mirror image included.
+    /// Sums the contacts of every body, those of its mirror image included.
     fn sum_contacts(&mut self, partners: &[usize]) {
         let of_body = |body: usize| {
             let mut sum = ContactSum::default();
@@ -249,7 +247,7 @@ impl<P: Copy + Send + Sync> Loads<P> {
         );
     }
 
-    /// Adds the forces up in the order of the bodies and their candidates.
+    /// Adds the forces in the order of the bodies and their candidates.
     fn add_forces(&mut self, bodies: &[Body], dt: f64) {
         self.on_points.clear();
         let of_bodies = self.candidates.iter().zip(&self.contacts);
@@ -269,8 +267,8 @@ impl<P: Copy + Send + Sync> Loads<P> {
     }
 }
 
-/// Impulse that the bodies picked give the flow in `dt`, by what
-/// the flow does to all of them.
+/// Impulse of the selected bodies on the flow in `dt`, from the loads of the flow on all of
+/// them.
 pub fn impulse_on_flow(
     on_bodies: &[FlowLoad],
     bodies: &[Body],

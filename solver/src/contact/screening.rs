@@ -1,17 +1,17 @@
-//! Bodies between a point and another body: a plate thinner than a point's stand-off
-//! keeps the point from what lies behind the plate.
+//! Screening of points by bodies: a plate thinner than a point's stand-off separates the point
+//! from bodies behind the plate.
 
 use super::broad_phase::{Ball, overlapping_pairs};
 use crate::math::Vec3;
 use crate::rigid::Body;
 
-/// Steps towards a surface; a ray that grazes one takes more, and passes.
+/// Steps of a ray towards a surface; one that grazes a surface takes more, and passes.
 const MOST_STEPS: usize = 16;
-/// Distance from a surface, over the ray's length, that counts as none.
+/// Distance from a surface, over the ray's length, that counts as zero.
 const REACHED: f64 = 1e-3;
 
-/// True if a body lies on the way from one place to another. The ray goes on by its
-/// distance from the body until that vanishes, or the end comes first.
+/// True if a body lies between two places. The ray advances by its distance from the body until
+/// that vanishes, or the end comes first.
 pub fn screens(body: &Body, from: &Vec3, to: &Vec3) -> bool {
     let way = to - from;
     let length = way.norm();

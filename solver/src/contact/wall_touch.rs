@@ -1,11 +1,11 @@
-//! Contacts of a body with walls, as they are found in a sub-step.
+//! Contacts of a body with walls in a sub-step.
 
 use crate::math::Vec3;
 
 /// A vertex that overlaps a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallTouch {
-    /// Place of its springs.
+    /// Index of its springs.
     pub place: usize,
     /// Middle of the overlap, from the centre of mass [m].
     pub arm: Vec3,
@@ -13,7 +13,7 @@ pub struct WallTouch {
     pub normal: Vec3,
     /// δ [m].
     pub overlap: f64,
-    /// Mass that the contact has to stop (equation 46) [kg].
+    /// Effective contact mass (equation 46) [kg].
     pub mass: f64,
     /// Normal force [N].
     pub force: f64,

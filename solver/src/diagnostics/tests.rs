@@ -65,7 +65,7 @@ fn what_left_is_still_part_of_the_balance() {
     assert!((audit.mass_error - 0.05).abs() < 1e-15);
 }
 
-// Down from 4 to 1 J, up again to 1.5 J, with 4 J of motion at most: 0.125.
+// Down from 4 to 1 J, up again to 1.5 J, with a kinetic energy of 4 J at most: 0.125.
 #[test]
 fn energy_is_measured_from_its_lowest() {
     let bodies = Totals::default();

@@ -1,7 +1,7 @@
 //! Points in blocks of 4³ cells: each block keeps its own, sorted by cell.
 //!
-//! After a step a point that has left its block travels to the next one, and a
-//! block whose order has suffered too much sorts itself anew.
+//! After a step a point that has left its block migrates to the next one, and a block with too
+//! much disorder re-sorts its points.
 
 use super::chunk::{Chunk, LANES, Packed, put, take};
 use crate::grid::{BLOCK, BlockKey};
@@ -11,20 +11,20 @@ use serde::{Deserialize, Serialize};
 
 /// Cells of a block.
 const CELLS: usize = BLOCK * BLOCK * BLOCK;
-/// A block is sorted anew once its runs of points in the same cell have become
-/// more, by one in so many of its points, than they were after the last sort.
+/// A block is re-sorted once its number of runs of points in the same cell exceeds that after
+/// the last sort by more than one in so many of its points.
 const DISORDER: u32 = 8;
 
-/// Blocks from the origin beyond which a point is put no farther, so that the
-/// indices of its nodes stay whole numbers: it is far outside of every channel.
+/// Largest distance of a point from the origin, in blocks, so that the indices of its nodes
+/// stay whole numbers: far outside of every channel.
 const FARTHEST: i32 = i32::MAX / (4 * BLOCK as i32);
 
-/// Knowledge of a block's points since they were last moved.
+/// Summary of a block's points since they were last moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct End {
     /// Speed of the fastest [m/s].
     pub fastest: f32,
-    /// True if every number is a number.
+    /// True if every value is finite.
     pub finite: bool,
     /// V ρ_c/m − 1 of the densest, at most 0.
     pub lowest_dilation: f32,
@@ -43,7 +43,7 @@ impl Default for End {
 /// The points of one block.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Block {
-    /// Which block.
+    /// Its key.
     pub key: BlockKey,
     #[expect(
         clippy::vec_box,
@@ -55,7 +55,7 @@ pub struct Block {
     /// last sort.
     runs: u32,
     sorted_runs: u32,
-    /// Findings of the last pass.
+    /// Summary from the last pass.
     #[serde(skip)]
     end: End,
     #[serde(skip)]
@@ -111,8 +111,8 @@ impl Block {
         self.chunks[slot / LANES].mass[slot % LANES]
     }
 
-    /// Gives one of its points another position [cells], which may lie in
-    /// another block until [`Blocks::settle`].
+    /// Sets the position of one of its points [cells], which may lie in another block until
+    /// [`Blocks::settle`].
     pub fn shift(&mut self, slot: usize, position: &[f32; 3]) {
         put(
             &mut self.chunks[slot / LANES].position,
@@ -121,27 +121,27 @@ impl Block {
         );
     }
 
-    /// Knowledge of its points since they were last moved.
+    /// Summary of its points since they were last moved.
     pub fn end(&self) -> End {
         self.end
     }
 
-    /// Notes what a pass found of its points.
+    /// Stores the summary of its points from a pass.
     pub fn note_end(&mut self, end: End, spread: Shifting) {
         (self.end, self.spread) = (end, spread);
     }
 
-    /// Changes of its points' sums by spreading them.
+    /// Changes of its points' sums by particle shifting.
     pub fn spread(&self) -> Shifting {
         self.spread
     }
 
-    /// Notes how many runs of points in the same cell a pass met.
+    /// Stores the number of runs of points in the same cell from a pass.
     pub fn note_runs(&mut self, runs: u32) {
         self.runs = runs;
     }
 
-    /// Takes a point in, and a chunk from the pool if it needs one.
+    /// Adds a point, with a chunk from the pool if needed.
     fn push(&mut self, point: &Packed, pool: &mut Pool) {
         if self.len == self.chunks.len() * LANES {
             self.chunks.push(pool.take());
@@ -150,7 +150,7 @@ impl Block {
         self.set(self.len - 1, point);
     }
 
-    /// Takes a point out, whose place the last one takes.
+    /// Removes a point; the last one takes its place.
     fn swap_remove(&mut self, slot: usize, pool: &mut Pool) {
         let last = self.len - 1;
         let moved = self.get(last);
@@ -172,7 +172,7 @@ impl Block {
         self.left = left;
     }
 
-    /// Takes out what has left the block.
+    /// Removes the points that have left the block.
     fn send_off(&mut self, travelling: &mut Vec<(BlockKey, Packed)>, pool: &mut Pool) {
         let mut place = 0;
         while place < self.chunks.len() {
@@ -184,12 +184,12 @@ impl Block {
             let mut point = self.get(slot);
             let key = settle(&self.key, &mut point.position);
             travelling.push((key, point));
-            // The last point comes here, and is looked at in turn.
+            // The last point comes here, and is checked in turn.
             self.swap_remove(slot, pool);
         }
     }
 
-    /// Sorts the points by cell if their order has suffered.
+    /// Re-sorts the points by cell if there is too much disorder.
     fn tidy(&mut self) {
         let most = self.sorted_runs + self.len as u32 / DISORDER;
         if self.runs <= most {
@@ -206,9 +206,8 @@ impl Block {
         self.runs = self.sorted_runs;
     }
 
-    /// Swaps every point into the range of its cell. Few swaps where few points
-    /// changed theirs; the order within a cell is of no interest, but depends on
-    /// nothing than the state.
+    /// Swaps every point into the range of its cell. Few swaps where few points changed cell; the
+    /// order within a cell is irrelevant, but depends on the state alone.
     fn sort(&mut self, counts: &[u16; CELLS]) {
         let mut next = [0usize; CELLS];
         let mut end = [0usize; CELLS];
@@ -231,7 +230,7 @@ impl Block {
     }
 }
 
-/// Lane of a point that has left its block, if there is one.
+/// Lane of a point that has left its block, if any.
 fn unsettled(chunk: &Chunk) -> Option<usize> {
     let mut settled = [true; LANES];
     for of in &chunk.position {
@@ -258,20 +257,20 @@ impl Pool {
     }
 }
 
-/// True if a coordinate belongs to the block [cells].
+/// True if a coordinate is inside the block [cells].
 fn is_settled(x: f32) -> bool {
     x >= 0.5 && x < BLOCK as f32 + 0.5
 }
 
-/// Place of a settled point's cell.
+/// Index of the cell of a point inside its block.
 fn cell_of(chunk: &Chunk, lane: usize) -> usize {
-    // What is no number is in the first cell.
+    // A non-finite position counts as in the first cell.
     let along = |axis: usize| ((chunk.position[axis][lane] - 0.5) as usize).min(BLOCK - 1);
     (along(0) * BLOCK + along(1)) * BLOCK + along(2)
 }
 
-/// Brings a position relative to `key`'s block into the block it lies in, which
-/// is returned. What is no number stays where it is.
+/// Moves a position relative to `key`'s block into the block that contains it, which is
+/// returned. A non-finite position stays where it is.
 pub fn settle(key: &BlockKey, position: &mut [f32; 3]) -> BlockKey {
     let mut settled = *key;
     for (along, x) in settled.iter_mut().zip(position) {
@@ -283,7 +282,7 @@ pub fn settle(key: &BlockKey, position: &mut [f32; 3]) -> BlockKey {
             .saturating_add(blocks as i32)
             .clamp(-FARTHEST, FARTHEST);
         *x -= blocks * BLOCK as f32;
-        // Rounding may have pushed it over a rim.
+        // Rounding may have moved it over a rim.
         if *x < 0.5 {
             *along = along.saturating_sub(1);
             *x = (*x + BLOCK as f32).min((BLOCK as f32 + 0.5).next_down());
@@ -340,8 +339,7 @@ impl Blocks {
         self.occupied.iter().map(Block::count).sum()
     }
 
-    /// Lets the points that left their blocks travel to others, and keeps every
-    /// block in order.
+    /// Migrates the points that left their blocks to others, and re-sorts blocks where needed.
     pub fn settle(&mut self) {
         self.occupied
             .par_iter_mut()
@@ -353,8 +351,7 @@ impl Blocks {
         self.occupied.par_iter_mut().for_each(Block::tidy);
     }
 
-    /// Takes points out for which `gone` says so, of blocks for which `search`
-    /// does.
+    /// Removes the points for which `gone` is true, in blocks for which `search` is true.
     pub fn take_out(
         &mut self,
         search: impl Fn(&BlockKey) -> bool,
@@ -373,7 +370,7 @@ impl Blocks {
         self.drop_empty();
     }
 
-    /// Puts the travelling points into their blocks.
+    /// Puts the migrating points into their blocks.
     fn arrive(&mut self) {
         self.born.clear();
         for (key, _) in &self.travelling {
@@ -418,7 +415,7 @@ impl Blocks {
         }
     }
 
-    /// Bytes held for points.
+    /// Bytes allocated for points.
     pub fn bytes(&self) -> usize {
         let of_block = |block: &Block| {
             block.chunks.len() * size_of::<Chunk>()

@@ -1,4 +1,4 @@
-//! Sixteen points side by side, the unit the fast path computes with.
+//! Chunks: sixteen points side by side, the unit of computation of the fast path.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,12 +8,12 @@ pub const LANES: usize = 16;
 /// One number of each of a chunk's points.
 pub type Lanes = [f32; LANES];
 
-/// Sixteen points, number by number. Lanes beyond the block's last point hold
+/// Sixteen points, stored value by value. Lanes beyond the block's last point hold
 /// [`Packed::NONE`]: they have no mass and no stress, and stay where they are.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[repr(C, align(64))]
 pub struct Chunk {
-    /// Position from the block's first node [cells], 0.5 … 4.5 when settled.
+    /// Position from the block's first node [cells], 0.5 … 4.5 after a rebin.
     pub position: [Lanes; 3],
     /// Velocity [m/s].
     pub velocity: [Lanes; 3],
@@ -28,15 +28,14 @@ pub struct Chunk {
     pub volumetric_strain: Lanes,
     /// Mass [kg].
     pub mass: Lanes,
-    /// Identity, kept for life.
+    /// Identity, constant over the run.
     pub id: [u32; LANES],
-    /// Strain rate that a point feels besides its own within a step, as the deviator
-    /// [1/s].
+    /// Smoothed part of a point's effective strain rate within a step, as the deviator [1/s].
     #[serde(skip)]
     pub shared: [Lanes; 6],
 }
 
-/// One point of a chunk, as it travels between blocks; fields as in [`Chunk`].
+/// One point of a chunk, as it migrates between blocks; fields as in [`Chunk`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Packed {
     /// See [`Chunk::position`].

@@ -1,10 +1,10 @@
-//! Cost of a sub-step of one point, counted from the formulas: for judging how close to
-//! the machine's limits the fast path comes.
+//! Cost of a sub-step of one point, counted from the formulas, to compare the fast path with
+//! the limits of the machine.
 
 /// Floating point operations of one point in one sub-step; a fused multiply-add
 /// counts two, the fourth node of a row (weight zero) does not count.
 ///
-/// | what | operations |
+/// | part | operations |
 /// |---|---|
 /// | weights and levers (`stencil.rs`) | 3 × 16 |
 /// | gradient gathered from nine rows (`rows.rs`) | 3 × 180 + 60 |
@@ -15,9 +15,8 @@
 /// | force scattered to nine rows | 36 + 144 + 432 |
 pub const OPERATIONS: f64 = 48.0 + 600.0 + 189.0 + 9.0 + 104.0 + 63.0 + 612.0;
 
-/// Bytes of one point in one sub-step that come from memory or go there, once
-/// caches are too small for the whole flow: 26 numbers read and 15 written of
-/// a point; of a block full of points (512, tiles of 216 nodes, on average 1.15
-/// blocks of nodes to a block of points) a tile read, another written and added
-/// up, and three times four numbers per node read and written.
+/// Memory traffic of one point in one sub-step [bytes], once caches are too small for the whole
+/// flow: 26 numbers read and 15 written of a point; of a block full of points (512, tiles of
+/// 216 nodes, on average 1.15 blocks of nodes to a block of points) a tile read, another
+/// written and added up, and three times four numbers per node read and written.
 pub const BYTES: f64 = 104.0 + 60.0 + 3.0 * 216.0 * 16.0 / 512.0 + 6.0 * 1.15 * 64.0 * 16.0 / 512.0;

@@ -1,4 +1,4 @@
-//! Fixtures that the tests of the fast path share.
+//! Fixtures shared by the tests of the fast path.
 
 use super::instructions::Instructions;
 use crate::kernel::Lattice;
@@ -7,7 +7,7 @@ use crate::math::{Mat3, Sym3, Vec3};
 use crate::points::Point;
 use fearless_simd::Level;
 
-/// Every instruction set of this machine, the last of them perhaps twice.
+/// Every instruction set of this machine, the last one possibly twice.
 pub(super) fn levels() -> [Level; 3] {
     [
         Instructions::Baseline,
@@ -17,7 +17,7 @@ pub(super) fn levels() -> [Level; 3] {
     .map(Instructions::level)
 }
 
-/// Nodes at three unequal distances.
+/// Nodes with three unequal spacings.
 pub(super) fn lattice() -> Lattice {
     Lattice {
         origin: Vec3::new(-0.1, -0.05, 0.0),
@@ -71,8 +71,8 @@ impl Shifting {
     }
 }
 
-/// A cloud of points with everything at random, about four to a cell over
-/// several blocks; most of them pressed, some apart.
+/// A cloud of points with random values, about four to a cell over several blocks; most of them
+/// under pressure, some separated.
 pub(super) fn cloud(count: u32) -> Vec<Point> {
     let mut spread = Shifting(1);
     let half = 0.5 * (f64::from(count) / 4.0 * lattice().cell_volume()).cbrt();

@@ -1,4 +1,4 @@
-//! Which instructions the fast path uses.
+//! Instruction sets of the fast path.
 
 use fearless_simd::Level;
 use std::fmt;
@@ -38,8 +38,8 @@ impl Instructions {
         Self::Baseline
     }
 
-    /// True if they round once where a product is added, false if twice: a run goes on
-    /// with the same bits under instructions that do alike.
+    /// True if a multiply-add is rounded once, false if twice: a run continues with the same bits
+    /// under instruction sets that do alike.
     pub fn fuse(self) -> bool {
         self > Self::Baseline
     }

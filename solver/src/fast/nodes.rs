@@ -32,10 +32,10 @@ struct WholeBlock<'a> {
     displacement: &'a mut NodeBlock,
 }
 
-/// A node lighter than this [kg] is empty: its numbers would be rounding, and
-/// the points hardly see it.
+/// A node lighter than this [kg] is empty: its values would be rounding errors, and their
+/// effect on the points is negligible.
 const LIGHTEST: f32 = 1e-30;
-/// Blocks of nodes one task takes.
+/// Blocks of nodes per task.
 const TASK: usize = 16;
 /// The grid of one step.
 #[derive(Debug)]
@@ -44,9 +44,8 @@ pub struct Nodes {
     layout: Layout,
     /// Mass [kg] and velocity [m/s].
     motion: Vec<NodeBlock>,
-    /// Volume of points over room for them, and what rounding took from the
-    /// velocity since the transfer [m/s]: without that the same small change,
-    /// added again and again, would be rounded the same way again and again.
+    /// Nodal volume fraction, and the Kahan compensation of the velocity since the transfer [m/s]:
+    /// without it the same small change, added repeatedly, would be rounded the same way each time.
     remainder: Vec<NodeBlock>,
     /// Mean compressive strain at the transfer, and displacement since then [m].
     displacement: Vec<NodeBlock>,
@@ -67,8 +66,8 @@ impl Nodes {
         }
     }
 
-    /// Lays blocks of nodes round these blocks of points, which come sorted. What
-    /// the nodes hold then means nothing.
+    /// Lays blocks of nodes round these blocks of points, which are sorted. The values of the nodes
+    /// are undefined afterwards.
     pub fn lay_around(&mut self, blocks: impl ExactSizeIterator<Item = BlockKey> + Clone) {
         self.layout.lay_around(blocks);
         let count = self.layout.node_blocks().len();
@@ -80,7 +79,7 @@ impl Nodes {
         }
     }
 
-    /// Takes mass and momentum from the tiles of the points: v = Σ p / Σ m.
+    /// Gathers mass and momentum from the tiles of the points: v = Σ p / Σ m.
     pub fn take_momentum(&mut self, tiles: &[Tile], level: Level) {
         self.for_each_block(|block, sources| {
             dispatch!(level, simd => take(simd, sources, tiles, block.motion));
@@ -89,8 +88,8 @@ impl Nodes {
         });
     }
 
-    /// Takes what was missing of the momentum, and the compressive strains, from the tiles;
-    /// `room` is the mass that fills a kernel, ρ_c h³ [kg].
+    /// Gathers the residual momentum and the compressive strains from the tiles; `room` is the mass
+    /// that fills a kernel, ρ_c h³ [kg].
     pub fn take_rest(&mut self, tiles: &[Tile], room: f32, level: Level) {
         self.for_each_block(|block, sources| {
             dispatch!(level, simd => {
@@ -101,7 +100,7 @@ impl Nodes {
         });
     }
 
-    /// Takes the mean of a part of the strain rates from the tiles: Σ m D / Σ m.
+    /// Gathers the mean of a part of the strain rates from the tiles: Σ m D / Σ m.
     pub fn take_strain_rates(&mut self, part: Part, tiles: &[Tile], level: Level) {
         self.strain_rate[part as usize]
             .par_iter_mut()
@@ -150,27 +149,27 @@ impl Nodes {
             });
     }
 
-    /// Mass and velocity of the nodes that a block of points touches.
+    /// Mass and velocity of the nodes in the tile of a block of points.
     #[inline(always)]
     pub fn motion_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
         fill(simd, self.layout.reach(block), &self.motion, tile);
     }
 
-    /// Fullness of the nodes that a block of points touches, and numbers that mean
-    /// nothing to points.
+    /// Volume fraction of the nodes in the tile of a block of points, and values that points do not
+    /// use.
     #[inline(always)]
     pub fn fullness_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
         fill(simd, self.layout.reach(block), &self.remainder, tile);
     }
 
-    /// Part of the mean strain rate of the nodes that a block of points touches.
+    /// Part of the mean strain rate of the nodes in the tile of a block of points.
     #[inline(always)]
     pub fn strain_rate_tile<S: Simd>(&self, simd: S, block: usize, part: Part, tile: &mut Tile) {
         let strain_rate = &self.strain_rate[part as usize];
         fill(simd, self.layout.reach(block), strain_rate, tile);
     }
 
-    /// Mean compressive strain and displacement of the nodes that a block of points touches.
+    /// Mean compressive strain and displacement of the nodes in the tile of a block of points.
     #[inline(always)]
     pub fn displacement_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile) {
         fill(simd, self.layout.reach(block), &self.displacement, tile);
@@ -198,7 +197,7 @@ impl Nodes {
         (vector(&velocity), vector(&displacement))
     }
 
-    /// Nodes at a place in a block of points: place and weight of each.
+    /// Stencil at a place in a block of points: place and weight of each node.
     pub fn stencil_at(&self, block: usize, position: &[f32; 3]) -> PointStencil {
         let (base, weight) = weights(position);
         let reach = self.layout.reach(block);
@@ -211,7 +210,7 @@ impl Nodes {
         })
     }
 
-    /// Bytes held for nodes.
+    /// Bytes allocated for nodes.
     pub fn bytes(&self) -> usize {
         self.motion.capacity() * 5 * size_of::<NodeBlock>() + self.layout.bytes()
     }
@@ -240,7 +239,7 @@ impl NodeAccess for Nodes {
     }
 
     fn displacement(&self, place: usize, dt: f64) -> Vec3 {
-        // The nodes have moved already, freely.
+        // The displacement already contains the unconstrained motion.
         vector(self.displacement[place / BLOCK_NODES].node(place % BLOCK_NODES))
             - self.velocity(place) * dt
     }
@@ -301,11 +300,11 @@ impl NodeAccess for Nodes {
     }
 }
 
-/// Changes that a sub-step adds to every node with mass.
+/// Increments of every node with mass in a sub-step.
 struct Push {
     /// Δt g, after a zero [m/s].
     fall: [f32; 4],
-    /// [s].
+    /// Length of the sub-step [s].
     dt: f32,
 }
 
@@ -323,9 +322,9 @@ fn vector(numbers: &[f32]) -> Vec3 {
     )
 }
 
-/// Rows along z that a tile shares with the block in an octant of it: how many
-/// along x and y, and where they begin in the tile. They are whole, four nodes
-/// long, in the lower octants and half as long in the upper ones.
+/// Rows along z that a tile shares with the block in an octant of it: the numbers along x and
+/// y, and their beginning in the tile. They are whole, four nodes long, in the lower octants
+/// and half as long in the upper ones.
 const fn shared(octant: [usize; 3]) -> ([usize; 2], usize) {
     let rows = [
         if octant[0] == 0 { BLOCK } else { TILE - BLOCK },
@@ -403,7 +402,7 @@ fn take<S: Simd>(simd: S, sources: &[u32; 8], tiles: &[Tile], motion: &mut NodeB
     }
 }
 
-/// Sums over nodes with mass, over their masses; nothing elsewhere.
+/// Sums over nodes with mass, over their masses; zero elsewhere.
 #[inline(always)]
 fn per_mass<S: Simd>(simd: S, motion: &NodeBlock, sums: &mut NodeBlock) {
     for (sum, moving) in sums.0.chunks_exact_mut(4).zip(motion.0.chunks_exact(4)) {
@@ -457,7 +456,7 @@ fn advance<S: Simd>(simd: S, forces: &NodeBlock, push: &Push, block: WholeBlock)
             let force = f32x4::from_slice(simd, &forces.0[here]);
             let before = f32x4::from_slice(simd, moving);
             let owed = fall + f32x4::from_slice(simd, left);
-            // Kahan's sum.
+            // Kahan summation.
             let change = force.mul_add(f32x4::splat(simd, push.dt / mass), owed);
             let velocity = before + change;
             (change - (velocity - before)).store_slice(left);

@@ -1,4 +1,4 @@
-//! Points as the plain path knows them, and as blocks keep them.
+//! Conversion of points between the plain path and the blocks of the fast path.
 
 use super::blocks::settle;
 use super::chunk::Packed;
@@ -8,7 +8,7 @@ use crate::material::Material;
 use crate::math::{Mat3, Sym3, Vec3};
 use crate::points::Point;
 
-/// Scales that the numbers of a block refer to.
+/// Scales of the values in a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Packing {
     /// Lattice of the nodes.
@@ -18,11 +18,11 @@ pub struct Packing {
 }
 
 impl Packing {
-    /// A point between two steps as a block keeps it, and that block.
+    /// A point between two steps in the form of a block, and that block.
     pub fn pack(&self, point: &Point) -> (BlockKey, Packed) {
         let key = block_of(self.lattice.base(&point.position));
         let mut position = self.in_block(&key, &point.position);
-        // Rounding may push a point over the rim.
+        // Rounding may move a point over the rim.
         let key = settle(&key, &mut position);
         let s = point.stress.deviator();
         let density = point.mass / point.volume;

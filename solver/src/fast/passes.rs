@@ -1,5 +1,5 @@
-//! Passes over a block of points: give mass, momentum and force to its tile, take a
-//! sub-step, take the motion back.
+//! Passes over a block of points: scatter mass, momentum and force to its tile, compute a
+//! sub-step, gather the motion.
 
 use super::blocks::Block;
 use super::chunk::{Chunk, LANES, Lanes};
@@ -15,13 +15,13 @@ use crate::redistribution::{RedistributionRates, excess_volume_fraction};
 use crate::strain_rate_smoothing::StrainRateSmoothing;
 use fearless_simd::{f32x16, prelude::*};
 
-/// The nodes' state as a block of points sees it at the end of a step.
+/// State of the nodes of a block of points at the end of a step.
 pub struct EndTiles {
     /// Excess volume fraction and velocity.
     pub motion: Tile,
     /// Mean compressive strain and displacement.
     pub displacement: Tile,
-    /// Fullness at first, then displacement × velocity.
+    /// First volume fraction, then displacement × velocity.
     pub twist: Tile,
 }
 
@@ -33,7 +33,7 @@ impl EndTiles {
         twist: Tile::EMPTY,
     };
 
-    /// Fills in excess volume fraction and twist of the nodes.
+    /// Computes excess volume fraction and twist of the nodes.
     #[inline(always)]
     pub fn cross(&mut self) {
         let nodes = self
@@ -59,15 +59,15 @@ pub struct Ending<'a> {
     pub lattice: &'a Lattice,
     /// Length of the last sub-step [s].
     pub dt: f32,
-    /// Rates at which the points are kept evenly spread.
+    /// Rates of particle redistribution.
     pub redistribution: &'a RedistributionRates,
-    /// The base planes.
+    /// The no-shift zones at the planes of the bed.
     pub no_shift_zones: &'a [NoShiftZone],
-    /// Mass that fills the largest volume a point can have [kg].
+    /// Mass that fills the largest volume of a point [kg].
     pub roomiest: f32,
 }
 
-/// Gives mass and momentum to a tile (equation 8).
+/// Scatters mass and momentum to a tile (equation 8).
 #[inline(always)]
 pub fn transfer<S: Simd>(simd: S, block: &mut Block, law: &Law, momentum: &mut Tile) {
     *momentum = Tile::EMPTY;
@@ -82,7 +82,7 @@ pub fn transfer<S: Simd>(simd: S, block: &mut Block, law: &Law, momentum: &mut T
     block.note_runs(runs);
 }
 
-/// Which numbers of a strain rate go to the nodes together.
+/// Components of a strain rate that are scattered together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// xx, yy, zz and xy.
@@ -94,7 +94,7 @@ pub enum Part {
 /// Both of them.
 pub const PARTS: [Part; 2] = [Part::First, Part::Second];
 
-/// Motion that nodes show a block of points at a transfer.
+/// Motion of the nodes of a block of points at a transfer.
 pub struct Shown {
     /// Mass and velocity.
     pub motion: Tile,
@@ -126,8 +126,7 @@ fn strain_rate<S: Simd>(simd: S, chunk: &Chunk) -> [f32x16<S>; 6] {
     ]
 }
 
-/// Gives part of the points' strain rates times their masses to a tile (equation
-/// 42a).
+/// Scatters part of the points' strain rates times their masses to a tile (equation 42a).
 #[inline(always)]
 pub fn scatter_strain_rates<S: Simd>(simd: S, block: &mut Block, part: Part, tile: &mut Tile) {
     *tile = Tile::EMPTY;
@@ -145,8 +144,8 @@ pub fn scatter_strain_rates<S: Simd>(simd: S, block: &mut Block, part: Part, til
     }
 }
 
-/// Finds the strain rates that the points feel besides their own strain rates (equation
-/// 42a; `strain_rate_smoothing.rs`).
+/// Computes the smoothed part of the points' effective strain rates (equation 42a;
+/// `strain_rate_smoothing.rs`).
 #[inline(always)]
 pub fn smooth_strain_rates<S: Simd>(
     simd: S,
@@ -182,9 +181,8 @@ pub fn smooth_strain_rates<S: Simd>(
     }
 }
 
-/// Gives a tile the compressive strains and what the nodes' `motion` is short of the
-/// points' own, and another the force of stress (equations 9 and 39); starts the
-/// deformation anew.
+/// Scatters the compressive strains and the residual of the nodes' `motion` to one tile, and
+/// the force of stress to another (equations 9 and 39); resets the deformation.
 #[inline(always)]
 pub fn residual_transfer<S: Simd>(
     simd: S,
@@ -214,8 +212,8 @@ pub fn residual_transfer<S: Simd>(
     }
 }
 
-/// One sub-step: the velocity gradient of the nodes strains the points, whose
-/// stress pushes the nodes (equations 11, 2–6 and 9).
+/// Computes a sub-step: the velocity gradient of the nodes strains the points, whose stress
+/// acts on the nodes (equations 11, 2–6 and 9).
 #[inline(always)]
 pub fn substep<S: Simd>(
     simd: S,
@@ -238,8 +236,7 @@ pub fn substep<S: Simd>(
     }
 }
 
-/// The last sub-step of a step, and the motion back to the points (equations 12
-/// and 13).
+/// Computes the last sub-step of a step, and gathers the motion (equations 12 and 13).
 #[inline(always)]
 pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndTiles) {
     let Ending {
@@ -274,8 +271,8 @@ pub fn finish<S: Simd>(simd: S, block: &mut Block, ending: &Ending, nodes: &EndT
         let [mean_compression, ux, uy, uz] = displacement.spread(simd);
         let [_, tx, ty, tz] = twist.spread(simd);
         let on_displaced = strained.deformed.undone_at_most(simd, &a);
-        // Of Σ w v_i (d_i + u_i − u_p)ᵀ only the skew part counts: what the
-        // nodes' displacement adds is u_p × v_p − Σ w u_i × v_i.
+        // Of Σ w v_i (d_i + u_i − u_p)ᵀ only the skew part counts: the nodes' displacement adds u_p
+        // × v_p − Σ w u_i × v_i.
         let added = [
             uy * vz - uz * vy - tx,
             uz * vx - ux * vz - ty,
@@ -358,8 +355,8 @@ fn gradient<S: Simd>(simd: S, moments: &Moments, law: &Law) -> Matrix<S> {
     gradient
 }
 
-/// `gradient` with the skew part that keeps the angular momentum (equation 13);
-/// `plain` is the gradient at the transfer positions.
+/// `gradient` with the skew part that conserves angular momentum (equation 13); `plain` is the
+/// gradient at the transfer positions.
 #[inline(always)]
 fn with_angular_momentum<S: Simd>(
     simd: S,
@@ -398,7 +395,7 @@ fn give_momentum<S: Simd>(simd: S, chunk: &Chunk, law: &Law, given: &mut Given) 
     }
 }
 
-/// m min(φ, 0), and what of v and C the nodes do not show.
+/// m min(φ, 0), and the residual of v and C.
 #[inline(always)]
 fn give_rest<S: Simd>(simd: S, chunk: &Chunk, law: &Law, moments: &Moments, given: &mut Given) {
     let none = f32x16::splat(simd, 0.0);
@@ -413,7 +410,7 @@ fn give_rest<S: Simd>(simd: S, chunk: &Chunk, law: &Law, moments: &Moments, give
         (f32x16::simd_from(simd, *z) - vz) * mass,
     ]);
     for axis in 0..3 {
-        // C h, of which the nodes show 4 Σ w v δ.
+        // C h, whose value on the nodes is 4 Σ w v δ.
         let spacing = f32x16::splat(simd, 4.0 / law.gradient[axis]);
         let four = f32x16::splat(simd, 4.0);
         let [_, lx, ly, lz] = moments.first[axis].spread(simd);

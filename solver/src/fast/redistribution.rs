@@ -1,4 +1,4 @@
-//! Points kept evenly spread, sixteen at a time: the formulas of `redistribution.rs`.
+//! Particle redistribution, sixteen points at a time: the formulas of `redistribution.rs`.
 
 use super::chunk::{Chunk, LANES, Lanes};
 use crate::grid::{BLOCK, BlockKey};
@@ -11,7 +11,7 @@ use crate::redistribution::{
 use crate::walls::{Impulse, Plane};
 use fearless_simd::{f32x16, prelude::*};
 
-/// State of points, and of the nodes as they see them; as in `redistribution.rs`, but the slope
+/// State of points, and of the nodes at the points; as in `redistribution.rs`, but the slope
 /// per cell.
 pub struct PointState<S: Simd> {
     /// V ρ_c/m − 1 now.
@@ -28,15 +28,15 @@ pub struct PointState<S: Simd> {
 
 /// Changes of points.
 pub struct RedistributedPoint<S: Simd> {
-    /// Shift from where they are [cells].
+    /// Shift from their positions [cells].
     pub shift: [f32x16<S>; 3],
     /// Their volumetric strain.
     pub volumetric_strain: f32x16<S>,
-    /// By which share of itself their stress rises.
+    /// Relative rise of their stress.
     pub rise: f32x16<S>,
 }
 
-/// Changes of points that travelled so far [cells].
+/// Changes of points that travelled this far [cells].
 #[inline(always)]
 pub fn redistribute<S: Simd>(
     simd: S,
@@ -83,8 +83,8 @@ fn splat<S: Simd>(simd: S, value: f64) -> f32x16<S> {
     f32x16::splat(simd, value as f32)
 }
 
-/// A base plane: no point near it is shifted towards it, and none deep behind it is
-/// moved farther behind (`redistribution::limit_shift_at_bed`).
+/// A plane of the bed: no point near it is shifted towards it, and none deep behind it
+/// penetrates further (`redistribution::limit_shift_at_bed`).
 #[derive(Debug, Clone, Copy)]
 pub struct NoShiftZone {
     /// Height of a place [m] over its position [cells].
@@ -95,14 +95,14 @@ pub struct NoShiftZone {
     out: [f32; 3],
     /// Unit normal.
     normal: [f32; 3],
-    /// Height below which points are kept off [m].
+    /// Height of the no-shift zone [m].
     near: f32,
-    /// Height below which they go no deeper [m].
+    /// Height below which points do not penetrate further [m].
     deep: f32,
 }
 
 impl NoShiftZone {
-    /// Of a plane, for positions from the lattice's origin.
+    /// Zone of a plane, for positions from the lattice's origin.
     pub fn of(plane: &Plane, lattice: &Lattice) -> Self {
         let spacing = &lattice.spacing;
         let rise = plane.normal.component_mul(spacing);
@@ -116,7 +116,7 @@ impl NoShiftZone {
         }
     }
 
-    /// The same for positions in a block.
+    /// Zone for positions in a block.
     pub fn in_block(&self, key: &BlockKey) -> Self {
         let mut here = *self;
         for axis in 0..3 {
@@ -125,9 +125,8 @@ impl NoShiftZone {
         here
     }
 
-    /// Takes the part into the plane out of shifts [cells] of points near to it, and
-    /// gives those deep behind it back what they were `moved` into it, and what takes
-    /// them farther into it [m/s] out of their velocities.
+    /// Removes the component into the plane from shifts [cells] of points near it; for points deep
+    /// behind it also from their displacement `moved`, and from their velocities [m/s].
     #[inline(always)]
     pub fn keep_off<S: Simd>(
         &self,
@@ -163,7 +162,7 @@ impl NoShiftZone {
     }
 }
 
-/// Changes of a block's sums by redistribution its points, chunk by chunk.
+/// Changes of a block's sums by redistribution of its points, chunk by chunk.
 pub struct ShiftingSums {
     first_moment: [Lanes; 3],
     angular: [Lanes; 3],
@@ -180,8 +179,7 @@ impl ShiftingSums {
         stopped: [[[0.0; LANES]; 3]; 2],
     };
 
-    /// Takes a chunk in, the velocities [m/s] of its points changed by the walls while
-    /// they were at these positions [cells].
+    /// Adds a chunk whose velocities [m/s] were changed by the walls at these positions [cells].
     #[inline(always)]
     pub fn stop<S: Simd>(
         &mut self,
@@ -202,7 +200,7 @@ impl ShiftingSums {
         }
     }
 
-    /// Takes a chunk in, shifted by so many cells.
+    /// Adds a chunk, shifted by so many cells.
     #[inline(always)]
     pub fn add<S: Simd>(
         &mut self,
@@ -221,7 +219,7 @@ impl ShiftingSums {
         add(simd, &mut self.angular, &cross(&moved, velocity));
     }
 
-    /// The sums of a block whose origin is there [m].
+    /// The sums of a block with this origin [m].
     pub fn total(&self, origin: &Vec3) -> Shifting {
         let [linear, about_block] = self.stopped.each_ref().map(total);
         Shifting {

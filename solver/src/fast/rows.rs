@@ -1,8 +1,8 @@
 //! Sums over the 27 nodes of points, row by row.
 //!
-//! Three nodes along z, four numbers each, and a fourth node of weight zero make
-//! a row of sixteen numbers. Nine rows are all a point touches; points of one
-//! cell touch the same nine, which then stay in registers.
+//! Three nodes along z with four numbers each, and a fourth node of weight zero, form a row of
+//! sixteen numbers. A stencil has nine rows; points of one cell have the same nine, which then
+//! stay in registers.
 
 use super::chunk::LANES;
 use super::stencil::{Stencils, weights};
@@ -10,8 +10,8 @@ use crate::grid::{TILE, TILE_NODES, in_tile};
 use crate::kernel::WIDTH;
 use fearless_simd::{f32x4, f32x16, mask32x16, prelude::*};
 
-/// Four numbers of each node that the points of one block touch, and room for a
-/// row that starts at the last node.
+/// Four numbers of each node in the stencils of one block's points, and room for a row that
+/// starts at the last node.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Tile(pub [f32; Tile::LENGTH]);
@@ -92,7 +92,7 @@ impl Quads {
         [first, second, third, fourth]
     }
 
-    /// From the four numbers, each of all sixteen points.
+    /// Sets the four numbers, each of all sixteen points.
     #[inline(always)]
     pub fn gathered<S: Simd>(&mut self, [first, second, third, fourth]: [f32x16<S>; 4]) {
         let (even_low, even_high) = first.interleave(third);
@@ -111,7 +111,7 @@ const fn row_at(a: usize, b: usize) -> usize {
 
 type Rows<S> = [[f32x16<S>; WIDTH]; WIDTH];
 
-/// Weights along z spread over a row.
+/// Weights along z, repeated over a row.
 struct AlongZ<S: Simd> {
     second: mask32x16<S>,
     third: mask32x16<S>,
@@ -165,7 +165,7 @@ fn weighted_each<S: Simd>(rows: &Rows<S>, weight: &[f32x16<S>; WIDTH]) -> [f32x1
     ]
 }
 
-/// Adds up the four nodes of a row.
+/// Sums the four nodes of a row.
 #[inline(always)]
 fn over_nodes<S: Simd>(row: f32x16<S>) -> f32x4<S> {
     let (low, high) = row.split();
@@ -327,7 +327,7 @@ fn loaded<S: Simd>(simd: S, tile: &Tile, base: u32) -> Rows<S> {
     rows
 }
 
-/// Shares that sixteen points give to their nodes: constant + Σ slope δ, weighted.
+/// Contributions of sixteen points to their nodes: constant + Σ slope δ, weighted.
 pub struct Given {
     /// Independent of the node.
     pub constant: Quads,
@@ -336,14 +336,14 @@ pub struct Given {
 }
 
 impl Given {
-    /// Nothing.
+    /// All zero.
     pub const NOTHING: Self = Self {
         constant: Quads::EMPTY,
         slope: [Quads::EMPTY; 3],
     };
 
-    /// Adds what the first `count` points give to a tile; without `CONSTANT` the
-    /// slopes alone.
+    /// Adds the contributions of the first `count` points to a tile; without `CONSTANT` the slopes
+    /// only.
     #[inline(always)]
     pub fn scatter<S: Simd, const CONSTANT: bool>(
         &self,

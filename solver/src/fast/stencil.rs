@@ -5,7 +5,7 @@ use crate::grid::{BLOCK, TILE};
 use crate::kernel::WIDTH;
 use fearless_simd::{f32x16, prelude::*, u32x16};
 
-/// The nodes each of sixteen points touches, axis by axis and node by node.
+/// The stencils of sixteen points, axis by axis and node by node.
 pub struct Stencils {
     /// Weights w.
     pub weight: [[Lanes; WIDTH]; 3],
@@ -16,7 +16,7 @@ pub struct Stencils {
 }
 
 impl Stencils {
-    /// Of points at these positions in their block [cells].
+    /// Stencils of points at these positions in their block [cells].
     #[inline(always)]
     pub fn of<S: Simd>(simd: S, position: &[Lanes; 3]) -> Self {
         let mut stencils = Self {
@@ -65,7 +65,7 @@ impl Stencils {
         runs
     }
 
-    /// Number of lanes from `lane` on that, below `end`, have its lowest node.
+    /// Number of consecutive lanes from `lane`, below `end`, with its lowest node.
     #[inline(always)]
     pub fn run(&self, lane: usize, end: usize) -> usize {
         let base = self.base[lane];
@@ -77,8 +77,8 @@ impl Stencils {
     }
 }
 
-/// Weights of the nodes one settled point touches, axis by axis, and the lowest
-/// of these nodes in its tile.
+/// Weights of the stencil of one point inside its block, axis by axis, and the lowest of its
+/// nodes in the tile.
 pub fn weights(position: &[f32; 3]) -> ([usize; 3], [[f32; WIDTH]; 3]) {
     let base = position.map(|x| ((x - 0.5) as usize).min(BLOCK - 1));
     let mut weight = [[0.0; WIDTH]; 3];
@@ -98,8 +98,8 @@ fn splat<S: Simd>(simd: S, value: f32) -> f32x16<S> {
     f32x16::splat(simd, value)
 }
 
-/// Lowest node a settled point touches, along one axis. A position that is no
-/// number is taken for node 0, so that it can do no harm until it is found.
+/// Lowest node of the stencil of a point inside its block, along one axis. A non-finite
+/// position gives node 0, so that it does no harm until it is found.
 #[inline(always)]
 fn lowest_node<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
     let last = f32x16::splat(simd, (BLOCK - 1) as f32);

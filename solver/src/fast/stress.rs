@@ -6,7 +6,7 @@ use crate::material::{Material, Yielding};
 use crate::math::Vec3;
 use fearless_simd::{f32x16, prelude::*};
 
-/// A granular material in the numbers the fast path works with.
+/// Constants of a granular material for the fast path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Law {
     /// 1/ρ_c [m³/kg].
@@ -27,8 +27,8 @@ pub struct Law {
 pub type Matrix<S> = [[f32x16<S>; 3]; 3];
 
 impl Law {
-    /// Of a material on a lattice with these node distances [m]. Granular
-    /// materials only: an elastic one has no friction to speak of.
+    /// Law of a material on a lattice with this spacing [m]. Granular materials only: an elastic
+    /// one has no friction.
     pub fn of(material: &Material, spacing: &Vec3) -> Self {
         let (statically, limiting, viscosity) = match material.yielding {
             Yielding::Granular {
@@ -66,7 +66,7 @@ impl Law {
         pressure.max(splat(simd, 0.0))
     }
 
-    /// Pressure with what the bulk viscosity adds to it (equation 3a).
+    /// Pressure including the bulk viscosity (equation 3a).
     #[inline(always)]
     fn resisting<S: Simd>(&self, simd: S, pressure: f32x16<S>, gradient: &Matrix<S>) -> f32x16<S> {
         let none = splat(simd, 0.0);
@@ -76,8 +76,8 @@ impl Law {
         pressed.select(resisting.max(none), pressure)
     }
 
-    /// Deviator after `dt` of the velocity gradient `gradient`, at the volumetric strain
-    /// reached (equations 4–6).
+    /// Deviator after `dt` of the velocity gradient `gradient`, at the new volumetric strain
+    /// (equations 4–6).
     #[inline(always)]
     fn deviator<S: Simd>(
         &self,
@@ -175,7 +175,7 @@ impl<S: Simd> Deformed<S> {
     #[inline(always)]
     pub fn of(simd: S, e: &Matrix<S>) -> Self {
         let one = f32x16::splat(simd, 1.0);
-        // Minors of E, then what the unit matrix adds to them.
+        // Minors of E, then the contributions of the unit matrix.
         let (xx, yy, zz) = (
             minor(e, [1, 2], [1, 2]),
             minor(e, [0, 2], [0, 2]),
@@ -239,14 +239,14 @@ impl<S: Simd> Deformed<S> {
 pub struct Strained<S: Simd> {
     /// F̂ after it.
     pub deformed: Deformed<S>,
-    /// Dilation after it.
+    /// Volumetric strain after it.
     pub volumetric_strain: f32x16<S>,
     pressure: f32x16<S>,
     deviator: [f32x16<S>; 6],
 }
 
-/// Takes E and the deviator of a chunk through a sub-step with the velocity
-/// gradient `a` at the transfer positions, A = Σ v_i ⊗ ∇w_i.
+/// Advances E and the deviator of a chunk by a sub-step with the velocity gradient `a` at the
+/// transfer positions, A = Σ v_i ⊗ ∇w_i.
 #[inline(always)]
 pub fn strain<S: Simd>(
     simd: S,
@@ -270,7 +270,7 @@ pub fn strain<S: Simd>(
     let effective_strain_rate = effective_strain_rate(simd, &gradient, chunk);
     let mut deviator = law.deviator(simd, before, &effective_strain_rate, pressure, dt);
     let pressure = law.resisting(simd, pressure, &gradient);
-    // A point turned inside out becomes no number, which ends the run.
+    // A point turned inside out becomes NaN, which ends the run.
     let inside_out = deformed.volume_change.simd_le(splat(simd, -1.0));
     for (kept, part) in chunk.deviator.iter_mut().zip(&mut deviator) {
         *part = inside_out.select(splat(simd, f32::NAN), *part);
@@ -284,7 +284,7 @@ pub fn strain<S: Simd>(
     }
 }
 
-/// The velocity gradient with what the points feel besides.
+/// The velocity gradient with the effective strain rate.
 #[inline(always)]
 fn effective_strain_rate<S: Simd>(simd: S, gradient: &Matrix<S>, chunk: &Chunk) -> Matrix<S> {
     let [xx, yy, zz, xy, xz, yz] = loaded(simd, &chunk.shared);

@@ -117,7 +117,7 @@ fn add_elastic(sums: &mut Sums, chunk: &Chunk, packing: &Packing) {
     }
 }
 
-/// Knowledge of a block's points between two steps, found chunk by chunk.
+/// Summary of a block's points between two steps, accumulated chunk by chunk.
 pub struct EndSums {
     squared: Lanes,
     flaw: Lanes,
@@ -132,7 +132,7 @@ impl EndSums {
         volumetric_strain: [0.0; LANES],
     };
 
-    /// Takes a chunk in.
+    /// Adds a chunk.
     #[inline(always)]
     pub fn add(&mut self, chunk: &Chunk) {
         let [vx, vy, vz] = &chunk.velocity;
@@ -142,7 +142,7 @@ impl EndSums {
             self.volumetric_strain[lane] =
                 self.volumetric_strain[lane].min(chunk.volumetric_strain[lane]);
         }
-        // Nothing times zero is nothing, unless it is no number.
+        // Zero times a number is zero, unless the number is non-finite.
         let motion = chunk.position.iter().chain(&chunk.velocity);
         let inner = chunk.gradient.iter().flatten().chain(&chunk.deviator);
         for of in motion.chain(inner).chain([&chunk.volumetric_strain]) {
@@ -152,7 +152,7 @@ impl EndSums {
         }
     }
 
-    /// Findings.
+    /// Summary of the points.
     #[inline(always)]
     pub fn end(self) -> End {
         End {
@@ -163,7 +163,7 @@ impl EndSums {
     }
 }
 
-/// Knowledge of a block's points between two steps.
+/// Summary of a block's points between two steps.
 pub fn end_of(block: &Block) -> End {
     let mut sums = EndSums::NONE;
     for (chunk, _) in block.chunks() {

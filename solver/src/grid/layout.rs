@@ -1,10 +1,10 @@
-//! Which blocks of nodes there are, and which blocks of points reach them.
+//! Layout of the blocks of nodes, and the blocks of points whose tiles overlap them.
 
 use super::{BLOCK, BLOCK_NODES, BlockKey, block_of, in_block};
 
 /// No such block.
 const NONE: u32 = u32::MAX;
-/// The eight blocks a tile reaches, in the order in which tiles are added.
+/// The eight blocks that a tile overlaps, in the order in which tiles are added.
 pub const OCTANTS: [[usize; 3]; 8] = [
     [0, 0, 0],
     [0, 0, 1],
@@ -19,16 +19,15 @@ pub const OCTANTS: [[usize; 3]; 8] = [
 /// Blocks of nodes round blocks of points, both sorted.
 #[derive(Debug, Default)]
 pub struct Layout {
-    /// Blocks of points, and the node blocks their tiles reach in the order of
-    /// the octants.
+    /// Blocks of points, and the node blocks that their tiles overlap in the order of the octants.
     reach: Vec<(BlockKey, [u32; 8])>,
     node_blocks: Vec<BlockKey>,
-    /// Per node block: the blocks of points whose tiles reach it.
+    /// Per node block: the blocks of points whose tiles overlap it.
     sources: Vec<[u32; 8]>,
 }
 
 impl Layout {
-    /// Lays blocks of nodes round these blocks of points, which come sorted.
+    /// Lays blocks of nodes round these blocks of points, which are sorted.
     pub fn lay_around(&mut self, blocks: impl ExactSizeIterator<Item = BlockKey> + Clone) {
         let before = self.reach.iter().map(|block| block.0);
         if blocks.len() == before.len() && blocks.clone().eq(before) {
@@ -59,14 +58,12 @@ impl Layout {
         &self.node_blocks
     }
 
-    /// The node blocks that the tile of a block of points reaches, in the order
-    /// of the octants.
+    /// The node blocks that the tile of a block of points overlaps, in the order of the octants.
     pub fn reach(&self, block: usize) -> &[u32; 8] {
         &self.reach[block].1
     }
 
-    /// Per node block, by octant: the blocks of points whose tiles reach it; see
-    /// [`there`].
+    /// Per node block, by octant: the blocks of points whose tiles overlap it; see [`there`].
     pub fn sources(&self) -> &[[u32; 8]] {
         &self.sources
     }
@@ -79,7 +76,7 @@ impl Layout {
         Some(block * BLOCK_NODES + in_block(local[0], local[1], local[2]))
     }
 
-    /// Bytes held.
+    /// Bytes allocated.
     pub fn bytes(&self) -> usize {
         self.reach.capacity() * size_of::<(BlockKey, [u32; 8])>()
             + self.node_blocks.capacity() * size_of::<BlockKey>()
@@ -92,7 +89,7 @@ pub fn there(block: u32) -> Option<usize> {
     (block != NONE).then_some(block as usize)
 }
 
-/// Which octant of a tile a node of it is in, and where in the block there.
+/// Octant of a tile that contains a node, and the node's place in the block there.
 pub fn within(local: [usize; 3]) -> (usize, usize) {
     let [a, b, c] = local.map(|along| along / BLOCK);
     let [i, j, k] = local.map(|along| along % BLOCK);

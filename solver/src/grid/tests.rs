@@ -86,8 +86,8 @@ fn a_tile_reads_the_nodes_it_wrote() {
     }
 }
 
-// A nodal field linear in position is read exactly between the nodes, also
-// where a stencil reaches over the blocks of its tile.
+// A nodal field linear in position is interpolated exactly between the nodes, also where a
+// stencil extends over several blocks of its tile.
 #[test]
 fn motion_between_nodes_is_that_of_a_linear_field() {
     let mut grid = laid_out();

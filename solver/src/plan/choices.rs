@@ -1,25 +1,25 @@
-//! Parts of a scene that could be left out, and those that are.
+//! Parts of a scene that could be left out, and the choices made.
 
 use crate::contact::island;
 use crate::scenario::{Ending, Scenario};
 use crate::simulation::Outline;
 use serde::{Deserialize, Serialize};
 
-/// Exact but for the order in which sums are rounded.
+/// Exact except for the order in which sums are rounded.
 const ROUNDING: &str = "exact but for rounding";
 
-/// Something that could be left out of a computation.
+/// A part that could be left out of a computation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
-    /// Thing that would be done.
+    /// The reduction.
     pub what: String,
-    /// True if it is done.
+    /// True if it is made.
     pub taken: bool,
-    /// Why, or why not.
+    /// Reason for the choice.
     pub why: String,
     /// Error that it makes.
     pub error: String,
-    /// The field that decides otherwise, as a JSON pointer; null: there is none.
+    /// The field that overrides the choice, as a JSON pointer; null if there is none.
     pub decided_by: Option<String>,
 }
 

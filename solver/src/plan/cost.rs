@@ -12,7 +12,7 @@ use crate::stability::{self, Limits};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Blocks a flow comes to occupy while it spreads, over those of its release.
+/// Largest number of blocks occupied as the flow spreads, over those of its release.
 const SPREADING: f64 = 2.0;
 
 /// Cost of a run.
@@ -22,32 +22,31 @@ pub struct Cost {
     pub cell_size_m: f64,
     /// Material points of the flow at the start.
     pub points: u64,
-    /// Acoustic sub-steps, if the run goes on for its whole duration.
+    /// Acoustic sub-steps of the whole duration.
     pub substeps: u64,
-    /// Transfers between points and grid of as long a run.
+    /// Transfers between points and grid in the whole duration.
     pub steps: u64,
-    /// Sub-steps summed over the points that are computed, if none leaves, of as
-    /// long a run.
+    /// Sub-steps summed over the computed points in the whole duration, if none leaves.
     pub point_steps: u64,
     /// Memory for points and grid once the flow has spread [bytes].
     pub memory_bytes: u64,
-    /// When the run is expected to end [s]: what slides down, stopped by friction, or
-    /// the duration.
+    /// Expected end of the run [s]: the time at which friction has stopped the sliding flow, or the
+    /// duration.
     pub expected_end_s: f64,
     /// Shares of the flow that are computed, one after the other.
     pub stages: Vec<Stage>,
 }
 
-/// A stretch of a run in which the same share of the flow is computed.
+/// A part of a run in which the same share of the flow is computed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Stage {
-    /// Which share.
+    /// The share.
     pub share: Share,
     /// Points of it.
     pub points: u64,
-    /// Sub-steps, as far as can be expected.
+    /// Expected number of sub-steps.
     pub substeps: u64,
-    /// Those of them before the expected end.
+    /// The part of them before the expected end.
     pub expected_substeps: u64,
 }
 
@@ -76,7 +75,7 @@ impl Cost {
     }
 }
 
-/// Shares, with their parts of so many sub-steps.
+/// Stages, with their parts of this number of sub-steps.
 fn stages(outline: &Outline, course: &Course, substeps: u64, end: f64) -> Vec<Stage> {
     let duration = outline.given.timing.duration;
     let within = |from: f64, to: f64| {
@@ -126,14 +125,14 @@ pub(super) fn longest_substep(limits: &Limits) -> f64 {
     limits.substep(limits.slow)
 }
 
-/// Sub-steps and steps of a duration [s], none longer than `longest` [s], so many in
-/// a step.
+/// Sub-steps and steps of a duration [s], with sub-steps of at most `longest` [s] and so many
+/// per step.
 fn over(duration: f64, longest: f64, per_step: f64) -> (u64, u64) {
     let substeps = (duration / longest - 1e-9).ceil().max(0.0);
     (substeps as u64, (substeps / per_step).ceil() as u64)
 }
 
-/// Of so many points, of which so many are computed.
+/// Memory of so many points, of which so many are computed [bytes].
 fn memory(scenario: &Scenario, outline: &Outline, points: u64, computed: u64) -> u64 {
     let cells = 0.5 * f64::from(outline.given.walls.vertical_walls.halves_across);
     let share = computed as f64 / points.max(1) as f64;
@@ -158,15 +157,14 @@ fn memory(scenario: &Scenario, outline: &Outline, points: u64, computed: u64) ->
     (of_points + of_grid) as u64
 }
 
-/// Blocks at the start.
+/// Numbers of blocks at the start.
 struct Blocks {
     of_points: f64,
     of_nodes: f64,
 }
 
 impl Blocks {
-    /// Those that so many cells across of the release lie in, and those its kernels
-    /// reach.
+    /// Blocks occupied by so many cells across of the release, and blocks in reach of its kernels.
     fn of_release(scenario: &Scenario, outline: &Outline, cells_across: f64) -> Self {
         let (Some(release), Some(columns)) = (scenario.release(), outline.columns) else {
             return Self {

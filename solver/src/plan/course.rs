@@ -1,22 +1,22 @@
-//! Course that a flow is expected to take: roughly, for what a run will cost.
+//! Expected course of a flow: a rough estimate, for the cost of a run.
 
 use crate::rigid::Body;
 use crate::scenario::Scenario;
 use crate::simulation::Outline;
 
-/// Acceleration of a front that collapses, over gravity.
+/// Acceleration of a collapsing front, over gravity.
 const COLLAPSE: f64 = 0.25;
-/// Time that a release that does not slide takes to collapse, over √(h/g).
+/// Collapse time of a release that does not slide, over √(h/g).
 const COLLAPSES_FOR: f64 = 4.5;
 
-/// Course expected of a flow: a block that slides on the incline and is stopped by
-/// friction on the floor.
+/// Expected course of a flow: a block that slides on the incline and is stopped by friction on
+/// the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Course {
-    /// When it comes near a body [s]; infinite without one.
+    /// Time at which it comes near a body [s]; infinite without one.
     pub(super) meets_body: f64,
-    /// When its last part has come to rest, and no prescribed motion stirs it any more
-    /// [s]; infinite if that is never known.
+    /// Time at which its last part has come to rest, and no prescribed motion moves it any more
+    /// [s]; infinite if unknown.
     pub(super) rests: f64,
 }
 
@@ -47,9 +47,9 @@ impl Course {
 
 /// A block on the incline and the floor.
 struct Slide {
-    /// Level acceleration on the incline [m/s²].
+    /// Horizontal acceleration on the incline [m/s²].
     down: f64,
-    /// Slowing on the floor [m/s²].
+    /// Deceleration on the floor [m/s²].
     damping_cap: f64,
     gravity: f64,
     /// Height of the release [m].
@@ -70,12 +70,12 @@ impl Slide {
         }
     }
 
-    /// Time in which the front, which collapses besides, goes so far [s].
+    /// Time in which the front, which also collapses, travels this far [s].
     fn front_takes(&self, way: f64) -> f64 {
         (2.0 * way / (self.down + COLLAPSE * self.gravity)).sqrt()
     }
 
-    /// Time after which what slides so far to the foot has been stopped [s].
+    /// Time until material that slides this far to the foot has been stopped [s].
     fn rests_after(&self, way: f64) -> f64 {
         let sliding = if self.down > 0.0 {
             (2.0 * way / self.down).sqrt()

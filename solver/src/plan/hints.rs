@@ -1,4 +1,4 @@
-//! Hints: what a scenario allows and is probably not meant, or costs more than it looks.
+//! Hints: legal values of a scenario that are probably not meant, or costly.
 
 use super::cost::longest_substep;
 use crate::scenario::Scenario;
@@ -7,21 +7,21 @@ use serde::{Deserialize, Serialize};
 
 /// An inclination below this may have been meant in radians [°].
 const MEANT_IN_RADIANS_DEG: f64 = 2.0;
-/// Sub-steps that a light body takes, over those of the flow, from which on it is told.
+/// Sub-steps because of a light body, over those of the flow, above which there is a hint.
 const MANY_TIMES: f64 = 1.5;
-/// Bodies that a hint names.
+/// Largest number of bodies named in a hint.
 const NAMED_BODIES: usize = 3;
 
-/// Something that whoever wrote a scenario may want to look at once more.
+/// A hint that the author of a scenario may want to check a value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Hint {
-    /// The field that it is about, as a JSON pointer.
+    /// The field concerned, as a JSON pointer.
     pub field: String,
     /// One sentence for people.
     pub detail: String,
 }
 
-/// All hints at a scenario.
+/// All hints for a scenario.
 pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Vec<Hint> {
     let hints = [
         inclination_in_radians(scenario),
@@ -52,7 +52,7 @@ fn inclination_in_radians(scenario: &Scenario) -> Option<Hint> {
     })
 }
 
-/// Bodies thinner than a cell, which the flow hardly sees.
+/// Bodies thinner than a cell, which the flow hardly resolves.
 fn thin_bodies(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
     outline.columns?;
     let cell = outline.given.lattice.spacing.x;
@@ -69,8 +69,8 @@ fn thin_bodies(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
     Some(hint("/numerics/cell_size_m", detail))
 }
 
-/// Bodies at rest that lie farther away than the flow's energy lasts: what starts at its
-/// highest place has lost all height to friction by then.
+/// Bodies at rest beyond the reach of the flow's energy: a flow that starts at its highest
+/// place has lost all height to friction by then.
 fn unreached_bodies(scenario: &Scenario) -> Option<Hint> {
     let release = scenario.release()?;
     let friction = scenario.flow.as_ref().map(|flow| {
@@ -120,7 +120,7 @@ fn light_bodies(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
     Some(hint(&format!("/bodies/{lightest}/density_kg_m3"), detail))
 }
 
-/// Cells of a plan that the run will not have.
+/// Cells of a plan that differ from those of the run.
 fn cells_by_target(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
     let (target, quantity) = scenario.accuracy.goal()?;
     let cell = outline.given.lattice.spacing.x;

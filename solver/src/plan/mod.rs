@@ -1,5 +1,5 @@
-//! Cost of a run, and the parts of its scene that it computes, found out before anything
-//! runs (docs/method.md, section 12; docs/plan.md).
+//! Cost of a run, and the parts of its scene that are computed, determined before the run
+//! (docs/method.md, section 12; docs/plan.md).
 
 mod choices;
 mod cost;
@@ -15,13 +15,13 @@ use crate::scenario::Scenario;
 use crate::simulation::Outline;
 use serde::{Deserialize, Serialize};
 
-/// Plan of a run: what it will compute, what it will leave out and why, what it will
-/// cost, and what looks like a slip.
+/// Plan of a run: the parts computed and left out with reasons, the cost, and probable
+/// mistakes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
-    /// Each thing that could be left out.
+    /// All parts that could be left out.
     pub choices: Vec<Choice>,
-    /// Things to look at once more before it runs.
+    /// Values to check before the run.
     pub hints: Vec<Hint>,
     /// Cost of the run.
     pub cost: Cost,
@@ -30,8 +30,7 @@ pub struct Plan {
 /// The plan of a scenario's run.
 ///
 /// # Errors
-/// Too many points for one run, or a reduction asked for that the scene does not
-/// allow.
+/// Too many points for one run, or a requested reduction that the scene does not allow.
 pub fn of(scenario: &Scenario) -> Result<Plan, SetupError> {
     let outline = Outline::of(scenario)?;
     Ok(Plan {

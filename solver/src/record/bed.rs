@@ -4,7 +4,7 @@ use crate::math::Vec3;
 use crate::scenario::Channel;
 use serde::{Deserialize, Serialize};
 
-/// Incline and floor, as what lies or stands on them sees them.
+/// Incline and floor under a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Bed {
     /// Of the incline [rad].
@@ -29,7 +29,7 @@ impl Bed {
         Vec3::new(sin, 0.0, cos)
     }
 
-    /// Unit vector downstream along it at x.
+    /// Unit vector downstream along the bed at x.
     pub(super) fn downstream_at(&self, x: f64) -> Vec3 {
         let (sin, cos) = self.inclination_at(x).sin_cos();
         Vec3::new(cos, 0.0, -sin)

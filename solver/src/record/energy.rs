@@ -4,7 +4,7 @@ use super::BodyEnergy;
 use crate::body_energy::{potential, stored};
 use crate::simulation::Simulation;
 
-/// Balance of a body's energy so far; none if no load moves it.
+/// Balance of a body's energy so far; none for a fixed or prescribed body.
 pub(super) fn body_energy(simulation: &Simulation, place: usize) -> Option<BodyEnergy> {
     let (bodies, gravity) = (simulation.bodies(), simulation.gravity());
     let body = bodies.get(place).filter(|body| body.is_free())?;

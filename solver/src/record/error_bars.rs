@@ -1,25 +1,25 @@
-//! Uncertainty intervals of an outcome's quantities, and what they cost: types alone. How they are
-//! made: `accuracy`, and docs/method.md, section 12.
+//! Uncertainty intervals of an outcome's quantities, and their cost: types only. Computation of
+//! intervals: `accuracy`, and docs/method.md, section 12.
 
 use crate::scenario::Quantity;
 use serde::{Deserialize, Serialize};
 
-/// A quantity with the interval in which its value without cells is expected.
+/// A quantity with the interval in which its grid-converged value is expected.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct UncertaintyInterval {
-    /// The value of the answer, as it stands beside; null if it did not happen.
+    /// The value of the answer, a copy; null if it did not happen.
     pub value: Option<f64>,
     /// Lower end; null if there is none.
     pub low: Option<f64>,
     /// Upper end; null if there is none: it may also not happen at all.
     pub high: Option<f64>,
-    /// Order at which the values were seen to converge; null if they don't.
+    /// Observed order of convergence; null if the values don't converge.
     pub order: Option<f64>,
     /// Basis of the interval.
     pub basis: Basis,
 }
 
-/// Basis of a interval.
+/// Basis of an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Basis {
@@ -29,7 +29,7 @@ pub enum Basis {
     Scattered,
     /// The same value in all runs.
     Same,
-    /// One coarser run alone, so no order: a wide interval.
+    /// Only one coarser run, so no order: a wide interval.
     OneRefinementRun,
     /// It happened in none of the runs.
     NeverHappened,
@@ -69,21 +69,21 @@ pub struct FlowErrorBars {
     pub outflow_mass_kg: UncertaintyInterval,
 }
 
-/// The runs behind the intervals, and whether a target was met.
+/// The runs behind the intervals, and the result of a target.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AccuracyReport {
     /// All runs in the order they were made.
     pub runs: Vec<RunCost>,
-    /// Point-steps of all runs but the answer's, over those of the answer's.
+    /// Point-steps of all other runs over those of the answer's.
     pub extra_cost: f64,
-    /// The same of their wall times; null if the answer took no time. Larger in small
-    /// scenes, where a step costs more than its points.
+    /// Wall time of all other runs over that of the answer's; null if the answer took no time.
+    /// Larger in small scenes, where the cost per step outweighs that of the points.
     pub extra_wall_cost: Option<f64>,
     /// Report on the target; null if none was given.
     pub target: Option<TargetReport>,
 }
 
-/// One of the runs behind a interval.
+/// A run behind an interval.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunCost {
     /// Role of the run.
@@ -94,11 +94,11 @@ pub struct RunCost {
     pub cells_per_body: Option<f64>,
     /// √(K/ρ) of the bulk [m/s].
     pub sound_speed_m_s: f64,
-    /// Sub-steps summed over the points that took part; null if it failed.
+    /// Sub-steps summed over the computed points; null if it failed.
     pub point_steps: Option<u64>,
     /// Wall time, measured by the caller [s]; null if it failed.
     pub wall_s: Option<f64>,
-    /// Why it could not be computed; null if it was.
+    /// Reason for the failure; null if it succeeded.
     pub failure: Option<String>,
 }
 
@@ -117,16 +117,16 @@ pub enum Role {
 /// Report on a target: the error asked for and the one reached.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TargetReport {
-    /// The quantity it is about.
+    /// The target quantity.
     pub quantity: Quantity,
-    /// Index of the body whose quantity that is; null for the flow's.
+    /// Index of the body whose quantity it is; null for the flow's.
     pub body: Option<u32>,
-    /// Distance that the interval may reach from the value, over it, as asked.
+    /// Largest distance of the interval's ends from the value, over the value, as asked.
     pub asked: f64,
-    /// The same, as reached; null if the interval has an open end or the value is 0.
+    /// The distance reached; null if the interval has an open end or the value is 0.
     pub reached: Option<f64>,
-    /// True if it is no more than asked.
+    /// True if the distance reached is within the one asked for.
     pub met: bool,
-    /// Why it was not met; null if it was.
+    /// Reason for which it was not met; null if it was.
     pub reason: Option<String>,
 }

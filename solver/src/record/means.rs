@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub(super) struct Means {
     /// Time since then [s].
     pub(super) duration: f64,
-    /// Of it on walls or other bodies [s].
+    /// Part of it on walls or other bodies [s].
     pub(super) supported: f64,
     /// Impulse of the flow.
     pub(super) flow: Load,
@@ -21,7 +21,7 @@ pub(super) struct Means {
 }
 
 impl Means {
-    /// Takes in what acted in `dt` [s] of a sub-step.
+    /// Adds the loads of a sub-step of `dt` [s].
     pub(super) fn take_in(&mut self, flow: &Load, report: &BodyReport, dt: f64) {
         self.duration += dt;
         self.supported += dt * report.supported_share;
@@ -35,7 +35,7 @@ impl Means {
         }
     }
 
-    /// The mean of what this is the impulse of.
+    /// The mean load of an impulse.
     pub(super) fn mean(&self, impulse: &Vec3) -> Vec3 {
         if self.duration > 0.0 {
             impulse / self.duration

@@ -38,7 +38,7 @@ pub enum Mode {
     Rolling,
     /// Off walls and other bodies most of the time since the last sample.
     Saltating,
-    /// Borne by the flow, more than by walls and other bodies.
+    /// Carried by the flow, more than by walls and other bodies.
     Carried,
 }
 
@@ -65,10 +65,10 @@ pub struct BodySample {
     pub body_force_n: [f64; 3],
     /// Torque of other bodies about the centre, mean since the last sample [N m].
     pub body_torque_nm: [f64; 3],
-    /// Material points in contact in the sub-step that holds the sample time.
+    /// Material points in contact in the sub-step that contains the sample time.
     pub touching_points: u32,
-    /// Share of the body's height below the surface of the flow round it, 0..1, at
-    /// the end of the step that holds the sample time.
+    /// Share of the body's height below the surface of the flow round it, 0..1, at the end of the
+    /// step that contains the sample time.
     pub submerged_fraction: f64,
     /// Mode of the body's motion.
     pub mode: Mode,
@@ -88,9 +88,9 @@ pub struct Sample {
 pub struct FlowSnapshot {
     /// Simulated time [s].
     pub time_s: f64,
-    /// Points in the flow at that time; `position_m` holds every `thinning`-th.
+    /// Points in the flow at that time; `position_m` contains every `thinning`-th.
     pub points: u64,
-    /// One in how many points is kept.
+    /// Number of points per kept point.
     pub thinning: u32,
     /// Position of each kept point [m].
     pub position_m: Vec<[f32; 3]>,
@@ -98,31 +98,30 @@ pub struct FlowSnapshot {
     pub speed_m_s: Vec<f32>,
 }
 
-/// Largest number of points a [`FlowSnapshot`] keeps.
+/// Largest number of points in a [`FlowSnapshot`].
 pub const SNAPSHOT_POINTS: usize = 5_000;
 
-/// Record that the recorder hands on while a run goes.
+/// Record that the recorder returns during a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Record {
-    /// Of every sample time, in order.
+    /// At every sample time, in order.
     Sample(Sample),
-    /// At the end of the step that holds a snapshot time.
+    /// At the end of the step that contains a snapshot time.
     Snapshot(FlowSnapshot),
 }
 
-/// Outcome of one body. What did not happen is `None` (null).
+/// Outcome of one body. An event that did not happen is `None` (null).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BodyOutcome {
     /// First time the flow touched it [s].
     pub first_contact_time_s: Option<f64>,
-    /// First time the centre is a fortieth of the body's size from where it started [s].
+    /// First time at which the centre is a fortieth of the body's size from its start [s].
     pub onset_time_s: Option<f64>,
     /// Largest speed of the centre [m/s].
     pub peak_speed_m_s: f64,
-    /// When that was [s]; null for a body that never moved.
+    /// Time of the largest speed [s]; null for a body that never moved.
     pub peak_speed_time_s: Option<f64>,
-    /// From then to the end at rest [s]; null if it still moves at the end or never
-    /// moved.
+    /// Time since which it is at rest [s]; null if it still moves at the end or never moved.
     pub stop_time_s: Option<f64>,
     /// Net horizontal displacement of the centre [m].
     pub displacement_m: f64,
@@ -136,7 +135,7 @@ pub struct BodyOutcome {
     pub error_bars: Option<BodyErrorBars>,
     /// Mass and resistance to turning.
     pub mass_properties: MassProperties,
-    /// Balance of its energy; null if no load moves it.
+    /// Balance of its energy; null for a fixed or prescribed body.
     pub energy: Option<BodyEnergy>,
 }
 
@@ -148,32 +147,32 @@ pub struct BodyEnergy {
     pub start_j: f64,
     /// Kinetic energy at the end [J].
     pub kinetic_j: f64,
-    /// Energy of its height over the floor at the end [J].
+    /// Potential energy over the floor at the end [J].
     pub potential_j: f64,
-    /// Energy that its contacts with walls and bodies hold at the end; half of what those
-    /// with another free body do [J].
+    /// Energy stored in its contacts with walls and bodies at the end; half of that in contacts
+    /// with another free body [J].
     pub stored_j: f64,
     /// Work of the flow on it [J].
     pub flow_work_j: f64,
-    /// Energy that other bodies gave it: work of prescribed motions, and half of what a contact did
-    /// to it more than to the other free body [J].
+    /// Energy received from other bodies: work of prescribed motions, and half of the difference of
+    /// a contact's work on it and on the other free body [J].
     pub body_work_j: f64,
-    /// Energy that damping and slipping took in its contacts with walls and bodies [J].
+    /// Energy dissipated by damping and slip in its contacts with walls and bodies [J].
     pub dissipated_j: f64,
     /// Energy that nothing accounts for: made by the computation if positive, lost if not [J].
     pub made_j: f64,
-    /// Largest rise of that above its running minimum, over the largest kinetic and stored
-    /// energy, all that flow and bodies exchanged with it, what it rose and sank by, and
-    /// m g times its radius.
+    /// Largest rise of that above its running minimum, over the sum of the largest kinetic and
+    /// stored energy, the exchange with flow and bodies, the range of its potential energy, and m g
+    /// times its radius.
     pub made_share: f64,
 }
 
 /// Mass properties of a rounded body about its centre of mass, exact (equation 14).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MassProperties {
-    /// [kg].
+    /// Mass [kg].
     pub mass_kg: f64,
-    /// [m³].
+    /// Volume [m³].
     pub volume_m3: f64,
     /// Principal moments of inertia, the smallest first [kg m²].
     pub principal_moments_kg_m2: [f64; 3],
@@ -185,20 +184,20 @@ pub struct MassProperties {
 /// Outcome of the flow.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlowOutcome {
-    /// The x beyond which 0.1 % of the released mass lies, mass that left by
-    /// the open end included [m]; null without a flow.
+    /// The x beyond which 0.1 % of the released mass lies, mass that left through the open end
+    /// included [m]; null without a flow.
     pub front_m: Option<f64>,
     /// Front minus the initial toe [m].
     pub runout_m: Option<f64>,
-    /// Mass that left by the open end [kg].
+    /// Mass that left through the open end [kg].
     pub outflow_mass_kg: f64,
-    /// Volume of the release not placed because a body stands there [m³].
+    /// Volume of the release not placed because a body is there [m³].
     pub excluded_volume_m3: f64,
     /// Uncertainty intervals of all but the volume left out; `None` unless asked for.
     pub error_bars: Option<FlowErrorBars>,
 }
 
-/// Conservation audit of a run, which says how far it can be trusted.
+/// Conservation audit of a run, a measure of its reliability.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Conservation {
     /// |mass now + mass left − mass released| / mass released.
@@ -207,10 +206,9 @@ pub struct Conservation {
     /// wall impulses over all steps, relative to Σ m|v| plus the accumulated
     /// impulse.
     pub momentum_residual: f64,
-    /// The same for angular momentum about the origin.
+    /// Largest imbalance of angular momentum about the origin, relative likewise.
     pub angular_momentum_residual: f64,
-    /// Angular momentum that spreading the points evenly made; the residual does
-    /// not count it.
+    /// Angular momentum from particle shifting; the residual does not count it.
     pub angular_momentum_from_shifting: f64,
     /// Largest rise of mechanical energy above its running minimum, relative
     /// to the largest kinetic energy.
@@ -220,11 +218,11 @@ pub struct Conservation {
     /// Largest overlap of a body with a wall or another body, δ/r, r the smaller
     /// sphero radius of two bodies.
     pub max_body_overlap_ratio: f64,
-    /// Points that ended a step inside a body's core and were put back.
+    /// Penetration corrections: points that ended a step inside a body's core.
     pub penetration_corrections: u64,
-    /// Points that left by the open end.
+    /// Points that left through the open end.
     pub points_outflow: u64,
-    /// Points lost any other way: a finished run has none.
+    /// Points lost otherwise: zero in a finished run.
     pub points_lost: u64,
 }
 
@@ -237,7 +235,7 @@ pub struct Cost {
     pub steps: u64,
     /// Acoustic sub-steps.
     pub substeps: u64,
-    /// Sub-steps summed over the points that took part.
+    /// Sub-steps summed over the computed points.
     pub point_steps: u64,
     /// Wall time, measured by the caller [s].
     pub wall_s: f64,
@@ -258,13 +256,13 @@ pub struct Outcome {
     pub bodies: Vec<BodyOutcome>,
     /// The flow.
     pub flow: FlowOutcome,
-    /// Conservation audit, which says how far to trust it.
+    /// Conservation audit, a measure of its reliability.
     pub conservation: Conservation,
-    /// Cost, runs behind intervals apart.
+    /// Cost, without the runs behind intervals.
     pub cost: Cost,
-    /// That the run ended before its duration; null if it did not.
+    /// Early end of the run; null if it ran for its duration.
     pub ended_early: Option<EndedEarly>,
-    /// Plan made before the run: what was computed, what was left out and why.
+    /// Plan made before the run: the parts computed and left out, with reasons.
     pub plan: Option<Plan>,
     /// Basis of the intervals; `None` unless asked for.
     pub accuracy: Option<AccuracyReport>,

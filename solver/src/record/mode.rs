@@ -1,21 +1,21 @@
-//! Mode of a body's motion, in a word.
+//! Mode of a body's motion.
 
 use super::Mode;
 use super::means::Means;
 use crate::math::Vec3;
 use crate::rigid::{Body, Freedom};
 
-/// A body on walls and other bodies for less of the time than this saltates.
+/// Share of the time on walls and other bodies below which a body saltates.
 const SUPPORTED_SHARE: f64 = 0.5;
-/// The flow carries a body of which it bears this share of the weight.
+/// Share of the weight borne by the flow above which it carries a body.
 const CARRIED_SHARE: f64 = 0.5;
 
-/// Knowledge of a body's motion at a sample time.
+/// Quantities of a body's motion at a sample time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Movement<'a> {
     /// True if it is at rest.
     pub(super) at_rest: bool,
-    /// True if it rolls, if it is on anything.
+    /// True if it rolls, provided that it is on a wall or body.
     pub(super) rolls: bool,
     /// Loads on it since the last sample.
     pub(super) means: &'a Means,
@@ -23,7 +23,7 @@ pub(super) struct Movement<'a> {
     pub(super) weight: Vec3,
 }
 
-/// The mode of a body that moves like this.
+/// The mode of a body with this movement.
 pub(super) fn mode(body: &Body, movement: &Movement) -> Mode {
     let means = movement.means;
     if body.freedom == Freedom::Fixed || movement.at_rest {
@@ -39,7 +39,7 @@ pub(super) fn mode(body: &Body, movement: &Movement) -> Mode {
     }
 }
 
-/// True if the flow bears a body, and more of it than walls and other bodies do.
+/// True if the flow bears enough of a body's weight, and more than walls and other bodies do.
 fn is_carried(means: &Means, weight: &Vec3) -> bool {
     let borne = |impulse: &Vec3| means.mean(impulse).dot(weight) / weight.norm_squared();
     let flow = borne(&means.flow.force);
@@ -60,8 +60,8 @@ mod tests {
     use crate::rigid::Load;
     use crate::rigid::fixture::cuboid;
 
-    /// Means over a second of a body of 1 N, on something for such a share of it, its
-    /// weight borne by flow and walls in these shares.
+    /// Means over a second of a body of 1 N, supported for this share of it, its weight borne by
+    /// flow and walls in these shares.
     fn acted(supported: f64, [flow, walls]: [f64; 2]) -> Means {
         let up = |force: f64| Load {
             force: Vec3::z() * force,

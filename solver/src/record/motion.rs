@@ -1,4 +1,4 @@
-//! State of a body at one instant, between two sub-steps too.
+//! State of a body at one instant, also between two sub-steps.
 
 use crate::math::Vec3;
 use crate::rigid::Body;
@@ -29,9 +29,8 @@ impl Motion {
         }
     }
 
-    /// The motion at a share of the time `dt` [s] to a later one: the position by the
-    /// cubic of both places and velocities, the orientation by the shortest turn,
-    /// velocities in proportion.
+    /// The motion at a share of the time `dt` [s] to a later one: the position by the cubic of both
+    /// positions and velocities, the orientation by the shortest turn, velocities in proportion.
     pub(super) fn towards(&self, later: &Self, share: f64, dt: f64) -> Self {
         if share >= 1.0 {
             return *later;
@@ -56,7 +55,7 @@ impl Motion {
 mod tests {
     use super::*;
 
-    // A throw under gravity is a parabola, which a cubic hits; the turn is steady.
+    // A throw under gravity is a parabola, which a cubic reproduces; the turn is steady.
     #[test]
     fn a_throw_is_met_between_its_ends() {
         let at = |time: f64| Motion {

@@ -11,7 +11,7 @@ use crate::shape::PrincipalInertia;
 use crate::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 
-/// The front leaves this share of the mass beyond it.
+/// Share of the mass beyond the front.
 const FRONT_SHARE: f64 = 1e-3;
 
 /// History of one body so far.
@@ -19,7 +19,7 @@ const FRONT_SHARE: f64 = 1e-3;
 pub(super) struct BodyHistory {
     scale: Scale,
     start: Vec3,
-    /// At the end of the last sub-step, and when that was [s].
+    /// Motion at the end of the last sub-step, and the time of that [s].
     last: Motion,
     time: f64,
     /// End of the first sub-step in which the flow touched it [s].
@@ -52,7 +52,7 @@ impl BodyHistory {
         }
     }
 
-    /// Takes in what a sub-step did to a body of a run.
+    /// Adds a sub-step of a body in a run.
     pub(super) fn observe(&mut self, simulation: &Simulation, place: usize, motion: &Motion) {
         let (body, time_s) = (&simulation.bodies()[place], simulation.time_s());
         let report = simulation.body_report(place);
@@ -64,7 +64,7 @@ impl BodyHistory {
         self.take_in(body, motion, time_s);
     }
 
-    /// Takes in how the body moves at the end of a sub-step.
+    /// Adds the motion of the body at the end of a sub-step.
     fn take_in(&mut self, body: &Body, motion: &Motion, time_s: f64) {
         let speed = motion.velocity.norm();
         self.path_length += (motion.position - self.last.position).norm();
@@ -78,7 +78,7 @@ impl BodyHistory {
         (self.last, self.time) = (*motion, time_s);
     }
 
-    /// When within this sub-step it set off [s], if it did.
+    /// Time within this sub-step at which its motion began [s], if it did.
     fn crossing(&self, motion: &Motion, time_s: f64) -> Option<f64> {
         let way = |motion: &Motion| (motion.position - self.start).norm();
         let (before, now) = (way(&self.last), way(motion));
@@ -92,7 +92,7 @@ impl BodyHistory {
         &self.last
     }
 
-    /// True if it rolls, if it is on anything.
+    /// True if it rolls, provided that it is on a wall or body.
     pub(super) fn rolls(&self) -> bool {
         self.turning.rolls()
     }
@@ -102,12 +102,12 @@ impl BodyHistory {
         self.settling.rests_long(&measure(self.scale, body), time_s)
     }
 
-    /// True if it is at rest when it moves like this.
+    /// True if it is at rest with this motion.
     pub(super) fn is_at_rest(&self, body: &Body, motion: &Motion) -> bool {
         self.settling.rests() || measure(self.scale, body).is_slow(motion)
     }
 
-    /// The outcome of `body`, whose history this is; its energy is not part of that.
+    /// The outcome of `body`, to which this history belongs; its energy is not included.
     pub(super) fn outcome(&self, body: &Body) -> BodyOutcome {
         let way = self.last.position - self.start;
         let moved = self.onset_time.is_some() || self.settling.moved();
@@ -167,7 +167,7 @@ pub(super) fn front(simulation: &Simulation, open_end: f64) -> Option<f64> {
     front_of(simulation, &places, open_end)
 }
 
-/// The same if each point (mass in kg) were at another x [m].
+/// The front if each point (mass in kg) were at another x [m].
 pub(super) fn front_of(
     simulation: &Simulation,
     places: &[(f64, f64)],
@@ -187,7 +187,7 @@ pub(super) fn front_of(
 /// The x beyond which this mass [kg] lies, each point's (at x, mass in kg) spread evenly
 /// over `spacing` [m]: the front may lie within a point.
 fn beyond(places: &[(f64, f64)], spacing: f64, wanted: f64) -> Option<f64> {
-    // From where on, going upstream, how much mass a metre comes in or ends [kg/m].
+    // Mass per metre that begins or ends at each x, going upstream [kg/m].
     let ends = places.iter().flat_map(|&(x, mass)| {
         let density = mass / spacing;
         [(x + 0.5 * spacing, density), (x - 0.5 * spacing, -density)]

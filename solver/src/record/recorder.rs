@@ -1,4 +1,4 @@
-//! Turns what a run shows into records and an outcome.
+//! Recorder: turns the states of a run into records and an outcome.
 
 use super::energy::body_energy;
 use super::motion::Motion;
@@ -16,11 +16,11 @@ use serde::{Deserialize, Serialize};
 
 /// Size of a scene without flow or bodies [m].
 const SIZE_OF_NOTHING: f64 = 1.0;
-/// Between two looks for whether anything can still move, over the scene's rest time.
+/// Time between two checks for an early end, over the scene's rest time.
 const LOOK_INTERVAL: f64 = 0.1;
 
-/// Watches a run: call [`Recorder::start`] once, [`Recorder::observe`] from the
-/// run's observer, and [`Recorder::outcome`] at the end.
+/// Records a run: call [`Recorder::start`] once, [`Recorder::observe`] from the run's observer,
+/// and [`Recorder::outcome`] at the end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recorder {
     histories: Vec<BodyHistory>,
@@ -29,12 +29,12 @@ pub struct Recorder {
     initial_toe: Option<f64>,
     open_end: f64,
     base: Base,
-    /// Of the run, unless it ends early [s].
+    /// Duration of the run, unless it ends early [s].
     duration: f64,
     ending: Ending,
-    /// Of the flow, or of the smallest body without one.
+    /// Scale of the flow, or of the smallest body without one.
     scale: Scale,
-    /// When it is next looked for whether anything can still move [s].
+    /// Time of the next check for an early end [s].
     next_look: f64,
     plan: Option<Plan>,
     ended_early: Option<EndedEarly>,
@@ -54,7 +54,7 @@ impl Recorder {
             ending: scenario.numerics.ending,
             scale: Scale::of(size(scenario), scenario.gravity_m_s2),
             next_look: 0.0,
-            // What has no plan can't be set up either.
+            // A scenario without a plan can't be set up either.
             plan: plan::of(scenario).ok(),
             ended_early: None,
         }
@@ -71,8 +71,7 @@ impl Recorder {
         in_order(samples, self.snapshots.due(simulation))
     }
 
-    /// Takes one sub-step in; returns what there is to record where a step ends with
-    /// it (mostly nothing).
+    /// Adds one sub-step; returns the records at the end of a step (mostly none).
     pub fn observe(&mut self, simulation: &Simulation, report: &SubstepReport) -> Vec<Record> {
         self.sampling.take_in(simulation, report, &self.histories);
         for (place, body) in simulation.bodies().iter().enumerate() {
@@ -85,9 +84,9 @@ impl Recorder {
         in_order(samples, self.snapshots.due(simulation))
     }
 
-    /// Ends the run where a step ended, if nothing can move a body or the front any
-    /// more and the scenario does not forbid it: then returns the last records, and
-    /// the outcome says so. It is looked for at times of its own.
+    /// Ends the run at the end of a step, if nothing can move a body or the front any more and the
+    /// scenario allows it: then returns the last records, and the outcome says so. The check has
+    /// times of its own.
     pub fn end_early(&mut self, simulation: &Simulation) -> Option<Vec<Record>> {
         let time_s = simulation.time_s();
         if time_s < self.next_look || time_s >= self.duration {
@@ -179,7 +178,7 @@ impl Recorder {
     }
 }
 
-/// Size of what a scene is about [m].
+/// Characteristic size of a scene [m].
 fn size(scenario: &Scenario) -> f64 {
     let bodies = 0..scenario.bodies.len();
     let sizes = bodies.map(|body| scenario.shape_of(body).volume().cbrt());

@@ -1,4 +1,4 @@
-//! Criterion that nothing can move a body or the front any more (docs/method.md,
+//! Early-stop criterion: nothing can move a body or the front any more (docs/method.md,
 //! equations 61–63).
 
 use super::scale::Scale;
@@ -10,27 +10,27 @@ use crate::simulation::Simulation;
 use crate::walls::Plane;
 use serde::{Deserialize, Serialize};
 
-/// Points slower than this are taken to stay [√(g h), h the height of the release].
+/// Speed below which points are assumed to stay [√(g h), h the height of the release].
 const STILL: f64 = 1e-3;
-/// Way that the front may still go [cells].
+/// Largest possible further advance of the front [cells].
 const FRONT_BOUND: f64 = 0.1;
-/// The energy that reaches a body must stay below this share of what tips it over.
+/// Largest share of the tipping energy of a body that may reach it.
 const TIPPING_SHARE: f64 = 0.5;
 
-/// That a run ended before its duration, and what the rest could have changed.
+/// Early end of a run, with bounds of the changes that the rest could have made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EndedEarly {
-    /// When [s].
+    /// Time of the end [s].
     pub time_s: f64,
-    /// Why.
+    /// Reason.
     pub reason: String,
-    /// Bound of how far a body could still have been moved [m].
+    /// Bound of the further displacement of a body [m].
     pub body_bound_m: f64,
-    /// Bound of how far the front could still have gone [m]; null without a flow.
+    /// Bound of the further advance of the front [m]; null without a flow.
     pub front_bound_m: Option<f64>,
 }
 
-/// Surfaces that the flow slides on.
+/// Surfaces on which the flow slides.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Base {
     /// Friction of the flow.
@@ -39,7 +39,7 @@ pub(super) struct Base {
     slope: f64,
     /// True if friction at rest holds a flow on the incline.
     holds: bool,
-    /// Points slower than this are taken to stay [m/s].
+    /// Speed below which points are assumed to stay [m/s].
     still: f64,
 }
 
@@ -64,25 +64,25 @@ impl Base {
     }
 }
 
-/// Energies and reaches that the moving part of a flow still has.
+/// Energies and reaches of the moving part of a flow.
 pub(super) struct Remaining {
-    /// Farthest place where each point comes to rest [m], with its mass [kg].
+    /// Farthest place at which each point comes to rest [m], with its mass [kg].
     pub(super) reaches: Vec<(f64, f64)>,
     moving: Vec<Sliding>,
 }
 
-/// A point that moves.
+/// A moving point.
 struct Sliding {
     /// Place along the channel [m].
     x: f64,
-    /// Way that friction lets it go from there [m].
+    /// Distance from there that friction allows [m].
     way: f64,
-    /// Of motion, and of height on the incline [J].
+    /// Kinetic energy, and potential energy on the incline [J].
     energy: f64,
 }
 
 impl Sliding {
-    /// Energy that friction has left when it gets to x [J].
+    /// Energy that remains at x after friction [J].
     fn energy_at(&self, x: f64) -> f64 {
         let spent = ((x - self.x) / self.way).clamp(0.0, 1.0);
         self.energy * (1.0 - spent)
@@ -90,7 +90,7 @@ impl Sliding {
 }
 
 impl Remaining {
-    /// With so much of the duration left [s].
+    /// Remaining energies for so much of the duration left [s].
     pub(super) fn of(simulation: &Simulation, base: &Base, left: f64) -> Self {
         let gravity = simulation.gravity().norm();
         let mut remaining = Self {
@@ -106,21 +106,21 @@ impl Remaining {
                 let energy = point.mass * specific;
                 remaining.moving.push(Sliding { x, way, energy });
             }
-            // What creeps, pushed by others, need not slow down.
+            // A point that creeps, pushed by others, need not slow down.
             let reach = x + way.max(point.velocity.norm() * left);
             remaining.reaches.push((reach, point.mass));
         });
         remaining
     }
 
-    /// Energy that gets as far as x [J].
+    /// Energy that reaches x [J].
     fn energy_at(&self, x: f64) -> f64 {
         self.moving.iter().map(|point| point.energy_at(x)).sum()
     }
 }
 
-/// Energy that a point that moves could still spend [J/kg]: its speed, and the height of
-/// the bed under it (equation 61).
+/// Energy that a moving point can still spend [J/kg]: its kinetic energy, and the height of the
+/// bed under it (equation 61).
 fn specific_energy(point: &Point, simulation: &Simulation, base: &Base) -> f64 {
     let (x, speed) = (point.position.x, point.velocity.norm());
     if speed < base.still && (base.holds || x >= 0.0) {
@@ -129,18 +129,18 @@ fn specific_energy(point: &Point, simulation: &Simulation, base: &Base) -> f64 {
     0.5 * speed * speed + simulation.gravity().norm() * base.bed_under(x)
 }
 
-/// Distance that any of these bodies, which are at rest, could still get in `left` [s],
-/// by itself and pushed by what of a flow gets as far as it is [m] (equation 62); `None`
-/// if too far, or if nothing says how far.
+/// Largest distance that any of these bodies, which are at rest, can still move in `left` [s],
+/// by itself and pushed by the part of a flow that reaches it [m] (equation 62); `None` if too
+/// large or unbounded.
 pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f64) -> Option<f64> {
     let free = simulation.bodies().iter().filter(|body| body.is_free());
     let gravity = simulation.gravity().norm();
     let mut largest = 0.0f64;
     for body in free {
         let scale = Scale::of_body(body, gravity);
-        // At rest: what trembles faster than that goes nowhere.
+        // A body at rest that trembles faster than that goes nowhere.
         let mut way = body.largest_speed().min(scale.rest_speed()) * left;
-        // What comes to rest more than a cell before the body does not touch it.
+        // Material that comes to rest more than a cell before the body does not touch it.
         let behind = body.shape.bounding_radius() + simulation.cell_size_m();
         let energy = remaining.energy_at(body.state.position.x - behind);
         if energy > 0.0 {
@@ -158,21 +158,21 @@ pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f
     Some(largest)
 }
 
-/// True if a front that could still go so far [m] counts as one at rest.
+/// True if a front that could still advance this far [m] counts as at rest.
 pub(super) fn front_rests(simulation: &Simulation, bound: f64) -> bool {
     bound <= FRONT_BOUND * simulation.cell_size_m()
 }
 
-/// Footing of a body on a wall.
+/// Support of a body on a wall.
 struct Footing {
-    /// Force along the wall that friction leaves over [N].
+    /// Remaining friction force along the wall [N].
     holding: f64,
     /// Energy to tip it over an edge [J].
     tipping: f64,
 }
 
 impl Footing {
-    /// Of a body on three vertices or more of one plane, where friction holds it.
+    /// Support of a body on three vertices or more of one plane, where friction holds it.
     fn of(body: &Body, simulation: &Simulation) -> Option<Self> {
         let planes = simulation.planes().iter();
         planes
@@ -191,7 +191,7 @@ impl Footing {
         if feet.len() < 3 || pressed <= 0.0 {
             return None;
         }
-        // Where the weight's line of action meets the plane.
+        // Intersection of the weight's line of action with the plane.
         let foot = centre + gravity * (body.mass * height / pressed);
         let margin = inside_by(&feet, &foot, &plane.normal)?;
         let pull = (gravity * body.mass + plane.normal * pressed).norm();

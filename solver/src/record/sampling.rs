@@ -12,17 +12,17 @@ use crate::scenario::Scenario;
 use crate::simulation::{Simulation, SubstepReport};
 use serde::{Deserialize, Serialize};
 
-/// Takes samples as a run goes by: bodies within the sub-step that holds a sample's
-/// time, the flow round them where its step ends.
+/// Takes samples during a run: bodies within the sub-step that contains a sample's time, the
+/// flow round them at the end of its step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Sampling {
     times: Times,
     bed: Bed,
     /// End of the last sub-step [s].
     time: f64,
-    /// Per body, since the last sample.
+    /// Means of each body since the last sample.
     means: Vec<Means>,
-    /// Samples of the step in hand.
+    /// Samples of the current step.
     waiting: Vec<Sample>,
 }
 
@@ -84,8 +84,7 @@ impl Sampling {
         self.finished(simulation)
     }
 
-    /// Takes one sub-step in, and the samples due within it; `histories` are those
-    /// before it.
+    /// Adds one sub-step, and takes the samples due within it; `histories` are those before it.
     pub(super) fn take_in(
         &mut self,
         simulation: &Simulation,
@@ -137,7 +136,7 @@ impl Sampling {
         self.finished(simulation)
     }
 
-    /// Adds `dt` [s] of the present sub-step to the means.
+    /// Adds `dt` [s] of the current sub-step to the means.
     fn add_up(&mut self, simulation: &Simulation, dt: f64) {
         for (place, means) in self.means.iter_mut().enumerate() {
             let flow = simulation.flow_load(place).load;
@@ -183,7 +182,7 @@ fn now(simulation: &Simulation) -> Vec<Motion> {
     simulation.bodies().iter().map(Motion::of).collect()
 }
 
-/// Parts of a sample that motion and means alone tell.
+/// The part of a sample that depends on motion and means only.
 fn body_sample(motion: &Motion, means: &Means) -> BodySample {
     let q = motion.orientation;
     BodySample {

@@ -1,27 +1,27 @@
-//! From where on motion counts, by the size of what moves: a scene L times as large
-//! that runs √L times as long has the same answer (Froude's law).
+//! Thresholds of motion, by the size of the moving body or flow: a scene L times as large that
+//! runs √L times as long has the same answer (Froude's law).
 
 use crate::rigid::Body;
 use serde::{Deserialize, Serialize};
 
-/// A body has set off when its centre is this far from where it started [sizes].
+/// Distance of a body's centre from its start at onset [sizes].
 const ONSET_DISTANCE: f64 = 1.0 / 40.0;
-/// Slower than this is at rest [√(g size)].
+/// Speed below which a body is at rest [√(g size)].
 const REST_SPEED: f64 = 1.6e-3;
-/// At rest for so long without a break is to have come to rest [√(size/g)].
+/// Time of uninterrupted rest after which a body has come to rest [√(size/g)].
 const REST_TIME: f64 = 1.5;
 
-/// Size of a body or a flow, and the speed that goes with it.
+/// Size of a body or a flow, and its speed scale.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Scale {
-    /// [m].
+    /// Size [m].
     size: f64,
     /// √(g size) [m/s].
     speed: f64,
 }
 
 impl Scale {
-    /// Of this size [m] under gravity [m/s²], which no scenario is without.
+    /// Scale of this size [m] under gravity [m/s²], which is positive in every scenario.
     pub(super) fn of(size: f64, gravity: f64) -> Self {
         Self {
             size,
@@ -29,27 +29,27 @@ impl Scale {
         }
     }
 
-    /// Of a body: the side of a cube of its volume.
+    /// Scale of a body: the side of a cube of its volume.
     pub(super) fn of_body(body: &Body, gravity: f64) -> Self {
         Self::of(body.shape.volume().cbrt(), gravity)
     }
 
-    /// Distance from its start at which a body has set off [m].
+    /// Distance of a body from its start at onset [m].
     pub(super) fn onset_distance(&self) -> f64 {
         ONSET_DISTANCE * self.size
     }
 
-    /// Slower than this is at rest [m/s].
+    /// Speed below which a body is at rest [m/s].
     pub(super) fn rest_speed(&self) -> f64 {
         REST_SPEED * self.speed
     }
 
-    /// At rest for so long is to have come to rest [s].
+    /// Time of rest after which a body has come to rest [s].
     pub(super) fn rest_time(&self) -> f64 {
         REST_TIME * self.size / self.speed
     }
 
-    /// Distance that the rest speed makes of the rest time [m].
+    /// Distance at the rest speed in the rest time [m].
     pub(super) fn rest_distance(&self) -> f64 {
         self.rest_speed() * self.rest_time()
     }

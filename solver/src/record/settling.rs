@@ -1,27 +1,27 @@
-//! When a body comes to rest.
+//! Time at which a body comes to rest.
 
 use super::motion::Motion;
 use super::scale::Scale;
 use serde::{Deserialize, Serialize};
 
-/// Watches whether a body stays in its place. Its speed alone does not tell: one that
-/// trembles on its contacts is fast and goes nowhere.
+/// Criterion of a body's rest by its place. Speed alone is not sufficient: a body that trembles
+/// on its contacts is fast and goes nowhere.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Settling {
     /// Motion and time [s] when it last left its place.
     place: Motion,
     came: f64,
-    /// When it stopped if it stays in this place [s].
+    /// Time at which it stopped, if it stays in this place [s].
     stopped: Option<f64>,
-    /// Since when it has been slow without a break [s].
+    /// Time since which it has been slow without a break [s].
     slow_since: Option<f64>,
-    /// Since when it has been at rest [s].
+    /// Time since which it has been at rest [s].
     rests_since: Option<f64>,
     /// True if it was ever not at rest.
     moved: bool,
 }
 
-/// Measure of a body's rest.
+/// Measures for a body's rest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
     pub(super) scale: Scale,
@@ -30,7 +30,7 @@ pub(super) struct Measure {
 }
 
 impl Measure {
-    /// True if no place of a body that moves like this is faster than one at rest.
+    /// True if no place of a body with this motion is faster than one at rest.
     pub(super) fn is_slow(&self, motion: &Motion) -> bool {
         let turning = motion.angular_velocity.norm() * self.radius;
         motion.velocity.norm() + turning < self.scale.rest_speed()
@@ -67,12 +67,12 @@ impl Settling {
         }
     }
 
-    /// Takes in how a body moves at the end of a sub-step.
+    /// Adds the motion of the body at the end of a sub-step.
     pub(super) fn take_in(&mut self, motion: &Motion, measure: &Measure, time_s: f64) {
         let stayed = time_s - self.came;
         if measure.is_slow(motion) {
             self.slow_since.get_or_insert(time_s);
-            // What trembles is slow at its turning points, and stopped when it came.
+            // A trembling body is slow at its turning points, and stopped when it came.
             let travelled = measure.travelled(&self.place, motion, stayed);
             let stopped = if travelled { time_s } else { self.came };
             self.stopped.get_or_insert(stopped);
@@ -81,7 +81,7 @@ impl Settling {
         }
         let long = stayed >= measure.scale.rest_time();
         if measure.has_left(&self.place, motion) {
-            // What takes so long to leave its place creeps, and counts as at rest.
+            // A body that takes so long to leave its place creeps, and counts as at rest.
             if !long {
                 self.rests_since = None;
                 self.moved = true;
@@ -109,7 +109,7 @@ impl Settling {
         self.moved
     }
 
-    /// When it came to rest [s], the end being now; `None` if it moves, or never did.
+    /// Time at which it came to rest [s], the end being now; `None` if it moves, or never did.
     pub(super) fn stop_time(&self) -> Option<f64> {
         self.rests_since.or(self.slow_since).filter(|_| self.moved)
     }
@@ -122,7 +122,7 @@ mod tests {
     use crate::rigid::fixture::cuboid;
     use std::f64::consts::TAU;
 
-    /// The cube that moves along x like this, every tenth of a millisecond to the end.
+    /// A cube with this motion along x, every tenth of a millisecond to the end.
     fn watched(end: f64, place_and_speed: impl Fn(f64) -> (f64, f64)) -> Settling {
         let body = cuboid([0.04; 3]);
         let measure = Measure {
@@ -151,12 +151,12 @@ mod tests {
         (0.02 - 2.0 * left * left, 4.0 * left)
     }
 
-    // 1 mm/s are a quarter of a millisecond before it stands.
+    // The speed is 1 mm/s a quarter of a millisecond before it stands.
     #[test]
     fn what_slides_to_rest_has_stopped_when_it_stands() {
         let stop = watched(0.5, slide).stop_time().expect("it stands");
         assert!((stop - 0.1).abs() < 4e-4, "{stop}");
-        // Long enough or not, it is slow to the end.
+        // For a long or a short time, it is slow to the end.
         let stop = watched(0.12, slide).stop_time().expect("it stands");
         assert!((stop - 0.1).abs() < 4e-4, "{stop}");
         assert_eq!(watched(0.05, slide).stop_time(), None);
@@ -177,7 +177,7 @@ mod tests {
         let stop = settling.stop_time().expect("it goes nowhere");
         assert!((stop - 0.1).abs() < 0.01, "{stop}");
         assert!(settling.rests());
-        // It never moved if that is all it ever did.
+        // It never moved if it only ever trembled.
         let never = |time: f64| (2e-5 * (TAU * 200.0 * time).cos(), 0.0);
         assert_eq!(watched(1.0, never).stop_time(), None);
         assert!(!watched(1.0, never).moved());

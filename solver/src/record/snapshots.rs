@@ -5,7 +5,7 @@ use crate::scenario::Scenario;
 use crate::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 
-/// Takes snapshots, each at the end of the step that holds its time.
+/// Takes snapshots, each at the end of the step that contains its time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Snapshots {
     /// Times still to come, last first [s].
@@ -13,7 +13,7 @@ pub(super) struct Snapshots {
 }
 
 impl Snapshots {
-    /// Spread evenly over the run.
+    /// Snapshot times at equal intervals over the run.
     pub(super) fn of(scenario: &Scenario) -> Self {
         let count = scenario.flow_snapshots;
         let last = f64::from(count.saturating_sub(1).max(1));
@@ -36,7 +36,7 @@ impl Snapshots {
         due.then(|| snapshot(simulation))
     }
 
-    /// The snapshot of a run that ends now; none if there were none to come.
+    /// The last snapshot of a run that ends now; none if no more were due.
     pub(super) fn end(&mut self, simulation: &Simulation) -> Option<FlowSnapshot> {
         let due = !self.times.is_empty();
         self.times.clear();

@@ -7,23 +7,23 @@ use crate::math::{Mat3, Vec3};
 use crate::rigid::Body;
 use crate::simulation::Simulation;
 
-/// Sectors of the horizon looked at round a body.
+/// Number of sectors round a body.
 const SECTORS: usize = 8;
-/// Width of the ring looked at, in point spacings: there are a few points of every
-/// layer in each sector, round a body smaller than a cell, too.
+/// Width of the ring, in point spacings: there are a few points of every layer in each sector,
+/// also round a body smaller than a cell.
 const RING: f64 = 3.0;
-/// A point higher than this above all others of its sector is not of the flow's body
-/// but thrown out of it, in point spacings.
+/// Gap above all other points of its sector beyond which a point is not part of the flow's
+/// surface but thrown out of it, in point spacings.
 const GAP: f64 = 2.0;
 
-/// Share of the body's height below the surface of the flow round it, 0..1, both along
-/// the normal of the bed under it.
+/// Share of the body's height below the surface of the flow round it, 0..1, both along the
+/// normal of the bed under it.
 ///
-/// In each of eight sectors the surface lies half a point spacing above the highest
-/// point that others lead up to from the body's foot. The share is that of a plane
-/// through the sectors' shares where the body is: a slope of the surface does not count
-/// twice, and one splash does not drown a body. Sectors behind a side wall or another
-/// body have no say, nor have points there.
+/// In each of eight sectors the surface is half a point spacing above the highest point that a
+/// sequence of others connects with the body's foot. The share is the value at the body's
+/// centre of a plane through the sectors' shares: a slope of the surface does not count twice,
+/// and one splash does not submerge a body. Sectors behind a side wall or another body are left
+/// out, and so are points there.
 pub(super) fn submerged_fraction(simulation: &Simulation, body: &Body, bed: &Bed) -> f64 {
     let view = View::of(simulation, body, bed);
     let others = others_near(simulation.bodies(), body, view.ring);
@@ -57,14 +57,14 @@ fn others_near<'a>(bodies: &'a [Body], body: &Body, ring: f64) -> Vec<&'a Body> 
     bodies.iter().filter(near).collect()
 }
 
-/// A place as it is seen from a body.
+/// A place relative to a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Spot {
-    /// Downstream along the bed [m].
+    /// Coordinate downstream along the bed [m].
     along: f64,
-    /// Across [m].
+    /// Coordinate across [m].
     across: f64,
-    /// Along the bed's normal [m].
+    /// Coordinate along the bed's normal [m].
     height: f64,
 }
 
@@ -77,7 +77,7 @@ struct View {
     /// Lowest and highest place of the body [m].
     low: f64,
     high: f64,
-    /// Bounding radius of the body, and of the ring looked at [m].
+    /// Bounding radius of the body, and outer radius of the ring [m].
     radius: f64,
     ring: f64,
     /// Distance of points [m].
@@ -102,13 +102,13 @@ impl View {
         }
     }
 
-    /// A box that holds all that is looked at.
+    /// A box that contains the ring.
     fn around(&self) -> Around {
         let tallest = self.high.max(-self.low) + GAP * self.spacing;
         Around::column(self.centre, self.ring + self.normal.x.abs() * tallest)
     }
 
-    /// A place if it is looked at.
+    /// A place if it is in the ring.
     fn spot(&self, place: &Vec3) -> Option<Spot> {
         let arm = place - self.centre;
         let spot = Spot {
@@ -122,7 +122,7 @@ impl View {
         (near && beside).then_some(spot)
     }
 
-    /// The middle of a sector, a bounding radius off.
+    /// The middle of a sector, a bounding radius away.
     fn middle(&self, sector: usize) -> Spot {
         let turn = std::f64::consts::TAU * ((sector as f64 + 0.5) / SECTORS as f64 - 0.5);
         Spot {
@@ -145,7 +145,7 @@ impl View {
         sides.all(|plane| plane.height(&place) > 0.0)
     }
 
-    /// Place where a sector's surface is found, and the body's share below it.
+    /// Position of a sector's surface, and the body's share below it.
     fn share(&self, sector: usize, spots: &mut [Spot]) -> (Spot, f64) {
         spots.sort_unstable_by(|a, b| a.height.total_cmp(&b.height));
         let mut level = self.low;
@@ -171,8 +171,8 @@ fn sector(spot: &Spot) -> usize {
     ((turn * SECTORS as f64) as usize).min(SECTORS - 1)
 }
 
-/// Value where the body is of the plane through these shares by least squares; their
-/// mean where they do not make out a plane.
+/// Value at the body's centre of the least-squares plane through these shares; their mean where
+/// they do not determine a plane.
 fn at_the_centre(shares: &[(Spot, f64)]) -> f64 {
     let mut normal = Mat3::zeros();
     let mut right = Vec3::zeros();

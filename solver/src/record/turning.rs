@@ -1,4 +1,4 @@
-//! Criterion by which a body rolls on what it touches, or slides.
+//! Criterion of rolling and sliding of a body on its contacts.
 
 use super::motion::Motion;
 use crate::contact::island::BodyReport;
@@ -7,27 +7,27 @@ use crate::rigid::Body;
 use crate::walls::Plane;
 use serde::{Deserialize, Serialize};
 
-/// From this turn on a body has left the face, edge or vertex it stood on [rad]; what
-/// contacts yield to is less than a degree.
+/// Turn after which a body has left the face, edge or vertex it stood on [rad]; contacts yield
+/// by less than a degree.
 const TURN: f64 = 0.05;
-/// Travel of a body that slides while it turns by [`TURN`], over what the turn makes of
-/// its bounding radius.
+/// Travel of a sliding body during a turn of [`TURN`], over the product of that turn and its
+/// bounding radius.
 const TRAVEL: f64 = 2.0;
 
-/// Turn and travel of a body on what it touches, stretch by stretch: each ends with the
-/// turn of a body that rolls or with the travel of one that slides.
+/// Turn and travel of a body in contact, stretch by stretch: each ends with the turn of a body
+/// that rolls or with the travel of one that slides.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
 pub(super) struct Turning {
-    /// About axes in the plane of contact, in this stretch [rad].
+    /// Turn about axes in the plane of contact, in this stretch [rad].
     turned: Vec3,
-    /// In this stretch [m].
+    /// Travel in this stretch [m].
     travelled: Vec3,
     /// True if it rolled in the last stretch.
     rolls: bool,
 }
 
 impl Turning {
-    /// Takes in a sub-step of `dt` [s]; what a body does in flight is neither.
+    /// Adds a sub-step of `dt` [s]; motion in flight counts as neither.
     pub(super) fn take_in(
         &mut self,
         (body, motion): (&Body, &Motion),
@@ -56,14 +56,14 @@ impl Turning {
         };
     }
 
-    /// True if it rolls, if it is on anything.
+    /// True if it rolls, provided that it is on a wall or body.
     pub(super) fn rolls(&self) -> bool {
         self.rolls
     }
 }
 
-/// Unit normal of what a body was on in a sub-step: the nearest wall if any touched it,
-/// else along the force of other bodies.
+/// Unit normal of a body's contact in a sub-step: that of the nearest wall if any touched it,
+/// else the direction of other bodies' force.
 fn contact_normal(body: &Body, report: &BodyReport, planes: &[Plane]) -> Option<Vec3> {
     if report.wall_load.force == Vec3::zeros() {
         return report.body_load.force.try_normalize(0.0);
@@ -82,7 +82,7 @@ mod tests {
     use crate::rigid::Load;
     use crate::rigid::fixture::cuboid;
 
-    /// True if a cube rolls on the floor that travels and turns like this for so long.
+    /// True if a cube on the floor rolls with this velocity and spin for so long.
     fn rolls(velocity: Vec3, spin: Vec3, duration: f64) -> bool {
         let body = cuboid([0.04; 3]);
         let report = BodyReport {

@@ -13,8 +13,8 @@ pub(crate) fn cuboid(sides_m: [f64; 3]) -> Body {
     of_shape(SpheroPolyhedron::cuboid(sides_m, radius).expect("a box"))
 }
 
-/// The same of a regular tetrahedron whose core has edges of `edge_m`, rounded
-/// with a tenth of that.
+/// A regular tetrahedron with these properties, whose core has edges of `edge_m`, rounded with
+/// a tenth of that.
 pub(crate) fn tetrahedron(edge_m: f64) -> Body {
     let corner = edge_m / 8f64.sqrt();
     let vertices = [[1., 1., 1.], [1., -1., -1.], [-1., 1., -1.], [-1., -1., 1.]];
@@ -27,7 +27,7 @@ pub(crate) fn tetrahedron(edge_m: f64) -> Body {
     of_shape(shape.expect("a positive radius"))
 }
 
-/// The same of any shape.
+/// A body of any shape with these properties.
 pub(crate) fn of_shape(shape: SpheroPolyhedron) -> Body {
     let law = ContactLaw::hertz(1e6, shape.sphero_radius(), 0.5, 0.5);
     let inertia = shape.unit_inertia() * 1000.0;

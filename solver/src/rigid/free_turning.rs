@@ -1,28 +1,27 @@
-//! Turning of a body that no torque acts on, by exact rotations (docs/method.md,
-//! equation 16).
+//! Torque-free turning of a body, by exact rotations (docs/method.md, equation 16).
 
 use crate::math::{Mat3, Vec3};
 use crate::shape::PrincipalInertia;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 
-/// A body's inertia as its free turning needs it: the energy ½ Σ k_a L_a² of the angular
-/// momentum L about the principal axes, taken apart into ½ k_1 L² and what the first and
-/// the last axis differ by from the middle one. The motion under each part is a rotation.
+/// Inertia of a body for free turning: the energy ½ Σ k_a L_a² of the angular momentum L about
+/// the principal axes, split into ½ k_1 L² and the differences of the first and the last axis
+/// from the middle one. The motion under each part is a rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FreeTurning {
     /// Principal frame to body frame.
     frame: UnitQuaternion<f64>,
     /// k_1, the middle one of the inverse moments [1/(kg m²)].
     middle: f64,
-    /// The part that is split in two halves, and the one in between. A symmetric top has
-    /// one of them alone, and is turned exactly.
+    /// The part that is split into two halves, and the one in between. A symmetric top has only one
+    /// of them, and is turned exactly.
     parts: [AboutAxis; 2],
 }
 
 /// The part ½ δ L_a² of the energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct AboutAxis {
-    /// Place of the principal axis a.
+    /// Index of the principal axis a.
     axis: usize,
     /// δ = k_a − k_1 [1/(kg m²)].
     excess: f64,
@@ -30,9 +29,9 @@ struct AboutAxis {
 
 /// Turn of the principal frame so far, and the angular momentum in it.
 struct Turned {
-    /// Principal frame now to that of the start.
+    /// Current principal frame to that of the start.
     turn: Quaternion<f64>,
-    /// [kg m²/s].
+    /// Angular momentum [kg m²/s].
     angular_momentum: Vec3,
 }
 
@@ -60,8 +59,8 @@ impl FreeTurning {
         }
     }
 
-    /// Orientation after `dt` [s] of turning with an angular momentum in world axes
-    /// [kg m²/s], which stays.
+    /// Orientation after turning for `dt` [s] with a constant angular momentum in world axes [kg
+    /// m²/s].
     pub(super) fn after(
         &self,
         orientation: &UnitQuaternion<f64>,

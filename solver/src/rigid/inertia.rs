@@ -1,4 +1,4 @@
-//! Inverse of a body's inertia tensor, and how a body with it turns freely.
+//! Inverse of a body's inertia tensor, and free turning with it.
 
 use super::free_turning::FreeTurning;
 use crate::math::{Mat3, Vec3};
@@ -8,15 +8,15 @@ use std::ops::Mul;
 /// Inverse of an inertia tensor in the body frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InverseInertia {
-    /// [1/(kg m²)].
+    /// The inverse tensor [1/(kg m²)].
     tensor: Mat3,
-    /// Of the tensor's eigenvalues.
+    /// Largest of its eigenvalues.
     largest: f64,
     turning: FreeTurning,
 }
 
 impl InverseInertia {
-    /// Inverse of an inertia tensor [kg m²]; `None` for one that has none.
+    /// Inverse of an inertia tensor [kg m²]; `None` for a singular one.
     pub fn of(inertia: &Mat3) -> Option<Self> {
         inertia.try_inverse().map(Self::from)
     }

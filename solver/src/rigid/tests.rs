@@ -14,8 +14,8 @@ fn angular_velocity_is_about_world_axes() {
     assert!((body.velocity_at(&arm) - spin.cross(&arm)).norm() < 1e-13);
 }
 
-// A push through the centre meets the mass alone; off centre, a unit push at
-// the arm a changes the speed of the place by 1/m + (a × n)·I⁻¹(a × n).
+// A push through the centre is resisted by the mass alone; off centre, a unit push at the arm
+// a changes the speed of the place by 1/m + (a × n)·I⁻¹(a × n).
 #[test]
 fn effective_mass_resists_a_push() {
     let body = cuboid([0.01, 0.02, 0.03]);

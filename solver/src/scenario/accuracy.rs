@@ -9,16 +9,16 @@ use serde::{Deserialize, Serialize};
 /// Demands on the answer's accuracy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
-    /// Every quantity of the outcome gets a interval (docs/error-bars.md).
+    /// True if every quantity of the outcome gets an interval (docs/error-bars.md).
     pub error_bars: bool,
-    /// Distance that the interval of `quantity` may reach from its value, over it; to be met
-    /// by the choice of cells; `None`: the cells are those of `numerics`.
+    /// Largest distance of the interval's ends from the value of `quantity`, over the value; met by
+    /// the choice of cells; `None`: the cells are those of `numerics`.
     pub target: Option<f64>,
-    /// The quantity that `target` is about.
+    /// The quantity of `target`.
     pub quantity: Option<Quantity>,
-    /// Index of the body whose quantity that is.
+    /// Index of the body whose quantity it is.
     pub body: u32,
-    /// Point-steps that may be spent on `target`, those of all runs together.
+    /// Largest number of point-steps for `target`, those of all runs together.
     pub budget_point_steps: f64,
 }
 
@@ -38,10 +38,10 @@ pub enum Quantity {
     /// Largest speed of a body's centre.
     #[serde(rename = "peak_speed_m_s")]
     PeakSpeed,
-    /// When that was.
+    /// Time of that.
     #[serde(rename = "peak_speed_time_s")]
     PeakTime,
-    /// Since when a body has been at rest.
+    /// Time since which a body has been at rest.
     #[serde(rename = "stop_time_s")]
     Stop,
     /// Net horizontal displacement of a body.
@@ -58,7 +58,7 @@ pub enum Quantity {
     Runout,
 }
 
-/// Words for the quantities.
+/// JSON names of the quantities.
 pub(super) const QUANTITIES: [(&str, Quantity); 8] = [
     ("onset_time_s", Quantity::Onset),
     ("peak_speed_m_s", Quantity::PeakSpeed),
@@ -89,7 +89,7 @@ impl Accuracy {
         self.error_bars || self.target.is_some()
     }
 
-    /// The share to be reached, and of which quantity.
+    /// The target and its quantity.
     pub fn goal(&self) -> Option<(f64, Quantity)> {
         self.target.zip(self.quantity)
     }
@@ -127,7 +127,7 @@ pub(super) fn bands_can_be_made(report: &Report, accuracy: &Accuracy, flow: Opti
     }
 }
 
-/// A target is about a quantity, and a quantity is there for a target.
+/// A target needs a quantity, and a quantity needs a target.
 pub(super) fn target_is_about_something(report: &Report, accuracy: &Accuracy) {
     let (allowed, why) = match (accuracy.target, accuracy.quantity) {
         (Some(_), None) => (
@@ -143,8 +143,7 @@ pub(super) fn target_is_about_something(report: &Report, accuracy: &Accuracy) {
     report.refuse("/accuracy/quantity", &allowed, None, why);
 }
 
-/// The body that a target is, or would be, about is there. Without bodies 0 stands for
-/// none.
+/// The body of a target must exist. Without bodies 0 stands for none.
 pub(super) fn body_is_there(report: &Report, accuracy: &Accuracy, bodies: usize) {
     let of_a_body = accuracy.quantity.is_some_and(Quantity::is_of_a_body);
     let unused = !of_a_body && accuracy.body == 0;
@@ -163,7 +162,7 @@ pub(super) fn body_is_there(report: &Report, accuracy: &Accuracy, bodies: usize)
     }
 }
 
-/// Either the scenario chooses the cells or its target does.
+/// Cells must be chosen either by the scenario or by its target.
 pub(super) fn cells_are_chosen_once(report: &Report, accuracy: &Accuracy, numerics: &Numerics) {
     if accuracy.target.is_some() && numerics.cell_size_m.is_some() {
         let pointer = format!("/numerics/{}", CELL_SIZE.key);

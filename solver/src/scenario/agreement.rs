@@ -1,4 +1,4 @@
-//! Rules between numbers that have nothing to do with the geometry.
+//! Rules between numbers that do not concern the geometry.
 
 use super::fit::fastest_driven;
 use super::range::{Rule, rounded_up, short};
@@ -30,7 +30,7 @@ pub(super) fn ascend(
     }
 }
 
-/// Nobody gets a trajectory that fills the disk.
+/// The number of samples is bounded, so that no trajectory fills the disk.
 pub(super) fn samples_are_bounded(
     report: &Report,
     duration_s: f64,
@@ -55,9 +55,8 @@ pub(super) fn samples_are_bounded(
     }
 }
 
-/// A release must not be crushed by its own weight, p = ρ g H presses a bulk of sound
-/// speed c together by g H/c², nor a flow where it strikes a wall or a body is driven into
-/// it.
+/// A release must not be crushed by its own weight, p = ρ g H, which compresses a bulk of sound
+/// speed c by g H/c², nor a flow where it strikes a wall or a body is driven into it.
 pub(super) fn flow_is_stiff_enough(
     report: &Report,
     channel: &Channel,
@@ -91,9 +90,9 @@ pub(super) fn flow_is_stiff_enough(
     }
 }
 
-/// Least sound speed that something asks for.
+/// Lower bound of the sound speed, and its reason.
 struct Need {
-    /// [m/s].
+    /// Sound speed [m/s].
     sound_speed: f64,
     /// Consequence of a lower one.
     reason: String,

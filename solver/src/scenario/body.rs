@@ -33,7 +33,7 @@ pub(super) fn read_bodies(parent: &Object<'_>) -> Option<Vec<Option<Body>>> {
 fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
     let object = Object::open(node, pointer, report)?;
     let shape = read_shape(&object);
-    // A shape without a size has been refused.
+    // A shape without a size has been refused already.
     let size = shape.as_ref().and_then(|shape| shape.size().ok());
     let sphero_radius_m = object.number_or(
         &SPHERO_RADIUS,
@@ -87,7 +87,7 @@ pub(super) const REGULAR_SOLIDS: [(&str, RegularSolid); 5] = [
     ("icosahedron", RegularSolid::Icosahedron),
 ];
 
-/// Reads what stands under a shape's name.
+/// Reader of the value under a shape's name.
 type ShapeReader = fn(&Object<'_>) -> Option<Shape>;
 
 fn read_shape(parent: &Object<'_>) -> Option<Shape> {
@@ -169,7 +169,7 @@ fn read_position(object: &Object<'_>, size: Option<Size>) -> Option<Position> {
     })
 }
 
-/// Yaw and orientation, of which one at most is given.
+/// Yaw and orientation, at most one of which is given.
 fn read_turn(object: &Object<'_>) -> Option<(f64, Option<[f64; 4]>)> {
     let yaw_deg = object.number(&YAW);
     let orientation = match object.automatic_vector(&ORIENTATION)? {
@@ -188,8 +188,8 @@ fn read_turn(object: &Object<'_>) -> Option<(f64, Option<[f64; 4]>)> {
     Some((yaw_deg, orientation))
 }
 
-/// A quaternion of unit length, if it is nearly so as given. One that is unit
-/// to rounding is left alone: reading a scenario twice changes nothing.
+/// A quaternion of unit length, if the given one is nearly so. One that is unit to rounding is
+/// left as it is: reading a scenario twice changes nothing.
 fn normalised(object: &Object<'_>, quaternion: [f64; 4]) -> Option<[f64; 4]> {
     let norm = quaternion
         .iter()
@@ -218,8 +218,8 @@ fn read_velocities(object: &Object<'_>) -> Option<([f64; 3], [f64; 3])> {
     Some((velocity?, angular_velocity?))
 }
 
-/// A body is free, fixed, or has a prescribed motion; only a free one has velocities of
-/// its own at the start.
+/// A body is free, fixed, or has a prescribed motion; only a free one may have initial
+/// velocities of its own.
 fn moves_one_way(object: &Object<'_>, body: &Body) {
     let why = match (body.fixed, &body.motion) {
         (true, Some(_)) => {
@@ -244,7 +244,7 @@ fn moves_one_way(object: &Object<'_>, body: &Body) {
     }
 }
 
-/// True if the shape can be rounded so; refused if it can't.
+/// True if the shape can be rounded with this radius; otherwise it is refused.
 fn rounding_fits(object: &Object<'_>, shape: Option<&Shape>, radius: Option<f64>) -> bool {
     let (Some(shape), Some(radius)) = (shape, radius) else {
         return false;

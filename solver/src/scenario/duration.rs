@@ -1,15 +1,15 @@
-//! Duration of a run that is not told one.
+//! Default duration of a run.
 
 use super::{Channel, Flow};
 
 /// Shortest duration by default [s].
 pub(super) const LEAST: f64 = 3.0;
-/// Time in which what has slid spreads and settles, over √(h/g) of the release.
+/// Time in which material that has slid spreads and settles, over √(h/g) of the release.
 const SETTLES_FOR: f64 = 4.5;
 
-/// Duration by default [s]: as long as the back of the release takes to slide to the
-/// foot, to be stopped by friction on the floor or to leave by the open end, and to
-/// settle; whole seconds, and no less than [`LEAST`].
+/// Default duration [s]: the time in which the back of the release slides to the foot, is
+/// stopped by friction on the floor or leaves through the open end, and settles; whole seconds,
+/// and at least [`LEAST`].
 pub(super) fn default_duration(channel: &Channel, flow: Option<&Flow>, gravity_m_s2: f64) -> f64 {
     let Some(flow) = flow.filter(|flow| flow.volume_m3 > 0.0) else {
         return LEAST;

@@ -1,5 +1,4 @@
-//! Rules of geometry: what is released fits the incline, bodies are inside the
-//! channel and apart.
+//! Rules of geometry: the release fits the incline, bodies are inside the channel and apart.
 
 use super::placement::Pose;
 use super::range::{rounded_down, rounded_up, short};
@@ -76,8 +75,8 @@ pub(super) fn cells_fit(report: &Report, channel: &Channel, numerics: &Numerics)
     }
 }
 
-/// A place for people [m]: without the noise of rounding, and within the
-/// slack even of the smallest bodies.
+/// A length for messages [m]: without the noise of rounding, and within the slack even of the
+/// smallest bodies.
 fn to_nanometre(place: f64) -> f64 {
     (place * 1e9).round() / 1e9
 }
@@ -88,7 +87,7 @@ struct Placed<'a> {
     body: &'a Body,
     shape: SpheroPolyhedron,
     pose: Pose,
-    /// Overlap that still counts as touching [m].
+    /// Overlap that still counts as contact [m].
     slack: f64,
 }
 
@@ -188,8 +187,8 @@ fn is_between(
     report.refuse(&placed.pointer_to(key), &allowed, Some("m"), &why);
 }
 
-/// Above the floor and above the plane of the incline: the channel is convex,
-/// so that both hold everywhere in it.
+/// The body is above the floor and above the plane of the incline: the channel is convex, so
+/// that both hold everywhere in it.
 fn is_above_the_bed(report: &Report, channel: &Channel, placed: &Placed<'_>) {
     let normal = channel.slope_normal();
     let position = placed.pose.position;
@@ -218,8 +217,8 @@ fn is_above_the_bed(report: &Report, channel: &Channel, placed: &Placed<'_>) {
     );
 }
 
-/// A contact that is given carries its body: at rest on one vertex, and when it strikes
-/// with one vertex as fast as it starts or falls (Hertz, F = 4/3 E* √r δ^1.5).
+/// A given contact modulus carries its body: at rest on one vertex, and in an impact of one
+/// vertex as fast as it starts or falls (Hertz, F = 4/3 E* √r δ^1.5).
 pub(super) fn contacts_carry(
     report: &Report,
     channel: &Channel,

@@ -39,7 +39,7 @@ pub struct Scenario {
     pub title: String,
     /// The channel.
     pub channel: Channel,
-    /// The granular flow; `None`: no flow at all.
+    /// The granular flow; `None`: no flow.
     pub flow: Option<Flow>,
     /// The rigid bodies.
     pub bodies: Vec<Body>,
@@ -49,7 +49,7 @@ pub struct Scenario {
     pub duration_s: f64,
     /// Time between samples [s]: samples lie at k · interval and at the end.
     pub sample_interval_s: f64,
-    /// Snapshots of the flow, spread evenly over the run, both ends included.
+    /// Snapshots of the flow, at equal intervals over the run, both ends included.
     pub flow_snapshots: u32,
     /// Numerical choices.
     pub numerics: Numerics,
@@ -155,8 +155,8 @@ pub struct Body {
     pub motion: Option<Motion>,
 }
 
-/// Shape of a body before it is rounded, as JSON `{"cube": {"side_m": 0.04}}`.
-/// The flats stay where its faces are.
+/// Shape of a body before it is rounded, as JSON `{"cube": {"side_m": 0.04}}`. The flats are
+/// where its faces were.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
@@ -170,16 +170,16 @@ pub enum Shape {
         /// Distances between opposite flats, rounding included [m].
         sides_m: [f64; 3],
     },
-    /// A regular solid, lying on a face of which an edge runs along y.
+    /// A regular solid, lying on a face with an edge along y.
     Regular {
-        /// Which one.
+        /// The solid.
         solid: RegularSolid,
         /// Length of its edges before they are rounded [m].
         size_m: f64,
     },
     /// The convex hull of some points.
     Polyhedron {
-        /// The points, in axes of the body from anywhere [m].
+        /// The points, in body axes with any origin [m].
         vertices_m: Vec<[f64; 3]>,
     },
 }
@@ -206,17 +206,17 @@ pub struct Numerics {
     pub sound_speed_m_s: Option<f64>,
     /// Courant number of the acoustic sub-step.
     pub courant: Option<f64>,
-    /// Courant number of the flow's own step.
+    /// Courant number of the flow's step.
     pub flow_courant: Option<f64>,
     /// Arithmetic of points and grid.
     pub precision: Precision,
-    /// Use of a scene's symmetry: to compute it by halves.
+    /// Use of a scene's symmetry: computation by halves.
     pub symmetry: Symmetry,
     /// Computation of a flow before it varies across the channel.
     pub approach: Approach,
     /// Formulation of contacts between points and bodies.
     pub coupling: Coupling,
-    /// When the run ends.
+    /// End of the run.
     pub ending: Ending,
     /// Solver threads.
     pub threads: Option<usize>,
@@ -263,20 +263,20 @@ pub struct Violation {
     pub detail: String,
 }
 
-/// Why a text is no scenario.
+/// Error of a text that is not a valid scenario.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ScenarioError {
-    /// Not JSON at all.
+    /// No JSON.
     #[error("not JSON: {message} (line {line}, column {column})")]
     Malformed {
-        /// The parser's words.
+        /// The parser's message.
         message: String,
         /// Line, from 1.
         line: usize,
         /// Column, from 1.
         column: usize,
     },
-    /// JSON, but not a legal scenario: all violations, in document order.
+    /// JSON, but not a valid scenario: all violations, in document order.
     #[error("{} violation(s) in the scenario", .0.len())]
     Invalid(Vec<Violation>),
 }

@@ -8,8 +8,8 @@ use crate::motion::{PrescribedMotion, Velocities};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Motion of a body whatever acts on it, as JSON `{"velocity_m_s": [0.1, 0, 0]}`, or with
-/// `times_s` and as many velocities.
+/// Prescribed motion of a body, as JSON `{"velocity_m_s": [0.1, 0, 0]}`, or with `times_s` and
+/// as many velocities.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Motion {
@@ -23,7 +23,7 @@ pub enum Motion {
         /// Angular velocity in each row, world axes [rad/s].
         angular_velocity_rad_s: Vec<[f64; 3]>,
     },
-    /// Always alike.
+    /// Constant velocities.
     Constant {
         /// Velocity of the centre [m/s].
         velocity_m_s: [f64; 3],
@@ -36,7 +36,7 @@ impl Motion {
     /// The motion in the solver's terms.
     ///
     /// # Panics
-    /// If the motion did not come from the parser, which refuses tables that are none.
+    /// If the motion did not come from the parser, which refuses invalid tables.
     pub fn prescribed(&self) -> PrescribedMotion {
         let velocities = |linear: &[f64; 3], angular: &[f64; 3]| Velocities {
             linear: Vector3::from(*linear),
@@ -67,7 +67,7 @@ pub(super) fn read_motion(body: &Object<'_>) -> Option<Option<Motion>> {
         Some(node) => node,
     };
     let object = body.object(node, "motion")?;
-    // Rows without times are a table, too: one that lacks its times.
+    // Rows without times are a table, too: one without its times.
     let motion = if object.member(MOTION_TIME.key).is_some() || has_rows(&object) {
         read_table(&object)
     } else {
@@ -98,7 +98,7 @@ fn read_constant(object: &Object<'_>) -> Option<Motion> {
 fn read_table(object: &Object<'_>) -> Option<Motion> {
     let times_s = object.numbers(&MOTION_TIME, &Several::new(MOTION_TIMES, ["time", "times"]));
     let times_s = times_s.filter(|times| times_ascend(object, times));
-    // How many velocities there have to be is known of sound times only.
+    // The required number of velocities is known for valid times only.
     let rows = |times: &Vec<f64>| times.len()..=times.len();
     let several = Several::new(
         times_s.as_ref().map_or(MOTION_TIMES, rows),

@@ -1,4 +1,4 @@
-//! JSON as it stands in the document: members in their order, duplicates kept.
+//! JSON with members in the order of the document and with duplicates.
 
 use super::ScenarioError;
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -10,7 +10,7 @@ const LONG_TEXT: usize = 80;
 /// Lists and objects of more values than this are not repeated in a violation.
 const MANY_VALUES: usize = 100;
 
-/// A JSON value. Unlike [`Value`] it remembers order and repetition of keys.
+/// A JSON value. Unlike [`Value`] it keeps order and repetition of keys.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Node {
     Null,
@@ -35,8 +35,8 @@ impl Node {
         })
     }
 
-    /// The value as it goes into a violation: long texts cut, and of large
-    /// lists and objects only the size, lest an answer outgrow the question.
+    /// The value as shown in a violation: long texts cut, and of large lists and objects only the
+    /// size, so that an answer is not larger than the request.
     pub(super) fn excerpt(&self) -> Value {
         match self {
             Self::List(_) | Self::Object(_) if self.count() > MANY_VALUES => {
@@ -72,9 +72,8 @@ impl Node {
         }
     }
 
-    /// Node that a JSON pointer leads to, and its place: the index of the child at every
-    /// level, the end of its parent for what is missing. Comparing places sorts pointers
-    /// into document order.
+    /// Node at a JSON pointer, and its place: the index of the child at every level, the end of its
+    /// parent for a missing one. Comparing places sorts pointers into document order.
     pub(super) fn find(&self, pointer: &str) -> (Vec<usize>, Option<&Self>) {
         let mut place = Vec::new();
         let mut here = Some(self);
@@ -104,8 +103,8 @@ impl Node {
     }
 }
 
-/// A text as an error repeats it: of a long one the beginning and the length, lest an
-/// answer outgrow the question.
+/// A text as shown in an error: of a long one the beginning and the length, so that an answer
+/// is not larger than the request.
 pub fn excerpt(text: &str) -> String {
     let length = text.chars().count();
     if length <= LONG_TEXT {
@@ -120,7 +119,7 @@ pub(super) fn escaped(key: &str) -> String {
     key.replace('~', "~0").replace('/', "~1")
 }
 
-/// A token of a JSON pointer as the key it stands for.
+/// A token of a JSON pointer as a key.
 pub(super) fn unescaped(token: &str) -> String {
     token.replace("~1", "/").replace("~0", "~")
 }

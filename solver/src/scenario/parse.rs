@@ -62,7 +62,7 @@ fn from_node(document: &Node) -> Result<Scenario, ScenarioError> {
     }
 }
 
-/// A scenario of which parts may have been refused (`None`).
+/// A scenario parts of which may have been refused (`None`).
 struct Draft {
     title: Option<String>,
     channel: Option<Channel>,
@@ -104,7 +104,7 @@ impl Draft {
         draft
     }
 
-    /// The rules between fields, as far as the fields are sound.
+    /// The rules between fields, as far as the fields are valid.
     fn check(&self, report: &Report) {
         let flow = self.flow.as_ref().and_then(Option::as_ref);
         let bodies = self.bodies.as_deref().unwrap_or(&[]);

@@ -1,4 +1,4 @@
-//! Start of bodies and release, from what the scenario says about them.
+//! Initial placement of bodies and release according to the scenario.
 
 use super::{Body, Channel, Flow, RegularSolid, Scenario, Shape};
 use crate::shape::{ShapeError, SharpPolyhedron, SpheroPolyhedron};
@@ -14,20 +14,20 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The same as a rigid motion from body to channel coordinates.
+    /// The pose as a rigid motion from body to channel coordinates.
     pub fn isometry(&self) -> Isometry3<f64> {
         Isometry3::from_parts(Translation3::from(self.position), self.orientation)
     }
 }
 
-/// Support that a body starts on.
+/// Initial support of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Support {
     /// It rests on the horizontal floor.
     Floor,
     /// It rests on the incline.
     Incline,
-    /// Its elevation is given: it may touch something or nothing.
+    /// Its elevation is given: it may be in contact or not.
     Free,
 }
 
@@ -79,9 +79,9 @@ impl Channel {
         }
     }
 
-    /// Speed [m/s] a flow may reach under this gravity [m/s²]: the back of the release
-    /// sliding to the foot against base friction, and the release collapsing, as energies
-    /// (docs/method.md, equation 31).
+    /// Speed [m/s] that a flow may reach under this gravity [m/s²]: the back of the release sliding
+    /// to the foot against base friction, and the release collapsing, as energies (docs/method.md,
+    /// equation 31).
     pub fn fastest_flow(&self, flow: &Flow, gravity_m_s2: f64) -> f64 {
         let (sin, cos) = self.inclination_rad().sin_cos();
         let sliding = if flow.volume_m3 > 0.0 {
@@ -122,7 +122,7 @@ impl Shape {
         })
     }
 
-    /// The solid this describes, rounded with a radius [m].
+    /// The solid described, rounded with a radius [m].
     pub(super) fn build(&self, sphero_radius_m: f64) -> Result<SpheroPolyhedron, ShapeError> {
         match self {
             Self::Cube { side_m } => SpheroPolyhedron::cube(*side_m, sphero_radius_m),
@@ -149,8 +149,8 @@ fn sharp_hull(vertices_m: &[[f64; 3]]) -> Result<SharpPolyhedron, ShapeError> {
 pub(super) struct Size {
     /// Diameter of the largest ball inside [m].
     pub(super) thickness_m: f64,
-    /// Longest side of a box; of other shapes the largest distance of two places
-    /// [m]. With its centre so far from a plane a body is clear of it.
+    /// Longest side of a box; of other shapes the largest distance of two places [m]. A body whose
+    /// centre is this far from a plane is clear of it.
     pub(super) length_m: f64,
 }
 
@@ -169,8 +169,8 @@ impl Body {
         !self.fixed && self.motion.is_none()
     }
 
-    /// Speed of the fastest place of a body of this bounding radius [m] at the start, or
-    /// ever by its prescribed motion [m/s], its turning included.
+    /// Speed of the fastest place of a body of this bounding radius [m] at the start, or at any
+    /// time of its prescribed motion [m/s], its turning included.
     pub fn thrown_m_s(&self, bounding_radius: f64) -> f64 {
         if let Some(motion) = &self.motion {
             return motion.prescribed().fastest(bounding_radius);
@@ -183,7 +183,7 @@ impl Body {
     /// and turned by the yaw about its normal.
     fn initial_orientation(&self, channel: &Channel) -> UnitQuaternion<f64> {
         if let Some([w, x, y, z]) = self.orientation {
-            // Unit already (the parser saw to it), so its bits are kept.
+            // Unit already (ensured by the parser), so its bits are kept.
             return UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z));
         }
         let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_deg.to_radians());
@@ -213,7 +213,7 @@ impl Body {
 }
 
 impl Scenario {
-    /// Position and orientation in which a body starts.
+    /// Initial position and orientation of a body.
     ///
     /// # Panics
     /// If there is no such body, or the scenario did not come from the parser.
@@ -221,7 +221,7 @@ impl Scenario {
         self.bodies[body].pose(&self.shape_of(body), &self.channel)
     }
 
-    /// Support that a body starts on.
+    /// Initial support of a body.
     ///
     /// # Panics
     /// If there is no such body.

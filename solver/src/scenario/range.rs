@@ -1,6 +1,6 @@
-//! Ranges of numbers, and how they are put into words.
+//! Ranges of numbers, and their wording.
 
-/// Values that one number field may have.
+/// Allowed values of a number field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rule {
     /// Key of the field.
@@ -41,7 +41,7 @@ pub(super) const fn positive_up_to(high: f64) -> Range {
 }
 
 impl Range {
-    /// True if a value lies inside; no number never does.
+    /// True if a value lies inside; NaN never does.
     pub(super) fn contains(&self, value: f64) -> bool {
         let above = if self.low_is_open {
             value > self.low
@@ -88,8 +88,8 @@ pub(super) fn short(value: f64) -> String {
     }
 }
 
-/// Six significant digits, rounded towards minus infinity, so that a bound
-/// given to people still holds when they type it in.
+/// Six significant digits, rounded towards minus infinity, so that a bound in a message still
+/// holds when it is typed in.
 pub(super) fn rounded_down(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;

@@ -1,5 +1,4 @@
-//! Readers of single fields. What they can't accept goes into the report, and
-//! they go on.
+//! Readers of single fields. They add unacceptable values to the report, and continue.
 
 use super::node::{Node, escaped};
 use super::range::{Range, Rule, short};
@@ -29,14 +28,14 @@ impl Several {
         }
     }
 
-    /// So many of them, in words.
+    /// A number of them, in words.
     fn counted(&self, number: usize) -> String {
         let [one, many] = self.nouns;
         format!("{number} {}", if number == 1 { one } else { many })
     }
 }
 
-/// One JSON object in the reading.
+/// A JSON object that is being read.
 pub(super) struct Object<'a> {
     pub(super) pointer: String,
     members: &'a [(String, Node)],
@@ -45,7 +44,7 @@ pub(super) struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
-    /// Takes a node for an object; refuses anything else, and repeated keys.
+    /// Opens a node as an object; refuses any other type, and repeated keys.
     pub(super) fn open(node: &'a Node, pointer: String, report: &'a Report) -> Option<Self> {
         let Node::Object(members) = node else {
             report.refuse(&pointer, "an object", None, "must be an object");
@@ -67,12 +66,12 @@ impl<'a> Object<'a> {
         })
     }
 
-    /// Takes a field for an object of its own.
+    /// Opens a field as an object of its own.
     pub(super) fn object(&self, node: &'a Node, key: &str) -> Option<Object<'a>> {
         Object::open(node, self.pointer_to(key), self.report)
     }
 
-    /// The members as they stand.
+    /// The members in order.
     pub(super) fn members(&self) -> &'a [(String, Node)] {
         self.members
     }
@@ -82,7 +81,7 @@ impl<'a> Object<'a> {
         format!("{}/{}", self.pointer, escaped(key))
     }
 
-    /// Refuses the keys no reader asked for; call it after all of them.
+    /// Refuses the keys that no reader asked for; call it after all of them.
     pub(super) fn refuse_unknown(&self) {
         let known = self.known.borrow();
         for (key, _) in self.members {
@@ -95,7 +94,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// A field as it stands, if it is there.
+    /// A field as a node, if it is there.
     pub(super) fn member(&self, key: &'static str) -> Option<&'a Node> {
         self.known.borrow_mut().push(key);
         let found = self.members.iter().find(|(name, _)| name == key);
@@ -193,7 +192,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// One of a few words, each with what it stands for.
+    /// One of a few words, each with its value.
     pub(super) fn choice<T: Copy>(
         &self,
         key: &'static str,
@@ -287,7 +286,7 @@ impl<'a> Object<'a> {
         self.list(rule, several, &rule.range.words(), read)
     }
 
-    /// A list of so many entries; `each` says what one may be.
+    /// A list of so many entries; `each` describes a valid one.
     fn list<T>(
         &self,
         rule: &Rule,

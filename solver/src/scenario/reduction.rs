@@ -1,38 +1,38 @@
-//! Parts of a scene that need not be computed: the words that decide it.
+//! Reductions of a scene, and the words for their choice.
 
 use serde::{Deserialize, Serialize};
 
-/// Use of a scene's symmetry about the centre plane: to compute it by halves.
+/// Use of a scene's symmetry about the centre plane: computation by halves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Symmetry {
     /// By halves where it is exact.
     #[default]
     Auto,
-    /// All of it.
+    /// No use of symmetry.
     Full,
     /// By halves; a scene that is not symmetric is refused.
     Mirror,
 }
 
-/// Computation of a flow in which nothing varies across the channel yet.
+/// Computation of a flow that is still uniform across the channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Approach {
     /// In a slab of one cell where it is exact.
     #[default]
     Auto,
-    /// All across.
+    /// Across the whole width.
     Full,
     /// In a slab; a scene that varies across from the start is refused.
     Slab,
 }
 
-/// When a run ends.
+/// End of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
-    /// Once nothing can move a body or the front any more, or with its duration.
+    /// Early, when nothing can move a body or the front any more, or with its duration.
     #[default]
     Auto,
     /// With its duration.

@@ -1,4 +1,4 @@
-//! Report in which violations are collected.
+//! Report that collects violations.
 
 use super::Violation;
 use super::node::{Node, excerpt, unescaped};
@@ -13,7 +13,7 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Adds a violation; `why` goes on from the field's name.
+    /// Adds a violation; `why` continues the field's name.
     pub(super) fn refuse(&self, pointer: &str, allowed: &str, unit: Option<&str>, why: &str) {
         self.violations.borrow_mut().push(Violation {
             pointer: pointer.to_owned(),
@@ -24,8 +24,8 @@ impl Report {
         });
     }
 
-    /// All violations in the order of the document, each with the value that
-    /// stands there. A list too long to help anybody is cut, and says so.
+    /// All violations in the order of the document, each with the value at its pointer. A list too
+    /// long to be of use is cut, and says so.
     pub(super) fn into_violations(self, document: &Node) -> Vec<Violation> {
         let mut violations = self.violations.into_inner();
         violations.sort_by_cached_key(|violation| document.find(&violation.pointer).0);

@@ -1,9 +1,8 @@
 //! Every number of a scenario: key, range, unit, default. The same table is in
-//! `docs/scenario.md`; a test holds the two together.
+//! `docs/scenario.md`; a test keeps both consistent.
 //!
-//! Upper and lower limits are generous. They keep out slips of the pen (metres
-//! for millimetres) and numbers that single precision can't carry, not unusual
-//! scenes.
+//! Upper and lower limits are generous. They exclude mistakes (metres for millimetres) and
+//! numbers beyond the range of single precision, not unusual scenes.
 
 use super::range::{Rule, closed, positive_up_to};
 use std::ops::RangeInclusive;
@@ -16,29 +15,28 @@ pub(super) const LONGEST: f64 = 3600.0;
 pub(super) const BODIES: usize = 256;
 /// Most samples of all bodies together: about 100 MB of trajectory.
 pub(super) const BODY_SAMPLES: f64 = 500_000.0;
-/// Most JSON values in one document, about twice what the most bodies need.
+/// Most JSON values in one document, about twice the need of the most bodies.
 pub(super) const VALUES: usize = 20_000;
 /// Most violations listed in one answer.
 pub(super) const VIOLATIONS: usize = 500;
-/// A quaternion this close to unit length is taken for one and normalised.
+/// Tolerance of a quaternion's length, within which it is normalised.
 pub(super) const QUATERNION_SLACK: f64 = 1e-3;
-/// Overlap with walls and bodies that counts as touching, as a fraction of the
-/// sphero radius: coordinates typed with a few digits, and less than the
-/// overlap of a body at rest.
+/// Overlap with walls and bodies that counts as contact, as a fraction of the sphero radius:
+/// for coordinates typed with a few digits, and less than the overlap of a body at rest.
 pub(super) const TOUCHING: f64 = 1e-3;
-/// Times that a motion may be given at.
+/// Number of rows of a prescribed motion.
 pub(super) const MOTION_TIMES: RangeInclusive<usize> = 1..=1000;
-/// Points a polyhedron may be given by: rounding may make twice as many faces of
-/// them, and four times as many vertices.
+/// Number of points of a polyhedron: rounding may make twice as many faces of them, and four
+/// times as many vertices.
 pub(super) const POLYHEDRON_VERTICES: RangeInclusive<usize> = 4..=32;
-/// Diameter of the smallest ball a polyhedron must hold [m]: a default sphero
-/// radius is then not below the least allowed.
+/// Diameter of the smallest ball a polyhedron must contain [m]: a default sphero radius is then
+/// not below the smallest allowed.
 pub(super) const LEAST_THICKNESS: f64 = 2e-5;
 /// Least sound speed over √(g H) of the release: its own weight then takes a third of
 /// its volume.
 pub(super) const SOFTEST: f64 = std::f64::consts::SQRT_2;
-/// Least sound speed over the speed that the flow may reach: what strikes a wall head-on at
-/// half its own sound loses half its volume; at twice it, it need not be head-on.
+/// Least sound speed over the speed that the flow may reach: a flow that strikes a wall head-on
+/// at half its own sound speed loses half its volume; at twice it, it need not be head-on.
 pub(super) const SLOWEST_SOUND: f64 = 0.5;
 /// Least sound speed over the speed of a prescribed motion, √6: a wall of that speed v that
 /// is driven into the flow sends off a shock of speed U, U (U − v) = c² by (3), behind which
@@ -46,8 +44,8 @@ pub(super) const SLOWEST_SOUND: f64 = 0.5;
 pub(super) const SLOWEST_SOUND_DRIVEN: f64 = 2.449_489_742_783_178;
 /// Largest overlap of a body at rest on one vertex, over its sphero radius.
 pub(super) const DEEPEST_AT_REST: f64 = 0.5;
-/// Largest overlap of a body that strikes with one vertex as fast as it starts or
-/// falls, over its sphero radius: from 1 on its core is in the wall.
+/// Largest overlap of a body in an impact of one vertex as fast as it starts or falls, over its
+/// sphero radius: from 1 on its core is in the wall.
 pub(super) const DEEPEST_AT_IMPACT: f64 = 0.9;
 /// A body's thickness over its default sphero radius.
 pub(super) const SIZE_PER_SPHERO_RADIUS: f64 = 20.0;

@@ -1,4 +1,4 @@
-//! Readers of the scenario's parts, its bodies apart.
+//! Readers of the scenario's sections other than bodies.
 
 use super::agreement::ascend;
 use super::node::Node;
@@ -8,31 +8,31 @@ use super::{
     Approach, Channel, Coupling, Ending, Flow, Material, Numerics, Precision, Release, Symmetry,
 };
 
-/// Words for the precision.
+/// JSON names of the precision.
 pub(super) const PRECISIONS: [(&str, Precision); 2] =
     [("single", Precision::Single), ("double", Precision::Double)];
 
-/// Words for the symmetry.
+/// JSON names of the symmetry.
 pub(super) const SYMMETRIES: [(&str, Symmetry); 3] = [
     ("auto", Symmetry::Auto),
     ("full", Symmetry::Full),
     ("mirror", Symmetry::Mirror),
 ];
 
-/// Words for the approach.
+/// JSON names of the approach.
 pub(super) const APPROACHES: [(&str, Approach); 3] = [
     ("auto", Approach::Auto),
     ("full", Approach::Full),
     ("slab", Approach::Slab),
 ];
 
-/// Words for the coupling.
+/// JSON names of the coupling.
 pub(super) const COUPLINGS: [(&str, Coupling); 2] = [
     ("half_spacing", Coupling::HalfSpacing),
     ("source_paper", Coupling::SourcePaper),
 ];
 
-/// Words for the ending.
+/// JSON names of the ending.
 pub(super) const ENDINGS: [(&str, Ending); 2] = [("auto", Ending::Auto), ("full", Ending::Full)];
 
 pub(super) fn read_title(object: &Object<'_>) -> Option<String> {

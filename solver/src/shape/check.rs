@@ -1,4 +1,4 @@
-//! The conditions that make vertices and loops a convex solid.
+//! Conditions under which vertices and loops form a convex solid.
 
 use super::error::ShapeError;
 use super::polyhedron::{Face, sides};
@@ -7,12 +7,12 @@ use nalgebra::Vector3;
 /// Distances below this fraction of the solid's size count as zero: far above
 /// the rounding of f64 coordinates (1e-16), far below any feature that matters.
 const FLATNESS: f64 = 1e-9;
-/// Distance that a vertex must lie behind a face it is not part of, as a fraction of the
-/// solid's size. Much less than the flatness, so that a vertex whose coordinates leave it
-/// in doubt may be taken into a face or not.
+/// Distance of a vertex behind a face that it is not part of, as a fraction of the solid's
+/// size. Much less than the flatness, so that a vertex whose coordinates are ambiguous may be
+/// part of a face or not.
 const BEHIND: f64 = 1e-12;
 
-/// Indices exist and no loop repeats one; coordinates are numbers.
+/// Indices exist, loops have no repetitions, and coordinates are finite.
 pub(super) fn loops(vertices: &[Vector3<f64>], loops: &[Vec<usize>]) -> Result<(), ShapeError> {
     if vertices.len() < 4 || loops.len() < 4 {
         return Err(ShapeError::TooFew {
@@ -41,7 +41,7 @@ fn is_loop(vertex_loop: &[usize], vertices: usize) -> bool {
         && sorted.last().is_some_and(|&largest| largest < vertices)
 }
 
-/// Euler's formula for a surface like a ball's.
+/// Euler's formula for a surface topologically equal to a sphere.
 pub(super) fn euler(vertices: usize, edges: usize, faces: usize) -> Result<(), ShapeError> {
     if vertices + faces == edges + 2 {
         Ok(())
@@ -83,8 +83,8 @@ pub(super) fn extent(vertices: &[Vector3<f64>]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// No vertex off the plane, and every other vertex of the face strictly to the
-/// left of every side.
+/// True if no vertex is off the plane, and every other vertex of the face strictly to the left
+/// of every side.
 fn is_flat_and_convex(vertices: &[Vector3<f64>], face: &Face, tolerance: f64) -> bool {
     let flat = |&v: &usize| (face.normal.dot(&vertices[v]) - face.offset).abs() <= tolerance;
     let left_of_side = |(a, b): (usize, usize)| {

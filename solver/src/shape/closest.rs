@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-/// Gaps [m] whose squares are lost to underflow have no direction to speak of.
+/// Gap [m] whose square is lost to underflow, so that it has no defined direction.
 const NO_DIRECTION: f64 = 1e-150;
 
 /// A vertex, edge or face of a core, by its index.
@@ -16,7 +16,7 @@ pub enum Feature {
     Face(usize),
 }
 
-/// Part of a core that is nearest to a point x.
+/// Feature of a core nearest to a point x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closest {
     /// The feature nearest to x; inside, the nearest face.
@@ -29,8 +29,8 @@ pub struct Closest {
     pub distance: f64,
 }
 
-/// The answer for a point off the core; `fallback` serves where x is so close
-/// that the difference has no direction.
+/// The result for a point outside the core; `fallback` is used where x is so close that the
+/// difference has no direction.
 pub(super) fn outside(
     feature: Feature,
     point: Vector3<f64>,
@@ -52,7 +52,7 @@ pub(super) fn outside(
     }
 }
 
-/// The answer for a point above a face, or inside the core below it.
+/// The result for a point above a face, or inside the core below it.
 pub(super) fn on_face(
     face: usize,
     normal: &Vector3<f64>,

@@ -6,11 +6,11 @@ use super::error::ShapeError;
 use super::polyhedron::ConvexPolyhedron;
 use nalgebra::Vector3;
 
-/// Per axis, on which side of the box a point is beyond it: −1, 0 (within) or 1.
+/// Side of the box on which a point is beyond it, per axis: −1, 0 (within) or 1.
 type Beyond = [i8; 3];
 
-/// A core box centred on the origin, and which of its features lies behind each
-/// combination of sides a point can be beyond.
+/// A core box centred on the origin, and its nearest feature for each combination of sides on
+/// which a point can be beyond it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Cuboid {
     half: Vector3<f64>,
@@ -19,7 +19,7 @@ pub(super) struct Cuboid {
 }
 
 impl Cuboid {
-    /// The box with these half sides [m] as a polyhedron, and its closed form.
+    /// The box with these half sides [m] as a polyhedron, and in closed form.
     pub(super) fn new(half: Vector3<f64>) -> Result<(ConvexPolyhedron, Self), ShapeError> {
         let vertices = (0..8).map(|vertex| corner(&half, vertex)).collect();
         let core = ConvexPolyhedron::new(vertices, face_loops())?;
@@ -82,7 +82,7 @@ fn face_loops() -> Vec<Vec<usize>> {
     ]
 }
 
-/// Puts every feature where the sides its vertices share say it belongs.
+/// Table of the features, by the sides that their vertices share.
 fn feature_table(core: &ConvexPolyhedron) -> [Feature; 27] {
     let mut table = [Feature::Vertex(0); 27];
     let mut enter = |vertices: &[usize], feature| {

@@ -1,11 +1,11 @@
-//! Why a description is no sphero-polyhedron.
+//! Errors of a description that is not a sphero-polyhedron.
 
 use thiserror::Error;
 
 /// A shape that can't be built.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ShapeError {
-    /// A length that must be a positive finite number is not.
+    /// A length is not positive and finite.
     #[error("{quantity} is {value} m, not a positive finite length")]
     NotPositive {
         /// Name of the length.
@@ -13,7 +13,7 @@ pub enum ShapeError {
         /// Value received [m].
         value: f64,
     },
-    /// The rounding sphere does not fit into the shape it is to round.
+    /// The rounding sphere does not fit into the shape.
     #[error("the sphero radius {radius_m} m is not below the inradius {inradius_m} m")]
     RadiusNotBelowInradius {
         /// Radius of the rounding sphere [m].
@@ -21,7 +21,7 @@ pub enum ShapeError {
         /// Radius of the largest sphere inside the shape [m].
         inradius_m: f64,
     },
-    /// What the rounding leaves is too small or too thin to tell its faces apart.
+    /// The core that remains after rounding is too small or too thin to tell its faces apart.
     #[error(
         "the sphero radius {radius_m} m leaves no core worth the name of a shape with the inradius {inradius_m} m"
     )]
@@ -31,13 +31,13 @@ pub enum ShapeError {
         /// Radius of the largest sphere inside the shape [m].
         inradius_m: f64,
     },
-    /// A vertex has a coordinate that is no number.
+    /// A vertex has a non-finite coordinate.
     #[error("vertex {vertex} is not finite")]
     NotFinite {
         /// Index of the vertex.
         vertex: usize,
     },
-    /// Fewer vertices or faces than a tetrahedron has.
+    /// Fewer vertices or faces than those of a tetrahedron.
     #[error("{vertices} vertices and {faces} faces enclose nothing")]
     TooFew {
         /// Number of vertices.
@@ -45,7 +45,7 @@ pub enum ShapeError {
         /// Number of faces.
         faces: usize,
     },
-    /// A face's loop is too short, repeats a vertex, or names one that is not there.
+    /// A face's loop is too short, repeats a vertex, or has an index that does not exist.
     #[error("face {face} is no loop of three or more different vertices")]
     BadLoop {
         /// Index of the face.
@@ -60,7 +60,7 @@ pub enum ShapeError {
         /// Second vertex.
         to: usize,
     },
-    /// Closed, but not like a ball (a vertex outside every face, a hole).
+    /// Closed, but not topologically a sphere (a vertex outside every face, a hole).
     #[error("{vertices} vertices - {edges} edges + {faces} faces is not 2 (Euler)")]
     NotABall {
         /// Number of vertices.

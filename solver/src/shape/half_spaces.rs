@@ -1,23 +1,22 @@
-//! A convex solid as what lies behind a set of planes: the largest ball in it,
-//! and the solid with every plane moved in.
+//! Convex solids as intersections of half-spaces: the largest ball inside, and the solid with
+//! every plane moved in.
 
 use super::error::ShapeError;
 use super::polyhedron::ConvexPolyhedron;
 use super::{check, hull};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
-/// Angle between planes that are one face \[rad\]: coordinates typed with six
-/// digits turn parts of a face by less.
+/// Angle below which two planes are one face \[rad\]: coordinates typed with six digits turn
+/// parts of a face by less.
 const ONE_FACE: f64 = 1e-5;
-/// Planes whose normals span less than this (triple product) have no point in
-/// common worth the name; other planes meet there too.
+/// Triple product of three normals below which their planes have no well-defined point in
+/// common; other planes meet there too.
 const NO_CROSSING: f64 = 1e-7;
 /// Distance in front of a plane that still counts as behind, over the size.
 const BEHIND: f64 = 1e-9;
 /// Rounding of lengths, over the size.
 const ROUNDING: f64 = 1e-12;
-/// More exchanges than any set of planes takes; there to end what rounding
-/// might make go round in circles.
+/// More exchanges than any set of planes needs; a limit for cycles caused by rounding.
 const MOST_EXCHANGES: usize = 10_000;
 
 /// All places x with n·x ≤ offset for every plane.
@@ -25,16 +24,16 @@ const MOST_EXCHANGES: usize = 10_000;
 pub(super) struct HalfSpaces {
     /// Outward unit normal n and offset [m].
     planes: Vec<(Vector3<f64>, f64)>,
-    /// Largest distance of two places in it, or a little more [m].
+    /// Upper bound of the distance of two places in it, almost sharp [m].
     size: f64,
 }
 
 impl HalfSpaces {
-    /// Region behind all planes round some points [m]. Planes turned against each other
-    /// by less than [`ONE_FACE`] are one.
+    /// Region behind all planes round some points [m]. Planes that differ in direction by less than
+    /// [`ONE_FACE`] are one.
     ///
     /// # Errors
-    /// Points that enclose nothing.
+    /// Points that enclose no volume.
     pub(super) fn round(points: &[Vector3<f64>]) -> Result<Self, ShapeError> {
         let mut faces: Vec<Vector3<f64>> = Vec::new();
         for normal in hull::normals(points) {
@@ -61,14 +60,13 @@ impl HalfSpaces {
         })
     }
 
-    /// Radius ρ of the largest ball inside [m], by linear programming: with
-    /// centre c it is the largest ρ with n·c + ρ ≤ offset for all planes. Solved
-    /// is the dual (Chvátal 1983, Linear Programming, chapter 7): weights λ ≥ 0
-    /// on the planes with Σ λ n = 0, Σ λ = 1 and least Σ λ offset, four of them
-    /// positive at most. Bland's rule ends it.
+    /// Radius ρ of the largest ball inside [m], by linear programming: with centre c it is the
+    /// largest ρ with n·c + ρ ≤ offset for all planes. The dual is solved (Chvátal 1983, Linear
+    /// Programming, chapter 7): weights λ ≥ 0 on the planes with Σ λ n = 0, Σ λ = 1 and least Σ λ
+    /// offset, at most four of them positive. It terminates by Bland's rule.
     pub(super) fn inradius(&self) -> f64 {
-        // A column per plane, after four that only serve to start: they cost more
-        // than any coordinate of the ball, so that none is in the answer.
+        // A column per plane, after four that only serve to start: their cost exceeds any
+        // coordinate of the ball, so that none is in the solution.
         let dear = 10.0 * self.size;
         let column = |place: usize| match place.checked_sub(4) {
             None => (Vector4::ith(place, 1.0), dear),
@@ -108,11 +106,11 @@ impl HalfSpaces {
         radius
     }
 
-    /// Solid that is left when every plane moves in by `depth` [m]. Faces, edges and
-    /// vertices may vanish, and vertices split in which more than three meet.
+    /// Solid that remains when every plane moves in by `depth` [m]. Faces, edges and vertices may
+    /// vanish, and vertices with more than three planes may split.
     ///
     /// # Errors
-    /// Nothing is left, or too little to tell its features apart.
+    /// No solid remains, or one too small to tell its features apart.
     pub(super) fn eroded(&self, depth: f64) -> Result<ConvexPolyhedron, ShapeError> {
         let count = self.planes.len();
         let mut crossings = Vec::new();
@@ -121,13 +119,13 @@ impl HalfSpaces {
                 crossings.extend((b + 1..count).filter_map(|c| self.crossing([a, b, c], depth)));
             }
         }
-        // Of crossings at one place the sharpest first: that is the one kept.
+        // Of several crossings at one place the sharpest is first, and is kept.
         crossings.sort_by(|a, b| b.0.total_cmp(&a.0));
         let places: Vec<_> = crossings.into_iter().map(|(_, place)| place).collect();
         hull::hull_of(&places)
     }
 
-    /// Place where three planes moved in by `depth` meet [m], and how sharply, if that is
+    /// Intersection of three planes moved in by `depth` [m], and its triple product, if it is
     /// behind all others.
     fn crossing(&self, triple: [usize; 3], depth: f64) -> Option<(f64, Vector3<f64>)> {
         let [a, b, c] = triple.map(|plane| self.planes[plane].0);
@@ -139,7 +137,7 @@ impl HalfSpaces {
         let offsets = Vector3::from(triple.map(|plane| self.planes[plane].1 - depth));
         let cofactors = Matrix3::from_columns(&[b_by_c, c_by_a, a_by_b]) / spanned;
         let rough = cofactors * offsets;
-        // Once more for what rounding left off the planes.
+        // A second iteration removes the rounding error of the first.
         let reached = Vector3::new(a.dot(&rough), b.dot(&rough), c.dot(&rough));
         let place = rough + cofactors * (offsets - reached);
         let near = BEHIND * self.size;

@@ -1,11 +1,10 @@
 //! Convex hulls of a few points.
 //!
-//! A face is a plane through three of the points that has none in front. Every
-//! triple is tried: with the few dozen points a body has that is quick, and it
-//! asks nothing of their order or position, which is where faster methods fail
-//! on rounded coordinates. Two faces of a convex solid share two vertices at
-//! most, so planes that share three are one face: what is coplanar is merged, and
-//! points whose coordinates leave that in doubt can't tear the surface.
+//! A face is a plane through three of the points with none in front. Every triple is tried:
+//! with the few dozen points of a body that is fast, and it needs no assumption on their order
+//! or position, where faster methods fail on rounded coordinates. Two faces of a convex solid
+//! share at most two vertices, so planes that share three are one face: coplanar triangles are
+//! merged, and points with ambiguous coordinates can't tear the surface.
 
 use super::check::extent;
 use super::error::ShapeError;
@@ -13,39 +12,38 @@ use super::polyhedron::ConvexPolyhedron;
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 
-/// Distance from a plane that still counts as in it, over the solid's size: a
-/// tenth of what a face may be bent, and far above rounding.
+/// Distance from a plane that still counts as in it, over the solid's size: a tenth of the
+/// allowed bend of a face, and far above rounding.
 const COPLANAR: f64 = 1e-10;
-/// Smallest feature kept, over the solid's size. A triangle narrower than this
-/// has no normal good to [`COPLANAR`].
+/// Smallest feature kept, over the solid's size. The normal of a triangle narrower than this is
+/// not accurate to [`COPLANAR`].
 const SMALLEST: f64 = 1e-5;
 
-/// The convex hull of some points, without points inside it, in a face or on an
-/// edge.
+/// The convex hull of some points, without points inside it, in a face or on an edge.
 ///
 /// # Errors
-/// Points that enclose nothing.
+/// Points that enclose no volume.
 pub(super) fn hull_of(points: &[Vector3<f64>]) -> Result<ConvexPolyhedron, ShapeError> {
     Candidates::of(points, extent(points)).hull()
 }
 
-/// Outward unit normals of the hull's faces. Unlike the hull itself they always
-/// make sense, though faces that are nearly flat may come in several pieces.
+/// Outward unit normals of the hull's faces. Unlike the hull itself they are always defined,
+/// though faces that are nearly flat may consist of several pieces.
 pub(super) fn normals(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let size = extent(points);
     let faces = Candidates::of(points, size).faces(size);
     faces.iter().map(|face| face.normal).collect()
 }
 
-/// Different points, of which the hull is to be taken.
+/// Distinct points from which the hull is taken.
 #[derive(Debug, Clone)]
 pub(super) struct Candidates {
     points: Vec<Vector3<f64>>,
 }
 
 impl Candidates {
-    /// Points of a solid of this size [m]; those as near to an earlier one as the
-    /// smallest feature are the same.
+    /// Points of a solid of this size [m]; those nearer to an earlier one than the smallest feature
+    /// are the same.
     pub(super) fn of(points: &[Vector3<f64>], size: f64) -> Self {
         let mut different: Vec<Vector3<f64>> = Vec::new();
         for point in points {
@@ -60,7 +58,7 @@ impl Candidates {
     /// Their convex hull, without points inside it, in a face or on an edge.
     ///
     /// # Errors
-    /// Points that enclose nothing.
+    /// Points that enclose no volume.
     pub(super) fn hull(mut self) -> Result<ConvexPolyhedron, ShapeError> {
         loop {
             let size = extent(&self.points);
@@ -104,7 +102,7 @@ impl Candidates {
         self.merged(faces, SMALLEST * size)
     }
 
-    /// Joins faces that share more than an edge.
+    /// Merges faces that share more than an edge.
     fn merged(&self, faces: Vec<Flat>, near: f64) -> Vec<Flat> {
         let are_one = |a: &Flat, b: &Flat| {
             let shared = a.points.intersection(&b.points).map(|&p| self.points[p]);
@@ -120,9 +118,9 @@ impl Candidates {
         apart
     }
 
-    /// Outward unit normal of the plane through three points, if it has all others
-    /// behind it. Two points that `split`, lie to either side, are left for the next
-    /// triple: they often do it again.
+    /// Outward unit normal of the plane through three points, if all others are behind it. Two
+    /// points that `split`, lying to either side, are kept for the next triple, which they often
+    /// split, too.
     fn outward(
         &self,
         triple: [usize; 3],
@@ -130,7 +128,7 @@ impl Candidates {
         split: &mut [usize; 2],
     ) -> Option<Vector3<f64>> {
         let [a, b, c] = triple.map(|point| self.points[point]);
-        // Most triples fail: roots and quotients can wait.
+        // Most triples fail: roots and quotients are computed later.
         let (to_b, to_c) = (b - a, c - a);
         let across = to_b.cross(&to_c);
         let longest = to_b.norm_squared().max(to_c.norm_squared());
@@ -179,7 +177,7 @@ fn in_line(points: &[Vector3<f64>], near: f64) -> bool {
     along.is_none_or(|along| arms().all(|arm| arm.cross(&along).norm() <= near))
 }
 
-/// Points in one plane that has all others behind it.
+/// Points in one plane with all others behind it.
 #[derive(Debug)]
 struct Flat {
     /// Outward unit normal.
@@ -188,8 +186,8 @@ struct Flat {
 }
 
 impl Flat {
-    /// The points on its rim that stick out by more than `least` [m],
-    /// counter-clockwise seen from outside.
+    /// The points on its rim that protrude by more than `least` [m], counter-clockwise seen from
+    /// outside.
     fn corners(&self, points: &[Vector3<f64>], least: f64) -> Vec<usize> {
         let count = self.points.len() as f64;
         let centre = self.points.iter().map(|&p| points[p]).sum::<Vector3<f64>>() / count;
@@ -204,15 +202,15 @@ impl Flat {
         };
         let mut rim: Vec<usize> = self.points.iter().copied().collect();
         rim.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
-        // One at a time: whether a point is dull depends on its neighbours.
+        // One at a time: the state of a point depends on its neighbours.
         while let Some(dull) = (0..rim.len()).find(|&k| self.is_dull(points, &rim, k, least)) {
             rim.remove(dull);
         }
         rim
     }
 
-    /// True if a point of the rim lies inside the line that joins its neighbours, or is
-    /// between them and sticks out by no more than `least` [m].
+    /// True if a point of the rim lies inside the line between its neighbours, or is between them
+    /// and protrudes by no more than `least` [m].
     fn is_dull(&self, points: &[Vector3<f64>], rim: &[usize], k: usize, least: f64) -> bool {
         let at = |k: usize| points[rim[k % rim.len()]];
         let (before, after) = (at(k + rim.len() - 1) - at(k), at(k + 1) - at(k));

@@ -49,10 +49,10 @@ pub struct SpheroPolyhedron {
     turning_compliance: f64,
 }
 
-/// Way in which the nearest feature of the core is found.
+/// Algorithm that finds the nearest feature of the core.
 #[derive(Debug, Clone, PartialEq)]
 enum Nearest {
-    /// In closed form, the core being a box.
+    /// In closed form, for a box.
     Cuboid(Box<Cuboid>),
     /// By a walk over its surface.
     Walk(Walk),
@@ -114,7 +114,7 @@ impl SpheroPolyhedron {
         ))
     }
 
-    /// `core` is centred already.
+    /// Shape with its properties; `core` is centred already.
     fn measured(core: ConvexPolyhedron, nearest: Nearest, sphero_radius: f64) -> Self {
         let farthest = core
             .vertices()
@@ -167,31 +167,28 @@ impl SpheroPolyhedron {
         self.unit_inertia
     }
 
-    /// Radius of the smallest ball about the centre of mass that holds the
-    /// rounded solid [m].
+    /// Radius of the smallest ball about the centre of mass that contains the rounded solid [m].
     pub fn bounding_radius(&self) -> f64 {
         self.bounding_radius
     }
 
-    /// How much more than the whole body a place of its surface yields to a force because
-    /// the body turns, at most: the mass that resists a force anywhere is at least
-    /// m/(1 + this).
+    /// Largest excess of the compliance of a surface place, by turning, over that of the
+    /// translation: the effective mass is everywhere at least m/(1 + this).
     pub fn turning_compliance(&self) -> f64 {
         self.turning_compliance
     }
 
-    /// Largest speed of a place of the rounded solid that moves with `linear` at its
-    /// centre and turns with `angular`, both in its own axes: of the vertices, since
-    /// speed is a convex function of the place, and as much more as the rounding adds.
+    /// Largest speed of a place of the rounded solid that moves with `linear` at its centre and
+    /// turns with `angular`, both in body axes: that of the vertices, since speed is a convex
+    /// function of the place, plus the contribution of the rounding.
     pub fn fastest_place(&self, linear: &Vector3<f64>, angular: &Vector3<f64>) -> f64 {
         let vertices = self.core.vertices().iter();
         let speeds = vertices.map(|vertex| (linear + angular.cross(vertex)).norm_squared());
         speeds.fold(0.0, f64::max).sqrt() + self.sphero_radius * angular.norm()
     }
 
-    /// Radius of a disc no smaller than the solid's shadow from any side [m]: that of
-    /// the bounding ball, or one with half the surface, which no shadow of a convex
-    /// solid exceeds.
+    /// Radius of a disc no smaller than any projected area of the solid [m]: that of the bounding
+    /// ball, or one with half the surface, which no projected area of a convex solid exceeds.
     pub fn shadow_radius(&self) -> f64 {
         (self.surface / (2.0 * PI)).sqrt().min(self.bounding_radius)
     }
@@ -203,8 +200,8 @@ impl SpheroPolyhedron {
         reach.fold(f64::NEG_INFINITY, f64::max) + self.sphero_radius * direction.norm()
     }
 
-    /// Least distance of two parallel planes that hold the rounded solid between
-    /// them [m]: both touch it in faces, a face and a vertex, or two edges.
+    /// Least distance of two parallel planes with the rounded solid between them [m]: both touch it
+    /// in faces, a face and a vertex, or two edges.
     pub fn least_width(&self) -> f64 {
         let edges = self.edges();
         let crosses = edges
@@ -270,7 +267,7 @@ fn steiner_volume(core: &ConvexPolyhedron, radius: f64) -> f64 {
     inside + surface * radius + bend * radius.powi(2) / 2.0 + 4.0 / 3.0 * PI * radius.powi(3)
 }
 
-/// Its surface [m²], the volume's derivative by the radius.
+/// Steiner's formula for its surface [m²], the volume's derivative by the radius.
 fn steiner_surface(core: &ConvexPolyhedron, radius: f64) -> f64 {
     let flats: f64 = core.faces().iter().map(|face| face_area(core, face)).sum();
     let bend = |edge: &Edge| edge.length * (PI - edge.interior_dihedral);

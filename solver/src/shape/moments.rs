@@ -1,18 +1,17 @@
 //! Exact volume moments of a polyhedron dilated by a sphere.
 //!
-//! The dilated solid falls apart into the core, a prism on every face, a sector
-//! of a cylinder along every edge and a sector of a ball at every vertex
-//! (Steiner's decomposition). Each has closed moments. For the ball sector over
-//! the spherical polygon P of a vertex's normal cone, Green's theorem on the
-//! sphere for harmonics of degree 1 and 2 turns ∫ u dΩ and ∫ (u uᵀ − 1/3) dΩ
-//! into sums over the arcs of P: with θ an arc's angle, m its inward pole and
-//! U = ∫ u ds over it,
+//! The dilated solid consists of the core, a prism on every face, a sector of a cylinder along
+//! every edge and a sector of a ball at every vertex (Steiner's decomposition). Each has closed
+//! moments. For the ball sector over the spherical polygon P of a vertex's normal cone, Green's
+//! theorem on the sphere for harmonics of degree 1 and 2 turns ∫ u dΩ and ∫ (u uᵀ − 1/3) dΩ
+//! into sums over the arcs of P: with θ an arc's angle, m its inward pole and U = ∫ u ds over
+//! it,
 //!
 //! ∫ u dΩ = ½ Σ θ m,  ∫ u uᵀ dΩ = Ω/3 + ⅙ Σ (U mᵀ + m Uᵀ).
 //!
-//! An arc of a vertex belongs to one of its edges, and its inward pole is the
-//! direction along that edge into the vertex. Ω is the angle the faces at the
-//! vertex lack to a full turn (Gauss–Bonnet).
+//! An arc of a vertex belongs to one of its edges, and its inward pole is the direction along
+//! that edge into the vertex. Ω is the difference between a full turn and the angles of the
+//! faces at the vertex (Gauss–Bonnet).
 
 use super::polyhedron::{ConvexPolyhedron, Edge, Face};
 use nalgebra::{Matrix3, Vector3};

@@ -22,7 +22,7 @@ pub struct Face {
 pub struct Edge {
     /// Its ends; the loop of `faces[0]` runs from the first to the second.
     pub vertices: [usize; 2],
-    /// The two faces that meet in it.
+    /// The two faces that share it.
     pub faces: [usize; 2],
     /// Unit vector from the first end to the second.
     pub direction: Vector3<f64>,
@@ -41,12 +41,11 @@ pub struct ConvexPolyhedron {
 }
 
 impl ConvexPolyhedron {
-    /// A polyhedron from its vertices [m] and one loop of vertex indices per
-    /// face, counter-clockwise seen from outside. Coplanar neighbours must be
-    /// one face.
+    /// A polyhedron from its vertices [m] and one loop of vertex indices per face,
+    /// counter-clockwise seen from outside. Coplanar neighbours must be one face.
     ///
     /// # Errors
-    /// Anything that is not a closed, strictly convex solid; see [`ShapeError`].
+    /// Input that is not a closed, strictly convex solid; see [`ShapeError`].
     pub fn new(vertices: Vec<Vector3<f64>>, loops: Vec<Vec<usize>>) -> Result<Self, ShapeError> {
         check::loops(&vertices, &loops)?;
         let mut edges = pair_half_edges(&loops)?;
@@ -81,7 +80,7 @@ impl ConvexPolyhedron {
         &self.edges
     }
 
-    /// The same polyhedron, moved by `shift` [m].
+    /// The polyhedron moved by `shift` [m].
     pub fn translated(mut self, shift: &Vector3<f64>) -> Self {
         for vertex in &mut self.vertices {
             *vertex += shift;
@@ -126,7 +125,7 @@ fn pair_half_edges(loops: &[Vec<usize>]) -> Result<Vec<Edge>, ShapeError> {
     Ok(edges)
 }
 
-/// The plane of a loop by Newell's formula, which uses all vertices alike.
+/// The plane of a loop by Newell's formula, which uses all vertices equally.
 fn face(vertices: &[Vector3<f64>], edges: &[Edge], vertex_loop: Vec<usize>) -> Face {
     let count = vertex_loop.len() as f64;
     let centre = vertex_loop
@@ -154,7 +153,7 @@ fn face(vertices: &[Vector3<f64>], edges: &[Edge], vertex_loop: Vec<usize>) -> F
     }
 }
 
-/// Fills in an edge's geometry once the faces are known to be sound.
+/// Computes an edge's geometry after the faces have been checked.
 fn measure(edge: &mut Edge, vertices: &[Vector3<f64>], faces: &[Face]) {
     let along = vertices[edge.vertices[1]] - vertices[edge.vertices[0]];
     edge.length = along.norm();

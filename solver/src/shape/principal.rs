@@ -10,13 +10,13 @@ const EQUAL: f64 = 1e-9;
 pub struct PrincipalInertia {
     /// Principal moments, the smallest first, in the tensor's unit.
     pub moments: [f64; 3],
-    /// Unit axes of the moments, right-handed, in the tensor's frame. About equal
-    /// moments every axis is a principal one: then those nearest to the frame's own.
+    /// Unit axes of the moments, right-handed, in the tensor's frame. For equal moments, where the
+    /// axes are not unique, those nearest to the frame's own.
     pub axes: [Vector3<f64>; 3],
 }
 
 impl PrincipalInertia {
-    /// Of a symmetric tensor: its eigenvalues and eigenvectors.
+    /// Moments and axes of a symmetric tensor: its eigenvalues and eigenvectors.
     pub fn of(tensor: &Matrix3<f64>) -> Self {
         let eigen = tensor.symmetric_eigen();
         let mut order = [0, 1, 2];
@@ -45,12 +45,12 @@ impl PrincipalInertia {
     }
 }
 
-/// The one of ±axis whose largest component is positive.
+/// The sense of ±axis whose largest component is positive.
 fn vertical_walls(axis: &Vector3<f64>) -> Vector3<f64> {
     axis * axis[axis.iamax()].signum()
 }
 
-/// The direction across an axis that is nearest to one of the frame's.
+/// The direction across an axis nearest to one of the frame's axes.
 fn across(axis: &Vector3<f64>) -> Vector3<f64> {
     let mut nearest = Vector3::zeros();
     nearest[axis.iamin()] = 1.0;

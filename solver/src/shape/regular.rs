@@ -5,7 +5,7 @@ use super::hull::hull_of;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// A solid with equal regular faces. As JSON by its name in small letters.
+/// A solid with equal regular faces, as JSON by its name in small letters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RegularSolid {
@@ -31,8 +31,8 @@ impl RegularSolid {
         Self::Icosahedron,
     ];
 
-    /// Its vertices [m] as it lies: one face is lowest and normal to z, and an edge
-    /// of that runs along y.
+    /// Its vertices [m] when it lies on a face: one face is lowest and normal to z, with an edge
+    /// along y.
     pub(super) fn lying(self, edge_m: f64) -> Result<Vec<Vector3<f64>>, ShapeError> {
         let standing = hull_of(&self.vertices(edge_m))?;
         let lowest = &standing.faces()[0];
@@ -67,7 +67,7 @@ impl RegularSolid {
     }
 }
 
-/// A place with every combination of signs of its coordinates.
+/// Places with every combination of signs of these coordinates.
 fn signs([x, y, z]: [f64; 3]) -> Vec<Vector3<f64>> {
     let both = |c: f64| {
         if c == 0.0 { vec![0.0] } else { vec![c, -c] }
@@ -81,7 +81,7 @@ fn signs([x, y, z]: [f64; 3]) -> Vec<Vector3<f64>> {
     all
 }
 
-/// The same, with the coordinates in each cyclic order.
+/// Places with every combination of signs of the coordinates, in each cyclic order.
 fn cyclic([x, y, z]: [f64; 3]) -> Vec<Vector3<f64>> {
     [[x, y, z], [y, z, x], [z, x, y]]
         .into_iter()

@@ -4,16 +4,15 @@ use super::SpheroPolyhedron;
 use super::polyhedron::{ConvexPolyhedron, Edge};
 use nalgebra::{Isometry3, Point3, Vector3};
 
-/// Cross products of edges shorter than this (sine of their angle) are no
-/// direction: the edges are parallel, and face normals separate instead.
+/// Sine of the angle of two edges below which they have no common normal: they are parallel,
+/// and face normals separate instead.
 pub(super) const PARALLEL: f64 = 1e-12;
 
-/// Distance between the cores of two bodies [m], each given in its own frame
-/// and placed by its pose; zero or negative (minus the depth) when they meet.
-/// Exact for convex polyhedra: the nearest pair is a vertex and a face, or two
-/// edges; and two of them meet exactly if no face normal and no cross product
-/// of two edges separates them. For the rounded surfaces subtract both sphero
-/// radii.
+/// Distance between the cores of two bodies [m], each given in its own frame and placed by its
+/// pose; zero or negative (minus the depth) when they overlap. Exact for convex polyhedra: the
+/// nearest pair is a vertex and a face, or two edges; and two of them overlap exactly if no
+/// face normal and no cross product of two edges separates them. For the rounded surfaces
+/// subtract both sphero radii.
 pub fn separation(
     a: &SpheroPolyhedron,
     pose_a: &Isometry3<f64>,
@@ -29,7 +28,7 @@ pub fn separation(
     }
 }
 
-/// The same for cores that are known to be apart, at less cost.
+/// Distance of cores that are known to be apart, at less cost.
 pub fn distance_apart(
     a: &SpheroPolyhedron,
     pose_a: &Isometry3<f64>,
@@ -46,7 +45,7 @@ fn nearest(a: &SpheroPolyhedron, b: &SpheroPolyhedron, b_in_a: &Isometry3<f64>) 
         .min(edge_distance(&a.core, &b.core, b_in_a))
 }
 
-/// Largest gap between the shadows of `a` and `b` on any separating direction.
+/// Largest gap between the projections of `a` and `b` on any separating direction.
 fn widest_gap(a: &ConvexPolyhedron, b: &ConvexPolyhedron, b_in_a: &Isometry3<f64>) -> f64 {
     let b_vertices = moved(b, b_in_a);
     let normals_of_a = a.faces().iter().map(|face| face.normal);
@@ -65,7 +64,7 @@ fn widest_gap(a: &ConvexPolyhedron, b: &ConvexPolyhedron, b_in_a: &Isometry3<f64
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Distance by which `b` begins beyond the end of `a` in a direction.
+/// Distance in a direction from the end of `a` to the beginning of `b`.
 fn gap_along(a: &[Vector3<f64>], b: &[Vector3<f64>], direction: &Vector3<f64>) -> f64 {
     let end = |v: &Vector3<f64>| v.dot(direction);
     let end_of_a = a.iter().map(end).fold(f64::NEG_INFINITY, f64::max);
@@ -103,8 +102,8 @@ fn edge_distance(a: &ConvexPolyhedron, b: &ConvexPolyhedron, b_in_a: &Isometry3<
     nearest
 }
 
-/// Distance between two segments where both nearest points are interior;
-/// infinite otherwise (then a vertex is nearest, and is looked at elsewhere).
+/// Distance between two segments where both nearest points are interior; infinite otherwise
+/// (then a vertex is nearest, and is found elsewhere).
 fn segment_distance(a: [Vector3<f64>; 2], b: [Vector3<f64>; 2]) -> f64 {
     let (along_a, along_b, apart) = (a[1] - a[0], b[1] - b[0], b[0] - a[0]);
     let normal = along_a.cross(&along_b);

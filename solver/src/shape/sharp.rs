@@ -6,9 +6,8 @@ use super::regular::RegularSolid;
 use super::{SpheroPolyhedron, positive};
 use nalgebra::Vector3;
 
-/// A convex polyhedron with sharp edges, to be rounded: the core is what lies at
-/// least the sphero radius behind every face, so the rounded solid's flats are
-/// where the faces were.
+/// A convex polyhedron with sharp edges, to be rounded: the core is the region at least the
+/// sphero radius behind every face, so the rounded solid's flats are where the faces were.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SharpPolyhedron {
     within: HalfSpaces,
@@ -17,8 +16,8 @@ pub struct SharpPolyhedron {
 }
 
 impl SharpPolyhedron {
-    /// A regular solid with edges of `edge_m`, lying on a face: its lowest face
-    /// is normal to z, and an edge of that runs along y.
+    /// A regular solid with edges of `edge_m`, lying on a face: its lowest face is normal to z,
+    /// with an edge along y.
     ///
     /// # Errors
     /// A length that is not positive.
@@ -27,18 +26,17 @@ impl SharpPolyhedron {
         Self::hull_of(&solid.lying(edge_m)?)
     }
 
-    /// The convex hull of some points [m]. Points inside it or amid a face or an
-    /// edge don't matter, coplanar faces are one; so are features smaller than
-    /// 1e-5 of the solid.
+    /// The convex hull of some points [m]. Points inside it, in a face or on an edge don't matter,
+    /// coplanar faces are merged, and features smaller than 1e-5 of the solid are left out.
     ///
     /// # Errors
-    /// A coordinate that is no number, or points that enclose nothing.
+    /// A non-finite coordinate, or points that enclose no volume.
     pub fn hull_of(points: &[Vector3<f64>]) -> Result<Self, ShapeError> {
         let finite = |point: &Vector3<f64>| point.iter().all(|c| c.is_finite());
         if let Some(vertex) = points.iter().position(|point| !finite(point)) {
             return Err(ShapeError::NotFinite { vertex });
         }
-        // From one of them: far from the origin offsets would lose their digits.
+        // From one of them: far from the origin offsets would lose digits.
         let first = points.first().copied().unwrap_or_default();
         let near: Vec<_> = points.iter().map(|point| point - first).collect();
         let within = HalfSpaces::round(&near)?;
@@ -62,8 +60,7 @@ impl SharpPolyhedron {
         self.diameter
     }
 
-    /// Rounded by a sphere; the centre of mass of the rounded solid is the
-    /// origin.
+    /// The solid rounded by a sphere; the centre of mass of the rounded solid is the origin.
     ///
     /// # Errors
     /// A radius that is not positive, or leaves no core.

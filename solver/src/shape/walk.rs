@@ -1,29 +1,28 @@
-//! The nearest feature of any convex core, fast: a walk from feature to feature,
-//! each step to a neighbour that is nearer (after Lin & Canny 1991).
+//! The nearest feature of any convex core, fast: a walk from feature to feature, each step to a
+//! neighbour that is nearer (after Lin & Canny 1991).
 //!
-//! It starts on the face whose plane x is farthest in front of and takes no other
-//! face that doesn't look at x. On such faces no place is nearer than all around
-//! it without being the nearest of all: at a vertex or an edge where no step to a
-//! face that looks at x shortens the distance, x lies in the feature's normal
-//! cone. Every step is taken only if the distance becomes less, so rounding can't
-//! make it go round in circles.
+//! It starts on the face whose plane x is farthest in front of and takes no other face that is
+//! not visible from x. On such faces a place that is nearer than all its neighbours is the
+//! nearest of all: at a vertex or an edge where no step to a visible face shortens the
+//! distance, x lies in the feature's normal cone. Every step is taken only if the distance
+//! decreases, so rounding can't cause cycles.
 
 use super::closest::{Closest, Feature, on_face, outside};
 use super::polyhedron::{ConvexPolyhedron, Edge, Face};
 use nalgebra::Vector3;
 
-/// A core, laid out for the walk.
+/// A core in the layout of the walk.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Walk {
     /// Outward unit normal and offset of every face's plane.
     planes: Vec<Plane>,
-    /// Of every face, where its rails begin; one more for the end.
+    /// Index of the first rail of every face; one more for the end.
     first_rail: Vec<usize>,
     /// Sides of the faces, face by face.
     rails: Vec<Rail>,
     sides: Vec<Side>,
     vertices: Vec<Vector3<f64>>,
-    /// Of every vertex, where its spokes begin; one more for the end.
+    /// Index of the first spoke of every vertex; one more for the end.
     first_spoke: Vec<usize>,
     /// Edges that end in a vertex, vertex by vertex.
     spokes: Vec<usize>,
@@ -44,20 +43,20 @@ struct Rail {
     edge: usize,
 }
 
-/// An edge, with what is to either side of it.
+/// An edge, with both adjacent sides.
 #[derive(Debug, Clone, PartialEq)]
 struct Side {
     ends: [usize; 2],
     start: Vector3<f64>,
     direction: Vector3<f64>,
     length: f64,
-    /// Its faces, and which of their rails it is.
+    /// Its faces, and the index of their rail on it.
     faces: [usize; 2],
     rails: [usize; 2],
 }
 
-/// Stand of the walk: a feature, the place on it nearest to x, and the square of its
-/// distance from x.
+/// Current state of the walk: a feature, its place nearest to x, and the square of the distance
+/// from x.
 #[derive(Debug, Clone, Copy)]
 struct Stand {
     feature: Feature,
@@ -66,7 +65,7 @@ struct Stand {
 }
 
 impl Walk {
-    /// Lays a core out.
+    /// Walk layout of a core.
     pub(super) fn on(core: &ConvexPolyhedron) -> Self {
         let mut first_rail = vec![0];
         let mut rails = Vec::new();
@@ -187,8 +186,8 @@ impl Walk {
         }
     }
 
-    /// Goes on over edges and vertices until none is nearer, or a face is: that
-    /// face and the height of x over it.
+    /// Continues over edges and vertices until none is nearer, or a face is: that face and the
+    /// height of x over it.
     fn along_edges(&self, start: Stand, x: &Vector3<f64>) -> (Stand, Option<(usize, f64)>) {
         let mut stand = start;
         loop {
@@ -203,7 +202,7 @@ impl Walk {
         }
     }
 
-    /// The nearest place on the edges at a vertex, if it is nearer than that.
+    /// The nearest place on the edges at a vertex, if it is nearer than the vertex.
     fn nearer_spoke(&self, vertex: usize, squared: f64, x: &Vector3<f64>) -> Option<Stand> {
         let spokes = &self.spokes[self.first_spoke[vertex]..self.first_spoke[vertex + 1]];
         let seen = |edge: &&usize| {
@@ -216,7 +215,7 @@ impl Walk {
         (nearest.squared < squared).then_some(nearest)
     }
 
-    /// The face beside an edge that x is above, seen along the face from the edge.
+    /// The face beside an edge above which x is, seen along the face from the edge.
     fn beside(&self, edge: usize, x: &Vector3<f64>) -> Option<(usize, f64)> {
         let side = &self.sides[edge];
         for (&face, &rail) in side.faces.iter().zip(&side.rails) {

@@ -1,9 +1,9 @@
-//! Simulated time, and what bounds a run.
+//! Simulated time and the bounds of a run.
 
 use serde::{Deserialize, Serialize};
 
-/// Sub-steps between two audits. Sums over all points are not free, and what
-/// they would show at a step's end shows at a later one as well.
+/// Sub-steps between two audits. Sums over all points have a cost, and an error visible at a
+/// step's end is visible at a later one as well.
 const AUDIT_INTERVAL: u64 = 64;
 
 /// Time of a run and the numbers of its steps.
@@ -15,7 +15,7 @@ pub(super) struct Clock {
     pub steps: u64,
     /// Sub-steps.
     pub substeps: u64,
-    /// Sub-steps summed over the points that took part.
+    /// Sub-steps summed over the computed points.
     pub point_steps: u64,
     /// Sub-steps at the last audit.
     pub last_audit: u64,
@@ -40,14 +40,14 @@ impl Clock {
     }
 }
 
-/// Duration of a run, and what it is told of its steps.
+/// Duration of a run, and bounds of its steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
     /// End of the run [s].
     pub duration: f64,
-    /// Longest sub-step [s]; infinite where stability alone bounds it.
+    /// Longest sub-step [s]; infinite where only stability bounds it.
     pub longest_substep: f64,
-    /// Sub-steps between two audits; the step in which they are over ends in one.
+    /// Sub-steps between two audits; an audit is at the end of the step in which they are over.
     pub audit_interval: u64,
 }
 

@@ -1,5 +1,5 @@
-//! Guards that end a run that has gone wrong (docs/method.md, section 10). Nothing here
-//! changes a run that goes well.
+//! Guards that end a run that has gone wrong (docs/method.md, section 10). They do not change a
+//! run that goes well.
 
 use super::Simulation;
 use super::flow::{Bounds, OffendingPoint};
@@ -8,29 +8,28 @@ use crate::contact::point_body::PenetratingPoint;
 use crate::error::{Mover, StepError};
 use crate::rigid::Body;
 
-/// Overlap of two bodies, as a share of both sphero radii, that is taken for a
-/// contact too soft.
+/// Overlap of two bodies, as a share of both sphero radii, above which their contact is too
+/// soft.
 const DEEPEST_OVERLAP: f64 = 0.9;
-/// Nothing gets this many times faster than a fall from the highest place and the
-/// fastest throw together: an elastic impact doubles a speed, and a few in a row
-/// on ever lighter things some more.
+/// Largest speed over that of a fall from the highest place and the fastest throw together: an
+/// elastic impact doubles a speed, and a few in a row with ever lighter bodies more.
 const FASTER: f64 = 10.0;
-/// Share of the energy scale that the mechanical energy may rise by.
+/// Largest rise of the mechanical energy, as a share of the energy scale.
 const ENERGY_MADE: f64 = 0.1;
-/// The same of the energy that a body's contacts may make, over that body's own scale.
+/// Largest energy made by a body's contacts, as a share of that body's energy scale.
 const BODY_ENERGY_MADE: f64 = 0.01;
 
-/// Bounds that a run may not go beyond, known at its start.
+/// Bounds of a run, known at its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guards {
-    /// Speed that a fall from the highest place and the fastest throw give [m/s].
+    /// Speed of a fall from the highest place and the fastest throw [m/s].
     pub speed_given: f64,
-    /// True if the energy is bounded: not where gravity drives a flow that runs round.
+    /// True if the energy is bounded: not where gravity drives a periodic flow.
     pub energy: bool,
 }
 
 impl Guards {
-    /// Of a scene in which nothing is known of speeds.
+    /// Guards of a scene with unknown speeds.
     pub const ANY_SPEED: Self = Self {
         speed_given: f64::INFINITY,
         energy: false,
@@ -48,7 +47,7 @@ impl Guards {
 }
 
 impl Simulation {
-    /// Checks that the bodies' own sub-steps were as short as they have to be.
+    /// Checks that the body sub-steps were as short as required.
     pub(super) fn look_at_body_steps(&self, substep_s: f64) -> Result<(), StepError> {
         let time_s = self.state.clock.time;
         let reports = self.scratch.body_reports.iter().enumerate();
@@ -57,7 +56,7 @@ impl Simulation {
         let Some((body, asked)) = too_many.next() else {
             return Ok(());
         };
-        // A state that is no number asks for no number of steps.
+        // A non-finite state requires no number of steps.
         Err(match self.state.bodies[body].non_finite() {
             Some(quantity) => StepError::NonFiniteBody {
                 time_s,
@@ -74,7 +73,7 @@ impl Simulation {
         })
     }
 
-    /// Looks at bodies and points after a step.
+    /// Checks bodies and points after a step.
     pub(super) fn look_for_culprits(
         &self,
         stuck: Option<&PenetratingPoint>,
@@ -140,7 +139,7 @@ impl Simulation {
         }
     }
 
-    /// Checks that nothing is faster than it can have become.
+    /// Checks that nothing is faster than the bound.
     fn look_at_speeds(&self) -> Result<(), StepError> {
         let time_s = self.state.clock.time;
         let limit = FASTER * self.given.guards.speed_given;
@@ -168,8 +167,8 @@ impl Simulation {
         check(point, speed, limit)
     }
 
-    /// Largest speed [m/s] that a body's fastest place may come to: a light one among heavy
-    /// ones may get all their energy, which is that of their mass at the speed given.
+    /// Largest speed [m/s] that a body's fastest place may reach: a light one among heavy ones may
+    /// get all their energy, which is that of their mass at the given speed.
     fn fastest_possible(&self, body: &Body) -> f64 {
         let free = self.state.bodies.iter().filter(|body| body.is_free());
         let mass: f64 = free.map(|body| body.mass).sum();
@@ -181,7 +180,7 @@ impl Simulation {
         self.given.guards.speed_given * lighter.max(FASTER)
     }
 
-    /// Checks that there is no more energy than there was, after an audit.
+    /// Checks after an audit that the mechanical energy has not risen.
     pub(super) fn look_at_energy(&self) -> Result<(), StepError> {
         let audit = &self.state.audit;
         let limit_j = ENERGY_MADE * audit.energy_scale();
@@ -216,14 +215,14 @@ impl Simulation {
         Ok(())
     }
 
-    /// Who is fastest, and how fast [m/s].
+    /// The fastest point or body, and its speed [m/s].
     fn fastest_mover(&self) -> (Mover, f64) {
         let bodies = self.state.bodies.iter().enumerate();
         let speeds = bodies.map(|(place, body)| (Mover::Body(place), body.largest_speed()));
         speeds.fold(self.fastest_point(), faster)
     }
 
-    /// The fastest point, and how fast it is [m/s]; the first body at rest if there is none.
+    /// The fastest point, and its speed [m/s]; the first body at rest if there is none.
     fn fastest_point(&self) -> (Mover, f64) {
         let mut fastest = (Mover::Body(0), 0.0);
         self.state.flow.visit(None, &mut |point| {
@@ -232,7 +231,7 @@ impl Simulation {
         fastest
     }
 
-    /// A body whose core has gone through a wall was not held by its contacts.
+    /// Checks that no body's core is behind a wall, where its contacts can't hold it.
     fn look_behind_walls(&self) -> Result<(), StepError> {
         let time_s = self.state.clock.time;
         for (place, body) in self.state.bodies.iter().enumerate() {
@@ -253,8 +252,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Two cores that come together were not held apart by their contacts, and
-    /// beyond that these would push the wrong way.
+    /// Checks that no two cores have merged, where their contacts would push in the wrong
+    /// direction.
     fn look_for_merging_bodies(&self) -> Result<(), StepError> {
         for contact_pair in &self.state.contact_pairs {
             let [body, other] = contact_pair.bodies;
@@ -272,7 +271,7 @@ impl Simulation {
     }
 }
 
-/// The faster of two movers, the first if they are as fast as each other.
+/// The faster of two, the first if they are equally fast.
 fn faster(one: (Mover, f64), other: (Mover, f64)) -> (Mover, f64) {
     if other.1 > one.1 { other } else { one }
 }

@@ -1,5 +1,5 @@
-//! The simulation: the step of docs/method.md, and the run (what they do in
-//! which order: docs/architecture.md).
+//! The simulation: the step of docs/method.md, and the run (order of the stages:
+//! docs/architecture.md).
 
 mod clock;
 mod flow;
@@ -34,37 +34,37 @@ pub use guards::Guards;
 pub use setup::{Columns, Expected, GivenFlow, Outline, Reductions, Scene, Setup, Share, Shares};
 pub use stages::{StageTimer, StepStage};
 
-/// A run in progress: what is given, what changes, and scratch.
+/// A run in progress: its set-up, state and scratch memory.
 #[derive(Debug)]
 pub struct Simulation {
     given: Setup,
     state: State,
     scratch: Scratch,
     pool: Arc<ThreadPool>,
-    /// Why the run can't go on.
+    /// Error that ended the run.
     failed: Option<StepError>,
 }
 
-/// State that a checkpoint holds.
+/// State in a checkpoint.
 #[derive(Debug)]
 struct State {
     clock: Clock,
     flow: Box<dyn Flow>,
     bodies: Vec<Body>,
-    /// Memory of the contacts between bodies.
+    /// Contact histories of the bodies.
     contact_pairs: Vec<ContactPair>,
     audit: Audit,
     /// Balance of every body's energy.
     energies: Vec<BodyEnergy>,
-    /// Sums of the flow, followed from audit to audit for gravity's torque.
+    /// Sums of the flow, updated from audit to audit for gravity's torque.
     moments: FlowMoments,
 }
 
-/// Memory that a step works on; between two steps nothing of it counts.
+/// Scratch memory of a step; its content between two steps is irrelevant.
 #[derive(Debug)]
 struct Scratch {
     body_reports: Vec<BodyReport>,
-    /// The step whose sub-steps are being taken.
+    /// The current step.
     in_hand: Option<StepInHand>,
     stages: StageEnds,
 }
@@ -95,17 +95,17 @@ pub struct SubstepReport {
     pub step_ended: bool,
 }
 
-/// Why a run came back.
+/// Reason for which a run returned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// It reached the time asked for.
+    /// It reached the given time.
     Reached,
     /// The observer asked it to stop.
     Interrupted,
 }
 
 impl Simulation {
-    /// Sets a scenario up on `threads` solver threads.
+    /// Sets up a scenario on `threads` solver threads.
     ///
     /// # Errors
     /// Too many points for one run, or threads that can't be started.
@@ -113,8 +113,8 @@ impl Simulation {
         Self::of_scene(Scene::of(scenario)?, threads)
     }
 
-    /// Sets a scene up on `threads` solver threads. Only a scenario's scene can
-    /// be restored once saved.
+    /// Sets up a scene on `threads` solver threads. Only a scenario's scene can be restored once
+    /// saved.
     ///
     /// # Errors
     /// Threads that can't be started.
@@ -135,8 +135,8 @@ impl Simulation {
         Outline::of(scenario).map(drop)
     }
 
-    /// Cell size [m] and √(K/ρ) [m/s] that a scenario is computed with, automatic
-    /// choices made; no sound without a flow.
+    /// Cell size [m] and √(K/ρ) [m/s] of a scenario's run, automatic choices made; no sound speed
+    /// without a flow.
     ///
     /// # Errors
     /// Too many points for one run.
@@ -177,16 +177,15 @@ impl Simulation {
         }
     }
 
-    /// Runs to the first step end at or after `until_s` (never beyond the
-    /// scenario's duration), calling `observe` after every sub-step. On
-    /// `Break` it returns at once; a later call goes on from there.
+    /// Runs to the first step end at or after `until_s` (never beyond the scenario's duration),
+    /// calling `observe` after every sub-step. On `Break` it returns at once; a later call
+    /// continues from there.
     ///
-    /// Neither where `until_s` lies nor where the observer broke off changes
-    /// how the run is divided into steps: the bits are those of one call.
+    /// Neither `until_s` nor the place of an interruption changes the division of the run into
+    /// steps: the bits are those of one call.
     ///
     /// # Errors
-    /// A state that can't be advanced: see [`StepError`]. Every later call
-    /// gives the same error.
+    /// A state that can't be advanced: see [`StepError`]. Every later call gives the same error.
     pub fn run(
         &mut self,
         until_s: f64,
@@ -225,9 +224,8 @@ impl Simulation {
         self.state.clock.time
     }
 
-    /// The material points, in no particular order. On the fast path they are
-    /// unpacked for this, and amid a step only identity, mass and their position
-    /// at the transfer mean anything.
+    /// The material points, in no particular order. On the fast path they are unpacked for this,
+    /// and within a step only identity, mass and position at the transfer are defined.
     pub fn points(&self) -> Vec<Point> {
         let mut points = Vec::with_capacity(self.state.flow.count());
         self.visit_points(None, |point| points.push(*point));
@@ -239,23 +237,23 @@ impl Simulation {
         self.state.flow.count()
     }
 
-    /// Number of them that are computed; the others are their images.
+    /// Number of computed points; the others are their images.
     pub fn computed_points(&self) -> usize {
         self.state.flow.computed()
     }
 
-    /// Visits the material points, those within a box if one is given; amid a
-    /// step as [`Simulation::points`] gives them.
+    /// Visits the material points, those within a box if one is given; within a step with the
+    /// fields that [`Simulation::points`] defines.
     pub fn visit_points(&self, within: Option<&Around>, mut visit: impl FnMut(&Point)) {
         self.state.flow.visit(within, &mut visit);
     }
 
-    /// Which share of the flow is computed now.
+    /// Share of the flow that is computed now.
     pub fn share(&self) -> Share {
         self.state.flow.share()
     }
 
-    /// Bytes held for points and for the grid.
+    /// Bytes allocated for points and for the grid.
     pub fn bytes(&self) -> (usize, usize) {
         self.state.flow.bytes()
     }
@@ -265,7 +263,7 @@ impl Simulation {
         &self.state.bodies
     }
 
-    /// Load of the flow on a body in the present sub-step.
+    /// Load of the flow on a body in the current sub-step.
     pub fn flow_load(&self, body: usize) -> FlowLoad {
         self.state
             .flow
@@ -275,12 +273,12 @@ impl Simulation {
             .unwrap_or_default()
     }
 
-    /// Report of the present sub-step on a body.
+    /// Report of the current sub-step on a body.
     pub fn body_report(&self, body: usize) -> BodyReport {
         self.scratch.body_reports[body]
     }
 
-    /// Memory of the contacts between bodies: which touch, and how deep.
+    /// Contact pairs of the bodies, with overlaps and histories.
     pub fn contact_pairs(&self) -> &[ContactPair] {
         &self.state.contact_pairs
     }
@@ -290,7 +288,7 @@ impl Simulation {
         &self.state.audit
     }
 
-    /// Balance of a body's energy so far; nothing in it of one that no load moves.
+    /// Balance of a body's energy so far; zero for a fixed or prescribed body.
     pub fn body_energy(&self, body: usize) -> &BodyEnergy {
         &self.state.energies[body]
     }
@@ -300,13 +298,13 @@ impl Simulation {
         self.given.gravity
     }
 
-    /// Speed that a fall from the highest place and the fastest throw give together
-    /// [m/s]; infinite where that is not known.
+    /// Speed of a fall from the highest place and the fastest throw together [m/s]; infinite if
+    /// unknown.
     pub fn speed_given(&self) -> f64 {
         self.given.guards.speed_given
     }
 
-    /// The walls as bodies meet them.
+    /// The walls as planes for bodies.
     pub fn planes(&self) -> &[Plane] {
         &self.given.planes
     }
@@ -347,8 +345,7 @@ impl Simulation {
         self.scratch.stages.tell(watch);
     }
 
-    /// Lets the fast path use no better instructions than these; the best there
-    /// are by default.
+    /// Limits the fast path to these instructions; the best available ones are the default.
     pub fn limit_instructions(&mut self, instructions: Instructions) {
         self.state.flow.limit_instructions(instructions);
     }
@@ -363,7 +360,7 @@ impl Simulation {
         self.state.clock.released_points
     }
 
-    /// Volume of the release not placed because a body stands there [m³].
+    /// Volume of the release not placed because a body is there [m³].
     pub fn excluded_volume_m3(&self) -> f64 {
         self.state.clock.volume_left_out
     }
@@ -377,8 +374,8 @@ impl Simulation {
     /// The whole state between two steps as bytes.
     ///
     /// # Errors
-    /// Amid a step, while the points' motion lies on the grid: break off where
-    /// [`SubstepReport::step_ended`] says so. Never a run that has failed.
+    /// Within a step, while the points' motion is on the grid: interrupt a run where
+    /// [`SubstepReport::step_ended`] is true. A run that has failed can't be saved.
     pub fn save(&self) -> Result<Vec<u8>, SaveError> {
         if let Some(error) = &self.failed {
             return Err(SaveError::Failed(error.clone()));
@@ -391,7 +388,7 @@ impl Simulation {
         }
     }
 
-    /// Takes up a saved state: the run goes on with the same bits.
+    /// Restores a saved state: the run continues with the same bits.
     ///
     /// # Errors
     /// Bytes that are no state of this solver version, or of another scenario.

@@ -1,4 +1,4 @@
-//! From a scenario to a scene: what a run is given, its bodies and its points.
+//! Scene of a scenario: set-up of the run, bodies and points.
 
 use super::clock::Timing;
 use super::guards::Guards;
@@ -31,11 +31,11 @@ pub use resolution::Expected;
 pub use share::{Share, Shares};
 pub(super) use symmetry::near_body;
 
-/// A scene in the solver's own terms: what a scenario is turned into. Whoever
-/// builds one without a scenario answers for it: nothing here is validated.
+/// A scene in the solver's own terms, made from a scenario. A caller that builds one without a
+/// scenario is responsible for it: nothing here is validated.
 #[derive(Debug)]
 pub struct Scene {
-    /// Set-up, which does not change.
+    /// Constant set-up.
     pub given: Setup,
     /// The bodies at the start.
     pub bodies: Vec<Body>,
@@ -43,49 +43,47 @@ pub struct Scene {
     pub points: Vec<Point>,
     /// Arithmetic of the flow. The elastic test law is always in f64.
     pub precision: Precision,
-    /// Volume not released because a body stands there [m³].
+    /// Volume not released because a body is there [m³].
     pub volume_left_out: f64,
-    /// Which shares of the flow are computed, its points being those of the first;
-    /// `None`: all of it.
+    /// Computed shares of the flow, the points being those of the first; `None`: all of it.
     pub shares: Option<Shares>,
 }
 
-/// Set-up of a run; it does not change.
+/// Constant set-up of a run.
 #[derive(Debug, Clone)]
 pub struct Setup {
     /// Identity of the scene: a scenario's JSON.
     pub identity: String,
-    /// Duration, and what bounds the steps.
+    /// Duration, and bounds of the steps.
     pub timing: Timing,
-    /// [m/s²].
+    /// Gravity [m/s²].
     pub gravity: Vec3,
     /// Lattice of the nodes.
     pub lattice: Lattice,
-    /// The walls as the flow meets them.
+    /// The walls as constraints of the flow.
     pub walls: Walls,
-    /// The walls as bodies meet them.
+    /// The walls as planes for bodies.
     pub planes: Vec<Plane>,
-    /// Mirror image of each body where half of a symmetric flow is computed; empty
-    /// where all is.
+    /// Mirror image of each body, if half of a symmetric flow is computed; else empty.
     pub partners: Vec<usize>,
     /// x of the open end [m].
     pub open_end: f64,
     /// The flow, if there is one.
     pub flow: Option<GivenFlow>,
-    /// Guards, which it may not go beyond.
+    /// Guards.
     pub guards: Guards,
 }
 
-/// A scene without its points: what can be known of a run before it is set up.
+/// A scene without its points: all that is known of a run before its set-up.
 #[derive(Debug)]
 pub struct Outline {
-    /// Set-up, which does not change.
+    /// Constant set-up.
     pub given: Setup,
     /// The bodies at the start.
     pub bodies: Vec<Body>,
     /// Columns of points that the release is divided into; `None` without a flow.
     pub columns: Option<Columns>,
-    /// Parts of it that need not be computed.
+    /// Reductions of the computation.
     pub reductions: Reductions,
 }
 
@@ -106,7 +104,7 @@ impl Outline {
         Ok(outline)
     }
 
-    /// The same with all of it computed, whatever the scenario says.
+    /// The outline of a scenario's scene that is computed as a whole, whatever the scenario says.
     ///
     /// # Errors
     /// Too many points for one run.
@@ -124,7 +122,7 @@ impl Outline {
 }
 
 impl Scene {
-    /// The scene of a scenario, with what its numerics leave out left out.
+    /// The scene of a scenario, with the reductions of its numerics.
     ///
     /// # Errors
     /// Too many points for one run, or a reduction that the scene does not allow.
@@ -132,8 +130,8 @@ impl Scene {
         Ok(Self::within(scenario, Outline::of(scenario)?))
     }
 
-    /// The scene of a scenario, all of it computed: one that can be changed by hand
-    /// without its reductions becoming wrong.
+    /// The scene of a scenario, computed as a whole: it can be changed by hand without its
+    /// reductions becoming wrong.
     ///
     /// # Errors
     /// Too many points for one run.
@@ -193,8 +191,8 @@ impl Setup {
         Ok((given, columns))
     }
 
-    /// The same between other walls, with the mirror image of each body if one of
-    /// them is a mirror.
+    /// The set-up with other walls, and with the mirror image of each body if one of them is a
+    /// mirror.
     pub(super) fn between(&self, walls: Walls, partners: Vec<usize>) -> Self {
         Self {
             walls,
@@ -203,8 +201,8 @@ impl Setup {
         }
     }
 
-    /// Distance from a body at which a point can be at a transfer and still touch it
-    /// before the next one [m].
+    /// Largest distance from a body [m] at which a point at a transfer may touch it before the next
+    /// one.
     pub(super) fn contact_reach(&self, bodies: &[Body], pace: &Pace) -> Reach {
         let Some(flow) = &self.flow else {
             return Reach {
@@ -217,12 +215,12 @@ impl Setup {
             .iter()
             .map(|body| body.speed_ahead() * duration)
             .fold(0.0, f64::max);
-        // A step of a single sub-step may go beyond the flow's Courant number.
+        // A step of a single sub-step may exceed the flow's Courant number.
         let cells = flow.limits.flow_courant.max(flow.limits.courant);
         let flow_travel = cells * flow.limits.cell_size;
         Reach {
             sphere: flow.sphere.radius,
-            // Twice both, for what speeds up within the step.
+            // Twice both, for bodies and points that speed up within the step.
             travel: 2.0 * (flow_travel + body_travel),
         }
     }
@@ -264,7 +262,7 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
 }
 
 impl Setup {
-    /// Length of a sub-step of `dt` [s], as walls need it.
+    /// Length of a sub-step of `dt` [s], in the terms of the walls.
     pub(super) fn wall_pace(&self, dt: f64) -> WallPace {
         let sound = |flow: &GivenFlow| self.lattice.spacing.min() / flow.material.p_wave_speed();
         WallPace {
@@ -273,7 +271,7 @@ impl Setup {
         }
     }
 
-    /// Surroundings that bodies move in from a time on [s].
+    /// External conditions of the bodies' motion from a time on [s].
     pub(super) fn surroundings(&self, time: f64) -> Surroundings<'_> {
         Surroundings {
             time,
@@ -283,7 +281,7 @@ impl Setup {
     }
 }
 
-/// Guards by what can fall from where, and what is thrown how fast.
+/// Guards according to the highest fall and the fastest throw.
 fn guards(scenario: &Scenario) -> Guards {
     let channel = &scenario.channel;
     let release = scenario.release();

@@ -1,8 +1,8 @@
-//! Lets a caller time the stages of the step: the solver itself has no clock.
+//! Timing of the stages of the step by a caller: the solver itself has no clock.
 
 use std::fmt;
 
-/// A part of the step, in the order in which they come.
+/// Stages of the step, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum StepStage {
     /// Grid laid, mass, momentum and first forces scattered to it.
@@ -11,19 +11,19 @@ pub enum StepStage {
     Search,
     /// Forces between bodies and points.
     Contact,
-    /// Tiles added up, momentum advanced, nodes displaced.
+    /// Tiles summed, momentum advanced, nodes displaced.
     GridUpdate,
     /// Walls.
     Boundary,
-    /// Gradient gathered, stress renewed, forces scattered.
+    /// Gradient gathered, stress updated, forces scattered.
     StressUpdate,
     /// Bodies moved.
     RigidBodies,
-    /// Motion handed back to the points.
+    /// Motion gathered at the points.
     G2p,
-    /// Points brought into the order of their blocks.
+    /// Points re-sorted by block.
     Rebin,
-    /// Points and bodies looked at for what should not be.
+    /// Points and bodies checked.
     Checks,
     /// Sums compared.
     Audit,
@@ -46,20 +46,20 @@ impl StepStage {
     ];
 }
 
-/// Called with each stage when it is done.
+/// Callback for each stage when it is done.
 pub type StageTimer = Box<dyn FnMut(StepStage) + Send + Sync>;
 
-/// Tells who wants to know when a stage is done.
+/// Notification of the caller at the end of a stage.
 #[derive(Default)]
 pub(super) struct StageEnds(Option<StageTimer>);
 
 impl StageEnds {
-    /// Tells this one from now on.
+    /// Sets the callback.
     pub(super) fn tell(&mut self, watch: StageTimer) {
         self.0 = Some(watch);
     }
 
-    /// A stage is done.
+    /// Reports that a stage is done.
     pub(super) fn done(&mut self, stage: StepStage) {
         if let Some(watch) = &mut self.0 {
             watch(stage);

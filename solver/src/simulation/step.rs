@@ -1,5 +1,4 @@
-//! One step: a transfer at the speed of the flow, sub-steps at the speed of
-//! sound, one gather.
+//! A step: a transfer at the speed of the flow, sub-steps at the speed of sound, a gather.
 
 use super::flow::{StepEnd, StepStart, Substep};
 use super::stages::StepStage;
@@ -14,11 +13,11 @@ use crate::rigid::{Body, Load};
 use crate::stability::{self, Pace};
 use crate::strain_rate_smoothing::StrainRateSmoothing;
 
-/// A sub-step in which a body asked for more sub-steps of its own is shortened.
+/// Number of body sub-steps above which the sub-step is shortened.
 const MANY_BODY_SUBSTEPS: f64 = 10_000.0;
 
 impl Simulation {
-    /// Takes one sub-step, of the step in hand or of a new one.
+    /// Computes one sub-step, of the current step or of a new one.
     pub(super) fn advance(&mut self) -> Result<SubstepReport, StepError> {
         let mut step = match self.scratch.in_hand.take() {
             Some(step) => step,
@@ -100,8 +99,8 @@ impl Simulation {
         Ok(flow.limits.pace(substep, fastest, remaining))
     }
 
-    /// A sub-step no longer than this [s] in which no body asks for too many of its own,
-    /// be it at the end of a `step` [s] that starts now.
+    /// A sub-step no longer than this [s] in which no body needs too many of its own, also at the
+    /// end of a `step` [s] that starts now.
     fn for_bodies(&self, longest: f64, step: f64) -> f64 {
         let around = self.given.surroundings(self.state.clock.time);
         let (bodies, contact_pairs) = (&self.state.bodies, &self.state.contact_pairs);
@@ -113,7 +112,7 @@ impl Simulation {
         }
     }
 
-    /// One sub-step at the speed of sound.
+    /// Computes one sub-step at the speed of sound.
     fn substep(&mut self, substep: Substep) {
         let dt = substep.dt;
         let (given, state, scratch) = (&self.given, &mut self.state, &mut self.scratch);
@@ -158,7 +157,7 @@ impl Simulation {
         scratch.stages.done(StepStage::RigidBodies);
     }
 
-    /// Hands the motion back to the points and checks what came of it.
+    /// Gathers the motion at the points and checks the result.
     fn end_step(&mut self, pace: &Pace) -> Result<(), StepError> {
         let state = &mut self.state;
         let stages = &mut self.scratch.stages;
@@ -210,7 +209,7 @@ impl Simulation {
         }
     }
 
-    /// Takes points beyond the open end out, and counts them.
+    /// Removes points beyond the open end, and counts them.
     fn remove_what_left(&mut self) {
         let (state, end) = (&mut self.state, self.given.open_end);
         if let Some((count, totals)) = state.flow.remove_outflow(end, &self.given) {
@@ -234,7 +233,7 @@ impl Simulation {
         self.state.moments = FlowMoments::of(&flow);
     }
 
-    /// Begins the audit from the present state.
+    /// Begins the audit from the current state.
     pub(super) fn start_audit(&mut self) {
         let flow = self.state.flow.totals(&self.given);
         let bodies = Totals::of_bodies(&self.state.bodies, &self.given.gravity);

@@ -12,7 +12,7 @@ fn lattice() -> Lattice {
     }
 }
 
-/// Numbers spread over −1..1, the same in every run (a Weyl sequence).
+/// Numbers over −1..1, the same in every run (a Weyl sequence).
 struct Spread(f64);
 
 impl Spread {
@@ -30,7 +30,7 @@ impl Spread {
     }
 }
 
-/// Points with everything at random, over a few blocks.
+/// Points with random values, over a few blocks.
 fn random_points() -> Vec<Point> {
     let mut spread = Spread(0.1);
     let point = |id| Point {
@@ -45,7 +45,7 @@ fn random_points() -> Vec<Point> {
     (0..300).map(point).collect()
 }
 
-/// Lays a grid round the points.
+/// Scatters the points to a new grid round them.
 fn scattered(points: &mut Vec<Point>, lattice: Lattice) -> Grid {
     let occupied = sort_by_block(points, &lattice);
     let mut grid = Grid::new(lattice);
@@ -55,7 +55,7 @@ fn scattered(points: &mut Vec<Point>, lattice: Lattice) -> Grid {
     grid
 }
 
-/// A step of `substeps` without walls and gravity; `material` renews stress.
+/// A step of `substeps` without walls and gravity; `material` updates stress.
 fn step(points: &mut Vec<Point>, lattice: Lattice, substeps: u32, dt: f64, material: &Material) {
     let mut grid = scattered(points, lattice);
     let mut deformations: Vec<_> = points.iter().map(Deformation::start).collect();
@@ -133,8 +133,8 @@ fn a_step_keeps_linear_and_angular_momentum() {
     assert!((after.angular - before.angular).norm() < 1e-13);
 }
 
-// A velocity field v = a + B x whose points carry C = B lies on the nodes
-// exactly and comes back exactly, up to rounding of velocities of order 3.
+// A velocity field v = a + B x whose points carry C = B is exact on the nodes and recovered
+// exactly, up to rounding of velocities of order 3.
 #[test]
 fn linear_fields_come_back() {
     let mut spread = Spread(0.7);
@@ -146,7 +146,7 @@ fn linear_fields_come_back() {
     }
     let grid = scattered(&mut points, lattice());
     for (place, node) in grid.nodes().iter().enumerate() {
-        // A node at the rim of a kernel has its velocity from tiny sums.
+        // The velocity of a node at the rim of a kernel is a quotient of tiny sums.
         if node.mass > 1e-9 {
             let exact = a + b * grid.lattice().position(grid.index_of(place));
             assert!(
@@ -212,9 +212,9 @@ fn spinning_cube(lattice: &Lattice) -> Vec<Point> {
     (0..512).map(point).collect()
 }
 
-// Five steps of 0.2 rad, 200 sub-steps each. What stretches the cube are the
-// centrifugal strain ρ (ω R)²/K = 1e-4 and its ringing (measured: 2e-5); without F̂ each step
-// would lose 1 − 1/(1 + 0.2²) = 3.9 % of the volume.
+// Five steps of 0.2 rad, 200 sub-steps each. The cube is stretched by the centrifugal strain ρ
+// (ω R)²/K = 1e-4 and its ringing (measured: 2e-5); without F̂ each step would lose 1 − 1/(1 +
+// 0.2²) = 3.9 % of the volume.
 #[test]
 fn a_spinning_cube_keeps_its_volume() {
     let lattice = Lattice {
@@ -232,7 +232,7 @@ fn a_spinning_cube_keeps_its_volume() {
     let tracked: f64 = points.iter().map(|point| point.volume).sum();
     let off = tracked / (512.0 * 0.005f64.powi(3)) - 1.0;
     assert!(off.abs() < 3e-4, "{off:e}");
-    // The hull agrees with what is tracked: the corners keep their distance.
+    // The hull agrees with the tracked volume: the corners keep their distance.
     let corner = |id| points.iter().find(|p| p.id == id).map(|p| p.position);
     let diagonal = corner(511)
         .zip(corner(0))

@@ -1,11 +1,10 @@
-//! The bed as a boundary column meets it: slope and friction averaged with the
-//! transfer's kernel (docs/method.md, equation 29d).
+//! The bed in boundary columns: slope and friction averaged with the transfer's kernel
+//! (docs/method.md, equation 29d).
 //!
-//! A column that took the plane under its own node would let the slope jump half-way
-//! between two columns, wherever the slope break lies: an error of position of the
-//! order of a cell, which depends on where the grid lies. The kernel's mean spreads
-//! the jump over the columns round the break such that its first moments are
-//! those of the break itself.
+//! With the plane under a column's own node the slope would jump half-way between two columns,
+//! wherever the slope break is: an error of position of the order of a cell, which depends on
+//! the phase of the grid. The kernel's mean spreads the jump over the columns round the break
+//! such that its first moments are those of the break itself.
 
 use super::columns::Way;
 use super::{Plane, Walls};
@@ -51,9 +50,8 @@ fn slope_of(plane: &Plane) -> f64 {
 }
 
 impl Walls {
-    /// Surface that a column on this plane meets at its own place: the plane itself
-    /// away from a slope break, the mean of both planes about the column within the
-    /// kernel's reach of it.
+    /// Surface at the intersection of a column with this plane: the plane itself away from a slope
+    /// break, the mean of both planes about the column within the kernel's reach of it.
     pub(super) fn surface_at(
         &self,
         plane: usize,
@@ -67,8 +65,8 @@ impl Walls {
             Some(other) if way == Way::Vertical => {
                 let x = lattice.position([along, 0, 0]).x;
                 let beyond = (x - break_between(own, other)) / lattice.spacing.x;
-                // The bed is the higher of both: downstream of the break the one that
-                // rises faster.
+                // The bed is the higher of both: downstream of the break the plane that rises
+                // faster.
                 let (downstream, upstream) = if slope_of(own) > slope_of(other) {
                     (own, other)
                 } else {
@@ -82,7 +80,7 @@ impl Walls {
     }
 }
 
-/// The x where two planes that fall along the channel meet [m].
+/// The x at which two planes that fall along the channel intersect [m].
 fn break_between(one: &Plane, other: &Plane) -> f64 {
     let at_origin = |plane: &Plane| plane.offset / plane.normal.z;
     (at_origin(one) - at_origin(other)) / (slope_of(other) - slope_of(one))
@@ -116,8 +114,8 @@ mod tests {
         (0..=20).map(of_column).collect()
     }
 
-    // The columns' slopes, each over one node distance, fall as far as the incline does,
-    // and about the same place: moments 0 and 1 of the break, whatever its phase.
+    // The fall of the columns' slopes, each over one node distance, is that of the incline, and
+    // about the same place: moments 0 and 1 of the break, for any phase.
     #[test]
     fn the_break_lies_where_it_is() {
         let slope = -40f64.to_radians().tan();

@@ -1,4 +1,4 @@
-//! Which nodes walls act on, and how much room they leave them.
+//! Nodes on which walls act, and their available volumes.
 
 use super::Plane;
 use super::Walls;
@@ -12,11 +12,10 @@ use crate::kernel::{Lattice, REACH, share_above, share_above_both};
 use crate::math::{Sym3, Vec3};
 use std::ops::Range;
 
-/// A node with less than this share of its kernel in the channel does not say
-/// how full it is.
+/// Share of a node's kernel in the channel below which its volume fraction is undefined.
 const LEAST_AVAILABLE_VOLUME: f64 = 0.02;
 
-/// A node with its images: they move as one.
+/// A node or one of its images: they move as one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Member {
     pub(super) place: u32,
@@ -33,10 +32,10 @@ pub(super) struct ConstraintSet {
     pub(super) side: Meets,
     /// Their mass together [kg].
     pub(super) mass: f64,
-    /// Surfaces of the bed that act on it alone: where it is on or below the bed,
-    /// unless it is of a column.
+    /// Surfaces of the bed that act on it alone: where it is on or below the bed, unless it belongs
+    /// to a column.
     pub(super) surfaces: [Option<Surface>; 2],
-    /// Share of the kernels that lies above the base planes.
+    /// Share of the kernels above the planes of the bed.
     room: f64,
 }
 
@@ -45,7 +44,7 @@ impl ConstraintSet {
         self.back != Meets::Not || self.side != Meets::Not
     }
 
-    /// Stops a velocity into a wall that the constraint set lies on.
+    /// Stops a velocity into a wall on which the constraint set lies.
     pub(super) fn keep_out_of_walls(&self, velocity: &mut Vec3) {
         for (axis, meets) in [(0, self.back), (1, self.side)] {
             match meets {
@@ -56,15 +55,15 @@ impl ConstraintSet {
     }
 }
 
-/// The nodes of one step that walls act on.
+/// The nodes of one step on which walls act.
 #[derive(Debug, Default)]
 pub struct Boundary {
     pub(super) members: Vec<Member>,
     pub(super) sets: Vec<ConstraintSet>,
-    /// Other nodes whose kernel a base plane cuts: their places, and the share
-    /// of it that lies in the channel.
+    /// Other nodes whose kernel a plane of the bed cuts: their places, and the share of it in the
+    /// channel.
     cut: Vec<(u32, f64)>,
-    /// Groups near the base, by columns.
+    /// Constraint sets near the bed, by columns.
     pub(super) column_nodes: Vec<ColumnNode>,
     pub(super) columns: Vec<BoundaryColumn>,
     /// Velocities of the first two nodes of each column of a kind.
@@ -74,9 +73,8 @@ pub struct Boundary {
 }
 
 impl Boundary {
-    /// Makes nodes fuller where walls leave less room: there the same volume of points
-    /// fills more of it; a node and its images share theirs, and their mean compressive
-    /// strain.
+    /// Raises the volume fraction of nodes with less available volume at walls: the same volume of
+    /// points fills more of it. A node and its images share it, and the mean compressive strain.
     pub fn exclude_volume(&self, nodes: &mut impl NodeAccess) {
         for (place, room) in &self.cut {
             let place = *place as usize;
@@ -95,7 +93,7 @@ impl Boundary {
         }
     }
 
-    /// Places of the nodes that move as one with ghosts of theirs, constraint set by constraint set.
+    /// Places of the nodes of every constraint set that has ghost nodes.
     pub fn ghost_sets(&self) -> impl Iterator<Item = impl Iterator<Item = usize> + Clone> {
         self.sets
             .iter()
@@ -106,8 +104,7 @@ impl Boundary {
             })
     }
 
-    /// The mean strain rate of a node's points takes in those of its images; on a
-    /// wall, the mirror of itself.
+    /// Adds the strain rates of a node's images to its mean; on a wall, the mirror of itself.
     pub fn smooth_strain_rates(&self, nodes: &mut impl NodeAccess) {
         let mirrors = |set: &&ConstraintSet| set.is_at_vertical_wall() || set.members.len() > 1;
         for set in self.sets.iter().filter(mirrors) {
@@ -131,8 +128,8 @@ impl Boundary {
         }
     }
 
-    /// Makes every image as full as the node in the channel that it is one of: a
-    /// crowd that looked larger on one side of a wall would push points through it.
+    /// Sets the volume fraction of every image to that of its node in the channel: a difference
+    /// between the two sides of a wall would shift points through it.
     pub fn fill_ghost_nodes(&self, nodes: &mut impl NodeAccess) {
         for set in &self.sets {
             let [master, images @ ..] = &self.members[set.members.clone()] else {
@@ -146,8 +143,8 @@ impl Boundary {
     }
 }
 
-/// A node and its images have the compressive strain that the points round all of them
-/// have on the mean.
+/// Sets the compressive strain of a node and its images to the mean over the points round all
+/// of them.
 fn smooth_compressive_strain(members: &[Member], nodes: &mut impl NodeAccess) {
     if members.len() < 2 {
         return;
@@ -165,18 +162,19 @@ fn smooth_compressive_strain(members: &[Member], nodes: &mut impl NodeAccess) {
     }
 }
 
-/// Fullness of a share of the room, what fills all of it to `volume_fraction`.
+/// Volume fraction in an available share `room` of the kernel, for `volume_fraction` of the
+/// whole.
 pub fn filled(volume_fraction: f64, room: f64) -> f64 {
     if room > LEAST_AVAILABLE_VOLUME {
         volume_fraction / room
     } else {
-        // Too few points see such a node to say.
+        // The stencils of too few points contain such a node.
         0.0
     }
 }
 
 impl Walls {
-    /// Finds the nodes that walls act on.
+    /// Finds the nodes on which walls act.
     pub fn find_boundary(&self, nodes: &impl NodeAccess, boundary: &mut Boundary) {
         boundary.members.clear();
         boundary.sets.clear();
@@ -195,7 +193,7 @@ impl Walls {
                 ];
                 let index = [0, 1, 2].map(|axis| first[axis] + along[axis] as i32);
                 let place = block * BLOCK_NODES + local;
-                // An empty node counts where its images may not be empty.
+                // An empty node counts if its images may not be empty.
                 let counts = nodes.mass(place) > 0.0 || self.vertical_walls.has_images(index);
                 if counts && self.vertical_walls.master(index, nodes) == index {
                     self.add_set(nodes, place, index, boundary);
@@ -293,7 +291,7 @@ impl Walls {
         });
     }
 
-    /// Share of the kernel of a node at `x` that lies above the base planes.
+    /// Share of the kernel of a node at `x` above the planes of the bed.
     fn room(&self, x: &Vec3, spacing: &Vec3) -> f64 {
         let height = |plane: &Plane| {
             // The kernel is as wide along a slant as along its axes.
@@ -309,11 +307,11 @@ impl Walls {
         }
     }
 
-    /// Surfaces of the bed that a node is on or below: of vertical columns the mean
-    /// bed there, of horizontal ones their plane.
+    /// Surfaces of the bed that a node is on or below: for vertical columns the mean bed there, for
+    /// horizontal ones their plane.
     fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2] {
         let x = lattice.position(index);
-        // A node that lies on the plane but for rounding belongs to it.
+        // A node on the plane up to rounding belongs to it.
         let rounding = 1e-9 * (1.0 + x.norm());
         // The floor acts before a steep incline, as it comes first in the base.
         [Way::Vertical, Way::Horizontal].map(|way| {

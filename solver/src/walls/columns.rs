@@ -1,10 +1,10 @@
-//! Columns of nodes over the base: behind it, velocity goes on as it came.
+//! Columns of nodes through the bed, with linear extrapolation of velocity behind it.
 //!
-//! A column is a row of nodes along the axis that the base faces. With a and b its
-//! first two nodes in the channel, a node t node distances behind a moves with
-//! v_a + t (v_a − v_b), and the base acts on the velocity at its own place
-//! (docs/method.md, equations 29–29c). So the motion near the base is a linear one,
-//! where nodes that are each held on their own would let it slip.
+//! A column is a row of nodes along the axis closest to the bed's normal. With a and b its
+//! first two nodes in the channel, a node t node distances behind a moves with v_a + t (v_a −
+//! v_b), and the bed acts on the velocity at its own position (docs/method.md, equations
+//! 29–29c). The motion near the bed is therefore linear; nodes constrained one by one would let
+//! it slip.
 
 use super::bed::Surface;
 use super::boundary::{Boundary, ConstraintSet};
@@ -16,18 +16,18 @@ use crate::math::Vec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Slope (rise over run) from which on a base plane has horizontal columns, along x.
+/// Slope (rise over run) above which a plane of the bed has horizontal columns, along x.
 const STEEP: f64 = 2.0;
-/// Columns whose masses lie closer than this along them [node distances²] say
-/// nothing of how the velocity changes.
+/// Spread of a column's masses along it [node distances²] below which they do not determine the
+/// gradient of velocity.
 const LEAST_SPREAD: f64 = 1e-6;
-/// Columns one task takes.
+/// Columns per task.
 const TASK: usize = 64;
 
-/// Which columns a node is of.
+/// Directions of the columns of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Way {
-    /// Along x, on a steep plane. They come first: the floor has the last word.
+    /// Along x, on a steep plane. These come first, so that the floor has the last word.
     Horizontal,
     /// Along z.
     Vertical,
@@ -63,27 +63,26 @@ pub(super) struct ColumnNode {
     pub(super) set: u32,
 }
 
-/// A column and what it resists.
+/// A boundary column and its resistance.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BoundaryColumn {
     column_nodes: Range<usize>,
-    /// The bed at its foot.
+    /// The bed at its intersection.
     surface: Surface,
     /// Inverse of the mass matrix of a and b [1/kg]: aa, ab, bb.
     mobility: [f64; 3],
-    /// Shares of a and b in the velocity at the base.
+    /// Shares of a and b in the velocity at the bed.
     at_base: [f64; 2],
 }
 
-/// Share of the first and the second node in the velocity of one `depth` behind.
+/// Share of the first and the second node in the velocity of the node at `depth` behind.
 fn shares(depth: f64) -> [f64; 2] {
     [1.0 + depth, -depth]
 }
 
 impl BoundaryColumn {
-    /// The column of these column nodes, on a surface `gap` node distances behind the
-    /// first node; `None` if nodes with mass are too few or an vertical wall holds
-    /// one of them across the way.
+    /// The column of these column nodes, on a surface `gap` node distances behind the first node;
+    /// `None` if nodes with mass are too few or a vertical wall holds one of them in its direction.
     fn new(
         all: &[ColumnNode],
         column_nodes: Range<usize>,
@@ -124,7 +123,7 @@ impl BoundaryColumn {
         [push[0] * aa + push[1] * ab, push[0] * ab + push[1] * bb]
     }
 
-    /// Velocities of its first two nodes that carry the momentum of all.
+    /// Velocities of its first two nodes that have the momentum of all nodes.
     fn fitted(
         &self,
         column_nodes: &[ColumnNode],
@@ -143,7 +142,7 @@ impl BoundaryColumn {
         self.moved_by(momentum)
     }
 
-    /// Velocities that the base leaves them: no inflow at its place, and friction there.
+    /// Their velocities after the constraint at the bed: no inflow, and friction there.
     fn stopped(&self, ends: [Vec3; 2]) -> [Vec3; 2] {
         let [a, b] = self.at_base;
         let arriving = ends[0] * a + ends[1] * b;
@@ -152,7 +151,7 @@ impl BoundaryColumn {
         if left == arriving {
             return ends;
         }
-        // An impulse at the base moves both, and its own place by the sum.
+        // An impulse at the bed moves both, and the velocity there by the sum.
         let [one, other] = self.moved_by([Vec3::repeat(a), Vec3::repeat(b)]);
         let change = (left - arriving) / (a * one.x + b * other.x);
         [ends[0] + change * one.x, ends[1] + change * other.x]
@@ -160,7 +159,7 @@ impl BoundaryColumn {
 }
 
 impl Walls {
-    /// The columns that a node is of: on their ends in the channel or behind.
+    /// The columns that contain a node, in the channel at their ends or behind.
     pub(super) fn column_nodes_of(
         &self,
         index: [i32; 3],
@@ -184,8 +183,8 @@ impl Walls {
         })
     }
 
-    /// Place where a column meets the base: the plane, how far behind the first node in
-    /// the channel [node distances], and that node's index.
+    /// Intersection of a column with the bed: the plane, its distance behind the first node in the
+    /// channel [node distances], and that node's index.
     fn foot(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<(usize, f64, i32)> {
         let axis = way.axis();
         let index = match way {
@@ -199,7 +198,7 @@ impl Walls {
             .map(|(which, plane)| (which, -plane.height(&start) / plane.normal[axis]))
             .max_by(|one, other| one.1.total_cmp(&other.1))?;
         let cells = along / lattice.spacing[axis];
-        // A node that lies on the plane but for rounding is in the channel.
+        // A node on the plane up to rounding is in the channel.
         let first = (cells - 1e-9 * (1.0 + cells.abs())).ceil();
         Some((plane, (first - cells).max(0.0), first as i32))
     }
@@ -209,7 +208,7 @@ impl Walls {
         first.is_some_and(|(_, _, first)| index[2] < first)
     }
 
-    /// Makes columns of the column nodes found.
+    /// Makes columns of the column nodes.
     pub(super) fn make_columns(&self, boundary: &mut Boundary, lattice: &Lattice) {
         let Boundary {
             column_nodes,
@@ -237,8 +236,8 @@ impl Walls {
         }
     }
 
-    /// Gives the nodes of every column the velocities of one, and lets the base act
-    /// on them if it `acts`.
+    /// Sets the velocities of the nodes of every column by linear extrapolation, with the
+    /// constraint at the bed if it `acts`.
     pub(super) fn line_up(&self, boundary: &mut Boundary, acts: bool) {
         let Boundary {
             column_nodes,
@@ -248,7 +247,7 @@ impl Walls {
             ends,
             ..
         } = boundary;
-        // A node can be of a lying and of a vertical columns.
+        // A node can belong to a horizontal and a vertical column.
         let way = |column: &BoundaryColumn| column_nodes[column.column_nodes.start].way;
         for alike in columns.chunk_by(|a, b| way(a) == way(b)) {
             alike

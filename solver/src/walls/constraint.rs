@@ -8,13 +8,13 @@ use super::{Impulse, Walls};
 use crate::math::Vec3;
 use rayon::prelude::*;
 
-/// Groups of nodes one task takes.
+/// Constraint sets per task.
 const TASK: usize = 128;
 
-/// Length of a sub-step, as walls need it.
+/// Length of a sub-step, in the terms of the walls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallPace {
-    /// [s].
+    /// Length of the sub-step [s].
     pub dt: f64,
     /// Sub-steps in which sound crosses a cell.
     pub crossing: f64,
@@ -25,31 +25,31 @@ pub struct WallPace {
 struct Before {
     /// Momentum along x and y [N s].
     momentum: [f64; 2],
-    /// Sub-steps in which sound crosses a cell. What is pressed with p expands off a wall at
-    /// up to p/(ρ c) without letting go: as long as p could stop it within that time.
+    /// Sub-steps in which sound crosses a cell. Material under a pressure p may expand off a wall
+    /// at up to p/(ρ c) without separating: as long as p could stop it within that time.
     crossing: f64,
 }
 
-/// Answer of walls to the motion of a constraint set.
+/// Constrained velocity of a constraint set at walls.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ConstrainedVelocity {
     /// Velocity in the frame of the first member [m/s].
     pub(super) velocity: Vec3,
-    /// True along x and y if the constraint set leaves the wall across: its images move along
-    /// with it instead of mirrored.
+    /// True along x and y if the constraint set separates from the wall across: its images move
+    /// along with it instead of mirrored.
     leaves: [bool; 2],
-    /// Momentum of the constraint set along x and y after it, as it lies on the grid [N s].
+    /// Momentum of the constraint set along x and y after it, unreflected, on the grid [N s].
     left: [f64; 2],
     /// Impulse given.
     impulse: Impulse,
-    /// True if it is another velocity than before.
+    /// True if the velocity has changed.
     changed: bool,
 }
 
 impl Walls {
-    /// Makes nodes and their images move as one, and columns of nodes in a line, as
-    /// they will in the first sub-step. What it takes from the nodes' momentum the
-    /// rest of the transfer gives back, so it is no impulse.
+    /// Applies the constraints of the first sub-step, without the impulse of walls: nodes and their
+    /// images move as one, and columns of nodes linearly. The momentum that this removes is
+    /// returned by the residual transfer, so it is no impulse.
     pub fn reflect(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) {
         self.propose(boundary, nodes, None);
         self.line_up(boundary, false);
@@ -60,9 +60,9 @@ impl Walls {
         }
     }
 
-    /// Makes node velocities obey the walls for a sub-step: mirrors at the vertical walls ones,
-    /// no inflow and free separation at the base, Coulomb friction at both. Returns the
-    /// impulse given to the flow.
+    /// Constrains node velocities at the walls for a sub-step: mirrors at the vertical walls, no
+    /// inflow and free separation at the bed, Coulomb friction at both. Returns the impulse on the
+    /// flow.
     pub fn constrain(
         &self,
         boundary: &mut Boundary,
@@ -74,15 +74,15 @@ impl Walls {
         Self::give(boundary, nodes, pace.dt)
     }
 
-    /// Makes nodes and their images move as one again after the rest of a transfer,
-    /// which goes to each of them alone: bodies meet the flow's motion before the
-    /// first sub-step's [`constrain`](Self::constrain). Returns the impulse given.
+    /// Joins nodes and their images again after a residual transfer, which scatters to each of them
+    /// separately: bodies use the flow's motion before the first sub-step's
+    /// [`constrain`](Self::constrain). Returns the impulse.
     pub fn join(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) -> Impulse {
         self.propose(boundary, nodes, None);
         Self::give(boundary, nodes, 0.0)
     }
 
-    /// Gives the constraint sets the velocities found for them.
+    /// Sets the constraint sets to their constrained velocities.
     fn give(boundary: &mut Boundary, nodes: &mut impl NodeAccess, dt: f64) -> Impulse {
         let Boundary {
             members,
@@ -112,8 +112,8 @@ impl Walls {
         given
     }
 
-    /// Finds for every constraint set the motion it would have without its column; within a
-    /// sub-step, which has a `pace`, with the base planes that act on it alone.
+    /// Computes for every constraint set its motion without its column; within a sub-step, which
+    /// has a `pace`, with the planes of the bed that act on it alone.
     fn propose(&self, boundary: &mut Boundary, nodes: &impl NodeAccess, pace: Option<WallPace>) {
         let Boundary {
             members,
@@ -141,8 +141,8 @@ impl Walls {
             });
     }
 
-    /// Common motion of a constraint set in the frame of its first member, but for the base.
-    /// `before` is there if the forces of a sub-step have acted.
+    /// Common motion of a constraint set in the frame of its first member, without the bed.
+    /// `before` is given if the forces of a sub-step have acted.
     fn joint_motion(
         &self,
         set: &ConstraintSet,
@@ -159,7 +159,7 @@ impl Walls {
         }
     }
 
-    /// Common motion of a constraint set that meets an vertical wall, but for the base.
+    /// Common motion of a constraint set at a vertical wall, without the bed.
     fn between_vertical_walls(
         &self,
         set: &ConstraintSet,
@@ -200,9 +200,9 @@ impl Walls {
 
 /// Motion of a constraint set in the frame of its first member.
 struct Motion {
-    /// [m/s].
+    /// Velocity [m/s].
     velocity: Vec3,
-    /// True along x and y if the constraint set leaves the wall across.
+    /// True along x and y if the constraint set separates from the wall across.
     leaves: [bool; 2],
 }
 
@@ -219,7 +219,7 @@ impl ConstrainedVelocity {
         mirrored(&self.velocity, [sign(0), sign(1)])
     }
 
-    /// Finds the impulse that the velocity takes.
+    /// Computes the impulse of the change of velocity.
     fn account_for(&mut self, members: &[Member], nodes: &impl NodeAccess, dt: f64) {
         self.impulse = Impulse::default();
         self.changed = false;
@@ -238,12 +238,12 @@ impl ConstrainedVelocity {
     }
 }
 
-/// Mass and momentum that a node and its images carry together.
+/// Total mass and momentum of a node and its images.
 struct Folded {
     mass: f64,
     /// Momentum, the images' mirrored back.
     momentum: Vec3,
-    /// Momentum as it lies on the grid.
+    /// Momentum without reflection, on the grid.
     unfolded: Vec3,
     /// Mass less mass of images, for x and y.
     signed_mass: [f64; 2],
@@ -271,8 +271,7 @@ impl Folded {
     }
 }
 
-/// Coulomb friction of an vertical wall: takes at most `largest_loss` of the
-/// speed along it.
+/// Coulomb friction of a vertical wall: takes at most `largest_loss` of the speed along it.
 fn apply_friction(axis: usize, largest_loss: f64, velocity: &mut Vec3) {
     let normal = velocity[axis];
     velocity[axis] = 0.0;
@@ -280,7 +279,7 @@ fn apply_friction(axis: usize, largest_loss: f64, velocity: &mut Vec3) {
     velocity[axis] = normal;
 }
 
-/// No inflow through a surface, and friction on what was stopped.
+/// Stops inflow through a surface, and applies friction by the stopped momentum.
 pub(super) fn constrain_to(surface: &Surface, velocity: &mut Vec3) {
     let inflow = -velocity.dot(&surface.normal);
     if inflow <= 0.0 {
@@ -290,7 +289,7 @@ pub(super) fn constrain_to(surface: &Surface, velocity: &mut Vec3) {
     *velocity = tangential * kept_by_friction(surface.friction * inflow, tangential.norm());
 }
 
-/// Share of a tangential speed that Coulomb friction leaves.
+/// Share of a tangential speed that remains after Coulomb friction.
 fn kept_by_friction(largest_loss: f64, speed: f64) -> f64 {
     if speed > largest_loss {
         1.0 - largest_loss / speed

@@ -1,4 +1,4 @@
-//! The nodes as walls see them, whichever grid they are of.
+//! Access of walls to the nodes of either grid.
 
 use crate::grid::{BlockKey, Grid};
 use crate::kernel::Lattice;
@@ -19,19 +19,19 @@ pub trait NodeAccess: Sync {
     fn velocity(&self, place: usize) -> Vec3;
     /// Displacement at the start of the sub-step of `dt` [m].
     fn displacement(&self, place: usize, dt: f64) -> Vec3;
-    /// Gives a node the velocity [m/s] with which it moves through the sub-step.
+    /// Sets the velocity [m/s] of a node through the sub-step.
     fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64);
-    /// Volume of points over room for them.
+    /// Nodal volume fraction.
     fn volume_fraction(&self, place: usize) -> f64;
-    /// Changes it.
+    /// Sets the nodal volume fraction.
     fn set_volume_fraction(&mut self, place: usize, volume_fraction: f64);
     /// Mean strain rate of its points at the transfer [1/s].
     fn strain_rate(&self, place: usize) -> Sym3;
-    /// Changes it.
+    /// Sets the mean strain rate.
     fn set_strain_rate(&mut self, place: usize, strain_rate: &Sym3);
     /// Mean compressive volumetric strain min(φ, 0) of its points at the transfer.
     fn compressive_strain(&self, place: usize) -> f64;
-    /// Changes it.
+    /// Sets the mean compressive strain.
     fn set_compressive_strain(&mut self, place: usize, strain: f64);
 }
 

@@ -38,7 +38,7 @@ pub(super) fn channel(cells_across: i32, base_friction: f64, side_friction: f64)
     }
 }
 
-/// A grid round a few blocks with mass 1 at these nodes, moving as said.
+/// A grid round a few blocks with mass 1 at these nodes, with these velocities.
 pub(super) fn grid_with(nodes: &[([i32; 3], Vec3)]) -> Grid {
     let lattice = Lattice {
         origin: Vec3::zeros(),
@@ -64,7 +64,7 @@ pub(super) fn velocity(grid: &Grid, index: [i32; 3]) -> Vec3 {
     grid.nodes()[grid.place_of(index).expect("its block is there")].velocity
 }
 
-/// Constrains and checks that what the walls say they gave is what changed.
+/// Constrains, and checks that the reported impulse of the walls is the change of momentum.
 pub(super) fn constrained(walls: &Walls, grid: &mut Grid) -> Impulse {
     let momentum = |grid: &Grid| {
         let mut sum = Impulse::default();
@@ -118,7 +118,7 @@ fn nodes_below_the_floor_are_held_too() {
     assert_eq!(velocity(&grid, [5, 3, -1]), Vec3::zeros());
 }
 
-/// The same walls as planes of symmetry.
+/// The walls as planes of symmetry.
 fn symmetric(mut walls: Walls) -> Walls {
     walls.vertical_walls.sides = walls.vertical_walls.sides.map(|side| match side {
         VerticalBoundary::Wall(plane) | VerticalBoundary::Symmetry(plane) => {
@@ -128,9 +128,9 @@ fn symmetric(mut walls: Walls) -> Walls {
     walls
 }
 
-// A node and its image behind a smooth side are one flow and its reflection:
-// both end with the mean, mirrored, and nothing is lost along the wall. A plane of
-// symmetry mirrors what moves off it, too.
+// A node and its image behind a smooth side are one flow and its reflection: both end with the
+// mean, mirrored, and no momentum is lost along the wall. A plane of symmetry also mirrors
+// flow that moves off it.
 #[test]
 fn a_smooth_side_mirrors() {
     let right = ([5, 1, 4], [5, -1, 4], [5, 0, 4], -1.0);
@@ -159,8 +159,8 @@ fn a_smooth_side_mirrors() {
     }
 }
 
-// What moves off a wall moves on, its images with it; what presses it there, by the
-// forces of a sub-step, holds it.
+// Flow that separates from a wall moves on, its images with it; flow pressed there by the
+// forces of a sub-step is held.
 #[test]
 fn flow_leaves_a_wall_once_it_outruns_its_pressure() {
     let walls = channel(8, 0.0, 0.0);
@@ -181,7 +181,7 @@ fn flow_leaves_a_wall_once_it_outruns_its_pressure() {
     }
 }
 
-// In the edge of back wall and side a node has three images.
+// In the edge between back wall and side a node has three images.
 #[test]
 fn a_corner_mirrors_both_ways() {
     let v = Vec3::new(-1.0, -2.0, 3.0);
@@ -215,22 +215,22 @@ fn one_cell_across_lies_between_two_mirrors() {
     }
 }
 
-// A wall node pushed into the side at 2 m/s is pressed with that impulse, of
-// which friction takes 0.25 from 5 m/s along the wall.
+// A wall node pushed into the side at 2 m/s is pressed with that impulse, by which friction
+// takes 0.25 from 5 m/s along the wall.
 #[test]
 fn a_rough_side_rubs() {
     let mut grid = grid_with(&[([5, 0, 4], Vec3::new(3.0, -2.0, 4.0))]);
     let given = constrained(&channel(8, 0.0, 0.25), &mut grid);
     assert!((velocity(&grid, [5, 0, 4]) - Vec3::new(2.7, 0.0, 3.6)).norm() < 1e-14);
     assert!((given.linear - Vec3::new(-0.3, 2.0, -0.4)).norm() < 1e-14);
-    // Off the wall it is let go.
+    // Off the wall it is released.
     let mut grid = grid_with(&[([5, 0, 4], Vec3::new(3.0, 2.0, 4.0))]);
     constrained(&channel(8, 0.0, 0.25), &mut grid);
     assert_eq!(velocity(&grid, [5, 0, 4]), Vec3::new(3.0, 2.0, 4.0));
 }
 
-// On the back wall and below the incline a node must not move through either; down the
-// slope it may slide.
+// On the back wall and below the incline a node must not move through either; it may slide
+// down the slope.
 #[test]
 fn at_the_foot_of_the_back_wall_only_the_slope_is_open() {
     let mut walls = channel(8, 0.0, 0.0);
@@ -243,8 +243,8 @@ fn at_the_foot_of_the_back_wall_only_the_slope_is_open() {
     assert!((velocity(&grid, [0, 3, 2]) - Vec3::new(0.96, 0.5, -0.72)).norm() < 1e-15);
 }
 
-// Nodes a period apart are one node: velocities are those of their joint momentum,
-// which stays, and both see the same room.
+// Nodes a period apart are one node: velocities are those of their joint momentum, which is
+// conserved, and both have the same available volume.
 #[test]
 fn nodes_across_a_seam_move_as_one() {
     let mut walls = channel(4, 0.0, 0.0);

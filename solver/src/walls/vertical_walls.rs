@@ -1,4 +1,4 @@
-//! The vertical walls: which nodes are images of which.
+//! The vertical walls, and the images of nodes in them.
 
 use super::Plane;
 use super::nodes::NodeAccess;
@@ -8,7 +8,7 @@ use std::iter::once;
 /// index 0 and half of `halves_across` along y.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VerticalWalls {
-    /// Bounds at index 0 along x.
+    /// Boundary at index 0 along x.
     pub ends: Ends,
     /// The side walls.
     pub sides: [VerticalBoundary; 2],
@@ -17,12 +17,12 @@ pub struct VerticalWalls {
     pub halves_across: i32,
 }
 
-/// Bounds of the flow along x.
+/// Boundaries of the flow along x.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ends {
-    /// A bound at the back; the front is open.
+    /// A boundary at the back; the front is open.
     Back(VerticalBoundary),
-    /// None: what leaves after `cells` cells comes in at the back. Energy and
+    /// A periodic boundary: flow that leaves after `cells` cells enters at the back. Energy and
     /// angular momentum of such a flow can't be audited.
     Seam {
         /// Cells from end to end.
@@ -30,10 +30,10 @@ pub enum Ends {
     },
 }
 
-/// vertical walls bound of the flow.
+/// Vertical boundary of the flow.
 #[derive(Debug, Clone, PartialEq)]
 pub enum VerticalBoundary {
-    /// A wall, which flow can leave.
+    /// A wall, from which flow can separate.
     Wall(Plane),
     /// A plane of symmetry, with the rest of the flow behind it.
     Symmetry(Plane),
@@ -47,17 +47,17 @@ impl VerticalBoundary {
         }
     }
 
-    /// True of a wall.
+    /// True for a wall.
     fn is_wall(&self) -> bool {
         matches!(self, VerticalBoundary::Wall(_))
     }
 }
 
-/// Cells across the whole channel from which on flow can leave its sides: then no node
-/// has images in both bounds of the half that is computed.
+/// Cells across the whole channel from which on flow can separate from its sides: then no node
+/// has images in both boundaries of the computed half.
 const SIDES_APART: i32 = 6;
 
-/// Meeting of a constraint set of nodes with an vertical wall; `inward` is the sign of the wall's
+/// Position of a constraint set of nodes at a vertical wall; `inward` is the sign of the wall's
 /// normal along its axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meets {
@@ -92,8 +92,8 @@ impl Meets {
 }
 
 impl VerticalWalls {
-    /// The node in the channel that a node is the image of (itself, mostly);
-    /// across a periodic boundary the first that has a block.
+    /// The master node in the channel of a node (itself, mostly); across a periodic boundary the
+    /// first that has a block.
     pub(super) fn master(&self, [i, j, k]: [i32; 3], nodes: &impl NodeAccess) -> [i32; 3] {
         let j = j.abs();
         let j = if 2 * j > self.halves_across {
@@ -113,7 +113,7 @@ impl VerticalWalls {
         [i, j, k]
     }
 
-    /// True if a node has images that the kernel can reach.
+    /// True if a node has images in reach of the kernel.
     pub(super) fn has_images(&self, [i, j, _]: [i32; 3]) -> bool {
         let along = match self.ends {
             Ends::Back(_) => i == 1,
@@ -127,12 +127,12 @@ impl VerticalWalls {
         self.halves_across - j
     }
 
-    /// True if the kernel can reach the image of row `j` in the second side.
+    /// True if the image of row `j` in the second side is in reach of the kernel.
     fn is_before_far_side(&self, j: i32) -> bool {
         (1..=2).contains(&(self.halves_across - 2 * j))
     }
 
-    /// Visits the images that the kernel can reach, one node behind a wall.
+    /// Visits the images in reach of the kernel, one node behind a wall.
     pub(super) fn for_each_image(
         &self,
         [i, j, k]: [i32; 3],
@@ -177,13 +177,13 @@ impl VerticalWalls {
         }
     }
 
-    /// True if what leaves comes in again.
+    /// True if the boundary along x is periodic.
     pub fn is_periodic(&self) -> bool {
         matches!(self.ends, Ends::Seam { .. })
     }
 
-    /// By how many cells a place `along` cells from the back is moved so that it
-    /// lies between the ends of a periodic boundary.
+    /// Number of cells by which a place `along` cells from the back is moved into the period of a
+    /// periodic boundary.
     pub fn periodic_shift(&self, along: f64) -> Option<i32> {
         let Ends::Seam { cells } = self.ends else {
             return None;
@@ -201,7 +201,7 @@ impl VerticalWalls {
         }
     }
 
-    /// True if flow can leave the bound across an axis whose normal has this sign.
+    /// True if flow can separate from the boundary across an axis whose normal has this sign.
     pub(super) fn lets_go(&self, axis: usize, inward: f64) -> bool {
         match (&self.ends, axis) {
             (Ends::Back(bound), 0) => bound.is_wall(),
@@ -231,7 +231,7 @@ fn across_period(i: i32, cells: i32) -> impl Iterator<Item = i32> {
     alike.filter(move |alike| *alike != i && (-1..=cells + 1).contains(alike))
 }
 
-/// Meeting of a wall with a node so many halves of a cell from it.
+/// Position at a wall of a node so many halves of a cell from it.
 fn meets(halves: i32, inward: f64) -> Meets {
     match halves {
         0 => Meets::On { inward },

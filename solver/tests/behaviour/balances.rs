@@ -29,8 +29,7 @@ const EACH: [Bounds; 2] = [
 /// precisions. Measured: 6e-16.
 const MASS: f64 = 1e-12;
 
-/// Runs a scene in both precisions, holds its balances at every step and shows
-/// its end.
+/// Runs a scene in both precisions, checks its balances at every step and shows its end.
 fn balanced(name: &str, scene: &Scene, look: impl Fn(&Simulation)) {
     for bounds in EACH {
         let mut simulation = scene.clone().precision(bounds.precision).start();

@@ -34,7 +34,7 @@ fn dropped(orientation: &Value, elevation_m: f64, restitution: f64) -> Scene {
         .lasting(1.0)
 }
 
-/// Cube standing on a vertex: its diagonal (1, 1, 1) turned to the vertical.
+/// Orientation of a cube standing on a vertex: its diagonal (1, 1, 1) turned to the vertical.
 fn on_vertex() -> Value {
     // About (1, −1, 0)/√2 by acos(1/√3).
     let half = 0.5 * (1.0f64 / 3.0).sqrt().acos();
@@ -59,8 +59,8 @@ fn a_cube_slides_at_the_acceleration_of_coulomb() {
     assert!(error.abs() < 1e-3);
 }
 
-// Sticks for μ > tan θ. The tangential springs stretch at the start and ring
-// out within 0.2 s; after that nothing may creep (docs/accuracy.md, case 6: 1e-6 m in 5 s).
+// Sticks for μ > tan θ. The tangential springs stretch at the start and ring out within 0.2 s;
+// after that the cube must not creep (docs/accuracy.md, case 6: 1e-6 m in 5 s).
 #[test]
 fn a_cube_below_its_angle_of_friction_does_not_creep() {
     let mut simulation = on_slope(25.0, 0.6, 5.0).start();
@@ -78,8 +78,8 @@ fn a_cube_below_its_angle_of_friction_does_not_creep() {
     assert!(total < 2e-5);
 }
 
-// A constant force is exact in velocity Verlet; what remains is the rounding
-// of 400 sums of order 1.
+// A constant force is exact in velocity Verlet; the remaining error is the rounding of 400
+// sums of order 1.
 #[test]
 fn free_fall_is_exact() {
     let scene = dropped(&json!([1, 0, 0, 0]), 2.0, 0.3)
@@ -94,8 +94,8 @@ fn free_fall_is_exact() {
     assert!((body.velocity() - Vec3::new(0.1, 0.02, 1.0 - 0.4 * GRAVITY)).norm() < 1e-13);
 }
 
-/// Speed of leaving over speed of arriving in the first impact, both taken
-/// back to the height of first touch along the free flight.
+/// Rebound speed over impact speed in the first impact, both extrapolated to the height of
+/// first contact along the free flight.
 fn rebound(scene: &Scene) -> f64 {
     let mut simulation = scene.start();
     let body = &simulation.bodies()[0];
@@ -119,8 +119,8 @@ fn rebound(scene: &Scene) -> f64 {
     leaving / arriving
 }
 
-// docs/accuracy.md, case 4: e asked = e got within 2 %, for a cube that falls on a
-// vertex below its centre, where the effective mass is its own.
+// docs/accuracy.md, case 4: the restitution is the given one within 2 %, for a cube that falls
+// on a vertex below its centre, where the effective mass is its own.
 #[test]
 fn a_vertex_rebounds_as_asked() {
     for restitution in [0.2, 0.5, 0.9] {
@@ -140,7 +140,7 @@ fn a_face_rebounds_as_asked() {
     }
 }
 
-/// Whether a cube with much friction, resting flat on a slope, has tipped.
+/// True if a cube with much friction, resting flat on a slope, has tipped.
 fn tips(inclination_deg: f64) -> bool {
     let simulation = on_slope(inclination_deg, 5.0, 1.0).finished();
     let start = on_slope(inclination_deg, 5.0, 1.0).start();
@@ -159,9 +159,9 @@ fn a_cube_tips_over_its_lowest_edge() {
     assert!(tips(41.99 + 0.3));
 }
 
-// A cube rounded almost to a ball, which stands on one vertex of what core is left,
-// is pushed along. It rolls on and on; a resistance of 0.1 with the lever r takes
-// 0.1 m g of force from it, and it stops within v²/(2 · 0.1 g · 5/7) = 0.18 m.
+// A cube rounded almost to a ball, which stands on one vertex of its tiny core, is pushed
+// along. It rolls on and on; a resistance of 0.1 with the lever r takes 0.1 m g of force from
+// it, and it stops within v²/(2 · 0.1 g · 5/7) = 0.18 m.
 #[test]
 fn rolling_friction_stops_a_round_body() {
     let half = 0.5 * (1.0f64 / 3.0).sqrt().acos();

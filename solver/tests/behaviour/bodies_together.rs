@@ -31,8 +31,7 @@ fn places(simulation: &Simulation) -> Vec<Vec3> {
     bodies.map(|body| body.state.position).collect()
 }
 
-// Each level carries what lies on it; nothing creeps, and the overlap is below
-// 2 % of r.
+// Each level carries the bodies above; nothing creeps, and the overlap is below 2 % of r.
 #[test]
 fn a_tower_stands() {
     let mut simulation = tower().start();
@@ -60,8 +59,8 @@ fn a_tower_stands() {
     assert!(simulation.audit().angular_momentum_residual < 1e-12);
 }
 
-// A barrier stops a cube that slides into it: what it gives is an impulse from
-// outside in the books, and it does not move.
+// A barrier stops a cube that slides into it: its impulse is booked as one from outside, and
+// it does not move.
 #[test]
 fn a_barrier_stops_a_cube() {
     let mut barrier = cube(&json!({"downstream_m": 0.3}));

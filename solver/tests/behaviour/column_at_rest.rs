@@ -9,9 +9,8 @@ const DENSITY: f64 = 1500.0;
 const HEIGHT_M: f64 = 0.08;
 const CELL_M: f64 = 0.01;
 
-/// A column that fills a flat channel between back wall and smooth sides; a
-/// fixed cube as wide as the channel stands at its front, a hair from the
-/// points' spheres.
+/// A column that fills a flat channel between back wall and smooth sides; a fixed cube as wide
+/// as the channel stands at its front, at a tiny distance from the points' spheres.
 fn column() -> Scene {
     let width = 0.1;
     let point_spacing = 0.5 * CELL_M;
@@ -31,7 +30,7 @@ fn column() -> Scene {
 fn layers(scene: &Scene) -> Vec<Vec<usize>> {
     let mut layers: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
     for (place, point) in points_by_id(&scene.start()).iter().enumerate() {
-        // Bits of positive floats ascend with them.
+        // The bits of positive floats ascend with their values.
         layers
             .entry(point.position.z.to_bits())
             .or_default()
@@ -69,7 +68,7 @@ fn rests(scene: &Scene) {
     .expect("a column can rest");
     let (end, to) = (mean_velocity(&simulation), simulation.time_s());
 
-    // What the walls gave the flow is its change of momentum and the weight.
+    // The impulse of the walls on the flow is its change of momentum plus the weight.
     let wall_share = 1.0 + (end.z - start.z) / (GRAVITY * (to - from));
     println!(
         "walls carry {wall_share:.5} of the weight, v {:.1e} m/s",
@@ -90,11 +89,11 @@ fn rests(scene: &Scene) {
 
 /// Bound of a layer's error, over the stress at the bottom.
 ///
-/// In the lowest cell (two layers) the kernel of the free nodes one cell up
-/// still has the weight 1/8 at the floor, and no wall gives them that share of
-/// its reaction: the cell is pressed that much too hard at most (measured:
-/// 10 %). Above it the discretisation is exact for a linear stress; what is
-/// left is ringing and the cell at the surface (measured: 1.1 % and 0.6 %).
+/// In the lowest cell (two layers) the kernel of the free nodes one cell up still has the
+/// weight 1/8 at the floor, and no wall gives them that share of its reaction: the pressure in
+/// the cell is too high by at most that (measured: 10 %). Above it the discretisation is exact
+/// for a linear stress; the remaining errors are ringing and the cell at the surface (measured:
+/// 1.1 % and 0.6 %).
 fn tolerance(layer: usize) -> f64 {
     if layer < 2 { 0.125 } else { 0.02 }
 }

@@ -6,8 +6,8 @@ use scree_solver::{Ending, Simulation};
 use serde_json::json;
 use std::ops::ControlFlow;
 
-/// A flow that strikes a cube and leaves it behind, its lengths this many times as
-/// large; when it ended, and the cube's outcome.
+/// A flow that strikes a cube and passes it, its lengths this many times as large: time of the
+/// end, and the cube's outcome.
 fn struck(length: f64) -> (f64, BodyOutcome) {
     let metres = |x: f64| json!(x * length);
     let scenario = Scene::channel(40.0, 0.6 * length, 1.0 * length, 0.12 * length)

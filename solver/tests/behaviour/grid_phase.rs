@@ -1,4 +1,4 @@
-//! Grid phase: an answer must not depend on where the nodes lie. The scene is moved by
+//! Grid phase: an answer must not depend on the position of the nodes. The scene is moved by
 //! quarters of a cell against the grid; physics stays the same.
 
 use scree_solver::Simulation;
@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 const PHASES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// A flow that runs down 40° and out on the floor, without a body; the back wall, never
-/// touched, lies farther off by `behind` [m].
+/// touched, is farther away by `behind` [m].
 fn flow(cell: f64, behind: f64) -> Value {
     json!({
         "channel": {"inclination_deg": 40.0, "incline_length_m": 0.5 + behind, "runout_length_m": 1.5,
@@ -45,8 +45,8 @@ fn scene(scenario: &Value) -> Scene {
     Scene::of(&Scenario::from_value(scenario).unwrap()).unwrap()
 }
 
-// Along the channel: 0.7 and 0.4 % measured, where a column that took the plane under its
-// own node had 16 and 8 %. Across the height the floor lies between two nodes.
+// Along the channel: 0.7 and 0.4 % measured, where a column with the plane under its own node
+// had 16 and 8 %. Across the height the floor lies between two nodes.
 #[test]
 fn the_flow_does_not_feel_where_the_nodes_lie() {
     for (cell, largest) in [(0.02, 0.01), (0.01, 0.005)] {

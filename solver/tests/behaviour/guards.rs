@@ -1,5 +1,5 @@
-//! Runs that go wrong end with an error that says when, who and by how much. Each scene
-//! here is sound and then spoilt by hand in the way its guard is there for.
+//! Runs that go wrong end with an error that gives time, point or body, and numbers. Each scene
+//! here is valid and then spoilt by hand so that one guard acts.
 
 use crate::scenes::{Scene, points_by_id};
 use scree_solver::simulation::{Guards, Scene as Built};
@@ -41,7 +41,7 @@ fn what_is_faster_than_a_fall_is_named() {
     });
 }
 
-// The cube stands a little way in the floor, which then becomes ten million times as
+// The cube starts with a small overlap with the floor, which then becomes ten million times as
 // stiff: it is thrown up by energy that its contacts made.
 #[test]
 fn energy_made_by_a_bodys_contacts_ends_the_run() {
@@ -62,8 +62,8 @@ fn energy_made_by_a_bodys_contacts_ends_the_run() {
     assert!(made_j > limit_j && time_s < 0.1, "{error}");
 }
 
-// Contacts of points that drive instead of damping: the body's own book knows only of the
-// flow's work on it, the whole run's finds what was made.
+// Contacts of points that drive instead of damping: the body's own balance contains only the
+// flow's work on it; the balance of the whole run finds the energy made.
 #[test]
 fn energy_made_between_flow_and_body_ends_the_run() {
     in_both_precisions(|scene| {
@@ -89,7 +89,7 @@ fn a_crushed_point_is_named() {
         let crushed = 7;
         let error = spoilt(&scene, |built| {
             let flow = built.given.flow.as_mut().expect("there is a flow");
-            // Too soft to swell again within a step.
+            // Too soft to expand again within a step.
             flow.material.bulk_modulus *= 1e-6;
             flow.material.shear_modulus *= 1e-6;
             built.points[crushed].volume /= 3.0;
@@ -108,8 +108,8 @@ fn a_crushed_point_is_named() {
     });
 }
 
-// Undamped contact with a modulus of 1e12 Pa on a body that weighs a microgram: once its
-// own sub-steps were cut at 10,000 of a millisecond. Now the millisecond is cut.
+// Undamped contact with a modulus of 1e12 Pa on a body that weighs a microgram: formerly its
+// own sub-steps were limited to 10,000 per millisecond. Now the millisecond is shortened.
 #[test]
 fn a_body_that_asks_for_many_steps_gets_shorter_ones() {
     let scenario = Scene::channel(40.0, 0.6, 0.6, 0.2)
@@ -133,8 +133,8 @@ fn a_body_that_asks_for_many_steps_gets_shorter_ones() {
     assert!(shortest < 9e-4 && most <= 20_000, "{shortest} s, {most}");
 }
 
-// Once points behind the incline sank ever faster: where a flow spreads over its base
-// the nodes behind it go on inward, and took them a cell deep within seconds.
+// Formerly points behind the incline sank ever faster: where a flow spreads over its bed the
+// nodes behind it move inwards, and took them a cell deep within seconds.
 #[test]
 fn no_point_sinks_into_the_incline() {
     for precision in ["single", "double"] {

@@ -31,12 +31,12 @@ fn shapes() -> [Value; 10] {
     ]
 }
 
-/// One over the other, askew, in a pit of 12 by 14 cm whose fourth side is a barrier.
+/// One above the other, askew, in a pit of 12 by 14 cm whose fourth side is a barrier.
 fn heap() -> Scene {
     heap_of(10, 0.3, &[0.002])
 }
 
-/// The same of the first so many, with this restitution and these sphero radii [m] in
+/// A heap of the first so many bodies, with this restitution and these sphero radii [m] in
 /// turn.
 fn heap_of(count: usize, restitution: f64, radii: &[f64]) -> Scene {
     let barrier = json!({"shape": {"box": {"sides_m": [0.02, 0.119, 0.3]}}, "fixed": true,
@@ -44,7 +44,7 @@ fn heap_of(count: usize, restitution: f64, radii: &[f64]) -> Scene {
     let pit = Scene::channel(0.0, 0.06, 1.0, 0.12).body(barrier);
     let fallen = |scene: Scene, (level, shape): (usize, Value)| {
         let n = level as f64;
-        // Of unit length within what a scenario asks for.
+        // Of unit length within the tolerance of a scenario.
         let (sin, cos) = (0.35 + 0.4 * n).sin_cos();
         let axis = [0.48, 0.6, 0.64];
         scene.body(json!({
@@ -65,7 +65,7 @@ fn free(simulation: &Simulation) -> impl Iterator<Item = &Body> {
     bodies.filter(|body| body.is_free())
 }
 
-/// Kinetic and potential energy and what contacts hold [J].
+/// Kinetic and potential energy, and energy stored in contacts [J].
 fn energy(simulation: &Simulation) -> f64 {
     let held = simulation
         .contact_pairs()
@@ -78,7 +78,7 @@ fn energy(simulation: &Simulation) -> f64 {
     free(simulation).map(of_body).sum::<f64>() + held.sum::<f64>()
 }
 
-/// Deepest overlap of any contact now, over the sphero radius all bodies have.
+/// Deepest overlap of any contact now, over the sphero radius of all bodies.
 fn deepest(simulation: &Simulation) -> f64 {
     let radius = simulation.bodies()[1].shape.sphero_radius();
     let on_walls = free(simulation).map(|body| body.state.wall_overlap);
@@ -89,11 +89,10 @@ fn deepest(simulation: &Simulation) -> f64 {
     on_walls.chain(on_bodies).fold(0.0, f64::max) / radius
 }
 
-// The bars: overlap at rest below 2 % of r, at impact below 20 %; at rest means
-// asleep, nothing having moved faster than 1e-5 m/s for 0.1 s. Energy rises by no
-// more than 1e-4 of what there is: what Verlet makes of it, and the springs of
-// contacts that change their overlap; each body's contacts make as little of what moves it.
-// Kinetic energy alone rises while they fall.
+// Tolerances: overlap at rest below 2 % of r, at impact below 20 %; at rest means asleep, with
+// no speed above 1e-5 m/s for 0.1 s. Energy rises by at most 1e-4 of its value, by the error
+// of Verlet and by the springs of contacts that change their overlap; each body's contacts
+// make no more of the energy that moves it. Kinetic energy alone rises while they fall.
 #[test]
 fn ten_mixed_bodies_dropped_come_to_rest() {
     let mut simulation = heap().lasting(2.0).start();
@@ -135,10 +134,10 @@ fn ten_mixed_bodies_dropped_come_to_rest() {
     assert!(audit.angular_momentum_residual < 1e-12);
 }
 
-// The same bar where little is lost: what has bounced meets what still falls, and
-// sphero radii differ, so that overlap is measured by the smaller one and the contact
-// modulus of the rounder one must not decide. Undamped contacts take ten times the steps,
-// so there are few and for the first impacts only.
+// The same tolerance where little is lost: rebounding bodies meet falling ones, and sphero
+// radii differ, so that overlap is measured by the smaller one and the contact modulus of the
+// rounder one must not decide. Undamped contacts take ten times the steps, so there are few
+// and for the first impacts only.
 #[test]
 fn bouncing_bodies_of_several_radii_overlap_no_more() {
     let radii = [0.002, 0.004, 0.001];
@@ -153,8 +152,8 @@ fn bouncing_bodies_of_several_radii_overlap_no_more() {
     }
 }
 
-// Two cubes that sleep on each other are saved and taken up again asleep; both runs
-// are woken by the same cube from above, and end with the same bits.
+// Two cubes that sleep on each other are saved and restored asleep; both runs are woken by the
+// same cube from above, and end with the same bits.
 #[test]
 fn a_sleeping_island_goes_on_with_the_same_bits() {
     let cube = |downstream: f64, elevation: Value| {

@@ -1,11 +1,11 @@
-//! Who may import whom: a module imports only from lower layers, and within a
-//! layer nothing, so that each can be read and tested without the rest.
+//! Layers of modules: a module imports only from lower layers, and nothing within its own, so
+//! that each can be read and tested without the rest.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Layers, lowest first. The scenario is a description that knows of shapes
-/// alone; the simulation reads it.
+/// Layers, lowest first. The scenario is a description that depends on shapes only; the
+/// simulation reads it.
 const LAYERS: [&[&str]; 9] = [
     &["math", "error", "stability"],
     &[
@@ -33,7 +33,7 @@ const LAYERS: [&[&str]; 9] = [
     &["fast"],
 ];
 
-/// Above the layers, in this order: they bring them together.
+/// Above the layers, in this order: they combine them.
 const ON_TOP: [&str; 4] = ["simulation", "plan", "record", "accuracy"];
 
 fn rank(module: &str) -> Option<usize> {
@@ -47,12 +47,12 @@ fn rank(module: &str) -> Option<usize> {
         .or_else(on_top)
 }
 
-/// The module a path below `crate::` belongs to.
+/// The module of a path below `crate::`.
 fn module_of(path: &str) -> String {
     let mut parts = path.split("::");
     let first = parts.next().unwrap_or_default();
     match (first, parts.next()) {
-        // A group of them: as high as the highest.
+        // A group of modules: as high as the highest.
         ("contact", Some("")) => "contact::point_body".to_owned(),
         ("contact", Some(second)) => format!("contact::{second}"),
         _ => first.to_owned(),
@@ -72,8 +72,7 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Every path below `crate::` that the code of a file names, its tests and
-/// comments apart.
+/// All paths below `crate::` in the code of a file, without its tests and comments.
 fn imports(text: &str) -> Vec<String> {
     let code = text
         .split("#[cfg(test)]\nmod tests {")

@@ -1,4 +1,4 @@
-//! Where scenes end: nothing to compute, and nothing that can be computed.
+//! Limits of scenes: nothing to compute, and states that can't be computed.
 
 use crate::scenes::{Scene, run, watch};
 use scree_solver::record::Recorder;
@@ -49,7 +49,7 @@ fn a_flow_without_bodies_runs() {
     assert!(simulation.counts().2 > 0);
 }
 
-// After the last point has left by the open end the run goes on to its end.
+// After the last point has left through the open end the run continues to its end.
 #[test]
 fn a_flow_may_leave_altogether() {
     let scene = Scene::channel(60.0, 0.3, 0.01, 0.04)
@@ -66,8 +66,7 @@ fn a_flow_may_leave_altogether() {
     assert!(simulation.audit().mass_error < 1e-12);
 }
 
-// A block of 1,000,000 kg/m³ falls on a cube whose contact carries its own weight
-// and no more.
+// A block of 1,000,000 kg/m³ falls on a cube whose contact carries only its own weight.
 #[test]
 fn a_run_that_failed_stays_so() {
     let cube = |elevation: f64, density: f64| {
@@ -91,15 +90,14 @@ fn a_run_that_failed_stays_so() {
         "{error:?}"
     );
     assert!(error.time_s() > 0.0 && error.time_s() < 0.5);
-    // It stays so, also for who asks for no more than there is, and is no state
-    // to go on from.
+    // It stays failed, also for a time already reached, and can't be saved.
     let now = simulation.time_s();
     assert_eq!(watch(&mut simulation, now, |_, _| {}), Err(error.clone()));
     assert_eq!(simulation.save(), Err(SaveError::Failed(error)));
 }
 
-// A body thrown as fast as scenarios allow either runs or ends with the time
-// and the culprit; never a panic, never a state that is no number.
+// A body thrown as fast as scenarios allow either runs or ends with an error that names time
+// and body; never a panic, never a non-finite state.
 #[test]
 fn an_absurd_throw_ends_in_order() {
     for (sound, velocity) in [(None, 1e3), (Some(20.0), 1e3), (Some(20.0), 50.0)] {
@@ -128,9 +126,9 @@ fn an_absurd_throw_ends_in_order() {
     }
 }
 
-// A cube thrown at 50 m/s through a flow given a sound of 20 m/s once went half a
-// cell per sub-step, past points it should have struck: the sub-step looked at
-// the points' speed alone.
+// A cube thrown at 50 m/s through a flow given a sound speed of 20 m/s formerly travelled half
+// a cell per sub-step, past points that it should have struck: the sub-step depended on the
+// points' speed only.
 #[test]
 fn a_thrown_body_does_not_jump_over_points() {
     let scene = Scene::impact()
@@ -141,7 +139,7 @@ fn a_thrown_body_does_not_jump_over_points() {
     let cell = simulation.cell_size_m();
     watch(&mut simulation, 0.002, |simulation, report| {
         let travel = report.substep_s * simulation.bodies()[0].velocity().norm();
-        // What a body may travel in a sub-step.
+        // Largest travel of a body in a sub-step.
         assert!(travel < 0.4 * cell, "{travel} m in one sub-step");
     })
     .expect("it runs");
@@ -168,9 +166,9 @@ fn beside_a_cube(flow: serde_json::Value) -> Scene {
         .lasting(0.1)
 }
 
-// Once a cube of 0.1 kg/m³ flew off at 15 km/s: the friction of the points that
-// touched it could take more momentum per sub-step than the cube had. Nothing
-// here can be faster than a fall through the release.
+// Formerly a cube of 0.1 kg/m³ flew off at 15 km/s: the friction of the points that touched it
+// could take more momentum per sub-step than the cube had. Nothing here can be faster than a
+// fall through the release.
 #[test]
 fn a_body_lighter_than_air_is_carried_not_thrown() {
     let flow = json!({"volume_m3": 0.002, "release": {"height_m": 0.08, "toe_distance_m": 0.0}});
@@ -190,8 +188,8 @@ fn a_body_lighter_than_air_is_carried_not_thrown() {
         let start = simulation.bodies()[0].state.position;
         watch(&mut simulation, 0.05, |simulation, report| {
             let body = &simulation.bodies()[0];
-            // Contacts start with the flow's mean pressure all round; until they carry
-            // what presses there, a body without mass snaps by a part of an overlap.
+            // Contacts start with the flow's mean pressure all round; until they carry the actual
+            // stress, a body without mass moves at once by a part of an overlap.
             if report.time_s > 1e-3 {
                 fastest = fastest.max(body.velocity().norm());
             } else {
@@ -206,8 +204,8 @@ fn a_body_lighter_than_air_is_carried_not_thrown() {
     }
 }
 
-// Points of a release much thinner than a cell are as light as it is, and the
-// cube they touch once was as stiff to them as to whole ones: they shot away.
+// Points of a release much thinner than a cell are as light as it is, and the contact of the
+// cube with them was formerly as stiff as with whole ones: they shot away.
 #[test]
 fn a_release_thinner_than_a_point_stays_slow() {
     for volume_m3 in [1e-9, 1e-6] {

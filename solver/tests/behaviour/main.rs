@@ -1,6 +1,6 @@
-//! The solver through its public API: physics with a known answer, balances,
-//! symmetries, and sameness of bits. Figures behind the assertions are printed
-//! and show with `--nocapture`.
+//! The solver through its public API: physics with a known answer, balances, symmetries, and
+//! bitwise reproducibility. Figures behind the assertions are printed and show with
+//! `--nocapture`.
 #![allow(
     clippy::print_stdout,
     reason = "measured figures belong to a test's output"

@@ -1,10 +1,10 @@
-//! What is foretold of a run, against the run.
+//! The plan of a run against the run.
 
 use crate::scenes::{PRECISIONS, Scene, run};
 use scree_solver::plan;
 use serde_json::json;
 
-/// Scenes of different kinds: a cube struck, a bare flow, bodies alone.
+/// Scenes of different kinds: a cube struck, a flow only, bodies only.
 fn scenes() -> [Scene; 4] {
     let light = json!({"shape": {"cube": {"side_m": 0.04}}, "density_kg_m3": 60,
         "position": {"downstream_m": 0.04}});

@@ -19,10 +19,10 @@ fn cube(simulation: &Simulation) -> Vec3 {
     simulation.bodies()[0].state.position
 }
 
-/// Bounds [m] after so long [s]. Both start from the same points to rounding;
-/// yielding and contact switch on differences of any size, so they grow, in leaps.
-/// Measured: nothing, 1.3e-7, 6.9e-6 (the flow has just struck) and 3.3e-6 for the cube,
-/// up to 1.7e-6 for the front, by when the cube has moved 0.2 m.
+/// Bounds [m] after so long [s]. Both start from the same points to rounding; yielding and
+/// contact depend on differences of any size, so they grow, in leaps. Measured: nothing,
+/// 1.3e-7, 6.9e-6 (the flow has just struck) and 3.3e-6 for the cube, up to 1.7e-6 for the
+/// front, by when the cube has moved 0.2 m.
 const APART: [(f64, f64); 4] = [(0.1, 1e-6), (0.2, 1e-6), (0.3, 2e-5), (0.4, 2e-5)];
 
 #[test]
@@ -83,11 +83,11 @@ fn the_baseline_goes_as_the_best() {
     let best = limited(Instructions::detected()).expect("it was detected");
     let off = (cube(&baseline) - cube(&best)).norm();
     println!("baseline: cube off by {off:.1e} m");
-    // Which is why a state saved under the one is not gone on from under the other.
+    // A state saved under the one is therefore not continued under the other.
     let same = baseline.save() == best.save();
     let alike = Instructions::Baseline.fuse() == Instructions::detected().fuse();
     assert_eq!(same, alike);
-    // As far apart as single and double by then; measured 3.6e-6.
+    // Differences like those between single and double by then; measured 3.6e-6.
     assert!(off < 2e-5, "{off}");
     assert!(baseline.audit().momentum_residual < 2e-7);
 }

@@ -1,5 +1,5 @@
-//! Bodies with a prescribed motion: they move as told, and what they do to flow and free
-//! bodies is in the books.
+//! Bodies with a prescribed motion: they follow it, and their effect on flow and free bodies is
+//! booked.
 
 use crate::scenes::{PRECISIONS, Scene, points_by_id, run, watch};
 use scree_solver::math::Vec3;
@@ -28,8 +28,8 @@ fn driven() -> Scene {
     )
 }
 
-/// Where the driven cube is after 0.3 s: from 0.04 m on 0.04 m back in 0.1 s, and 0.045 m
-/// in the rest of the time; up from 0.02 m by 5 mm and 7.5 mm.
+/// Position of the driven cube after 0.3 s: from 0.04 m on 0.04 m back in 0.1 s, and 0.045 m in
+/// the rest of the time; up from 0.02 m by 5 mm and 7.5 mm.
 const DRIVEN_TO: [f64; 3] = [-0.045, 0.0, 0.0325];
 
 #[test]
@@ -151,7 +151,7 @@ fn a_free_body_is_pushed_along() {
         "{}",
         cube.velocity()
     );
-    // It feels the friction of the floor for 0.75 s, and the cube's start.
+    // The friction of the floor acts for 0.75 s, and the cube's start.
     let weight = cube.mass * 9.81;
     let expected = -(0.4 * weight * 0.75 + cube.mass * 0.2);
     assert!(
@@ -163,7 +163,7 @@ fn a_free_body_is_pushed_along() {
     assert!(audit.momentum_residual < 1e-12 && audit.angular_momentum_residual < 1e-12);
 }
 
-// Each is an island of its own, in sub-steps of its own: the other changes nothing.
+// Each is an island with sub-steps of its own: the other changes nothing.
 #[test]
 fn two_bodies_are_pushed_as_each_alone() {
     let pushed = |lateral: &[f64]| {
@@ -199,7 +199,7 @@ fn two_bodies_are_pushed_as_each_alone() {
     assert!((on_both - on_each).norm() < 1e-12 * on_each.norm());
 }
 
-// The cube gets 30 times the energy that it starts with, none of it out of nothing.
+// The cube gains 30 times its initial energy, all of it accounted for.
 #[test]
 fn what_a_motion_lifts_gets_its_energy_from_it() {
     let mut simulation = Scene::channel(0.0, 1.0, 1.0, 0.2)

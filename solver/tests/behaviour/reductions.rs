@@ -1,4 +1,4 @@
-//! What is not computed is as if it were: each reduction against the full model.
+//! Reductions against the full model.
 
 use crate::scenes::{PRECISIONS, Scene, points_by_id, run};
 use scree_solver::Simulation;
@@ -7,19 +7,18 @@ use scree_solver::points::Point;
 use scree_solver::simulation::Share;
 use serde_json::json;
 
-/// How far a reduced run may be from the full one: rounding, and what it grows to.
+/// Largest distance of a reduced run from the full one: rounding, and its growth.
 #[derive(Clone, Copy)]
 struct Bounds {
     precision: &'static str,
-    /// Of a body's place [m].
+    /// Of a body's position [m].
     body: f64,
-    /// Of a point's place on the mean [m].
+    /// Of a point's position on average [m].
     points: f64,
 }
 
-/// Measured in double precision, after 0.3 s: a slab that became the whole 4e-15 m
-/// (cube) and 5e-16 m (points). The bounds in single precision are a tenth of a
-/// percent of the way.
+/// Measured in double precision, after 0.3 s: a slab that became the whole 4e-15 m (cube) and
+/// 5e-16 m (points). The bounds in single precision are a tenth of a percent of the path.
 const EACH: [Bounds; 2] = [
     Bounds {
         precision: PRECISIONS[0],
@@ -53,7 +52,7 @@ fn mean_distance(one: &[Point], other: &[Point]) -> f64 {
     distances.sum::<f64>() / one.len() as f64
 }
 
-/// What two runs of the same scene say, every tenth of a second.
+/// Compares two runs of the same scene, every tenth of a second.
 fn compare(reduced: &mut Simulation, full: &mut Simulation, bounds: &Bounds) {
     for tenths in 1..=4 {
         let until_s = f64::from(tenths) / 10.0;
@@ -73,7 +72,7 @@ fn compare(reduced: &mut Simulation, full: &mut Simulation, bounds: &Bounds) {
     }
 }
 
-/// Mass and balances are those of the whole flow.
+/// Checks that mass and balances are those of the whole flow.
 fn same_books(reduced: &Simulation, full: &Simulation) {
     let (ours, theirs) = (reduced.audit(), full.audit());
     assert!((ours.released_mass / theirs.released_mass - 1.0).abs() < 1e-12);
@@ -81,7 +80,7 @@ fn same_books(reduced: &Simulation, full: &Simulation) {
     let residuals = |audit: &Audit| [audit.momentum_residual, audit.angular_momentum_residual];
     for (our, their) in residuals(ours).into_iter().zip(residuals(theirs)) {
         println!("residual {our:.1e}, of the full run {their:.1e}");
-        // Penetration corrections out of a body aside, which differ by little.
+        // Except for penetration corrections, which differ by little.
         assert!(our <= 1.5 * their + 1e-6);
     }
 }

@@ -1,4 +1,4 @@
-//! Scenes that once came out wrong, by name, each with its right answer and its story.
+//! Scenes that formerly came out wrong, by name, each with its right answer and its history.
 
 use scree_solver::Simulation;
 use scree_solver::record::{BodySample, Outcome, Record, Recorder};
@@ -6,8 +6,8 @@ use scree_solver::scenario::Scenario;
 use serde_json::Value;
 use std::ops::ControlFlow;
 
-/// A run to its end: samples of every body, outcome, and the mean place of the flow's
-/// mass at start and end [m].
+/// A run to its end: samples of every body, outcome, and the mean position of the flow's mass
+/// at start and end [m].
 struct Told {
     samples: Vec<Vec<BodySample>>,
     outcome: Outcome,
@@ -42,7 +42,7 @@ impl Told {
         Self::of(&scene(text))
     }
 
-    /// Energy made, over what there was.
+    /// Energy made, over the energy there was.
     fn made(&self) -> f64 {
         self.outcome.conservation.energy_residual
     }
@@ -65,8 +65,8 @@ fn centre(simulation: &Simulation) -> [f64; 3] {
     [0, 1, 2].map(of_axis)
 }
 
-// A guard took the speed of its fastest place as |v| + |ω| × the bounding radius, 44 m/s,
-// and ended the run. It rolls, and comes down no faster than a fall: √(2 g h) = 3.96 m/s.
+// A guard took the speed of its fastest place as |v| + |ω| × the bounding radius, 44 m/s, and
+// ended the run. It rolls, and is no faster than a fall: √(2 g h) = 3.96 m/s.
 #[test]
 fn a_log_rolls_down() {
     let told = Told::named(include_str!("reported/log_rolls_down.json"));
@@ -75,8 +75,8 @@ fn a_log_rolls_down() {
     assert!(told.made() < 1e-3, "{}", told.made());
 }
 
-// Light and slender bodies asked for 100,000 sub-steps where they met another body, which
-// nothing foresaw.
+// Light and slender bodies needed 100,000 sub-steps in contacts with another body, which were
+// not foreseen.
 #[test]
 fn a_needle_falls_on_a_fixed_body() {
     let told = Told::named(include_str!("reported/needle_falls_on_fixed_body.json"));
@@ -94,9 +94,9 @@ fn small_cubes_meet_in_the_air() {
     );
 }
 
-// Damping at restitution 0 turned motions round, and its share of friction was kept in
-// the spring: the octahedron gained 6 % of its energy, the cubes 10 %, by how long the
-// steps between samples happened to be.
+// Damping at restitution 0 reversed motions, and its share of friction was kept in the spring:
+// the octahedron gained 6 % of its energy, the cubes 10 %, depending on the length of the
+// steps between samples.
 #[test]
 fn restitution_0_makes_no_energy() {
     for text in [
@@ -142,9 +142,9 @@ fn held_back(thickness: f64, face: f64, bed: f64) -> f64 {
     late.iter().map(|all| all[0].flow_force_n[0]).sum::<f64>() / late.len() as f64
 }
 
-// A plate of a fifth of a cell held back 0.39 N, half of what a thick one did: velocities
-// of either side went through it. And points pressed on whatever surface was near with the
-// same force at first, so that thick plates held 1.2 to 1.8 N back, by the stiffness.
+// A plate of a fifth of a cell held back 0.39 N, half of the force on a thick one: velocities
+// of either side went through it. And points pressed on any near surface with the same force
+// at first, so that thick plates held back 1.2 to 1.8 N, depending on the stiffness.
 #[test]
 fn a_plate_divides_a_bed_however_thin() {
     let held = [0.002, 0.01, 0.02].map(|thickness| held_back(thickness, 0.05, 0.4));
@@ -153,8 +153,8 @@ fn a_plate_divides_a_bed_however_thin() {
     }
 }
 
-// Points are 5 mm apart: the plate fits them in the first place alone. In the others its
-// nearest points started up to a spacing off it, came to it and left 0.09 to 0.17 N.
+// Points are 5 mm apart: the plate fits between them in the first position only. In the others
+// its nearest points started up to a spacing off it, came to it and left 0.09 to 0.17 N.
 #[test]
 fn a_plate_divides_a_bed_wherever_it_cuts_the_points() {
     let held = [0.05, 0.0495, 0.0485, 0.0475].map(|face| held_back(0.002, face, 0.4));
@@ -163,8 +163,8 @@ fn a_plate_divides_a_bed_wherever_it_cuts_the_points() {
     }
 }
 
-// What a plate of four cells holds back is what its sides press with, each computed
-// without the other: the bed at rest 1.261 N, the part before it what is left of it.
+// The force on a plate of four cells is the difference of the forces on its sides, each
+// computed without the other: the bed at rest 1.261 N, the part before it the rest of it.
 #[test]
 fn a_thick_plate_feels_both_its_sides() {
     let both = held_back(0.04, 0.05, 0.4);
@@ -176,8 +176,8 @@ fn a_thick_plate_feels_both_its_sides() {
     );
 }
 
-// Flow behind a wall: what rests against it presses with ν/(1 − ν) of the vertical
-// stress, ½ ρ g H² w ν/(1 − ν) = 1.261 N, whatever the stiffness.
+// Flow behind a wall: material at rest against it presses with ν/(1 − ν) of the vertical
+// stress, ½ ρ g H² w ν/(1 − ν) = 1.261 N, for any stiffness.
 #[test]
 fn a_bed_at_rest_presses_on_a_wall_as_it_should() {
     for sound_speed in [10.0, 30.0] {
@@ -192,8 +192,8 @@ fn a_bed_at_rest_presses_on_a_wall_as_it_should() {
     }
 }
 
-// Points before a plate of a millimetre touched the cube behind it, half a millimetre
-// farther on: they pushed it by 17 mm, and drowned it by half.
+// Points before a plate of a millimetre touched the cube behind it, half a millimetre farther
+// on: they pushed it by 17 mm, and half submerged it.
 #[test]
 fn a_cube_behind_a_thin_plate_feels_nothing() {
     let told = Told::named(include_str!("reported/cube_behind_thin_plate.json"));
@@ -204,8 +204,8 @@ fn a_cube_behind_a_thin_plate_feels_nothing() {
     assert!(told.outcome.bodies[1].path_length_m < 1e-6);
 }
 
-// The wall's nodes had no velocity off it either: the block was held back by 28, 17 and
-// 10 % of its way at cells of 20, 10 and 5 mm. Free it goes ½ g sin θ t² = 0.1699 m.
+// The wall's nodes had no velocity off it either: the block was held back by 28, 17 and 10 %
+// of its path at cells of 20, 10 and 5 mm. Free it travels ½ g sin θ t² = 0.1699 m.
 #[test]
 fn a_block_leaves_the_back_wall() {
     for cell in [0.02, 0.01] {
@@ -217,8 +217,8 @@ fn a_block_leaves_the_back_wall() {
     }
 }
 
-// A heavy body falls on a far lighter one and squeezes it out at 32 m/s: over 10 times
-// what the fall gives, which the guard of speeds took for a runaway.
+// A heavy body falls on a far lighter one and squeezes it out at 32 m/s: over 10 times the
+// speed of the fall, at which the guard of speeds ended the run.
 #[test]
 fn a_small_body_is_squeezed_out_from_under_a_heavy_one() {
     let told = Told::named(include_str!("reported/small_body_squeezed_out.json"));

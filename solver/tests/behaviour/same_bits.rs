@@ -1,5 +1,5 @@
-//! Same scenario, same bits, in either precision: for any number of threads,
-//! however a run is divided, and across saved states.
+//! Same scenario, same bits, in either precision: for any number of threads, any division of a
+//! run, and across saved states.
 
 use crate::scenes::{PRECISIONS, Scene, points_by_id, run};
 use scree_solver::record::{Record, Recorder};
@@ -38,7 +38,7 @@ impl Recorded {
         assert_eq!(ending, Ok(Ending::Reached));
     }
 
-    /// Saved, taken to bytes, and taken up again on other threads.
+    /// The run saved to bytes and restored on other threads.
     fn moved(self, scenario: &Scenario, threads: usize) -> Self {
         let bytes = self.simulation.save().expect("a step ended");
         let recorder = serde_json::to_string(&self.recorder).expect("a recorder is JSON");
@@ -51,8 +51,8 @@ impl Recorded {
     }
 }
 
-/// Equal bits of everything a run leaves. `==` on floats would take −0 for 0
-/// and says no for NaN; the saved state is compared by its bytes.
+/// Equal bits of all results of a run. `==` on floats would take −0 for 0 and is false for NaN;
+/// the saved state is compared by its bytes.
 fn assert_same(one: &Recorded, other: &Recorded) {
     assert!(
         one.simulation.save().expect("it ended") == other.simulation.save().expect("it ended"),
@@ -95,7 +95,7 @@ fn scenarios() -> [Scenario; 4] {
     ]
 }
 
-/// The runs of these scenarios in one go.
+/// The runs of these scenarios without interruption.
 static UNINTERRUPTED: LazyLock<[Recorded; 4]> = LazyLock::new(|| {
     scenarios().map(|scenario| {
         let mut whole = Recorded::start(&scenario, 1);
@@ -152,7 +152,7 @@ fn a_saved_run_goes_on_with_the_same_bits() {
     }
 }
 
-/// Runs on for so many sub-steps and breaks off, mostly amid a step.
+/// Continues for so many sub-steps and interrupts the run, mostly within a step.
 fn break_off(run: &mut Recorded, substeps: u32) {
     let mut seen = 0;
     let (recorder, records) = (&mut run.recorder, &mut run.records);

@@ -11,14 +11,14 @@ use std::ops::ControlFlow;
 const INTERVALS: [f64; 3] = [7e-5, 0.003, 1.0];
 const DURATION: f64 = 0.2;
 
-/// A run that is over, and what it left behind.
+/// A finished run with its records.
 struct Shown {
     simulation: Simulation,
     records: Vec<Record>,
     outcome: Outcome,
 }
 
-/// Runs a scenario, taken to bytes and back at these times [s].
+/// Runs a scenario, saved to bytes and restored at these times [s].
 fn shown(scenario: &Scenario, moved_at: &[f64]) -> Shown {
     let mut simulation = Simulation::new(scenario, 1).expect("the scene fits");
     let mut recorder = Recorder::new(scenario);
@@ -132,7 +132,7 @@ fn samples_lie_at_multiples_of_their_interval() {
     }
 }
 
-// What a sample shows of the bodies at a time is not a matter of how many there are.
+// The bodies of a sample at a time do not depend on the number of samples.
 #[test]
 fn a_body_is_at_one_place_at_a_time() {
     for scene in scenes().iter().take(3) {

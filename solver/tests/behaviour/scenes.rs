@@ -1,4 +1,4 @@
-//! Small scenes as JSON, and what is measured on them.
+//! Small scenes as JSON, and measurements on them.
 
 use scree_solver::math::Vec3;
 use scree_solver::points::Point;
@@ -7,7 +7,7 @@ use scree_solver::{Simulation, StepError, SubstepReport};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 
-/// In which a flow can be computed.
+/// Precisions in which a flow can be computed.
 pub(crate) const PRECISIONS: [&str; 2] = ["double", "single"];
 
 /// A scenario under construction.
@@ -46,7 +46,7 @@ impl Scene {
         Self(serde_json::from_str(text).expect("it is JSON"))
     }
 
-    /// Sets `key` of the part named (a top-level object, made if missing).
+    /// Sets `key` of the section (a top-level object, made if missing).
     pub(crate) fn set(mut self, part: &str, key: &str, value: impl Into<Value>) -> Self {
         self.0[part][key] = value.into();
         self
@@ -64,18 +64,18 @@ impl Scene {
         self
     }
 
-    /// Computed in single or double precision.
+    /// The scene in single or double precision.
     pub(crate) fn precision(self, word: &str) -> Self {
         self.set("numerics", "precision", word)
     }
 
-    /// With all of the flow computed.
+    /// The scene with all of the flow computed.
     pub(crate) fn full(self) -> Self {
         self.set("numerics", "symmetry", "full")
             .set("numerics", "approach", "full")
     }
 
-    /// One more body.
+    /// The scene with one more body.
     pub(crate) fn body(mut self, body: Value) -> Self {
         if let Some(bodies) = self.0["bodies"].as_array_mut() {
             bodies.push(body);
@@ -83,7 +83,7 @@ impl Scene {
         self
     }
 
-    /// Takes all bodies out.
+    /// The scene without its bodies.
     pub(crate) fn without_bodies(mut self) -> Self {
         self.0["bodies"] = json!([]);
         self
@@ -95,17 +95,17 @@ impl Scene {
         self
     }
 
-    /// Validated.
+    /// The validated scenario.
     pub(crate) fn scenario(&self) -> Scenario {
         Scenario::from_json(&self.0.to_string()).unwrap_or_else(|error| panic!("{error:?}"))
     }
 
-    /// Set up on one thread.
+    /// The simulation, set up on one thread.
     pub(crate) fn start(&self) -> Simulation {
         Simulation::new(&self.scenario(), 1).expect("the scene fits")
     }
 
-    /// Run to its end on one thread.
+    /// The simulation, run to its end on one thread.
     pub(crate) fn finished(&self) -> Simulation {
         let mut simulation = self.start();
         run(&mut simulation, f64::INFINITY);
@@ -113,12 +113,12 @@ impl Scene {
     }
 }
 
-/// Runs on without looking.
+/// Continues a run without an observer.
 pub(crate) fn run(simulation: &mut Simulation, until_s: f64) {
     watch(simulation, until_s, |_, _| {}).expect("the scene runs");
 }
 
-/// Runs on, showing every sub-step.
+/// Continues a run, with an observer of every sub-step.
 pub(crate) fn watch(
     simulation: &mut Simulation,
     until_s: f64,

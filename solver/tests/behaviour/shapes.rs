@@ -1,4 +1,4 @@
-//! Bodies of every shape: they lie still, have room in the flow, and balance it.
+//! Bodies of every shape: they rest, fit in the flow, and balance it.
 
 use crate::scenes::{PRECISIONS, Scene, run, watch};
 use scree_solver::Simulation;
@@ -27,9 +27,9 @@ fn shapes() -> Vec<(&'static str, Value)> {
     ]
 }
 
-// A body without an elevation starts at rest, however its weight is shared: it
-// neither falls nor rocks. On a slope its tangential springs start unstretched: it
-// gives way by a fraction of its overlap at rest, 1e-5 m (measured: 2e-6 m).
+// A body without an elevation starts at rest, however its weight is shared: it neither falls
+// nor rocks. On a slope its tangential springs start unstretched: it moves by a fraction of
+// its overlap at rest, 1e-5 m (measured: 2e-6 m).
 #[test]
 fn a_body_of_any_shape_starts_at_rest() {
     for (name, shape) in shapes() {
@@ -65,14 +65,14 @@ fn a_body_of_any_shape_starts_at_rest() {
     }
 }
 
-// Left out of a release is the volume of a body, and no point is nearer to its surface
-// than half the point spacing. The volume is counted in points of which a thousand or
-// more fit; the body stands askew, lest whole layers of them lie just in or out.
+// The volume of a body is excluded from a release, and no point is nearer to its surface than
+// half the point spacing. The volume is counted in points of which a thousand or more fit; the
+// body stands askew, so that no whole layers of them lie just in or out.
 #[test]
 fn a_release_leaves_room_for_any_shape() {
     /// Small enough for a thousand points in the smallest shape [m].
     const CELL: f64 = 0.006;
-    // Of 8 points in a cell, but for what a lattice that fits may lack.
+    // Of 8 points in a cell, less the tolerance for a lattice that fits.
     let stand_off = 0.98 * 0.25 * CELL;
     for (name, shape) in shapes() {
         let position = json!({"downstream_m": -0.2, "elevation_m": 0.1});
@@ -136,7 +136,7 @@ fn flow_and_any_shape_balance() {
     }
 }
 
-// The same bits from a save as without.
+// The bits are the same with a save as without.
 #[test]
 fn a_boulder_goes_on_from_a_save() {
     let scene = Scene::impact().first_body("shape", boulder()).lasting(0.2);

@@ -1,5 +1,5 @@
-//! A block of flow that hardly yields slides down an incline the grid is not
-//! aligned with: docs/accuracy.md, case 9.
+//! A block of flow that hardly yields slides down an incline that is not aligned with the grid:
+//! docs/accuracy.md, case 9.
 
 use crate::scenes::{PRECISIONS, Scene, mean_velocity, run};
 use scree_solver::Simulation;
@@ -11,8 +11,8 @@ const FRICTION: f64 = 0.2;
 
 const CELL_M: f64 = 0.015;
 
-/// The block: 0.06 m thick (four cells), 0.3 m long, two cells wide between
-/// smooth walls, of a material that the frictions allowed hardly let yield.
+/// The block: 0.06 m thick (four cells), 0.3 m long, two cells wide between smooth walls, of a
+/// material that hardly yields with the largest frictions allowed.
 fn block(inclination_deg: f64) -> Scene {
     let cos = inclination_deg.to_radians().cos();
     let (height_m, length_m, width) = (0.06, 0.3, 2.0 * CELL_M);
@@ -40,10 +40,9 @@ fn acceleration(scene: &Scene, inclination_deg: f64, from_s: f64, to_s: f64) -> 
     (last - first) / (end - start)
 }
 
-// Bar: 1 % of g (docs/accuracy.md, case 9). Measured on cells of 0.015 m, in parts of g:
-// +0.02 % at 20°, +0.04 % at 30°, −0.06 % at 45°, and in single precision +0.07 %,
-// +0.01 % and −0.06 %; over windows half as long the block's own ringing shows,
-// ±0.4 %.
+// Tolerance: 1 % of g (docs/accuracy.md, case 9). Measured on cells of 0.015 m, in parts of g:
+// +0.02 % at 20°, +0.04 % at 30°, −0.06 % at 45°, and in single precision +0.07 %, +0.01 % and
+// −0.06 %; over windows half as long the block's own ringing shows, ±0.4 %.
 #[test]
 fn a_block_slides_at_the_acceleration_of_coulomb() {
     for inclination_deg in [20.0, 30.0, 45.0] {
@@ -70,13 +69,12 @@ fn place(simulation: &Simulation, inclination_deg: f64) -> f64 {
     sum / points.len() as f64
 }
 
-// Below the angle of friction, 11.3°, a block stays: in a second after it has
-// settled it may go 1 % of the way on which gravity along the slope would take it.
-// It rocks on its base without end, a few mm/s to and fro, which this does not
-// count.
+// Below the angle of friction, 11.3°, a block stays: in a second after it has settled it may
+// travel 1 % of the path on which gravity along the slope would take it. It rocks on its base
+// without end, a few mm/s to and fro, which is not counted here.
 //
-// Nearer to that angle it does not stay, which is a known flaw: at 10° it creeps
-// downhill, kept going by its own ringing.
+// Nearer to that angle it does not stay, which is a known flaw: at 10° it creeps downhill,
+// driven by its own ringing.
 #[test]
 fn a_block_well_below_the_angle_of_friction_stays() {
     for inclination_deg in [5.0, 7.0] {

@@ -1,10 +1,10 @@
-//! Mirrors and strips: what nothing breaks stays symmetric to rounding.
+//! Mirrors and lanes: a symmetric scene stays symmetric to rounding.
 //!
-//! Rounding differs between the mirror halves (sums run in the order of
-//! nodes), and yielding, contact and friction switch on differences of any
-//! size, so rounding grows. In double precision the bounds are some decades above
-//! what was measured, in single precision, where there is less room, about one;
-//! both are far below the smallest asymmetry of the discretisation.
+//! Rounding differs between the mirror halves (sums run in the order of nodes), and yielding,
+//! contact and friction depend on differences of any size, so rounding grows. In double
+//! precision the bounds are some decades above the measured values, in single precision, where
+//! there is less room, about one; both are far below the smallest asymmetry of the
+//! discretisation.
 
 use crate::scenes::{Scene, points_by_id, run};
 use scree_solver::Simulation;

@@ -1,4 +1,4 @@
-//! Flows so thin that points are alone, or gather out of nothing.
+//! Flows so thin that points are isolated, or suddenly gather.
 
 use crate::scenes::{PRECISIONS, Scene, watch};
 use scree_solver::Simulation;
@@ -13,11 +13,11 @@ fn changed(scene: &Scene, change: impl FnOnce(&mut scree_solver::simulation::Sce
     Simulation::of_scene(made, 1).expect("it can be set up")
 }
 
-// Once boulder_cluster ended 0.4 s after its bodies had come to rest: grains that had
-// run ahead one by one rolled on over the floor, and a point alone that spins has
-// nothing that holds it together. It grew by (ω T)² in every step of T, five hundred
-// times in 20 ms, to 1e9 m³, until the squares of such numbers were none in single
-// precision. Alone in its kernel, a point is now taken to have that much room.
+// Formerly boulder_cluster ended 0.4 s after its bodies had come to rest: points that had run
+// ahead one by one rolled on over the floor, and an isolated spinning point is not held
+// together. It grew by (ω T)² in every step of T, five hundred times in 20 ms, to 1e9 m³,
+// until the squares of such numbers overflowed single precision. The volume of a point alone
+// in its kernel is now limited to that of the kernel.
 #[test]
 fn a_point_alone_that_spins_keeps_its_volume() {
     for precision in PRECISIONS {
@@ -35,7 +35,7 @@ fn a_point_alone_that_spins_keeps_its_volume() {
                 .map_or(0.0, |flow| flow.limits.slow);
             let spin = 4.0 * speed / 0.02;
             made.points.truncate(1);
-            // All there is is a spin that no grid holds: its energy is not kept.
+            // The only motion is a spin that no grid holds: its energy is not conserved.
             made.given.guards = scree_solver::simulation::Guards::ANY_SPEED;
             made.points[0].position = Vec3::new(0.3, 0.05, 0.2);
             made.points[0].affine = Mat3::new(0.0, -spin, 0.0, spin, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -49,12 +49,11 @@ fn a_point_alone_that_spins_keeps_its_volume() {
     }
 }
 
-// Once this ended with a point that was no number, in both precisions: stress-free
-// points that fall together are compressed to a fraction of their volume within one
-// step, and the gradient on the displaced nodes is steeper by as much. Handed over
-// with a kernel that keeps its size it made the nodes several times faster than
-// anything had been: 1.49 m/s in this stream of 1 m/s at once, and no end to it in a
-// larger one. Nothing in it can make it faster.
+// Formerly this ended with a non-finite point, in both precisions: stress-free points that
+// fall together are compressed to a fraction of their volume within one step, and the gradient
+// on the displaced nodes is steeper by as much. Scattered with a kernel that keeps its size it
+// made the nodes several times faster than anything had been: 1.49 m/s in this stream of 1 m/s
+// at once, and unbounded in a larger one. Nothing in it can make it faster.
 #[test]
 fn dust_that_piles_up_on_a_body_stays_slow() {
     let share = 0.1;
@@ -88,9 +87,9 @@ fn dust_that_piles_up_on_a_body_stays_slow() {
     assert!(fastest < 1.2, "{fastest} m/s");
 }
 
-// Once points in a gap narrower than a cell between a body and a side wall were
-// spread through the wall, up to 2.7 mm in this scene and a cell in a longer one: the
-// body took room from the nodes in the channel, but not from their images.
+// Formerly points in a gap narrower than a cell between a body and a side wall were shifted
+// through the wall, up to 2.7 mm in this scene and a cell in a longer one: the body excluded
+// volume of the nodes in the channel, but not of their images.
 #[test]
 fn no_point_leaves_through_a_wall_beside_a_body() {
     let scene = Scene::channel(40.0, 0.7, 0.6, 0.15)

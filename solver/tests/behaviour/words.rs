@@ -1,4 +1,4 @@
-//! What the outcome and samples say of a body is what it does.
+//! Agreement of the outcome and samples with the motion of a body.
 
 use crate::scenes::Scene;
 use scree_solver::Simulation;
@@ -107,7 +107,7 @@ fn a_cube_borne_by_the_flow_is_carried() {
     assert!(outcome.first_contact_time_s.is_some_and(|time| time < 0.05));
 }
 
-// Contacts that lose nothing: what the cube has left when it stands, it rings with.
+// Contacts without dissipation: the cube keeps ringing with the energy left when it stands.
 #[test]
 fn a_cube_that_trembles_in_its_place_has_stopped() {
     let scene = cube(

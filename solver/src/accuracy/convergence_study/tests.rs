@@ -1,4 +1,4 @@
-//! Campaigns with outcomes made up, so that what should come of them is known.
+//! Convergence studies of made-up outcomes, so that their results are known.
 
 use super::*;
 use crate::record::Basis;
@@ -18,7 +18,7 @@ fn scenario(accuracy: &Value) -> Scenario {
     Scenario::from_value(&document).unwrap()
 }
 
-/// What a run of such cells comes to: a displacement of this many metres.
+/// Outcome of a run with such cells: a displacement of this many metres.
 fn outcome(scenario: &Scenario, displacement_m: f64) -> Outcome {
     let cell_size_m = scenario.numerics.cell_size_m.unwrap();
     let document = json!({
@@ -44,7 +44,7 @@ fn outcome(scenario: &Scenario, displacement_m: f64) -> Outcome {
     serde_json::from_value(document).unwrap()
 }
 
-/// Goes through a convergence study whose displacement follows the cell size like this.
+/// Carries out a convergence study whose displacement follows the cell size by this function.
 fn carried_out(accuracy: &Value, displacement_m: fn(f64) -> f64) -> Outcome {
     let mut convergence_study = ConvergenceStudy::of(&scenario(accuracy)).unwrap();
     let mut runs = 0;
@@ -189,7 +189,7 @@ fn a_target_is_met_by_cells_no_finer_than_it_takes() {
         let verdict = report.target.unwrap();
         assert!(verdict.met && verdict.reason.is_none(), "{verdict:?}");
         assert!(verdict.reached.unwrap() <= target, "{verdict:?}");
-        // The value without cells is within the target, too.
+        // The grid-converged value is within the target, too.
         assert!((answer.bodies[0].displacement_m - 0.4).abs() <= target * 0.45);
         assert_eq!(verdict.body, Some(0));
         answer.cost.cell_size_m
@@ -201,7 +201,7 @@ fn a_target_is_met_by_cells_no_finer_than_it_takes() {
 
 #[test]
 fn runs_far_coarser_than_the_answer_do_not_widen_its_band() {
-    // Nonsense at cells that are too coarse, settled at finer ones.
+    // Nonsense with cells that are too coarse, regular with finer ones.
     let settles = |cell_size_m: f64| {
         let nonsense = if cell_size_m > 0.02 {
             20.0 * (cell_size_m * 1e3).sin()
@@ -349,6 +349,6 @@ fn every_answer_of_a_target_has_refinement_runs_in_the_useful_range() {
 fn what_refinement_runs_cost_is_told_by_wall_time_too() {
     let answer = carried_out(&json!({"error_bars": true}), linear);
     let report = answer.accuracy.unwrap();
-    // Every run made up took a second.
+    // Every made-up run took a second.
     assert_eq!(report.extra_wall_cost, Some(3.0), "{:?}", report.runs);
 }

@@ -1,6 +1,5 @@
-//! Places where two cores are near each other, each place once: the terms of the contact
-//! potential of two bodies and its gradient (docs/method.md, equations 43 and 44;
-//! docs/decisions/0010).
+//! Contact points of two cores, each place once: the terms of the contact potential of two
+//! bodies and its gradient (docs/method.md, equations 43 and 44; docs/decisions/0010).
 
 use super::segments::{crossing, nearest_on};
 use super::separation::Separation;
@@ -9,7 +8,7 @@ use crate::math::Vec3;
 use crate::rigid::{Body, Load};
 use serde::{Deserialize, Serialize};
 
-/// Nearer than this share of R two places have no direction to speak of.
+/// Distance over R below which two places have no defined direction.
 const NO_DIRECTION: f64 = 1e-9;
 
 /// Two features that may touch, by their numbers in the cores.
@@ -23,7 +22,7 @@ pub(super) enum FeaturePair {
     Edges(usize, usize),
 }
 
-/// A pair of nearest places of two features whose roundings overlap.
+/// Nearest places of two features whose roundings overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ContactPoint {
     /// Unit vector from the first body to the second.
@@ -34,21 +33,21 @@ pub(super) struct ContactPoint {
     pub(super) overlap: f64,
 }
 
-/// One place where two bodies touch.
+/// A contact of two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Contact {
-    /// Which features.
+    /// The features in contact.
     pub(super) between: FeaturePair,
-    /// Overlap of both.
+    /// Their contact point.
     pub(super) near: ContactPoint,
-    /// Share that is left of it when other contacts took their part, above 0, at most 1.
+    /// Share of its force that remains after other contacts took their part, above 0, at most 1.
     pub(super) share: f64,
 }
 
-/// Every contact of two bodies, and the elastic forces of them together.
+/// All contacts of two bodies, and their total elastic force.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Contacts {
-    /// The places, in an order that follows from the bodies alone.
+    /// The contacts, in an order that depends on the bodies alone.
     pub(super) places: Vec<Contact>,
     /// Elastic force on the second body, and its torque about the *first's*
     /// centre: minus the gradient of the potential.
@@ -57,7 +56,7 @@ pub struct Contacts {
     pub(super) energy: f64,
 }
 
-/// Finds every contact of two bodies, looking first where they were kept apart before.
+/// Finds all contacts of two bodies, trying first the direction that separated them before.
 pub(super) fn contacts(
     first: &Body,
     second: &Body,
@@ -100,7 +99,7 @@ pub(super) fn contacts(
 }
 
 impl Contacts {
-    /// Takes in what a contact holds that the `booked` ones nearby do not.
+    /// Adds the part of a contact's energy that the `booked` contacts nearby do not account for.
     fn take(
         &mut self,
         law: &ContactLaw,
@@ -143,18 +142,18 @@ impl Contacts {
     }
 }
 
-/// Parts of a core that can be in touch with the other, in world axes, from the first
-/// body's centre [m].
+/// Features of a core that may touch the other, in world axes, from the first body's centre
+/// [m].
 #[derive(Debug, Default)]
 struct Nearby {
     vertices: Vec<(usize, Vec3)>,
     edges: Vec<(usize, [Vec3; 2])>,
 }
 
-/// Two bodies whose face normals do not keep them apart.
+/// Two bodies that no face normal separates.
 struct Pair<'a> {
     bodies: [&'a Body; 2],
-    /// From the first's centre to the second's.
+    /// From the first body's centre to the second's.
     apart: Vec3,
     /// Sphero radii.
     radii: [f64; 2],
@@ -175,8 +174,8 @@ impl<'a> Pair<'a> {
             return None;
         }
         let [of_first, of_second] = &corners;
-        // Features farther than `reach` from where the other core begins, in the
-        // direction of the widest gap or along an axis, can't touch.
+        // Features farther than `reach` from the beginning of the other core, in the direction of
+        // the widest gap or along an axis, can't touch.
         let on_first = |x: &Vec3| widest.second_from - widest.direction.dot(x) < reach;
         let on_second = |x: &Vec3| widest.direction.dot(x) - widest.first_to < reach;
         Some(Self {
@@ -217,7 +216,7 @@ impl<'a> Pair<'a> {
         self.overlapping_pairs(&on_first, &normal, closest.distance)
     }
 
-    /// A place of the first core and one of the second.
+    /// Contact point of a place of the first core and one of the second.
     fn between(&self, on_first: &Vec3, on_second: &Vec3) -> Option<ContactPoint> {
         let gap = on_second - on_first;
         let distance = gap.norm();
@@ -241,7 +240,7 @@ impl<'a> Pair<'a> {
         })
     }
 
-    /// The ends of two edges against the other edge, those in touch.
+    /// The ends of two edges against the other edge, those in contact.
     fn ends(&self, on_first: &[Vec3; 2], on_second: &[Vec3; 2]) -> Vec<ContactPoint> {
         let of_first = on_first
             .iter()
@@ -280,7 +279,7 @@ fn nearby(
     }
 }
 
-/// A box along the axes.
+/// An axis-aligned box.
 struct Bounds {
     low: Vec3,
     high: Vec3,
@@ -301,7 +300,7 @@ impl Bounds {
         self
     }
 
-    /// True if the box round `places` meets this one.
+    /// True if the bounding box of `places` overlaps this one.
     fn meets(&self, places: &[Vec3]) -> bool {
         let other = Self::of(places);
         (0..3).all(|axis| other.low[axis] < self.high[axis] && other.high[axis] > self.low[axis])

@@ -1,10 +1,10 @@
-//! Motion of a body as its contacts meet it.
+//! Motion of a body, as its contacts need it.
 
 use crate::math::Vec3;
 use crate::motion::Velocities;
 use crate::rigid::{Body, Freedom, Load};
 
-/// Motion of a body, or its beginning: at its centre, and turning.
+/// Velocity or acceleration of a body: of its centre, and angular.
 pub(super) struct Motion {
     pub(super) linear: Vec3,
     pub(super) angular: Vec3,
@@ -16,13 +16,13 @@ impl Motion {
         angular: Vec3::new(0.0, 0.0, 0.0),
     };
 
-    /// Present velocities.
+    /// Current velocities.
     pub(super) fn velocity(body: &Body) -> Self {
         let Velocities { linear, angular } = body.velocities();
         Self { linear, angular }
     }
 
-    /// Accelerations that a load gives to a body that does not turn yet.
+    /// Accelerations that a load gives to a body whose angular velocity is zero.
     pub(super) fn acceleration(body: &Body, load: &Load) -> Self {
         match body.freedom {
             Freedom::Fixed | Freedom::Prescribed(_) => Self::NONE,

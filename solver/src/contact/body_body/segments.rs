@@ -2,7 +2,7 @@
 
 use crate::math::Vec3;
 
-/// Segments whose sine is smaller than this have no crossing to speak of.
+/// Sine below which two segments have no defined crossing.
 const PARALLEL: f64 = 1e-9;
 
 /// The nearest places of the lines through two segments, if both lie inside the

@@ -1,4 +1,4 @@
-//! Directions that keep two bodies apart: the face normals of both cores.
+//! Separation of two bodies along the face normals of their cores.
 
 use super::contact_points::corners;
 use crate::math::Vec3;
@@ -6,40 +6,40 @@ use crate::rigid::Body;
 use crate::shape::distance_apart;
 use nalgebra::{Isometry3, Translation3};
 
-/// The gap that a face normal of either core shows between them: a lower bound of
-/// their distance if positive.
+/// The gap of two bodies along a face normal of either core: a lower bound of their distance if
+/// positive.
 pub(super) struct Gap {
     pub(super) width: f64,
-    /// From the first to the second.
+    /// From the first body to the second.
     pub(super) direction: Vec3,
-    /// Places along it at which the first core ends, and the second begins.
+    /// Positions along it where the first core ends and the second begins.
     pub(super) first_to: f64,
     pub(super) second_from: f64,
 }
 
-/// Bound of the gap of two bodies from the last look. It saves work and changes no
+/// Bound of the gap of two bodies from the last evaluation. It saves work and changes no
 /// contact: bodies that are skipped do not touch.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Separation {
-    /// The face that showed the widest gap: the first's faces, then the second's.
+    /// Face with the widest gap, counted over the first's faces, then the second's.
     face: Option<usize>,
     /// A lower bound of the distance of the rounded bodies [m]; of no use below 0.
     pub(super) gap: f64,
 }
 
 impl Separation {
-    /// True if they are still apart when they came nearer by at most `by` [m].
+    /// True if they are still apart after coming nearer by at most `by` [m].
     pub fn outlasts(&mut self, by: f64) -> bool {
         self.gap -= by;
         self.gap > 0.0
     }
 
-    /// Distance that they have at least [m]; 0 if none is known.
+    /// Lower bound of their distance [m]; 0 if none is known.
     pub fn at_least(&self) -> f64 {
         self.gap.max(0.0)
     }
 
-    /// A gap to go by: that of the face found before, or else the widest.
+    /// A separating gap: that of the face found before, or else the widest.
     pub(super) fn look(
         &mut self,
         bodies: [&Body; 2],
@@ -55,7 +55,7 @@ impl Separation {
     }
 }
 
-/// The gap that a face shows: of the first's faces, then of the second's.
+/// The gap along the normal of a face, counted over the first's faces, then the second's.
 fn gap_at(
     [first, second]: [&Body; 2],
     apart: &Vec3,
@@ -86,7 +86,7 @@ fn gap_at(
     }
 }
 
-/// The widest gap, and the face that shows it.
+/// The widest gap, and its face.
 fn widest_gap(bodies: [&Body; 2], apart: &Vec3, corners: &[Vec<Vec3>; 2]) -> (usize, Gap) {
     let faces: usize = bodies.iter().map(|body| body.shape.faces().len()).sum();
     let mut widest = (0, gap_at(bodies, apart, corners, 0));

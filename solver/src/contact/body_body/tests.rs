@@ -4,7 +4,7 @@ use crate::rigid::fixture::{cuboid, tetrahedron};
 use crate::shape::SpheroPolyhedron;
 use nalgebra::UnitQuaternion;
 
-/// Numbers in −1 … 1 that look random (Weyl's sequence).
+/// Pseudo-random numbers in −1 … 1 (Weyl's sequence).
 struct Numbers(f64);
 
 impl Numbers {
@@ -35,13 +35,13 @@ fn moved(body: &Body, along: &Vec3, turn: &Vec3) -> Body {
     body
 }
 
-/// Their contacts, looked for afresh.
+/// Contacts of two bodies, searched for without history.
 fn touching(first: &Body, second: &Body) -> Contacts {
     let law = law([first, second]);
     contacts(first, second, &law, &mut Separation::default())
 }
 
-/// Renews contacts and forces after a drift of `dt`.
+/// Updates contacts and forces after a drift of `dt`.
 fn touch(
     contact_pair: &mut ContactPair,
     pair: [&Body; 2],
@@ -73,7 +73,7 @@ fn brought_together(first: &Body, second: &mut Body, direction: &Vec3, depth: f6
     second.state.position = first.state.position + direction * (far - depth);
 }
 
-/// Pairs of many kinds that touch, at random.
+/// Random pairs of many kinds that touch.
 fn touching_pairs(count: usize) -> Vec<[Body; 2]> {
     let mut numbers = Numbers(0.1);
     let kinds = [
@@ -118,7 +118,7 @@ fn forces_are_the_gradient_of_the_potential() {
     }
 }
 
-// Which body is first does not matter where features are not tiny.
+// The order of the bodies does not matter where features are not tiny.
 #[test]
 fn the_order_of_the_bodies_does_not_matter() {
     for [first, second] in &touching_pairs(60) {
@@ -127,9 +127,9 @@ fn the_order_of_the_bodies_does_not_matter() {
     }
 }
 
-// Bodies that meet any which way touch in one place, the nearest: the potential is
-// that of one contact there, whichever features it is between. Where a second place
-// is almost as near, it is more, never less.
+// Bodies that meet in a random orientation touch in one place, the nearest: the potential is
+// that of one contact there, whatever its features. Where a second place is almost as near, it
+// is more, never less.
 #[test]
 fn bodies_that_meet_at_random_touch_once() {
     let pairs = touching_pairs(90);
@@ -200,10 +200,10 @@ fn faces_on_each_other_are_carried_at_the_corners_of_their_common_area() {
     }
 }
 
-// A cube that stands on a vertex, slid off another at a constant height above its
-// top: over the face, past the edge and the vertex. The energy of one contact
-// all the way, falling only as the vertex goes over the rim; and force and energy
-// change by no more than their slope allows, with steps halved they change by half.
+// A cube that stands on a vertex is slid off another at a constant height above its top: over
+// the face, past the edge and the vertex. The energy is that of one contact all the way,
+// falling only as the vertex goes over the rim. Force and energy change by no more than their
+// slope allows; with steps halved they change by half.
 #[test]
 fn a_vertex_slides_from_face_to_edge_to_vertex_without_a_jump() {
     let diagonal = UnitQuaternion::rotation_between(&Vec3::new(1.0, 1.0, 1.0), &-Vec3::z());
@@ -256,9 +256,9 @@ fn a_vertex_slides_from_face_to_edge_to_vertex_without_a_jump() {
     }
 }
 
-// The lower edge of a cube is dragged over a rim, one end first: the contact at that
-// end hands its place and its spring over to the crossing of the two edges. Normal
-// force and friction go on without a jump, and friction stays at μ F_n.
+// The lower edge of a cube is dragged over a rim, one end first: the contact at that end hands
+// its place and its spring over to the crossing of the two edges. Normal force and friction
+// continue without a jump, and friction stays at μ F_n.
 #[test]
 fn friction_goes_on_while_a_contact_changes_its_features() {
     let below = undamped(cuboid([0.04; 3]));
@@ -307,14 +307,14 @@ fn friction_goes_on_while_a_contact_changes_its_features() {
         let jump = (pair[1] - pair[0]).norm() / size;
         assert!(jump < 5e-3, "{jump}: {pair:?}");
     }
-    // The rounded rim leans the normal, by far less than this.
+    // The rounded rim tilts the normal, by far less than this.
     for force in &forces[200..] {
         assert!((-force.x / force.z / 0.5 - 1.0).abs() < 0.2, "{force}");
     }
 }
 
-// What is known from the last look saves work only: bodies that fly past each other,
-// turning, feel the same bits as where it is forgotten at every step.
+// The bound kept from the last evaluation only saves work: bodies that fly past each other,
+// turning, give the same bits as with the bound discarded at every step.
 #[test]
 fn what_is_known_of_the_gap_changes_no_bit() {
     let (mut numbers, mut touched, mut spared) = (Numbers(0.3), 0, 0);
@@ -355,8 +355,8 @@ fn what_is_known_of_the_gap_changes_no_bit() {
     assert!(touched > 100 && spared > 10_000, "{touched} {spared}");
 }
 
-/// A plate this thick that stands on its short edge, across an edge of a cube below,
-/// overlapping by `depth`; force over that of one contact as deep.
+/// Force over that of one contact as deep, for a plate of this thickness that stands on its
+/// short edge, across an edge of a cube below, overlapping by `depth`.
 fn counted(thickness: f64, depth: f64) -> f64 {
     let eighth = std::f64::consts::FRAC_PI_4;
     let below = moved(
@@ -381,9 +381,9 @@ fn tell(row: &str) {
     println!("{row}");
 }
 
-// Where one edge crosses another, both ends of a short one touch as well: twice the
-// force for an edge of no length, once beyond 2 sqrt(2 R delta), R the sum of the radii;
-// the table is that of docs/method.md.
+// Where one edge crosses another, both ends of a short one touch as well: the force is doubled
+// for an edge of no length, single beyond 2 sqrt(2 R delta), R the sum of the radii; the table
+// is that of docs/method.md.
 #[test]
 fn a_short_edge_counts_up_to_twice() {
     let radii = 2.0 * cuboid([0.04; 3]).shape.sphero_radius();

@@ -1,9 +1,8 @@
-//! Energy of the bodies of an island: what brought and took it (docs/method.md,
-//! equation 38a).
+//! Energy balance of the bodies of an island (docs/method.md, equation 38a).
 //!
-//! A kick changes the kinetic energy by the work of its loads at the mean of the velocities
-//! before and after it, exactly. So what is left over when all that is known of is
-//! subtracted was made: by contacts, by turning, or by the steps being as long as they are.
+//! A kick changes the kinetic energy exactly by the work of its loads at the mean of the
+//! velocities before and after it. The remainder after subtracting all known terms was
+//! therefore made: by contacts, by turning, or by the finite length of the steps.
 
 use super::{IslandPair, Member, Mover, Side, body_of};
 use crate::contact::body_body::Exchange;
@@ -11,24 +10,24 @@ use crate::contact::dissipation::Taken;
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
 
-/// Energy of a body in a sub-step of the flow, by what changed it [J]. Contacts with
-/// another free body are halved between the two.
+/// Energy of a body in a sub-step of the flow, by cause [J]. Contacts with another free body
+/// are halved between the two.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EnergyReport {
     /// Work of the flow on it.
     pub flow: f64,
     /// Work of gravity.
     pub gravity: f64,
-    /// Energy that other bodies gave it: the work of prescribed motions, and half of what a
-    /// contact did to it more than to the other free body.
+    /// Energy received from other bodies: the work of prescribed motions, and half of the
+    /// difference of a contact's work on it and on the other free body.
     pub bodies: f64,
-    /// Energy that damping and slipping took, in its contacts with walls and bodies.
+    /// Energy dissipated by damping and slip, in its contacts with walls and bodies.
     pub dissipated: f64,
-    /// Part of this that the kick before the next drift is still to take.
+    /// Part of this that the kick before the next drift will dissipate.
     pub pending: f64,
-    /// Change of what it has and its contacts hold, less all that brought and took it.
+    /// Change of its kinetic and stored energy, less all known terms.
     pub made: f64,
-    /// Kinetic energy and what its contacts hold at the end.
+    /// Kinetic energy and energy stored in its contacts at the end.
     pub present: f64,
 }
 
@@ -41,8 +40,8 @@ pub(super) fn begin(members: &mut [Member], contact_pairs: &[IslandPair]) {
     }
 }
 
-/// The next sub-step is so many times longer than the one before: so is the kick that is
-/// still to take what damping found there takes.
+/// Scales the pending dissipation: the next sub-step is so many times longer than the one
+/// before, and so is the kick in which the damping found there acts.
 pub(super) fn stretch(members: &mut [Member], longer: f64) {
     for member in members {
         let energy = &mut member.report.energy;
@@ -62,7 +61,7 @@ pub(super) fn end(members: &mut [Member], contact_pairs: &[IslandPair], gravity:
     }
 }
 
-/// Finds what everybody has, and its contacts hold.
+/// Sums the kinetic energy of each body and the energy stored in its contacts.
 fn take_stock(members: &mut [Member], contact_pairs: &[IslandPair]) {
     for member in &mut *members {
         let (body, report) = (&member.body, &mut member.report);
@@ -78,7 +77,7 @@ fn take_stock(members: &mut [Member], contact_pairs: &[IslandPair]) {
     }
 }
 
-/// Takes in what bodies did to each other in a kick of `dt`.
+/// Adds the work of bodies on each other in a kick of `dt`.
 pub(super) fn take_in_work(
     members: &mut [Member],
     movers: &[Mover],
@@ -116,8 +115,8 @@ pub(super) fn take_in_work(
     }
 }
 
-/// Takes in what contacts took for good in a sub-step of `dt`, which has ended: so each
-/// body's velocities are those amid the kick that the damping found gives.
+/// Adds the dissipation of contacts in a sub-step of `dt` that has ended: each body's
+/// velocities are those amid the kick of the damping found.
 pub(super) fn take_in_losses(
     members: &mut [Member],
     movers: &[Mover],
@@ -151,7 +150,7 @@ pub(super) fn take_in_losses(
     }
 }
 
-/// Energy that damping takes for good: none if it gave some, as that was made.
+/// Energy dissipated by damping: none if damping gave energy, since that was made.
 fn damped(taken: &Taken, power: impl Fn(&Load) -> f64, dt: f64) -> f64 {
     if taken.damping == Load::default() {
         0.0

@@ -1,4 +1,4 @@
-//! Bodies divided into islands: which hang together, and what stands round them.
+//! Division of the bodies into islands, with the fixed and prescribed bodies round them.
 
 use super::mover::Mover;
 use super::{BodyReport, Island, IslandPair, Member, Side, is_free};
@@ -7,7 +7,7 @@ use crate::contact::dissipation::Taken;
 use crate::contact::law::ContactLaw;
 use crate::rigid::{Body, Load};
 
-/// Place of a body when the islands are made.
+/// Place of a body while the islands are made.
 #[derive(Clone, Copy)]
 enum Seat<'a> {
     /// In an island, at a place among its members.
@@ -16,7 +16,7 @@ enum Seat<'a> {
     Outside(&'a Body),
 }
 
-/// Divides the bodies into islands; the order follows from the bodies alone.
+/// Divides the bodies into islands; the order depends on the bodies alone.
 pub(super) fn islands<'a>(
     bodies: &'a mut [Body],
     reports: &'a mut [BodyReport],
@@ -78,7 +78,7 @@ pub(super) fn islands<'a>(
     islands
 }
 
-/// Per body the first of those it hangs together with.
+/// Per body the first of its connected component.
 fn roots(bodies: &[Body], contact_pairs: &[ContactPair]) -> Vec<usize> {
     fn root_of(roots: &[usize], mut place: usize) -> usize {
         while roots[place] != place {

@@ -1,5 +1,5 @@
-//! Time for which nothing of an island can begin to touch: it is crossed in one body
-//! sub-step (docs/method.md, equation 20a).
+//! Time in which no new contact of an island can begin: it is crossed in one body sub-step
+//! (docs/method.md, equation 20a).
 
 use super::pace::LARGEST_TURN;
 use super::{IslandPair, Member, Mover, Side, Surroundings, body_of};
@@ -8,19 +8,19 @@ use crate::math::Vec3;
 use crate::rigid::Body;
 use crate::walls::Plane;
 
-/// Share of a gap that is crossed at most: the rest is for rounding, and for the flow's
-/// torque, which is taken as that of the start.
+/// Largest share of a gap that is crossed: the rest is for rounding, and for the flow's torque,
+/// which is kept at its value at the start.
 const SHARE_OF_GAP: f64 = 0.9;
 
-/// A motion towards something, at most: a speed [m/s] that grows by an acceleration [m/s²].
+/// Upper bound of an approach: a speed [m/s] that grows by an acceleration [m/s²].
 #[derive(Clone, Copy)]
 struct Closing {
     speed: f64,
     acceleration: f64,
 }
 
-/// Time for which nothing of an island can touch [s]; not looked for beyond `longest`, nor any
-/// more once it is below `least`.
+/// Time in which no new contact of an island can begin [s]; the search ends beyond `longest`
+/// and below `least`.
 pub(super) fn clear_for(
     members: &[Member],
     movers: &[Mover],
@@ -49,7 +49,8 @@ pub(super) fn clear_for(
     time
 }
 
-/// Time for which a body surely touches no wall [s]; not looked for beyond `longest`.
+/// Lower bound of the time in which a body touches no wall [s]; the search ends beyond
+/// `longest`.
 fn clear_of_walls(member: &Member, around: &Surroundings, longest: f64) -> f64 {
     let body = &*member.body;
     let turning = turning(member);
@@ -70,7 +71,7 @@ fn clear_of_walls(member: &Member, around: &Surroundings, longest: f64) -> f64 {
     })
 }
 
-/// Motion of two bodies towards each other.
+/// Approach of two bodies.
 fn closing_of_pair(
     members: &[Member],
     movers: &[Mover],
@@ -103,7 +104,7 @@ fn closing_of_pair(
     }
 }
 
-/// Largest speed that free turning, and the flow's torque, ever give to a place.
+/// Largest speed that free turning and the flow's torque can give to a place.
 fn turning(member: &Member) -> Closing {
     let body: &Body = member.body;
     let largest = body.inverse_inertia.largest();

@@ -1,4 +1,4 @@
-//! Length of body sub-steps in touch: a contact with little energy at stake needs no short
+//! Length of body sub-steps in contact: a contact with little energy at stake needs no short
 //! ones (docs/method.md, equation 20b).
 
 use super::pace::{LARGEST_TURN, longest, relative_speed};
@@ -9,30 +9,29 @@ use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
 use crate::rigid::Body;
 
-/// Sub-steps are so many times longer at most than those of an impact that takes all of a
-/// body's energy: a weak one has a dozen at least.
+/// Largest length of a sub-step over that of an impact which takes all of a body's energy; a
+/// weak impact has at least a dozen.
 const MOST_LONGER: f64 = 4.0;
-/// Share of the time to the next contact that is crossed at most.
+/// Largest share of the time to the next contact that is crossed.
 const SHARE_OF_WAY: f64 = 0.5;
 
-/// Share of a body's energy that damping may take in a kick before one of another length: what
-/// it takes is known for a kick of the same.
+/// Share of a body's energy that damping may dissipate in a kick before one of another length:
+/// the dissipation is known for a kick of the same length.
 const QUIET: f64 = 1e-6;
 
-/// A contact, there or to come.
+/// A present or coming contact.
 struct Coming {
-    /// [m]; negative when apart.
+    /// Overlap [m]; negative when apart.
     overlap: f64,
-    /// [m/s].
+    /// Approach speed [m/s].
     approach: f64,
-    /// Mass that approaches, and the least that resists [kg].
+    /// Approaching mass, and least resisting mass [kg].
     masses: [f64; 2],
-    /// Energy that what this one makes is compared with [J].
+    /// Energy that the integration error of this contact is compared with [J].
     scale: f64,
 }
 
-/// Longest sub-step for the contacts of an island as they are, and for those about to
-/// come [s].
+/// Longest sub-step for the present contacts of an island and those about to begin [s].
 pub(super) fn longest_in_touch(
     members: &[Member],
     movers: &[Mover],
@@ -48,14 +47,14 @@ pub(super) fn longest_in_touch(
     walls.chain(island_pair).fold(f64::INFINITY, f64::min)
 }
 
-/// True if damping takes next to nothing of any body.
+/// True if damping dissipates next to nothing of any body's energy.
 pub(super) fn is_quiet(members: &[Member], around: &Surroundings) -> bool {
     members
         .iter()
         .all(|member| member.report.energy.pending <= QUIET * scale(member.body, &around.gravity))
 }
 
-/// The same for the contacts of one body with walls, and for its turn.
+/// Longest sub-step for the contacts of one body with walls, and for its turning [s].
 fn longest_on_walls(body: &Body, around: &Surroundings) -> f64 {
     let (linear, angular) = (body.velocity(), body.angular_velocity());
     let masses = [body.mass, body.least_effective_mass()];
@@ -72,8 +71,8 @@ fn longest_on_walls(body: &Body, around: &Surroundings) -> f64 {
     each.fold(LARGEST_TURN / angular.norm(), f64::min)
 }
 
-/// The same of two bodies, as if their whole motion were towards each other: features that
-/// do not touch yet are not looked for.
+/// Longest sub-step for two bodies [s], as if their whole motion were an approach: features
+/// that do not touch yet are not searched for.
 fn longest_of_pair(
     members: &[Member],
     movers: &[Mover],
@@ -106,15 +105,15 @@ fn longest_of_pair(
     coming.longest(&island_pair.law)
 }
 
-/// Energy of a body that contacts may make a small share of [J]: of its motion, and of a fall
+/// Energy scale of a body for the error of its contacts [J]: that of its motion, and of a fall
 /// by its own size.
 fn scale(body: &Body, gravity: &Vec3) -> f64 {
     body.kinetic_energy() + body.mass * gravity.norm() * body.shape.bounding_radius()
 }
 
 impl Coming {
-    /// Longest sub-step for it [s]: that of the impact which takes the energy it has and
-    /// brings, or what leaves it still to come.
+    /// Longest sub-step for it [s]: that of the impact which takes its stored and approaching
+    /// energy, or the one that does not pass a coming contact.
     fn longest(&self, law: &ContactLaw) -> f64 {
         let [mass, least_mass] = self.masses;
         let brought = 0.5 * mass * self.approach.max(0.0) * self.approach;

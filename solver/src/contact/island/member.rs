@@ -1,4 +1,4 @@
-//! A free body of an island: what moves it, and what it reports.
+//! A free body of an island: its loads, and its report.
 
 use super::{BodyReport, Member, STILL};
 use crate::contact::dissipation::Taken;
@@ -69,8 +69,8 @@ impl<'a> Member<'a> {
         self.report.overlap(self.body.state.wall_overlap / radius);
     }
 
-    /// True if it has stood since the start, held by the walls, and nothing touches it:
-    /// steps would change nothing but its rounding.
+    /// True if it has been in static equilibrium on the walls since the start, and nothing else
+    /// touches it: steps would change only its rounding.
     pub(super) fn is_in_equilibrium(&self) -> bool {
         self.body.is_held() && self.flow == Load::default()
     }

@@ -4,14 +4,14 @@ use super::BodyReport;
 use crate::rigid::{Body, Load};
 use nalgebra::UnitQuaternion;
 
-/// A copy of such a body that goes along in the island's sub-steps: several islands may
-/// meet it, each in sub-steps of its own.
+/// A copy of such a body that moves in the island's sub-steps: several islands may touch it,
+/// each in sub-steps of its own.
 pub(super) struct Mover {
     /// Its place in the list of bodies.
     pub(super) place: usize,
-    /// As it stands within the sub-step of the flow.
+    /// Its state within the sub-step of the flow.
     pub(super) body: Body,
-    /// Orientation at the start of that.
+    /// Orientation at the start of the flow's sub-step.
     start: UnitQuaternion<f64>,
     /// Impulse of the island's bodies on it, and that of their torque about its centre.
     impulse: Load,
@@ -35,13 +35,13 @@ impl Mover {
         self.body.speed_ahead() == 0.0
     }
 
-    /// Moves it to so long after the start, which was at `time` [s].
+    /// Moves it to its place so long after the start, which was at `time` [s].
     pub(super) fn follow(&mut self, time: f64, after: f64) {
         self.body.state.orientation = self.start;
         self.body.follow(time, time + after);
     }
 
-    /// Takes in what the island's bodies do to it for `dt`.
+    /// Adds the loads of the island's bodies on it for `dt`.
     pub(super) fn take_in(&mut self, dt: f64) {
         let load = &self.body.state.body_load;
         self.impulse.force += load.force * dt;
@@ -49,7 +49,7 @@ impl Mover {
         self.work += self.body.work_against(load, dt);
     }
 
-    /// Adds what became of it to the body it stands for, at the end of `dt`.
+    /// Adds its impulses and work to the body it stands for, at the end of `dt`.
     pub(super) fn hand_over(self, body: &mut Body, report: &mut BodyReport, dt: f64) {
         body.state.touching_bodies += self.body.state.touching_bodies;
         report.body_load.force += self.impulse.force / dt;

@@ -1,5 +1,5 @@
-//! How many sub-steps of its own an island takes within one of the flow
-//! (docs/method.md, equations 20 and 48).
+//! Number of body sub-steps of an island within one of the flow (docs/method.md, equations 20
+//! and 48).
 
 use super::{IslandPair, Member, Mover, Side, Surroundings, body_of, broad_phase, is_free, reach};
 use crate::contact::body_body::{ContactPair, pair_law, reduced_mass};
@@ -9,21 +9,21 @@ use crate::math::Vec3;
 use crate::rigid::{Body, Freedom, Load};
 use crate::walls::Plane;
 
-/// Share of a contact's time scale √(m/k'), k' where it is deepest, taken per
-/// body sub-step: an undamped impact lasts about four of them, so it gets sixty-five.
+/// Length of a body sub-step over a contact's time scale √(m/k'), k' at the deepest overlap: an
+/// undamped impact lasts about four of these scales, so it gets sixty-five.
 const CONTACT_SHARE: f64 = 0.06;
-/// The same where nothing damps the contact: what the integration changes of the
-/// energy is all that changes it.
+/// The share for a contact without damping, whose energy changes by the error of the
+/// integration alone.
 const UNDAMPED_SHARE: f64 = 0.01;
-/// Damping number from which on damping takes a hundred times more energy in an
-/// impact than the integration makes in steps of [`CONTACT_SHARE`].
+/// Damping number above which damping dissipates a hundred times more energy in an impact than
+/// the integration makes in steps of [`CONTACT_SHARE`].
 const DAMPED: f64 = 0.001;
 /// Largest turn per body sub-step [rad].
 pub(super) const LARGEST_TURN: f64 = 0.05;
-/// More body sub-steps than this are never taken; a run that needs them ends.
+/// Largest number of body sub-steps; a run that needs more ends.
 pub const MOST_SUBSTEPS: f64 = 100_000.0;
 
-/// Number of body sub-steps that `dt` asks for, whole but kept as a float.
+/// Number of body sub-steps required for `dt`, whole but kept as a float.
 pub(super) fn substeps(
     members: &[Member],
     movers: &[Mover],
@@ -54,7 +54,7 @@ pub(super) fn substeps_alone(
     ahead: f64,
 ) -> f64 {
     let turns = body.angular_velocity().norm() * dt / LARGEST_TURN;
-    // What starts from rest is not at rest at the end.
+    // A body that starts from rest is not at rest at the end.
     let speed = body.largest_speed() + acceleration * dt;
     let deepest = deepest_overlap(body, planes);
     let contacts = if deepest + reach(body, acceleration, ahead) > 0.0 {
@@ -67,8 +67,8 @@ pub(super) fn substeps_alone(
     turns.max(contacts)
 }
 
-/// Sub-steps that bodies ask for within `dt`, falling freely, for their spin and for
-/// everything that they may touch in a `step` [s] that begins now.
+/// Sub-steps that bodies need within `dt`, falling freely, for their spin and for everything
+/// that they may touch in a `step` [s] that begins now.
 pub fn substeps_ahead(
     bodies: &[Body],
     contact_pairs: &[ContactPair],
@@ -92,7 +92,7 @@ pub fn substeps_ahead(
     alone.chain(island_pair).fold(0.0, f64::max)
 }
 
-/// Sub-steps that two bodies ask for.
+/// Sub-steps that two bodies need.
 fn substeps_of_island_pair(
     members: &[Member],
     movers: &[Mover],
@@ -117,8 +117,8 @@ fn substeps_of_island_pair(
     )
 }
 
-/// Sub-steps that two bodies ask for whose contacts are so deep [m], and whose speed
-/// towards each other grows by `gained` [m/s] at most.
+/// Sub-steps that two bodies need with contacts of this depth [m], whose approach speed grows
+/// by `gained` [m/s] at most.
 fn substeps_of_pair(both: [&Body; 2], law: &ContactLaw, deepest: f64, gained: f64, dt: f64) -> f64 {
     let speeds = both.into_iter().map(|body| match body.freedom {
         Freedom::Fixed => 0.0,

@@ -1,45 +1,45 @@
-//! Body sub-steps within one of the flow: each is as long as a number of the shortest, which
-//! all that may happen is resolved by (docs/method.md, equations 20, 20a and 20b).
+//! Body sub-steps within one of the flow: the length of each is a multiple of the shortest,
+//! which resolves all that may happen (docs/method.md, equations 20, 20a and 20b).
 
 use super::flight::clear_for;
 use super::in_touch::{is_quiet, longest_in_touch};
 use super::{IslandPair, Member, Mover, Surroundings};
 use crate::rigid::Load;
 
-/// With fewer short sub-steps left than this no look is taken at gaps and contacts, which costs
-/// as much as one or two of them.
+/// Number of short sub-steps left below which gaps and contacts are not evaluated, since that
+/// costs as much as one or two sub-steps.
 const WORTH_A_LOOK: u32 = 4;
-/// Short sub-steps between looks that find no room are doubled so many times at most.
+/// Largest number of doublings of the interval between evaluations that find no room.
 const MOST_DOUBLINGS: u32 = 4;
-/// With fewer short sub-steps than this in one of the flow contacts take them all.
+/// Number of short sub-steps in one of the flow below which contacts take them all.
 const MANY: u32 = 100;
 
-/// True if the flow pushes a body: it may press a contact far deeper than the energy that the
-/// body has now.
+/// True if the flow pushes a body: it may press a contact far deeper than the body's present
+/// energy.
 fn is_pushed(member: &Member) -> bool {
     member.flow != Load::default()
 }
 
-/// The sub-steps of an island within one of the flow: how long each may be.
+/// The sub-steps of an island within one of the flow, and their lengths.
 #[derive(Debug)]
 pub(super) struct Strides {
     /// The shortest [s].
     pub(super) shortest: f64,
-    /// Number of those in all.
+    /// Total number of shortest sub-steps.
     count: u32,
-    /// Those done.
+    /// Number of those done.
     pub(super) done: u32,
-    /// Those in the sub-step before. At the start one: what damping found there was for a kick
-    /// of a length that is not known any more, and must not meet a longer one.
+    /// Length of the sub-step before, in shortest ones. At the start one: the damping found there
+    /// was for a kick of unknown length, and must not act in a longer one.
     before: u32,
-    /// Short sub-steps to take before the next look at gaps and contacts.
+    /// Short sub-steps to take before the next evaluation of gaps and contacts.
     wait: u32,
-    /// Looks in a row that found no room.
+    /// Evaluations in a row that found no room.
     in_vain: u32,
 }
 
 impl Strides {
-    /// So many shortest sub-steps of this length [s].
+    /// This number of shortest sub-steps, of this length [s].
     pub(super) fn new(shortest: f64, count: u32) -> Self {
         Self {
             shortest,
@@ -56,8 +56,8 @@ impl Strides {
         self.done < self.count
     }
 
-    /// Takes the next sub-step: the number of shortest ones that it is as long as, and how
-    /// much longer it is than the one before.
+    /// Begins the next sub-step; returns its length in shortest ones, and the ratio of its length
+    /// to that of the one before.
     pub(super) fn next(
         &mut self,
         members: &[Member],
@@ -117,8 +117,8 @@ impl Strides {
         is_waiting
     }
 
-    /// Takes note of a look that allows so long a sub-step; what is no number, which is 0 as a
-    /// whole one, allows the shortest.
+    /// Records an evaluation that allows so long a sub-step; a non-finite one, 0 as a whole number,
+    /// allows the shortest.
     fn found(&mut self, stride: u32) -> u32 {
         self.in_vain = if stride > 1 { 0 } else { self.in_vain + 1 };
         self.wait = (1 << self.in_vain.min(MOST_DOUBLINGS)) - 1;
@@ -126,7 +126,7 @@ impl Strides {
     }
 }
 
-/// True if anything of an island touches.
+/// True if any body of an island is in contact.
 fn touches(members: &[Member], contact_pairs: &[IslandPair]) -> bool {
     contact_pairs
         .iter()

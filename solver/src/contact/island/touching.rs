@@ -1,10 +1,10 @@
-//! Contacts of the bodies of an island, found and renewed in a sub-step.
+//! Contacts of the bodies of an island, found and updated in a sub-step.
 
 use super::{IslandPair, Member, Mover, Side, body_of};
 use crate::contact::body_body::Contacts;
 use crate::rigid::{BodyState, Load};
 
-/// States of all bodies of an island that move.
+/// States of all moving bodies of an island.
 fn states<'a>(
     members: &'a mut [Member],
     movers: &'a mut [Mover],
@@ -13,7 +13,7 @@ fn states<'a>(
     members.chain(movers.iter_mut().map(|mover| &mut mover.body.state))
 }
 
-/// Finds where bodies touch after a drift of `dt`, and counts how many touch each.
+/// Finds the contacts of bodies after a drift of `dt`, and counts the touching bodies of each.
 pub(super) fn find_contacts(
     members: &mut [Member],
     movers: &mut [Mover],
@@ -52,7 +52,7 @@ pub(super) fn find_contacts(
     }
 }
 
-/// Renews what bodies do to each other after a drift of `dt`.
+/// Updates the loads of bodies on each other after a drift of `dt`.
 pub(super) fn evaluate_body_contacts(
     members: &mut [Member],
     movers: &mut [Mover],
@@ -78,7 +78,7 @@ pub(super) fn evaluate_body_contacts(
     }
 }
 
-/// Takes in what the second side does to the first.
+/// Adds the load of the second side on the first.
 fn take(members: &mut [Member], movers: &mut [Mover], [to, from]: [Side; 2], load: &Load) {
     let state = match to {
         Side::Member(place) => &mut members[place].body.state,

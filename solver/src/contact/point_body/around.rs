@@ -1,11 +1,11 @@
-//! Boxes in which points are looked for.
+//! Boxes in which points are searched for.
 
 use crate::grid::{BLOCK, BlockKey};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::rigid::Body;
 
-/// A box of world axes round a body.
+/// An axis-aligned box round a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Around {
     low: Vec3,
@@ -26,7 +26,7 @@ impl Around {
         }
     }
 
-    /// The box round an vertical walls column of this radius [m], without end.
+    /// The box round a vertical column of this radius [m], of infinite height.
     pub fn column(centre: Vec3, radius: f64) -> Self {
         let half = Vec3::new(radius, radius, f64::INFINITY);
         Self {
@@ -35,7 +35,7 @@ impl Around {
         }
     }
 
-    /// As long, as high, and without end across.
+    /// The box extended to infinity across the channel.
     pub fn all_across(mut self) -> Self {
         (self.low.y, self.high.y) = (f64::NEG_INFINITY, f64::INFINITY);
         self
@@ -47,7 +47,7 @@ impl Around {
         self
     }
 
-    /// The same so much further across [m].
+    /// The box moved across the channel by this much [m].
     pub fn shifted(mut self, across: f64) -> Self {
         self.low.y += across;
         self.high.y += across;

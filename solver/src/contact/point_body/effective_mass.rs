@@ -1,5 +1,5 @@
-//! Effective mass of the contacts between points and bodies: the mass that resists
-//! when a force acts on all of them at once (docs/method.md, equations 24a and 24b).
+//! Effective mass of the contacts between points and bodies: the mass that resists a force on
+//! all of them at once (docs/method.md, equations 24a and 24b).
 
 use crate::grid::BLOCK_NODES;
 use crate::kernel::PointStencil;
@@ -16,7 +16,7 @@ pub(super) struct GridCompliance {
 }
 
 impl GridCompliance {
-    /// Takes up the stencils of the points in contact.
+    /// Adds the stencils of the points in contact.
     pub(super) fn gather<'a>(
         &mut self,
         stencils: impl Iterator<Item = &'a PointStencil>,
@@ -46,8 +46,8 @@ impl GridCompliance {
         }
     }
 
-    /// A node and its ghosts move as one: all of their mass answers to all of their
-    /// weights.
+    /// Joins a node and its ghost nodes, which move as one: their total mass resists their total
+    /// weight.
     fn share_with_ghosts(&mut self, nodes: &impl NodeAccess, boundary: &Boundary) {
         for group in boundary.ghost_sets() {
             let weight = |place: usize| self.per_node[place] * nodes.mass(place);
@@ -72,7 +72,7 @@ impl GridCompliance {
     }
 }
 
-/// Contacts of one body: how many, and the sum of their levers.
+/// Contacts of one body: their number, and the sum of their levers.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ContactSum {
     count: f64,
@@ -81,13 +81,13 @@ pub(super) struct ContactSum {
 }
 
 impl ContactSum {
-    /// Takes in a contact at this distance from the centre of mass [m].
+    /// Adds a contact at this distance from the centre of mass [m].
     pub(super) fn add(&mut self, lever: f64) {
         self.count += 1.0;
         self.levers += lever;
     }
 
-    /// Those of a body and of its mirror image.
+    /// The sum of a body's contacts and its mirror image's.
     pub(super) fn plus(self, other: Self) -> Self {
         Self {
             count: self.count + other.count,
@@ -110,7 +110,7 @@ impl ContactSum {
 /// Compliance of a body to unit forces at all of its contacts.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct BodyCompliance {
-    /// [1/kg].
+    /// Of translation [1/kg].
     translation: f64,
     /// Per distance from the centre of mass [1/(kg m)].
     rotation: f64,

@@ -6,9 +6,9 @@ use crate::kernel::PointStencil;
 use crate::math::Vec3;
 use crate::rigid::Body;
 
-/// Share of the approach speed and of the sliding speed that all contacts together
-/// take in one sub-step at most: the spectral radius of damping and friction stays
-/// below it, so that they never turn a motion round.
+/// Largest share of the approach speed and of the sliding speed that all contacts together take
+/// in one sub-step: the spectral radius of damping and friction stays below it, so that they
+/// never reverse a motion.
 const DAMPING_CAP: f64 = 0.5;
 
 /// A point that overlaps a body.
@@ -37,7 +37,7 @@ pub(super) struct PointForce {
     pub(super) force: Vec3,
     /// δ/(R_p + r).
     pub(super) overlap_ratio: f64,
-    /// Energy the contact holds [J].
+    /// Energy stored in the contact [J].
     pub(super) energy: f64,
 }
 
@@ -64,14 +64,13 @@ impl PointContact {
         })
     }
 
-    /// Places of the point, and of the body's surface where it touches [m].
+    /// Positions of the point, and of the body's surface at the contact [m].
     pub(super) fn ends(&self, body: &Body, stand_off: f64) -> (Vec3, Vec3) {
         let point = body.state.position + self.arm;
         (point, point - self.normal * (stand_off - self.overlap))
     }
 
-    /// Force of this contact in a sub-step of `dt` [s], where this effective mass [kg]
-    /// resists it.
+    /// Force of this contact in a sub-step of `dt` [s], for this effective contact mass [kg].
     pub(super) fn force(&self, law: &ContactLaw, effective_mass: f64, dt: f64) -> PointForce {
         let largest = DAMPING_CAP * effective_mass / dt;
         let approach = self.velocity.dot(&self.normal);

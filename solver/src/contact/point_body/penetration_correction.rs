@@ -1,16 +1,16 @@
-//! Points that ended a step inside a body's core, and where they are put.
+//! Penetration correction of points that ended a step inside a body's core.
 
 use crate::math::Vec3;
 use crate::rigid::Body;
 use crate::shape::Face;
 use crate::walls::Plane;
 
-/// Fate of a point that ended a step inside a body's core.
+/// Correction of a point that ended a step inside a body's core.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PenetrationCorrection {
-    /// It belongs there.
+    /// New position of the point.
     To(Vec3),
-    /// It is so deep [m], and walls leave no room over any face.
+    /// No position is free: walls leave no room over any face.
     NoRoom {
         /// Below the nearest face of the core [m].
         depth: f64,
@@ -39,8 +39,8 @@ impl PenetratingPoint {
     }
 }
 
-/// Place of a point that ended a step inside a body's core: over the nearest face above
-/// which there is room between the `walls`. `None` if it is outside.
+/// Correction of a point that ended a step inside a body's core: to a position over the nearest
+/// face with room between the `walls`. `None` if the point is outside.
 pub fn penetration_correction(
     position: &Vec3,
     body: &Body,
@@ -56,7 +56,7 @@ pub fn penetration_correction(
         let out = face.normal * (depth + body.shape.sphero_radius());
         (depth, position + body.to_world(&out))
     };
-    // One that was behind a wall before is at least not pushed farther.
+    // A point that was behind a wall before is at least not moved farther behind it.
     let has_room = |place: &Vec3| {
         let behind = |wall: &Plane| wall.height(place) < wall.height(position).min(0.0);
         !walls.iter().any(behind)

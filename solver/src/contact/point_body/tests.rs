@@ -105,7 +105,7 @@ impl PointAccess for Cloud {
     }
 }
 
-/// A cube of points, so many a side and so far apart.
+/// A cube of points, with this many per side and this spacing.
 fn lump(side: u32, start: f64, spacing: f64) -> Vec<Vec3> {
     let place = |n: u32| start + spacing * f64::from(n);
     let position = |id: u32| {
@@ -122,7 +122,7 @@ fn cube() -> Body {
     body
 }
 
-/// Forces on points where they stand, moving as one.
+/// Forces on points at these positions, moving as one.
 fn loads(positions: Vec<Vec3>, velocity: Vec3, body: &Body) -> Loads<usize> {
     let cloud = Cloud::new(positions, velocity);
     let bodies = std::slice::from_ref(body);
@@ -132,14 +132,14 @@ fn loads(positions: Vec<Vec3>, velocity: Vec3, body: &Body) -> Loads<usize> {
     loads
 }
 
-/// Force on a single point over the upper face, so far above the flat in R_p.
+/// Force on a single point over the upper face, at this height above the flat in R_p.
 fn force_on_one(in_radii: f64, velocity: Vec3) -> Vec3 {
     let loads = loads(vec![above(in_radii)], velocity, &cube());
     assert_eq!(loads.on_points.len(), 1);
     loads.on_points[0].1
 }
 
-/// A place over the upper face: so far above the flat, in R_p.
+/// A place over the upper face, at this height above the flat in R_p.
 fn above(in_radii: f64) -> Vec3 {
     Vec3::new(0.105, 0.098, 0.12 + in_radii * SPHERE.radius)
 }
@@ -203,14 +203,14 @@ fn friction_is_coulombs_and_against_the_sliding() {
     let force = force_on_one(0.5, Vec3::new(2.0, 0.0, 0.0));
     assert!(force.y.abs() < 1e-12);
     assert!((force.x + 0.5 * force.z).abs() < 1e-12, "{force:?}");
-    // Slow sliding stops within a few sub-steps and is never turned round.
+    // Slow sliding stops within a few sub-steps and is never reversed.
     let slow = 1e-4;
     let force = force_on_one(0.5, Vec3::new(slow, 0.0, 0.0));
     let body = cube();
     let lever = (above(0.5) - body.state.position).norm();
     let mut sum = ContactSum::default();
     sum.add(lever);
-    // All of a lone point answers, and the cube.
+    // The whole mass of a lone point resists, and the cube.
     let effective = 1.0 / (1.0 / MASS + sum.compliance(&body).at(lever));
     let expected = 0.5 * effective * slow / DT;
     assert!((force.x + expected).abs() < 1e-9 * expected, "{force:?}");
@@ -243,7 +243,7 @@ fn points_in_the_core_are_put_on_its_surface() {
     assert_eq!(at(0.15), None);
 }
 
-// Nearest to the top, but a lid lies there; next to the side at x = 0.12.
+// Nearest to the top, but a lid is there; next to the side at x = 0.12.
 #[test]
 fn no_point_is_put_behind_a_wall() {
     let body = cube();
@@ -272,8 +272,8 @@ fn no_point_is_put_behind_a_wall() {
     assert!((found - depth).abs() < 1e-15, "{found}, not {depth}");
 }
 
-// The search goes by blocks: a block that holds a point of a body's box must
-// meet that box, wherever it ends. It is moved in steps of a third of a cell.
+// The search goes by blocks: a block that contains a point of a body's box must overlap that
+// box, wherever it ends. It is moved in steps of a third of a cell.
 #[test]
 fn blocks_in_reach_are_searched() {
     let places = lump(30, 0.055, 0.0031);
@@ -292,8 +292,8 @@ fn blocks_in_reach_are_searched() {
     }
 }
 
-// A point half the largest travel away is let alone for half of the step, and
-// looked at after that.
+// A point half the largest travel away is skipped for half of the step, and evaluated after
+// that.
 #[test]
 fn points_are_looked_at_when_they_can_touch() {
     let gap = 0.5 * REACH.travel / SPHERE.radius;
@@ -304,7 +304,7 @@ fn points_are_looked_at_when_they_can_touch() {
     loads.find_candidates(&cloud, std::slice::from_ref(&body), REACH);
     assert_eq!(loads.candidates[0].len(), 1);
     assert!((loads.candidates[0][0].earliest - 0.5).abs() < 1e-9);
-    // It has come into touch meanwhile.
+    // It has come into contact meanwhile.
     let cloud = Cloud::new(vec![above(0.5)], Vec3::zeros());
     for (passed, touching) in [(0.4, 0), (0.6, 1)] {
         cloud.loads(std::slice::from_ref(&body), &mut loads, passed);
@@ -312,8 +312,8 @@ fn points_are_looked_at_when_they_can_touch() {
     }
 }
 
-// With the restitution e a lone point that strikes a fixed body rebounds at e times its
-// speed; the grid of one point answers with the point's own mass.
+// With the restitution e a lone point that strikes a fixed body rebounds at e times its speed;
+// the effective mass of the grid with one point is the point's own.
 #[test]
 fn a_point_rebounds_as_asked() {
     for restitution in [0.0, 0.3, 0.6, 1.0] {
@@ -343,8 +343,8 @@ fn a_point_rebounds_as_asked() {
     }
 }
 
-// Points all over a body, moving towards it and along it at random: one sub-step of
-// damping and friction alone takes energy, be the body far lighter than the points.
+// Points all over a body, moving towards it and along it at random: one sub-step of damping
+// and friction alone dissipates energy, even if the body is far lighter than the points.
 #[test]
 fn braking_makes_no_energy_however_light_the_body() {
     for mass in [1e-6, 1e-3, 1.0] {
@@ -353,7 +353,7 @@ fn braking_makes_no_energy_however_light_the_body() {
         body.mass = mass;
         body.inertia *= ratio;
         body.inverse_inertia = InverseInertia::of(&body.inertia).expect("a solid has inertia");
-        // Next to no spring, and as much damping as the bound leaves.
+        // Next to no spring, and as much damping as the bound allows.
         body.flow_law = ContactLaw {
             stiffness: 1e-9,
             damping: 1e12,
@@ -387,10 +387,9 @@ fn braking_makes_no_energy_however_light_the_body() {
     }
 }
 
-// A point goes round every shape, over faces, edges and vertices: its force never
-// jumps, and is at every place that of one contact. Along a path at a constant
-// distance from the core only the normal turns, by no more than the way over the
-// distance.
+// A point moves round every shape, over faces, edges and vertices: its force never jumps, and
+// is everywhere that of one contact. Along a path at a constant distance from the core only
+// the normal turns, by no more than the path over the distance.
 #[test]
 fn the_force_is_continuous_over_faces_edges_and_vertices() {
     let boulder = [

@@ -23,7 +23,7 @@ fn by_id(blocks: &Blocks) -> BTreeMap<u32, (BlockKey, Packed)> {
     found
 }
 
-/// Cells that differ from their forerunner's, and cells in use.
+/// Number of runs of points in the same cell, and number of cells in use.
 fn runs(block: &Block) -> (usize, usize) {
     let mut cells = Vec::new();
     for (chunk, count) in block.chunks() {
@@ -36,7 +36,7 @@ fn runs(block: &Block) -> (usize, usize) {
     )
 }
 
-/// Asserts the rules that settled blocks keep.
+/// Asserts the invariants of blocks after a rebin.
 fn assert_in_order(blocks: &Blocks) {
     let keys: Vec<BlockKey> = blocks.occupied().iter().map(|block| block.key).collect();
     assert!(keys.windows(2).all(|pair| pair[0] < pair[1]), "{keys:?}");
@@ -50,7 +50,7 @@ fn assert_in_order(blocks: &Blocks) {
                 let position = chunk.position.map(|of| of[lane]);
                 assert!(position.iter().all(|x| is_settled(*x)), "{position:?}");
             }
-            // Lanes without a point weigh nothing.
+            // Lanes without a point have no mass.
             for lane in count..LANES {
                 assert_eq!(chunk.get(lane), Packed::NONE);
             }
@@ -58,7 +58,7 @@ fn assert_in_order(blocks: &Blocks) {
     }
 }
 
-/// Points over a few blocks round the origin, every number its own.
+/// Points over a few blocks round the origin, with random values.
 fn random_points(spread: &mut Shifting, count: u32) -> Vec<(BlockKey, Packed)> {
     let point = |id| {
         let key = [(); 3].map(|()| spread.between(-2.0, 1.99).floor() as i32);
@@ -77,7 +77,7 @@ fn random_points(spread: &mut Shifting, count: u32) -> Vec<(BlockKey, Packed)> {
     (0..count).map(point).collect()
 }
 
-/// Way of a point along an axis [cells].
+/// New coordinate of a point that moves along an axis [cells].
 fn moved(spread: &mut Shifting, x: f32) -> f32 {
     let rims = [0.5f32, 4.5, 1.5, 8.5];
     let rim = rims[spread.between(0.0, 3.99) as usize];
@@ -115,8 +115,8 @@ fn points_travel_and_none_is_lost_or_doubled() {
         assert_eq!(got.len(), expected.len());
         for (id, (key, point)) in &got {
             let (old_key, old) = &expected[id];
-            // Half the last place of a position below 4.5 cells, or of what
-            // was to be settled, whichever is larger.
+            // Half the last place of a position below 4.5 cells, or of the position before the
+            // rebin, whichever is larger.
             for ((now, was), from) in absolute(key, &point.position)
                 .iter()
                 .zip(absolute(old_key, &old.position))
@@ -159,12 +159,12 @@ fn blocks_are_born_and_die() {
     }
 }
 
-/// A place in one of eight cells.
+/// A position inside one of eight cells.
 fn in_the_middle(spread: &mut Shifting) -> [f32; 3] {
     [(); 3].map(|()| 2.5 + 0.95 * spread.single(1.0))
 }
 
-/// Tells every block how many runs it has, as a pass does.
+/// Stores the number of runs in every block, as a pass does.
 fn note_runs(blocks: &mut Blocks) {
     for block in blocks.occupied_mut() {
         let (changes, _) = runs(block);
@@ -172,8 +172,8 @@ fn note_runs(blocks: &mut Blocks) {
     }
 }
 
-// A block whose runs have not become many more is left as it is, and is sorted
-// by cell else.
+// A block whose number of runs has grown little is left as it is, and otherwise sorted by
+// cell.
 #[test]
 fn a_block_is_sorted_when_its_order_has_suffered() {
     let mut spread = Shifting(4);
@@ -240,13 +240,13 @@ fn only_what_is_gone_is_taken_out() {
         assert_eq!(after.get(id), (!out).then_some(&(*key, *point)));
     }
     assert!(blocks.occupied().iter().all(|block| block.count() > 0));
-    // A whole block of them is gone as a block.
+    // A block all of whose points are removed is removed, too.
     blocks.take_out(|_| true, |_, _| true);
     assert_eq!(blocks.occupied(), []);
     assert_eq!(blocks.count(), 0);
 }
 
-// One rounding carries a place just below the block over to its far side.
+// One rounding moves a place just below the block to its far side.
 #[test]
 fn a_place_at_the_rim_lies_in_one_block() {
     let settled = |x: f32| {

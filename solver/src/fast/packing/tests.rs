@@ -13,9 +13,8 @@ fn pressure(stress: &Sym3) -> f64 {
     -stress.trace() / 3.0
 }
 
-/// A position in a block is below 4.5 cells, so its last place is 2.4e-7 of one
-/// above 2 and half of it is what rounding costs; the bound leaves room for one
-/// over the rim.
+/// A position in a block is below 4.5 cells, so its last place is 2.4e-7 of a cell above 2 and
+/// the rounding error half of it; the bound leaves room for one over the rim.
 const POSITION: f64 = 3e-7;
 /// Half the last place of f32.
 const HALF_PLACE: f64 = 6e-8;
@@ -50,7 +49,7 @@ fn a_point_comes_back_from_its_block() {
     }
 }
 
-// What is packed stays as it is: a saved state must not drift.
+// A packed value stays as it is: a saved state must not drift.
 #[test]
 fn packing_again_changes_no_bit() {
     let packing = packing();
@@ -72,8 +71,7 @@ fn points_on_the_rim_of_blocks_are_settled() {
     let mut point = cloud(1)[0];
     for _ in 0..2000 {
         for axis in 0..3 {
-            // Half cells are where the lowest node changes; a few units of the
-            // last place to either side.
+            // The lowest node changes at half cells; a few units of the last place to either side.
             let cell = (spread.number() * 20.0).round() + 0.5;
             let nudge = (spread.number() * 4.0).round() * 1e-16;
             point.position[axis] =

@@ -14,7 +14,7 @@ use fearless_simd::{Level, dispatch};
 const GRAVITY: Vec3 = Vec3::new(1.0, 0.5, -9.81);
 const DT: f64 = 1e-4;
 
-/// A slope through the cloud.
+/// A slope through the cloud, as the bed.
 fn base() -> [Plane; 1] {
     [Plane {
         name: "slope",
@@ -28,7 +28,7 @@ fn redistribution() -> RedistributionRates {
     RedistributionRates::after(0.2)
 }
 
-/// The slower ones of the cloud share in part.
+/// Smoothing that acts in part on the slower points of the cloud.
 fn strain_rate_smoothing() -> StrainRateSmoothing {
     StrainRateSmoothing::at(20.0)
 }
@@ -50,7 +50,7 @@ fn unpacked(blocks: &Blocks) -> Vec<Point> {
     points
 }
 
-/// A cloud that drifts a third of a cell within a step, as blocks keep it.
+/// A cloud that drifts a third of a cell within a step, in blocks.
 fn drifting() -> Blocks {
     let mut points = cloud(1500);
     for point in &mut points {
@@ -59,7 +59,7 @@ fn drifting() -> Blocks {
     Blocks::of(points.iter().map(|point| packing().pack(point)))
 }
 
-/// A step of so many sub-steps without walls and bodies.
+/// A step of this many sub-steps without walls and bodies.
 fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (Blocks, Shifting) {
     let spacing = lattice().spacing;
     let law = Law::of(&beads(), &spacing);
@@ -162,8 +162,7 @@ fn plainly_stepped(mut points: Vec<Point>, substeps: u32, gravity: &Vec3) -> Vec
     points
 }
 
-/// Largest differences over the points, in units of what the numbers are
-/// rounded from.
+/// Largest differences over the points, in units of the scales of rounding.
 #[derive(Debug, Default)]
 struct Worst {
     /// Cells.
@@ -246,9 +245,8 @@ fn momentum(points: &[Point]) -> (Impulse, f64, f64) {
     (sum, linear, angular)
 }
 
-/// Of the sum of the points' own: roundings of 6e-8 that mostly cancel. Measured:
-/// 8.5e-9 linear, 3e-9 angular; losing what the nodes' displacement adds would cost
-/// far more.
+/// Relative to the sum of the points' own: roundings of 6e-8 that mostly cancel. Measured:
+/// 8.5e-9 linear, 3e-9 angular; losing the part of the nodes' displacement would be far more.
 const MOMENTUM: f64 = 4e-8;
 
 #[test]

@@ -8,9 +8,9 @@ fn four(tile: &Tile, place: usize) -> &[f32] {
     &tile.0[4 * place..4 * place + 4]
 }
 
-/// Sums over 27 nodes of numbers up to 1 with weights that add up to one, levers
-/// to at most 0.75: some ten roundings on the way to a sum. Measured: 9e-8 gathered, 2.7e-7
-/// scattered, where up to sixteen points add to a node.
+/// Sums over 27 nodes of numbers up to 1 with weights that add up to one, levers to at most
+/// 0.75: some ten roundings per sum. Measured: 9e-8 gathered, 2.7e-7 scattered, where up to
+/// sixteen points add to a node.
 const ROUNDING: f64 = 1e-6;
 
 fn random_tile(spread: &mut Shifting) -> Tile {
@@ -103,7 +103,7 @@ fn gathering_is_a_sum_over_27_nodes() {
     }
 }
 
-/// Shares that the first `count` points of `given` add to a tile, in f64.
+/// Contributions of the first `count` points of `given` to a tile, in f64.
 fn exactly_given(
     given: &Given,
     stencils: &Stencils,

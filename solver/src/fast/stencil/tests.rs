@@ -6,18 +6,17 @@ use crate::math::Vec3;
 use fearless_simd::dispatch;
 use proptest::prelude::*;
 
-/// Cells of one metre: what the plain path says of a position in a block.
+/// Cells of one metre, for the plain path's stencil of a position in a block.
 const CELLS: Lattice = Lattice {
     origin: Vec3::new(0.0, 0.0, 0.0),
     spacing: Vec3::new(1.0, 1.0, 1.0),
 };
 
-/// Positions are f32 on both sides and node distances exact but for the
-/// highest node's, so a weight has three roundings of numbers up to 1 and a
-/// lever one more of numbers up to 0.75.
+/// Positions are f32 on both sides and node distances exact except for the highest node's, so a
+/// weight has three roundings of numbers up to 1 and a lever one more of numbers up to 0.75.
 const ROUNDING: f64 = 2e-7;
 
-/// Holds the stencils of sixteen points against the plain ones.
+/// Compares the stencils of sixteen points with the plain ones.
 fn compare(points: &[[f32; 3]]) {
     let mut position = [[0.0; LANES]; 3];
     for (lane, point) in points.iter().enumerate() {
@@ -68,7 +67,7 @@ fn stencils_hold_on_the_rims_of_cells() {
     }
 }
 
-// A point that is no number, or that left its block, writes inside the tile.
+// A non-finite point, or one that left its block, writes inside the tile.
 #[test]
 fn no_point_reaches_beyond_its_tile() {
     let last = in_tile(BLOCK - 1, BLOCK - 1, BLOCK - 1) as u32;

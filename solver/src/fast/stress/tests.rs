@@ -8,7 +8,7 @@ use fearless_simd::{Level, dispatch};
 const DT: f32 = 1e-5;
 const DENSITY: f64 = 1500.0;
 
-/// A point amid a step, and the velocity gradient of its nodes [1/s].
+/// A point within a step, and the velocity gradient of its nodes [1/s].
 #[derive(Debug, Clone, Copy)]
 struct State {
     /// With E = F̂ − 1 for its gradient.
@@ -55,7 +55,7 @@ fn plain(state: &State) -> After {
         affine: Mat3::zeros(),
         stress,
     });
-    // Columns, as chunks keep them.
+    // Columns, as in chunks.
     deformation.gradient += matrix(&record.gradient).transpose();
     deformation.inverse = deformation.gradient.try_inverse().expect("it is regular");
     deformation.advance(&matrix(&state.nodes), f64::from(DT));
@@ -107,7 +107,7 @@ fn fast(level: Level, states: &[State; LANES]) -> [After; LANES] {
     })
 }
 
-/// Largest differences met, relative to what they are rounded from.
+/// Largest differences found, relative to the scales of rounding.
 #[derive(Debug, Default)]
 struct Worst {
     stress: f64,
@@ -117,8 +117,8 @@ struct Worst {
 }
 
 impl Worst {
-    /// `strain` is the size of E, of what the sub-step adds to it and of the
-    /// volumetric strain: the numbers that were rounded.
+    /// `strain` is the magnitude of E, of its increment in the sub-step and of the volumetric
+    /// strain: the numbers that were rounded.
     fn take(&mut self, fast: &After, plain: &After, state: &State) {
         let material = beads();
         let before = matrix(&state.record.gradient).amax();
@@ -155,8 +155,8 @@ impl Worst {
     }
 }
 
-/// A state whose every number is random: E up to `strain`, nodes that add up to
-/// `added` to it, a volumetric strain between these bounds.
+/// A random state: E up to `strain`, nodes that add up to `added` to it, a volumetric strain
+/// between these bounds.
 fn state(spread: &mut Shifting, strain: f64, added: f64, volumetric_strain: [f64; 2]) -> State {
     let volumetric_strain = spread.between(volumetric_strain[0], volumetric_strain[1]);
     let pressure = beads().pressure(DENSITY / (1.0 + volumetric_strain));
@@ -184,7 +184,7 @@ const BOUNDS: Worst = Worst {
     force: 2e-6,
 };
 
-/// Holds so many chunks of states against the plain path.
+/// Compares so many chunks of states with the plain path.
 fn hold(rounds: usize, mut make: impl FnMut() -> State) {
     let mut worst = Worst::default();
     for _ in 0..rounds {
@@ -280,8 +280,8 @@ fn an_empty_lane_stays_empty() {
     }
 }
 
-// A turn of one radian since the transfer, and on by a hundredth: F̂ is far from
-// one, the volume is not.
+// A rotation of one radian since the transfer, and on by a hundredth: F̂ is far from one, the
+// volume is not.
 #[test]
 fn what_turns_keeps_its_volume() {
     let mut spread = Shifting(7);
@@ -294,7 +294,7 @@ fn what_turns_keeps_its_volume() {
         let mut state = state(&mut spread, 0.0, 0.0, [-0.02, -0.001]);
         state.record.gradient = [0, 1, 2].map(|j| [0, 1, 2].map(|i| e[(i, j)] as f32));
         state.nodes = [0, 1, 2].map(|i| [0, 1, 2].map(|j| spin[(i, j)] as f32));
-        // Of the turn itself, which the explicit sub-step stretches by θ²/2 twice.
+        // From the rotation itself, which the explicit sub-step stretches by θ²/2 twice.
         let grown = plain(&state).volumetric_strain - f64::from(state.record.volumetric_strain);
         largest = largest.max(grown.abs());
         state
@@ -302,13 +302,13 @@ fn what_turns_keeps_its_volume() {
     assert!(largest < 1.1e-4, "{largest}");
 }
 
-// det F̂ ≤ 0 ends the run: it must not go by unseen, whatever the pressure.
+// det F̂ ≤ 0 ends the run: it must not pass unnoticed, whatever the pressure.
 #[test]
 fn what_is_turned_inside_out_is_no_number() {
     let mut spread = Shifting(7);
     let states: [State; LANES] = std::array::from_fn(|lane| {
         let mut state = state(&mut spread, 0.0, 0.0, [-0.01, 0.3]);
-        // Flat to within what the sub-step then takes, along one axis.
+        // Flat up to the strain of the sub-step, along one axis.
         let axis = lane % 3;
         state.record.gradient[axis][axis] = -0.5;
         state.nodes[axis][axis] = -spread.between(0.5001, 3.0) as f32 / DT;

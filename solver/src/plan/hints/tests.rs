@@ -1,4 +1,4 @@
-//! One test a hint, and one that there are none without cause.
+//! One test per hint, and one that there are none without cause.
 
 use super::*;
 use serde_json::{Value, json};
@@ -11,7 +11,7 @@ fn scene() -> Value {
     })
 }
 
-/// Fields and details of all hints at a scene with other values at some pointers.
+/// Fields and details of all hints for a scene with other values at some pointers.
 fn hints(changes: &[(&str, Value)]) -> Vec<(String, String)> {
     let mut scene = scene();
     for (pointer, value) in changes {

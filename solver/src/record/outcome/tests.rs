@@ -31,7 +31,7 @@ fn what_never_moved_has_no_times() {
     );
 }
 
-// Onset is where the way crosses a millimetre between 0.5 and 2.
+// Onset is where the path crosses a millimetre between 0.5 and 2.
 #[test]
 fn onset_peak_and_stop_are_where_they_were_seen() {
     let outcome = history(&[

@@ -46,7 +46,7 @@ fn a_body_at_a_wall_is_as_deep_as_one_amid_the_flow() {
     assert!((found - 0.5).abs() <= 0.01, "{found}");
 }
 
-// A point knows its surface to half a spacing: of a cube of half a cell, a whole side.
+// A point resolves its surface to half a spacing: of a cube of half a cell, a whole side.
 #[test]
 fn cells_larger_than_the_body_tell_deep_from_dry() {
     let coarse = |scenario: &mut Value| {
@@ -110,7 +110,7 @@ fn a_splash_does_not_drown_a_body() {
     assert_eq!(seen(sectors), calm);
 }
 
-// The surface rises by 0.1 across the body: what is seen at its sides cancels.
+// The surface rises by 0.1 across the body: the differences at its sides cancel.
 #[test]
 fn a_slope_of_the_surface_counts_once() {
     let sloping = layered(|sector| 0.5 * view().middle(sector).along);

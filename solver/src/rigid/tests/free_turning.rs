@@ -1,4 +1,4 @@
-//! Turning of bodies that no torque acts on.
+//! Torque-free turning of bodies.
 
 use crate::math::Vec3;
 use crate::rigid::fixture::{cuboid, of_shape};
@@ -6,8 +6,8 @@ use crate::rigid::{Body, Freedom};
 use crate::shape::SharpPolyhedron;
 use nalgebra::UnitQuaternion;
 
-/// The 1:2:3 box of docs/accuracy.md, case 5, spinning about its middle axis but
-/// for a little.
+/// The 1:2:3 box of docs/accuracy.md, case 5, spinning about its middle axis with a small
+/// perturbation.
 fn tumbling() -> Body {
     let mut body = cuboid([0.01, 0.02, 0.03]);
     let spin = Vec3::new(0.01, 10.0, 0.02);
@@ -47,13 +47,13 @@ fn the_middle_axis_flips() {
     assert!(lowest < -0.9, "{lowest}");
 }
 
-/// With this spin in body axes [rad/s].
+/// The body with this spin in body axes [rad/s].
 fn spinning(mut body: Body, spin: [f64; 3]) -> Body {
     body.state.angular_momentum = body.to_world(&(body.inertia * Vec3::from(spin)));
     body
 }
 
-/// A body whose principal axes are none of its frame's: the hull of six points.
+/// A body whose principal axes are not those of its frame: the hull of six points.
 fn lopsided() -> Body {
     let points = [
         [0.0, 0.0, 0.0],
@@ -80,9 +80,9 @@ fn energy_error(mut body: Body, turn: f64, steps: u32) -> f64 {
     })
 }
 
-// Splitting changes the energy, but to and fro: over a hundred times as many turns it is
-// off by no more. The explicit midpoint rule gains a share of 0.13 for the slender box,
-// a symmetric top, which is turned exactly but for rounding.
+// Splitting changes the energy, but to and fro: over a hundred times as many turns its error
+// is no larger. The explicit midpoint rule gains a share of 0.13 for the slender box, a
+// symmetric top, which is turned exactly except for rounding.
 #[test]
 fn free_turning_keeps_energy() {
     let slender = spinning(cuboid([0.01, 0.01, 0.2]), [300.0, 300.0, 2000.0]);
@@ -127,9 +127,9 @@ fn free_turning_can_be_taken_back() {
     }
 }
 
-// Of a symmetric top the turning is known: about its angular momentum with H/I across
-// its axis, about its axis with what the spin there is more than that. One step of many
-// turns is exact.
+// The turning of a symmetric top is known: about its angular momentum with H/I across its
+// axis, about its axis with the excess of the spin there over that. One step of many turns is
+// exact.
 #[test]
 fn a_symmetric_top_turns_exactly() {
     for (sides, axis) in [([0.01, 0.01, 0.2], 2), ([0.02, 0.005, 0.02], 1)] {
@@ -147,7 +147,7 @@ fn a_symmetric_top_turns_exactly() {
     }
 }
 
-// A body that lies on its side turns about the direction of y, and nothing turns it out.
+// A body that lies on its side turns about the direction of y, and stays in the plane.
 #[test]
 fn a_body_in_the_plane_stays_there() {
     let mut body = cuboid([0.01, 0.03, 0.02]);

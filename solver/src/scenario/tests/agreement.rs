@@ -1,4 +1,4 @@
-//! Fields that don't go together.
+//! Inconsistent fields.
 
 use super::{accepted, check, refused, set, with};
 use serde_json::json;
@@ -234,7 +234,7 @@ fn trajectories_are_bounded() {
     accepted(&scenario);
 }
 
-// At the least sound speed, √(2 g H), the weight presses a third out of the volume.
+// At the least sound speed, √(2 g H), the weight compresses the volume by a third.
 #[test]
 fn a_release_carries_itself() {
     let least = (2.0 * 9.81 * 0.15f64).sqrt();

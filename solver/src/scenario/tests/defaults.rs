@@ -1,4 +1,4 @@
-//! Defaults, and what is legal at the edges.
+//! Defaults, and legal values at the limits.
 
 use super::{accepted, minimal, set, with};
 use crate::scenario::accuracy::QUANTITIES;

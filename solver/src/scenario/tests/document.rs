@@ -1,4 +1,4 @@
-//! `docs/scenario.md` says what the code does.
+//! Agreement of `docs/scenario.md` with the code.
 
 use super::{accepted, minimal, with};
 use crate::scenario::accuracy::QUANTITIES;
@@ -12,7 +12,7 @@ use serde_json::Value;
 
 const DOCUMENT: &str = include_str!("../../../../docs/scenario.md");
 
-/// Every rule and the object it is read from.
+/// Every rule and its object.
 const RULES: [(&str, &[Rule]); 10] = [
     ("", &[GRAVITY, DURATION, SAMPLE_INTERVAL, FLOW_SNAPSHOTS]),
     (

@@ -1,4 +1,4 @@
-//! Single fields that are refused, and where.
+//! Refusals of single fields, and their pointers.
 
 use super::{check, minimal, refused};
 use serde_json::{Value, json};

@@ -1,4 +1,4 @@
-//! Tests of the scenario, and what they share.
+//! Tests of the scenario, and their fixtures.
 
 mod agreement;
 mod answers;
@@ -21,8 +21,8 @@ fn minimal() -> Value {
     })
 }
 
-/// The minimal scenario with one more value set at a JSON pointer; objects on
-/// the way are made as needed.
+/// The minimal scenario with one more value set at a JSON pointer; objects on the path are made
+/// as needed.
 fn with(pointer: &str, value: Value) -> Value {
     let mut scenario = minimal();
     set(&mut scenario, pointer, value);
@@ -67,7 +67,7 @@ fn violations(result: Result<Scenario, ScenarioError>) -> Vec<Violation> {
     }
 }
 
-/// (what, JSON pointer to set, value, pointer blamed, part of what is allowed)
+/// (name, JSON pointer to set, value, pointer reported, part of the allowed values)
 type Case = (
     &'static str,
     &'static str,

@@ -127,7 +127,7 @@ fn what_is_no_motion_is_refused() {
     ]);
 }
 
-// Of a whole body, so that its other fields can be given besides.
+// For a whole body, so that its other fields can be given, too.
 #[test]
 fn a_body_moves_in_one_way_only() {
     let body = |key: &str, value: Value| {
@@ -162,9 +162,9 @@ fn a_body_moves_in_one_way_only() {
     accepted(&with("/bodies/0", body("velocity_m_s", json!([0, 0, 0]))));
 }
 
-// Driven at 1/√6 of its sound a wall takes a third of the volume of what is before it: 2.5 m/s
-// at 6.12 m/s, or at E = 3 (1 − 2ν) ρ c² = 67.5 kPa. It may move as fast as it likes where
-// the stiffness is left to the program, or without a flow.
+// Driven at 1/√6 of its sound speed a wall takes a third of the volume before it: 2.5 m/s at
+// 6.12 m/s, or at E = 3 (1 − 2ν) ρ c² = 67.5 kPa. Its speed is not limited where the stiffness
+// is left to the program, or without a flow.
 #[test]
 fn a_motion_is_slower_than_sound() {
     const SOUND: &str = "/numerics/sound_speed_m_s";

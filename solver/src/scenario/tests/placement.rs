@@ -115,8 +115,8 @@ fn the_bound_given_for_a_straddling_body_is_where_it_touches() {
     super::refused(&with("/bodies/0/position", place(bound - 2.1e-6)));
 }
 
-// Wherever its points are counted from, it is the centre of mass that is placed,
-// and the axes are those of the points.
+// For any origin of the points the centre of mass is placed, and the axes are those of the
+// points.
 #[test]
 fn a_polyhedron_lies_as_its_points_say() {
     let wedge = |shift: f64| {

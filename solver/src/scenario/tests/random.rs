@@ -1,4 +1,4 @@
-//! Whatever is thrown at the parser, it answers.
+//! The parser answers for any input.
 
 use super::{minimal, with};
 use crate::scenario::body::REGULAR_SOLIDS;
@@ -30,7 +30,7 @@ fn any_json() -> impl Strategy<Value = Value> {
     })
 }
 
-/// Pointers to everything in a value.
+/// Pointers to all values inside a value.
 fn pointers(value: &Value, here: &str, found: &mut Vec<String>) {
     found.push(here.to_owned());
     match value {
@@ -53,7 +53,7 @@ fn shape() -> impl Strategy<Value = Value> {
     let length = || 0.01..0.05_f64;
     let solids = prop::sample::select(REGULAR_SOLIDS.map(|(name, _)| name).to_vec());
     let place = prop::array::uniform3(-0.02..0.02_f64);
-    // A tetrahedron that always encloses something, and points round it.
+    // A tetrahedron that always has a volume, and points round it.
     let places = prop::collection::vec(place, 0..12).prop_map(|mut places| {
         places.extend([[0.01; 3], [0.01, -0.01, -0.01]]);
         places.extend([[-0.01, 0.01, -0.01], [-0.01, -0.01, 0.01]]);
@@ -88,7 +88,7 @@ fn damaged() -> impl Strategy<Value = Value> {
     })
 }
 
-/// Either a sound scenario, or violations that say something about it.
+/// Either a valid scenario, or violations with a text.
 fn answers(result: Result<Scenario, ScenarioError>, document: &Value) -> Result<(), TestCaseError> {
     match result {
         Ok(scenario) => {

@@ -20,8 +20,8 @@ fn core() -> impl Strategy<Value = ConvexPolyhedron> {
     })
 }
 
-/// Distance to a convex polyhedron by alternating projections onto its face
-/// planes (Dykstra): knows neither edges nor vertices.
+/// Distance to a convex polyhedron by alternating projections onto its face planes (Dykstra),
+/// which uses neither edges nor vertices.
 fn by_projections(core: &ConvexPolyhedron, x: &Vector3<f64>) -> f64 {
     let mut place = *x;
     let mut corrections = vec![Vector3::zeros(); core.faces().len()];
@@ -98,7 +98,7 @@ proptest! {
         let places: Vec<_> = places.iter().map(squeezed).collect();
         let Ok(core) = hull_of(&places) else { return Ok(()) };
         let walk = Walk::on(&core);
-        // Around the solid, and on the bisectors where features take over.
+        // Around the solid, and on the bisectors between the regions of features.
         let centre = places.iter().sum::<Vector3<f64>>() / places.len() as f64;
         let beside = core.vertices().iter().flat_map(|v| [v * 1.2, v + (x - v) * 1e-3, (v + x) / 2.0]);
         for x in beside.chain([x, centre]) {
@@ -117,7 +117,7 @@ proptest! {
         snap in prop::array::uniform3(0..4_u8),
     ) {
         let body = SpheroPolyhedron::cuboid(sides, 0.1).unwrap();
-        // Now and then put a coordinate exactly on a face, the centre or the surface.
+        // Now and then a coordinate exactly on a face, the centre or the surface.
         let corner = body.core_vertices()[7];
         let x = Vector3::from_fn(|axis, _| match snap[axis] {
             0 => corner[axis],

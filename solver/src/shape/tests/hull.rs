@@ -1,4 +1,4 @@
-//! Hulls of points, the largest ball in them, and what rounding leaves of them.
+//! Hulls of points, the largest ball in them, and their cores after rounding.
 
 use super::{mapped, mesh};
 use crate::shape::half_spaces::HalfSpaces;
@@ -74,7 +74,7 @@ fn regular_solids_have_their_features_and_inradii() {
         for e in polyhedron.edges() {
             assert!((e.length - edge).abs() < 1e-15, "{solid:?}");
         }
-        // It lies on a face, an edge of which runs along y.
+        // It lies on a face, with an edge along y.
         let lowest = polyhedron
             .faces()
             .iter()
@@ -115,7 +115,7 @@ fn least_widths() {
 
 #[test]
 fn shadows() {
-    // Of a cube the bounding ball's, of a needle half its surface.
+    // Of a cube the bounding ball's, of a needle that of half its surface.
     let cube = SpheroPolyhedron::cube(0.04, 0.002).unwrap();
     assert_eq!(cube.shadow_radius(), cube.bounding_radius());
     let needle = SpheroPolyhedron::cuboid([0.5, 0.02, 0.02], 1e-9).unwrap();
@@ -178,12 +178,12 @@ fn points_that_enclose_nothing_are_refused() {
     assert_eq!(refused, Err(ShapeError::NotFinite { vertex: 1 }));
 }
 
-// Solids typed with so many digits that their faces are flat, or not, or hard to
-// tell: each must come out as some closed solid of nearly the same volume.
+// Solids typed with so many digits that their faces are flat, or not, or hard to tell: each
+// must become some closed solid of nearly the same volume.
 #[test]
 fn typed_coordinates_never_tear_the_surface() {
     let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
-    // A cuboctahedron has squares and four faces at every vertex.
+    // A cuboctahedron has squares, and four faces at every vertex.
     let cuboctahedron: Vec<_> = [[0., 1., 1.], [1., 0., 1.], [1., 1., 0.]]
         .into_iter()
         .flat_map(|[x, y, z]| {
@@ -223,7 +223,7 @@ fn typed_coordinates_never_tear_the_surface() {
 
 #[test]
 fn rounding_can_swallow_features() {
-    // A cube with one vertex cut off: rounded a lot, the core is a whole cube.
+    // A cube with one vertex cut off: with a large radius the core is a whole cube.
     let mut points: Vec<_> = RegularSolid::Cube.vertices(2.0);
     points.retain(|v| v.min() < 0.0);
     let cut = 0.3;
@@ -235,8 +235,8 @@ fn rounding_can_swallow_features() {
     let sharp = SharpPolyhedron::hull_of(&points).unwrap();
     let little = sharp.rounded(0.05).unwrap();
     assert_eq!(core_counts(&little), [10, 15, 7]);
-    // The cut's plane, moved in by r, is out of the cube's reach once
-    // √3 (1 − r) < √3 − cut/√3 − r: r > cut / (3 − √3) = 0.2366.
+    // The cut's plane, moved in by r, is out of the cube's reach for √3 (1 − r) < √3 − cut/√3 − r:
+    // r > cut / (3 − √3) = 0.2366.
     assert_eq!(core_counts(&sharp.rounded(0.23).unwrap()), [10, 15, 7]);
     assert_eq!(core_counts(&sharp.rounded(0.24).unwrap()), [8, 12, 6]);
 }
@@ -266,7 +266,7 @@ fn a_radius_from_the_inradius_on_is_refused() {
 proptest! {
     #[test]
     fn a_hull_holds_its_points_and_no_more(points in cloud(24)) {
-        // Four places may well be nearly in a plane; then there may be nothing.
+        // Four places may be nearly in a plane; then there may be no solid.
         let Ok(solid) = hull(&points) else { return Ok(()) };
         for face in solid.faces() {
             for point in &points {
@@ -290,14 +290,14 @@ proptest! {
         }
     }
 
-    // The flats stay where they were, unless swallowed; and the ball fits.
+    // The flats stay where they were, unless they vanish; and the ball fits.
     #[test]
     fn a_rounded_boulder_fills_its_outline(points in boulder(20), share in 0.02..0.95_f64) {
         let sharp = SharpPolyhedron::hull_of(&points).unwrap();
         let outline = hull(&points).unwrap();
         let radius = share * sharp.inradius();
         let body = sharp.rounded(radius).unwrap();
-        // Where the body's origin lies in the outline: three flats tell.
+        // Position of the body's origin in the outline, from three flats.
         let mut kept = Vec::new();
         for face in body.faces() {
             let same = outline.faces().iter().find(|f| (f.normal - face.normal).norm() < 1e-6);
@@ -314,7 +314,7 @@ proptest! {
         let origin = normals.try_inverse().unwrap() * right;
         for face in outline.faces() {
             let reach = face.normal.dot(&origin) + body.extent_along(&face.normal);
-            // A feature of the core may lack 1e-5 of the size, 2.
+            // A feature of the core may be missing up to 1e-5 of the size, 2.
             prop_assert!(reach <= face.offset + 4e-5, "{} {}", reach, face.offset);
         }
         for (normal, offset) in kept {
@@ -322,8 +322,8 @@ proptest! {
         }
     }
 
-    // Moved in by a little less than the inradius the faces leave something, by a
-    // little more they don't.
+    // Moved in by a little less than the inradius the faces leave a solid, by a little more they
+    // don't.
     #[test]
     fn the_inradius_is_the_largest(points in boulder(16)) {
         let within = HalfSpaces::round(&points).unwrap();

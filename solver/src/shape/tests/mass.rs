@@ -59,9 +59,9 @@ fn two_formulas_give_the_same_volume() {
     }
 }
 
-/// Moments by midpoint quadrature, knowing the solid only as "no farther than r
-/// from the core": rows along z, whose ends are found by bisection, over a grid
-/// of `count`² midpoints in x and y.
+/// Moments by midpoint quadrature, which uses the solid only as "no farther than r from the
+/// core": rows along z, whose ends are found by bisection, over a grid of `count`² midpoints in
+/// x and y.
 fn by_quadrature(body: &SpheroPolyhedron, count: u32) -> (f64, Vector3<f64>, Matrix3<f64>) {
     let reach = body.bounding_radius();
     let step = 2.0 * reach / f64::from(count);

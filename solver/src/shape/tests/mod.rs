@@ -1,4 +1,4 @@
-//! Tests of the geometry, and the solids they share.
+//! Tests of the geometry, and shared solids.
 
 mod closest;
 mod hull;
@@ -40,7 +40,7 @@ fn prism(sides: usize) -> Mesh {
     (ring(-0.5).chain(ring(0.5)).collect(), loops)
 }
 
-/// A pyramid of height 1.5 over a regular polygon: its centre is nowhere special.
+/// A pyramid of height 1.5 over a regular polygon: its centre has no special position.
 fn pyramid(sides: usize) -> Mesh {
     let (mut vertices, _) = prism(sides);
     vertices.truncate(sides);
@@ -50,8 +50,8 @@ fn pyramid(sides: usize) -> Mesh {
     (vertices, loops)
 }
 
-/// The same solid under an affine map; it stays convex, and its loops stay the
-/// right way round if the map has a positive determinant.
+/// The solid under an affine map; it stays convex, and its loops keep their sense if the map
+/// has a positive determinant.
 fn mapped((vertices, loops): Mesh, map: &Matrix3<f64>, shift: &Vector3<f64>) -> ConvexPolyhedron {
     let vertices = vertices.iter().map(|v| map * v + shift).collect();
     ConvexPolyhedron::new(vertices, loops).expect("an affine image of a convex solid")

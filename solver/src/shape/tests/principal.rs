@@ -2,10 +2,10 @@ use crate::shape::{PrincipalInertia, SpheroPolyhedron};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::f64::consts::PI;
 
-/// Moments of a sphero-box about its middle for density 1, from equation 14 worked
-/// out for three lengths: core, prisms, quarter cylinders and ball sectors.
+/// Moments of a sphero-box about its middle for density 1, from equation 14 evaluated for three
+/// lengths: core, prisms, quarter cylinders and ball sectors.
 fn sphero_box_moments([a, b, c]: [f64; 3], r: f64) -> [f64; 3] {
-    // ∫ x² dV of the solid whose core is a × b × c, x along a.
+    // ∫ x² dV of the solid with the core a × b × c, x along a.
     let second = |a: f64, b: f64, c: f64| {
         let core = a.powi(3) * b * c / 12.0;
         let prisms_across = a.powi(3) / 12.0 * 2.0 * r * (b + c);

@@ -1,10 +1,10 @@
-//! The nearest feature of a core by looking at every one.
+//! The nearest feature of a core by exhaustive search.
 
 use crate::shape::closest::{Closest, Feature, on_face, outside};
 use crate::shape::polyhedron::ConvexPolyhedron;
 use nalgebra::Vector3;
 
-/// The face whose plane x is farthest in front of (or least behind), and how far.
+/// The face whose plane x is farthest in front of (or least behind), and that distance.
 pub(super) fn deepest_face(core: &ConvexPolyhedron, x: &Vector3<f64>) -> (usize, f64) {
     core.faces()
         .iter()
@@ -15,9 +15,8 @@ pub(super) fn deepest_face(core: &ConvexPolyhedron, x: &Vector3<f64>) -> (usize,
         })
 }
 
-/// Nearest feature by looking at all of them. Outside, the nearest point lies on a
-/// face that looks at x: either x is above that face, or the point is on one of
-/// its edges.
+/// Nearest feature by exhaustive search. Outside, the nearest point lies on a face visible from
+/// x: either x is above that face, or the point is on one of its edges.
 pub(super) fn by_search(core: &ConvexPolyhedron, x: &Vector3<f64>) -> Closest {
     let (deepest, height) = deepest_face(core, x);
     if height <= 0.0 || is_above(core, deepest, x) {
@@ -44,7 +43,7 @@ pub(super) fn by_search(core: &ConvexPolyhedron, x: &Vector3<f64>) -> Closest {
     outside(feature, point, x, &core.faces()[deepest].normal)
 }
 
-/// The foot of x on the face's plane lies within the face.
+/// True if the foot of x on the face's plane lies within the face.
 fn is_above(core: &ConvexPolyhedron, face: usize, x: &Vector3<f64>) -> bool {
     let face = &core.faces()[face];
     let corner = |k: usize| core.vertices()[face.vertices[k]];

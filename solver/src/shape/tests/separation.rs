@@ -102,7 +102,7 @@ fn placement() -> impl Strategy<Value = Isometry3<f64>> {
         .prop_map(|(place, turn)| Isometry3::new(Vector3::from(place), Vector3::from(turn)))
 }
 
-/// Distance by projecting onto the two solids in turn.
+/// Distance by alternating projections onto the two solids.
 fn by_projections(
     a: &SpheroPolyhedron,
     pose_a: &Isometry3<f64>,
@@ -131,8 +131,8 @@ proptest! {
         let origin = Isometry3::identity();
         let found = separation(&a, &origin, &b, &pose_b);
         let expected = by_projections(&a, &origin, &b, &pose_b);
-        // Alternating projections close in like 1/rounds where two surfaces
-        // are nearly parallel, and like its root where they just meet.
+        // Alternating projections converge like 1/rounds where two surfaces are nearly parallel,
+        // and like its root where they just touch.
         prop_assert!((found.max(0.0) - expected).abs() < 1e-2 * (1.0 - found.clamp(0.0, 0.99)), "{found} {expected}");
     }
 

@@ -1,4 +1,4 @@
-//! Shapes that are refused.
+//! Refused shapes.
 
 use super::{SpheroPolyhedron, prism, tetrahedron};
 use crate::shape::{ConvexPolyhedron, ShapeError};

@@ -36,14 +36,13 @@ use access::{Access, Place};
 pub(in crate::simulation) struct FastFlow {
     blocks: Blocks,
     nodes: Nodes,
-    /// Shares that each block gives its nodes at a transfer: mass and momentum, then the
-    /// rest of it.
+    /// Contributions of each block to its nodes at a transfer: mass and momentum, then the
+    /// residual.
     momentum: Vec<Tile>,
-    /// Forces of the present sub-step, for the next.
+    /// Forces of the current sub-step, for the next one.
     forces: Vec<Tile>,
     boundary: Boundary,
-    /// Impulse that joining nodes with their images gave at the transfer, until it is
-    /// told.
+    /// Impulse of joining nodes with their images at the transfer, until it is reported.
     from_joining: Impulse,
     loads: Loads<Place>,
     packing: Packing,
@@ -52,7 +51,7 @@ pub(in crate::simulation) struct FastFlow {
     level: Level,
     /// Speed of the fastest point [m/s].
     fastest: f64,
-    /// True if some point has a quantity that is no number.
+    /// True if a point has a non-finite quantity.
     flawed: bool,
     /// V ρ_c/m − 1 of the densest point.
     lowest_dilation: f64,
@@ -66,7 +65,7 @@ impl FastFlow {
         Self::restored(blocks, given)
     }
 
-    /// A flow as it was between two steps.
+    /// A flow restored between two steps.
     pub(super) fn restored(blocks: Blocks, given: &Setup) -> Self {
         let packing = packing(given);
         let base = given.walls.base.iter();
@@ -92,7 +91,7 @@ impl FastFlow {
         flow
     }
 
-    /// Looks at every point for what a step has to know of them all.
+    /// Summarises the points for the next step.
     fn check_points(&mut self) {
         for block in self.blocks.occupied_mut() {
             block.note_end(totals::end_of(block), Shifting::default());
@@ -100,7 +99,7 @@ impl FastFlow {
         self.sum_up_ends();
     }
 
-    /// Sums up what the blocks know of their points.
+    /// Combines the summaries of the blocks.
     fn sum_up_ends(&mut self) {
         self.fastest = self.largest_speed();
         let mut blocks = self.blocks.occupied().iter();
@@ -126,7 +125,7 @@ impl FastFlow {
         }
     }
 
-    /// Hands the nodes' motion to the points, in parallel.
+    /// Gathers the nodes' motion at the points, in parallel.
     fn pass(&mut self, dt: f64) {
         let (nodes, law, level) = (&self.nodes, &self.law, self.level);
         let dt = dt as f32;
@@ -144,7 +143,7 @@ impl FastFlow {
             });
     }
 
-    /// Brings points that went through a periodic boundary in at its other end.
+    /// Moves points that crossed a periodic boundary to its other end.
     fn wrap_periodic(&mut self, given: &Setup) {
         let vertical_walls = &given.walls.vertical_walls;
         if !vertical_walls.is_periodic() {
@@ -161,8 +160,8 @@ impl FastFlow {
         }
     }
 
-    /// Gives the nodes the mean strain rates of their points. The tiles of forces
-    /// are free until there are some.
+    /// Scatters the points' strain rates to the nodes. The tiles of forces are free until there are
+    /// forces.
     fn scatter_strain_rates(&mut self) {
         for part in PARTS {
             let level = self.level;
@@ -177,8 +176,8 @@ impl FastFlow {
         }
     }
 
-    /// Hands over what the nodes do not show of the points' motion, the compressive
-    /// strains and the first forces, and shares strain rates.
+    /// Computes the residual transfer, the compressive strains and the first forces, and smooths
+    /// strain rates.
     fn residual_transfer(&mut self, given: &Setup, strain_rate_smoothing: &StrainRateSmoothing) {
         let room = self.packing.material.bulk_density * given.lattice.spacing.product();
         let (nodes, law, level) = (&self.nodes, &self.law, self.level);
@@ -367,7 +366,7 @@ impl Flow for FastFlow {
                     passes::finish(simd, block, &ending, &tiles);
                 });
             });
-        // Before the points go to other blocks.
+        // Before points migrate to other blocks.
         self.sum_up_ends();
         let blocks = self.blocks.occupied().iter();
         let spread = blocks.fold(Shifting::default(), |sum, block| sum.plus(&block.spread()));
@@ -425,8 +424,8 @@ impl Flow for FastFlow {
         if gone.is_empty() {
             return None;
         }
-        // What is known of the others must not depend on those that left, or a
-        // saved run would go on with other bits.
+        // The summary of the remaining points must not depend on those that left, or a saved run
+        // would continue with other bits.
         self.check_points();
         let moment = packing.lattice.kernel_moment();
         let totals = Totals::of_points(&gone, &packing.material, &moment, &given.gravity);
@@ -470,7 +469,7 @@ impl Flow for FastFlow {
     }
 }
 
-/// Adds up what the blocks have, half by half.
+/// Sums over the blocks, half by half.
 fn sum_up(blocks: &[Block], of: &(impl Fn(&Block) -> Totals + Sync)) -> Totals {
     match blocks {
         [] => Totals::default(),
@@ -483,7 +482,7 @@ fn sum_up(blocks: &[Block], of: &(impl Fn(&Block) -> Totals + Sync)) -> Totals {
     }
 }
 
-/// Height above a plane of the lowest place a point of this block can have [m].
+/// Height above a plane of the lowest possible place of a point of this block [m].
 fn lowest(plane: &Plane, lattice: &crate::kernel::Lattice, key: &BlockKey) -> f64 {
     let first = lattice.position(key.map(|k| k * BLOCK as i32)) + lattice.spacing * 0.5;
     let size = lattice.spacing * BLOCK as f64;

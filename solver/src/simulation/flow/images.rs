@@ -6,7 +6,7 @@ use crate::points::Point;
 use crate::rigid::Load;
 use crate::simulation::setup::{Columns, Setup, Share};
 
-/// Images that make the whole flow of a share of it.
+/// Images that complete a share of the flow to the whole.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Images {
     share: Share,
@@ -55,7 +55,7 @@ impl Images {
         }
     }
 
-    /// Box in which to look for the points whose images `which` lie there.
+    /// Box that contains the points whose images `which` are in this box.
     pub(super) fn around(&self, which: u32, around: &Around) -> Around {
         match (which, self.share) {
             (0, _) | (_, Share::Whole) => *around,
@@ -64,7 +64,7 @@ impl Images {
         }
     }
 
-    /// Which row across a point is in.
+    /// Index of a point's row across.
     pub(super) fn row(&self, point: &Point) -> u32 {
         point.id / self.up % self.rows
     }
@@ -95,7 +95,7 @@ impl Images {
     }
 }
 
-/// Load of a half flow and its image on a body, by what the half does to it and to the
+/// Load of a half flow and its image on a body, from the loads of the half on it and on the
 /// body's own image.
 pub(super) fn load_of_both(own: &FlowLoad, of_image: &FlowLoad) -> FlowLoad {
     let mirrored = Load {

@@ -25,7 +25,7 @@ pub(super) use fast::FastFlow;
 pub(super) use plain::PlainFlow;
 use shared::SharedFlow;
 
-/// A granular flow: its points, its grid, and what bodies do to it.
+/// A granular flow: its points, its grid, and the forces of bodies on it.
 pub(super) trait Flow: Debug + Send + Sync {
     /// Points in the flow.
     fn count(&self) -> usize;
@@ -35,7 +35,7 @@ pub(super) trait Flow: Debug + Send + Sync {
         self.count()
     }
 
-    /// Which share of it is computed.
+    /// The share of it that is computed.
     fn share(&self) -> Share {
         Share::Whole
     }
@@ -43,8 +43,8 @@ pub(super) trait Flow: Debug + Send + Sync {
     /// Speed of the fastest point after the last step [m/s].
     fn fastest(&self) -> f64;
 
-    /// Begins a step: hands mass and momentum to a new grid, finds the nodes at
-    /// walls and the points within reach of bodies, and shares strain rates.
+    /// Begins a step: scatters mass and momentum to a new grid, finds the nodes at walls and the
+    /// points within reach of bodies, and smooths strain rates.
     fn transfer(
         &mut self,
         given: &Setup,
@@ -64,12 +64,11 @@ pub(super) trait Flow: Debug + Send + Sync {
         stages: &mut StageEnds,
     ) -> Impulse;
 
-    /// Load of the flow on each body in the present sub-step; nothing yet before the
-    /// first.
+    /// Load of the flow on each body in the current sub-step; empty before the first.
     fn on_bodies(&self) -> &[FlowLoad];
 
-    /// Ends a step: hands the motion back to the points, spreads them evenly, and
-    /// puts those inside a body back to its surface.
+    /// Ends a step: gathers the motion at the points, redistributes them, and applies the
+    /// penetration correction.
     fn finish(
         &mut self,
         given: &Setup,
@@ -78,35 +77,34 @@ pub(super) trait Flow: Debug + Send + Sync {
         stages: &mut StageEnds,
     ) -> Finished;
 
-    /// A point that should not be as it is after a step.
+    /// An offending point after a step, if there is one.
     fn offending_point(&self, bounds: &Bounds) -> Option<OffendingPoint>;
 
-    /// Takes out the points beyond x = `end` [m]; `None` if there are none.
+    /// Removes the points beyond x = `end` [m]; `None` if there are none.
     fn remove_outflow(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)>;
 
     /// Sums over the points.
     fn totals(&self, given: &Setup) -> Totals;
 
-    /// Visits the points, those within a box if one is given, in an order of its
-    /// own.
+    /// Visits the points, those within a box if one is given, in any order.
     fn visit(&self, within: Option<&Around>, visit: &mut dyn FnMut(&Point));
 
-    /// Part of it that a checkpoint holds.
+    /// The part of it in a checkpoint.
     fn saved(&self) -> SavedFlow;
 
-    /// Lets it use no better instructions than these.
+    /// Limits it to these instructions.
     fn limit_instructions(&mut self, instructions: Instructions);
 
-    /// Bytes held for points and for the grid.
+    /// Bytes allocated for points and for the grid.
     fn bytes(&self) -> (usize, usize);
 }
 
 /// The start of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StepStart {
-    /// Distance from bodies within which points are looked at.
+    /// Distance from bodies within which points are candidates.
     pub reach: Reach,
-    /// Sharing of the points' strain rates in it.
+    /// Smoothing of the points' strain rates in it.
     pub strain_rate_smoothing: StrainRateSmoothing,
 }
 
@@ -115,7 +113,7 @@ pub(super) struct StepStart {
 pub(super) struct Substep {
     /// Its length [s].
     pub dt: f64,
-    /// Share of its step that is over, 0..1.
+    /// Elapsed share of its step, 0..1.
     pub passed: f64,
     /// True if its step ends with it.
     pub last: bool,
@@ -126,27 +124,27 @@ pub(super) struct Substep {
 pub(super) struct StepEnd {
     /// Length of its last sub-step [s].
     pub dt: f64,
-    /// Rates at which points are kept evenly spread after it.
+    /// Rates of particle redistribution after it.
     pub redistribution: RedistributionRates,
 }
 
-/// Changes of points at the end of a step besides moving them with the nodes.
+/// Changes of points at the end of a step other than their motion with the nodes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Finished {
     /// Penetration corrections to a body's surface.
     pub penetration_correction: u64,
-    /// The deepest point that stays inside a body for want of room.
+    /// The deepest point that stays inside a body because no position is free.
     pub stuck: Option<PenetratingPoint>,
-    /// Changes of the points' sums by spreading them.
+    /// Changes of the points' sums by particle shifting.
     pub spread: Shifting,
 }
 
-/// Bounds that points have to keep to.
+/// Bounds of the points.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds<'a> {
     /// The walls.
     pub planes: &'a [Plane],
-    /// Distance behind one that a point may be [m].
+    /// Largest distance of a point behind a wall [m].
     pub tolerance: f64,
     /// Largest density [kg/m³].
     pub densest: f64,
@@ -155,7 +153,7 @@ pub(super) struct Bounds<'a> {
 /// Fault of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum OffendingPoint {
-    /// A quantity of it is no number.
+    /// A non-finite quantity.
     NonFinite {
         /// Identity of the point.
         point: u32,
@@ -175,7 +173,7 @@ pub(super) enum OffendingPoint {
     Crushed {
         /// Identity of the point.
         point: u32,
-        /// [kg/m³].
+        /// Its density [kg/m³].
         density: f64,
     },
 }
@@ -208,7 +206,7 @@ impl OffendingPoint {
     }
 }
 
-/// A flow between two steps, as a checkpoint holds it.
+/// A flow between two steps in a checkpoint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum SavedFlow {
     /// On the plain path.
@@ -220,7 +218,7 @@ pub(super) enum SavedFlow {
 }
 
 impl SavedFlow {
-    /// The flow it was, of a run that computes such shares of it.
+    /// The restored flow of a run that computes these shares of it.
     pub(super) fn restored(self, given: &Setup, shares: Option<Shares>) -> Box<dyn Flow> {
         match (self, shares) {
             (Self::Plain(points), _) => Box::new(PlainFlow::new(points, given)),
@@ -241,8 +239,7 @@ impl SavedFlow {
     }
 }
 
-/// A flow of these points in the precision asked for, of which such shares are
-/// computed.
+/// A flow of these points in the precision asked for, with these computed shares.
 pub(super) fn start(
     points: Vec<Point>,
     given: &Setup,
@@ -255,9 +252,9 @@ pub(super) fn start(
     }
 }
 
-/// A flow of which all is computed.
+/// A flow that is computed as a whole.
 fn plainly(points: Vec<Point>, given: &Setup, precision: Precision) -> Box<dyn Flow> {
-    // The fast path knows granular materials only.
+    // The fast path supports granular materials only.
     let granular = |flow: &GivenFlow| flow.material.is_granular();
     match precision {
         Precision::Single if given.flow.as_ref().is_some_and(granular) => {

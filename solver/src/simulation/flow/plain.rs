@@ -1,4 +1,4 @@
-//! The plain path: every stage on its own, in double precision.
+//! The plain path: every stage separately, in double precision.
 
 use super::{Bounds, Finished, Flow, OffendingPoint, SavedFlow, StepEnd, StepStart, Substep};
 use crate::contact::point_body::{
@@ -25,8 +25,7 @@ pub(in crate::simulation) struct PlainFlow {
     deformations: Vec<Deformation>,
     grid: Grid,
     boundary: Boundary,
-    /// Impulse that joining nodes with their images gave at the transfer, until it is
-    /// told.
+    /// Impulse of joining nodes with their images at the transfer, until it is reported.
     from_joining: Impulse,
     loads: Loads<Place>,
     /// Force of bodies on every point [N].
@@ -100,7 +99,7 @@ impl PlainFlow {
         }
     }
 
-    /// Brings points that went through a periodic boundary in at its other end.
+    /// Moves points that crossed a periodic boundary to its other end.
     fn wrap_periodic(&mut self, given: &Setup) {
         let (vertical_walls, lattice) = (&given.walls.vertical_walls, &given.lattice);
         if !vertical_walls.is_periodic() {

@@ -1,5 +1,5 @@
-//! A flow of which a share is computed: every stage is that share's, and every
-//! answer that of the whole flow (docs/method.md, section 12).
+//! A flow with a computed share: every stage is that of the share, and every result that of the
+//! whole flow (docs/method.md, section 12).
 
 use super::images::{Images, load_of_both};
 use super::{
@@ -15,7 +15,7 @@ use crate::simulation::setup::{Setup, Share, Shares, near_body};
 use crate::simulation::stages::StageEnds;
 use crate::walls::{Impulse, Plane};
 
-/// A flow of which a share is computed, and later a larger one.
+/// A flow with a computed share, which is later enlarged.
 #[derive(Debug)]
 pub(in crate::simulation) struct SharedFlow {
     flow: Box<dyn Flow>,
@@ -23,7 +23,7 @@ pub(in crate::simulation) struct SharedFlow {
     share: Share,
     /// Set-up of the share: narrower walls.
     given: Setup,
-    /// All that bound it, its own mirror included.
+    /// All planes that bound it, its own mirror included.
     planes: Vec<Plane>,
     images: Images,
     precision: Precision,
@@ -44,7 +44,7 @@ impl SharedFlow {
         shared
     }
 
-    /// A share as it was between two steps.
+    /// A share restored between two steps.
     pub(super) fn restored(saved: SavedFlow, share: Share, shares: Shares, whole: &Setup) -> Self {
         let precision = saved.precision();
         let mut shared = Self::of(share, shares, whole, precision);
@@ -52,7 +52,7 @@ impl SharedFlow {
         shared
     }
 
-    /// Without points yet.
+    /// A share without points yet.
     fn of(share: Share, shares: Shares, whole: &Setup, precision: Precision) -> Self {
         let partners = match share {
             Share::Half => shares.partners.clone(),
@@ -84,7 +84,7 @@ impl SharedFlow {
         })
     }
 
-    /// Goes on with the last share: its points are images of the present ones.
+    /// Changes to the last share: its points are images of the current ones.
     fn widen(&mut self, whole: &Setup) {
         let wider = self.shares.last;
         let rows = wider.rows_across(

@@ -10,7 +10,7 @@ use crate::motion::Velocities;
 use crate::rigid::{Body, BodyState, Freedom, InverseInertia, Load, Prescribed};
 use crate::scenario::{self, Scenario};
 
-/// The bodies of a scenario, where they start.
+/// The bodies of a scenario at the start.
 pub(super) fn bodies(
     scenario: &Scenario,
     given: &Setup,

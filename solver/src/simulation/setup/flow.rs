@@ -14,17 +14,15 @@ use crate::stability::Limits;
 const COURANT: f64 = 0.8;
 /// Default travel of the fastest point per step, in cells.
 const FLOW_COURANT: f64 = 0.2;
-/// A flow slower than this share of its expected speed is transferred as
-/// often as if it had that speed.
+/// Share of its expected speed below which a flow is transferred as often as at that speed.
 const SLOW: f64 = 1.0;
 /// Sound speed over the speed whose dynamic pressure is the largest one expected:
 /// density varies by its inverse square under steady load.
 const STIFFNESS_FACTOR: f64 = 10.0;
-/// Overlap of a point and a body, over the point spacing, that carries the largest
-/// pressure expected; at this overlap a contact is no stiffer than the material
-/// between two points.
+/// Overlap of a point and a body, over the point spacing, at the largest pressure expected; at
+/// this overlap a contact is no stiffer than the material between two points.
 const REFERENCE_OVERLAP: f64 = 0.1;
-/// Share of a body's own contact time scale allowed per sub-step.
+/// Largest sub-step over a body's own contact time scale.
 const BODY_CONTACT_SHARE: f64 = 0.5;
 
 /// Flow of a run.
@@ -34,11 +32,11 @@ pub struct GivenFlow {
     pub material: Material,
     /// Bounds of its steps.
     pub limits: Limits,
-    /// Spheres that points are to bodies.
+    /// Spheres that represent points in contact with bodies.
     pub sphere: PointSphere,
     /// Pressure over relative overlap δ/l at the reference overlap [Pa].
     contact_modulus: f64,
-    /// Speeds and pressures that its material and contacts are chosen for.
+    /// Expected speeds and pressures for which its material and contacts are chosen.
     expected: Expected,
 }
 
@@ -60,8 +58,8 @@ impl GivenFlow {
         flow
     }
 
-    /// A flow of points of this volume [m³] on a lattice, where such speeds and pressures
-    /// are expected, at the default Courant numbers.
+    /// A flow of points of this volume [m³] on a lattice, for these expected speeds and pressures,
+    /// at the default Courant numbers.
     pub fn new(
         material: Material,
         lattice: &Lattice,
@@ -98,7 +96,7 @@ impl GivenFlow {
         }
     }
 
-    /// Chooses the formulation of contacts between points and bodies.
+    /// Selects the formulation of contacts between points and bodies.
     fn couple(&mut self, coupling: Coupling, point_volume: f64) {
         match coupling {
             Coupling::HalfSpacing => {}
@@ -127,8 +125,8 @@ impl GivenFlow {
         }
     }
 
-    /// Longest sub-step at which a free body covered with points does not ring
-    /// against them unstably [s] (docs/method.md, equation 26).
+    /// Longest stable sub-step for a free body covered with points, which rings against them [s]
+    /// (docs/method.md, equation 26).
     pub fn contact_substep(&self, bodies: &[Body]) -> f64 {
         let overlap = REFERENCE_OVERLAP * self.sphere.spacing;
         let of_body = |body: &Body| {

@@ -1,4 +1,4 @@
-//! Parts of a scene that are left out of the computation, and why or why not.
+//! Reductions: parts of a scene that are not computed, with reasons.
 
 use super::symmetry::{Why, partners, uniform_across};
 use super::{Columns, Setup, Share, Shares};
@@ -6,22 +6,22 @@ use crate::error::SetupError;
 use crate::rigid::{Body, Freedom};
 use crate::scenario::{Approach, Scenario, Symmetry};
 
-/// Parts of a scene that are left out.
+/// Reductions of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reductions {
-    /// Computation of one half only, or why not.
+    /// Computation of one half only, or the reason against it.
     pub mirror: Result<(), String>,
-    /// Beginning with a slab, or why not.
+    /// Beginning with a slab, or the reason against it.
     pub slab: Result<(), String>,
-    /// Shares of the flow that are computed; `None`: all of it is.
+    /// Computed shares of the flow; `None`: all of it.
     pub shares: Option<Shares>,
 }
 
 impl Reductions {
-    /// Reductions that a scene allows, and that are not forbidden.
+    /// Reductions that a scene allows and the scenario does not forbid.
     ///
     /// # Errors
-    /// Something asked for that this scene does not allow.
+    /// A requested reduction that this scene does not allow.
     pub(super) fn of(
         scenario: &Scenario,
         given: &Setup,
@@ -62,7 +62,7 @@ impl Reductions {
         })
     }
 
-    /// None at all.
+    /// No reductions.
     pub fn none() -> Self {
         let not_asked = || "not asked for".to_owned();
         Self {
@@ -72,7 +72,7 @@ impl Reductions {
         }
     }
 
-    /// Which share of the release is set up.
+    /// Share of the release that is set up.
     pub(super) fn first_share(&self) -> Share {
         let first = |shares: &Shares| shares.first;
         self.shares.as_ref().map_or(Share::Whole, first)
@@ -90,7 +90,7 @@ impl Reductions {
     }
 }
 
-/// A scene looked at for what can be left out.
+/// A scene whose possible reductions are examined.
 struct PointState<'a> {
     scenario: &'a Scenario,
     given: &'a Setup,
@@ -103,7 +103,7 @@ impl PointState<'_> {
         self.given.walls.vertical_walls.halves_across
     }
 
-    /// Which body is the image of each, or why it is not computed by halves.
+    /// Image of each body, or the reason against computation by halves.
     fn mirror(&self) -> Result<Result<Vec<usize>, Why>, SetupError> {
         let asked = self.scenario.numerics.symmetry;
         let found = match (asked, self.columns) {
@@ -117,7 +117,7 @@ impl PointState<'_> {
         insist(found, asked == Symmetry::Mirror, "symmetry", "mirror")
     }
 
-    /// That it begins with a slab before this share is computed, or why it does not.
+    /// Check that it may begin with a slab before this share; otherwise the reason.
     fn slab(&self, last: Share) -> Result<Result<(), Why>, SetupError> {
         let asked = self.scenario.numerics.approach;
         let found = match (asked, self.columns) {
@@ -142,7 +142,7 @@ fn without_flow() -> Why {
     "there is no flow".to_owned()
 }
 
-/// Findings; an error if more was asked for.
+/// The result; an error if it was requested and is not possible.
 fn insist<T>(
     found: Result<T, Why>,
     asked: bool,

@@ -28,13 +28,13 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Points, those that a body keeps out included.
+    /// Number of points, including those excluded by a body.
     pub fn points(&self) -> u64 {
         self.count.iter().map(|count| u64::from(*count)).product()
     }
 
-    /// Points of a share of the release that overlap no body, and the volume left out
-    /// of all of it.
+    /// Points of a share of the release that overlap no body, and the volume excluded from the
+    /// whole release.
     pub(in crate::simulation) fn release(
         &self,
         scenario: &Scenario,
@@ -86,7 +86,7 @@ impl Columns {
         Vec3::new(x, y, channel.bed_elevation_m(x) + self.along(k, 2))
     }
 
-    /// True if a place of the release is among those, its place across aside.
+    /// True if any place of the release is `among` these, at any position across.
     pub(super) fn any_place(&self, scenario: &Scenario, among: impl Fn(&Vec3) -> bool) -> bool {
         let Some(release) = scenario.release() else {
             return false;
@@ -96,8 +96,8 @@ impl Columns {
         places.any(|place| among(&self.place(place, &scenario.channel, &release)))
     }
 
-    /// As close to the points per cell asked for as whole numbers allow, the
-    /// volume being exact: across the channel every cell has the same number.
+    /// As close to the given points per cell as whole numbers allow, the volume being exact: across
+    /// the channel every cell has the same number.
     pub(in crate::simulation) fn of(
         scenario: &Scenario,
         lattice: &Lattice,
@@ -132,19 +132,19 @@ impl Columns {
     }
 }
 
-/// Distance from a body's surface, over a point's stand-off, from which on a point is
-/// as far off as it should be: a lattice that the surface fits is left as it is.
+/// Distance from a body's surface, over a point's stand-off, above which a point is not moved:
+/// a lattice that the surface fits is left as it is.
 const CLOSE: f64 = 0.98;
 
 impl Setup {
-    /// Place of a point of the release beside the bodies: where it is, or at its stand-off
-    /// from a surface that is nearer, or from a face that is nearer than a spacing; `None`
-    /// inside a body or where there is no room. So the volume left out is that of the
-    /// bodies, and no face that cuts the lattice starts with a gap that the flow would first
-    /// have to close. Round a vertex or an edge points would gather.
+    /// Position of a point of the release near bodies: unchanged, or at its stand-off from a
+    /// surface that is nearer, or from a face that is nearer than a spacing; `None` inside a body
+    /// or without room. The excluded volume is thereby that of the bodies, and no face that cuts
+    /// the lattice starts with a gap that the flow would first have to close. Round a vertex or an
+    /// edge points would cluster.
     fn place_beside(&self, position: Vec3, bodies: &[Body]) -> Option<Vec3> {
         let spacing = self.flow.as_ref()?.sphere.spacing;
-        // Where the continuum's surface is: at rest the contacts carry what presses there.
+        // Position of the continuum's surface: at rest the contacts carry the pressure there.
         let stand_off = 0.5 * spacing;
         let mut place = position;
         for body in bodies {
@@ -175,20 +175,20 @@ impl Setup {
     }
 }
 
-/// Farthest that a point of the release is moved so that its contact bears its stress
-/// [point spacings]; what is deeper overlaps on purpose.
+/// Largest displacement of a point of the release by which its contact carries its stress
+/// [point spacings]; a deeper overlap is intended.
 const FARTHEST: f64 = 0.1;
 
 impl GivenFlow {
-    /// Way [m] of a point that touches a body to where the contact presses as the point's
-    /// stress does. The stand-off holds for the mean pressure of the flow; without this,
-    /// bodies would press with that pressure at first, whatever the depth and the direction.
+    /// Displacement [m] of a point in contact with a body to the place where the contact carries
+    /// the point's stress. The stand-off holds for the mean pressure of the flow; without this,
+    /// bodies would exert that pressure at first, at any depth and in any direction.
     fn way_to_bear(&self, point: &Point, bodies: &[Body]) -> Vec3 {
         let PointSphere { radius, spacing } = self.sphere;
         let mut touched = bodies
             .iter()
             .filter_map(|body| surface_within(radius, body, &point.position));
-        // Between two bodies no place suits both.
+        // Between two bodies no position satisfies both.
         let (Some(surface), None) = (touched.next(), touched.next()) else {
             return Vec3::zeros();
         };
@@ -209,7 +209,7 @@ impl GivenFlow {
 
 /// Surface of a body near a place.
 struct Surface {
-    /// Feature that is nearest.
+    /// Nearest feature.
     feature: Feature,
     /// Distance [m]; negative inside.
     distance: f64,
@@ -232,7 +232,7 @@ fn surface_within(reach: f64, body: &Body, place: &Vec3) -> Option<Surface> {
     })
 }
 
-/// Stress of a slope at rest.
+/// Initial stress of a slope at rest.
 struct Start<'a> {
     material: &'a Material,
     gravity: f64,
@@ -240,8 +240,8 @@ struct Start<'a> {
 }
 
 impl Start<'_> {
-    /// Gives a point the stress it has at a vertical depth [m] in an infinite
-    /// slope, sheared no more than it can bear.
+    /// Sets the stress of a point at a vertical depth [m] in an infinite slope, with no more shear
+    /// than it can bear.
     fn press(&self, point: &mut Point, depth: f64) {
         let (sin, cos) = self.slope.sin_cos();
         let density = self.material.bulk_density;
@@ -255,7 +255,7 @@ impl Start<'_> {
             - (Mat3::identity() - across) * (lateral * normal_stress)
             + (down * normal.transpose() + normal * down.transpose()) * shear_stress;
         let pressure = (1.0 + 2.0 * lateral) * normal_stress / 3.0;
-        // Yielding over a long time leaves what friction at rest can bear.
+        // Yielding over a long time leaves the shear stress that friction at rest can bear.
         const AT_REST: f64 = 1e3;
         point.stress = self
             .material

@@ -9,7 +9,7 @@ use crate::scenario::{Flow, Motion, Scenario};
 const CELLS_PER_BODY: f64 = 4.0;
 /// Cells across the release.
 const CELLS_PER_RELEASE: f64 = 8.0;
-/// Points an automatic cell size may lead to.
+/// Largest number of points for an automatic cell size.
 const AUTOMATIC_POINTS: f64 = 400_000.0;
 /// Cell size of a scene without flow or bodies [m].
 const CELL_SIZE_OF_NOTHING: f64 = 0.01;
@@ -18,12 +18,12 @@ const OVERLAP_AT_REST: f64 = 0.01;
 /// Overlap of an impact on one vertex at the expected speed, over the sphero
 /// radius.
 const OVERLAP_AT_IMPACT: f64 = 0.2;
-/// Stiffness that the weight of a body laid on the flow asks for, over what would do for
-/// a flow's dynamic pressure. It settles by its pressure over the shear modulus, several
-/// times that near the bearing capacity: without this a steel cube on sand settles by a
-/// sixteenth of its side. What falls from higher buries itself by more than it settles.
+/// Stiffness for the weight of a body laid on the flow, over that for a flow's dynamic
+/// pressure. It settles by its pressure over the shear modulus, several times that near the
+/// bearing capacity: without this a steel cube on sand settles by a sixteenth of its side. A
+/// body that falls from higher buries itself by more than it settles.
 const SETTLEMENT_FACTOR: f64 = 16.0;
-/// Stiffness of a body on a rigid wall over that on its like: E*/2 and r/2.
+/// Stiffness of a body on a rigid wall over that on an equal body: E*/2 and r/2.
 const TWO_LIKE_ONE: f64 = 2.0 * std::f64::consts::SQRT_2;
 
 /// The lattice of a scenario: its cells divide the width evenly, so that both
@@ -41,8 +41,8 @@ pub(super) fn lattice(scenario: &Scenario) -> Lattice {
     }
 }
 
-/// Four cells across the thinnest body, eight across the release, the finer of
-/// both; coarser where that took more than 400,000 points.
+/// Four cells across the thinnest body, eight across the release, the finer of both; coarser if
+/// that needs more than 400,000 points.
 fn automatic_cell_size(scenario: &Scenario) -> f64 {
     let thinnest = (0..scenario.bodies.len())
         .map(|body| scenario.shape_of(body).least_width())
@@ -59,7 +59,7 @@ fn automatic_cell_size(scenario: &Scenario) -> f64 {
     fine.max(affordable).min(scenario.channel.width_m)
 }
 
-/// Speeds and pressures that are expected in a scene.
+/// Expected speeds and pressures of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expected {
     /// Speed of the flow, or of the fastest body at the start [m/s].
@@ -70,14 +70,14 @@ pub struct Expected {
     pub pressing_speed: f64,
     /// Speed with which the fastest body may meet a bed at rest [m/s].
     pub impact_speed: f64,
-    /// Largest pressure expected between flow and bodies [Pa]; infinite where a body's
-    /// motion is prescribed, since nothing bounds what it presses with.
+    /// Largest pressure expected between flow and bodies [Pa]; infinite with a prescribed motion,
+    /// whose pressure is not bounded.
     pub contact_pressure: f64,
     /// Mean pressure of the flow at rest [Pa].
     pub static_pressure: f64,
 }
 
-/// Speeds and pressures that are expected in a scenario (equations 31 and 31a).
+/// Expected speeds and pressures of a scenario (equations 31 and 31a).
 pub(super) fn expected(scenario: &Scenario, crowd: &Crowd) -> Expected {
     let speed = expected_speed(scenario);
     let flow = scenario.flow.as_ref();
@@ -111,7 +111,7 @@ pub(super) fn expected(scenario: &Scenario, crowd: &Crowd) -> Expected {
     }
 }
 
-/// Speed the flow is expected to reach [m/s]: its own, or that of the fastest body.
+/// Expected speed of the flow [m/s]: its own, or that of the fastest body.
 fn expected_speed(scenario: &Scenario) -> f64 {
     let flow = scenario.flow.as_ref();
     let of_flow = flow.map_or(0.0, |flow| {
@@ -126,7 +126,7 @@ fn expected_speed(scenario: &Scenario) -> f64 {
     thrown.fold(of_flow, f64::max)
 }
 
-/// Properties that a body brings to its contacts.
+/// Properties of a body that determine its contacts.
 struct Weighty {
     mass: f64,
     sphero_radius: f64,
@@ -134,9 +134,9 @@ struct Weighty {
     /// Position of its centre at the start [m].
     start: Vec3,
     bounding_radius: f64,
-    /// [m²].
+    /// Projected area [m²].
     projected_area: f64,
-    /// Of its start, and of a fall to the floor [m²/s²].
+    /// Squared speed of its start, and of a fall to the floor [m²/s²].
     speed_squared: f64,
     /// True if it starts on or in the release, or less than its own height above.
     lies_on_flow: bool,
@@ -144,7 +144,7 @@ struct Weighty {
     fixed: bool,
 }
 
-/// All bodies of a scenario, for how stiff their contacts have to be.
+/// All bodies of a scenario, for the stiffness of their contacts.
 pub(super) struct Crowd(Vec<Weighty>);
 
 impl Crowd {
@@ -196,9 +196,9 @@ impl Crowd {
         radii.fold(f64::INFINITY, f64::min)
     }
 
-    /// Energy of the hardest impact of two bodies over that of the heaviest one on a
-    /// wall at the largest speed: of what has bounced on what still falls, and
-    /// of a lighter body thrown up in between (equation 33).
+    /// Energy of the hardest impact of two bodies over that of the heaviest one on a wall at the
+    /// largest speed: between a rebounding and a falling body, and with a lighter body thrown up in
+    /// between (equation 33).
     fn gain(&self) -> f64 {
         let free = self.0.iter().filter(|body| body.free);
         let restitution = free.map(|body| body.restitution).fold(0.0, f64::max);
@@ -206,7 +206,8 @@ impl Crowd {
         f64::max(0.5 * towards, 4.0 / 27.0 * towards.powi(2)).max(1.0)
     }
 
-    /// Largest mass and squared speed of what may strike a body, or it strike.
+    /// Largest mass and squared speed of the bodies that may strike this body, or that it may
+    /// strike.
     fn striking(&self, place: usize) -> (f64, f64) {
         let own = &self.0[place];
         let others = self.0.iter().filter(|other| !other.fixed);
@@ -219,26 +220,26 @@ impl Crowd {
 }
 
 impl Weighty {
-    /// True if its weight can come to rest on another body: it starts higher, and not
-    /// farther aside than both reach and it is higher. What falls, rolls or is stacked
-    /// hands its weight down no flatter than at 45°.
+    /// True if its weight can come to rest on another body: it starts higher, and its horizontal
+    /// distance is at most the sum of both radii and the difference in height. Bodies that fall,
+    /// roll or are stacked pass their weight down no flatter than at 45°.
     fn can_rest_on(&self, other: &Self) -> bool {
         let apart = self.start - other.start;
         let reach = self.bounding_radius + other.bounding_radius;
         self.free && apart.z > 0.0 && apart.xy().norm() < reach + apart.z
     }
 
-    /// A body that no load moves presses on nothing, and what it strikes is not stopped
-    /// by its mass.
+    /// Mass of a free body; zero for a fixed or prescribed one, which has no weight to carry and
+    /// whose mass stops no impact.
     fn moving_mass(&self) -> f64 {
         if self.free { self.mass } else { 0.0 }
     }
 }
 
-/// Contact modulus E* of a body on a rigid wall [Pa]: stiff enough that resting
-/// on one vertex overlaps 1 % of the sphero radius, and an impact on one vertex
-/// at the largest speed expected 20 %; among other bodies, where both yield and
-/// both are round, of the least radius, for what may lie on it and what may strike it.
+/// Contact modulus E* of a body on a rigid wall [Pa]: stiff enough that resting on one vertex
+/// overlaps 1 % of the sphero radius, and an impact on one vertex at the largest speed expected
+/// 20 %; among other bodies, where both yield and both are round, of the least radius, for the
+/// bodies that may lie on it or strike it.
 pub(super) fn contact_modulus(
     crowd: &Crowd,
     place: usize,
@@ -262,7 +263,7 @@ pub(super) fn contact_modulus(
 mod tests {
     use super::*;
 
-    /// Bodies of 1 kg and 5 cm that start there, the first one fixed or not.
+    /// Bodies of 1 kg and 5 cm with these starts, the first one fixed or not.
     fn crowd(free: bool, starts: &[[f64; 3]]) -> Crowd {
         let weighty = |(place, start): (usize, &[f64; 3])| Weighty {
             mass: 1.0,
@@ -279,7 +280,7 @@ mod tests {
         Crowd(starts.iter().enumerate().map(weighty).collect())
     }
 
-    // 10 cm of reach aside and as far as the other is higher.
+    // 10 cm of radii plus the difference in height.
     #[test]
     fn a_body_carries_what_can_come_to_rest_on_it() {
         let beside = [0.3, 0.0, 0.1];

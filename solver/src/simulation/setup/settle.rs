@@ -1,17 +1,17 @@
-//! A body at rest at the start: sunk into its support until the contacts carry its
-//! weight, so that it does not start with a small fall.
+//! Initial equilibrium of a body at rest: it is sunk into its support until the contacts carry
+//! its weight, so that it does not start with a small fall.
 
 use crate::math::{Mat3, Vec3};
 use crate::rigid::Body;
 use crate::walls::Plane;
 use nalgebra::{UnitQuaternion, Vector2};
 
-/// A vertex this close to its sphero radius above a plane touches it.
+/// Height of a vertex above a plane, over its sphero radius, below which it touches.
 const TOUCHING: f64 = 1.0 + 1e-6;
 /// Imbalance that counts as none, as a share of the weight (at the bounding
 /// radius).
 const BALANCED: f64 = 1e-9;
-/// Newton's method takes about six; more don't help.
+/// Largest number of rounds of Newton's method, which takes about six.
 const MOST_ROUNDS: usize = 40;
 
 /// Sinks a body that touches a plane, and turns it where its weight is not shared
@@ -29,7 +29,7 @@ pub(super) fn settle(body: &mut Body, planes: &[Plane], gravity: &Vec3) {
         load: pressed / body.wall_law.stiffness,
         size: body.shape.bounding_radius(),
     };
-    // A body that will tip over finds no balance, and is sunk evenly.
+    // A body that will tip over has no equilibrium, and is sunk evenly.
     let pose = footing.balance(even).unwrap_or(Vec3::x() * even);
     body.state.position -= support.normal * pose.x;
     if pose.yz() != Vector2::zeros() {
@@ -37,8 +37,8 @@ pub(super) fn settle(body: &mut Body, planes: &[Plane], gravity: &Vec3) {
     }
 }
 
-/// Places where the vertices that touch a plane stand on it, seen from the centre: ahead
-/// and to the left [m], in the axes of [`along`].
+/// Positions of the vertices that touch a plane, from the centre: ahead and to the left [m], in
+/// the axes of [`along`].
 fn carriers(body: &Body, plane: &Plane) -> Vec<[f64; 2]> {
     let reach = body.shape.sphero_radius() * TOUCHING;
     let [ahead, left] = along(plane);
@@ -65,10 +65,9 @@ struct Footing<'a> {
 }
 
 impl Footing<'_> {
-    /// Way that the body sinks [m] and angles by which it tips ahead and to the left
-    /// \[rad\] until forces k δ^1.5 and their torques balance: the minimum of ⅖ Σ k δ^2.5
-    /// less the load's work, by Newton's method from an even sinking. An even one stays
-    /// as it is.
+    /// Distance by which the body sinks [m] and angles by which it tips ahead and to the left
+    /// \[rad\] until forces k δ^1.5 and their torques balance: the minimum of ⅖ Σ k δ^2.5 less the
+    /// load's work, by Newton's method from an even sinking. An even one stays as it is.
     fn balance(&self, even: f64) -> Option<Vec3> {
         let mut pose = Vec3::new(even, 0.0, 0.0);
         for _ in 0..MOST_ROUNDS {
@@ -95,7 +94,7 @@ impl Footing<'_> {
         (pull, stiffness)
     }
 
-    /// The turn that tips the body so.
+    /// The rotation of the body for these tip angles.
     fn turn(pose: &Vec3, plane: &Plane) -> UnitQuaternion<f64> {
         let [ahead, left] = along(plane);
         UnitQuaternion::from_scaled_axis(left * pose.y - ahead * pose.z)
@@ -109,7 +108,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        // A tripod about the middle, one foot carrying as little as a fiftieth.
+        // A tripod about the middle, one foot with as little as a fiftieth of the load.
         #[test]
         fn an_uneven_tripod_finds_its_balance(
             feet in prop::array::uniform2(prop::array::uniform2(-0.03..0.03_f64)),

@@ -1,11 +1,11 @@
-//! Which share of the flow is computed (docs/method.md, section 12).
+//! Computed share of the flow (docs/method.md, section 12).
 
 use super::{Columns, Setup};
 use crate::math::Vec3;
 use crate::walls::{Plane, VerticalBoundary, Walls};
 use serde::{Deserialize, Serialize};
 
-/// Share of the flow that is computed; the rest are its images.
+/// Computed share of the flow; the rest are its images.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Share {
@@ -18,7 +18,7 @@ pub enum Share {
 }
 
 impl Share {
-    /// Halves of a cell across that are computed, of so many between the side walls.
+    /// Computed width in half cells, of this many between the side walls.
     pub fn halves_across(self, whole: i32) -> i32 {
         match self {
             Self::Whole => whole,
@@ -27,7 +27,7 @@ impl Share {
         }
     }
 
-    /// Rows of points across that are computed, of all in the release.
+    /// Computed rows of points across, of all in the release.
     pub fn rows_across(self, columns: &Columns, whole: i32) -> u32 {
         columns.count[1] * self.halves_across(whole).unsigned_abs() / whole.unsigned_abs().max(1)
     }
@@ -50,7 +50,7 @@ impl Share {
     }
 }
 
-/// Which shares of a flow are computed, one after the other.
+/// Computed shares of a flow, one after the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shares {
     /// At the start.
@@ -59,6 +59,6 @@ pub struct Shares {
     pub last: Share,
     /// Division of the whole release into points.
     pub columns: Columns,
-    /// Which body is the mirror image of each, where half of the flow is computed.
+    /// Mirror image of each body, if half of the flow is computed.
     pub partners: Vec<usize>,
 }

@@ -1,4 +1,4 @@
-//! Parts of a scene that need not be computed, because something else tells them.
+//! Symmetries of a scene, by which parts of it are images of others.
 
 use super::Columns;
 use crate::contact::point_body::Around;
@@ -7,18 +7,17 @@ use crate::math::Vec3;
 use crate::rigid::{Body, Freedom};
 use crate::scenario::Scenario;
 
-/// Rounding of a place, over the size of the body it is on.
+/// Rounding of a position, over the size of its body.
 const ROUNDING: f64 = 1e-9;
-/// So far off a body does nothing to a flow for a step: a node sees the room that it
-/// takes 1.5 cells away, a point sees that node 1.5 cells away, and goes less than half a
-/// cell. Its contacts reach less far.
+/// Distance at which a body does not affect a flow for a step: a node's available volume
+/// depends on bodies 1.5 cells away, a point depends on that node 1.5 cells away, and travels
+/// less than half a cell. The reach of contacts is less.
 const CLEAR_CELLS: f64 = 3.5;
 
-/// Why something is computed although it might not have to be.
+/// Reason against a reduction.
 pub(super) type Why = String;
 
-/// Which body is the mirror image of each, if flow and bodies are symmetric about
-/// the centre plane.
+/// Mirror image of each body, if flow and bodies are symmetric about the centre plane.
 pub(super) fn partners(
     scenario: &Scenario,
     columns: &Columns,
@@ -60,7 +59,7 @@ fn partner(scenario: &Scenario, bodies: &[Body], place: usize) -> Result<usize, 
         .ok_or_else(|| format!("the fixed body {place} has no mirror image"))
 }
 
-/// True if one body stands where the mirror image of the other would.
+/// True if one body is the mirror image of the other.
 fn mirrored_onto(body: &Body, other: &Body) -> bool {
     let size = body.shape.bounding_radius();
     let near = |a: &Vec3, b: &Vec3| (a - b).norm() <= ROUNDING * size;
@@ -93,7 +92,7 @@ fn mirrored(x: &Vec3) -> Vec3 {
     Vec3::new(x.x, -x.y, x.z)
 }
 
-/// True if nothing of a flow varies across the channel at the start.
+/// True if a flow is uniform across the channel at the start.
 pub(super) fn uniform_across(
     scenario: &Scenario,
     columns: &Columns,
@@ -117,7 +116,7 @@ pub(super) fn uniform_across(
     }
 }
 
-/// Region in which a flow that knows of no body must not be, at any place across.
+/// Region that a flow unaffected by bodies must not enter, at any place across.
 pub(in crate::simulation) fn near_body(body: &Body, lattice: &Lattice) -> Around {
     Around::body(body, CLEAR_CELLS * lattice.spacing.max()).all_across()
 }

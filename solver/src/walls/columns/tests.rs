@@ -2,7 +2,7 @@ use crate::math::Vec3;
 use crate::walls::tests::{H, channel, constrained, grid_with, plane, velocity};
 use crate::walls::{Impulse, Walls};
 
-/// A channel whose base is one plane through a place, falling along x.
+/// A channel whose bed is one plane through a place, falling along x.
 fn slope(degrees: f64, through: &Vec3, friction: f64) -> Walls {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let normal = Vec3::new(sin, 0.0, cos);
@@ -15,8 +15,8 @@ fn at([i, j, k]: [i32; 3]) -> Vec3 {
     Vec3::new(f64::from(i), f64::from(j), f64::from(k)) * H
 }
 
-/// Slopes with a column that crosses each: its nodes in order, the first two in
-/// the channel at places 1 and 2, and where the base meets it.
+/// Slopes with a column that crosses each: its nodes in order, the first two in the channel at
+/// places 1 and 2, and its intersection with the bed.
 fn crossings() -> Vec<(Walls, Vec<[i32; 3]>, Vec3)> {
     let standing = |degrees, gap| {
         let foot = at([5, 3, 4]) - Vec3::z() * gap * H;
@@ -38,7 +38,7 @@ fn crossings() -> Vec<(Walls, Vec<[i32; 3]>, Vec3)> {
     ]
 }
 
-// A shear flow that is at rest on the base is left alone, nodes behind included.
+// A shear flow at rest on the bed is unchanged, nodes behind included.
 #[test]
 fn a_linear_flow_that_sticks_to_the_base_stays() {
     for (walls, nodes, _) in crossings() {
@@ -55,8 +55,8 @@ fn a_linear_flow_that_sticks_to_the_base_stays() {
     }
 }
 
-// Whatever arrives: afterwards velocities lie on a line, nothing goes into the base
-// at its place, and one force there, on the cone of friction, has done it.
+// For any initial motion: afterwards velocities lie on a line, there is no inflow at the bed's
+// position, and the change is that of one force there, on the cone of friction.
 #[test]
 fn the_base_acts_at_its_own_place() {
     for (walls, nodes, foot) in crossings() {
@@ -95,7 +95,7 @@ fn what_leaves_the_base_is_left_alone() {
     }
 }
 
-// A lone node tells nothing of how velocity changes: it is stopped as it is.
+// A lone node does not determine a velocity gradient: it is stopped as it is.
 #[test]
 fn a_lone_node_behind_the_base_is_held() {
     for (walls, nodes, _) in crossings() {

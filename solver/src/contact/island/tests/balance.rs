@@ -53,17 +53,17 @@ fn thrown(mut body: Body, restitution: f64) -> Body {
     body
 }
 
-/// What was made, over what there was.
+/// Energy made, over the energy there was.
 fn share(balance: &BodyEnergy, body: &Body) -> f64 {
     balance.made / balance.scale(body, &GRAVITY)
 }
 
-/// A tenth of what ends a run. Impacts are resolved to some 4e-4 of their energy, the square
-/// of a body sub-step over a contact's time scale being 4e-3: 5e-4 was measured.
+/// A tenth of the limit of the guard. Impacts are resolved to some 4e-4 of their energy, the
+/// square of a body sub-step over a contact's time scale being 4e-3: 5e-4 was measured.
 const RESOLVED: f64 = 1e-3;
 
-// Whatever the restitution: nothing is made or lost beyond what the resolution of impacts
-// leaves; pushed along the floor, rolling and sliding, as well.
+// For any restitution: no energy is made or lost beyond the resolution of impacts; also when
+// pushed along the floor, rolling and sliding.
 #[test]
 fn what_a_bouncing_body_loses_is_accounted_for() {
     for shape in [
@@ -81,7 +81,8 @@ fn what_a_bouncing_body_loses_is_accounted_for() {
     }
 }
 
-// What one gives the other gets, and what their contact takes is taken from both.
+// The energy that one gives is the energy that the other gets, and the dissipation of their
+// contact is taken from both.
 #[test]
 fn what_bodies_exchange_adds_up() {
     let mut bodies = [
@@ -116,8 +117,8 @@ fn a_standing_stack_makes_nothing() {
     }
 }
 
-// Contacts with the floor get four times as stiff all at once: what they hold gets four
-// times as large, and that is made, by this body and no other.
+// Contacts with the floor become four times as stiff at once: so does their stored energy, and
+// the difference is made, by this body and no other.
 #[test]
 fn energy_out_of_nothing_is_found_and_named() {
     let mut bodies = [0.02, 0.02].map(cube_at);

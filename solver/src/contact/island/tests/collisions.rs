@@ -1,10 +1,10 @@
-//! Momentum and energy that bodies keep in a collision, and the energy they give back.
+//! Momentum and energy conserved by bodies in a collision, and the energy they give back.
 
 use super::*;
 use crate::rigid::fixture::tetrahedron;
 
-/// Totals of some bodies: momentum, angular momentum about the origin, energy
-/// with what their contacts hold.
+/// Totals of some bodies: momentum, angular momentum about the origin, energy with that of
+/// their contacts.
 fn totals(bodies: &[Body], contact_pairs: &[ContactPair]) -> (Vec3, Vec3, f64) {
     let linear = bodies.iter().map(|body| body.state.momentum).sum();
     let angular = bodies.iter().map(angular_about_origin).sum();
@@ -16,8 +16,8 @@ fn totals(bodies: &[Body], contact_pairs: &[ContactPair]) -> (Vec3, Vec3, f64) {
     (linear, angular, moving + held)
 }
 
-/// A cube and a tetrahedron fly at each other, both turning: how much their
-/// energy, momentum and angular momentum change, as shares, and the deepest overlap.
+/// Collision of a cube and a tetrahedron, both turning: the changes of energy, momentum and
+/// angular momentum, as shares, and the deepest overlap.
 fn collision(numbers: &mut Numbers, dt: f64) -> [f64; 4] {
     let mut bodies = [cuboid([0.04; 3]), tetrahedron(0.05)];
     for body in &mut bodies {
@@ -60,8 +60,8 @@ fn collision(numbers: &mut Numbers, dt: f64) -> [f64; 4] {
     ]
 }
 
-// docs/accuracy.md, case 7. Velocity Verlet in steps of a hundredth of the body
-// sub-step's share; the momenta are rounding, whatever the step.
+// docs/accuracy.md, case 7. Velocity Verlet in steps of a hundredth of the body sub-step's
+// share; the momenta are conserved to rounding for any step.
 #[test]
 fn an_undamped_collision_keeps_energy_and_momenta() {
     let mut numbers = Numbers(0.3);
@@ -81,8 +81,8 @@ fn an_undamped_collision_keeps_energy_and_momenta() {
     );
 }
 
-/// Speed of leaving over speed of arriving, of a cube thrown flat or on an edge
-/// at the floor, or at an equal cube.
+/// Rebound speed over impact speed of a cube thrown flat or on an edge at the floor, or at an
+/// equal cube.
 fn rebound(turn: &Vec3, restitution: f64, at_a_body: bool) -> f64 {
     let mut cube = cuboid([0.04; 3]);
     let damping = crate::contact::law::damping_number(restitution);

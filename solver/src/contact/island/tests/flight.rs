@@ -1,4 +1,4 @@
-//! Long sub-steps where nothing touches, and short ones where something does.
+//! Long sub-steps in flight, and short ones in contact.
 
 use super::*;
 use crate::rigid::fixture::tetrahedron;
@@ -19,9 +19,9 @@ fn clearance(body: &Body) -> f64 {
     body.state.position.z - body.shape.extent_along(&body.to_body(&-Vec3::z()))
 }
 
-// As near the floor as it may come within the step: more than a hundred short sub-steps are asked
-// for, a few are taken. Gravity is uniform, so the way is a parabola to rounding; the turning
-// keeps its energy as it does in any steps of 0.05 rad.
+// As near the floor as it may come within the step: more than a hundred short sub-steps are
+// required, a few are taken. Gravity is uniform, so the path is a parabola to rounding;
+// turning conserves its energy as in any steps of 0.05 rad.
 #[test]
 fn a_flight_takes_few_substeps_along_a_parabola() {
     let mut body = spinning(0.0);
@@ -40,8 +40,8 @@ fn a_flight_takes_few_substeps_along_a_parabola() {
     assert!((fallen / energy - 1.0).abs() < 1e-9);
 }
 
-/// Speed at which a cube comes back that falls on a vertex from 0.4 mm, in a flight cut
-/// into pieces of `dt`, and the sub-steps it took.
+/// Rebound speed of a cube that falls on a vertex from 0.4 mm, in a flight cut into pieces of
+/// `dt`, and the number of its sub-steps.
 fn rebound_in(dt: f64, restitution: f64) -> (f64, u32) {
     let mut cube = cube_at(0.0);
     cube.wall_law = ContactLaw::hertz(1e9, 0.004, restitution, 0.0);
@@ -57,7 +57,7 @@ fn rebound_in(dt: f64, restitution: f64) -> (f64, u32) {
 }
 
 // As in pieces that leave no room for long sub-steps: undamped within 1e-4; damped, where six
-// times as long ones resolve it, within what these do.
+// times as long ones resolve it, within the resolution of these.
 #[test]
 fn an_impact_after_a_flight_is_resolved() {
     for (restitution, close) in [(1.0, 1e-4), (0.5, 1e-3)] {
@@ -69,7 +69,7 @@ fn an_impact_after_a_flight_is_resolved() {
     }
 }
 
-// Two that pass each other closely: no face of either keeps them apart, their edges do.
+// Two bodies that pass each other closely: no face separates them, their edges do.
 #[test]
 fn bodies_that_pass_each_other_are_in_flight() {
     let mut bodies = [cuboid([0.01, 0.01, 0.2]), cuboid([0.01, 0.2, 0.01])];
@@ -95,7 +95,7 @@ fn bodies_that_pass_each_other_are_in_flight() {
     assert!(reports[0].substeps < 20, "{reports:?}");
 }
 
-// Whatever the shape and its spin: no place is ever faster than the bound of its turning.
+// For any shape and spin no place is ever faster than the bound of free turning.
 #[test]
 fn turning_stays_below_its_bound() {
     let mut numbers = Numbers(0.7);

@@ -36,7 +36,7 @@ fn heap() -> (Vec<Body>, Vec<Plane>) {
     (bodies, [vec![floor()], sides.to_vec()].concat())
 }
 
-/// Kinetic energy, potential energy, and what contacts hold [J].
+/// Kinetic energy, potential energy, and energy stored in contacts [J].
 fn energies(bodies: &[Body], contact_pairs: &[ContactPair]) -> [f64; 3] {
     let moving = bodies.iter().map(Body::kinetic_energy).sum();
     let lifted = bodies
@@ -66,13 +66,13 @@ fn deepest(bodies: &[Body], contact_pairs: &[ContactPair], planes: &[Plane]) -> 
     on_walls.chain(on_bodies).fold(0.0, f64::max)
 }
 
-// Bars of the issue: overlap at rest below 2 % of r, below 20 % at impact; at
-// rest means asleep, nothing having moved faster than 1e-5 m/s for 0.1 s. The energy rose by
-// 4e-10 of what it starts with at most, in fourteen heaps that start up to 0.1 mm elsewhere.
-// When a heap falls asleep is chance: thirteen of them did after 0.7 to 2.5 s, this one after
-// 3.84 s; before decision 32 one of 24 rocked on at 1e-3 m/s, its energy falling, as what
-// nothing hinders from rolling may.
-// Asleep no bit changes; a cube that falls on the heap wakes it, one still in the air does not.
+// Tolerances of the issue: overlap at rest below 2 % of r, below 20 % at impact; at rest means
+// asleep, with no speed above 1e-5 m/s for 0.1 s. The energy rose by at most 4e-10 of its
+// initial value, in fourteen heaps that start up to 0.1 mm elsewhere. The time at which a heap
+// falls asleep is chance: thirteen of them did after 0.7 to 2.5 s, this one after 3.84 s;
+// before decision 32 one of 24 rocked on at 1e-3 m/s, its energy falling, which is possible
+// where nothing hinders rolling. Asleep no bit changes; a cube that falls on the heap wakes
+// it, one still in the air does not.
 #[test]
 fn a_heap_comes_to_rest_and_sleeps_until_touched() {
     let (mut bodies, planes) = heap();
@@ -139,7 +139,7 @@ fn a_heap_comes_to_rest_and_sleeps_until_touched() {
             "a guest {above} m above"
         );
     }
-    // A point that touches wakes it, too.
+    // A touching point wakes it, too.
     let push = |place: usize| Load {
         force: Vec3::x() * if place == 0 { 1e-6 } else { 0.0 },
         torque: Vec3::zeros(),
@@ -148,7 +148,7 @@ fn a_heap_comes_to_rest_and_sleeps_until_touched() {
     assert_ne!(states(&bodies), asleep);
 }
 
-// The island's division of bodies does not ask how many threads there are.
+// The division of bodies into islands does not depend on the number of threads.
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let run = |threads: usize| {

@@ -1,4 +1,4 @@
-//! Tests of bodies that move, and what they share.
+//! Tests of bodies that move, and their fixtures.
 
 mod balance;
 mod collisions;
@@ -27,7 +27,7 @@ fn cube_at(height: f64) -> Body {
     body
 }
 
-/// Advances bodies; what it did to them.
+/// Advances bodies; returns their reports.
 fn advance(
     bodies: &mut [Body],
     contact_pairs: &mut Vec<ContactPair>,
@@ -69,9 +69,9 @@ fn a_barrier_stands() {
     assert_eq!(report, BodyReport::default());
 }
 
-// Whatever happens on the wall: the body's momentum changes by what the report
-// says the walls and gravity gave, and by the flow's force on its line of
-// action. A tumbling cube that strikes the floor; rounding of sums of order 1.
+// For any contact with the wall: the body's momentum changes by the impulses of walls and
+// gravity in the report, and by the flow's force on its line of action. A tumbling cube that
+// strikes the floor; rounding of sums of order 1.
 #[test]
 fn the_report_accounts_for_every_impulse() {
     let mut body = cube_at(0.03);
@@ -97,8 +97,8 @@ fn the_report_accounts_for_every_impulse() {
     assert!((report.wall_load.force - mean).norm() < 1e-11);
 }
 
-// A cube at rest on the floor: the wall carries its weight, on four vertices
-// whose springs pull nothing, and sinks where 4 k δ^1.5 = m g.
+// A cube at rest on the floor: the wall carries its weight, on four vertices whose springs are
+// unstretched, and sinks where 4 k δ^1.5 = m g.
 #[test]
 fn a_resting_cube_is_carried() {
     let mut body = cube_at(0.02);
@@ -118,22 +118,22 @@ fn a_resting_cube_is_carried() {
     assert!((body.state.wall_energy / held - 1.0).abs() < 1e-5);
 }
 
-// Far from walls one sub-step does; a spin asks for more, near a wall the
-// contact's own time scale.
+// Far from walls one sub-step is enough; a spin requires more, near a wall the contact's own
+// time scale.
 #[test]
 fn substeps_follow_what_happens() {
     let asked =
         |body: &Body, acceleration| substeps_alone(body, &[floor()], acceleration, 1e-3, 1e-3);
     let count = |body: &Body| asked(body, 9.81).ceil().max(1.0);
     assert_eq!(count(&cube_at(1.0)), 1.0);
-    // What gravity takes to the wall from rest strikes it as what flies there.
+    // A body that gravity takes to the wall from rest strikes it like one in flight.
     let start = cube_at(0.020_001);
     assert!(count(&start) > 1.0);
     assert_eq!(asked(&start, 0.0), 0.0);
     let mut spinning = cube_at(1.0);
     spinning.state.angular_momentum = spinning.inertia * Vec3::new(0.0, 0.0, 500.0);
     assert!((count(&spinning) - 10.0).abs() <= 1.0);
-    // √(m/k') is 3 ms this deep, and a tenth of it is taken.
+    // √(m/k') is 3 ms at this depth, and a tenth of it is taken.
     assert!(count(&cube_at(0.0199)) > 2.0);
     // About to strike within the step.
     let mut falling = cube_at(0.0205);
@@ -141,7 +141,7 @@ fn substeps_follow_what_happens() {
     assert!(count(&falling) > 5.0);
 }
 
-/// Numbers in −1 … 1 that look random (Weyl's sequence).
+/// Pseudo-random numbers in −1 … 1 (Weyl's sequence).
 struct Numbers(f64);
 
 impl Numbers {

@@ -1,4 +1,4 @@
-//! The points of the fast path as bodies meet them.
+//! Access of bodies to the points of the fast path.
 
 use crate::contact::point_body::{Around, Moving, PointAccess};
 use crate::fast::blocks::Block;
