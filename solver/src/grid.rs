@@ -47,7 +47,7 @@ pub struct Node {
 }
 
 impl Node {
-    /// Without points.
+    /// A node without points.
     pub const EMPTY: Self = Self {
         mass: 0.0,
         velocity: Vec3::new(0.0, 0.0, 0.0),

@@ -115,14 +115,14 @@ impl Sym3 {
         }
     }
 
-    /// As a full matrix.
+    /// The tensor as a full matrix.
     pub fn matrix(&self) -> Mat3 {
         Mat3::new(
             self.xx, self.xy, self.xz, self.xy, self.yy, self.yz, self.xz, self.yz, self.zz,
         )
     }
 
-    /// Mirrored along x and y where the sign is −1.
+    /// The tensor mirrored along x and y where the sign is −1.
     pub fn mirrored(&self, [x, y]: [f64; 2]) -> Self {
         Self {
             xy: x * y * self.xy,

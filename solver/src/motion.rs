@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// Velocity of a body's centre, and its angular velocity, both in channel axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Velocities {
-    /// Of the centre [m/s].
+    /// Velocity of the centre [m/s].
     pub linear: Vec3,
     /// Angular velocity [rad/s].
     pub angular: Vec3,
@@ -17,7 +17,7 @@ pub struct Velocities {
 /// Velocities at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Knot {
-    /// [s].
+    /// Time [s].
     time: f64,
     velocities: Velocities,
     /// Displacement of the centre since the first knot [m].

@@ -94,7 +94,7 @@ pub struct Deformation {
 }
 
 impl Deformation {
-    /// At a transfer.
+    /// State at a transfer.
     pub fn start(point: &Point) -> Self {
         Self {
             gradient: Mat3::identity(),

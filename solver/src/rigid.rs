@@ -22,7 +22,7 @@ pub enum Freedom {
     /// Loads move it, but it never leaves the plane y = 0 nor turns out of it: loads that would do
     /// that are rounding.
     InPlane,
-    /// Nothing moves it: it is a barrier.
+    /// A barrier, which nothing moves.
     Fixed,
     /// A prescribed motion, whatever acts on it.
     Prescribed(Prescribed),

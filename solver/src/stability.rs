@@ -76,7 +76,7 @@ impl Limits {
         divide(remaining, longest, self.substeps_per_step(longest, speed))
     }
 
-    /// Most sub-steps of this length [s] in a step, the fastest at `speed` [m/s];
+    /// Largest number of sub-steps of this length [s] in a step, the fastest at `speed` [m/s];
     /// whole, but kept as a float.
     pub fn substeps_per_step(&self, substep: f64, speed: f64) -> f64 {
         let travel = self.governing_speed(speed) * substep;

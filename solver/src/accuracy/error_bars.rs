@@ -10,9 +10,9 @@ use crate::scenario::Quantity;
 pub(super) struct StudyOutcomes<'a> {
     /// The outcome whose quantities get intervals.
     pub(super) answer: &'a Outcome,
-    /// With larger cells, finer ones first.
+    /// Outcomes with larger cells, finer ones first.
     pub(super) coarser: Vec<&'a Outcome>,
-    /// With a material of reduced stiffness, and the coarser outcome with the same cells.
+    /// Outcome with a material of reduced stiffness, and the coarser outcome with the same cells.
     pub(super) reduced_stiffness: Option<[&'a Outcome; 2]>,
     /// Width of the thinnest body, or the thickness of the release without bodies [m].
     pub(super) across_m: f64,

@@ -11,7 +11,7 @@ const PLAUSIBLE: (f64, f64) = (0.5, 4.0);
 /// Error that runs of other cell sizes do not show, in cells of the answer for a length: it
 /// depends on the positions of points within their cells.
 const FLOOR_CELLS: f64 = 0.01;
-/// Lower bound of half the width, as a share of the value.
+/// The same error as a share of the value.
 const FLOOR_SHARE: f64 = 0.002;
 
 /// Kind of a quantity, which decides how its interval is made, and its natural bounds.
@@ -40,11 +40,11 @@ pub(super) enum QuantityKind {
 /// Weights of the parts of an interval (equation 72).
 #[derive(Debug)]
 struct IntervalWeights {
-    /// Of the extrapolated trend.
+    /// Weight of the extrapolated trend.
     trend: f64,
     /// Width against the trend, over the width with it.
     against: f64,
-    /// Of the scatter.
+    /// Weight of the scatter.
     scatter: f64,
     /// Error to be expected at one cell across the thinnest body, over the scale.
     across: f64,

@@ -46,9 +46,9 @@ struct FeatureSprings {
 /// Loads that two bodies exert on each other.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Exchange {
-    /// On the first body.
+    /// Load on the first body.
     pub on_first: Load,
-    /// On the second body: the opposite force on the same line.
+    /// Load on the second body: the opposite force on the same line.
     pub on_second: Load,
 }
 
@@ -190,7 +190,7 @@ fn history_of<'a>(
 struct Pair<'a> {
     bodies: [&'a Body; 2],
     law: &'a ContactLaw,
-    /// From the first body's centre to the second's.
+    /// Vector from the first body's centre to the second's.
     apart: Vec3,
     /// Sum of the sphero radii.
     radii: f64,

@@ -34,7 +34,7 @@ use touching::{evaluate_body_contacts, find_contacts};
 
 /// Speed below which all places of a body must be for it to be still [m/s].
 const STILL: f64 = 1e-5;
-/// Time after which an island whose bodies were all still sleeps [s].
+/// Time of stillness of all its bodies after which an island sleeps [s].
 const FALLS_ASLEEP_AFTER: f64 = 0.1;
 
 /// Report of one flow sub-step of a body.
@@ -78,7 +78,7 @@ impl BodyReport {
 pub struct Surroundings<'a> {
     /// The walls.
     pub planes: &'a [Plane],
-    /// [m/s²].
+    /// Gravity [m/s²].
     pub gravity: Vec3,
     /// Simulated time at the start [s].
     pub time: f64,
@@ -290,7 +290,7 @@ struct IslandPair<'a> {
     law: ContactLaw,
     sides: [Side<'a>; 2],
     separation: Separation,
-    /// As found after the last drift.
+    /// Their contacts after the last drift.
     contacts: Contacts,
     /// Damping and losses of their contacts in the last sub-step.
     taken: Taken,

@@ -91,7 +91,7 @@ pub enum Part {
     Second,
 }
 
-/// Both of them.
+/// Both parts.
 pub const PARTS: [Part; 2] = [Part::First, Part::Second];
 
 /// Motion of the nodes of a block of points at a transfer.

@@ -172,7 +172,7 @@ pub struct ShiftingSums {
 }
 
 impl ShiftingSums {
-    /// Of no points.
+    /// Sums of no points.
     pub const NONE: Self = Self {
         first_moment: [[0.0; LANES]; 3],
         angular: [[0.0; LANES]; 3],

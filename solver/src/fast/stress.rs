@@ -171,7 +171,7 @@ pub struct Deformed<S: Simd> {
 }
 
 impl<S: Simd> Deformed<S> {
-    /// Of E = F̂ − 1.
+    /// Cofactors and volume change of E = F̂ − 1.
     #[inline(always)]
     pub fn of(simd: S, e: &Matrix<S>) -> Self {
         let one = f32x16::splat(simd, 1.0);

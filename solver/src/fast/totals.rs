@@ -125,7 +125,7 @@ pub struct EndSums {
 }
 
 impl EndSums {
-    /// Of no points.
+    /// Summary of no points.
     pub const NONE: Self = Self {
         squared: [0.0; LANES],
         flaw: [0.0; LANES],

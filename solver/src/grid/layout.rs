@@ -2,7 +2,7 @@
 
 use super::{BLOCK, BLOCK_NODES, BlockKey, block_of, in_block};
 
-/// No such block.
+/// Index of a missing block.
 const NONE: u32 = u32::MAX;
 /// The eight blocks that a tile overlaps, in the order in which tiles are added.
 pub const OCTANTS: [[usize; 3]; 8] = [

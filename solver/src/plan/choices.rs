@@ -23,7 +23,7 @@ pub struct Choice {
     pub decided_by: Option<String>,
 }
 
-/// All of them.
+/// All choices for a scenario.
 pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Vec<Choice> {
     vec![
         mirror(outline),

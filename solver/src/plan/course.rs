@@ -21,7 +21,7 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// Of a scenario's flow.
+    /// Course of a scenario's flow.
     pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Self {
         let Some(release) = scenario.release() else {
             return Self {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Incline and floor under a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Bed {
-    /// Of the incline [rad].
+    /// Inclination of the incline [rad].
     inclination: f64,
 }
 

@@ -12,14 +12,14 @@ pub(super) struct Motion {
     pub(super) position: Vec3,
     /// Body frame to world.
     pub(super) orientation: UnitQuaternion<f64>,
-    /// Of the centre [m/s].
+    /// Velocity of the centre [m/s].
     pub(super) velocity: Vec3,
     /// World axes [rad/s].
     pub(super) angular_velocity: Vec3,
 }
 
 impl Motion {
-    /// Of a body now.
+    /// Current motion of a body.
     pub(super) fn of(body: &Body) -> Self {
         Self {
             position: body.state.position,

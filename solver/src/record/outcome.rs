@@ -33,7 +33,7 @@ pub(super) struct BodyHistory {
 }
 
 impl BodyHistory {
-    /// At the start, under gravity [m/s²].
+    /// History at the start, under gravity [m/s²].
     pub(super) fn start(body: &Body, gravity: f64) -> Self {
         let (scale, motion) = (Scale::of_body(body, gravity), Motion::of(body));
         let speed = motion.velocity.norm();

@@ -1,4 +1,4 @@
-//! Samples at their own times, whatever steps a run takes.
+//! Samples at given times, independent of the steps of a run.
 
 use super::bed::Bed;
 use super::means::Means;

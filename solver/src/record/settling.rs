@@ -54,7 +54,7 @@ impl Measure {
 }
 
 impl Settling {
-    /// At the start of a run.
+    /// State at the start of a run.
     pub(super) fn start(motion: &Motion, measure: &Measure) -> Self {
         let slow = measure.is_slow(motion).then_some(0.0);
         Self {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Takes snapshots, each at the end of the step that contains its time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Snapshots {
-    /// Times still to come, last first [s].
+    /// Remaining times, last first [s].
     times: Vec<f64>,
 }
 

@@ -36,7 +36,7 @@ struct Turned {
 }
 
 impl FreeTurning {
-    /// Of a body with this inverse of its inertia tensor [1/(kg m²)].
+    /// Turning of a body with this inverse of its inertia tensor [1/(kg m²)].
     pub(super) fn of(inverse: &Mat3) -> Self {
         let PrincipalInertia { moments, axes } = PrincipalInertia::of(inverse);
         let frame = Rotation3::from_matrix_unchecked(Mat3::from_columns(&axes));

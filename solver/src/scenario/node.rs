@@ -46,7 +46,7 @@ impl Node {
         }
     }
 
-    /// Of repeated keys the last counts.
+    /// The value with long texts cut; of repeated keys the last counts.
     fn short_value(&self) -> Value {
         match self {
             Self::Null => Value::Null,

@@ -1,4 +1,4 @@
-//! From JSON to a validated scenario, all violations at once.
+//! Parser from JSON to a validated scenario, with all violations at once.
 
 use super::accuracy::{
     bands_can_be_made, body_is_there, cells_are_chosen_once, read_accuracy,

@@ -51,7 +51,7 @@ impl Range {
         above && value <= self.high
     }
 
-    /// In words: "0 < x <= 89".
+    /// The range in words: "0 < x <= 89".
     pub(super) fn words(&self) -> String {
         let sign = if self.low_is_open { "<" } else { "<=" };
         format!("{} {sign} x <= {}", short(self.low), short(self.high))

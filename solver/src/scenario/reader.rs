@@ -18,7 +18,7 @@ impl Several {
         Self { count, nouns }
     }
 
-    /// In words: "4 to 32 points".
+    /// The number in words: "4 to 32 points".
     fn words(&self) -> String {
         let (least, most) = (*self.count.start(), *self.count.end());
         if least == most {

@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Symmetry {
-    /// By halves where it is exact.
+    /// Computation by halves where it is exact.
     #[default]
     Auto,
     /// No use of symmetry.
     Full,
-    /// By halves; a scene that is not symmetric is refused.
+    /// Computation by halves; a scene that is not symmetric is refused.
     Mirror,
 }
 
@@ -19,12 +19,12 @@ pub enum Symmetry {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Approach {
-    /// In a slab of one cell where it is exact.
+    /// Computation in a slab of one cell where it is exact.
     #[default]
     Auto,
-    /// Across the whole width.
+    /// Computation across the whole width.
     Full,
-    /// In a slab; a scene that varies across from the start is refused.
+    /// Computation in a slab; a scene that varies across from the start is refused.
     Slab,
 }
 
@@ -35,6 +35,6 @@ pub enum Ending {
     /// Early, when nothing can move a body or the front any more, or with its duration.
     #[default]
     Auto,
-    /// With its duration.
+    /// End with its duration.
     Full,
 }

@@ -14,7 +14,7 @@ type Beyond = [i8; 3];
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Cuboid {
     half: Vector3<f64>,
-    /// By [`region`]; the entry of the inside is never read.
+    /// Nearest features by [`region`]; the entry of the inside is never read.
     features: [Feature; 27],
 }
 

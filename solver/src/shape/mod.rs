@@ -52,9 +52,9 @@ pub struct SpheroPolyhedron {
 /// Algorithm that finds the nearest feature of the core.
 #[derive(Debug, Clone, PartialEq)]
 enum Nearest {
-    /// In closed form, for a box.
+    /// Closed form, for a box.
     Cuboid(Box<Cuboid>),
-    /// By a walk over its surface.
+    /// Walk over its surface.
     Walk(Walk),
 }
 
@@ -172,8 +172,8 @@ impl SpheroPolyhedron {
         self.bounding_radius
     }
 
-    /// Largest excess of the compliance of a surface place, by turning, over that of the
-    /// translation: the effective mass is everywhere at least m/(1 + this).
+    /// Largest compliance of a surface place by turning, over that of the translation: the
+    /// effective mass is everywhere at least m/(1 + this).
     pub fn turning_compliance(&self) -> f64 {
         self.turning_compliance
     }

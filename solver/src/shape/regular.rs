@@ -22,7 +22,7 @@ pub enum RegularSolid {
 }
 
 impl RegularSolid {
-    /// All of them, by the number of faces.
+    /// All regular solids, by the number of faces.
     pub const ALL: [Self; 5] = [
         Self::Tetrahedron,
         Self::Cube,

@@ -37,7 +37,7 @@ struct Plane {
 /// A side of a face: the plane through it, normal to the face.
 #[derive(Debug, Clone, PartialEq)]
 struct Rail {
-    /// In the face's plane, unit, into the face.
+    /// Unit vector in the face's plane, into the face.
     inward: Vector3<f64>,
     offset: f64,
     edge: usize,

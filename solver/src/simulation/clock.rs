@@ -26,7 +26,7 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// At the start of a run.
+    /// Clock at the start of a run.
     pub(super) fn start(released_points: u64) -> Self {
         Self {
             time: 0.0,

@@ -30,7 +30,7 @@ pub enum StepStage {
 }
 
 impl StepStage {
-    /// All of them, in order.
+    /// All stages, in order.
     pub const ALL: [Self; 11] = [
         Self::P2g,
         Self::Search,

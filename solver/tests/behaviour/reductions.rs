@@ -11,9 +11,9 @@ use serde_json::json;
 #[derive(Clone, Copy)]
 struct Bounds {
     precision: &'static str,
-    /// Of a body's position [m].
+    /// Difference of a body's position [m].
     body: f64,
-    /// Of a point's position on average [m].
+    /// Mean difference of the points' positions [m].
     points: f64,
 }
 

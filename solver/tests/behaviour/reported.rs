@@ -163,8 +163,8 @@ fn a_plate_divides_a_bed_wherever_it_cuts_the_points() {
     }
 }
 
-// The force on a plate of four cells is the difference of the forces on its sides, each
-// computed without the other: the bed at rest 1.261 N, the part before it the rest of it.
+// The force on a plate of four cells is the sum of those on its two sides, each computed
+// without the other: 1.261 N of the bed at rest, and that of the remaining part before it.
 #[test]
 fn a_thick_plate_feels_both_its_sides() {
     let both = held_back(0.04, 0.05, 0.4);

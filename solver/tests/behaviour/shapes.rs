@@ -15,7 +15,7 @@ fn regular(solid: &str, size_m: f64) -> Value {
     json!({"regular": {"solid": solid, "size_m": size_m}})
 }
 
-/// All of them about 4 cm large.
+/// Shapes of all kinds, about 4 cm large.
 fn shapes() -> Vec<(&'static str, Value)> {
     vec![
         ("box", json!({"box": {"sides_m": [0.02, 0.05, 0.03]}})),

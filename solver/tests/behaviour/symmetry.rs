@@ -14,9 +14,9 @@ use scree_solver::rigid::Body;
 
 struct Bounds {
     precision: &'static str,
-    /// Of lanes and channels [m] and [m/s].
+    /// Differences between lanes and channels [m] and [m/s].
     lanes: f64,
-    /// Of a body against its mirror image [m] and [m/s].
+    /// Differences of a body from its mirror image [m] and [m/s].
     mirror: f64,
 }
 

@@ -16,8 +16,8 @@ fn changed(scene: &Scene, change: impl FnOnce(&mut scree_solver::simulation::Sce
 // Formerly boulder_cluster ended 0.4 s after its bodies had come to rest: points that had run
 // ahead one by one rolled on over the floor, and an isolated spinning point is not held
 // together. It grew by (ω T)² in every step of T, five hundred times in 20 ms, to 1e9 m³,
-// until the squares of such numbers overflowed single precision. The volume of a point alone
-// in its kernel is now limited to that of the kernel.
+// until the squares of such numbers were not finite in single precision. The volume of a point
+// alone in its kernel is now limited to that of the kernel.
 #[test]
 fn a_point_alone_that_spins_keeps_its_volume() {
     for precision in PRECISIONS {

@@ -291,7 +291,7 @@ fn softness_beyond_the_target_is_not_met_by_finer_cells() {
     assert!(reason.contains("sound_speed_m_s"), "{reason}");
 }
 
-/// Values that go on turning, so that a target takes many runs.
+/// Values that keep changing direction, so that a target takes many runs.
 fn turning(cell_size_m: f64) -> f64 {
     0.4 + 4.0 * cell_size_m + 0.2 * cell_size_m * (1e3 * cell_size_m).sin()
 }

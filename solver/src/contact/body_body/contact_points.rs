@@ -153,7 +153,7 @@ struct Nearby {
 /// Two bodies that no face normal separates.
 struct Pair<'a> {
     bodies: [&'a Body; 2],
-    /// From the first body's centre to the second's.
+    /// Vector from the first body's centre to the second's.
     apart: Vec3,
     /// Sphero radii.
     radii: [f64; 2],

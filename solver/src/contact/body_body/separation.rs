@@ -10,7 +10,7 @@ use nalgebra::{Isometry3, Translation3};
 /// positive.
 pub(super) struct Gap {
     pub(super) width: f64,
-    /// From the first body to the second.
+    /// Unit vector from the first body to the second.
     pub(super) direction: Vec3,
     /// Positions along it where the first core ends and the second begins.
     pub(super) first_to: f64,

@@ -116,7 +116,7 @@ pub(super) fn take_in_work(
 }
 
 /// Adds the dissipation of contacts in a sub-step of `dt` that has ended: each body's
-/// velocities are those amid the kick of the damping found.
+/// velocities are those in the middle of the kick by the damping found.
 pub(super) fn take_in_losses(
     members: &mut [Member],
     movers: &[Mover],

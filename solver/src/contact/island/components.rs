@@ -12,7 +12,7 @@ use crate::rigid::{Body, Load};
 enum Seat<'a> {
     /// In an island, at a place among its members.
     Island(usize, usize),
-    /// In none: loads do not move it.
+    /// Outside all islands: loads do not move it.
     Outside(&'a Body),
 }
 

@@ -110,9 +110,9 @@ impl ContactSum {
 /// Compliance of a body to unit forces at all of its contacts.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct BodyCompliance {
-    /// Of translation [1/kg].
+    /// Compliance in translation [1/kg].
     translation: f64,
-    /// Per distance from the centre of mass [1/(kg m)].
+    /// Compliance in rotation per distance from the centre of mass [1/(kg m)].
     rotation: f64,
 }
 

@@ -14,9 +14,9 @@ const DAMPING_CAP: f64 = 0.5;
 /// A point that overlaps a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PointContact {
-    /// From the body's centre to the point [m].
+    /// Vector from the body's centre to the point [m].
     pub(super) arm: Vec3,
-    /// Away from the body.
+    /// Unit normal away from the body.
     normal: Vec3,
     /// Velocity of the point relative to the body's there [m/s].
     velocity: Vec3,
@@ -31,9 +31,9 @@ pub(super) struct PointContact {
 /// Force on a point in contact with a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PointForce {
-    /// From the body's centre to the point [m].
+    /// Vector from the body's centre to the point [m].
     pub(super) arm: Vec3,
-    /// On the point [N].
+    /// Force on the point [N].
     pub(super) force: Vec3,
     /// δ/(R_p + r).
     pub(super) overlap_ratio: f64,

@@ -338,7 +338,7 @@ fn a_point_rebounds_as_asked() {
             speed += push / MASS * DT;
             height += speed * DT / SPHERE.radius;
         }
-        // Of the time step: a twentieth of the contact's time scale.
+        // Error of the time step: a twentieth of the contact's time scale.
         assert!((speed - restitution).abs() < 0.05, "{restitution}: {speed}");
     }
 }

@@ -131,7 +131,7 @@ fn stepped(mut blocks: Blocks, substeps: u32, gravity: &Vec3, level: Level) -> (
     (blocks, spread)
 }
 
-/// The same step on the plain path.
+/// The step computed on the plain path.
 fn plainly_stepped(mut points: Vec<Point>, substeps: u32, gravity: &Vec3) -> Vec<Point> {
     let occupied = points::sort_by_block(&mut points, &lattice());
     let mut grid = Grid::new(lattice());
@@ -167,13 +167,13 @@ fn plainly_stepped(mut points: Vec<Point>, substeps: u32, gravity: &Vec3) -> Vec
 struct Worst {
     /// Cells.
     position: f64,
-    /// Of the largest speed.
+    /// Velocity, over the largest speed.
     velocity: f64,
-    /// Of the largest speed over a quarter of a cell.
+    /// Affine velocity, over the largest speed per quarter of a cell.
     affine: f64,
     /// Relative.
     volume: f64,
-    /// Of the P-wave modulus.
+    /// Stress, over the P-wave modulus.
     stress: f64,
 }
 

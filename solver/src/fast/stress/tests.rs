@@ -11,7 +11,7 @@ const DENSITY: f64 = 1500.0;
 /// A point within a step, and the velocity gradient of its nodes [1/s].
 #[derive(Debug, Clone, Copy)]
 struct State {
-    /// With E = F̂ − 1 for its gradient.
+    /// The point, with E = F̂ − 1 as its gradient.
     record: Packed,
     nodes: [[f32; 3]; 3],
 }

@@ -115,7 +115,7 @@ fn least_widths() {
 
 #[test]
 fn shadows() {
-    // Of a cube the bounding ball's, of a needle that of half its surface.
+    // For a cube that of the bounding ball, for a needle that of half its surface.
     let cube = SpheroPolyhedron::cube(0.04, 0.002).unwrap();
     assert_eq!(cube.shadow_radius(), cube.bounding_radius());
     let needle = SpheroPolyhedron::cuboid([0.5, 0.02, 0.02], 1e-9).unwrap();

@@ -209,9 +209,9 @@ impl OffendingPoint {
 /// A flow between two steps in a checkpoint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum SavedFlow {
-    /// On the plain path.
+    /// Flow on the plain path.
     Plain(Vec<Point>),
-    /// On the fast path.
+    /// Flow on the fast path.
     Fast(Blocks),
     /// A share of it.
     Share(Share, Box<SavedFlow>),

@@ -96,8 +96,8 @@ impl Columns {
         places.any(|place| among(&self.place(place, &scenario.channel, &release)))
     }
 
-    /// As close to the given points per cell as whole numbers allow, the volume being exact: across
-    /// the channel every cell has the same number.
+    /// Columns as close to the given points per cell as whole numbers allow, the volume being
+    /// exact: across the channel every cell has the same number.
     pub(in crate::simulation) fn of(
         scenario: &Scenario,
         lattice: &Lattice,

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Share {
-    /// All of it.
+    /// The whole flow.
     Whole,
     /// The right half, y ≤ 0, before a mirror in the centre plane.
     Half,
@@ -53,9 +53,9 @@ impl Share {
 /// Computed shares of a flow, one after the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shares {
-    /// At the start.
+    /// Share at the start.
     pub first: Share,
-    /// Once the flow has come near a body.
+    /// Share once the flow has come near a body.
     pub last: Share,
     /// Division of the whole release into points.
     pub columns: Columns,
