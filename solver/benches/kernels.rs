@@ -8,19 +8,21 @@ use scree_solver::Instructions;
 use scree_solver::contact::body_body::ContactPair;
 use scree_solver::contact::island::{self, BodyReport, Surroundings};
 use scree_solver::contact::law::ContactLaw;
-use scree_solver::fast::blocks::{Block, Blocks};
-use scree_solver::fast::packing::Packing;
-use scree_solver::fast::passes;
-use scree_solver::fast::rows::Tile;
-use scree_solver::fast::stress::{self, Law};
-use scree_solver::grid::{BLOCK, Grid};
+use scree_solver::grid::BLOCK;
 use scree_solver::kernel::Lattice;
 use scree_solver::material::{Material, Yielding};
 use scree_solver::math::{Mat3, Sym3, Vec3};
-use scree_solver::points::{self, Deformation, Point};
+use scree_solver::mpm::blocks::{Block, Blocks};
+use scree_solver::mpm::constitutive::Law;
+use scree_solver::mpm::deformation::strain;
+use scree_solver::mpm::lanes::{Real, Splat};
+use scree_solver::mpm::p2g::{residual_transfer, scatter_momentum};
+use scree_solver::mpm::packing::Packing;
+use scree_solver::mpm::rows::Tile;
+use scree_solver::mpm::stress_update::update_stress;
+use scree_solver::points::Point;
 use scree_solver::rigid::{Body, BodyState, Freedom, InverseInertia, Load};
 use scree_solver::shape::{RegularSolid, SharpPolyhedron, SpheroPolyhedron};
-use scree_solver::transfer;
 use scree_solver::walls::Plane;
 use std::hint::black_box;
 
@@ -53,8 +55,8 @@ const MATERIAL: Material = Material {
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
-    fast_block(&mut criterion);
-    plain_block(&mut criterion);
+    block::<f32>(&mut criterion, "single");
+    block::<f64>(&mut criterion, "double");
     closest_feature(&mut criterion);
     bodies_substep(&mut criterion);
     criterion.final_summary();
@@ -85,8 +87,8 @@ fn points_of_a_block() -> Vec<Point> {
     (0..SIDE.pow(3)).map(point).collect()
 }
 
-/// A full block on the fast path, with the motion of the nodes that it causes.
-fn block_and_motion(law: &Law) -> (Block, Tile) {
+/// A full block, with the motion of the nodes that it causes.
+fn block_and_motion<R: Real>(law: &Law<R>) -> (Block<R>, Tile<R>) {
     let packing = Packing {
         lattice: LATTICE,
         material: MATERIAL,
@@ -97,12 +99,13 @@ fn block_and_motion(law: &Law) -> (Block, Tile) {
     assert_eq!(block.count(), points.len(), "one block holds them all");
     let mut motion = Tile::EMPTY;
     let level = Instructions::detected().level();
-    dispatch!(level, simd => passes::transfer(simd, block, law, &mut motion));
+    dispatch!(level, simd => scatter_momentum(simd, block, law, &mut motion));
     for place in 0..motion.0.len() / 4 {
         let node = motion.node_mut(place);
-        if node[0] > 0.0 {
+        if node[0] > R::ZERO {
             for k in 1..4 {
-                node[k] /= node[0];
+                let mass = node[0];
+                node[k] /= mass;
             }
         }
     }
@@ -114,8 +117,8 @@ fn on_a_copy<T: Clone, O>(bencher: &mut Bencher, of: &T, work: impl FnMut(&mut T
     bencher.iter_batched_ref(|| of.clone(), work, BatchSize::SmallInput);
 }
 
-fn fast_block(criterion: &mut Criterion) {
-    let law = Law::of(&MATERIAL, &LATTICE.spacing);
+fn block<R: Real>(criterion: &mut Criterion, precision: &str) {
+    let law = Law::<R>::of(&MATERIAL, &LATTICE.spacing);
     let (block, motion) = block_and_motion(&law);
     let sets = [
         Instructions::Baseline,
@@ -125,7 +128,7 @@ fn fast_block(criterion: &mut Criterion) {
     let best = Instructions::detected();
     for set in sets.into_iter().filter(|set| *set <= best) {
         let level = set.level();
-        let mut group = criterion.benchmark_group(format!("fast block, {set}"));
+        let mut group = criterion.benchmark_group(format!("block, {precision}, {set}"));
         group.throughput(Throughput::Elements(block.count() as u64));
         group.bench_function("stress", |bencher| {
             on_a_copy(bencher, &block, |block| {
@@ -135,8 +138,8 @@ fn fast_block(criterion: &mut Criterion) {
         group.bench_function("gather, stress, scatter", |bencher| {
             let mut force = Tile::EMPTY;
             on_a_copy(bencher, &block, |block| {
-                let (dt, force) = (DT as f32, &mut force);
-                dispatch!(level, simd => passes::substep(simd, block, &law, dt, &motion, force));
+                let (dt, force) = (R::of(DT), &mut force);
+                dispatch!(level, simd => update_stress(simd, block, &law, dt, &motion, force));
             });
         });
         group.bench_function("transfer", |bencher| {
@@ -144,8 +147,8 @@ fn fast_block(criterion: &mut Criterion) {
             on_a_copy(bencher, &block, |block| {
                 let (momentum, force) = (&mut momentum, &mut force);
                 dispatch!(level, simd => {
-                    passes::transfer(simd, block, &law, momentum);
-                    passes::residual_transfer(simd, block, &law, &motion, momentum, force);
+                    scatter_momentum(simd, block, &law, momentum);
+                    residual_transfer(simd, block, &law, &motion, momentum, force);
                 });
             });
         });
@@ -154,60 +157,13 @@ fn fast_block(criterion: &mut Criterion) {
 }
 
 #[inline(always)]
-fn stress_of_block<S: fearless_simd::Simd>(simd: S, block: &mut Block, law: &Law) {
-    use fearless_simd::{f32x16, prelude::*};
-    let none = f32x16::splat(simd, 0.0);
-    let mut gradient = [[none; 3]; 3];
-    gradient[0][2] = f32x16::splat(simd, 2.0);
+fn stress_of_block<S: fearless_simd::Simd, R: Real>(simd: S, block: &mut Block<R>, law: &Law<R>) {
+    let number = Splat::<S, R>::new(simd);
+    let mut gradient = [[number.of(0.0); 3]; 3];
+    gradient[0][2] = number.of(2.0);
     for (chunk, _) in block.chunks_mut() {
-        black_box(stress::strain(simd, chunk, &gradient, law, DT as f32).volumetric_strain);
+        black_box(strain(simd, chunk, &gradient, law, R::of(DT)).volumetric_strain);
     }
-}
-
-fn plain_block(criterion: &mut Criterion) {
-    let mut points = points_of_a_block();
-    let occupied = points::sort_by_block(&mut points, &LATTICE);
-    let mut grid = Grid::new(LATTICE);
-    grid.reset_around(&occupied);
-    transfer::scatter_momentum(&points, &mut grid);
-    let mut deformations: Vec<_> = points.iter().map(Deformation::start).collect();
-    transfer::gather_gradient(&grid, &points, DT, &mut deformations);
-    let contact = vec![Vec3::zeros(); points.len()];
-
-    let mut group = criterion.benchmark_group("plain block");
-    group.throughput(Throughput::Elements(points.len() as u64));
-    group.bench_function("stress", |bencher| {
-        on_a_copy(bencher, &points, |points| {
-            points::update_stress(
-                points,
-                &deformations,
-                &MATERIAL,
-                LATTICE.finest_spacing(),
-                DT,
-            );
-        });
-    });
-    group.bench_function("gather, stress, scatter", |bencher| {
-        let state = (points.clone(), deformations.clone());
-        on_a_copy(bencher, &state, |(points, deformations)| {
-            transfer::gather_gradient(&grid, points, DT, deformations);
-            points::update_stress(
-                points,
-                deformations,
-                &MATERIAL,
-                LATTICE.finest_spacing(),
-                DT,
-            );
-            transfer::scatter_forces(points, deformations, &contact, &mut grid);
-        });
-    });
-    group.bench_function("transfer", |bencher| {
-        bencher.iter(|| {
-            transfer::scatter_momentum(black_box(&points), &mut grid);
-            transfer::residual_transfer(&points, MATERIAL.bulk_density, &mut grid);
-        });
-    });
-    group.finish();
 }
 
 fn cube() -> SpheroPolyhedron {

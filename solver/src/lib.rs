@@ -9,31 +9,29 @@
 //! y across (0 on the centre line), z up (0 on the floor).
 
 pub mod accuracy;
+pub mod available_volume;
 pub mod body_energy;
 pub mod contact;
 pub mod diagnostics;
 pub mod error;
-pub mod fast;
 pub mod grid;
 pub mod kernel;
 pub mod material;
 pub mod math;
 pub mod motion;
+pub mod mpm;
 pub mod plan;
 pub mod points;
 pub mod record;
-pub mod redistribution;
 pub mod rigid;
 pub mod scenario;
 pub mod shape;
 pub mod simulation;
 pub mod stability;
-pub mod strain_rate_smoothing;
-pub mod transfer;
 pub mod walls;
 
 pub use error::{Mover, RestoreError, SaveError, SetupError, StepError};
-pub use fast::instructions::Instructions;
+pub use mpm::instructions::Instructions;
 pub use simulation::{Ending, Simulation, StageTimer, StepStage, SubstepReport};
 
 /// Version of this crate, part of every answer.

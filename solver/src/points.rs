@@ -1,12 +1,8 @@
-//! The material points: the state of the flow (docs/method.md, equations 2 and 11).
+//! The material points: the state of the flow.
 
-use crate::grid::{BlockKey, block_of};
-use crate::kernel::Lattice;
 use crate::material::Material;
-use crate::math::{Mat3, Sym3, Vec3, inverted};
-use rayon::prelude::*;
+use crate::math::{Mat3, Sym3, Vec3};
 use serde::{Deserialize, Serialize};
-use std::ops::Range;
 
 /// A material point between two steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -74,107 +70,4 @@ impl Point {
             .into_iter()
             .find_map(|(name, finite)| (!finite).then_some(name))
     }
-}
-
-/// A point's state within one step, while the weights stay constant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Deformation {
-    /// Deformation since the transfer, F̂.
-    pub gradient: Mat3,
-    /// Its inverse; NaN once the point has turned inside out, which ends the run.
-    pub inverse: Mat3,
-    /// Volume over that at the transfer, det F̂.
-    pub volume_ratio: f64,
-    /// Velocity gradient with respect to the present positions, L [1/s].
-    pub velocity_gradient: Mat3,
-    /// Volume at the transfer [m³].
-    pub transfer_volume: f64,
-    /// Smoothed part of the effective strain rate [1/s], a deviator.
-    pub shared: Sym3,
-}
-
-impl Deformation {
-    /// State at a transfer.
-    pub fn start(point: &Point) -> Self {
-        Self {
-            gradient: Mat3::identity(),
-            inverse: Mat3::identity(),
-            volume_ratio: 1.0,
-            velocity_gradient: Mat3::zeros(),
-            transfer_volume: point.volume,
-            shared: Sym3::default(),
-        }
-    }
-
-    /// min(1, det F̂) F̂⁻¹: the inverse, except for a point that has been compressed: its kernel
-    /// keeps its size, and would carry a steeper gradient as far as before.
-    pub fn inverse_at_most(&self) -> Mat3 {
-        self.inverse * self.volume_ratio.min(1.0)
-    }
-
-    /// F̂ ← F̂ + Δt Σ v_i ⊗ ∇w_i, with the velocity gradient L = (Σ v_i ⊗ ∇w_i) F̂⁻¹.
-    pub fn advance(&mut self, gradient_at_transfer: &Mat3, dt: f64) {
-        self.velocity_gradient = gradient_at_transfer * self.inverse;
-        self.gradient += gradient_at_transfer * dt;
-        let (determinant, inverse) = inverted(&self.gradient);
-        self.volume_ratio = determinant;
-        self.inverse = if determinant > 0.0 { inverse } else { INVALID };
-    }
-}
-
-const INVALID: Mat3 = {
-    const N: f64 = f64::NAN;
-    Mat3::new(N, N, N, N, N, N, N, N, N)
-};
-
-/// Volume V = V_transfer det F̂ and stress of every point after a sub-step, on
-/// cells of this size [m].
-pub fn update_stress(
-    points: &mut [Point],
-    deformations: &[Deformation],
-    material: &Material,
-    cell_size: f64,
-    dt: f64,
-) {
-    let bulk_viscosity = material.bulk_viscosity(cell_size);
-    points
-        .par_iter_mut()
-        .zip(deformations)
-        .for_each(|(point, deformation)| {
-            point.volume = deformation.transfer_volume * deformation.volume_ratio;
-            point.stress = material.stress(
-                &point.stress,
-                &(deformation.velocity_gradient + deformation.shared.matrix()),
-                point.density(),
-                bulk_viscosity,
-                dt,
-            );
-        });
-}
-
-/// Re-sorts the points by block (their order within a block is kept) and returns the occupied
-/// blocks.
-pub fn sort_by_block(points: &mut Vec<Point>, lattice: &Lattice) -> Vec<(BlockKey, Range<usize>)> {
-    let mut order: Vec<(BlockKey, u32)> = points
-        .iter()
-        .zip(0u32..)
-        .map(|(point, place)| (block_of(lattice.base(&point.position)), place))
-        .collect();
-    // Stable, so that the order depends on the state alone; nearly sorted, so that it costs
-    // little.
-    order.sort_by_key(|(key, _)| *key);
-    if order.iter().zip(0u32..).any(|((_, from), to)| *from != to) {
-        *points = order
-            .iter()
-            .map(|(_, from)| points[*from as usize])
-            .collect();
-    }
-    let mut occupied: Vec<(BlockKey, Range<usize>)> = Vec::new();
-    for (place, (key, _)) in order.iter().enumerate() {
-        match occupied.last_mut() {
-            Some((last, range)) if last == key => range.end = place + 1,
-            _ => occupied.push((*key, place..place + 1)),
-        }
-    }
-    occupied
 }

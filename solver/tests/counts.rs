@@ -67,17 +67,17 @@ fn heap_round_a_cube() -> Scenario {
 const WARM_UP: u64 = 2000;
 const COUNTED: u64 = 400;
 
-type ByVerb = [u64; StepStage::ALL.len()];
+type ByStage = [u64; StepStage::ALL.len()];
 
 static SO_FAR: [AtomicU64; StepStage::ALL.len()] =
     [const { AtomicU64::new(0) }; StepStage::ALL.len()];
 
-fn so_far() -> ByVerb {
+fn so_far() -> ByStage {
     SO_FAR.each_ref().map(|of| of.load(Ordering::Relaxed))
 }
 
 /// Allocations of a steady run, stage by stage.
-fn counted(threads: usize) -> ByVerb {
+fn counted(threads: usize) -> ByStage {
     let mut simulation = Simulation::new(&heap_round_a_cube(), threads).expect("it fits");
     let mut last = 0;
     simulation.time_stages(Box::new(move |stage| {
@@ -85,7 +85,7 @@ fn counted(threads: usize) -> ByVerb {
         SO_FAR[stage as usize].fetch_add(now - last, Ordering::Relaxed);
         last = now;
     }));
-    let (mut before, mut steps, mut touching) = (ByVerb::default(), 0, 0);
+    let (mut before, mut steps, mut touching) = (ByStage::default(), 0, 0);
     let ending = simulation.run(f64::INFINITY, |simulation, report| {
         if report.substeps == WARM_UP {
             (before, steps) = (so_far(), report.steps);
@@ -105,7 +105,7 @@ fn counted(threads: usize) -> ByVerb {
 }
 
 /// Counts on one thread and on two. One count at a time: all threads are counted.
-static COUNTS: LazyLock<[ByVerb; 2]> = LazyLock::new(|| [1, 2].map(counted));
+static COUNTS: LazyLock<[ByStage; 2]> = LazyLock::new(|| [1, 2].map(counted));
 
 // Only a flow that grows into new blocks, or bodies in contact with more points than ever
 // before, may need memory.

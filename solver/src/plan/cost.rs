@@ -1,11 +1,11 @@
 //! Points, steps and memory of a run.
 
 use super::course::Course;
-use crate::fast::chunk::{Chunk, LANES};
-use crate::fast::nodes::NodeBlock;
-use crate::fast::rows::Tile as FastTile;
-use crate::grid::{BLOCK, BLOCK_NODES, Node, Tile};
-use crate::points::{Deformation, Point};
+use crate::grid::BLOCK;
+use crate::mpm::chunk::Chunk;
+use crate::mpm::lanes::Real;
+use crate::mpm::nodes::NodeBlock;
+use crate::mpm::rows::Tile;
 use crate::scenario::{Ending, Precision, Scenario};
 use crate::simulation::{Columns, Outline, Share};
 use crate::stability::{self, Limits};
@@ -137,24 +137,21 @@ fn memory(scenario: &Scenario, outline: &Outline, points: u64, computed: u64) ->
     let cells = 0.5 * f64::from(outline.given.walls.vertical_walls.halves_across);
     let share = computed as f64 / points.max(1) as f64;
     let blocks = Blocks::of_release(scenario, outline, share * cells);
-    let points = computed;
-    let (points, spread) = (points as f64, |blocks: f64| SPREADING * blocks);
-    let (of_points, of_grid) = match scenario.numerics.precision {
-        Precision::Single => {
-            // Every block's last chunk is half full, on average.
-            let chunks = points / LANES as f64 + 0.5 * spread(blocks.of_points);
-            let tiles = 2.0 * spread(blocks.of_points) * size_of::<FastTile>() as f64;
-            let nodes = 3.0 * spread(blocks.of_nodes) * size_of::<NodeBlock>() as f64;
-            (chunks * size_of::<Chunk>() as f64, tiles + nodes)
-        }
-        Precision::Double => {
-            let point = size_of::<Point>() + size_of::<Deformation>() + 3 * size_of::<f64>();
-            let tiles = spread(blocks.of_points) * size_of::<Tile>() as f64;
-            let nodes = spread(blocks.of_nodes) * (BLOCK_NODES * size_of::<Node>()) as f64;
-            (points * point as f64, tiles + nodes)
-        }
+    let of_precision = match scenario.numerics.precision {
+        Precision::Single => memory_of::<f32>,
+        Precision::Double => memory_of::<f64>,
     };
-    (of_points + of_grid) as u64
+    of_precision(computed, &blocks) as u64
+}
+
+/// Bytes for so many points that spread from these blocks.
+fn memory_of<R: Real>(points: u64, blocks: &Blocks) -> f64 {
+    let spread = |blocks: f64| SPREADING * blocks;
+    // Every block's last chunk is half full, on average.
+    let chunks = points as f64 / R::LANES as f64 + 0.5 * spread(blocks.of_points);
+    let tiles = 2.0 * spread(blocks.of_points) * size_of::<Tile<R>>() as f64;
+    let nodes = 3.0 * spread(blocks.of_nodes) * size_of::<NodeBlock<R>>() as f64;
+    chunks * size_of::<Chunk<R>>() as f64 + tiles + nodes
 }
 
 /// Numbers of blocks at the start.

@@ -15,8 +15,8 @@ use crate::contact::island::{self, BodyReport};
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::{RestoreError, SaveError, SetupError, StepError};
-use crate::fast::instructions::Instructions;
 use crate::math::Vec3;
+use crate::mpm::instructions::Instructions;
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::Scenario;
@@ -120,7 +120,7 @@ impl Simulation {
     /// Threads that can't be started.
     pub fn of_scene(scene: Scene, threads: usize) -> Result<Self, SetupError> {
         let pool = start_threads(threads)?;
-        let flow = flow::start(scene.points, &scene.given, scene.precision, scene.shares);
+        let flow = flow::start(&scene.points, &scene.given, scene.precision, scene.shares);
         let mut simulation = Self::assemble(scene.given, flow, scene.bodies, pool);
         simulation.state.clock.volume_left_out = scene.volume_left_out;
         simulation.start_audit();

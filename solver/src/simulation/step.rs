@@ -8,10 +8,10 @@ use crate::contact::island;
 use crate::contact::point_body::impulse_on_flow;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
-use crate::redistribution::RedistributionRates;
+use crate::mpm::redistribution::RedistributionRates;
+use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use crate::rigid::{Body, Load};
 use crate::stability::{self, Pace};
-use crate::strain_rate_smoothing::StrainRateSmoothing;
 
 /// Number of body sub-steps above which the sub-step is shortened.
 const MANY_BODY_SUBSTEPS: f64 = 10_000.0;

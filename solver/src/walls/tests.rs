@@ -1,5 +1,5 @@
 use super::*;
-use crate::grid::{Grid, block_of};
+use crate::grid::fixture::PlainGrid;
 use crate::kernel::Lattice;
 
 pub(super) const H: f64 = 0.01;
@@ -39,37 +39,29 @@ pub(super) fn channel(cells_across: i32, base_friction: f64, side_friction: f64)
 }
 
 /// A grid round a few blocks with mass 1 at these nodes, with these velocities.
-pub(super) fn grid_with(nodes: &[([i32; 3], Vec3)]) -> Grid {
+pub(super) fn grid_with(nodes: &[([i32; 3], Vec3)]) -> PlainGrid {
     let lattice = Lattice {
         origin: Vec3::zeros(),
         spacing: Vec3::repeat(H),
     };
-    let mut grid = Grid::new(lattice);
-    let mut occupied: Vec<_> = nodes
-        .iter()
-        .map(|(node, _)| (block_of(*node), 0..0))
-        .collect();
-    occupied.sort_unstable_by_key(|(key, _)| *key);
-    occupied.dedup();
-    grid.reset_around(&occupied);
+    let mut grid = PlainGrid::around(lattice, nodes.iter().map(|(index, _)| *index));
     for (index, velocity) in nodes {
-        let place = grid.place_of(*index).expect("its block is there");
-        let node = grid.node_mut(place);
+        let node = grid.node(*index);
         (node.mass, node.velocity) = (1.0, *velocity);
     }
     grid
 }
 
-pub(super) fn velocity(grid: &Grid, index: [i32; 3]) -> Vec3 {
-    grid.nodes()[grid.place_of(index).expect("its block is there")].velocity
+pub(super) fn velocity(grid: &PlainGrid, index: [i32; 3]) -> Vec3 {
+    grid.nodes[grid.place_of(index).expect("its block is there")].velocity
 }
 
 /// Constrains, and checks that the reported impulse of the walls is the change of momentum.
-pub(super) fn constrained(walls: &Walls, grid: &mut Grid) -> Impulse {
-    let momentum = |grid: &Grid| {
+pub(super) fn constrained(walls: &Walls, grid: &mut PlainGrid) -> Impulse {
+    let momentum = |grid: &PlainGrid| {
         let mut sum = Impulse::default();
-        for (place, node) in grid.nodes().iter().enumerate() {
-            let at = grid.lattice().position(grid.index_of(place)) + node.displacement;
+        for (place, node) in grid.nodes.iter().enumerate() {
+            let at = grid.lattice.position(grid.index_of(place)) + node.displacement;
             sum.add_at(&at, &(node.velocity * node.mass));
         }
         sum

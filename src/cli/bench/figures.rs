@@ -6,7 +6,7 @@ use super::size::Size;
 use crate::cli::charts::write_charts;
 use crate::cli::failure::Failure;
 use scree::pictures::{Axis, Chart, Curve, Scale};
-use scree_solver::fast::cost::{BYTES, OPERATIONS};
+use scree_solver::mpm::cost::{BYTES, OPERATIONS};
 use std::path::Path;
 
 /// Ends of the roofline picture's lower axis [operations/byte].

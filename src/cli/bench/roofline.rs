@@ -12,7 +12,7 @@ use crate::cli::failure::Failure;
 use crate::cli::machine::one_and_all;
 use fearless_simd::{Level, dispatch, f32x16, prelude::*};
 use scree_solver::Instructions;
-use scree_solver::fast::cost::{BYTES, OPERATIONS};
+use scree_solver::mpm::cost::{BYTES, OPERATIONS};
 use serde::Serialize;
 use std::hint::black_box;
 use std::sync::Barrier;

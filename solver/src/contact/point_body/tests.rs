@@ -2,11 +2,13 @@ use super::effective_mass::ContactSum;
 use super::force::PointContact;
 use super::*;
 use crate::contact::law::ContactLaw;
-use crate::grid::{Grid, block_of};
+use crate::grid::block_of;
+use crate::grid::fixture::PlainGrid;
 use crate::kernel::{Lattice, Stencil};
 use crate::rigid::InverseInertia;
 use crate::rigid::fixture::{cuboid, of_shape};
 use crate::shape::{Feature, RegularSolid, SharpPolyhedron};
+use crate::walls::NodeAccess;
 use crate::walls::Plane;
 use nalgebra::UnitQuaternion;
 
@@ -36,19 +38,13 @@ const DT: f64 = 1e-5;
 struct Cloud {
     positions: Vec<Vec3>,
     velocity: Vec3,
-    grid: Grid,
+    grid: PlainGrid,
 }
 
 impl Cloud {
     fn new(positions: Vec<Vec3>, velocity: Vec3) -> Self {
-        let mut grid = Grid::new(lattice());
-        let mut blocks: Vec<_> = positions
-            .iter()
-            .map(|place| (block_of(lattice().base(place)), 0..0))
-            .collect();
-        blocks.sort_unstable_by_key(|(key, _)| *key);
-        blocks.dedup();
-        grid.reset_around(&blocks);
+        let lowest = positions.iter().map(|place| lattice().base(place));
+        let grid = PlainGrid::around(lattice(), lowest);
         let mut cloud = Self {
             positions,
             velocity,
@@ -56,7 +52,7 @@ impl Cloud {
         };
         for place in 0..cloud.positions.len() {
             for (node, weight) in cloud.stencil(place) {
-                cloud.grid.node_mut(node as usize).mass += weight * MASS;
+                cloud.grid.nodes[node as usize].mass += weight * MASS;
             }
         }
         cloud
@@ -366,14 +362,14 @@ fn braking_makes_no_energy_however_light_the_body() {
         loads.find_candidates(&cloud, std::slice::from_ref(&body), REACH);
         cloud.loads(std::slice::from_ref(&body), &mut loads, 0.0);
         // Energy of the points through the grid, and of the body.
-        let mut impulses = vec![Vec3::zeros(); cloud.grid.nodes().len()];
+        let mut impulses = vec![Vec3::zeros(); cloud.grid.nodes.len()];
         for (point, force) in &loads.on_points {
             for (node, weight) in cloud.stencil(*point) {
                 impulses[node as usize] += force * (weight * DT);
             }
         }
         let mut change = 0.0;
-        for (node, impulse) in cloud.grid.nodes().iter().zip(&impulses) {
+        for (node, impulse) in cloud.grid.nodes.iter().zip(&impulses) {
             if node.mass > 0.0 {
                 change += impulse.dot(&(velocity + impulse / (2.0 * node.mass)));
             }

@@ -1,28 +1,27 @@
-//! The flow of a run and the stages of its step, on one of two paths: the plain
-//! one in double precision, the reference, and the fast one in single.
+//! The flow of a run and the stages of its step, in single or double precision.
 
-mod fast;
+mod block_flow;
 mod images;
-mod plain;
+mod no_flow;
 mod shared;
 
-use super::setup::{GivenFlow, Setup, Share, Shares};
+use super::setup::{Setup, Share, Shares};
 use super::stages::StageEnds;
 use crate::contact::point_body::{Around, FlowLoad, PenetratingPoint, Reach};
 use crate::diagnostics::Totals;
-use crate::fast::blocks::Blocks;
-use crate::fast::instructions::Instructions;
+use crate::mpm::blocks::Blocks;
+use crate::mpm::instructions::Instructions;
+use crate::mpm::redistribution::{RedistributionRates, Shifting};
+use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use crate::points::Point;
-use crate::redistribution::{RedistributionRates, Shifting};
 use crate::rigid::Body;
 use crate::scenario::Precision;
-use crate::strain_rate_smoothing::StrainRateSmoothing;
 use crate::walls::{Impulse, Plane};
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 
-pub(super) use fast::FastFlow;
-pub(super) use plain::PlainFlow;
+use block_flow::BlockFlow;
+use no_flow::NoFlow;
 use shared::SharedFlow;
 
 /// A granular flow: its points, its grid, and the forces of bodies on it.
@@ -209,10 +208,12 @@ impl OffendingPoint {
 /// A flow between two steps in a checkpoint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum SavedFlow {
-    /// Flow on the plain path.
-    Plain(Vec<Point>),
-    /// Flow on the fast path.
-    Fast(Blocks),
+    /// None at all.
+    None,
+    /// In single precision.
+    Single(Blocks<f32>),
+    /// In double precision.
+    Double(Blocks<f64>),
     /// A share of it.
     Share(Share, Box<SavedFlow>),
 }
@@ -221,8 +222,9 @@ impl SavedFlow {
     /// The restored flow of a run that computes these shares of it.
     pub(super) fn restored(self, given: &Setup, shares: Option<Shares>) -> Box<dyn Flow> {
         match (self, shares) {
-            (Self::Plain(points), _) => Box::new(PlainFlow::new(points, given)),
-            (Self::Fast(blocks), _) => Box::new(FastFlow::restored(blocks, given)),
+            (Self::None, _) => Box::new(NoFlow),
+            (Self::Single(blocks), _) => Box::new(BlockFlow::restored(blocks, given)),
+            (Self::Double(blocks), _) => Box::new(BlockFlow::restored(blocks, given)),
             (Self::Share(share, flow), Some(shares)) => {
                 Box::new(SharedFlow::restored(*flow, share, shares, given))
             }
@@ -232,8 +234,8 @@ impl SavedFlow {
 
     fn precision(&self) -> Precision {
         match self {
-            Self::Plain(_) => Precision::Double,
-            Self::Fast(_) => Precision::Single,
+            Self::None | Self::Double(_) => Precision::Double,
+            Self::Single(_) => Precision::Single,
             Self::Share(_, flow) => flow.precision(),
         }
     }
@@ -241,7 +243,7 @@ impl SavedFlow {
 
 /// A flow of these points in the precision asked for, with these computed shares.
 pub(super) fn start(
-    points: Vec<Point>,
+    points: &[Point],
     given: &Setup,
     precision: Precision,
     shares: Option<Shares>,
@@ -253,13 +255,10 @@ pub(super) fn start(
 }
 
 /// A flow that is computed as a whole.
-fn plainly(points: Vec<Point>, given: &Setup, precision: Precision) -> Box<dyn Flow> {
-    // The fast path supports granular materials only.
-    let granular = |flow: &GivenFlow| flow.material.is_granular();
-    match precision {
-        Precision::Single if given.flow.as_ref().is_some_and(granular) => {
-            Box::new(FastFlow::new(&points, given))
-        }
-        _ => Box::new(PlainFlow::new(points, given)),
+fn plainly(points: &[Point], given: &Setup, precision: Precision) -> Box<dyn Flow> {
+    match (given.flow.is_some(), precision) {
+        (false, _) => Box::new(NoFlow),
+        (true, Precision::Single) => Box::new(BlockFlow::<f32>::new(points, given)),
+        (true, Precision::Double) => Box::new(BlockFlow::<f64>::new(points, given)),
     }
 }

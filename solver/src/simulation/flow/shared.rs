@@ -7,7 +7,7 @@ use super::{
 };
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::Totals;
-use crate::fast::instructions::Instructions;
+use crate::mpm::instructions::Instructions;
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::Precision;
@@ -34,7 +34,7 @@ pub(in crate::simulation) struct SharedFlow {
 impl SharedFlow {
     /// A flow of the points of the first share.
     pub(super) fn start(
-        points: Vec<Point>,
+        points: &[Point],
         shares: Shares,
         whole: &Setup,
         precision: Precision,
@@ -63,7 +63,7 @@ impl SharedFlow {
         planes.push(*given.walls.vertical_walls.sides[1].plane());
         Self {
             planes,
-            flow: plainly(Vec::new(), &given, precision),
+            flow: plainly(&[], &given, precision),
             images: Images::of_share(share, &shares.columns, whole),
             share,
             shares,
@@ -103,7 +103,7 @@ impl SharedFlow {
         let shares = self.shares.clone();
         *self = Self::of(wider, shares, whole, self.precision);
         self.on_bodies = on_bodies;
-        self.flow = plainly(points, &self.given, self.precision);
+        self.flow = plainly(&points, &self.given, self.precision);
         instructions
             .into_iter()
             .for_each(|best| self.limit_instructions(best));

@@ -7,6 +7,7 @@ use crate::error::SetupError;
 use crate::kernel::Lattice;
 use crate::material::Material;
 use crate::math::{Mat3, Sym3, Vec3};
+use crate::mpm::constitutive::at_rest;
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::{Channel, ReleaseBox, Scenario};
@@ -255,11 +256,7 @@ impl Start<'_> {
             - (Mat3::identity() - across) * (lateral * normal_stress)
             + (down * normal.transpose() + normal * down.transpose()) * shear_stress;
         let pressure = (1.0 + 2.0 * lateral) * normal_stress / 3.0;
-        // Yielding over a long time leaves the shear stress that friction at rest can bear.
-        const AT_REST: f64 = 1e3;
-        point.stress = self
-            .material
-            .yielded(&Sym3::of(&stress).deviator(), pressure, AT_REST);
+        point.stress = at_rest(self.material, &Sym3::of(&stress).deviator(), pressure);
         point.volume = point.mass / self.material.density(pressure);
     }
 

@@ -1,0 +1,211 @@
+//! Transfer from grid to points (G2P): the last strain of a step, the motion of the points, and
+//! their redistribution (docs/method.md, equations 12, 13 and 39–42c).
+
+use super::blocks::Block;
+use super::constitutive::Law;
+use super::deformation::{Matrix, strain};
+use super::lanes::{Real, Splat, load};
+use super::redistribution::{
+    NoShiftZone, PointState, RedistributionRates, ShiftingSums, excess_volume_fraction,
+    redistribute,
+};
+use super::rows::{Moments, Quads, Tile, gather_mean};
+use super::stencil::Stencils;
+use super::stress_update::velocity_gradient;
+use super::totals::EndSums;
+use crate::grid::BLOCK;
+use crate::kernel::Lattice;
+use crate::math::Vec3;
+use fearless_simd::prelude::*;
+
+/// The nodes' state as a block of points sees it at the end of a step.
+pub struct EndTiles<R> {
+    /// Excess volume fraction and velocity.
+    pub motion: Tile<R>,
+    /// Mean compressive strain and displacement.
+    pub displacement: Tile<R>,
+    /// Fullness at first, then displacement × velocity.
+    pub twist: Tile<R>,
+}
+
+impl<R: Real> EndTiles<R> {
+    /// All zero.
+    pub const EMPTY: Self = Self {
+        motion: Tile::EMPTY,
+        displacement: Tile::EMPTY,
+        twist: Tile::EMPTY,
+    };
+
+    /// Fills in excess volume fraction and twist of the nodes.
+    #[inline(always)]
+    pub fn cross(&mut self) {
+        let nodes = self
+            .motion
+            .0
+            .chunks_exact_mut(4)
+            .zip(self.displacement.0.chunks_exact(4));
+        for (twist, (v, u)) in self.twist.0.chunks_exact_mut(4).zip(nodes) {
+            v[0] = R::of(excess_volume_fraction(twist[0].to_f64()));
+            twist[1] = u[2] * v[3] - u[3] * v[2];
+            twist[2] = u[3] * v[1] - u[1] * v[3];
+            twist[3] = u[1] * v[2] - u[2] * v[1];
+        }
+    }
+}
+
+/// End of a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Ending<'a, R: Real> {
+    /// Law of the points' material.
+    pub law: &'a Law<R>,
+    /// Lattice of the nodes.
+    pub lattice: &'a Lattice,
+    /// Length of the last sub-step [s].
+    pub dt: R,
+    /// Rates at which the points are kept evenly spread.
+    pub redistribution: &'a RedistributionRates,
+    /// The base planes.
+    pub no_shift_zones: &'a [NoShiftZone<R>],
+    /// Mass that fills the largest volume a point can have [kg].
+    pub roomiest: R,
+}
+
+/// The last sub-step of a step, and the motion back to the points (equations 12
+/// and 13).
+#[inline(always)]
+pub fn gather_motion<S: Simd, R: Real>(
+    simd: S,
+    block: &mut Block<R>,
+    ending: &Ending<R>,
+    nodes: &EndTiles<R>,
+) {
+    let Ending {
+        law,
+        lattice,
+        dt,
+        redistribution,
+        no_shift_zones,
+        roomiest,
+    } = *ending;
+    let number = Splat::<S, R>::new(simd);
+    let spacing = &lattice.spacing;
+    let mut moments = Moments::EMPTY;
+    let mut displacement = Quads::EMPTY;
+    let mut twist = Quads::EMPTY;
+    let mut sums = EndSums::NONE;
+    let mut spread = ShiftingSums::NONE;
+    let key = block.key;
+    for (chunk, count) in block.chunks_mut() {
+        let stencils = Stencils::of(simd, &chunk.position);
+        moments.gather::<S, true>(simd, &stencils, count, &nodes.motion);
+        gather_mean(
+            simd,
+            &stencils,
+            count,
+            &nodes.displacement,
+            &mut displacement,
+        );
+        gather_mean(simd, &stencils, count, &nodes.twist, &mut twist);
+        let a = velocity_gradient(simd, &moments, law);
+        let strained = strain(simd, chunk, &a, law, dt);
+        let [excess_volume_fraction, vx, vy, vz] = moments.zeroth.transposed(simd);
+        let [mean_compression, ux, uy, uz] = displacement.transposed(simd);
+        let [_, tx, ty, tz] = twist.transposed(simd);
+        let on_displaced = strained.deformed.undone_at_most(simd, &a);
+        // Of Σ w v_i (d_i + u_i − u_p)ᵀ only the skew part counts: what the
+        // nodes' displacement adds is u_p × v_p − Σ w u_i × v_i.
+        let added = [
+            uy * vz - uz * vy - tx,
+            uz * vx - ux * vz - ty,
+            ux * vy - uy * vx - tz,
+        ];
+        let affine = with_angular_momentum::<S, R>(simd, &on_displaced, &a, &added, spacing);
+        let (arriving, mut moved) = ([vx, vy, vz], [ux, uy, uz]);
+        for axis in 0..3 {
+            moved[axis] *= number.of(1.0 / spacing[axis]);
+        }
+        let seen = PointState {
+            volumetric_strain: strained.volumetric_strain,
+            compression_at_transfer: load::<S, R>(simd, &chunk.volumetric_strain)
+                .min(number.of(0.0)),
+            mean_compression,
+            excess_volume_fraction,
+            slope: crowding_slope(simd, &moments),
+        };
+        let mut position = moved;
+        for axis in 0..3 {
+            position[axis] += load::<S, R>(simd, &chunk.position[axis]);
+        }
+        let mut redistributed = redistribute::<S, R>(simd, redistribution, &seen, &moved);
+        let mut velocity = arriving;
+        for no_shift_zone in no_shift_zones {
+            let here = no_shift_zone.in_block(&key);
+            here.keep_off(
+                simd,
+                &position,
+                &moved,
+                &mut redistributed.shift,
+                &mut velocity,
+            );
+        }
+        let change = [0, 1, 2].map(|axis| velocity[axis] - arriving[axis]);
+        spread.stop(simd, chunk, &position, &change, spacing);
+        for part in &mut chunk.deviator {
+            let before = load::<S, R>(simd, part);
+            *part = redistributed.rise.mul_add(before, before).to_array();
+        }
+        let mass = load::<S, R>(simd, &chunk.mass);
+        let roomiest = number.all(roomiest) / mass - number.of(1.0);
+        chunk.volumetric_strain = redistributed.volumetric_strain.min(roomiest).to_array();
+        spread.add(simd, chunk, &redistributed.shift, &velocity, spacing);
+        for axis in 0..3 {
+            chunk.velocity[axis] = velocity[axis].to_array();
+            chunk.position[axis] = (position[axis] + redistributed.shift[axis]).to_array();
+            for row in 0..3 {
+                chunk.gradient[axis][row] = affine[row][axis].to_array();
+            }
+        }
+        sums.add(chunk);
+    }
+    let origin = lattice.position(key.map(|along| along * BLOCK as i32));
+    block.note_end(sums.end(), spread.total(&origin));
+}
+
+/// h ∇excess volume fraction, per axis [1/cell].
+#[inline(always)]
+fn crowding_slope<S: Simd, R: Real>(simd: S, moments: &Moments<R>) -> [R::Vector<S>; 3] {
+    let number = Splat::<S, R>::new(simd);
+    let mut slope = [number.of(0.0); 3];
+    for axis in 0..3 {
+        let [along, ..] = moments.first[axis].transposed(simd);
+        slope[axis] = along * number.of(4.0);
+    }
+    slope
+}
+
+/// `gradient` with the skew part that keeps the angular momentum (equation 13);
+/// `plain` is the gradient at the transfer positions.
+#[inline(always)]
+fn with_angular_momentum<S: Simd, R: Real>(
+    simd: S,
+    gradient: &Matrix<S, R>,
+    plain: &Matrix<S, R>,
+    added: &[R::Vector<S>; 3],
+    spacing: &Vec3,
+) -> Matrix<S, R> {
+    let number = Splat::<S, R>::new(simd);
+    let moment = spacing.component_mul(spacing) * 0.25;
+    let mut affine = *gradient;
+    for (axis, (i, j)) in [(2, (0, 1)), (1, (0, 2)), (0, (1, 2))] {
+        let symmetric = number.of(0.5) * (gradient[i][j] + gradient[j][i]);
+        // (v uᵀ)_ij − (v uᵀ)_ji is −(u × v) for (0, 1) and (1, 2), + for (0, 2).
+        let sign = if axis == 1 { -1.0 } else { 1.0 };
+        let turned = plain[i][j] * number.of(moment[j]) - plain[j][i] * number.of(moment[i]);
+        let wanted = number.of(sign).mul_add(added[axis], turned);
+        let skew = (wanted - symmetric * number.of(moment[j] - moment[i]))
+            * number.of(1.0 / (moment[i] + moment[j]));
+        affine[i][j] = symmetric + skew;
+        affine[j][i] = symmetric - skew;
+    }
+    affine
+}

@@ -1,0 +1,164 @@
+//! Transfer from points to grid (P2G): mass and momentum, strain rates, and the residual of
+//! both transfers (docs/method.md, equations 8, 8a, 39 and 42a).
+
+use super::blocks::Block;
+use super::chunk::Chunk;
+use super::constitutive::Law;
+use super::deformation::at_transfer;
+use super::lanes::{Real, Splat, load};
+use super::rows::{LinearFields, Moments, Quads, Tile, scatter_mean};
+use super::stencil::Stencils;
+use super::strain_rate_smoothing::strain_rate;
+use super::stress_update::set_force;
+use fearless_simd::prelude::*;
+
+/// Components of a strain rate that are scattered together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Components {
+    /// xx, yy, zz and xy.
+    First,
+    /// xz and yz.
+    Second,
+}
+
+/// All components.
+pub const COMPONENTS: [Components; 2] = [Components::First, Components::Second];
+
+/// Scatters mass and momentum to a tile (equation 8).
+#[inline(always)]
+pub fn scatter_momentum<S: Simd, R: Real>(
+    simd: S,
+    block: &mut Block<R>,
+    law: &Law<R>,
+    momentum: &mut Tile<R>,
+) {
+    *momentum = Tile::EMPTY;
+    let mut fields = LinearFields::ZERO;
+    let mut runs = 0;
+    for (chunk, count) in block.chunks_mut() {
+        let stencils = Stencils::of(simd, &chunk.position);
+        runs += stencils.runs(count);
+        set_momentum(simd, chunk, law, &mut fields);
+        fields.scatter::<S, true>(simd, &stencils, count, momentum);
+    }
+    block.note_runs(runs);
+}
+
+/// Scatters some components of the points' strain rates times their masses to a tile (equation
+/// 42a).
+#[inline(always)]
+pub fn scatter_strain_rates<S: Simd, R: Real>(
+    simd: S,
+    block: &mut Block<R>,
+    components: Components,
+    tile: &mut Tile<R>,
+) {
+    *tile = Tile::EMPTY;
+    let none = Splat::<S, R>::new(simd).of(0.0);
+    let mut quantity = Quads::EMPTY;
+    for (chunk, count) in block.chunks_mut() {
+        let stencils = Stencils::of(simd, &chunk.position);
+        let mass = load::<S, R>(simd, &chunk.mass);
+        let [xx, yy, zz, xy, xz, yz] = strain_rate(simd, chunk);
+        quantity.set::<S>(match components {
+            Components::First => [mass * xx, mass * yy, mass * zz, mass * xy],
+            Components::Second => [mass * xz, mass * yz, none, none],
+        });
+        scatter_mean(simd, &stencils, count, &quantity, tile);
+    }
+}
+
+/// Scatters the compressive strains and the part of the momentum that the nodes' `motion` does
+/// not show to a tile, and to another the force of stress (equations 9 and 39); starts the
+/// deformation anew.
+#[inline(always)]
+pub fn residual_transfer<S: Simd, R: Real>(
+    simd: S,
+    block: &mut Block<R>,
+    law: &Law<R>,
+    motion: &Tile<R>,
+    residual: &mut Tile<R>,
+    force: &mut Tile<R>,
+) {
+    (*residual, *force) = (Tile::EMPTY, Tile::EMPTY);
+    let mut moments = Moments::EMPTY;
+    let mut fields = LinearFields::ZERO;
+    for (chunk, count) in block.chunks_mut() {
+        let stencils = Stencils::of(simd, &chunk.position);
+        moments.gather::<S, true>(simd, &stencils, count, motion);
+        set_residual(simd, chunk, law, &moments, &mut fields);
+        fields.scatter::<S, true>(simd, &stencils, count, residual);
+        chunk.gradient = [[R::ZEROS; 3]; 3];
+        let state = at_transfer(simd, chunk, law);
+        set_force(simd, &state, chunk, law, &mut fields);
+        fields.scatter::<S, false>(simd, &stencils, count, force);
+    }
+}
+
+/// Sets m and m v, and m C d with d in cells.
+#[inline(always)]
+fn set_momentum<S: Simd, R: Real>(
+    simd: S,
+    chunk: &Chunk<R>,
+    law: &Law<R>,
+    fields: &mut LinearFields<R>,
+) {
+    let number = Splat::<S, R>::new(simd);
+    let mass = load::<S, R>(simd, &chunk.mass);
+    let [x, y, z] = times::<S, R>(simd, &chunk.velocity, mass);
+    fields.constant.set::<S>([mass, x, y, z]);
+    for axis in 0..3 {
+        let spacing = number.all(R::of(4.0) / law.gradient[axis]);
+        let [x, y, z] = times::<S, R>(simd, &chunk.gradient[axis], mass * spacing);
+        fields.slope[axis].set::<S>([number.of(0.0), x, y, z]);
+    }
+}
+
+/// Sets m min(φ, 0), and the residual of v and C.
+#[inline(always)]
+fn set_residual<S: Simd, R: Real>(
+    simd: S,
+    chunk: &Chunk<R>,
+    law: &Law<R>,
+    moments: &Moments<R>,
+    fields: &mut LinearFields<R>,
+) {
+    let number = Splat::<S, R>::new(simd);
+    let none = number.of(0.0);
+    let mass = load::<S, R>(simd, &chunk.mass);
+    let compressive = load::<S, R>(simd, &chunk.volumetric_strain).min(none);
+    let [_, vx, vy, vz] = moments.zeroth.transposed(simd);
+    let [x, y, z] = &chunk.velocity;
+    fields.constant.set::<S>([
+        mass * compressive,
+        (load::<S, R>(simd, x) - vx) * mass,
+        (load::<S, R>(simd, y) - vy) * mass,
+        (load::<S, R>(simd, z) - vz) * mass,
+    ]);
+    for axis in 0..3 {
+        // C h, of which the nodes show 4 Σ w v δ.
+        let spacing = number.all(R::of(4.0) / law.gradient[axis]);
+        let four = number.of(4.0);
+        let [_, lx, ly, lz] = moments.first[axis].transposed(simd);
+        let [x, y, z] = &chunk.gradient[axis];
+        fields.slope[axis].set::<S>([
+            none,
+            (load::<S, R>(simd, x) * spacing - lx * four) * mass,
+            (load::<S, R>(simd, y) * spacing - ly * four) * mass,
+            (load::<S, R>(simd, z) * spacing - lz * four) * mass,
+        ]);
+    }
+}
+
+#[inline(always)]
+fn times<S: Simd, R: Real>(
+    simd: S,
+    vector: &[R::Lanes; 3],
+    factor: R::Vector<S>,
+) -> [R::Vector<S>; 3] {
+    [
+        load::<S, R>(simd, &vector[0]) * factor,
+        load::<S, R>(simd, &vector[1]) * factor,
+        load::<S, R>(simd, &vector[2]) * factor,
+    ]
+}

@@ -1,0 +1,360 @@
+//! Particle redistribution: points kept evenly spread, and their volumes true to the volume
+//! available to them (docs/method.md, equations 39–42c).
+//!
+//! The volume of a point follows the velocity gradient along its path, which does not show
+//! where points gather. In long shear they gather, the volumes scatter,
+//! and the flow settles into less volume than the sum of its points'. So once per step the
+//! volumetric strains are smoothed over the grid, points are shifted away from crowds, and the
+//! pressure of points in a crowd is raised, so that it drives them apart.
+
+use super::chunk::Chunk;
+use super::lanes::{Real, Splat, load};
+use crate::grid::{BLOCK, BlockKey};
+use crate::kernel::Lattice;
+use crate::math::Vec3;
+use crate::walls::{Impulse, Plane, in_plane};
+use fearless_simd::prelude::*;
+
+/// Points move by this share of −h² ∇excess volume fraction per cell of travel.
+const SHIFT: f64 = 1.0;
+/// Largest shift in a step [cells].
+pub const LARGEST_SHIFT: f64 = 0.1;
+/// Share of its own compressive strain min(φ, 0) a point exchanges for the mean per cell
+/// of travel.
+const VOLUMETRIC_SMOOTHING: f64 = 2.0;
+/// Relative rise of pressure per excess volume fraction and cell of travel.
+const PRESSURE_CORRECTION: f64 = 5.0;
+/// Largest relative rise of pressure in a step.
+pub const LARGEST_RISE: f64 = 0.5;
+/// A point that travels less than this share of what the fastest may is redistributed
+/// less, by the square: what only trembles is left alone.
+const SLOW: f64 = 0.2;
+
+/// Height above a base plane below which no point is shifted towards it [cells].
+pub const NO_SHIFT_HEIGHT: f64 = 0.5;
+/// Depth behind a base plane from which on no point is moved farther behind [cells].
+pub const DEEPEST_PENETRATION: f64 = 0.25;
+
+/// Rates of a step, by its length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RedistributionRates {
+    /// Shift over −h² ∇excess volume fraction.
+    pub shift: f64,
+    /// Share of its own compressive strain that a point exchanges for the mean.
+    pub volumetric_smoothing: f64,
+    /// Relative rise of pressure per excess volume fraction.
+    pub pressure_correction: f64,
+    /// Travel from which on a point is fully redistributed [cells].
+    pub full_travel: f64,
+}
+
+impl RedistributionRates {
+    /// None at all: an elastic body keeps its points.
+    pub const NONE: Self = Self {
+        shift: 0.0,
+        volumetric_smoothing: 0.0,
+        pressure_correction: 0.0,
+        full_travel: 0.0,
+    };
+
+    /// After a step in which the fastest point could travel so many cells.
+    pub fn after(travel: f64) -> Self {
+        Self {
+            shift: SHIFT * travel,
+            volumetric_smoothing: (VOLUMETRIC_SMOOTHING * travel).min(1.0),
+            pressure_correction: PRESSURE_CORRECTION * travel,
+            full_travel: SLOW * travel,
+        }
+    }
+}
+
+/// Excess volume fraction of a node of this volume fraction.
+pub fn excess_volume_fraction(volume_fraction: f64) -> f64 {
+    (volume_fraction - 1.0).clamp(0.0, 1.0)
+}
+
+/// Changes of the points' sums by redistributing them. A shift leaves the velocity.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Shifting {
+    /// Σ m δx [kg m].
+    pub first_moment: Vec3,
+    /// Σ m δx × v [N m s].
+    pub angular: Vec3,
+    /// Impulse of walls on those deep behind them.
+    pub stopped: Impulse,
+}
+
+impl Shifting {
+    /// Both together.
+    pub fn plus(self, other: &Self) -> Self {
+        Self {
+            first_moment: self.first_moment + other.first_moment,
+            angular: self.angular + other.angular,
+            stopped: self.stopped.plus(&other.stopped),
+        }
+    }
+
+    /// Of so many images, which lie symmetrically about the plane y = 0. One alone is
+    /// what it is.
+    pub fn of_images(&self, count: f64) -> Self {
+        if count == 1.0 {
+            return *self;
+        }
+        Self {
+            first_moment: in_plane(&self.first_moment) * count,
+            angular: Vec3::new(0.0, self.angular.y * count, 0.0),
+            stopped: self.stopped.of_images(count),
+        }
+    }
+
+    /// Takes in a point of this mass [kg] and velocity [m/s].
+    pub fn add(&mut self, mass: f64, shift: &Vec3, velocity: &Vec3) {
+        self.first_moment += shift * mass;
+        self.angular += shift.cross(velocity) * mass;
+    }
+}
+
+/// State of points, and of the nodes as they see them; with the slope
+/// per cell.
+pub struct PointState<S: Simd, R: Real> {
+    /// V ρ_c/m − 1 now.
+    pub volumetric_strain: R::Vector<S>,
+    /// Its compressive part, min(φ, 0), at the transfer.
+    pub compression_at_transfer: R::Vector<S>,
+    /// Its mean over the nodes.
+    pub mean_compression: R::Vector<S>,
+    /// Excess volume fraction of the nodes round the point.
+    pub excess_volume_fraction: R::Vector<S>,
+    /// Its gradient [1/cell].
+    pub slope: [R::Vector<S>; 3],
+}
+
+/// Changes of points.
+pub struct RedistributedPoint<S: Simd, R: Real> {
+    /// Shift from where they are [cells].
+    pub shift: [R::Vector<S>; 3],
+    /// Their volumetric strain.
+    pub volumetric_strain: R::Vector<S>,
+    /// By which share of itself their stress rises.
+    pub rise: R::Vector<S>,
+}
+
+/// Changes of points that travelled so far [cells].
+#[inline(always)]
+pub fn redistribute<S: Simd, R: Real>(
+    simd: S,
+    redistribution: &RedistributionRates,
+    seen: &PointState<S, R>,
+    travel: &[R::Vector<S>; 3],
+) -> RedistributedPoint<S, R> {
+    let number = Splat::<S, R>::new(simd);
+    let (none, one) = (number.of(0.0), number.of(1.0));
+    let least = number.of(R::SMALLEST);
+    let full = number.of(redistribution.full_travel).max(least);
+    let share = (length::<S, R>(travel) / full).min(one);
+    let degree = share * share;
+    let pull = number.of(-redistribution.shift) * degree;
+    let mut shift = seen.slope;
+    for along in &mut shift {
+        *along *= pull;
+    }
+    let largest = number.of(LARGEST_SHIFT);
+    let shorter = (largest / length::<S, R>(&shift).max(least)).min(one);
+    for along in &mut shift {
+        *along *= shorter;
+    }
+    let pressed = (number.of(redistribution.pressure_correction) * seen.excess_volume_fraction)
+        .min(number.of(LARGEST_RISE));
+    let rise = degree * pressed;
+    let exchanged = number.of(redistribution.volumetric_smoothing)
+        * (seen.mean_compression - seen.compression_at_transfer);
+    let averaged = degree.mul_add(exchanged, seen.volumetric_strain);
+    let compression = (none - averaged).max(none);
+    RedistributedPoint {
+        shift,
+        volumetric_strain: averaged - rise * compression,
+        rise,
+    }
+}
+
+#[inline(always)]
+fn length<S: Simd, R: Real>(v: &[R::Vector<S>; 3]) -> R::Vector<S> {
+    v[0].mul_add(v[0], v[1].mul_add(v[1], v[2] * v[2])).sqrt()
+}
+
+/// A base plane: no point near it is shifted towards it, and none deep behind it is
+/// moved farther behind (equation 42b).
+#[derive(Debug, Clone, Copy)]
+pub struct NoShiftZone<R> {
+    /// Height of a place [m] over its position [cells].
+    rise: [R; 3],
+    /// Height of the origin of positions [m].
+    origin: f64,
+    /// Normal over node distance [1/m].
+    out: [R; 3],
+    /// Unit normal.
+    normal: [R; 3],
+    /// Height below which points are kept off [m].
+    near: R,
+    /// Height below which they go no deeper [m].
+    deep: R,
+}
+
+impl<R: Real> NoShiftZone<R> {
+    /// Of a plane, for positions from the lattice's origin.
+    pub fn of(plane: &Plane, lattice: &Lattice) -> Self {
+        let spacing = &lattice.spacing;
+        let rise = plane.normal.component_mul(spacing);
+        Self {
+            rise: [0, 1, 2].map(|axis| R::of(rise[axis])),
+            origin: plane.height(&lattice.origin),
+            out: [0, 1, 2].map(|axis| R::of(plane.normal[axis] / spacing[axis])),
+            normal: [0, 1, 2].map(|axis| R::of(plane.normal[axis])),
+            near: R::of(NO_SHIFT_HEIGHT * rise.norm()),
+            deep: R::of(-DEEPEST_PENETRATION * rise.norm()),
+        }
+    }
+
+    /// The same for positions in a block.
+    pub fn in_block(&self, key: &BlockKey) -> Self {
+        let mut here = *self;
+        for axis in 0..3 {
+            here.origin += self.rise[axis].to_f64() * f64::from(key[axis]) * BLOCK as f64;
+        }
+        here
+    }
+
+    /// Takes the part into the plane out of shifts [cells] of points near to it, and
+    /// gives those deep behind it back what they were `moved` into it, and what takes
+    /// them farther into it [m/s] out of their velocities.
+    #[inline(always)]
+    pub fn keep_off<S: Simd>(
+        &self,
+        simd: S,
+        position: &[R::Vector<S>; 3],
+        moved: &[R::Vector<S>; 3],
+        shift: &mut [R::Vector<S>; 3],
+        velocity: &mut [R::Vector<S>; 3],
+    ) {
+        let number = Splat::<S, R>::new(simd);
+        let none = number.of(0.0);
+        let mut height = number.of(self.origin);
+        let (mut along, mut went, mut goes) = (none, none, none);
+        for axis in 0..3 {
+            let rise = number.all(self.rise[axis]);
+            height = rise.mul_add(position[axis], height);
+            along = rise.mul_add(shift[axis], along);
+            went = rise.mul_add(moved[axis], went);
+            let normal = number.all(self.normal[axis]);
+            goes = normal.mul_add(velocity[axis], goes);
+        }
+        let near = height.simd_lt(number.all(self.near));
+        let deep = height.simd_lt(number.all(self.deep));
+        let into = near.select((none - along).max(none), none);
+        let into = into + deep.select((none - went).max(none), none);
+        for axis in 0..3 {
+            shift[axis] = number.all(self.out[axis]).mul_add(into, shift[axis]);
+        }
+        let stop = deep.select((none - goes).max(none), none);
+        for axis in 0..3 {
+            let normal = number.all(self.normal[axis]);
+            velocity[axis] = normal.mul_add(stop, velocity[axis]);
+        }
+    }
+}
+
+/// Changes of a block's sums by redistribution its points, chunk by chunk.
+pub struct ShiftingSums<R: Real> {
+    first_moment: [R::Lanes; 3],
+    angular: [R::Lanes; 3],
+    /// Impulse of the walls on points deep behind them, and its moment about the
+    /// block's origin.
+    stopped: [[R::Lanes; 3]; 2],
+}
+
+impl<R: Real> ShiftingSums<R> {
+    /// Of no points.
+    pub const NONE: Self = Self {
+        first_moment: [R::ZEROS; 3],
+        angular: [R::ZEROS; 3],
+        stopped: [[R::ZEROS; 3]; 2],
+    };
+
+    /// Takes a chunk in, the velocities [m/s] of its points changed by the walls while
+    /// they were at these positions [cells].
+    #[inline(always)]
+    pub fn stop<S: Simd>(
+        &mut self,
+        simd: S,
+        chunk: &Chunk<R>,
+        position: &[R::Vector<S>; 3],
+        change: &[R::Vector<S>; 3],
+        spacing: &Vec3,
+    ) {
+        let number = Splat::<S, R>::new(simd);
+        let mass = load::<S, R>(simd, &chunk.mass);
+        let (mut given, mut arm) = (*change, *position);
+        for axis in 0..3 {
+            given[axis] *= mass;
+            arm[axis] *= number.of(spacing[axis]);
+        }
+        for (sums, added) in self
+            .stopped
+            .iter_mut()
+            .zip([given, cross::<S, R>(&arm, &given)])
+        {
+            add::<S, R>(simd, sums, &added);
+        }
+    }
+
+    /// Takes a chunk in, shifted by so many cells.
+    #[inline(always)]
+    pub fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        chunk: &Chunk<R>,
+        shift: &[R::Vector<S>; 3],
+        velocity: &[R::Vector<S>; 3],
+        spacing: &Vec3,
+    ) {
+        let number = Splat::<S, R>::new(simd);
+        let mass = load::<S, R>(simd, &chunk.mass);
+        let mut moved = *shift;
+        for axis in 0..3 {
+            moved[axis] *= number.of(spacing[axis]) * mass;
+        }
+        add::<S, R>(simd, &mut self.first_moment, &moved);
+        add::<S, R>(simd, &mut self.angular, &cross::<S, R>(&moved, velocity));
+    }
+
+    /// The sums of a block whose origin is there [m].
+    pub fn total(&self, origin: &Vec3) -> Shifting {
+        let [linear, about_block] = self.stopped.each_ref().map(total::<R>);
+        Shifting {
+            first_moment: total::<R>(&self.first_moment),
+            angular: total::<R>(&self.angular),
+            stopped: Impulse {
+                linear,
+                angular: about_block + origin.cross(&linear),
+            },
+        }
+    }
+}
+
+#[inline(always)]
+fn cross<S: Simd, R: Real>(a: &[R::Vector<S>; 3], b: &[R::Vector<S>; 3]) -> [R::Vector<S>; 3] {
+    let ([ax, ay, az], [bx, by, bz]) = (*a, *b);
+    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
+}
+
+#[inline(always)]
+fn add<S: Simd, R: Real>(simd: S, sums: &mut [R::Lanes; 3], added: &[R::Vector<S>; 3]) {
+    for axis in 0..3 {
+        sums[axis] = (load::<S, R>(simd, &sums[axis]) + added[axis]).to_array();
+    }
+}
+
+fn total<R: Real>(sums: &[R::Lanes; 3]) -> Vec3 {
+    let sum = |of: &R::Lanes| of.as_ref().iter().map(|part| part.to_f64()).sum();
+    Vec3::new(sum(&sums[0]), sum(&sums[1]), sum(&sums[2]))
+}

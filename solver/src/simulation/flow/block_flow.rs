@@ -1,0 +1,518 @@
+//! A flow of points in blocks, in either precision: the stages of a step over all blocks, in
+//! parallel.
+
+use super::{Bounds, Finished, Flow, OffendingPoint, SavedFlow, StepEnd, StepStart, Substep};
+use crate::available_volume::exclude_volume;
+use crate::contact::point_body::{
+    self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, PenetratingPoint,
+    PenetrationCorrection,
+};
+use crate::diagnostics::Totals;
+use crate::grid::{BLOCK, BlockKey};
+use crate::mpm::blocks::{Block, Blocks};
+use crate::mpm::constitutive::Law;
+use crate::mpm::g2p::{EndTiles, Ending, gather_motion};
+use crate::mpm::instructions::Instructions;
+use crate::mpm::lanes::Real;
+use crate::mpm::nodes::Nodes;
+use crate::mpm::p2g::{COMPONENTS, residual_transfer, scatter_momentum, scatter_strain_rates};
+use crate::mpm::packing::Packing;
+use crate::mpm::redistribution::{NoShiftZone, Shifting};
+use crate::mpm::rows::Tile;
+use crate::mpm::strain_rate_smoothing::{StrainRateSmoothing, TransferTiles, smooth_strain_rates};
+use crate::mpm::stress_update::update_stress;
+use crate::mpm::totals;
+use crate::points::Point;
+use crate::rigid::Body;
+use crate::simulation::setup::Setup;
+use crate::simulation::stages::{StageEnds, StepStage};
+use crate::walls::{Boundary, Impulse, Plane};
+use fearless_simd::{Level, dispatch};
+use rayon::prelude::*;
+
+mod access;
+
+use access::{Access, Place};
+
+/// A precision whose flows a checkpoint holds.
+pub(in crate::simulation) trait Saved: Real {
+    /// A flow between two steps.
+    fn saved(blocks: Blocks<Self>) -> SavedFlow;
+}
+
+impl Saved for f32 {
+    fn saved(blocks: Blocks<Self>) -> SavedFlow {
+        SavedFlow::Single(blocks)
+    }
+}
+
+impl Saved for f64 {
+    fn saved(blocks: Blocks<Self>) -> SavedFlow {
+        SavedFlow::Double(blocks)
+    }
+}
+
+/// A flow of points in blocks.
+#[derive(Debug)]
+pub(in crate::simulation) struct BlockFlow<R: Real> {
+    blocks: Blocks<R>,
+    nodes: Nodes<R>,
+    /// Shares that each block gives its nodes at a transfer: mass and momentum, then the
+    /// rest of it.
+    momentum: Vec<Tile<R>>,
+    /// Forces of the present sub-step, for the next.
+    forces: Vec<Tile<R>>,
+    boundary: Boundary,
+    /// Impulse of joining nodes with their images at the transfer, until it is reported.
+    from_joining: Impulse,
+    loads: Loads<Place>,
+    packing: Packing,
+    law: Law<R>,
+    no_shift_zones: Vec<NoShiftZone<R>>,
+    level: Level,
+    /// Speed of the fastest point [m/s].
+    fastest: f64,
+    /// True if a point has a non-finite quantity.
+    flawed: bool,
+    /// V ρ_c/m − 1 of the densest point.
+    lowest_dilation: f64,
+}
+
+impl<R: Saved> BlockFlow<R> {
+    /// A flow of these points.
+    pub(super) fn new(points: &[Point], given: &Setup) -> Self {
+        let packing = packing(given);
+        let blocks = Blocks::of(points.iter().map(|point| packing.pack(point)));
+        Self::restored(blocks, given)
+    }
+
+    /// A flow as it was between two steps.
+    pub(super) fn restored(blocks: Blocks<R>, given: &Setup) -> Self {
+        let packing = packing(given);
+        let base = given.walls.base.iter();
+        let mut flow = Self {
+            blocks,
+            nodes: Nodes::new(given.lattice),
+            momentum: Vec::new(),
+            forces: Vec::new(),
+            boundary: Boundary::default(),
+            from_joining: Impulse::default(),
+            loads: Loads::default(),
+            packing,
+            law: Law::of(&packing.material, &given.lattice.spacing),
+            no_shift_zones: base
+                .map(|plane| NoShiftZone::of(plane, &given.lattice))
+                .collect(),
+            level: Instructions::detected().level(),
+            fastest: 0.0,
+            flawed: false,
+            lowest_dilation: 0.0,
+        };
+        flow.check_points();
+        flow
+    }
+
+    /// Summarises the points for the next step.
+    fn check_points(&mut self) {
+        for block in self.blocks.occupied_mut() {
+            block.note_end(totals::end_of(block), Shifting::default());
+        }
+        self.sum_up_ends();
+    }
+
+    /// Combines the summaries of the blocks.
+    fn sum_up_ends(&mut self) {
+        self.fastest = self.largest_speed();
+        let mut blocks = self.blocks.occupied().iter();
+        self.flawed = blocks.any(|block| !block.end().finite);
+        let blocks = self.blocks.occupied().iter();
+        let dilations = blocks.map(|block| block.end().lowest_dilation);
+        self.lowest_dilation = dilations.fold(R::ZERO, R::min).to_f64();
+    }
+
+    fn largest_speed(&self) -> f64 {
+        let blocks = self.blocks.occupied().iter();
+        let speeds = blocks.map(|block| block.end().fastest);
+        speeds.fold(R::ZERO, R::max).to_f64()
+    }
+
+    /// Adds the forces of bodies to those of stress.
+    fn add_contact_forces(&mut self) {
+        for (place, force) in &self.loads.on_points {
+            let block = place.block as usize;
+            let position = self.blocks.occupied()[block].position(place.slot as usize);
+            let force = [0, 1, 2].map(|axis| R::of(force[axis]));
+            self.forces[block].push_at(&position, &force);
+        }
+    }
+
+    /// Gathers the nodes' motion at the points, in parallel.
+    fn pass(&mut self, dt: f64) {
+        let (nodes, law, level) = (&self.nodes, &self.law, self.level);
+        let dt = R::of(dt);
+        self.blocks
+            .occupied_mut()
+            .par_iter_mut()
+            .zip(&mut self.forces)
+            .enumerate()
+            .for_each(|(place, (block, force))| {
+                dispatch!(level, simd => {
+                    let mut motion = Tile::EMPTY;
+                    nodes.motion_tile(simd, place, &mut motion);
+                    update_stress(simd, block, law, dt, &motion, force);
+                });
+            });
+    }
+
+    /// Moves points that crossed a periodic boundary to its other end.
+    fn wrap_periodic(&mut self, given: &Setup) {
+        let vertical_walls = &given.walls.vertical_walls;
+        if !vertical_walls.is_periodic() {
+            return;
+        }
+        for block in self.blocks.occupied_mut() {
+            let first = f64::from(block.key[0]) * BLOCK as f64;
+            for slot in 0..block.count() {
+                let [x, y, z] = block.position(slot);
+                if let Some(cells) = vertical_walls.periodic_shift(first + x.to_f64()) {
+                    block.shift(slot, &[x + R::of(f64::from(cells)), y, z]);
+                }
+            }
+        }
+    }
+
+    /// Scatters the points' strain rates to the nodes. The tiles of forces are free until there are
+    /// forces.
+    fn scatter_strain_rates(&mut self) {
+        for components in COMPONENTS {
+            let level = self.level;
+            self.blocks
+                .occupied_mut()
+                .par_iter_mut()
+                .zip(&mut self.forces)
+                .for_each(|(block, tile)| {
+                    dispatch!(level, simd => scatter_strain_rates(simd, block, components, tile));
+                });
+            self.nodes
+                .take_strain_rates(components, &self.forces, level);
+        }
+    }
+
+    /// Computes the residual transfer, the compressive strains and the first forces, and smooths
+    /// strain rates.
+    fn residual_transfer(&mut self, given: &Setup, strain_rate_smoothing: &StrainRateSmoothing) {
+        let room = self.packing.material.bulk_density * given.lattice.spacing.product();
+        let (nodes, law, level) = (&self.nodes, &self.law, self.level);
+        self.blocks
+            .occupied_mut()
+            .par_iter_mut()
+            .zip(&mut self.momentum)
+            .zip(&mut self.forces)
+            .enumerate()
+            .for_each(|(place, ((block, rest), force))| {
+                dispatch!(level, simd => {
+                    let mut tiles = TransferTiles::EMPTY;
+                    nodes.motion_tile(simd, place, &mut tiles.motion);
+                    for (components, tile) in COMPONENTS.into_iter().zip(&mut tiles.strain_rate) {
+                        nodes.strain_rate_tile(simd, place, components, tile);
+                    }
+                    smooth_strain_rates(simd, block, &tiles, strain_rate_smoothing);
+                    residual_transfer(simd, block, law, &tiles.motion, rest, force);
+                });
+            });
+        self.nodes.take_rest(&self.momentum, R::of(room), level);
+    }
+
+    fn penetration_correction(
+        &mut self,
+        bodies: &[Body],
+        walls: &[Plane],
+    ) -> (u64, Option<PenetratingPoint>) {
+        let (mut count, mut stuck) = (0, None);
+        for (which, (body, candidates)) in bodies.iter().zip(&self.loads.candidates).enumerate() {
+            for candidate in candidates {
+                let place = &candidate.place;
+                let block = &mut self.blocks.occupied_mut()[place.block as usize];
+                let slot = place.slot as usize;
+                let position = self.packing.position(&block.key, &block.position(slot));
+                match point_body::penetration_correction(&position, body, walls) {
+                    None => {}
+                    Some(PenetrationCorrection::To(outside)) => {
+                        block.shift(slot, &self.packing.in_block(&block.key, &outside));
+                        count += 1;
+                    }
+                    Some(PenetrationCorrection::NoRoom { depth }) => {
+                        let here = PenetratingPoint {
+                            point: block.get(slot).id,
+                            body: which,
+                            depth,
+                        };
+                        stuck = PenetratingPoint::deeper(stuck, here);
+                    }
+                }
+            }
+        }
+        (count, stuck)
+    }
+}
+
+fn packing(given: &Setup) -> Packing {
+    let flow = given.flow.as_ref().expect("a run with points has a flow");
+    Packing {
+        lattice: given.lattice,
+        material: flow.material,
+    }
+}
+
+impl<R: Saved> Flow for BlockFlow<R> {
+    fn count(&self) -> usize {
+        self.blocks.count()
+    }
+
+    fn fastest(&self) -> f64 {
+        self.fastest
+    }
+
+    fn transfer(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        start: &StepStart,
+        stages: &mut StageEnds,
+    ) {
+        let keys = self.blocks.occupied().iter().map(|block| block.key);
+        self.nodes.lay_around(keys);
+        let count = self.blocks.occupied().len();
+        self.momentum.resize(count, Tile::EMPTY);
+        self.forces.resize(count, Tile::EMPTY);
+        let (law, level) = (&self.law, self.level);
+        self.blocks
+            .occupied_mut()
+            .par_iter_mut()
+            .zip(&mut self.momentum)
+            .for_each(|(block, momentum)| {
+                dispatch!(level, simd => scatter_momentum(simd, block, law, momentum));
+            });
+        self.nodes.take_momentum(&self.momentum, level);
+        self.scatter_strain_rates();
+        stages.done(StepStage::P2g);
+        given.walls.find_boundary(&self.nodes, &mut self.boundary);
+        given.walls.reflect(&mut self.boundary, &mut self.nodes);
+        self.boundary.smooth_strain_rates(&mut self.nodes);
+        stages.done(StepStage::Search);
+        self.residual_transfer(given, &start.strain_rate_smoothing);
+        self.from_joining = given.walls.join(&mut self.boundary, &mut self.nodes);
+        stages.done(StepStage::P2g);
+        exclude_volume(&self.boundary, bodies, &mut self.nodes);
+        let access = Access {
+            blocks: self.blocks.occupied(),
+            nodes: &self.nodes,
+            packing: &self.packing,
+        };
+        self.loads.find_candidates(&access, bodies, start.reach);
+        stages.done(StepStage::Search);
+    }
+
+    fn substep(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        Substep { dt, passed, last }: Substep,
+        stages: &mut StageEnds,
+    ) -> Impulse {
+        let Some(flow) = &given.flow else {
+            return Impulse::default();
+        };
+        let access = Access {
+            blocks: self.blocks.occupied(),
+            nodes: &self.nodes,
+            packing: &self.packing,
+        };
+        let grid = CouplingGrid {
+            nodes: &self.nodes,
+            boundary: &self.boundary,
+            partners: &given.partners,
+        };
+        let time = ContactTime { dt, passed };
+        self.loads
+            .evaluate(&access, &grid, bodies, flow.sphere, time);
+        self.add_contact_forces();
+        stages.done(StepStage::Contact);
+        self.nodes
+            .advance(&self.forces, &given.gravity, dt, self.level);
+        stages.done(StepStage::GridUpdate);
+        let from_walls =
+            given
+                .walls
+                .constrain(&mut self.boundary, &mut self.nodes, given.wall_pace(dt));
+        stages.done(StepStage::Boundary);
+        if !last {
+            self.pass(dt);
+            stages.done(StepStage::StressUpdate);
+        }
+        from_walls.plus(&std::mem::take(&mut self.from_joining))
+    }
+
+    fn on_bodies(&self) -> &[FlowLoad] {
+        &self.loads.on_bodies
+    }
+
+    fn finish(
+        &mut self,
+        given: &Setup,
+        bodies: &[Body],
+        end: &StepEnd,
+        stages: &mut StageEnds,
+    ) -> Finished {
+        let (nodes, level) = (&self.nodes, self.level);
+        let ending = Ending {
+            law: &self.law,
+            lattice: &given.lattice,
+            dt: R::of(end.dt),
+            redistribution: &end.redistribution,
+            no_shift_zones: &self.no_shift_zones,
+            roomiest: R::of(
+                given.lattice.largest_point_volume() * self.packing.material.bulk_density,
+            ),
+        };
+        self.blocks
+            .occupied_mut()
+            .par_iter_mut()
+            .enumerate()
+            .for_each(|(place, block)| {
+                dispatch!(level, simd => {
+                    let mut tiles = EndTiles::EMPTY;
+                    nodes.motion_tile(simd, place, &mut tiles.motion);
+                    nodes.displacement_tile(simd, place, &mut tiles.displacement);
+                    nodes.fullness_tile(simd, place, &mut tiles.twist);
+                    tiles.cross();
+                    gather_motion(simd, block, &ending, &tiles);
+                });
+            });
+        // Before points migrate to other blocks.
+        self.sum_up_ends();
+        let blocks = self.blocks.occupied().iter();
+        let spread = blocks.fold(Shifting::default(), |sum, block| sum.plus(&block.spread()));
+        let (penetration_correction, stuck) = self.penetration_correction(bodies, &given.planes);
+        self.wrap_periodic(given);
+        stages.done(StepStage::G2p);
+        self.blocks.settle();
+        stages.done(StepStage::Rebin);
+        Finished {
+            penetration_correction,
+            stuck,
+            spread,
+        }
+    }
+
+    fn offending_point(&self, bounds: &Bounds) -> Option<OffendingPoint> {
+        let Bounds {
+            planes, tolerance, ..
+        } = *bounds;
+        let densest = self.packing.material.bulk_density / (1.0 + self.lowest_dilation);
+        let every = self.flawed || densest > bounds.densest;
+        let lattice = &self.packing.lattice;
+        let behind = |plane: &Plane, block: &Block<R>| {
+            let height = |slot| {
+                let position = block.position(slot);
+                plane.height(&self.packing.position(&block.key, &position))
+            };
+            lowest(plane, lattice, &block.key) < -tolerance
+                && (0..block.count()).any(|slot| height(slot) < -tolerance)
+        };
+        let suspect = |block: &&Block<R>| every || planes.iter().any(|plane| behind(plane, block));
+        let suspects = self.blocks.occupied().iter().filter(suspect);
+        let mut points = suspects.flat_map(|block| {
+            (0..block.count()).map(|slot| self.packing.unpack(&block.key, &block.get(slot)))
+        });
+        points.find_map(|point| OffendingPoint::of(&point, bounds))
+    }
+
+    fn remove_outflow(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)> {
+        let packing = self.packing;
+        let mut gone = Vec::new();
+        let near_end = |key: &BlockKey| {
+            let last = packing
+                .lattice
+                .position(key.map(|k| (k + 1) * BLOCK as i32));
+            last.x + packing.lattice.spacing.x > end
+        };
+        self.blocks.take_out(near_end, |key, point| {
+            let beyond = packing.position(key, &point.position).x > end;
+            if beyond {
+                gone.push(packing.unpack(key, point));
+            }
+            beyond
+        });
+        if gone.is_empty() {
+            return None;
+        }
+        // The summary of the remaining points must not depend on those that left, or a saved run
+        // would continue with other bits.
+        self.check_points();
+        let moment = packing.lattice.kernel_moment();
+        let totals = Totals::of_points(&gone, &packing.material, &moment, &given.gravity);
+        Some((gone.len() as u64, totals))
+    }
+
+    fn totals(&self, given: &Setup) -> Totals {
+        let (packing, level) = (&self.packing, self.level);
+        let of_block = |block: &Block<R>| dispatch!(level, _simd => totals::of_block(block, packing, &given.gravity));
+        // A tree of its own, so that the sums do not depend on the threads.
+        sum_up(self.blocks.occupied(), &of_block)
+    }
+
+    fn visit(&self, within: Option<&Around>, visit: &mut dyn FnMut(&Point)) {
+        let lattice = &self.packing.lattice;
+        for block in self.blocks.occupied() {
+            if within.is_some_and(|around| !around.meets(lattice, &block.key)) {
+                continue;
+            }
+            for slot in 0..block.count() {
+                let point = self.packing.unpack(&block.key, &block.get(slot));
+                if within.is_none_or(|around| around.holds(&point.position)) {
+                    visit(&point);
+                }
+            }
+        }
+    }
+
+    fn saved(&self) -> SavedFlow {
+        R::saved(self.blocks.clone())
+    }
+
+    fn limit_instructions(&mut self, instructions: Instructions) {
+        self.level = instructions.level();
+    }
+
+    fn bytes(&self) -> (usize, usize) {
+        let tiles = self.momentum.capacity() + self.forces.capacity();
+        let grid = self.nodes.bytes() + tiles * size_of::<Tile<R>>();
+        (self.blocks.bytes(), grid)
+    }
+}
+
+/// Adds up what the blocks have, half by half.
+fn sum_up<R: Real>(blocks: &[Block<R>], of: &(impl Fn(&Block<R>) -> Totals + Sync)) -> Totals {
+    match blocks {
+        [] => Totals::default(),
+        [block] => of(block),
+        _ => {
+            let (low, high) = blocks.split_at(blocks.len() / 2);
+            let (low, high) = rayon::join(|| sum_up(low, of), || sum_up(high, of));
+            low.plus(&high)
+        }
+    }
+}
+
+/// Height above a plane of the lowest possible place of a point of this block [m].
+fn lowest(plane: &Plane, lattice: &crate::kernel::Lattice, key: &BlockKey) -> f64 {
+    let first = lattice.position(key.map(|k| k * BLOCK as i32)) + lattice.spacing * 0.5;
+    let size = lattice.spacing * BLOCK as f64;
+    let corner = plane.normal.zip_zip_map(
+        &first,
+        &size,
+        |n, low, size| if n > 0.0 { low } else { low + size },
+    );
+    plane.height(&corner)
+}
