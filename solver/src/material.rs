@@ -1,9 +1,7 @@
 //! The granular material: elastic moduli, density, friction (docs/method.md, equations 1–3a).
 
+use crate::method::METHOD;
 use serde::{Deserialize, Serialize};
-
-/// Bulk viscosity over ρ_c c_P h, b of equation 3a.
-const BULK_DAMPING: f64 = 0.2;
 
 /// Yield condition in shear.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -77,7 +75,7 @@ impl Material {
     pub fn bulk_viscosity(&self, spacing: f64) -> f64 {
         match self.yielding {
             Yielding::Granular { .. } => {
-                BULK_DAMPING * self.bulk_density * self.p_wave_speed() * spacing
+                METHOD.stiffness.bulk_viscosity * self.bulk_density * self.p_wave_speed() * spacing
             }
             Yielding::Never => 0.0,
         }

@@ -1,12 +1,6 @@
 //! Bounds of one sub-step and one step (docs/method.md, equations 25 and 27).
 
-/// Sub-step without a flow, where bodies choose their own [s].
-pub const SUBSTEP_WITHOUT_FLOW: f64 = 1e-3;
-/// Largest travel of a body in a sub-step [cells]: less than a point's spacing, so that
-/// it meets every point on its way.
-const BODY_TRAVEL: f64 = 0.4;
-/// Mach number above which a flow has blown up.
-const LARGEST_MACH_NUMBER: f64 = 20.0;
+use crate::method::METHOD;
 
 /// Bounds of a run's steps.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +46,7 @@ impl Limits {
     /// Longest sub-step in which the fastest body does not jump over points [s]
     /// (equation 26).
     pub fn body_substep(&self, speed: f64) -> f64 {
-        BODY_TRAVEL * self.cell_size / speed
+        METHOD.time_step.body_travel * self.cell_size / speed
     }
 
     /// The speed of the fastest point [m/s], or the expected one if that is larger.
@@ -67,7 +61,7 @@ impl Limits {
 
     /// Shortest sub-step accepted [s]; below it the run has blown up.
     pub fn shortest_substep(&self) -> f64 {
-        self.substep(LARGEST_MACH_NUMBER * self.p_wave_speed)
+        self.substep(METHOD.guards.largest_mach_number * self.p_wave_speed)
     }
 
     /// The next step: equal sub-steps of `longest` [s], the fastest at `speed`

@@ -11,7 +11,7 @@ pub(super) struct Machine {
     pub(super) processor: Option<String>,
     /// Number of hardware threads.
     pub(super) cores: usize,
-    /// Best instruction set for which the fast path has code.
+    /// Best instruction set for which the kernels have code.
     pub(super) instructions: String,
     /// True if the program was built without optimisation.
     pub(super) debug_build: bool,

@@ -143,7 +143,7 @@ pub struct Provenance {
     /// Commit of the program that runs the job; null before the start.
     #[schema(required = true)]
     pub solver_commit: Option<String>,
-    /// Instruction set of the fast path (baseline, AVX2, AVX-512); null before the
+    /// Instruction set of the kernels (baseline, AVX2, AVX-512); null before the
     /// start.
     #[schema(required = true)]
     pub instructions: Option<String>,

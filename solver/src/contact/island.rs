@@ -7,6 +7,7 @@ use crate::contact::broad_phase::{Ball, overlapping_pairs};
 use crate::contact::dissipation::Taken;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
+use crate::method::METHOD;
 use crate::motion::Velocities;
 use crate::rigid::{Body, Freedom, Load};
 use crate::walls::{Impulse, Plane};
@@ -26,16 +27,11 @@ pub use balance::EnergyReport;
 use components::islands;
 use mover::Mover;
 use pace::substeps;
+pub use pace::substeps_ahead;
 #[cfg(test)]
 use pace::substeps_alone;
-pub use pace::{MOST_SUBSTEPS, substeps_ahead};
 use strides::Strides;
 use touching::{evaluate_body_contacts, find_contacts};
-
-/// Speed below which all places of a body must be for it to be still [m/s].
-const STILL: f64 = 1e-5;
-/// Time of stillness of all its bodies after which an island sleeps [s].
-const FALLS_ASLEEP_AFTER: f64 = 0.1;
 
 /// Report of one flow sub-step of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -57,7 +53,7 @@ pub struct BodyReport {
     /// Body sub-steps.
     pub substeps: u32,
     /// Body sub-steps that contacts and spin require; none are taken if they are more than
-    /// [`MOST_SUBSTEPS`].
+    /// the method's number.
     pub substeps_asked: f64,
     /// Share of the time in body sub-steps that ended in contact with a wall or another body.
     pub supported_share: f64,
@@ -329,7 +325,7 @@ fn sleeps(members: &[Member], movers: &[Mover], contact_pairs: &[IslandPair]) ->
         && match members {
             [alone] => contact_pairs.is_empty() && alone.is_in_equilibrium(),
             many => many.iter().all(|member| {
-                member.flow == Load::default() && member.body.state.still_for >= FALLS_ASLEEP_AFTER
+                member.flow == Load::default() && member.body.state.still_for >= METHOD.sleep.after
             }),
         }
 }
@@ -348,7 +344,7 @@ fn advance_together(
     for member in members.iter_mut() {
         member.report.substeps_asked = asked;
     }
-    if asked.is_nan() || asked > MOST_SUBSTEPS {
+    if asked.is_nan() || asked > METHOD.body_step.most {
         return;
     }
     let mut strides = Strides::new(dt / asked, asked as u32);

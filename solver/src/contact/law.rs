@@ -1,6 +1,7 @@
 //! Contact law of two rounded surfaces: numbers in, force out (docs/method.md, equations
 //! 17–19).
 
+use crate::method::METHOD;
 use serde::{Deserialize, Serialize};
 
 /// Hertz stiffness with damping and Coulomb friction for one kind of contact.
@@ -13,9 +14,6 @@ pub struct ContactLaw {
     /// Coulomb friction.
     pub friction: f64,
 }
-
-/// Tangential over normal stiffness, 2(1−ν)/(2−ν) at ν = 0.3 (Mindlin 1949).
-const TANGENTIAL_STIFFNESS_RATIO: f64 = 0.82;
 
 impl ContactLaw {
     /// Law of a contact modulus E* [Pa], an equivalent radius R* [m], a
@@ -69,12 +67,12 @@ impl ContactLaw {
 
     /// k_t = 0.82 · 1.5 k √δ [N/m].
     pub fn tangential_stiffness(&self, overlap: f64) -> f64 {
-        TANGENTIAL_STIFFNESS_RATIO * self.tangent_stiffness(overlap)
+        METHOD.stiffness.tangential_ratio * self.tangent_stiffness(overlap)
     }
 
     /// c_t = 0.82 η √(m k) δ^¼ [N s/m].
     pub fn tangential_damping(&self, overlap: f64, mass: f64) -> f64 {
-        TANGENTIAL_STIFFNESS_RATIO * self.damping_coefficient(overlap, mass)
+        METHOD.stiffness.tangential_ratio * self.damping_coefficient(overlap, mass)
     }
 
     /// Law of the contacts of two bodies from those of each on a rigid wall, with
@@ -116,14 +114,20 @@ pub fn effective_contact_mass(force: f64, acceleration: f64, most: f64) -> f64 {
 /// The impact of a unit mass with unit stiffness, ẍ = −max(0, x^1.5 + η x^¼ ẋ), is independent
 /// of the impact speed except for scale (Tsuji 1992), so one search serves every contact: the
 /// Illinois variant of regula falsi, which halves the weight of a retained end. Restitutions
-/// below that of `MAX_DAMPING` (about 0.008) get that.
+/// below that of `METHOD.contact.largest_damping` (about 0.008) get that.
 pub fn damping_number(restitution: f64) -> f64 {
     /// Tolerance of the restitution.
     const CLOSE: f64 = 1e-12;
     /// Far more evaluations than are needed.
     const MOST: u32 = 100;
     let excess = |damping| rebound_speed(damping) - restitution;
-    let (mut low, mut high) = ((0.0, 1.0 - restitution), (MAX_DAMPING, excess(MAX_DAMPING)));
+    let (mut low, mut high) = (
+        (0.0, 1.0 - restitution),
+        (
+            METHOD.contact.largest_damping,
+            excess(METHOD.contact.largest_damping),
+        ),
+    );
     if low.1 <= 0.0 {
         return low.0;
     }
@@ -168,9 +172,6 @@ impl Dampings {
         number
     }
 }
-
-/// Largest damping number used.
-const MAX_DAMPING: f64 = 12.0;
 
 /// Speed after an impact at unit speed of unit mass and stiffness.
 fn rebound_speed(damping: f64) -> f64 {
@@ -235,7 +236,7 @@ mod tests {
             let got = rebound_speed(damping_number(asked));
             assert!((got - asked).abs() < 1e-9, "{asked}: {got}");
         }
-        assert_eq!(damping_number(0.0), MAX_DAMPING);
+        assert_eq!(damping_number(0.0), METHOD.contact.largest_damping);
     }
 
     // docs/accuracy.md, case 3: δ_max = (5 m v²/4k)^0.4 = 0.51499 mm, 155.83 N.

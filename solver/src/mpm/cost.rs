@@ -1,4 +1,4 @@
-//! Cost of a sub-step of one point, counted from the formulas, to compare the fast path with
+//! Cost of a sub-step of one point, counted from the formulas, to compare the kernels with
 //! the limits of the machine.
 
 /// Floating point operations of one point in one sub-step; a fused multiply-add
@@ -8,7 +8,7 @@
 /// |---|---|
 /// | weights and levers (`stencil.rs`) | 3 × 16 |
 /// | gradient gathered from nine rows (`rows.rs`) | 3 × 180 + 60 |
-/// | velocity gradient, F̂ and its cofactors, before and after (`stress.rs`) | 9 + 2 × 53 + 56 + 18 |
+/// | velocity gradient, F̂ and its cofactors, before and after (`deformation.rs`) | 9 + 2 × 53 + 56 + 18 |
 /// | strain rate shared (`strain_rate_smoothing.rs`) | 9 |
 /// | volumetric strain, pressure, trial and return of the deviator | 8 + 60 + 36 |
 /// | force | 63 |

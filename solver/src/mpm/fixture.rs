@@ -1,4 +1,4 @@
-//! Fixtures shared by the tests of the fast path.
+//! Fixtures shared by the tests of the kernels.
 
 use super::instructions::Instructions;
 use crate::kernel::Lattice;

@@ -1,9 +1,9 @@
-//! Instruction sets of the fast path.
+//! Instruction sets of the kernels.
 
 use fearless_simd::Level;
 use std::fmt;
 
-/// Instruction sets the fast path has code for. AVX-512 and AVX2 give the same
+/// Instruction sets that the kernels have code for. AVX-512 and AVX2 give the same
 /// bits; the baseline rounds multiply and add one after the other, so its bits
 /// differ in the last place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

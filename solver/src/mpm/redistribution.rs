@@ -12,28 +12,9 @@ use super::lanes::{Real, Splat, load};
 use crate::grid::{BLOCK, BlockKey};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
+use crate::method::METHOD;
 use crate::walls::{Impulse, Plane, in_plane};
 use fearless_simd::prelude::*;
-
-/// Points move by this share of −h² ∇excess volume fraction per cell of travel.
-const SHIFT: f64 = 1.0;
-/// Largest shift in a step [cells].
-pub const LARGEST_SHIFT: f64 = 0.1;
-/// Share of its own compressive strain min(φ, 0) a point exchanges for the mean per cell
-/// of travel.
-const VOLUMETRIC_SMOOTHING: f64 = 2.0;
-/// Relative rise of pressure per excess volume fraction and cell of travel.
-const PRESSURE_CORRECTION: f64 = 5.0;
-/// Largest relative rise of pressure in a step.
-pub const LARGEST_RISE: f64 = 0.5;
-/// A point that travels less than this share of what the fastest may is redistributed
-/// less, by the square: what only trembles is left alone.
-const SLOW: f64 = 0.2;
-
-/// Height above a base plane below which no point is shifted towards it [cells].
-pub const NO_SHIFT_HEIGHT: f64 = 0.5;
-/// Depth behind a base plane from which on no point is moved farther behind [cells].
-pub const DEEPEST_PENETRATION: f64 = 0.25;
 
 /// Rates of a step, by its length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,10 +41,10 @@ impl RedistributionRates {
     /// After a step in which the fastest point could travel so many cells.
     pub fn after(travel: f64) -> Self {
         Self {
-            shift: SHIFT * travel,
-            volumetric_smoothing: (VOLUMETRIC_SMOOTHING * travel).min(1.0),
-            pressure_correction: PRESSURE_CORRECTION * travel,
-            full_travel: SLOW * travel,
+            shift: METHOD.redistribution.shift * travel,
+            volumetric_smoothing: (METHOD.redistribution.volumetric_smoothing * travel).min(1.0),
+            pressure_correction: METHOD.redistribution.pressure_correction * travel,
+            full_travel: METHOD.redistribution.slow * travel,
         }
     }
 }
@@ -158,13 +139,13 @@ pub fn redistribute<S: Simd, R: Real>(
     for along in &mut shift {
         *along *= pull;
     }
-    let largest = number.of(LARGEST_SHIFT);
+    let largest = number.of(METHOD.redistribution.largest_shift);
     let shorter = (largest / length::<S, R>(&shift).max(least)).min(one);
     for along in &mut shift {
         *along *= shorter;
     }
     let pressed = (number.of(redistribution.pressure_correction) * seen.excess_volume_fraction)
-        .min(number.of(LARGEST_RISE));
+        .min(number.of(METHOD.redistribution.largest_rise));
     let rise = degree * pressed;
     let exchanged = number.of(redistribution.volumetric_smoothing)
         * (seen.mean_compression - seen.compression_at_transfer);
@@ -210,8 +191,8 @@ impl<R: Real> NoShiftZone<R> {
             origin: plane.height(&lattice.origin),
             out: [0, 1, 2].map(|axis| R::of(plane.normal[axis] / spacing[axis])),
             normal: [0, 1, 2].map(|axis| R::of(plane.normal[axis])),
-            near: R::of(NO_SHIFT_HEIGHT * rise.norm()),
-            deep: R::of(-DEEPEST_PENETRATION * rise.norm()),
+            near: R::of(METHOD.redistribution.no_shift_height * rise.norm()),
+            deep: R::of(-METHOD.redistribution.deepest_penetration * rise.norm()),
         }
     }
 

@@ -5,9 +5,8 @@
 use crate::kernel::Lattice;
 use crate::material::{Material, Yielding};
 use crate::math::{Mat3, Sym3, Vec3, inverted};
-use crate::mpm::redistribution::{
-    DEEPEST_PENETRATION, LARGEST_RISE, LARGEST_SHIFT, NO_SHIFT_HEIGHT, RedistributionRates,
-};
+use crate::method::METHOD;
+use crate::mpm::redistribution::RedistributionRates;
 use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use crate::points::Point;
 use crate::walls::Plane;
@@ -227,9 +226,10 @@ impl ReferenceStep<'_> {
             .min(1.0)
             .powi(2);
         let in_cells = (self.inverse_moment() * slope).component_mul(&h) * (-rates.shift * degree);
-        let shorter = (LARGEST_SHIFT / in_cells.norm()).min(1.0);
+        let shorter = (METHOD.redistribution.largest_shift / in_cells.norm()).min(1.0);
         let mut shift = (in_cells * shorter).component_mul(&h);
-        let rise = degree * (rates.pressure_correction * excess).min(LARGEST_RISE);
+        let rise =
+            degree * (rates.pressure_correction * excess).min(METHOD.redistribution.largest_rise);
         let before = strain(deformation.transfer_volume).min(0.0);
         let averaged =
             strain(point.volume) + degree * rates.volumetric_smoothing * (compressive - before);
@@ -243,10 +243,10 @@ impl ReferenceStep<'_> {
             let width = plane.normal.component_mul(&h).norm();
             let height = plane.height(&point.position);
             let into = |way: &Vec3| (-plane.normal.dot(way)).max(0.0);
-            if height < NO_SHIFT_HEIGHT * width {
+            if height < METHOD.redistribution.no_shift_height * width {
                 shift += plane.normal * into(&shift);
             }
-            if height < -DEEPEST_PENETRATION * width {
+            if height < -METHOD.redistribution.deepest_penetration * width {
                 shift += plane.normal * into(&displacement);
                 point.velocity += plane.normal * into(&point.velocity);
             }

@@ -11,13 +11,8 @@ use super::chunk::Chunk;
 use super::lanes::{Real, Splat, load_each};
 use super::rows::{Quads, Tile, gather_mean};
 use super::stencil::Stencils;
+use crate::method::METHOD;
 use fearless_simd::prelude::*;
-
-/// Share of the mean in the effective strain rate of a point.
-const SHARE: f64 = 0.5;
-/// A point slower than this share of the fastest is smoothed less, by the square: a flow that
-/// only trembles is left alone.
-const SLOW: f64 = 0.2;
 
 /// Smoothing of strain rates in a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,8 +33,8 @@ impl StrainRateSmoothing {
     /// Smoothing of a flow whose steps are governed by this speed [m/s].
     pub fn at(speed: f64) -> Self {
         Self {
-            share: SHARE,
-            full_speed: SLOW * speed,
+            share: METHOD.smoothing.share,
+            full_speed: METHOD.smoothing.slow * speed,
         }
     }
 }

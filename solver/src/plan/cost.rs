@@ -2,13 +2,14 @@
 
 use super::course::Course;
 use crate::grid::BLOCK;
+use crate::method::METHOD;
 use crate::mpm::chunk::Chunk;
 use crate::mpm::lanes::Real;
 use crate::mpm::nodes::NodeBlock;
 use crate::mpm::rows::Tile;
 use crate::scenario::{Ending, Precision, Scenario};
 use crate::simulation::{Columns, Outline, Share};
-use crate::stability::{self, Limits};
+use crate::stability::Limits;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -114,7 +115,7 @@ fn steps(outline: &Outline, points: u64) -> (u64, u64) {
     let duration = outline.given.timing.duration;
     let flow = outline.given.flow.as_ref().filter(|_| points > 0);
     let Some(flow) = flow else {
-        return over(duration, stability::SUBSTEP_WITHOUT_FLOW, 1.0);
+        return over(duration, METHOD.time_step.without_flow, 1.0);
     };
     let longest = longest_substep(&flow.limits).min(flow.contact_substep(&outline.bodies));
     let allowed = flow.limits.substeps_per_step(longest, flow.limits.slow);

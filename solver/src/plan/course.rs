@@ -50,7 +50,7 @@ struct Slide {
     /// Horizontal acceleration on the incline [m/s²].
     down: f64,
     /// Deceleration on the floor [m/s²].
-    damping_cap: f64,
+    deceleration: f64,
     gravity: f64,
     /// Height of the release [m].
     height: f64,
@@ -64,7 +64,7 @@ impl Slide {
         let flow = scenario.flow.as_ref();
         Self {
             down: gravity * (sin - channel.base_friction * cos).max(0.0) * cos,
-            damping_cap: gravity * channel.base_friction,
+            deceleration: gravity * channel.base_friction,
             gravity,
             height: flow.map_or(0.0, |flow| flow.release.height_m),
         }
@@ -84,6 +84,6 @@ impl Slide {
         };
         let speed = (2.0 * self.down * way + self.gravity * self.height).sqrt();
         let collapsing = COLLAPSES_FOR * (self.height / self.gravity).sqrt();
-        (sliding + speed / self.damping_cap).max(collapsing)
+        (sliding + speed / self.deceleration).max(collapsing)
     }
 }

@@ -1,5 +1,5 @@
 //! Uncertainty intervals of an outcome's quantities, and their cost: types only. Computation of
-//! intervals: `accuracy`, and docs/method.md, section 12.
+//! intervals: `accuracy`, and docs/method.md, section 13.
 
 use crate::scenario::Quantity;
 use serde::{Deserialize, Serialize};

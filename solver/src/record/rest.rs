@@ -3,19 +3,13 @@
 
 use super::scale::Scale;
 use crate::math::Vec3;
+use crate::method::METHOD;
 use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::Scenario;
 use crate::simulation::Simulation;
 use crate::walls::Plane;
 use serde::{Deserialize, Serialize};
-
-/// Speed below which points are assumed to stay [√(g h), h the height of the release].
-const STILL: f64 = 1e-3;
-/// Largest possible further advance of the front [cells].
-const FRONT_BOUND: f64 = 0.1;
-/// Largest share of the tipping energy of a body that may reach it.
-const TIPPING_SHARE: f64 = 0.5;
 
 /// Early end of a run, with bounds of the changes that the rest could have made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -54,7 +48,7 @@ impl Base {
             friction: channel.base_friction,
             slope,
             holds: slope < channel.base_friction.min(within),
-            still: STILL * (scenario.gravity_m_s2 * height).sqrt(),
+            still: METHOD.early_stop.still * (scenario.gravity_m_s2 * height).sqrt(),
         }
     }
 
@@ -145,7 +139,7 @@ pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f
         let energy = remaining.energy_at(body.state.position.x - behind);
         if energy > 0.0 {
             let footing = Footing::of(body, simulation)?;
-            if energy >= TIPPING_SHARE * footing.tipping {
+            if energy >= METHOD.early_stop.tipping_share * footing.tipping {
                 return None;
             }
             way += energy / footing.holding;
@@ -160,7 +154,7 @@ pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f
 
 /// True if a front that could still advance this far [m] counts as at rest.
 pub(super) fn front_rests(simulation: &Simulation, bound: f64) -> bool {
-    bound <= FRONT_BOUND * simulation.cell_size_m()
+    bound <= METHOD.early_stop.front_bound * simulation.cell_size_m()
 }
 
 /// Support of a body on a wall.

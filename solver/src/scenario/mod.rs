@@ -240,7 +240,7 @@ pub enum Coupling {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Precision {
-    /// The fast path, in f32.
+    /// 32 bits, sixteen points at a time.
     #[default]
     Single,
     /// The plain reference path, in f64.

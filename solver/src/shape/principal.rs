@@ -27,17 +27,17 @@ impl PrincipalInertia {
         let axes = match (equal(0, 1), equal(1, 2)) {
             (true, true) => [Vector3::x(), Vector3::y(), Vector3::z()],
             (true, false) => {
-                let last = vertical_walls(&found[2]);
+                let last = positive(&found[2]);
                 let first = across(&last);
                 [first, last.cross(&first), last]
             }
             (false, true) => {
-                let first = vertical_walls(&found[0]);
+                let first = positive(&found[0]);
                 let second = across(&first);
                 [first, second, first.cross(&second)]
             }
             (false, false) => {
-                let [first, second] = [vertical_walls(&found[0]), vertical_walls(&found[1])];
+                let [first, second] = [positive(&found[0]), positive(&found[1])];
                 [first, second, first.cross(&second)]
             }
         };
@@ -46,7 +46,7 @@ impl PrincipalInertia {
 }
 
 /// The sense of ±axis whose largest component is positive.
-fn vertical_walls(axis: &Vector3<f64>) -> Vector3<f64> {
+fn positive(axis: &Vector3<f64>) -> Vector3<f64> {
     axis * axis[axis.iamax()].signum()
 }
 

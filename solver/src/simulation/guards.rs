@@ -3,21 +3,10 @@
 
 use super::Simulation;
 use super::flow::{Bounds, OffendingPoint};
-use crate::contact::island::MOST_SUBSTEPS;
 use crate::contact::point_body::PenetratingPoint;
 use crate::error::{Mover, StepError};
+use crate::method::METHOD;
 use crate::rigid::Body;
-
-/// Overlap of two bodies, as a share of both sphero radii, above which their contact is too
-/// soft.
-const DEEPEST_OVERLAP: f64 = 0.9;
-/// Largest speed over that of a fall from the highest place and the fastest throw together: an
-/// elastic impact doubles a speed, and a few in a row with ever lighter bodies more.
-const FASTER: f64 = 10.0;
-/// Largest rise of the mechanical energy, as a share of the energy scale.
-const ENERGY_MADE: f64 = 0.1;
-/// Largest energy made by a body's contacts, as a share of that body's energy scale.
-const BODY_ENERGY_MADE: f64 = 0.01;
 
 /// Bounds of a run, known at its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +41,8 @@ impl Simulation {
         let time_s = self.state.clock.time;
         let reports = self.scratch.body_reports.iter().enumerate();
         let asked = reports.map(|(body, report)| (body, report.substeps_asked));
-        let mut too_many = asked.filter(|(_, asked)| asked.is_nan() || *asked > MOST_SUBSTEPS);
+        let mut too_many =
+            asked.filter(|(_, asked)| asked.is_nan() || *asked > METHOD.body_step.most);
         let Some((body, asked)) = too_many.next() else {
             return Ok(());
         };
@@ -68,7 +58,7 @@ impl Simulation {
                 body,
                 substep_s,
                 asked,
-                limit: MOST_SUBSTEPS,
+                limit: METHOD.body_step.most,
             },
         })
     }
@@ -142,7 +132,7 @@ impl Simulation {
     /// Checks that nothing is faster than the bound.
     fn look_at_speeds(&self) -> Result<(), StepError> {
         let time_s = self.state.clock.time;
-        let limit = FASTER * self.given.guards.speed_given;
+        let limit = METHOD.guards.faster * self.given.guards.speed_given;
         let check = |mover, speed_m_s, limit_m_s| {
             if speed_m_s <= limit_m_s {
                 return Ok(());
@@ -177,13 +167,13 @@ impl Simulation {
         } else {
             0.0
         };
-        self.given.guards.speed_given * lighter.max(FASTER)
+        self.given.guards.speed_given * lighter.max(METHOD.guards.faster)
     }
 
     /// Checks after an audit that the mechanical energy has not risen.
     pub(super) fn look_at_energy(&self) -> Result<(), StepError> {
         let audit = &self.state.audit;
-        let limit_j = ENERGY_MADE * audit.energy_scale();
+        let limit_j = METHOD.guards.energy_made * audit.energy_scale();
         if !self.given.guards.energy || audit.energy_rise() <= limit_j {
             return Ok(());
         }
@@ -202,7 +192,7 @@ impl Simulation {
         let free = self.state.bodies.iter().enumerate();
         for (place, body) in free.filter(|(_, body)| body.is_free()) {
             let energy = &self.state.energies[place];
-            let limit_j = BODY_ENERGY_MADE * energy.scale(body, &self.given.gravity);
+            let limit_j = METHOD.guards.body_energy_made * energy.scale(body, &self.given.gravity);
             if self.given.guards.energy && energy.rise() > limit_j {
                 return Err(StepError::BodyEnergyMade {
                     time_s: self.state.clock.time,
@@ -258,7 +248,8 @@ impl Simulation {
         for contact_pair in &self.state.contact_pairs {
             let [body, other] = contact_pair.bodies;
             let radius = |place: usize| self.state.bodies[place].shape.sphero_radius();
-            if contact_pair.deepest > DEEPEST_OVERLAP * (radius(body) + radius(other)) {
+            if contact_pair.deepest > METHOD.guards.deepest_overlap * (radius(body) + radius(other))
+            {
                 return Err(StepError::BodiesMerge {
                     time_s: self.state.clock.time,
                     body,

@@ -224,7 +224,7 @@ impl Simulation {
         self.state.clock.time
     }
 
-    /// The material points, in no particular order. On the fast path they are unpacked for this,
+    /// The material points, in no particular order. They are unpacked for this,
     /// and within a step only identity, mass and position at the transfer are defined.
     pub fn points(&self) -> Vec<Point> {
         let mut points = Vec::with_capacity(self.state.flow.count());
@@ -345,7 +345,7 @@ impl Simulation {
         self.scratch.stages.tell(watch);
     }
 
-    /// Limits the fast path to these instructions; the best available ones are the default.
+    /// Limits the kernels to these instructions; the best available ones are the default.
     pub fn limit_instructions(&mut self, instructions: Instructions) {
         self.state.flow.limit_instructions(instructions);
     }

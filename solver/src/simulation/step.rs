@@ -8,6 +8,7 @@ use crate::contact::island;
 use crate::contact::point_body::impulse_on_flow;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
+use crate::method::METHOD;
 use crate::mpm::redistribution::RedistributionRates;
 use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use crate::rigid::{Body, Load};
@@ -70,7 +71,7 @@ impl Simulation {
         let remaining = timing.duration - clock.time;
         let flow = self.given.flow.as_ref();
         let Some(flow) = flow.filter(|_| self.state.flow.count() > 0) else {
-            let longest = stability::SUBSTEP_WITHOUT_FLOW.min(timing.longest_substep);
+            let longest = METHOD.time_step.without_flow.min(timing.longest_substep);
             let longest = self.for_bodies(longest, longest);
             return Ok(stability::pace_without_flow(longest, remaining));
         };

@@ -10,10 +10,8 @@ use super::vertical_walls::{Ends, Meets};
 use crate::grid::{BLOCK, BLOCK_NODES};
 use crate::kernel::{Lattice, REACH, share_above, share_above_both};
 use crate::math::{Sym3, Vec3};
+use crate::method::METHOD;
 use std::ops::Range;
-
-/// Share of a node's kernel in the channel below which its volume fraction is undefined.
-const LEAST_AVAILABLE_VOLUME: f64 = 0.02;
 
 /// A node or one of its images: they move as one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -165,7 +163,7 @@ fn smooth_compressive_strain(members: &[Member], nodes: &mut impl NodeAccess) {
 /// Volume fraction in an available share `room` of the kernel, for `volume_fraction` of the
 /// whole.
 pub fn filled(volume_fraction: f64, room: f64) -> f64 {
-    if room > LEAST_AVAILABLE_VOLUME {
+    if room > METHOD.boundary.least_available_volume {
         volume_fraction / room
     } else {
         // The stencils of too few points contain such a node.

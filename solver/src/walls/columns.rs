@@ -13,11 +13,10 @@ use super::vertical_walls::Meets;
 use super::{Plane, Walls};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
+use crate::method::METHOD;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Slope (rise over run) above which a plane of the bed has horizontal columns, along x.
-const STEEP: f64 = 2.0;
 /// Spread of a column's masses along it [node distances²] below which they do not determine the
 /// gradient of velocity.
 const LEAST_SPREAD: f64 = 1e-6;
@@ -44,7 +43,7 @@ impl Way {
     }
 
     pub(super) fn of(plane: &Plane) -> Self {
-        if plane.normal.x.abs() > STEEP * plane.normal.z {
+        if plane.normal.x.abs() > METHOD.boundary.steep * plane.normal.z {
             Self::Horizontal
         } else {
             Self::Vertical

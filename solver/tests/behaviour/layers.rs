@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 /// Layers, lowest first. The scenario is a description that depends on shapes only; the
 /// simulation reads it.
-const LAYERS: [&[&str]; 8] = [
-    &["math", "error", "stability"],
+const LAYERS: [&[&str]; 9] = [
+    &["math", "error", "method"],
+    &["stability"],
     &[
         "kernel",
         "material",

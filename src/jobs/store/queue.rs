@@ -28,7 +28,7 @@ pub struct Solver {
     pub version: &'static str,
     /// Commit the program was built from.
     pub commit: &'static str,
-    /// Instruction set of its fast path.
+    /// Instruction set of its kernels.
     pub instructions: &'static str,
 }
 

@@ -1,10 +1,10 @@
 //! Time in which no new contact of an island can begin: it is crossed in one body sub-step
 //! (docs/method.md, equation 20a).
 
-use super::pace::LARGEST_TURN;
 use super::{IslandPair, Member, Mover, Side, Surroundings, body_of};
 use crate::contact::body_body::{distance, least_gap};
 use crate::math::Vec3;
+use crate::method::METHOD;
 use crate::rigid::Body;
 use crate::walls::Plane;
 
@@ -30,7 +30,7 @@ pub(super) fn clear_for(
 ) -> f64 {
     let mut time = longest;
     for member in members {
-        time = time.min(LARGEST_TURN / member.body.angular_velocity().norm());
+        time = time.min(METHOD.body_step.largest_turn / member.body.angular_velocity().norm());
         time = time.min(clear_of_walls(member, around, time));
     }
     for island_pair in contact_pairs {

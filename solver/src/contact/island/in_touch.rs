@@ -1,12 +1,13 @@
 //! Length of body sub-steps in contact: a contact with little energy at stake needs no short
 //! ones (docs/method.md, equation 20b).
 
-use super::pace::{LARGEST_TURN, longest, relative_speed};
+use super::pace::{longest, relative_speed};
 use super::{IslandPair, Member, Mover, Side, Surroundings, body_of};
 use crate::contact::body_body::reduced_mass;
 use crate::contact::body_wall::overlaps;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
+use crate::method::METHOD;
 use crate::rigid::Body;
 
 /// Largest length of a sub-step over that of an impact which takes all of a body's energy; a
@@ -68,7 +69,7 @@ fn longest_on_walls(body: &Body, around: &Surroundings) -> f64 {
         };
         coming.longest(&body.wall_law)
     });
-    each.fold(LARGEST_TURN / angular.norm(), f64::min)
+    each.fold(METHOD.body_step.largest_turn / angular.norm(), f64::min)
 }
 
 /// Longest sub-step for two bodies [s], as if their whole motion were an approach: features

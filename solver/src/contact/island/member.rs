@@ -1,8 +1,9 @@
 //! A free body of an island: its loads, and its report.
 
-use super::{BodyReport, Member, STILL};
+use super::{BodyReport, Member};
 use crate::contact::dissipation::Taken;
 use crate::math::Vec3;
+use crate::method::METHOD;
 use crate::motion::Velocities;
 use crate::rigid::{Body, Load};
 
@@ -88,7 +89,7 @@ impl<'a> Member<'a> {
     }
 
     pub(super) fn watch_rest(&mut self, dt: f64) {
-        if self.body.largest_speed() < STILL && self.flow == Load::default() {
+        if self.body.largest_speed() < METHOD.sleep.still && self.flow == Load::default() {
             self.body.state.still_for += dt;
         } else {
             self.body.state.still_for = 0.0;

@@ -6,22 +6,9 @@ use crate::contact::body_body::{ContactPair, pair_law, reduced_mass};
 use crate::contact::body_wall::deepest_overlap;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
+use crate::method::METHOD;
 use crate::rigid::{Body, Freedom, Load};
 use crate::walls::Plane;
-
-/// Length of a body sub-step over a contact's time scale √(m/k'), k' at the deepest overlap: an
-/// undamped impact lasts about four of these scales, so it gets sixty-five.
-const CONTACT_SHARE: f64 = 0.06;
-/// The share for a contact without damping, whose energy changes by the error of the
-/// integration alone.
-const UNDAMPED_SHARE: f64 = 0.01;
-/// Damping number above which damping dissipates a hundred times more energy in an impact than
-/// the integration makes in steps of [`CONTACT_SHARE`].
-const DAMPED: f64 = 0.001;
-/// Largest turn per body sub-step [rad].
-pub(super) const LARGEST_TURN: f64 = 0.05;
-/// Largest number of body sub-steps; a run that needs more ends.
-pub const MOST_SUBSTEPS: f64 = 100_000.0;
 
 /// Number of body sub-steps required for `dt`, whole but kept as a float.
 pub(super) fn substeps(
@@ -53,7 +40,7 @@ pub(super) fn substeps_alone(
     dt: f64,
     ahead: f64,
 ) -> f64 {
-    let turns = body.angular_velocity().norm() * dt / LARGEST_TURN;
+    let turns = body.angular_velocity().norm() * dt / METHOD.body_step.largest_turn;
     // A body that starts from rest is not at rest at the end.
     let speed = body.largest_speed() + acceleration * dt;
     let deepest = deepest_overlap(body, planes);
@@ -158,8 +145,9 @@ pub(super) fn relative_speed(both: [&Body; 2]) -> f64 {
 
 /// Longest body sub-step with a contact this deep [m] that moves this mass [kg] [s].
 pub(super) fn longest(law: &ContactLaw, deepest: f64, mass: f64) -> f64 {
-    let damped = (law.damping / DAMPED).min(1.0);
-    let share = UNDAMPED_SHARE + damped * (CONTACT_SHARE - UNDAMPED_SHARE);
+    let damped = (law.damping / METHOD.body_step.damped).min(1.0);
+    let share = METHOD.body_step.undamped_share
+        + damped * (METHOD.body_step.contact_share - METHOD.body_step.undamped_share);
     share * law.time_scale(deepest, mass)
 }
 

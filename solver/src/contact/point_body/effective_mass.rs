@@ -1,5 +1,5 @@
 //! Effective mass of the contacts between points and bodies: the mass that resists a force on
-//! all of them at once (docs/method.md, equations 24a and 24b).
+//! all of them at once (docs/method.md, equation 24a).
 
 use crate::grid::BLOCK_NODES;
 use crate::kernel::PointStencil;

@@ -4,12 +4,8 @@ use super::{Moving, PointAccess};
 use crate::contact::law::ContactLaw;
 use crate::kernel::PointStencil;
 use crate::math::Vec3;
+use crate::method::METHOD;
 use crate::rigid::Body;
-
-/// Largest share of the approach speed and of the sliding speed that all contacts together take
-/// in one sub-step: the spectral radius of damping and friction stays below it, so that they
-/// never reverse a motion.
-const DAMPING_CAP: f64 = 0.5;
 
 /// A point that overlaps a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +68,7 @@ impl PointContact {
 
     /// Force of this contact in a sub-step of `dt` [s], for this effective contact mass [kg].
     pub(super) fn force(&self, law: &ContactLaw, effective_mass: f64, dt: f64) -> PointForce {
-        let largest = DAMPING_CAP * effective_mass / dt;
+        let largest = METHOD.contact.damping_cap * effective_mass / dt;
         let approach = self.velocity.dot(&self.normal);
         let damping = law
             .damping_coefficient(self.overlap, effective_mass)

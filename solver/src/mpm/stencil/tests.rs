@@ -6,7 +6,7 @@ use crate::mpm::fixture::levels;
 use fearless_simd::dispatch;
 use proptest::prelude::*;
 
-/// Cells of one metre, for the plain path's stencil of a position in a block.
+/// Cells of one metre, in which a stencil of the lattice is that of a position in a block.
 const CELLS: Lattice = Lattice {
     origin: Vec3::new(0.0, 0.0, 0.0),
     spacing: Vec3::new(1.0, 1.0, 1.0),

@@ -5,25 +5,10 @@ use crate::contact::law::ContactLaw;
 use crate::contact::point_body::PointSphere;
 use crate::kernel::Lattice;
 use crate::material::{Material, Yielding};
+use crate::method::METHOD;
 use crate::rigid::Body;
 use crate::scenario::{self, Coupling, Numerics};
 use crate::stability::Limits;
-
-/// Default Courant number of the sub-step: a lone point is stable up to 1, a flow up to
-/// about 2 (docs/decisions/0022-acoustic-courant-number.md).
-const COURANT: f64 = 0.8;
-/// Default travel of the fastest point per step, in cells.
-const FLOW_COURANT: f64 = 0.2;
-/// Share of its expected speed below which a flow is transferred as often as at that speed.
-const SLOW: f64 = 1.0;
-/// Sound speed over the speed whose dynamic pressure is the largest one expected:
-/// density varies by its inverse square under steady load.
-const STIFFNESS_FACTOR: f64 = 10.0;
-/// Overlap of a point and a body, over the point spacing, at the largest pressure expected; at
-/// this overlap a contact is no stiffer than the material between two points.
-const REFERENCE_OVERLAP: f64 = 0.1;
-/// Largest sub-step over a body's own contact time scale.
-const BODY_CONTACT_SHARE: f64 = 0.5;
 
 /// Flow of a run.
 #[derive(Debug, Clone)]
@@ -67,12 +52,12 @@ impl GivenFlow {
         expected: Expected,
     ) -> Self {
         let spacing = point_volume.cbrt();
-        let modulus = expected.contact_pressure / REFERENCE_OVERLAP;
+        let modulus = expected.contact_pressure / METHOD.stiffness.reference_overlap;
         let modulus = modulus.min(material.p_wave_modulus() / 1.5);
         // Hertz: (δ/δ_ref)^1.5 is the pressure over that at the reference overlap.
-        let share = expected.static_pressure / (modulus * REFERENCE_OVERLAP);
+        let share = expected.static_pressure / (modulus * METHOD.stiffness.reference_overlap);
         let at_rest = if share > 0.0 && share.is_finite() {
-            REFERENCE_OVERLAP * share.powf(2.0 / 3.0)
+            METHOD.stiffness.reference_overlap * share.powf(2.0 / 3.0)
         } else {
             0.0
         };
@@ -81,10 +66,10 @@ impl GivenFlow {
                 p_wave_speed: material.p_wave_speed(),
                 sound_speed: (material.bulk_modulus / material.bulk_density).sqrt(),
                 cell_size: lattice.finest_spacing(),
-                courant: COURANT,
-                flow_courant: FLOW_COURANT,
-                body_contact_share: BODY_CONTACT_SHARE,
-                slow: SLOW * expected.speed,
+                courant: METHOD.time_step.courant,
+                flow_courant: METHOD.time_step.flow_courant,
+                body_contact_share: METHOD.time_step.body_contact_share,
+                slow: METHOD.time_step.slow * expected.speed,
             },
             sphere: PointSphere {
                 radius: (0.5 + at_rest) * spacing,
@@ -118,7 +103,7 @@ impl GivenFlow {
     /// the largest pressure expected on its cross-section l² (equation 22).
     pub fn contact_law(&self, damping: f64, friction: f64) -> ContactLaw {
         let spacing = self.sphere.spacing;
-        let overlap = REFERENCE_OVERLAP * spacing;
+        let overlap = METHOD.stiffness.reference_overlap * spacing;
         ContactLaw {
             stiffness: self.contact_modulus * spacing / overlap.sqrt(),
             ..ContactLaw::damped(0.0, 1.0, damping, friction)
@@ -128,7 +113,7 @@ impl GivenFlow {
     /// Longest stable sub-step for a free body covered with points, which rings against them [s]
     /// (docs/method.md, equation 26).
     pub fn contact_substep(&self, bodies: &[Body]) -> f64 {
-        let overlap = REFERENCE_OVERLAP * self.sphere.spacing;
+        let overlap = METHOD.stiffness.reference_overlap * self.sphere.spacing;
         let of_body = |body: &Body| {
             let points = self.sphere.most_touching(body);
             let stiffness = body.flow_law.tangent_stiffness(overlap) * points;
@@ -143,14 +128,16 @@ impl GivenFlow {
 }
 
 /// Granular material with the stiffness asked for, or a sound speed of
-/// [`STIFFNESS_FACTOR`] times the speed of the largest dynamic pressure expected.
+/// `METHOD.stiffness.sound_over_flow` times the speed of the largest dynamic pressure expected.
 fn material(given: &scenario::Material, sound_speed: Option<f64>, expected: &Expected) -> Material {
     let nu = given.poissons_ratio;
     let density = given.bulk_density_kg_m3;
     let bulk_modulus = match (given.youngs_modulus_pa, sound_speed) {
         (Some(youngs_modulus), _) => youngs_modulus / (3.0 * (1.0 - 2.0 * nu)),
         (None, Some(sound_speed)) => density * sound_speed.powi(2),
-        (None, None) => density * (STIFFNESS_FACTOR * expected.pressing_speed).powi(2),
+        (None, None) => {
+            density * (METHOD.stiffness.sound_over_flow * expected.pressing_speed).powi(2)
+        }
     };
     Material {
         bulk_density: density,

@@ -28,7 +28,7 @@ impl Reductions {
         columns: Option<&Columns>,
         bodies: &[Body],
     ) -> Result<Self, SetupError> {
-        let scene = PointState {
+        let scene = ExaminedScene {
             scenario,
             given,
             columns,
@@ -91,14 +91,14 @@ impl Reductions {
 }
 
 /// A scene whose possible reductions are examined.
-struct PointState<'a> {
+struct ExaminedScene<'a> {
     scenario: &'a Scenario,
     given: &'a Setup,
     columns: Option<&'a Columns>,
     bodies: &'a [Body],
 }
 
-impl PointState<'_> {
+impl ExaminedScene<'_> {
     fn halves_across(&self) -> i32 {
         self.given.walls.vertical_walls.halves_across
     }

@@ -3,26 +3,11 @@
 
 use crate::kernel::Lattice;
 use crate::math::Vec3;
+use crate::method::METHOD;
 use crate::scenario::{Flow, Motion, Scenario};
 
-/// Cells across the thinnest body.
-const CELLS_PER_BODY: f64 = 4.0;
-/// Cells across the release.
-const CELLS_PER_RELEASE: f64 = 8.0;
-/// Largest number of points for an automatic cell size.
-const AUTOMATIC_POINTS: f64 = 400_000.0;
 /// Cell size of a scene without flow or bodies [m].
 const CELL_SIZE_OF_NOTHING: f64 = 0.01;
-/// Overlap of a body at rest on one vertex, over its sphero radius.
-const OVERLAP_AT_REST: f64 = 0.01;
-/// Overlap of an impact on one vertex at the expected speed, over the sphero
-/// radius.
-const OVERLAP_AT_IMPACT: f64 = 0.2;
-/// Stiffness for the weight of a body laid on the flow, over that for a flow's dynamic
-/// pressure. It settles by its pressure over the shear modulus, several times that near the
-/// bearing capacity: without this a steel cube on sand settles by a sixteenth of its side. A
-/// body that falls from higher buries itself by more than it settles.
-const SETTLEMENT_FACTOR: f64 = 16.0;
 /// Stiffness of a body on a rigid wall over that on an equal body: E*/2 and r/2.
 const TWO_LIKE_ONE: f64 = 2.0 * std::f64::consts::SQRT_2;
 
@@ -49,13 +34,14 @@ fn automatic_cell_size(scenario: &Scenario) -> f64 {
         .fold(f64::INFINITY, f64::min);
     let flow = scenario.flow.as_ref().filter(|flow| flow.volume_m3 > 0.0);
     let release = flow.map_or(f64::INFINITY, |flow| flow.release.height_m);
-    let fine = (thinnest / CELLS_PER_BODY).min(release / CELLS_PER_RELEASE);
+    let fine = (thinnest / METHOD.resolution.cells_per_body)
+        .min(release / METHOD.resolution.cells_per_release);
     if fine.is_infinite() {
         return CELL_SIZE_OF_NOTHING;
     }
     let per_cell = f64::from(scenario.numerics.points_per_cell);
     let volume = flow.map_or(0.0, |flow| flow.volume_m3);
-    let affordable = (volume * per_cell / AUTOMATIC_POINTS).cbrt();
+    let affordable = (volume * per_cell / METHOD.resolution.automatic_points).cbrt();
     fine.max(affordable).min(scenario.channel.width_m)
 }
 
@@ -86,7 +72,7 @@ pub(super) fn expected(scenario: &Scenario, crowd: &Crowd) -> Expected {
     let of_body = |body: &Weighty| {
         let weight = body.mass * scenario.gravity_m_s2 / body.projected_area;
         let factor = if body.lies_on_flow {
-            SETTLEMENT_FACTOR
+            METHOD.stiffness.settlement
         } else {
             1.0
         };
@@ -254,8 +240,9 @@ pub(super) fn contact_modulus(
         1 => (1.0, 1.0),
         _ => (crowd.gain(), TWO_LIKE_ONE),
     };
-    let at_rest = pressed / (OVERLAP_AT_REST * radius).powf(1.5);
-    let at_impact = 1.25 * gain * striking * speed_squared / (OVERLAP_AT_IMPACT * radius).powf(2.5);
+    let at_rest = pressed / (METHOD.stiffness.overlap_at_rest * radius).powf(1.5);
+    let at_impact = 1.25 * gain * striking * speed_squared
+        / (METHOD.stiffness.overlap_at_impact * radius).powf(2.5);
     0.75 * softer * at_rest.max(at_impact) / radius.sqrt()
 }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::contact::body_wall::deepest_overlap;
+use crate::method::METHOD;
 use crate::rigid::fixture::tetrahedron;
 
 /// Ten cubes, boxes and tetrahedra over a floor between walls, stiff enough for
@@ -87,7 +88,7 @@ fn a_heap_comes_to_rest_and_sleeps_until_touched() {
     };
     let start = energy(&bodies, &contact_pairs);
     let (mut lowest, mut rise, mut at_impact) = (start, 0.0f64, 0.0f64);
-    let sleeps = |body: &Body| body.state.still_for >= FALLS_ASLEEP_AFTER;
+    let sleeps = |body: &Body| body.state.still_for >= METHOD.sleep.after;
     let mut steps = 0;
     while steps < 6000 && !bodies.iter().all(sleeps) {
         steps += 1;
