@@ -8,16 +8,6 @@ pub type Vec3 = Vector3<f64>;
 /// Matrix of 3 × 3 f64.
 pub type Mat3 = Matrix3<f64>;
 
-/// Determinant and inverse of a matrix; the inverse of a singular one is not
-/// finite.
-pub fn inverted(m: &Mat3) -> (f64, Mat3) {
-    let (a, b, c) = (m.column(0), m.column(1), m.column(2));
-    let (bc, ca, ab) = (b.cross(&c), c.cross(&a), a.cross(&b));
-    let determinant = a.dot(&bc);
-    let rows = Mat3::from_columns(&[bc, ca, ab]).transpose();
-    (determinant, rows * (1.0 / determinant))
-}
-
 /// A symmetric tensor by its six components.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sym3 {
@@ -44,6 +34,23 @@ impl Sym3 {
             zz: value,
             ..Self::default()
         }
+    }
+
+    /// Tensor of the components xx yy zz xy xz yz.
+    pub fn from_components([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Self {
+        Self {
+            xx,
+            yy,
+            zz,
+            xy,
+            xz,
+            yz,
+        }
+    }
+
+    /// Components xx yy zz xy xz yz.
+    pub fn components(&self) -> [f64; 6] {
+        [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz]
     }
 
     /// Symmetric part of a matrix.
@@ -99,22 +106,6 @@ impl Sym3 {
         }
     }
 
-    /// W s − s W, the spin term of the Jaumann rate; W is the skew part of the
-    /// velocity gradient.
-    pub fn jaumann_spin(&self, gradient: &Mat3) -> Self {
-        let a = 0.5 * (gradient.m12 - gradient.m21);
-        let b = 0.5 * (gradient.m13 - gradient.m31);
-        let c = 0.5 * (gradient.m23 - gradient.m32);
-        Self {
-            xx: 2.0 * (a * self.xy + b * self.xz),
-            yy: 2.0 * (c * self.yz - a * self.xy),
-            zz: -2.0 * (b * self.xz + c * self.yz),
-            xy: a * (self.yy - self.xx) + b * self.yz + c * self.xz,
-            xz: b * (self.zz - self.xx) + a * self.yz - c * self.xy,
-            yz: c * (self.zz - self.yy) - a * self.xz - b * self.xy,
-        }
-    }
-
     /// The tensor as a full matrix.
     pub fn matrix(&self) -> Mat3 {
         Mat3::new(
@@ -135,19 +126,5 @@ impl Sym3 {
     /// False if any component is NaN or infinite.
     pub fn is_finite(&self) -> bool {
         (self.xx + self.yy + self.zz + self.xy + self.xz + self.yz).is_finite()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_matrix_times_its_inverse_is_one() {
-        let m = Mat3::new(1.1, 0.2, -0.3, 0.05, 0.9, 0.1, -0.2, 0.3, 1.2);
-        let (determinant, inverse) = inverted(&m);
-        // A few roundings of numbers of order one.
-        assert!((m * inverse - Mat3::identity()).norm() < 1e-15);
-        assert!((determinant - m.determinant()).abs() < 1e-15);
     }
 }

@@ -205,36 +205,17 @@ pub fn at_rest(material: &Material, deviator: &Sym3, pressure: f64) -> Sym3 {
     /// Long enough to leave only the shear stress that friction at rest can bear [s].
     const LONG: f64 = 1e3;
     let law = Law::<f64>::of(material, &Vec3::repeat(1.0));
-    let s = deviator;
-    let level = Level::new();
-    let yielded = dispatch!(level, simd => {
+    let mut yielded = deviator.components();
+    dispatch!(Level::new(), simd => {
         let number = Splat::<_, f64>::new(simd);
-        let trial = [
-            number.of(s.xx),
-            number.of(s.yy),
-            number.of(s.zz),
-            number.of(s.xy),
-            number.of(s.xz),
-            number.of(s.yz),
-        ];
-        let yielded = law.yielded(simd, trial, number.of(pressure), LONG);
-        [
-            yielded[0][0],
-            yielded[1][0],
-            yielded[2][0],
-            yielded[3][0],
-            yielded[4][0],
-            yielded[5][0],
-        ]
+        let mut trial = [number.of(0.0); 6];
+        for (vector, part) in trial.iter_mut().zip(yielded) {
+            *vector = number.of(part);
+        }
+        let returned = law.yielded(simd, trial, number.of(pressure), LONG);
+        for (part, vector) in yielded.iter_mut().zip(returned) {
+            *part = vector[0];
+        }
     });
-    let [xx, yy, zz, xy, xz, yz] = yielded;
-    let deviator = Sym3 {
-        xx,
-        yy,
-        zz,
-        xy,
-        xz,
-        yz,
-    };
-    deviator.plus(&Sym3::isotropic(-pressure))
+    Sym3::from_components(yielded).plus(&Sym3::isotropic(-pressure))
 }

@@ -18,13 +18,13 @@ use crate::kernel::Lattice;
 use crate::math::Vec3;
 use fearless_simd::prelude::*;
 
-/// The nodes' state as a block of points sees it at the end of a step.
+/// State of the nodes in the tile of a block of points at the end of a step.
 pub struct EndTiles<R> {
     /// Excess volume fraction and velocity.
     pub motion: Tile<R>,
     /// Mean compressive strain and displacement.
     pub displacement: Tile<R>,
-    /// Fullness at first, then displacement × velocity.
+    /// Volume fraction at first, then displacement × velocity.
     pub twist: Tile<R>,
 }
 
@@ -62,16 +62,16 @@ pub struct Ending<'a, R: Real> {
     pub lattice: &'a Lattice,
     /// Length of the last sub-step [s].
     pub dt: R,
-    /// Rates at which the points are kept evenly spread.
+    /// Rates of redistribution.
     pub redistribution: &'a RedistributionRates,
-    /// The base planes.
+    /// Zones at the planes of the bed.
     pub no_shift_zones: &'a [NoShiftZone<R>],
     /// Mass that fills the largest volume a point can have [kg].
     pub roomiest: R,
 }
 
-/// The last sub-step of a step, and the motion back to the points (equations 12
-/// and 13).
+/// Takes the points through the last sub-step of a step and moves them with the nodes (equations
+/// 12 and 13), then redistributes them.
 #[inline(always)]
 pub fn gather_motion<S: Simd, R: Real>(
     simd: S,
@@ -112,8 +112,8 @@ pub fn gather_motion<S: Simd, R: Real>(
         let [mean_compression, ux, uy, uz] = displacement.transposed(simd);
         let [_, tx, ty, tz] = twist.transposed(simd);
         let on_displaced = strained.deformed.undone_at_most(simd, &a);
-        // Of Σ w v_i (d_i + u_i − u_p)ᵀ only the skew part counts: what the
-        // nodes' displacement adds is u_p × v_p − Σ w u_i × v_i.
+        // Of Σ w v_i (d_i + u_i − u_p)ᵀ only the skew part counts: the displacement of the
+        // nodes adds u_p × v_p − Σ w u_i × v_i.
         let added = [
             uy * vz - uz * vy - tx,
             uz * vx - ux * vz - ty,
@@ -183,7 +183,7 @@ fn crowding_slope<S: Simd, R: Real>(simd: S, moments: &Moments<R>) -> [R::Vector
     slope
 }
 
-/// `gradient` with the skew part that keeps the angular momentum (equation 13);
+/// Matrix `gradient` with the skew part that keeps the angular momentum (equation 13);
 /// `plain` is the gradient at the transfer positions.
 #[inline(always)]
 fn with_angular_momentum<S: Simd, R: Real>(

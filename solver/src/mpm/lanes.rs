@@ -78,7 +78,10 @@ pub trait Real:
     fn indices<S: Simd>(values: Self::Vector<S>) -> Self::Ids;
 
     /// The number in double precision.
-    fn to_f64(self) -> f64;
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self.into()
+    }
 
     /// The larger of two numbers; the other one if one is not a number.
     fn max(self, other: Self) -> Self;
@@ -187,11 +190,6 @@ pub fn load_each<S: Simd, R: Real, const N: usize>(
 
 macro_rules! scalar_functions {
     () => {
-        #[inline(always)]
-        fn to_f64(self) -> f64 {
-            self.into()
-        }
-
         #[inline(always)]
         fn max(self, other: Self) -> Self {
             self.max(other)

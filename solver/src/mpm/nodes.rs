@@ -266,19 +266,12 @@ impl<R: Real> NodeAccess for Nodes<R> {
             [0, 1, 2, 3].map(|k| node[k].to_f64())
         };
         let [[xx, yy, zz, xy], [xz, yz, ..]] = self.strain_rate.each_ref().map(|of| part(of));
-        Sym3 {
-            xx,
-            yy,
-            zz,
-            xy,
-            xz,
-            yz,
-        }
+        Sym3::from_components([xx, yy, zz, xy, xz, yz])
     }
 
     fn set_strain_rate(&mut self, place: usize, strain_rate: &Sym3) {
-        let d = strain_rate;
-        let parts = [[d.xx, d.yy, d.zz, d.xy], [d.xz, d.yz, 0.0, 0.0]];
+        let [xx, yy, zz, xy, xz, yz] = strain_rate.components();
+        let parts = [[xx, yy, zz, xy], [xz, yz, 0.0, 0.0]];
         for (of, part) in self.strain_rate.iter_mut().zip(parts) {
             let node = &mut of[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)..][..4];
             node.copy_from_slice(&part.map(R::of));

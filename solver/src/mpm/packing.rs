@@ -25,13 +25,13 @@ impl Packing {
         let mut position = self.in_block(&key, &point.position);
         // Rounding may move a point over the rim.
         let key = settle(&key, &mut position);
-        let s = point.stress.deviator();
+        let deviator = point.stress.deviator().components();
         let density = point.mass / point.volume;
         let record = Packed {
             position,
             velocity: rounded(&point.velocity),
             gradient: [0, 1, 2].map(|axis| rounded(&point.affine.column(axis).into())),
-            deviator: [s.xx, s.yy, s.zz, s.xy, s.xz, s.yz].map(R::of),
+            deviator: deviator.map(R::of),
             volumetric_strain: R::of(self.material.bulk_density / density - 1.0),
             mass: R::of(point.mass),
             id: point.id,
@@ -45,15 +45,7 @@ impl Packing {
         let volumetric_strain = record.volumetric_strain.to_f64();
         let volume = mass / self.material.bulk_density * (1.0 + volumetric_strain);
         let pressure = self.material.pressure(mass / volume);
-        let [xx, yy, zz, xy, xz, yz] = record.deviator.map(R::to_f64);
-        let deviator = Sym3 {
-            xx,
-            yy,
-            zz,
-            xy,
-            xz,
-            yz,
-        };
+        let deviator = Sym3::from_components(record.deviator.map(R::to_f64));
         Point {
             id: record.id,
             mass,

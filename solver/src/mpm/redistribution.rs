@@ -38,7 +38,7 @@ impl RedistributionRates {
         full_travel: 0.0,
     };
 
-    /// After a step in which the fastest point could travel so many cells.
+    /// Rates after a step in which the fastest point could travel so many cells.
     pub fn after(travel: f64) -> Self {
         Self {
             shift: METHOD.redistribution.shift * travel,
@@ -54,19 +54,19 @@ pub fn excess_volume_fraction(volume_fraction: f64) -> f64 {
     (volume_fraction - 1.0).clamp(0.0, 1.0)
 }
 
-/// Changes of the points' sums by redistributing them. A shift leaves the velocity.
+/// Changes of the points' sums by redistribution; a shift leaves the velocity unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Shifting {
     /// Σ m δx [kg m].
     pub first_moment: Vec3,
     /// Σ m δx × v [N m s].
     pub angular: Vec3,
-    /// Impulse of walls on those deep behind them.
+    /// Impulse of the bed on points deep behind it.
     pub stopped: Impulse,
 }
 
 impl Shifting {
-    /// Both together.
+    /// Sum of both.
     pub fn plus(self, other: &Self) -> Self {
         Self {
             first_moment: self.first_moment + other.first_moment,
@@ -75,8 +75,8 @@ impl Shifting {
         }
     }
 
-    /// Of so many images, which lie symmetrically about the plane y = 0. One alone is
-    /// what it is.
+    /// Sum of so many images, which lie symmetrically about the plane y = 0; a single one
+    /// is unchanged.
     pub fn of_images(&self, count: f64) -> Self {
         if count == 1.0 {
             return *self;
@@ -87,40 +87,33 @@ impl Shifting {
             stopped: self.stopped.of_images(count),
         }
     }
-
-    /// Takes in a point of this mass [kg] and velocity [m/s].
-    pub fn add(&mut self, mass: f64, shift: &Vec3, velocity: &Vec3) {
-        self.first_moment += shift * mass;
-        self.angular += shift.cross(velocity) * mass;
-    }
 }
 
-/// State of points, and of the nodes as they see them; with the slope
-/// per cell.
+/// State of the points of a chunk, and of the nodes around them.
 pub struct PointState<S: Simd, R: Real> {
-    /// V ρ_c/m − 1 now.
+    /// Volumetric strain φ after the last sub-step.
     pub volumetric_strain: R::Vector<S>,
-    /// Its compressive part, min(φ, 0), at the transfer.
+    /// Compressive part min(φ, 0) at the transfer.
     pub compression_at_transfer: R::Vector<S>,
-    /// Its mean over the nodes.
+    /// Mean of that over the nodes.
     pub mean_compression: R::Vector<S>,
     /// Excess volume fraction of the nodes round the point.
     pub excess_volume_fraction: R::Vector<S>,
-    /// Its gradient [1/cell].
+    /// Gradient of that [1/cell].
     pub slope: [R::Vector<S>; 3],
 }
 
-/// Changes of points.
+/// Changes of the points of a chunk.
 pub struct RedistributedPoint<S: Simd, R: Real> {
-    /// Shift from where they are [cells].
+    /// Shift [cells].
     pub shift: [R::Vector<S>; 3],
-    /// Their volumetric strain.
+    /// Volumetric strain φ after it.
     pub volumetric_strain: R::Vector<S>,
-    /// By which share of itself their stress rises.
+    /// Rise of the stress, as a share of itself.
     pub rise: R::Vector<S>,
 }
 
-/// Changes of points that travelled so far [cells].
+/// Redistributes points that travelled so far [cells] (equations 40 to 42).
 #[inline(always)]
 pub fn redistribute<S: Simd, R: Real>(
     simd: S,
@@ -163,8 +156,8 @@ fn length<S: Simd, R: Real>(v: &[R::Vector<S>; 3]) -> R::Vector<S> {
     v[0].mul_add(v[0], v[1].mul_add(v[1], v[2] * v[2])).sqrt()
 }
 
-/// A base plane: no point near it is shifted towards it, and none deep behind it is
-/// moved farther behind (equation 42b).
+/// Zone at a plane of the bed in which no point is shifted towards it, and none deep behind it is
+/// moved farther behind it (equations 42b and 42c).
 #[derive(Debug, Clone, Copy)]
 pub struct NoShiftZone<R> {
     /// Height of a place [m] over its position [cells].
@@ -175,14 +168,14 @@ pub struct NoShiftZone<R> {
     out: [R; 3],
     /// Unit normal.
     normal: [R; 3],
-    /// Height below which points are kept off [m].
+    /// Height below which no point is shifted towards the plane [m].
     near: R,
-    /// Height below which they go no deeper [m].
+    /// Height below which no point is moved deeper [m].
     deep: R,
 }
 
 impl<R: Real> NoShiftZone<R> {
-    /// Of a plane, for positions from the lattice's origin.
+    /// Zone at a plane, for positions from the lattice's origin.
     pub fn of(plane: &Plane, lattice: &Lattice) -> Self {
         let spacing = &lattice.spacing;
         let rise = plane.normal.component_mul(spacing);
@@ -196,7 +189,7 @@ impl<R: Real> NoShiftZone<R> {
         }
     }
 
-    /// The same for positions in a block.
+    /// Zone for positions in a block.
     pub fn in_block(&self, key: &BlockKey) -> Self {
         let mut here = *self;
         for axis in 0..3 {
@@ -205,9 +198,9 @@ impl<R: Real> NoShiftZone<R> {
         here
     }
 
-    /// Takes the part into the plane out of shifts [cells] of points near to it, and
-    /// gives those deep behind it back what they were `moved` into it, and what takes
-    /// them farther into it [m/s] out of their velocities.
+    /// Removes the part towards the plane from the shifts [cells] of points near it; of points
+    /// deep behind it also cancels the part of their motion `moved` [cells] into it, and removes
+    /// the part of their velocities [m/s] into it.
     #[inline(always)]
     pub fn keep_off<S: Simd>(
         &self,
@@ -244,7 +237,7 @@ impl<R: Real> NoShiftZone<R> {
     }
 }
 
-/// Changes of a block's sums by redistribution its points, chunk by chunk.
+/// Changes of a block's sums by the redistribution of its points, chunk by chunk.
 pub struct ShiftingSums<R: Real> {
     first_moment: [R::Lanes; 3],
     angular: [R::Lanes; 3],
@@ -254,15 +247,14 @@ pub struct ShiftingSums<R: Real> {
 }
 
 impl<R: Real> ShiftingSums<R> {
-    /// Of no points.
+    /// Sums without points.
     pub const NONE: Self = Self {
         first_moment: [R::ZEROS; 3],
         angular: [R::ZEROS; 3],
         stopped: [[R::ZEROS; 3]; 2],
     };
 
-    /// Takes a chunk in, the velocities [m/s] of its points changed by the walls while
-    /// they were at these positions [cells].
+    /// Adds a chunk whose points the bed changed in velocity [m/s] at these positions [cells].
     #[inline(always)]
     pub fn stop<S: Simd>(
         &mut self,
@@ -288,7 +280,7 @@ impl<R: Real> ShiftingSums<R> {
         }
     }
 
-    /// Takes a chunk in, shifted by so many cells.
+    /// Adds a chunk shifted by so many cells.
     #[inline(always)]
     pub fn add<S: Simd>(
         &mut self,
@@ -308,7 +300,7 @@ impl<R: Real> ShiftingSums<R> {
         add::<S, R>(simd, &mut self.angular, &cross::<S, R>(&moved, velocity));
     }
 
-    /// The sums of a block whose origin is there [m].
+    /// Sums of a block with this origin [m].
     pub fn total(&self, origin: &Vec3) -> Shifting {
         let [linear, about_block] = self.stopped.each_ref().map(total::<R>);
         Shifting {

@@ -4,7 +4,7 @@
 
 use crate::kernel::Lattice;
 use crate::material::{Material, Yielding};
-use crate::math::{Mat3, Sym3, Vec3, inverted};
+use crate::math::{Mat3, Sym3, Vec3};
 use crate::method::METHOD;
 use crate::mpm::redistribution::RedistributionRates;
 use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
@@ -285,9 +285,8 @@ pub(super) fn stress(
     }
     let deviator = stress.deviator();
     let strain_rate = Sym3::of(gradient).deviator();
-    let rate = deviator
-        .jaumann_spin(gradient)
-        .plus(&strain_rate.times(2.0 * material.shear_modulus));
+    let rate =
+        jaumann_spin(&deviator, gradient).plus(&strain_rate.times(2.0 * material.shear_modulus));
     let trial = deviator.plus(&rate.times(dt));
     let trial_shear = trial.equivalent_shear();
     let shear = shear_stress(material, trial_shear, pressure, dt);
@@ -331,5 +330,30 @@ pub(super) fn shear_stress(material: &Material, trial: f64, pressure: f64, dt: f
     2.0 * h / (b + (b * b - 4.0 * h).max(0.0).sqrt())
 }
 
-#[cfg(test)]
+/// W s − s W, the spin term of the Jaumann rate; W is the skew part of the
+/// velocity gradient.
+fn jaumann_spin(s: &Sym3, gradient: &Mat3) -> Sym3 {
+    let a = 0.5 * (gradient.m12 - gradient.m21);
+    let b = 0.5 * (gradient.m13 - gradient.m31);
+    let c = 0.5 * (gradient.m23 - gradient.m32);
+    Sym3 {
+        xx: 2.0 * (a * s.xy + b * s.xz),
+        yy: 2.0 * (c * s.yz - a * s.xy),
+        zz: -2.0 * (b * s.xz + c * s.yz),
+        xy: a * (s.yy - s.xx) + b * s.yz + c * s.xz,
+        xz: b * (s.zz - s.xx) + a * s.yz - c * s.xy,
+        yz: c * (s.zz - s.yy) - a * s.xz - b * s.xy,
+    }
+}
+
+/// Determinant and inverse of a matrix; the inverse of a singular one is not
+/// finite.
+pub(super) fn inverted(m: &Mat3) -> (f64, Mat3) {
+    let (a, b, c) = (m.column(0), m.column(1), m.column(2));
+    let (bc, ca, ab) = (b.cross(&c), c.cross(&a), a.cross(&b));
+    let determinant = a.dot(&bc);
+    let rows = Mat3::from_columns(&[bc, ca, ab]).transpose();
+    (determinant, rows * (1.0 / determinant))
+}
+
 mod tests;

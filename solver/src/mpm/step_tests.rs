@@ -201,15 +201,15 @@ fn stepped<R: Real>(
 /// Largest differences over the points, in units of the numbers that are rounded.
 #[derive(Debug, Default)]
 struct Worst {
-    /// Cells.
+    /// Position [cells].
     position: f64,
-    /// Of the largest speed.
+    /// Velocity, over the largest speed.
     velocity: f64,
-    /// Of the largest speed over a quarter of a cell.
+    /// Affine velocity, over the largest speed over a quarter of a cell.
     affine: f64,
-    /// Relative.
+    /// Volume, relative.
     volume: f64,
-    /// Of the P-wave modulus.
+    /// Stress, over the P-wave modulus.
     stress: f64,
 }
 

@@ -1,8 +1,8 @@
 use super::*;
-use crate::math::{Mat3, Sym3, inverted};
+use crate::math::{Mat3, Sym3};
 use crate::mpm::chunk::{Packed, put};
 use crate::mpm::fixture::{Random, beads, lattice, levels};
-use crate::mpm::reference;
+use crate::mpm::reference::{self, inverted};
 use fearless_simd::{Level, dispatch};
 
 /// Length of a sub-step [s], a number of both precisions.
@@ -38,15 +38,7 @@ fn reference<R: Real>(state: &State<R>) -> After {
     let record = &state.record;
     let mass = record.mass.to_f64();
     let before = record.volumetric_strain.to_f64();
-    let [xx, yy, zz, xy, xz, yz] = record.deviator.map(R::to_f64);
-    let stress = Sym3 {
-        xx,
-        yy,
-        zz,
-        xy,
-        xz,
-        yz,
-    };
+    let stress = Sym3::from_components(record.deviator.map(R::to_f64));
     // Columns, as in chunks.
     let start = Mat3::identity() + matrix(&record.gradient).transpose();
     let (_, inverse) = inverted(&start);
@@ -56,10 +48,9 @@ fn reference<R: Real>(state: &State<R>) -> After {
     let volume = mass / DENSITY * (1.0 + before) * volume_ratio;
     let viscosity = material.bulk_viscosity(lattice().finest_spacing());
     let stress = reference::stress(&material, &stress, &gradient, mass / volume, viscosity, DT);
-    let s = stress.deviator();
     let per_cell = Mat3::from_diagonal(&lattice().spacing.map(|h| 4.0 / h));
     After {
-        deviator: [s.xx, s.yy, s.zz, s.xy, s.xz, s.yz],
+        deviator: stress.deviator().components(),
         pressure: -stress.trace() / 3.0,
         e: end - Mat3::identity(),
         volumetric_strain: volume * DENSITY / mass - 1.0,
@@ -174,7 +165,7 @@ fn state<R: Real>(
     let mut rows = |size: f64| [(); 3].map(|()| [(); 3].map(|()| R::of(random.single(size))));
     let record = Packed {
         gradient: rows(strain),
-        deviator: [s.xx, s.yy, s.zz, s.xy, s.xz, s.yz].map(R::of),
+        deviator: s.components().map(R::of),
         volumetric_strain: R::of(volumetric_strain),
         mass: R::of(1e-3),
         ..Packed::<R>::none()

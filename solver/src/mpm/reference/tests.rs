@@ -84,3 +84,12 @@ fn stress_turns_with_the_material() {
     assert!((turned.yy - 1.0).abs() < 1e-3);
     assert!(turned.xy.abs() < 1e-3);
 }
+
+#[test]
+fn a_matrix_times_its_inverse_is_one() {
+    let m = Mat3::new(1.1, 0.2, -0.3, 0.05, 0.9, 0.1, -0.2, 0.3, 1.2);
+    let (determinant, inverse) = inverted(&m);
+    // A few roundings of numbers of order one.
+    assert!((m * inverse - Mat3::identity()).norm() < 1e-15);
+    assert!((determinant - m.determinant()).abs() < 1e-15);
+}
