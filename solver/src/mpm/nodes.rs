@@ -482,3 +482,6 @@ fn advance<S: Simd, R: Real>(simd: S, forces: &NodeBlock<R>, push: &Push<R>, blo
 fn quad<S: Simd, R: Real>(simd: S, value: R) -> R::Quad<S> {
     R::Quad::<S>::simd_from(simd, value)
 }
+
+#[cfg(test)]
+mod tests;

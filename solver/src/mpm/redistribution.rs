@@ -331,3 +331,6 @@ fn total<R: Real>(sums: &[R::Lanes; 3]) -> Vec3 {
     let sum = |of: &R::Lanes| of.as_ref().iter().map(|part| part.to_f64()).sum();
     Vec3::new(sum(&sums[0]), sum(&sums[1]), sum(&sums[2]))
 }
+
+#[cfg(test)]
+mod tests;

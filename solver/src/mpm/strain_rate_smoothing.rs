@@ -110,3 +110,6 @@ pub fn smooth_strain_rates<S: Simd, R: Real>(
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
