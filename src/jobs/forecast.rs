@@ -84,7 +84,7 @@ pub enum ForecastError {
 /// # Errors
 /// The scenario can't be set up, or its first steps fail.
 pub fn forecast(scenario: &Scenario, threads: usize) -> Result<Planned, ForecastError> {
-    let plan = plan::of(scenario)?;
+    let plan = Plan::new(scenario)?;
     let refinement_runs = refinement_runs(scenario, threads)?;
     let first: f64 = refinement_runs.iter().map(|run| run.expected_s).sum();
     let answer = Span::of(scenario, &plan.cost, threads, TIMED_FOR)?;

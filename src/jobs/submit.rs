@@ -3,7 +3,7 @@
 use super::job::JobId;
 use scree_solver::scenario::Scenario;
 pub use scree_solver::scenario::{ScenarioError, Violation, excerpt};
-use scree_solver::{SetupError, Simulation, plan};
+use scree_solver::{Plan, SetupError, Simulation};
 use serde_json::{Value, json};
 
 /// A job that may enter the queue.
@@ -56,7 +56,7 @@ pub fn validate(
     mut labels: Vec<String>,
 ) -> Result<NewJob, ScenarioError> {
     let scenario = read(text, means.threads_per_worker)?;
-    let plan = plan::of(&scenario).map_err(|error| unwritable(&error))?;
+    let plan = Plan::new(&scenario).map_err(|error| unwritable(&error))?;
     if let Some(violation) = too_costly(plan.cost.point_steps, means.point_steps) {
         return Err(ScenarioError::Invalid(vec![violation]));
     }

@@ -27,23 +27,25 @@ pub struct Plan {
     pub cost: Cost,
 }
 
-/// The plan of a scenario's run.
-///
-/// # Errors
-/// Too many points for one run, or a requested reduction that the scene does not allow.
-pub fn of(scenario: &Scenario) -> Result<Plan, SetupError> {
-    let outline = Outline::of(scenario)?;
-    Ok(Plan {
-        choices: choices::of(scenario, &outline),
-        hints: hints::of(scenario, &outline),
-        cost: Cost::of(scenario, &outline),
-    })
+impl Plan {
+    /// Plan of a scenario's run.
+    ///
+    /// # Errors
+    /// Too many points for one run, or a requested reduction that the scene does not allow.
+    pub fn new(scenario: &Scenario) -> Result<Self, SetupError> {
+        let outline = Outline::of(scenario)?;
+        Ok(Self {
+            choices: choices::of(scenario, &outline),
+            hints: hints::of(scenario, &outline),
+            cost: Cost::of(scenario, &outline),
+        })
+    }
 }
 
 /// Cost of a scenario's run.
 ///
 /// # Errors
-/// As for [`of`].
+/// As for [`Plan::new`].
 pub fn cost(scenario: &Scenario) -> Result<Cost, SetupError> {
     Ok(Cost::of(scenario, &Outline::of(scenario)?))
 }

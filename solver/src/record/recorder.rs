@@ -8,7 +8,7 @@ use super::sampling::Sampling;
 use super::scale::Scale;
 use super::snapshots::Snapshots;
 use super::{BodyOutcome, Conservation, Cost, FlowSnapshot, Outcome, Record, Sample};
-use crate::plan::{self, Plan};
+use crate::plan::Plan;
 use crate::rigid::Body;
 use crate::scenario::{Ending, Scenario};
 use crate::simulation::{Simulation, SubstepReport};
@@ -55,7 +55,7 @@ impl Recorder {
             scale: Scale::of(size(scenario), scenario.gravity_m_s2),
             next_look: 0.0,
             // A scenario without a plan can't be set up either.
-            plan: plan::of(scenario).ok(),
+            plan: Plan::new(scenario).ok(),
             ended_early: None,
         }
     }

@@ -37,7 +37,7 @@ const LAYERS: [&[&str]; 9] = [
 ];
 
 /// Above the layers, in this order: they combine them.
-const ON_TOP: [&str; 4] = ["simulation", "plan", "record", "accuracy"];
+const ON_TOP: [&str; 5] = ["simulation", "plan", "record", "accuracy", "compute"];
 
 fn rank(module: &str) -> Option<usize> {
     let on_top = || {
