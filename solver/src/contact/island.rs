@@ -209,8 +209,40 @@ fn broad_phase(bodies: &[Body], acceleration: impl Fn(usize) -> f64, dt: f64) ->
     if bodies.len() < 2 {
         return Vec::new();
     }
-    let of_place = |(place, body)| reach(body, acceleration(place), dt);
-    let reaches: Vec<f64> = bodies.iter().enumerate().map(of_place).collect();
+    let speed = |(place, body)| speed_within(body, acceleration(place), dt);
+    let speeds: Vec<f64> = bodies.iter().enumerate().map(speed).collect();
+    let mut pairs = pairs_within_reach(bodies, &speeds, dt);
+    // A body that is struck may strike the next: until no more are in reach.
+    while !pairs.is_empty() {
+        let more = pairs_within_reach(bodies, &speeds_after_impacts(bodies, &speeds, &pairs), dt);
+        if more.len() == pairs.len() {
+            break;
+        }
+        pairs = more;
+    }
+    pairs
+}
+
+/// Largest speed [m/s] of a body within `dt` under an acceleration [m/s²], impacts apart.
+fn speed_within(body: &Body, acceleration: f64, dt: f64) -> f64 {
+    match body.freedom {
+        Freedom::Fixed => 0.0,
+        Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => {
+            body.speed_ahead() + acceleration * dt
+        }
+    }
+}
+
+/// Distance that a body can travel in `dt` at this speed [m/s], with an allowance for other
+/// accelerations [m].
+fn reach(body: &Body, speed: f64, dt: f64) -> f64 {
+    2.0 * speed * dt + 0.01 * body.shape.sphero_radius()
+}
+
+/// Pairs of bodies, one of them free, that may touch within `dt` at these speeds [m/s].
+fn pairs_within_reach(bodies: &[Body], speeds: &[f64], dt: f64) -> Vec<[usize; 2]> {
+    let reach = |(body, speed): (&Body, &f64)| reach(body, *speed, dt);
+    let reaches: Vec<f64> = bodies.iter().zip(speeds).map(reach).collect();
     let ball = |(body, reach): (&Body, &f64)| Ball {
         centre: body.state.position,
         radius: body.shape.bounding_radius() + reach,
@@ -225,20 +257,36 @@ fn broad_phase(bodies: &[Body], acceleration: impl Fn(usize) -> f64, dt: f64) ->
     pairs
 }
 
-fn is_free(body: &Body) -> bool {
-    body.is_free()
+/// Largest speeds [m/s] of the bodies once those in pairs have struck each other: a body may get
+/// all the energy of its connected component, and twice the speed of a prescribed motion.
+fn speeds_after_impacts(bodies: &[Body], speeds: &[f64], pairs: &[[usize; 2]]) -> Vec<f64> {
+    let roots = components::roots(bodies, pairs);
+    let mut driven = speeds.to_vec();
+    for &[one, other] in pairs {
+        for [body, mover] in [[one, other], [other, one]] {
+            if is_free(&bodies[body]) && bodies[mover].prescribed().is_some() {
+                driven[body] = driven[body].max(speeds[body] + 2.0 * speeds[mover]);
+            }
+        }
+    }
+    let mut energies = vec![0.0; bodies.len()];
+    for (place, body) in bodies.iter().enumerate().filter(|(_, body)| is_free(body)) {
+        energies[roots[place]] += 0.5 * body.mass * driven[place] * driven[place];
+    }
+    let after = |(place, body): (usize, &Body)| {
+        if !is_free(body) {
+            return speeds[place];
+        }
+        let all = (2.0 * energies[roots[place]] / body.least_effective_mass()).sqrt();
+        // Alone it keeps its speed.
+        let alone = energies[roots[place]] == 0.5 * body.mass * speeds[place] * speeds[place];
+        if alone { speeds[place] } else { all }
+    };
+    bodies.iter().enumerate().map(after).collect()
 }
 
-/// Distance that a body can travel in `dt` under an acceleration [m/s²], with an allowance for
-/// other accelerations [m].
-fn reach(body: &Body, acceleration: f64, dt: f64) -> f64 {
-    let margin = 0.01 * body.shape.sphero_radius();
-    match body.freedom {
-        Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => {
-            2.0 * (body.speed_ahead() + acceleration * dt) * dt + margin
-        }
-        Freedom::Fixed => margin,
-    }
+fn is_free(body: &Body) -> bool {
+    body.is_free()
 }
 
 /// Keeps the histories of the pairs that are still near, and begins those of the others. Both

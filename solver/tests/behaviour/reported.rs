@@ -225,3 +225,24 @@ fn a_small_body_is_squeezed_out_from_under_a_heavy_one() {
     assert!(told.outcome.bodies[0].peak_speed_m_s > 10.0);
     assert!(told.made() < 1e-3, "{}", told.made());
 }
+
+// The first cube of a row was struck and overlapped the next by millimetres within one sub-step:
+// only bodies in reach at the start of it were paired, and the pairs behind were at rest. They
+// flew apart at 26 m/s. Elastic cubes of equal mass hand the 2 m/s on to the last.
+#[test]
+fn an_impact_runs_through_a_row_of_cubes() {
+    let told = Told::named(include_str!("reported/cube_into_row.json"));
+    for body in &told.outcome.bodies {
+        let energy = body.energy.as_ref().expect("it is free");
+        assert!(energy.made_share < 1e-4, "{}", energy.made_share);
+    }
+    let peaks: Vec<f64> = told
+        .outcome
+        .bodies
+        .iter()
+        .map(|body| body.peak_speed_m_s)
+        .collect();
+    assert!(peaks.iter().all(|peak| *peak < 2.001), "{peaks:?}");
+    assert!(peaks[4] > 1.9, "{peaks:?}");
+    assert!(told.made() < 1e-4, "{}", told.made());
+}

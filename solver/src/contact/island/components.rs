@@ -32,7 +32,8 @@ pub(super) fn islands<'a>(
             )
         })
         .collect();
-    let roots = roots(bodies, &contact_pairs);
+    let pairs: Vec<[usize; 2]> = contact_pairs.iter().map(|pair| pair.bodies).collect();
+    let roots = roots(bodies, &pairs);
     let mut islands: Vec<Island> = Vec::new();
     let mut seats: Vec<Seat> = Vec::with_capacity(bodies.len());
     for (place, (body, report)) in bodies.iter_mut().zip(reports).enumerate() {
@@ -79,7 +80,7 @@ pub(super) fn islands<'a>(
 }
 
 /// Per body the first of its connected component.
-fn roots(bodies: &[Body], contact_pairs: &[ContactPair]) -> Vec<usize> {
+pub(super) fn roots(bodies: &[Body], pairs: &[[usize; 2]]) -> Vec<usize> {
     fn root_of(roots: &[usize], mut place: usize) -> usize {
         while roots[place] != place {
             place = roots[place];
@@ -87,13 +88,9 @@ fn roots(bodies: &[Body], contact_pairs: &[ContactPair]) -> Vec<usize> {
         place
     }
     let mut roots: Vec<usize> = (0..bodies.len()).collect();
-    for contact_pair in contact_pairs {
-        if contact_pair
-            .bodies
-            .iter()
-            .all(|&place| is_free(&bodies[place]))
-        {
-            let [a, b] = contact_pair.bodies.map(|place| root_of(&roots, place));
+    for pair in pairs {
+        if pair.iter().all(|&place| is_free(&bodies[place])) {
+            let [a, b] = pair.map(|place| root_of(&roots, place));
             roots[a.max(b)] = a.min(b);
         }
     }

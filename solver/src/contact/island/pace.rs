@@ -1,7 +1,10 @@
 //! Number of body sub-steps of an island within one of the flow (docs/method.md, equations 20
 //! and 48).
 
-use super::{IslandPair, Member, Mover, Side, Surroundings, body_of, broad_phase, is_free, reach};
+use super::{
+    IslandPair, Member, Mover, Side, Surroundings, body_of, broad_phase, is_free, reach,
+    speed_within,
+};
 use crate::contact::body_body::{ContactPair, pair_law, reduced_mass};
 use crate::contact::body_wall::deepest_overlap;
 use crate::contact::law::ContactLaw;
@@ -44,7 +47,7 @@ pub(super) fn substeps_alone(
     // A body that starts from rest is not at rest at the end.
     let speed = body.largest_speed() + acceleration * dt;
     let deepest = deepest_overlap(body, planes);
-    let contacts = if deepest + reach(body, acceleration, ahead) > 0.0 {
+    let contacts = if deepest + reach(body, speed_within(body, acceleration, ahead), ahead) > 0.0 {
         let law = &body.wall_law;
         let impact = impact_overlap(law, body.mass, speed);
         dt / longest(law, deepest.max(impact), body.least_effective_mass())
