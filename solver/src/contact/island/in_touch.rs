@@ -113,13 +113,19 @@ fn scale(body: &Body, gravity: &Vec3) -> f64 {
 }
 
 impl Coming {
-    /// Longest sub-step for it [s]: that of the impact which takes its stored and approaching
+    /// Longest sub-step for it [s]: that of the impact which takes its stored and kinetic
     /// energy, or the one that does not pass a coming contact.
     fn longest(&self, law: &ContactLaw) -> f64 {
         let [mass, least_mass] = self.masses;
-        let brought = 0.5 * mass * self.approach.max(0.0) * self.approach;
-        let held = law.elastic_energy(self.overlap.max(0.0));
-        let at_stake = brought + held;
+        let touches = self.overlap > 0.0;
+        // A rebound takes steps as short as the approach: an integration that is longer on the
+        // way out makes energy in every impact.
+        let speed = if touches {
+            self.approach.abs()
+        } else {
+            self.approach.max(0.0)
+        };
+        let at_stake = 0.5 * mass * speed * speed + law.elastic_energy(self.overlap.max(0.0));
         if at_stake <= 0.0 {
             return f64::INFINITY;
         }
@@ -129,7 +135,7 @@ impl Coming {
             .sqrt()
             .clamp(1.0, MOST_LONGER);
         let impact = longer * longest(law, deepest, least_mass);
-        if self.overlap < 0.0 {
+        if !touches {
             impact.max(SHARE_OF_WAY * -self.overlap / self.approach)
         } else {
             impact
