@@ -294,6 +294,16 @@ impl Body {
         (twice_energy.max(0.0) * self.shape.turning_compliance() / self.mass).sqrt()
     }
 
+    /// Compliance to forces that turn it, at a place with this arm in world axes, in the direction
+    /// where it is largest [1/kg]; 0 for a body that is not free.
+    pub fn turning_compliance_at(&self, arm: &Vec3) -> f64 {
+        if self.is_free() {
+            self.inverse_inertia.compliance_at(&self.to_body(arm))
+        } else {
+            0.0
+        }
+    }
+
     /// Least mass that resists a force anywhere on its surface [kg].
     pub fn least_effective_mass(&self) -> f64 {
         self.mass / (1.0 + self.shape.turning_compliance())

@@ -7,6 +7,7 @@ use crate::math::Vec3;
 use crate::rigid::{Body, Load};
 use crate::walls::{Boundary, Impulse, NodeAccess};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 mod around;
 mod effective_mass;
@@ -31,10 +32,13 @@ pub struct PointSphere {
 }
 
 impl PointSphere {
-    /// Number of points that fit on a body's largest projected area, at least one.
+    /// Bound of the number of points that press on a body from one side, at least one: those on its
+    /// bounding ball's projected area or, for a slender body, on half of the surface where their
+    /// centres are.
     pub fn most_touching(&self, body: &Body) -> f64 {
-        let radius = body.shape.shadow_radius();
-        (std::f64::consts::PI * (radius / self.spacing).powi(2)).max(1.0)
+        let ball = PI * body.shape.bounding_radius().powi(2);
+        let around = 0.5 * body.shape.surface_at(self.radius);
+        (ball.min(around) / self.spacing.powi(2)).max(1.0)
     }
 }
 
@@ -234,7 +238,7 @@ impl<P: Copy + Send + Sync> Loads<P> {
         let of_body = |body: usize| {
             let mut sum = ContactSum::default();
             for contact in self.contacts[body].iter().flatten() {
-                sum.add(contact.arm.norm());
+                sum.add(contact.turning);
             }
             sum
         };
@@ -257,8 +261,7 @@ impl<P: Copy + Send + Sync> Loads<P> {
             let of_body = sum.compliance(body);
             for (candidate, contact) in candidates.iter().zip(contacts) {
                 let Some(contact) = contact else { continue };
-                let compliance =
-                    self.compliance.at(&contact.stencil) + of_body.at(contact.arm.norm());
+                let compliance = self.compliance.at(&contact.stencil) + of_body.at(contact.turning);
                 let force = contact.force(&body.flow_law, 1.0 / compliance, dt);
                 on_body.take_in(&force);
                 self.on_points.push((candidate.place, force.force));

@@ -43,7 +43,6 @@ pub struct SpheroPolyhedron {
     nearest: Nearest,
     sphero_radius: f64,
     volume: f64,
-    surface: f64,
     unit_inertia: Matrix3<f64>,
     bounding_radius: f64,
     turning_compliance: f64,
@@ -125,7 +124,6 @@ impl SpheroPolyhedron {
         let unit_inertia = Moments::of_dilated(&core, sphero_radius).inertia();
         Self {
             volume,
-            surface: steiner_surface(&core, sphero_radius),
             unit_inertia,
             turning_compliance: volume * turning_compliance(&core, sphero_radius, &unit_inertia),
             bounding_radius: farthest + sphero_radius,
@@ -187,10 +185,16 @@ impl SpheroPolyhedron {
         speeds.fold(0.0, f64::max).sqrt() + self.sphero_radius * angular.norm()
     }
 
-    /// Radius of a disc no smaller than any projected area of the solid [m]: that of the bounding
-    /// ball, or one with half the surface, which no projected area of a convex solid exceeds.
-    pub fn shadow_radius(&self) -> f64 {
-        (self.surface / (2.0 * PI)).sqrt().min(self.bounding_radius)
+    /// Bound of its projected areas [m²]: that of the bounding ball, or half the surface, which no
+    /// projected area of a convex solid exceeds.
+    pub fn largest_projected_area(&self) -> f64 {
+        (PI * self.bounding_radius.powi(2)).min(0.5 * self.surface_at(0.0))
+    }
+
+    /// Surface of the solid dilated by a sphere of radius `distance` [m²]: the places this far from
+    /// it.
+    pub fn surface_at(&self, distance: f64) -> f64 {
+        steiner_surface(&self.core, self.sphero_radius + distance)
     }
 
     /// Reach of the rounded solid from the origin along a unit direction [m] (support

@@ -19,8 +19,8 @@ use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::scenes::thrown_down;
 use crate::verify::{Case, Effort, How};
-use scree_solver::math::{Mat3, Vec3};
-use scree_solver::rigid::Body;
+use scree_solver::math::Vec3;
+use scree_solver::rigid::{Body, InverseInertia};
 use scree_solver::shape::SpheroPolyhedron;
 use scree_solver::simulation::{Guards, Scene};
 use serde_json::json;
@@ -135,8 +135,8 @@ fn free_box(sides_m: [f64; 3], radius_m: f64) -> Result<Body, CaseError> {
     let density = 1000.0;
     body.mass = density * shape.volume();
     body.inertia = shape.unit_inertia() * density;
-    let inverse = body.inertia.diagonal().map(|inertia| 1.0 / inertia);
-    body.inverse_inertia = Mat3::from_diagonal(&inverse).into();
+    body.inverse_inertia = InverseInertia::of(&body.inertia)
+        .ok_or_else(|| CaseError::Scene("a box without inertia".to_owned()))?;
     body.shape = shape;
     body.state.momentum = Vec3::zeros();
     body.state.springs.clear();

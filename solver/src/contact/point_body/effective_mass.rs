@@ -72,26 +72,27 @@ impl GridCompliance {
     }
 }
 
-/// Contacts of one body: their number, and the sum of their levers.
+/// Contacts of one body: their number, and the sum of the roots of the body's turning compliance
+/// at each.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ContactSum {
     count: f64,
-    /// Σ |arm| [m].
-    levers: f64,
+    /// Σ √a [kg^-½], a being the turning compliance.
+    turning: f64,
 }
 
 impl ContactSum {
-    /// Adds a contact at this distance from the centre of mass [m].
-    pub(super) fn add(&mut self, lever: f64) {
+    /// Adds a contact where √a [kg^-½] is the root of the body's turning compliance.
+    pub(super) fn add(&mut self, turning: f64) {
         self.count += 1.0;
-        self.levers += lever;
+        self.turning += turning;
     }
 
     /// The sum of a body's contacts and its mirror image's.
     pub(super) fn plus(self, other: Self) -> Self {
         Self {
             count: self.count + other.count,
-            levers: self.levers + other.levers,
+            turning: self.turning + other.turning,
         }
     }
 
@@ -102,7 +103,7 @@ impl ContactSum {
         }
         BodyCompliance {
             translation: self.count / body.mass,
-            rotation: body.inverse_inertia.largest() * self.levers,
+            turning: self.turning,
         }
     }
 }
@@ -112,13 +113,14 @@ impl ContactSum {
 pub(super) struct BodyCompliance {
     /// Compliance in translation [1/kg].
     translation: f64,
-    /// Compliance in rotation per distance from the centre of mass [1/(kg m)].
-    rotation: f64,
+    /// Σ √a of its contacts [kg^-½].
+    turning: f64,
 }
 
 impl BodyCompliance {
-    /// Bound of the acceleration at `lever` [m] from the centre of mass [1/kg].
-    pub(super) fn at(&self, lever: f64) -> f64 {
-        self.translation + self.rotation * lever
+    /// Bound of the acceleration where √a [kg^-½] is the root of the turning compliance [1/kg], by
+    /// Cauchy's inequality.
+    pub(super) fn at(&self, turning: f64) -> f64 {
+        self.translation + self.turning * turning
     }
 }

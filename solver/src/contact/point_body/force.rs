@@ -20,6 +20,8 @@ pub(super) struct PointContact {
     overlap: f64,
     /// δ/(R_p + r).
     overlap_ratio: f64,
+    /// Root of the body's turning compliance there [kg^-½].
+    pub(super) turning: f64,
     /// Nodes that the point exchanges momentum with.
     pub(super) stencil: PointStencil,
 }
@@ -56,6 +58,7 @@ impl PointContact {
             velocity: velocity - body.velocity_at(&arm),
             overlap,
             overlap_ratio: overlap / reach,
+            turning: body.turning_compliance_at(&arm).sqrt(),
             stencil: points.stencil(place),
         })
     }

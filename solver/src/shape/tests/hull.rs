@@ -114,14 +114,20 @@ fn least_widths() {
 }
 
 #[test]
-fn shadows() {
-    // For a cube that of the bounding ball, for a needle that of half its surface.
+fn projected_areas_and_surfaces() {
+    // For a cube that of the bounding ball, for a needle half of its surface.
     let cube = SpheroPolyhedron::cube(0.04, 0.002).unwrap();
-    assert_eq!(cube.shadow_radius(), cube.bounding_radius());
+    let ball = std::f64::consts::PI * cube.bounding_radius().powi(2);
+    assert_eq!(cube.largest_projected_area(), ball);
     let needle = SpheroPolyhedron::cuboid([0.5, 0.02, 0.02], 1e-9).unwrap();
-    let half_surface = 2.0 * 0.5 * 0.02 + 0.02 * 0.02;
-    let disc = std::f64::consts::PI * needle.shadow_radius().powi(2);
-    assert!((disc / half_surface - 1.0).abs() < 1e-6);
+    let surface = 4.0 * 0.5 * 0.02 + 2.0 * 0.02 * 0.02;
+    assert!((needle.largest_projected_area() / (0.5 * surface) - 1.0).abs() < 1e-6);
+    // Twelve rounded edges and a ball's worth of corners join the faces.
+    let distance = 0.01;
+    let edges = std::f64::consts::FRAC_PI_2 * distance * 4.0 * (0.5 + 0.02 + 0.02);
+    let corners = 4.0 * std::f64::consts::PI * distance * distance;
+    let around = needle.surface_at(distance);
+    assert!((around / (surface + edges + corners) - 1.0).abs() < 1e-6);
 }
 
 #[test]

@@ -153,7 +153,7 @@ impl Crowd {
                 restitution: body.restitution,
                 start,
                 bounding_radius,
-                projected_area: std::f64::consts::PI * shape.shadow_radius().powi(2),
+                projected_area: shape.largest_projected_area(),
                 speed_squared: falling + thrown * thrown,
                 lies_on_flow: scenario.release().is_some_and(|release| {
                     let bed = scenario.channel.bed_elevation_m(start.x);
