@@ -1,8 +1,8 @@
 //! Scenes that formerly came out wrong, by name, each with its right answer and its history.
 
+use scree_solver::Simulation;
 use scree_solver::record::{BodySample, Outcome, Record, Recorder};
 use scree_solver::scenario::Scenario;
-use scree_solver::Simulation;
 use serde_json::Value;
 use std::ops::ControlFlow;
 

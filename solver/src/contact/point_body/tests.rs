@@ -1,4 +1,3 @@
-use super::effective_mass::ContactSum;
 use super::force::PointContact;
 use super::*;
 use crate::contact::law::ContactLaw;
@@ -204,12 +203,34 @@ fn friction_is_coulombs_and_against_the_sliding() {
     let force = force_on_one(0.5, Vec3::new(slow, 0.0, 0.0));
     let body = cube();
     let lever = (above(0.5) - body.state.position).norm();
-    let mut sum = ContactSum::default();
-    sum.add(lever);
-    // The whole mass of a lone point resists, and the cube.
-    let effective = 1.0 / (1.0 / MASS + sum.compliance(&body).at(lever));
+    // The whole mass of a lone point resists, and the cube, which it also turns.
+    let moment = body.inertia[(0, 0)];
+    let compliance = 1.0 / MASS + 1.0 / body.mass + lever * lever / moment;
+    let effective = 1.0 / compliance;
     let expected = 0.5 * effective * slow / DT;
     assert!((force.x + expected).abs() < 1e-9 * expected, "{force:?}");
+}
+
+// At the tip of a rod a force across turns it about a transverse axis, whose moment is far above that
+// about its length.
+#[test]
+fn a_slender_body_resists_at_its_tip_with_its_transverse_inertia() {
+    let mut rod = cuboid([0.2, 0.004, 0.004]);
+    rod.state.position = Vec3::repeat(0.1);
+    let place = Vec3::new(0.19, 0.1, 0.102 + 0.5 * SPHERE.radius);
+    let slow = 1e-6;
+    let loads = loads(vec![place], Vec3::new(0.0, slow, 0.0), &rod);
+    let arm: Vec3 = place - rod.state.position;
+    let [about_length, across] = [0, 1].map(|axis| rod.inertia[(axis, axis)]);
+    assert!(about_length < 0.01 * across);
+    // Across the rod in the plane of arm and length the compliance is arm²/I; across that plane it
+    // is less than the sum of both turns.
+    let least = 1.0 / MASS + 1.0 / rod.mass + arm.norm_squared() / across;
+    let most = least + arm.z * arm.z / about_length;
+    let expected = [most, least].map(|compliance| 0.5 * slow / (DT * compliance));
+    let force = -loads.on_points[0].1.y;
+    assert!(force >= expected[0] * (1.0 - 1e-9), "{force} {expected:?}");
+    assert!(force <= expected[1] * (1.0 + 1e-9), "{force} {expected:?}");
 }
 
 #[test]
