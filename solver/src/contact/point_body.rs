@@ -16,7 +16,7 @@ mod penetration_correction;
 
 pub use around::Around;
 use effective_mass::{ContactSum, GridCompliance};
-use force::{PointContact, PointForce};
+use force::{Compliance, PointContact, PointForce};
 pub use penetration_correction::{PenetratingPoint, PenetrationCorrection, penetration_correction};
 
 /// Candidates per task.
@@ -261,8 +261,12 @@ impl<P: Copy + Send + Sync> Loads<P> {
             let of_body = sum.compliance(body);
             for (candidate, contact) in candidates.iter().zip(contacts) {
                 let Some(contact) = contact else { continue };
-                let compliance = self.compliance.at(&contact.stencil) + of_body.at(contact.turning);
-                let force = contact.force(&body.flow_law, 1.0 / compliance, dt);
+                let of_body = of_body.at(contact.turning);
+                let compliance = Compliance {
+                    body: of_body,
+                    total: self.compliance.at(&contact.stencil) + of_body,
+                };
+                let force = contact.force(&body.flow_law, compliance, dt);
                 on_body.take_in(&force);
                 self.on_points.push((candidate.place, force.force));
             }

@@ -62,12 +62,12 @@ fn energy_made_by_a_bodys_contacts_ends_the_run() {
     assert!(made_j > limit_j && time_s < 0.1, "{error}");
 }
 
-// Contacts of points that drive instead of damping: the body's own balance contains only the
+// Friction of points that drives instead of braking: the body's own balance contains only the
 // flow's work on it; the balance of the whole run finds the energy made.
 #[test]
 fn energy_made_between_flow_and_body_ends_the_run() {
     in_both_precisions(|scene| {
-        let error = spoilt(&scene, |built| built.bodies[0].flow_law.damping = -10.0);
+        let error = spoilt(&scene, |built| built.bodies[0].flow_law.friction = -5.0);
         let StepError::EnergyRunaway {
             rise_j,
             limit_j,

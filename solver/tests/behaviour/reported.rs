@@ -285,3 +285,29 @@ fn an_impact_runs_through_a_row_in_a_flow() {
     }
     assert!(told.made() < 1e-3, "{}", told.made());
 }
+
+// A plate lighter than a point rocked between points at rest, faster with every sub-step, until the
+// guard ended the run at 14 m/s after 8 ms: the elastic force, kept for a sub-step, gives a body
+// energy. It is pushed about when the release settles, and comes to rest.
+#[test]
+fn a_light_plate_in_a_flow_at_rest_comes_to_rest() {
+    let told = Told::named(include_str!("reported/light_plate_in_flow_at_rest.json"));
+    let [plate, _] = &told.outcome.bodies[..] else {
+        panic!("there are two bodies");
+    };
+    assert!(plate.peak_speed_m_s < 0.3, "{}", plate.peak_speed_m_s);
+    let last = &told.samples.last().expect("it has samples")[0];
+    let speed: f64 = last.velocity_m_s.iter().map(|v| v * v).sum();
+    assert!(speed.sqrt() < 0.03, "{last:?}");
+}
+
+// Between a piston at 1 m/s and a fixed wall a cube gains 2 m/s in every hit. The guard of speeds did
+// not count the piston's work, and ended the run.
+#[test]
+fn an_elastic_cube_before_a_piston_may_get_fast() {
+    let told = Told::named(include_str!("reported/elastic_cube_before_a_piston.json"));
+    let cube = &told.outcome.bodies[0];
+    assert!(cube.peak_speed_m_s > 6.0, "{}", cube.peak_speed_m_s);
+    let energy = cube.energy.as_ref().expect("it is free");
+    assert!(energy.made_share < 1e-4, "{}", energy.made_share);
+}

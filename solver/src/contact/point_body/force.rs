@@ -39,6 +39,15 @@ pub(super) struct PointForce {
     pub(super) energy: f64,
 }
 
+/// Compliances of a contact to unit forces on all contacts at once [1/kg].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Compliance {
+    /// Compliance of the body.
+    pub(super) body: f64,
+    /// Compliance of body and grid.
+    pub(super) total: f64,
+}
+
 impl PointContact {
     /// Contact of a point with the closest feature of a body; `None` if apart.
     pub(super) fn find<A: PointAccess>(
@@ -69,13 +78,15 @@ impl PointContact {
         (point, point - self.normal * (stand_off - self.overlap))
     }
 
-    /// Force of this contact in a sub-step of `dt` [s], for this effective contact mass [kg].
-    pub(super) fn force(&self, law: &ContactLaw, effective_mass: f64, dt: f64) -> PointForce {
+    /// Force of this contact in a sub-step of `dt` [s], resisted by these compliances.
+    pub(super) fn force(&self, law: &ContactLaw, compliance: Compliance, dt: f64) -> PointForce {
+        let effective_mass = 1.0 / compliance.total;
         let largest = METHOD.contact.damping_cap * effective_mass / dt;
         let approach = self.velocity.dot(&self.normal);
         let damping = law
             .damping_coefficient(self.overlap, effective_mass)
-            .min(largest);
+            .min(largest)
+            .max(self.balancing_damping(law, compliance, dt));
         let pressed = (law.elastic_force(self.overlap) - damping * approach).max(0.0);
         let sliding = self.velocity - self.normal * approach;
         let slip = sliding.norm().max(f64::MIN_POSITIVE);
@@ -86,5 +97,12 @@ impl PointContact {
             overlap_ratio: self.overlap_ratio,
             energy: law.elastic_energy(self.overlap),
         }
+    }
+
+    /// Damping that takes what the elastic force makes while it is constant over a sub-step:
+    /// a body on a spring k, moved by the force at the start, gains as if damped by −k Δt/2.
+    fn balancing_damping(&self, law: &ContactLaw, compliance: Compliance, dt: f64) -> f64 {
+        let share = compliance.body / compliance.total;
+        0.5 * law.tangent_stiffness(self.overlap) * dt * share
     }
 }

@@ -233,6 +233,27 @@ fn a_slender_body_resists_at_its_tip_with_its_transverse_inertia() {
     assert!(force <= expected[1] * (1.0 + 1e-9), "{force} {expected:?}");
 }
 
+// An elastic contact of a light body: damped by ½ k' Δt for its share of the compliance.
+#[test]
+fn an_elastic_contact_takes_what_the_step_makes() {
+    let mut body = cube();
+    body.flow_law.damping = 0.0;
+    let force = |speed: f64| {
+        let velocity = Vec3::new(0.0, 0.0, speed);
+        loads(vec![above(0.5)], velocity, &body).on_points[0].1.z
+    };
+    let damping = (force(-1e-3) - force(1e-3)) / 2e-3;
+    let lever = (above(0.5) - body.state.position).norm();
+    let of_body = 1.0 / body.mass + lever * lever / body.inertia[(0, 0)];
+    let share = of_body / (of_body + 1.0 / MASS);
+    let tangent = 1.5 * body.flow_law.stiffness * (0.5 * SPHERE.radius).sqrt();
+    let expected = 0.5 * tangent * DT * share;
+    assert!(
+        (damping / expected - 1.0).abs() < 1e-9,
+        "{damping} {expected}"
+    );
+}
+
 #[test]
 fn forces_of_the_last_sub_step_are_gone() {
     let cloud = Cloud::new(vec![above(0.5)], Vec3::zeros());
@@ -450,7 +471,11 @@ fn the_force_is_continuous_over_faces_edges_and_vertices() {
             let cloud = Cloud::new(vec![position], Vec3::zeros());
             let contact = PointContact::find(&cloud, 0, &body, SPHERE.radius);
             let contact = contact.expect("it touches");
-            contact.force(&body.flow_law, MASS, DT).force
+            let compliance = Compliance {
+                body: 0.0,
+                total: 1.0 / MASS,
+            };
+            contact.force(&body.flow_law, compliance, DT).force
         };
         let (mut place, _) = at(0);
         let mut before = force(place);
