@@ -158,16 +158,20 @@ impl Simulation {
     }
 
     /// Largest speed [m/s] that a body's fastest place may reach: a light one among heavy ones may
-    /// get all their energy, which is that of their mass at the given speed.
+    /// get all their energy, which is that of their mass at the given speed, and the work that
+    /// prescribed motions have done.
     fn fastest_possible(&self, body: &Body) -> f64 {
+        let given = self.given.guards.speed_given;
+        let wide = METHOD.guards.faster * given;
+        if !body.is_free() {
+            return wide;
+        }
         let free = self.state.bodies.iter().filter(|body| body.is_free());
         let mass: f64 = free.map(|body| body.mass).sum();
-        let lighter = if body.is_free() {
-            (mass / body.least_effective_mass()).sqrt()
-        } else {
-            0.0
-        };
-        self.given.guards.speed_given * lighter.max(METHOD.guards.faster)
+        let twice_energy = mass * given * given + 2.0 * self.state.audit.work_given().max(0.0);
+        (twice_energy / body.least_effective_mass())
+            .sqrt()
+            .max(wide)
     }
 
     /// Checks after an audit that the mechanical energy has not risen.
