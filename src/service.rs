@@ -5,7 +5,8 @@ use crate::http;
 use crate::jobs::JobService;
 use crate::jobs::clock::SystemClock;
 use crate::jobs::pool::Pool;
-use crate::jobs::store::{Store, StoreError};
+use crate::jobs::store::sqlite::SqliteStore;
+use crate::jobs::store::{JobStore, StoreError};
 use std::net::SocketAddr;
 use std::sync::Arc;
 use thiserror::Error;
@@ -39,7 +40,7 @@ pub enum StartError {
 #[derive(Debug)]
 pub struct RunningService {
     address: SocketAddr,
-    store: Store,
+    store: Arc<dyn JobStore>,
     pool: Pool,
     server: JoinHandle<()>,
     stop: watch::Sender<bool>,
@@ -77,8 +78,7 @@ pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> 
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let size = config.check(cores)?;
     let (listener, address) = listen(config.listen).await?;
-    let largest = config.limits.database_bytes;
-    let store = Store::open_with(&config.database, largest, Arc::new(SystemClock)).await?;
+    let store = open_store(&config).await?;
     match serve(&config, size, &store, listener).await {
         Ok((pool, server, stop)) => {
             tracing::info!(%address, ?size, database = %config.database.display(), "serving");
@@ -97,20 +97,27 @@ pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> 
     }
 }
 
+/// The store of the service: the one place that names a database.
+async fn open_store(config: &ServiceConfig) -> Result<Arc<dyn JobStore>, StoreError> {
+    let largest = config.limits.database_bytes;
+    let store = SqliteStore::open_with(&config.database, largest, Arc::new(SystemClock)).await?;
+    Ok(Arc::new(store))
+}
+
 async fn serve(
     config: &ServiceConfig,
     size: PoolSize,
-    store: &Store,
+    store: &Arc<dyn JobStore>,
     listener: TcpListener,
 ) -> Result<(Pool, JoinHandle<()>, watch::Sender<bool>), StartError> {
     let left_running = store.reclaim_own(&config.queue.name).await?;
     if left_running > 0 {
         tracing::warn!(left_running, "the last service died under jobs: they go on");
     }
-    let pool = Pool::start(store, size, config).map_err(StartError::Workers)?;
+    let pool = Pool::start(Arc::clone(store), size, config).map_err(StartError::Workers)?;
     let limits = config.limits.clone();
     let jobs = JobService::new(
-        store.clone(),
+        Arc::clone(store),
         pool.registry(),
         limits,
         size.threads_per_worker,

@@ -4,7 +4,7 @@ use super::admission::InFlight;
 use super::forecast::{ForecastError, Planned, forecast};
 use super::job::{Job, JobId, JobStatus, JobSummary};
 use super::pool::RunningJobRegistry;
-use super::store::{Dismissal, Event, JobCounts, Page, Removal, Store, StoreError};
+use super::store::{Dismissal, Event, JobCounts, JobStore, Page, Removal, StoreError};
 use super::submit::{self, Means, NewJob, ScenarioError};
 use crate::config::Limits;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ const LOOK_PAUSE: Duration = Duration::from_millis(50);
 /// Service that clients use to submit, follow, dismiss and remove jobs.
 #[derive(Debug, Clone)]
 pub struct JobService {
-    pub(super) store: Store,
+    pub(super) store: Arc<dyn JobStore>,
     pub(super) registry: Arc<RunningJobRegistry>,
     pub(super) limits: Limits,
     pub(super) in_flight: InFlight,
@@ -60,7 +60,7 @@ pub enum Dismissed {
 impl JobService {
     /// Service for the jobs in this store, run by the workers of this registry.
     pub fn new(
-        store: Store,
+        store: Arc<dyn JobStore>,
         registry: Arc<RunningJobRegistry>,
         limits: Limits,
         threads_per_worker: usize,
@@ -204,8 +204,8 @@ impl JobService {
 
     /// Checks with a real write that a job could be stored now.
     ///
+    /// # Errors
     /// A job could not be stored.
-    /// It could not.
     pub async fn probe(&self) -> Result<(), StoreError> {
         self.store.probe().await
     }

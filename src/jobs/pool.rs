@@ -5,7 +5,7 @@ use super::job::JobId;
 use super::lease_heartbeat::LeaseHeartbeat;
 use super::progress::ProgressBoard;
 use super::runner::{Stop, StopFlag};
-use super::store::{Lease, Store};
+use super::store::{JobStore, Lease};
 use super::worker;
 use crate::config::{PoolSize, Queue, Recording, Retention, ServiceConfig};
 use std::collections::BTreeMap;
@@ -32,7 +32,7 @@ pub struct Pool {
 /// Resources that a worker needs.
 #[derive(Debug, Clone)]
 pub(super) struct Equipment {
-    pub(super) store: Store,
+    pub(super) store: Arc<dyn JobStore>,
     pub(super) runtime: Handle,
     pub(super) registry: Arc<RunningJobRegistry>,
     pub(super) threads: usize,
@@ -84,9 +84,13 @@ impl Pool {
     ///
     /// # Errors
     /// The system refuses a thread.
-    pub fn start(store: &Store, size: PoolSize, config: &ServiceConfig) -> io::Result<Self> {
+    pub fn start(
+        store: Arc<dyn JobStore>,
+        size: PoolSize,
+        config: &ServiceConfig,
+    ) -> io::Result<Self> {
         let equipment = Equipment {
-            store: store.clone(),
+            store,
             runtime: Handle::current(),
             registry: Arc::default(),
             threads: size.threads_per_worker,

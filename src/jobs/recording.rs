@@ -4,7 +4,7 @@
 use super::open_chunk::OpenChunk;
 use super::progress::{Progress, ProgressBoard};
 use super::runner::Sink;
-use super::store::{Lease, NewResults, ResumePoint, Store, StoreError, StoredState};
+use super::store::{JobStore, Lease, NewResults, ResumePoint, StoreError, StoredState};
 use crate::config::Recording;
 use crate::results::chunk::BlockError;
 use crate::results::fingerprint::Fingerprint;
@@ -48,7 +48,7 @@ pub enum KeepError {
 /// for the database, which runs on the service's runtime.
 #[derive(Debug)]
 pub struct StoreSink {
-    store: Store,
+    store: Arc<dyn JobStore>,
     runtime: Handle,
     lease: Lease,
     recording: Recording,
@@ -78,7 +78,7 @@ struct Times {
 impl StoreSink {
     /// A sink for the job of this lease, which writes its progress to `board`.
     pub fn new(
-        (store, runtime): (Store, Handle),
+        (store, runtime): (Arc<dyn JobStore>, Handle),
         lease: Lease,
         recording: Recording,
         board: Arc<ProgressBoard>,
@@ -109,7 +109,7 @@ impl StoreSink {
     /// A sink for the same job without any records.
     pub fn afresh(&self) -> Self {
         let mut sink = Self::new(
-            (self.store.clone(), self.runtime.clone()),
+            (Arc::clone(&self.store), self.runtime.clone()),
             self.lease,
             self.recording.clone(),
             Arc::clone(&self.board),

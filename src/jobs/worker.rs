@@ -13,6 +13,7 @@ use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
 use scree_solver::{Instructions, SetupError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::time::Duration;
 use tracing::{error, info, info_span, warn};
 use uuid::Uuid;
@@ -103,7 +104,7 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResu
         .unwrap_or(equipment.threads)
         .min(equipment.threads);
     let mut sink = StoreSink::new(
-        (equipment.store.clone(), equipment.runtime.clone()),
+        (Arc::clone(&equipment.store), equipment.runtime.clone()),
         claim.lease,
         equipment.recording.clone(),
         guard.run.board.clone(),

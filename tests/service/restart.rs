@@ -3,7 +3,8 @@
 use crate::app::{
     TestApp, config, database, endless_scene, has_ended, is_running, long_scene, tiny_scene,
 };
-use scree::jobs::store::{Claimant, Lease, Room, Solver, Store, Submission, TOLERATED_SETBACKS};
+use scree::jobs::store::sqlite::SqliteStore;
+use scree::jobs::store::{Claimant, JobStore, Lease, Room, Solver, Submission, TOLERATED_SETBACKS};
 use scree::jobs::submit;
 use scree::service::{self, StartError};
 use serde_json::{Value, json};
@@ -144,7 +145,7 @@ async fn a_job_that_keeps_taking_the_service_down_fails() {
 
 /// Leaves a database like that of services that died `times` times during a job.
 async fn cut_off(directory: &TempDir, times: u32) -> Lease {
-    let store = Store::open(&database(directory)).await.unwrap();
+    let store = SqliteStore::open(&database(directory)).await.unwrap();
     let means = submit::Means {
         threads_per_worker: 1,
         point_steps: None,

@@ -1,9 +1,6 @@
-//! Ends of running jobs: success, failure, release, failed attempts.
+//! Failed attempts, and the rule by which a job waits for the next one or fails.
 
-use super::history::end_attempt;
-use super::{Lease, Store, StoreError};
 use crate::jobs::failure::Failure;
-use sqlx::sqlite::SqliteConnection;
 
 /// Number of failed attempts in a row after which a job fails: a job that crashes the
 /// service must not do so for ever.
@@ -39,93 +36,49 @@ pub enum Returned {
     Lost,
 }
 
-impl Store {
-    /// Ends a running job with its outcome and the fingerprint of its
-    /// records. `false` if it no longer runs under this lease.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn succeed(
-        &self,
-        lease: Lease,
-        outcome: &str,
-        fingerprint: &str,
-    ) -> Result<bool, StoreError> {
-        let now_ms = self.now_ms();
-        let mut transaction = self.begin_write().await?;
-        let done = sqlx::query(
-            "UPDATE jobs
-             SET status = 'successful', finished_ms = ?3, outcome = ?4, fingerprint = ?5,
-                 fraction = 1, eta_s = NULL, lease_owner = NULL, lease_expires_ms = NULL
-             WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
-        )
-        .bind(lease.job.to_string())
-        .bind(lease.token)
-        .bind(now_ms)
-        .bind(outcome)
-        .bind(fingerprint)
-        .execute(&mut *transaction)
-        .await?;
-        if done.rows_affected() == 0 {
-            return Ok(false);
-        }
-        end_attempt(&mut transaction, lease, now_ms, ("successful", None)).await?;
-        transaction.commit().await?;
-        Ok(true)
-    }
-
-    /// Ends a running job without an answer. `false` if it no longer runs under
-    /// this lease.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn fail(&self, lease: Lease, failure: &Failure) -> Result<bool, StoreError> {
-        let now_ms = self.now_ms();
-        let mut transaction = self.begin_write().await?;
-        let done = fail_row(&mut transaction, lease, failure, now_ms).await?;
-        if done {
-            let ending = ("failed", Some(failure.detail.as_str()));
-            end_attempt(&mut transaction, lease, now_ms, ending).await?;
-        }
-        transaction.commit().await?;
-        Ok(done)
-    }
-
-    /// Releases a running job into the queue, with its saved state, because
-    /// the service stops. `false` if it no longer runs under this lease.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn release(&self, lease: Lease) -> Result<bool, StoreError> {
-        let now_ms = self.now_ms();
-        let mut transaction = self.begin_write().await?;
-        let done = put_back_row(&mut transaction, lease, 0, 0).await?;
-        if done {
-            end_attempt(&mut transaction, lease, now_ms, ("handed-back", None)).await?;
-        }
-        transaction.commit().await?;
-        Ok(done)
-    }
-
-    /// Fails an attempt at a running job: the job returns to the queue, to
-    /// be claimed again after a wait, or fails after too many such attempts.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn fail_attempt(
-        &self,
-        lease: Lease,
-        failed_attempt: &FailedAttempt,
-    ) -> Result<Returned, StoreError> {
-        let mut transaction = self.begin_write().await?;
-        let returned = set_back_row(&mut transaction, lease, failed_attempt, self.now_ms()).await?;
-        transaction.commit().await?;
-        Ok(returned)
-    }
+/// Consequence of a failed attempt for its job.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Consequence {
+    /// The job returns to the queue.
+    Waits {
+        /// Failed attempts in a row that this one adds.
+        setbacks: u32,
+        /// Time before it may be claimed again [ms].
+        wait_ms: i64,
+    },
+    /// The job fails.
+    Fails(Failure),
 }
 
 impl FailedAttempt {
-    fn word(&self) -> &'static str {
+    /// Consequence of this attempt after `before` failed ones in a row. `saved` is true if
+    /// the attempt has saved a state.
+    pub(super) fn consequence(&self, before: u32, saved: bool) -> Consequence {
+        let by_death = matches!(self, Self::CutOff | Self::Expired);
+        if saved && by_death {
+            // The attempt made progress, and the next one continues from there.
+            return Consequence::Waits {
+                setbacks: 0,
+                wait_ms: 0,
+            };
+        }
+        let times = before + 1;
+        if times >= TOLERATED_SETBACKS {
+            return Consequence::Fails(self.failure(times));
+        }
+        let wait_ms = match self {
+            // The next start of the service makes it wait.
+            Self::CutOff => 0,
+            Self::Expired | Self::Infrastructure(_) => BACK_OFF_MS[before as usize],
+        };
+        Consequence::Waits {
+            setbacks: 1,
+            wait_ms,
+        }
+    }
+
+    /// Kind of end of the attempt, as stored.
+    pub(super) fn word(&self) -> &'static str {
         match self {
             Self::CutOff => "cut-off",
             Self::Expired => "expired",
@@ -133,7 +86,8 @@ impl FailedAttempt {
         }
     }
 
-    fn detail(&self) -> Option<&str> {
+    /// Details of the end, as stored.
+    pub(super) fn detail(&self) -> Option<&str> {
         match self {
             Self::CutOff | Self::Expired => None,
             Self::Infrastructure(detail) => Some(detail),
@@ -146,106 +100,4 @@ impl FailedAttempt {
             Self::Infrastructure(detail) => Failure::infrastructure(times, detail),
         }
     }
-}
-
-pub(super) async fn set_back_row(
-    connection: &mut SqliteConnection,
-    lease: Lease,
-    failed_attempt: &FailedAttempt,
-    now_ms: i64,
-) -> Result<Returned, StoreError> {
-    let found: Option<(u32, bool)> = sqlx::query_as(
-        "SELECT setbacks, EXISTS (SELECT 1 FROM run_states WHERE job_id = ?1 AND attempt = ?3)
-         FROM jobs WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
-    )
-    .bind(lease.job.to_string())
-    .bind(lease.token)
-    .bind(lease.attempt)
-    .fetch_optional(&mut *connection)
-    .await?;
-    let Some((before, got_on)) = found else {
-        return Ok(Returned::Lost);
-    };
-    end_attempt(
-        connection,
-        lease,
-        now_ms,
-        (failed_attempt.word(), failed_attempt.detail()),
-    )
-    .await?;
-    let by_death = matches!(
-        failed_attempt,
-        FailedAttempt::CutOff | FailedAttempt::Expired
-    );
-    if got_on && by_death {
-        // The attempt made progress, and the next one continues from there.
-        put_back_row(connection, lease, 0, now_ms).await?;
-        return Ok(Returned::Waiting);
-    }
-    let times = before + 1;
-    if times >= TOLERATED_SETBACKS {
-        fail_row(connection, lease, &failed_attempt.failure(times), now_ms).await?;
-        return Ok(Returned::Failed);
-    }
-    let wait_ms = match failed_attempt {
-        // The next start of the service makes it wait.
-        FailedAttempt::CutOff => 0,
-        FailedAttempt::Expired | FailedAttempt::Infrastructure(_) => BACK_OFF_MS[before as usize],
-    };
-    put_back_row(connection, lease, 1, now_ms + wait_ms).await?;
-    Ok(Returned::Waiting)
-}
-
-async fn fail_row(
-    connection: &mut SqliteConnection,
-    lease: Lease,
-    failure: &Failure,
-    now_ms: i64,
-) -> Result<bool, StoreError> {
-    let problem = serde_json::to_string(failure).map_err(|_| StoreError::Row {
-        job: lease.job.to_string(),
-        what: "failure",
-    })?;
-    let done = sqlx::query(
-        "UPDATE jobs
-         SET status = 'failed', finished_ms = ?3, problem = ?4, eta_s = NULL,
-             lease_owner = NULL, lease_expires_ms = NULL
-         WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
-    )
-    .bind(lease.job.to_string())
-    .bind(lease.token)
-    .bind(now_ms)
-    .bind(problem)
-    .execute(connection)
-    .await?;
-    Ok(done.rows_affected() == 1)
-}
-
-/// Puts a running job back into the queue. Its progress is kept if the next
-/// attempt can resume from a saved state.
-async fn put_back_row(
-    connection: &mut SqliteConnection,
-    lease: Lease,
-    setbacks: u32,
-    not_before_ms: i64,
-) -> Result<bool, StoreError> {
-    let done = sqlx::query(
-        "UPDATE jobs
-         SET status = 'accepted', started_ms = NULL, setbacks = setbacks + ?3,
-             not_before_ms = ?4, lease_owner = NULL, lease_expires_ms = NULL,
-             lease_token = lease_token + 1, point_steps_per_s = 0, eta_s = NULL,
-             (fraction, simulated_time_s, steps, substeps) = (
-                 SELECT iif(saved, fraction, 0), iif(saved, simulated_time_s, 0),
-                        iif(saved, steps, 0), iif(saved, substeps, 0)
-                 FROM (SELECT EXISTS (SELECT 1 FROM run_states WHERE job_id = ?1) AS saved)
-             )
-         WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
-    )
-    .bind(lease.job.to_string())
-    .bind(lease.token)
-    .bind(setbacks)
-    .bind(not_before_ms)
-    .execute(connection)
-    .await?;
-    Ok(done.rows_affected() == 1)
 }

@@ -3,87 +3,177 @@
 
 use super::{
     AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, JobCounts, Lease, NewResults,
-    Page, Removal, Renewal, Returned, Store, StoreError, StoredChunk, StoredState, Submission,
-    Submitted,
+    Page, Removal, Renewal, Returned, StoreError, StoredChunk, StoredState, Submission, Submitted,
 };
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
 use crate::jobs::progress::Progress;
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
+use async_trait::async_trait;
+use std::fmt::Debug;
 use std::time::Duration;
 
 type Answer<T> = Result<T, StoreError>;
 
-macro_rules! port {
-    ($($(#[$doc:meta])* fn $name:ident($($argument:ident: $kind:ty),*) -> $answer:ty;)*) => {
-        /// A database of jobs. Every call is one transaction, applied whole or not at
-        /// all, and on disk when it returns.
-        pub trait JobStore: Clone + Send + Sync + 'static {
-            $($(#[$doc])* fn $name(&self, $($argument: $kind),*) -> impl Future<Output = Answer<$answer>> + Send;)*
-        }
+/// A database of jobs. Every call is one transaction, applied whole or not at
+/// all, and on disk when it returns.
+///
+/// # Errors
+/// Any operation may fail with [`StoreError`], by the kinds of
+/// [`StoreErrorKind`](super::StoreErrorKind); one that fails has changed nothing, except that
+/// a failed commit may have reached the disk. Operations that read jobs also fail with
+/// [`StoreError::Row`] if a row is unreadable, those that read blocks with
+/// [`StoreError::Block`] if a block is corrupt.
+#[async_trait]
+pub trait JobStore: Debug + Send + Sync {
+    // The queue.
 
-        impl JobStore for Store {
-            $(async fn $name(&self, $($argument: $kind),*) -> Answer<$answer> {
-                Store::$name(self, $($argument),*).await
-            })*
-        }
-    };
-}
+    /// Puts the jobs of a request into the queue, all or none. A request whose key came
+    /// before is answered with the jobs of the first one.
+    async fn submit(&self, submission: &Submission<'_>) -> Answer<Submitted>;
 
-port! {
-    /// Puts the jobs of a request into the queue, all or none.
-    fn submit(submission: &Submission<'_>) -> Submitted;
-    /// The newest successful job with a scenario, by version and commit.
-    fn finished_like(scenario_hash: &str, solver: (&str, &str)) -> Option<JobId>;
-    /// Claims the oldest accepted job that need not wait.
-    fn claim(claimant: &Claimant) -> Option<Claim>;
-    /// Records the start of an attempt.
-    fn begin(lease: Lease, beginning: &AttemptStart, threads: usize) -> bool;
-    /// Renews a lease and stores the progress.
-    fn renew(lease: Lease, lease_duration: Duration, progress: &Progress) -> Renewal;
-    /// Writes results, progress and state.
-    fn keep(lease: Lease, results: &NewResults) -> bool;
-    /// Ends a job with its outcome.
-    fn succeed(lease: Lease, outcome: &str, fingerprint: &str) -> bool;
-    /// Ends a job without an answer.
-    fn fail(lease: Lease, failure: &Failure) -> bool;
-    /// Releases a job because the service stops.
-    fn release(lease: Lease) -> bool;
-    /// Fails an attempt.
-    fn fail_attempt(lease: Lease, failed_attempt: &FailedAttempt) -> Returned;
-    /// Reclaims the jobs that a former process of this name left running.
-    fn reclaim_own(owner: &str) -> usize;
-    /// Reclaims jobs of other services whose lease has run out.
-    fn reclaim_expired(owner: &str, longest: Duration) -> usize;
-    /// Dismisses a job.
-    fn dismiss(id: JobId) -> Dismissal;
-    /// Removes a job that has ended.
-    fn remove(id: JobId) -> Removal;
-    /// Removes some of the jobs that ended at least this long ago [ms].
-    fn remove_ended(age_ms: i64) -> u64;
-    /// The state of a job, if there is one.
-    fn status(id: JobId) -> Option<JobStatus>;
-    /// The next events after a number.
-    fn events(after: i64, job: Option<JobId>) -> Vec<Event>;
-    /// Number of the last event ever.
-    fn last_event() -> i64;
-    /// Counts jobs.
-    fn count_jobs() -> JobCounts;
+    /// The newest successful job with a scenario of this hash, run by this solver (version
+    /// and commit).
+    async fn finished_like(
+        &self,
+        scenario_hash: &str,
+        solver: (&str, &str),
+    ) -> Answer<Option<JobId>>;
+
+    /// Claims the oldest accepted job that need not wait after a failed attempt. A job with
+    /// failed attempts waits until the service has been up for its waiting time, so that
+    /// a service that keeps crashing sooner does not fail the job.
+    async fn claim(&self, claimant: &Claimant) -> Answer<Option<Claim>>;
+
+    /// Dismisses a job. A worker that runs it notices at its next write or
+    /// heartbeat; the caller notifies it sooner.
+    async fn dismiss(&self, id: JobId) -> Answer<Dismissal>;
+
+    /// Removes a job that has ended, with all that belongs to it.
+    async fn remove(&self, id: JobId) -> Answer<Removal>;
+
+    /// Removes some of the jobs that ended at least this long ago [ms] and returns their
+    /// number. To be called until it returns 0.
+    ///
+    /// A job with an evidently wrong end time counts as ended now, as soon as the
+    /// clock is no longer evidently wrong.
+    async fn remove_ended(&self, age_ms: i64) -> Answer<u64>;
+
+    // Leases. Every write of a worker names its lease.
+
+    /// Renews the lease of a running job from now on, and stores its progress.
+    async fn renew(
+        &self,
+        lease: Lease,
+        lease_duration: Duration,
+        progress: &Progress,
+    ) -> Answer<Renewal>;
+
+    /// Reclaims the jobs that a former process of this name left running when it died.
+    /// They may be claimed again at once. Returns their number.
+    async fn reclaim_own(&self, owner: &str) -> Answer<usize>;
+
+    /// Reclaims jobs of other services whose lease, of at most `longest`, has run
+    /// out. Returns their number.
+    ///
+    /// A lease that ends later than possible is from before the clock was set
+    /// back: a live worker renews it, and the fencing token makes other writes harmless.
+    async fn reclaim_expired(&self, owner: &str, longest: Duration) -> Answer<usize>;
+
+    // Attempts.
+
+    /// Records the start of an attempt and its number of solver threads, and removes
+    /// records that don't fit it. `false`, with nothing changed, if the job no
+    /// longer runs under this lease.
+    async fn begin(&self, lease: Lease, beginning: &AttemptStart, threads: usize) -> Answer<bool>;
+
+    /// Writes results, progress and state of a job. `false`, with nothing written, if
+    /// the job no longer belongs to this lease; a job dismissed meanwhile
+    /// still takes the worker's results, but no state.
+    async fn keep(&self, lease: Lease, results: &NewResults) -> Answer<bool>;
+
+    /// Ends a running job with its outcome (JSON) and the fingerprint of its
+    /// records. `false` if it no longer runs under this lease.
+    async fn succeed(&self, lease: Lease, outcome: &str, fingerprint: &str) -> Answer<bool>;
+
+    /// Ends a running job without an answer. `false` if it no longer runs under
+    /// this lease.
+    async fn fail(&self, lease: Lease, failure: &Failure) -> Answer<bool>;
+
+    /// Releases a running job into the queue, with its saved state, because
+    /// the service stops. `false` if it no longer runs under this lease.
+    async fn release(&self, lease: Lease) -> Answer<bool>;
+
+    /// Fails an attempt at a running job: the job returns to the queue, to
+    /// be claimed again after a wait, or fails after too many such attempts.
+    async fn fail_attempt(&self, lease: Lease, failed_attempt: &FailedAttempt) -> Answer<Returned>;
+
+    // Reading of jobs.
+
     /// The job, if there is one.
-    fn job(id: JobId) -> Option<Job>;
-    /// A page of jobs.
-    fn page(page: &Page) -> Vec<JobSummary>;
-    /// The saved state of a job.
-    fn state(job: JobId) -> Option<StoredState>;
-    /// The first chunk from a sample on that overlaps a range.
-    fn chunk(job: JobId, body: usize, from_sample: i64, selection: &Selection) -> Option<StoredChunk>;
+    async fn job(&self, id: JobId) -> Answer<Option<Job>>;
+
+    /// The state of a job, if there is one.
+    async fn status(&self, id: JobId) -> Answer<Option<JobStatus>>;
+
+    /// A page of jobs, newest first.
+    async fn page(&self, page: &Page) -> Answer<Vec<JobSummary>>;
+
+    /// The next events after number `after`, of one job or of all, in order; at most a
+    /// hundred.
+    async fn events(&self, after: i64, job: Option<JobId>) -> Answer<Vec<Event>>;
+
+    /// Number of the last event ever, even if its job was removed; 0
+    /// before the first.
+    async fn last_event(&self) -> Answer<i64>;
+
+    /// Counts jobs.
+    async fn count_jobs(&self) -> Answer<JobCounts>;
+
+    // Reading of records.
+
+    /// The saved state of a job, if there is one.
+    async fn state(&self, job: JobId) -> Answer<Option<StoredState>>;
+
+    /// The first chunk of a body's trajectory from sample `from_sample` on that
+    /// overlaps the selected range. One short query per chunk: no read
+    /// transaction outlives it, however slowly the client reads the answer.
+    async fn chunk(
+        &self,
+        job: JobId,
+        body: usize,
+        from_sample: i64,
+        selection: &Selection,
+    ) -> Answer<Option<StoredChunk>>;
+
+    /// The last chunk of a body's trajectory, and the index of its first sample.
+    async fn last_chunk(
+        &self,
+        job: JobId,
+        body: usize,
+    ) -> Answer<Option<(usize, TrajectoryColumns)>>;
+
     /// Number of samples of a body's trajectory.
-    fn samples(job: JobId, body: usize) -> usize;
-    /// The times of all snapshots so far [s].
-    fn snapshot_times(job: JobId) -> Vec<f64>;
-    /// The last chunk of a body's trajectory.
-    fn last_chunk(job: JobId, body: usize) -> Option<(usize, TrajectoryColumns)>;
-    /// The snapshot nearest to a time.
-    fn snapshot(job: JobId, time_s: Option<f64>) -> Option<FlowSnapshot>;
+    async fn samples(&self, job: JobId, body: usize) -> Answer<usize>;
+
+    /// The times of all snapshots so far [s], ascending.
+    async fn snapshot_times(&self, job: JobId) -> Answer<Vec<f64>>;
+
+    /// The snapshot nearest to a time, the earlier of two equally near; without
+    /// a time the latest. `None` if there is none yet.
+    async fn snapshot(&self, job: JobId, time_s: Option<f64>) -> Answer<Option<FlowSnapshot>>;
+
+    // Health.
+
+    /// Checks that the database answers. Fails if it does not.
+    async fn ping(&self) -> Answer<()>;
+
+    /// Checks with a real write that a job could be stored: allocates space for one, and
+    /// writes to the disk. Fails if a job could not be stored.
+    async fn probe(&self) -> Answer<()>;
+
+    /// Closes the database. All that was acknowledged is in it; no operation succeeds
+    /// afterwards.
+    async fn close(&self);
 }

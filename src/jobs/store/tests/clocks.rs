@@ -11,9 +11,7 @@ conformance! {
     while_the_clock_is_evidently_wrong_no_age_is_taken_by_it
 }
 
-async fn a_clock_set_back_holds_up_neither_waiting_nor_lost_jobs<S: JobStore>(
-    fixture: &Fixture<S>,
-) {
+async fn a_clock_set_back_holds_up_neither_waiting_nor_lost_jobs(fixture: &Fixture) {
     let waiting = fixture.submit().await;
     let lease = fixture.claim("a").await;
     let failed_attempt = FailedAttempt::Infrastructure("x".to_owned());
@@ -31,7 +29,7 @@ async fn a_clock_set_back_holds_up_neither_waiting_nor_lost_jobs<S: JobStore>(
     assert_eq!(fixture.claim("b").await.job, lost);
 }
 
-async fn a_clock_set_forward_costs_a_lease_and_nothing_else<S: JobStore>(fixture: &Fixture<S>) {
+async fn a_clock_set_forward_costs_a_lease_and_nothing_else(fixture: &Fixture) {
     let id = fixture.submit().await;
     let old = fixture.claim("a").await;
     fixture.clock.jump(SignedDuration::from_hours(24));
@@ -48,7 +46,7 @@ async fn a_clock_set_forward_costs_a_lease_and_nothing_else<S: JobStore>(fixture
 const DAY: Duration = Duration::from_secs(86_400);
 const DAY_MS: i64 = 86_400_000;
 
-impl<S: JobStore> Fixture<S> {
+impl Fixture {
     async fn submit_and_end(&self) -> JobId {
         let id = self.submit().await;
         let lease = self.claim("a").await;
@@ -61,7 +59,7 @@ impl<S: JobStore> Fixture<S> {
     }
 }
 
-async fn retention_counts_from_the_end<S: JobStore>(fixture: &Fixture<S>) {
+async fn retention_counts_from_the_end(fixture: &Fixture) {
     let first = fixture.submit_and_end().await;
     fixture.pass(DAY / 2);
     let second = fixture.submit_and_end().await;
@@ -78,9 +76,7 @@ async fn retention_counts_from_the_end<S: JobStore>(fixture: &Fixture<S>) {
 }
 
 // Regression: these were removed the moment the clock was right again.
-async fn what_ended_by_a_clock_set_back_is_kept_as_long_as_anything<S: JobStore>(
-    fixture: &Fixture<S>,
-) {
+async fn what_ended_by_a_clock_set_back_is_kept_as_long_as_anything(fixture: &Fixture) {
     let before = fixture.submit_and_end().await;
     fixture.submit().await;
     let lease = fixture.claim("a").await;
@@ -108,9 +104,7 @@ async fn what_ended_by_a_clock_set_back_is_kept_as_long_as_anything<S: JobStore>
     }
 }
 
-async fn while_the_clock_is_evidently_wrong_no_age_is_taken_by_it<S: JobStore>(
-    fixture: &Fixture<S>,
-) {
+async fn while_the_clock_is_evidently_wrong_no_age_is_taken_by_it(fixture: &Fixture) {
     fixture.submit_and_end().await;
     fixture.clock.jump(-SignedDuration::from_hours(400 * 24));
     fixture.submit_and_end().await;

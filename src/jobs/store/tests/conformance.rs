@@ -23,7 +23,7 @@ conformance! {
     a_job_handed_back_keeps_its_state_and_has_no_setback
 }
 
-async fn jobs_are_claimed_in_the_order_of_submission_and_once<S: JobStore>(fixture: &Fixture<S>) {
+async fn jobs_are_claimed_in_the_order_of_submission_and_once(fixture: &Fixture) {
     let jobs = [fixture.submit().await, fixture.submit().await];
     let first = fixture.claim("a").await;
     assert_eq!((first.job, first.attempt), (jobs[0], 1));
@@ -38,7 +38,7 @@ async fn jobs_are_claimed_in_the_order_of_submission_and_once<S: JobStore>(fixtu
     assert!(job.summary.started.unwrap() >= job.summary.created);
 }
 
-async fn a_job_ends_once_and_says_how<S: JobStore>(fixture: &Fixture<S>) {
+async fn a_job_ends_once_and_says_how(fixture: &Fixture) {
     let id = fixture.submit().await;
     let lease = fixture.claim("a").await;
     let failure = Failure::internal("x");
@@ -78,7 +78,7 @@ async fn a_job_ends_once_and_says_how<S: JobStore>(fixture: &Fixture<S>) {
     assert_eq!(fixture.try_claim("a").await, None, "a failure is final");
 }
 
-async fn a_growing_chunk_replaces_itself_and_reads_back<S: JobStore>(fixture: &Fixture<S>) {
+async fn a_growing_chunk_replaces_itself_and_reads_back(fixture: &Fixture) {
     let id = fixture.submit().await;
     let lease = fixture.claim("a").await;
     for count in [3, 8] {
@@ -101,7 +101,7 @@ async fn a_growing_chunk_replaces_itself_and_reads_back<S: JobStore>(fixture: &F
     assert_eq!((progress.steps, progress.eta_s), (7, Some(3.0)));
 }
 
-async fn the_nearest_snapshot_is_found_the_earlier_of_two<S: JobStore>(fixture: &Fixture<S>) {
+async fn the_nearest_snapshot_is_found_the_earlier_of_two(fixture: &Fixture) {
     let id = fixture.submit().await;
     let lease = fixture.claim("a").await;
     assert_eq!(fixture.store.snapshot(id, None).await.unwrap(), None);
@@ -120,7 +120,7 @@ async fn the_nearest_snapshot_is_found_the_earlier_of_two<S: JobStore>(fixture: 
     }
 }
 
-async fn a_worker_that_lost_its_job_can_not_write<S: JobStore>(fixture: &Fixture<S>) {
+async fn a_worker_that_lost_its_job_can_not_write(fixture: &Fixture) {
     let store = &fixture.store;
     let id = fixture.submit().await;
     let old = fixture.claim("a").await;
@@ -150,9 +150,7 @@ async fn a_worker_that_lost_its_job_can_not_write<S: JobStore>(fixture: &Fixture
     assert_eq!(fixture.endings(id).await, ["handed-back", "successful"]);
 }
 
-async fn a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed<S: JobStore>(
-    fixture: &Fixture<S>,
-) {
+async fn a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed(fixture: &Fixture) {
     let store = &fixture.store;
     let id = fixture.submit().await;
     let lease = fixture.claim("a").await;
@@ -175,7 +173,7 @@ async fn a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed<S: 
     assert_eq!(nobody, Dismissal::Unknown);
 }
 
-async fn a_lease_that_is_renewed_does_not_run_out<S: JobStore>(fixture: &Fixture<S>) {
+async fn a_lease_that_is_renewed_does_not_run_out(fixture: &Fixture) {
     fixture.submit().await;
     let lease = fixture.claim("a").await;
     let progress = Progress {
@@ -192,7 +190,7 @@ async fn a_lease_that_is_renewed_does_not_run_out<S: JobStore>(fixture: &Fixture
     assert_eq!(fixture.job(lease.job).await.summary.progress, progress);
 }
 
-async fn a_lease_that_ran_out_is_another_s_to_take<S: JobStore>(fixture: &Fixture<S>) {
+async fn a_lease_that_ran_out_is_another_s_to_take(fixture: &Fixture) {
     let id = fixture.submit().await;
     let old = fixture.claim("a").await;
     fixture.pass(LEASE);
@@ -207,7 +205,7 @@ async fn a_lease_that_ran_out_is_another_s_to_take<S: JobStore>(fixture: &Fixtur
     assert_eq!(fixture.endings(id).await, ["expired", ""]);
 }
 
-async fn a_saved_job_whose_lease_ran_out_is_taken_at_once<S: JobStore>(fixture: &Fixture<S>) {
+async fn a_saved_job_whose_lease_ran_out_is_taken_at_once(fixture: &Fixture) {
     let id = fixture.submit().await;
     let at_once = |owner: &str| Claimant {
         up_for: Duration::ZERO,
@@ -231,9 +229,7 @@ async fn a_saved_job_whose_lease_ran_out_is_taken_at_once<S: JobStore>(fixture: 
     assert_eq!(fixture.try_claim("b").await, None, "these saved nothing");
 }
 
-async fn a_former_self_s_jobs_are_taken_back_at_once_and_no_others<S: JobStore>(
-    fixture: &Fixture<S>,
-) {
+async fn a_former_self_s_jobs_are_taken_back_at_once_and_no_others(fixture: &Fixture) {
     let jobs = [fixture.submit().await, fixture.submit().await];
     fixture.claim("a").await;
     fixture.claim("b").await;
@@ -244,7 +240,7 @@ async fn a_former_self_s_jobs_are_taken_back_at_once_and_no_others<S: JobStore>(
     assert_eq!(fixture.endings(jobs[0]).await, ["cut-off", ""]);
 }
 
-async fn the_third_setback_in_a_row_is_the_last<S: JobStore>(fixture: &Fixture<S>) {
+async fn the_third_setback_in_a_row_is_the_last(fixture: &Fixture) {
     let id = fixture.submit().await;
     for attempt in 1..=TOLERATED_SETBACKS {
         assert_eq!(fixture.claim("a").await.attempt, attempt);
@@ -259,9 +255,7 @@ async fn the_third_setback_in_a_row_is_the_last<S: JobStore>(fixture: &Fixture<S
 
 // A service that is killed repeatedly, sooner than it could have run the job, fails
 // nothing: the job waits for a service that stays up longer, and other jobs go first.
-async fn a_job_cut_off_waits_until_the_service_has_lived_as_long<S: JobStore>(
-    fixture: &Fixture<S>,
-) {
+async fn a_job_cut_off_waits_until_the_service_has_lived_as_long(fixture: &Fixture) {
     let store = &fixture.store;
     let id = fixture.submit().await;
     let after = |up_ms: u64| Claimant {
@@ -288,7 +282,7 @@ async fn a_job_cut_off_waits_until_the_service_has_lived_as_long<S: JobStore>(
     assert_eq!(fixture.status(id).await, JobStatus::Failed);
 }
 
-async fn after_a_setback_a_job_waits_longer_each_time<S: JobStore>(fixture: &Fixture<S>) {
+async fn after_a_setback_a_job_waits_longer_each_time(fixture: &Fixture) {
     let id = fixture.submit().await;
     let failed_attempt = FailedAttempt::Infrastructure("no room".to_owned());
     for wait_s in [2, 8] {
@@ -317,7 +311,7 @@ async fn after_a_setback_a_job_waits_longer_each_time<S: JobStore>(fixture: &Fix
     assert_eq!(attempts[0].detail.as_deref(), Some("no room"));
 }
 
-async fn a_saved_state_comes_back_and_ends_the_row_of_setbacks<S: JobStore>(fixture: &Fixture<S>) {
+async fn a_saved_state_comes_back_and_ends_the_row_of_setbacks(fixture: &Fixture) {
     let id = fixture.submit().await;
     let at_once = Claimant {
         up_for: Duration::ZERO,
@@ -346,7 +340,7 @@ async fn a_saved_state_comes_back_and_ends_the_row_of_setbacks<S: JobStore>(fixt
     assert_eq!(fixture.store.state(id).await.unwrap(), None);
 }
 
-async fn an_attempt_begins_at_its_saved_state_or_afresh<S: JobStore>(fixture: &Fixture<S>) {
+async fn an_attempt_begins_at_its_saved_state_or_afresh(fixture: &Fixture) {
     let store = &fixture.store;
     let id = fixture.submit().await;
     let lease = fixture.claim("a").await;
@@ -375,7 +369,7 @@ async fn an_attempt_begins_at_its_saved_state_or_afresh<S: JobStore>(fixture: &F
     assert_eq!(fixture.job(id).await.summary.progress.fraction, 0.0);
 }
 
-async fn a_job_handed_back_keeps_its_state_and_has_no_setback<S: JobStore>(fixture: &Fixture<S>) {
+async fn a_job_handed_back_keeps_its_state_and_has_no_setback(fixture: &Fixture) {
     let id = fixture.submit().await;
     for _ in 0..=TOLERATED_SETBACKS {
         let lease = fixture.claim("a").await;

@@ -1,15 +1,22 @@
-//! Tests of the job store: rules for every driver ([`conformance`],
-//! [`clocks`], [`races`], [`model`]), and those of SQLite alone ([`sqlite`]).
+//! Rules for every driver of the job store ([`conformance`], [`clocks`], [`races`],
+//! [`model`]). Those of one driver alone are in its folder.
 
-/// Makes each rule a test of every driver; a further driver is added here.
+/// Makes each rule a test of every driver; a further driver is one line here.
 macro_rules! conformance {
     ($($rule:ident)*) => {
-        mod sqlite {
+        rules_of! { sqlite: crate::jobs::store::sqlite::tests::open; $($rule)* }
+    };
+}
+
+/// Makes each rule a test of one driver, given by its constructor.
+macro_rules! rules_of {
+    ($driver:ident: $open:path; $($rule:ident)*) => {
+        mod $driver {
             use super::Fixture;
             $(
-                #[tokio::test]
+                #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
                 async fn $rule() {
-                    super::$rule(&Fixture::sqlite().await).await;
+                    super::$rule(&Fixture::new($open).await).await;
                 }
             )*
         }
@@ -20,11 +27,10 @@ mod clocks;
 mod conformance;
 mod model;
 mod races;
-mod sqlite;
 
 use super::*;
 use crate::jobs::clock::Clock;
-use crate::jobs::job::{Job, JobStatus};
+use crate::jobs::job::{Job, JobId, JobStatus};
 use crate::jobs::progress::Progress;
 use crate::jobs::submit::NewJob;
 use crate::results::chunk;
@@ -32,7 +38,10 @@ use crate::results::columns::tests::numbered_columns;
 use crate::results::flow::StoredSnapshot;
 use jiff::{SignedDuration, Timestamp};
 use scree_solver::record::FlowSnapshot;
-use std::sync::Mutex;
+use std::path::PathBuf;
+use std::pin::Pin;
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
 use tempfile::TempDir;
 
 /// Duration of leases in these tests.
@@ -54,30 +63,40 @@ impl Clock for SetClock {
     }
 }
 
+/// A store that is being opened.
+pub(super) type Opening = Pin<Box<dyn Future<Output = Arc<dyn JobStore>> + Send>>;
+
+/// Constructor of a driver: opens an empty database, in this folder if it is one of files.
+pub(super) type Open = fn(PathBuf, Arc<dyn Clock>) -> Opening;
+
 /// A driver with an empty database.
-struct Fixture<S> {
-    store: S,
+pub(super) struct Fixture {
+    pub(super) store: Arc<dyn JobStore>,
     clock: Arc<SetClock>,
-    directory: TempDir,
+    pub(super) directory: TempDir,
+    open: Open,
 }
 
-impl Fixture<Store> {
-    async fn sqlite() -> Self {
+impl Fixture {
+    pub(super) async fn new(open: Open) -> Self {
         let directory = TempDir::new().unwrap();
         let now = Timestamp::from_second(1_700_000_000).unwrap();
         let clock = Arc::new(SetClock(Mutex::new(now)));
-        let path = directory.path().join("test.db");
-        let store = Store::open_with(&path, None, clock.clone()).await.unwrap();
+        let store = open(directory.path().to_owned(), clock.clone()).await;
         Self {
             store,
             clock,
             directory,
+            open,
         }
     }
-}
 
-impl<S: JobStore> Fixture<S> {
-    async fn submit(&self) -> JobId {
+    /// Another empty database of the same driver.
+    async fn another(&self) -> Self {
+        Self::new(self.open).await
+    }
+
+    pub(super) async fn submit(&self) -> JobId {
         let job = NewJob {
             id: JobId::new(),
             title: "a title".to_owned(),
@@ -99,7 +118,7 @@ impl<S: JobStore> Fixture<S> {
         claim.map(|claim| claim.lease)
     }
 
-    async fn claim(&self, owner: &str) -> Lease {
+    pub(super) async fn claim(&self, owner: &str) -> Lease {
         self.try_claim(owner).await.expect("a job to claim")
     }
 
@@ -107,7 +126,7 @@ impl<S: JobStore> Fixture<S> {
         self.store.job(id).await.unwrap().unwrap()
     }
 
-    async fn status(&self, id: JobId) -> JobStatus {
+    pub(super) async fn status(&self, id: JobId) -> JobStatus {
         self.job(id).await.summary.status
     }
 
@@ -150,10 +169,11 @@ fn claimant(owner: &str) -> Claimant {
     }
 }
 
-const FINGERPRINT: &str = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
+pub(super) const FINGERPRINT: &str =
+    "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
 
 /// Results of the samples 0..count.
-fn results(count: u32) -> NewResults {
+pub(super) fn results(count: u32) -> NewResults {
     let columns = numbered_columns(count);
     let snapshot = FlowSnapshot {
         time_s: f64::from(count),

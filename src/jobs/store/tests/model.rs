@@ -4,7 +4,14 @@
 use super::*;
 use crate::jobs::failure::Failure;
 use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 use std::collections::BTreeMap;
+use tokio::runtime::Handle;
+use tokio::task::block_in_place;
+
+conformance! {
+    whatever_happens_the_store_does_what_its_model_does
+}
 
 const OWNERS: [&str; 2] = ["a", "b"];
 
@@ -145,7 +152,7 @@ impl Model {
 
 /// The store and its model, and all leases ever given.
 struct Pair {
-    fixture: Fixture<Store>,
+    fixture: Fixture,
     model: Model,
     ids: Vec<JobId>,
     leases: Vec<Lease>,
@@ -310,30 +317,37 @@ impl Pair {
     }
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
-
-    #[test]
-    fn whatever_happens_the_store_does_what_its_model_does(
-        events in prop::collection::vec(event(), 1..60)
-    ) {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
-        runtime.block_on(async {
-            let fixture = Fixture::sqlite().await;
-            let mut pair = Pair {
-                fixture,
-                model: Model {
-                    // Not near 0, which means "never waits" to the store.
-                    now_ms: 1_700_000_000_000,
-                    ..Model::default()
-                },
-                ids: Vec::new(),
-                leases: Vec::new(),
-            };
-            for event in &events {
-                pair.happen(event).await;
-            }
-            pair.agree().await;
-        });
+/// Plays the events on an empty store and on an empty model.
+async fn play(fixture: Fixture, events: &[Event]) {
+    let mut pair = Pair {
+        fixture,
+        model: Model {
+            // Not near 0, which means "never waits" to the store.
+            now_ms: 1_700_000_000_000,
+            ..Model::default()
+        },
+        ids: Vec::new(),
+        leases: Vec::new(),
+    };
+    for event in events {
+        pair.happen(event).await;
     }
+    pair.agree().await;
+}
+
+async fn whatever_happens_the_store_does_what_its_model_does(fixture: &Fixture) {
+    let mut runner = TestRunner::new(ProptestConfig {
+        cases: 48,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    });
+    let histories = prop::collection::vec(event(), 1..60);
+    let played = block_in_place(|| {
+        runner.run(&histories, |events| {
+            let played = async { play(fixture.another().await, &events).await };
+            Handle::current().block_on(played);
+            Ok(())
+        })
+    });
+    played.unwrap();
 }

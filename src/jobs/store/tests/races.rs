@@ -3,15 +3,18 @@
 use super::*;
 use crate::jobs::failure::Failure;
 
+conformance! {
+    no_stale_worker_ever_writes
+    a_job_is_claimed_by_one_of_many
+}
+
 /// Number of times that a lease is made to run out.
 const RACES: u32 = 200;
 
 /// A worker sleeps through its lease, another claims the job, and both write
 /// at the same time. In whatever order the database executes them, only the writes of the second
 /// worker count.
-#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-async fn no_stale_worker_ever_writes() {
-    let fixture = Fixture::sqlite().await;
+async fn no_stale_worker_ever_writes(fixture: &Fixture) {
     let mut stale_writes = 0;
     for race in 0..RACES {
         let id = fixture.submit().await;
@@ -22,8 +25,12 @@ async fn no_stale_worker_ever_writes() {
         let fresh = fixture.claim("b").await;
         assert_eq!(fresh.job, id);
 
-        let old = tokio::spawn(write_as_a_stale_worker(fixture.store.clone(), stale, race));
-        let new = tokio::spawn(write_to_the_end(fixture.store.clone(), fresh));
+        let old = tokio::spawn(write_as_a_stale_worker(
+            Arc::clone(&fixture.store),
+            stale,
+            race,
+        ));
+        let new = tokio::spawn(write_to_the_end(Arc::clone(&fixture.store), fresh));
         stale_writes += old.await.unwrap();
         new.await.unwrap();
         let job = fixture.job(id).await;
@@ -36,7 +43,7 @@ async fn no_stale_worker_ever_writes() {
 }
 
 /// Tries every kind of write; returns the number of accepted ones.
-async fn write_as_a_stale_worker(store: Store, lease: Lease, race: u32) -> u32 {
+async fn write_as_a_stale_worker(store: Arc<dyn JobStore>, lease: Lease, race: u32) -> u32 {
     let mut written = 0;
     let progress = Progress::default();
     written += u32::from(store.keep(lease, &results_and_state(9)).await.unwrap());
@@ -51,22 +58,20 @@ async fn write_as_a_stale_worker(store: Store, lease: Lease, race: u32) -> u32 {
     written + u32::from(ended.unwrap())
 }
 
-async fn write_to_the_end(store: Store, lease: Lease) {
+async fn write_to_the_end(store: Arc<dyn JobStore>, lease: Lease) {
     assert!(store.keep(lease, &results_and_state(5)).await.unwrap());
     let ended = store.succeed(lease, "{\"by\":\"b\"}", FINGERPRINT).await;
     assert!(ended.unwrap());
 }
 
 /// Many workers claim at once: every job goes to exactly one of them.
-#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-async fn a_job_is_claimed_by_one_of_many() {
-    let fixture = Fixture::sqlite().await;
+async fn a_job_is_claimed_by_one_of_many(fixture: &Fixture) {
     let mut submitted = Vec::new();
     for _ in 0..50 {
         submitted.push(fixture.submit().await);
     }
     let workers = (0..8).map(|worker| {
-        let store = fixture.store.clone();
+        let store = Arc::clone(&fixture.store);
         tokio::spawn(async move {
             let mut claimed = Vec::new();
             let claimant = claimant(&format!("worker {worker}"));

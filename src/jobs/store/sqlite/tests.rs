@@ -1,18 +1,48 @@
 //! Rules of the SQLite driver alone: those that the database enforces, the single file,
-//! the lock.
+//! the lock, the kinds of its errors.
 
-use super::*;
+use super::SqliteStore;
+use crate::jobs::clock::{Clock, SystemClock};
 use crate::jobs::failure::Failure;
+use crate::jobs::job::JobStatus;
+use crate::jobs::store::tests::{FINGERPRINT, Fixture, Opening, results};
+use crate::jobs::store::{
+    Dismissal, JobStore, NewResults, ResumePoint, StoreError, StoreErrorKind, StoredState,
+};
+use crate::results::chunk::BlockError;
 use crate::results::columns::Selection;
+use sqlx::{Connection, SqliteConnection};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tempfile::TempDir;
+
+/// Opens an empty database, for the rules of every driver.
+pub(in crate::jobs::store) fn open(directory: PathBuf, clock: Arc<dyn Clock>) -> Opening {
+    Box::pin(async move {
+        let path = directory.join("test.db");
+        let store = SqliteStore::open_with(&path, None, clock).await.unwrap();
+        Arc::new(store) as Arc<dyn JobStore>
+    })
+}
+
+/// A connection to the database past the store.
+async fn past(fixture: &Fixture) -> SqliteConnection {
+    connect(&fixture.directory.path().join("test.db")).await
+}
+
+async fn connect(database: &Path) -> SqliteConnection {
+    let url = format!("sqlite://{}", database.display());
+    SqliteConnection::connect(&url).await.unwrap()
+}
 
 #[tokio::test]
 async fn a_damaged_block_is_noticed() {
-    let fixture = Fixture::sqlite().await;
+    let fixture = Fixture::new(open).await;
     let id = fixture.submit().await;
     let lease = fixture.claim("a").await;
     fixture.store.keep(lease, &results(3)).await.unwrap();
     sqlx::query("UPDATE trajectory_chunks SET data = zeroblob(length(data))")
-        .execute(&fixture.store.writer)
+        .execute(&mut past(&fixture).await)
         .await
         .unwrap();
     let read = fixture.store.chunk(id, 0, 0, &Selection::default()).await;
@@ -21,7 +51,7 @@ async fn a_damaged_block_is_noticed() {
 
 #[tokio::test]
 async fn final_states_are_sinks_whatever_the_code_asks_for() {
-    let fixture = Fixture::sqlite().await;
+    let fixture = Fixture::new(open).await;
     let ended = [
         fixture.submit().await,
         fixture.submit().await,
@@ -60,7 +90,7 @@ async fn final_states_are_sinks_whatever_the_code_asks_for() {
         "UPDATE jobs SET outcome = '[]' WHERE outcome IS NOT NULL",
     ] {
         let refused = sqlx::query(statement)
-            .execute(&fixture.store.writer)
+            .execute(&mut past(&fixture).await)
             .await
             .unwrap_err();
         assert!(
@@ -75,7 +105,7 @@ async fn final_states_are_sinks_whatever_the_code_asks_for() {
 
 #[tokio::test]
 async fn outcomes_of_former_versions_get_the_present_keys() {
-    let fixture = Fixture::sqlite().await;
+    let fixture = Fixture::new(open).await;
     let id = fixture.submit().await;
     let lease = fixture.claim("a").await;
     let former = r#"{"flow":{"mass_left_kg":1.5,"volume_left_out_m3":0.0},
@@ -88,12 +118,12 @@ async fn outcomes_of_former_versions_get_the_present_keys() {
         .unwrap();
     let renaming = include_str!("../../../../migrations/0007_outcome_keys.sql");
     sqlx::raw_sql(renaming)
-        .execute(&fixture.store.writer)
+        .execute(&mut past(&fixture).await)
         .await
         .unwrap();
     let found: String = sqlx::query_scalar("SELECT outcome FROM jobs WHERE id = ?")
         .bind(id.to_string())
-        .fetch_one(&fixture.store.writer)
+        .fetch_one(&mut past(&fixture).await)
         .await
         .unwrap();
     let found: serde_json::Value = serde_json::from_str(&found).unwrap();
@@ -107,7 +137,7 @@ async fn outcomes_of_former_versions_get_the_present_keys() {
 
 #[tokio::test]
 async fn rows_that_make_no_sense_are_refused() {
-    let fixture = Fixture::sqlite().await;
+    let fixture = Fixture::new(open).await;
     fixture.submit().await;
     for statement in [
         "UPDATE jobs SET status = 'done'",
@@ -123,14 +153,16 @@ async fn rows_that_make_no_sense_are_refused() {
         "UPDATE jobs SET steps = 'many'",
         "INSERT INTO trajectory_chunks SELECT 'nobody', 0, 0, 1, 0, 0, 'planes-zstd-1', zeroblob(32), zeroblob(1)",
     ] {
-        let done = sqlx::query(statement).execute(&fixture.store.writer).await;
+        let done = sqlx::query(statement)
+            .execute(&mut past(&fixture).await)
+            .await;
         assert!(done.is_err(), "{statement}");
     }
 }
 
 #[tokio::test]
 async fn no_job_is_run_to_its_end_twice_whatever_the_code_asks_for() {
-    let fixture = Fixture::sqlite().await;
+    let fixture = Fixture::new(open).await;
     fixture.submit().await;
     let lease = fixture.claim("a").await;
     fixture
@@ -142,12 +174,12 @@ async fn no_job_is_run_to_its_end_twice_whatever_the_code_asks_for() {
         "INSERT INTO attempts (job_id, attempt, owner, started_ms, ended_ms, ending)
          SELECT job_id, 2, owner, 1, 2, ending FROM attempts",
     );
-    assert!(again.execute(&fixture.store.writer).await.is_err());
+    assert!(again.execute(&mut past(&fixture).await).await.is_err());
 }
 
 #[tokio::test]
 async fn a_state_of_many_pieces_is_whole_or_noticed() {
-    let fixture = Fixture::sqlite().await;
+    let fixture = Fixture::new(open).await;
     let id = fixture.submit().await;
     let lease = fixture.claim("a").await;
     // Noise does not compress: more than two pieces.
@@ -166,7 +198,7 @@ async fn a_state_of_many_pieces_is_whole_or_noticed() {
     let state = fixture.store.state(id).await.unwrap().unwrap();
     assert!(state.unpack().unwrap() == noise);
     sqlx::query("DELETE FROM run_state_pieces WHERE piece = 1")
-        .execute(&fixture.store.writer)
+        .execute(&mut past(&fixture).await)
         .await
         .unwrap();
     let state = fixture.store.state(id).await.unwrap().unwrap();
@@ -175,7 +207,7 @@ async fn a_state_of_many_pieces_is_whole_or_noticed() {
 
 #[tokio::test]
 async fn a_closed_database_leaves_one_file_and_the_lock() {
-    let fixture = Fixture::sqlite().await;
+    let fixture = Fixture::new(open).await;
     fixture.submit().await;
     fixture.store.close().await;
     let entries = std::fs::read_dir(fixture.directory.path()).unwrap();
@@ -188,12 +220,63 @@ async fn a_closed_database_leaves_one_file_and_the_lock() {
 #[cfg(unix)]
 #[tokio::test]
 async fn a_database_has_one_service_by_whatever_name() {
-    let fixture = Fixture::sqlite().await;
+    let fixture = Fixture::new(open).await;
     let database = fixture.directory.path().join("test.db");
     let link = fixture.directory.path().join("link.db");
     std::os::unix::fs::symlink(&database, &link).unwrap();
     for name in [database, link] {
-        let second = Store::open(&name).await;
-        assert!(matches!(second, Err(StoreError::InUse(_))), "{name:?}");
+        let second = SqliteStore::open(&name).await;
+        assert!(matches!(second, Err(StoreError::InUse { .. })), "{name:?}");
     }
+}
+
+#[tokio::test]
+async fn a_database_at_its_limit_is_full() {
+    let directory = TempDir::new().unwrap();
+    let path = directory.path().join("test.db");
+    // What the empty schema takes, and less than a probe more.
+    SqliteStore::open(&path).await.unwrap().close().await;
+    let taken = std::fs::metadata(&path).unwrap().len();
+    let clock = Arc::new(SystemClock);
+    let store = SqliteStore::open_with(&path, Some(taken + 8192), clock).await;
+    let store: Arc<dyn JobStore> = Arc::new(store.unwrap());
+    let refused = store.probe().await.unwrap_err();
+    assert_eq!(refused.kind(), StoreErrorKind::Full, "{refused}");
+    assert!(refused.to_string().contains("full"), "{refused}");
+    store.ping().await.expect("it can still be read");
+}
+
+#[tokio::test]
+async fn a_closed_database_is_unavailable() {
+    let fixture = Fixture::new(open).await;
+    fixture.store.close().await;
+    for answer in [fixture.store.ping().await, fixture.store.probe().await] {
+        let refused = answer.unwrap_err();
+        assert_eq!(refused.kind(), StoreErrorKind::Unavailable, "{refused}");
+    }
+}
+
+#[tokio::test]
+async fn a_file_that_is_no_database_is_unavailable() {
+    let directory = TempDir::new().unwrap();
+    let path = directory.path().join("test.db");
+    std::fs::write(&path, "not a database. ".repeat(512)).unwrap();
+    let refused = SqliteStore::open(&path).await.unwrap_err();
+    assert_eq!(refused.kind(), StoreErrorKind::Unavailable, "{refused}");
+}
+
+#[tokio::test]
+async fn a_database_of_a_later_version_does_not_fit() {
+    let fixture = Fixture::new(open).await;
+    fixture.store.close().await;
+    let path = fixture.directory.path().join("test.db");
+    drop(fixture.store);
+    sqlx::query("UPDATE _sqlx_migrations SET version = 9999 WHERE version = 1")
+        .execute(&mut connect(&path).await)
+        .await
+        .unwrap();
+    let refused = SqliteStore::open(&path).await.unwrap_err();
+    assert!(matches!(refused, StoreError::Schema(_)), "{refused:?}");
+    let text = refused.to_string();
+    assert!(text.starts_with("migration: "), "{text}");
 }

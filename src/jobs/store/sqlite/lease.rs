@@ -1,35 +1,22 @@
 //! Leases: their renewal, and the reclaiming of jobs from those who lost them.
 
-use super::ending::{FailedAttempt, set_back_row};
+use super::SqliteStore;
+use super::ending::set_back_row;
+use super::error::Answer;
 use super::queue::lease;
 use super::results::keep_progress;
-use super::{Lease, Store, StoreError};
 use crate::jobs::job::JobStatus;
 use crate::jobs::progress::Progress;
+use crate::jobs::store::{FailedAttempt, Lease, Renewal};
 use std::time::Duration;
 
-/// Answer to a heartbeat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Renewal {
-    /// The lease is renewed.
-    Held,
-    /// A client dismissed the job.
-    Dismissed,
-    /// The job has another lease, or has ended.
-    Lost,
-}
-
-impl Store {
-    /// Renews the lease of a running job from now on, and stores its progress.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn renew(
+impl SqliteStore {
+    pub(super) async fn renew(
         &self,
         lease: Lease,
         lease_duration: Duration,
         progress: &Progress,
-    ) -> Result<Renewal, StoreError> {
+    ) -> Answer<Renewal> {
         let mut transaction = self.begin_write().await?;
         let kept = keep_progress(&mut transaction, lease, progress).await?;
         let renewal = match kept {
@@ -48,12 +35,7 @@ impl Store {
         Ok(renewal)
     }
 
-    /// Reclaims the jobs that a former process of this name left running when it died.
-    /// They may be claimed again at once. Returns their number.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn reclaim_own(&self, owner: &str) -> Result<usize, StoreError> {
+    pub(super) async fn reclaim_own(&self, owner: &str) -> Answer<usize> {
         let mut transaction = self.begin_write().await?;
         let left: Vec<(String, i64, i64)> = sqlx::query_as(
             "SELECT id, attempt, lease_token FROM jobs
@@ -76,19 +58,7 @@ impl Store {
         Ok(left.len())
     }
 
-    /// Reclaims jobs of other services whose lease, of at most `longest`, has run
-    /// out. Returns their number.
-    ///
-    /// A lease that ends later than possible is from before the clock was set
-    /// back: a live worker renews it, and the fencing token makes other writes harmless.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn reclaim_expired(
-        &self,
-        owner: &str,
-        longest: Duration,
-    ) -> Result<usize, StoreError> {
+    pub(super) async fn reclaim_expired(&self, owner: &str, longest: Duration) -> Answer<usize> {
         let now_ms = self.now_ms();
         let mut transaction = self.begin_write().await?;
         let left: Vec<(String, i64, i64)> = sqlx::query_as(

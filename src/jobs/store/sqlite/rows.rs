@@ -1,8 +1,9 @@
 //! Rows of the `jobs` table, and their conversion.
 
-use super::StoreError;
+use super::error::Answer;
 use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
 use crate::jobs::progress::Progress;
+use crate::jobs::store::StoreError;
 use jiff::Timestamp;
 use serde_json::value::RawValue;
 use sqlx::FromRow;
@@ -48,7 +49,7 @@ pub(super) struct JobRow {
 }
 
 impl SummaryRow {
-    pub(super) fn read(self) -> Result<JobSummary, StoreError> {
+    pub(super) fn read(self) -> Answer<JobSummary> {
         let progress = self.progress();
         let broken = |what| StoreError::Row {
             job: self.id.clone(),
@@ -81,7 +82,7 @@ impl SummaryRow {
 }
 
 impl JobRow {
-    pub(super) fn read(self, attempts: Vec<Attempt>) -> Result<Job, StoreError> {
+    pub(super) fn read(self, attempts: Vec<Attempt>) -> Answer<Job> {
         let id = self.summary.id.clone();
         let broken = |what| StoreError::Row {
             job: id.clone(),

@@ -1,24 +1,11 @@
 //! Changes of state, in order.
 
-use super::{Store, StoreError};
+use super::SqliteStore;
+use super::error::Answer;
 use crate::jobs::job::{JobId, JobStatus};
+use crate::jobs::store::event::EVENTS_AT_ONCE;
+use crate::jobs::store::{Event, StoreError};
 use sqlx::FromRow;
-
-/// Largest number of events read at once.
-const EVENTS_AT_ONCE: u32 = 100;
-
-/// Change of a job's state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Event {
-    /// Sequence number of the event.
-    pub sequence: i64,
-    /// The job.
-    pub job: JobId,
-    /// New state of the job.
-    pub status: JobStatus,
-    /// Number of attempts by then.
-    pub attempt: u32,
-}
 
 #[derive(Debug, FromRow)]
 struct EventRow {
@@ -28,13 +15,8 @@ struct EventRow {
     attempt: u32,
 }
 
-impl Store {
-    /// The next events after number `after`, of one job or of all; at most a
-    /// hundred.
-    ///
-    /// # Errors
-    /// The database's own, or an unreadable row.
-    pub async fn events(&self, after: i64, job: Option<JobId>) -> Result<Vec<Event>, StoreError> {
+impl SqliteStore {
+    pub(super) async fn events(&self, after: i64, job: Option<JobId>) -> Answer<Vec<Event>> {
         let query = match job {
             None => sqlx::query_as(
                 "SELECT sequence, job_id, status, attempt FROM events
@@ -53,12 +35,7 @@ impl Store {
         rows.into_iter().map(EventRow::read).collect()
     }
 
-    /// Number of the last event ever, even if its job was removed; 0
-    /// before the first.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn last_event(&self) -> Result<i64, StoreError> {
+    pub(super) async fn last_event(&self) -> Answer<i64> {
         let last = sqlx::query_scalar("SELECT seq FROM sqlite_sequence WHERE name = 'events'");
         let last: Option<i64> = last.fetch_optional(&self.readers).await?;
         Ok(last.unwrap_or(0))
@@ -66,7 +43,7 @@ impl Store {
 }
 
 impl EventRow {
-    fn read(self) -> Result<Event, StoreError> {
+    fn read(self) -> Answer<Event> {
         let broken = |what| StoreError::Row {
             job: self.job_id.clone(),
             what,

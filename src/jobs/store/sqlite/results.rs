@@ -1,55 +1,18 @@
 //! Writing and reading the records of runs.
 
+use super::SqliteStore;
+use super::error::Answer;
 use super::rows::integer;
-use super::states::{StoredState, write_state};
-use super::{Lease, Store, StoreError};
+use super::states::write_state;
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::progress::Progress;
+use crate::jobs::store::{Lease, NewChunk, NewResults, StoreError, StoredChunk};
 use crate::results::FlowSnapshot;
 use crate::results::chunk::{self, Block, BlockError};
 use crate::results::columns::{Selection, TrajectoryColumns};
 use crate::results::flow::StoredSnapshot;
 use sqlx::FromRow;
 use sqlx::sqlite::SqliteConnection;
-
-/// A chunk to be written; it replaces one that begins with the same sample.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NewChunk {
-    /// Index of the body.
-    pub body: usize,
-    /// Index of its first sample.
-    pub first_sample: usize,
-    /// Number of samples in it.
-    pub samples: usize,
-    /// Time of its first sample [s].
-    pub first_time_s: f64,
-    /// Time of its last sample [s].
-    pub last_time_s: f64,
-    /// The samples.
-    pub block: Block,
-}
-
-/// Results that a run writes to the database at once.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct NewResults {
-    /// Chunks of trajectories.
-    pub chunks: Vec<NewChunk>,
-    /// Snapshots of the flow.
-    pub snapshots: Vec<StoredSnapshot>,
-    /// Progress of the run.
-    pub progress: Progress,
-    /// State of the run after these results.
-    pub state: Option<StoredState>,
-}
-
-/// A chunk read from the store.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StoredChunk {
-    /// Index of the first sample after it.
-    pub next_sample: i64,
-    /// Its samples.
-    pub columns: TrajectoryColumns,
-}
 
 #[derive(Debug, FromRow)]
 struct ChunkRow {
@@ -69,14 +32,8 @@ struct SnapshotRow {
     data: Vec<u8>,
 }
 
-impl Store {
-    /// Writes results and progress of a job. `false`, with nothing written, if
-    /// the job no longer belongs to this lease; a job dismissed meanwhile
-    /// still takes the worker's results.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn keep(&self, lease: Lease, results: &NewResults) -> Result<bool, StoreError> {
+impl SqliteStore {
+    pub(super) async fn keep(&self, lease: Lease, results: &NewResults) -> Answer<bool> {
         let mut transaction = self.begin_write().await?;
         let status = keep_progress(&mut transaction, lease, &results.progress).await?;
         let Some(status) = status else {
@@ -95,18 +52,13 @@ impl Store {
         Ok(true)
     }
 
-    /// The first chunk of a body's trajectory from sample `from_sample` on that
-    /// overlaps the selected range. One short query per chunk: no read
-    /// transaction outlives it, however slowly the client reads the answer.
-    /// # Errors
-    /// The database's own, or a corrupt block.
-    pub async fn chunk(
+    pub(super) async fn chunk(
         &self,
         job: JobId,
         body: usize,
         from_sample: i64,
         selection: &Selection,
-    ) -> Result<Option<StoredChunk>, StoreError> {
+    ) -> Answer<Option<StoredChunk>> {
         let row: Option<ChunkRow> = sqlx::query_as(
             "SELECT first_sample, samples, checksum, data FROM trajectory_chunks
              WHERE job_id = ?1 AND body = ?2 AND first_sample >= ?3
@@ -122,14 +74,10 @@ impl Store {
         .await?;
         row.map(ChunkRow::read)
             .transpose()
-            .map_err(|source| StoreError::Block { job, source })
+            .map_err(|source| StoreError::Block { job, source }.into())
     }
 
-    /// Number of samples of a body's trajectory.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn samples(&self, job: JobId, body: usize) -> Result<usize, StoreError> {
+    pub(super) async fn samples(&self, job: JobId, body: usize) -> Answer<usize> {
         let end: Option<i64> = sqlx::query_scalar(
             "SELECT max(first_sample + samples) FROM trajectory_chunks WHERE job_id = ?1 AND body = ?2",
         )
@@ -140,26 +88,18 @@ impl Store {
         Ok(end.map_or(0, length))
     }
 
-    /// The times of all snapshots so far [s].
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn snapshot_times(&self, job: JobId) -> Result<Vec<f64>, StoreError> {
+    pub(super) async fn snapshot_times(&self, job: JobId) -> Answer<Vec<f64>> {
         let times = sqlx::query_scalar(
             "SELECT time_s FROM flow_snapshots WHERE job_id = ?1 ORDER BY time_s",
         );
         Ok(times.bind(job.to_string()).fetch_all(&self.readers).await?)
     }
 
-    /// The last chunk of a body's trajectory, and the index of its first sample.
-    ///
-    /// # Errors
-    /// The database's own, or a corrupt block.
-    pub async fn last_chunk(
+    pub(super) async fn last_chunk(
         &self,
         job: JobId,
         body: usize,
-    ) -> Result<Option<(usize, TrajectoryColumns)>, StoreError> {
+    ) -> Answer<Option<(usize, TrajectoryColumns)>> {
         let row: Option<ChunkRow> = sqlx::query_as(
             "SELECT first_sample, samples, checksum, data FROM trajectory_chunks
              WHERE job_id = ?1 AND body = ?2 ORDER BY first_sample DESC LIMIT 1",
@@ -172,19 +112,14 @@ impl Store {
         let first_sample = length(row.first_sample);
         row.read()
             .map(|chunk| Some((first_sample, chunk.columns)))
-            .map_err(|source| StoreError::Block { job, source })
+            .map_err(|source| StoreError::Block { job, source }.into())
     }
 
-    /// The snapshot nearest to a time, the earlier of two equally near; without
-    /// a time the latest. `None` if there is none yet.
-    ///
-    /// # Errors
-    /// The database's own, or a corrupt block.
-    pub async fn snapshot(
+    pub(super) async fn snapshot(
         &self,
         job: JobId,
         time_s: Option<f64>,
-    ) -> Result<Option<FlowSnapshot>, StoreError> {
+    ) -> Answer<Option<FlowSnapshot>> {
         let row: Option<SnapshotRow> = sqlx::query_as(
             "SELECT time_s, points, thinning, kept, checksum, data FROM flow_snapshots
              WHERE job_id = ?1
@@ -196,7 +131,7 @@ impl Store {
         .await?;
         row.map(SnapshotRow::read)
             .transpose()
-            .map_err(|source| StoreError::Block { job, source })
+            .map_err(|source| StoreError::Block { job, source }.into())
     }
 }
 
@@ -206,7 +141,7 @@ pub(super) async fn keep_progress(
     connection: &mut SqliteConnection,
     lease: Lease,
     progress: &Progress,
-) -> Result<Option<JobStatus>, StoreError> {
+) -> Answer<Option<JobStatus>> {
     let word: Option<String> = sqlx::query_scalar(
         "UPDATE jobs
          SET fraction = ?3, simulated_time_s = ?4, steps = ?5, substeps = ?6,
@@ -231,7 +166,7 @@ async fn write_chunk(
     connection: &mut SqliteConnection,
     job: JobId,
     chunk: &NewChunk,
-) -> Result<(), StoreError> {
+) -> Answer<()> {
     sqlx::query(
         "INSERT INTO trajectory_chunks
              (job_id, body, first_sample, samples, first_time_s, last_time_s, encoding, checksum, data)
@@ -258,7 +193,7 @@ async fn write_snapshot(
     connection: &mut SqliteConnection,
     job: JobId,
     snapshot: &StoredSnapshot,
-) -> Result<(), StoreError> {
+) -> Answer<()> {
     sqlx::query(
         "INSERT INTO flow_snapshots
              (job_id, time_s, points, thinning, kept, encoding, checksum, data)

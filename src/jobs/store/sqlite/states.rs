@@ -1,46 +1,17 @@
 //! Saved states of runs, from which the next attempt resumes. The store treats them
 //! as bytes.
 
+use super::SqliteStore;
+use super::error::Answer;
 use super::rows::integer;
-use super::{Lease, Store, StoreError};
 use crate::jobs::job::JobId;
+use crate::jobs::store::{AttemptStart, Lease, ResumePoint, StoreError, StoredState};
 use crate::results::chunk::{Block, BlockError};
 use sqlx::FromRow;
 use sqlx::sqlite::SqliteConnection;
 
 /// Bytes of one stored piece.
 const PIECE_BYTES: usize = 8 << 20;
-
-/// Point in the records of a run from which its saved state resumes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ResumePoint {
-    /// Simulated time [s].
-    pub time_s: f64,
-    /// Number of samples recorded by then.
-    pub samples: usize,
-    /// Fingerprint of the records by then.
-    pub fingerprint: [u8; 32],
-}
-
-/// A run's state, compressed and checksummed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StoredState {
-    /// Resume point of the run's records.
-    pub resume_point: ResumePoint,
-    /// Length of the state [bytes].
-    pub bytes: usize,
-    /// The state.
-    pub block: Block,
-}
-
-/// Start of an attempt.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum AttemptStart {
-    /// At the start of the run: all earlier records are removed.
-    Afresh,
-    /// At a saved state: all later records are removed.
-    At(ResumePoint),
-}
 
 #[derive(Debug, FromRow)]
 struct StateRow {
@@ -51,34 +22,8 @@ struct StateRow {
     checksum: Vec<u8>,
 }
 
-impl StoredState {
-    /// Compresses a state.
-    ///
-    /// # Errors
-    /// Only if the compressor is out of memory.
-    pub fn pack(resume_point: ResumePoint, state: &[u8]) -> Result<Self, BlockError> {
-        Ok(Self {
-            resume_point,
-            bytes: state.len(),
-            block: Block::seal_quickly(state)?,
-        })
-    }
-
-    /// The state.
-    ///
-    /// # Errors
-    /// [`BlockError`], if the bytes are not those that were stored.
-    pub fn unpack(&self) -> Result<Vec<u8>, BlockError> {
-        self.block.open(self.bytes)
-    }
-}
-
-impl Store {
-    /// The saved state of a job, if there is one.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn state(&self, job: JobId) -> Result<Option<StoredState>, StoreError> {
+impl SqliteStore {
+    pub(super) async fn state(&self, job: JobId) -> Answer<Option<StoredState>> {
         // One transaction, so that all pieces belong to one state.
         let mut transaction = self.readers.begin().await?;
         let row: Option<StateRow> = sqlx::query_as(
@@ -97,21 +42,15 @@ impl Store {
         let state = row.read(pieces.concat());
         state
             .map(Some)
-            .map_err(|source| StoreError::Block { job, source })
+            .map_err(|source| StoreError::Block { job, source }.into())
     }
 
-    /// Records the start of an attempt and its number of solver threads, and removes
-    /// records that don't fit it. `false`, with nothing changed, if the job no
-    /// longer runs under this lease.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn begin(
+    pub(super) async fn begin(
         &self,
         lease: Lease,
         beginning: &AttemptStart,
         threads: usize,
-    ) -> Result<bool, StoreError> {
+    ) -> Answer<bool> {
         let mut transaction = self.begin_write().await?;
         let done = sqlx::query(
             "UPDATE jobs SET threads = ?3
@@ -160,7 +99,7 @@ pub(super) async fn write_state(
     lease: Lease,
     state: &StoredState,
     now_ms: i64,
-) -> Result<(), StoreError> {
+) -> Answer<()> {
     let id = lease.job.to_string();
     for statement in [
         "DELETE FROM run_states WHERE job_id = ?1",
@@ -197,7 +136,7 @@ pub(super) async fn write_state(
     Ok(())
 }
 
-async fn clear(connection: &mut SqliteConnection, job: JobId) -> Result<(), StoreError> {
+async fn clear(connection: &mut SqliteConnection, job: JobId) -> Answer<()> {
     for statement in [
         "DELETE FROM run_states WHERE job_id = ?1",
         "DELETE FROM trajectory_chunks WHERE job_id = ?1",
@@ -219,7 +158,7 @@ async fn rewind(
     connection: &mut SqliteConnection,
     lease: Lease,
     resume_point: &ResumePoint,
-) -> Result<(), StoreError> {
+) -> Answer<()> {
     let id = lease.job.to_string();
     sqlx::query("UPDATE attempts SET resumed_from_s = ?3 WHERE job_id = ?1 AND attempt = ?2")
         .bind(&id)

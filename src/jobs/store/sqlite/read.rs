@@ -1,9 +1,11 @@
 //! Reading of jobs.
 
+use super::SqliteStore;
+use super::error::Answer;
 use super::history::attempts_of;
 use super::rows::{JobRow, SummaryRow};
-use super::{Store, StoreError};
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
+use crate::jobs::store::{Page, StoreError};
 
 /// A job's row and its labels.
 macro_rules! with_labels {
@@ -23,25 +25,8 @@ macro_rules! listed {
     };
 }
 
-/// Selection of jobs for a list, newest first.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Page {
-    /// Only jobs of this state.
-    pub status: Option<JobStatus>,
-    /// Only jobs with this label.
-    pub label: Option<String>,
-    /// Only jobs submitted before the one with this sequence number.
-    pub before: Option<i64>,
-    /// At most this many.
-    pub limit: u32,
-}
-
-impl Store {
-    /// The job, if there is one.
-    ///
-    /// # Errors
-    /// The database's own, or an unreadable row.
-    pub async fn job(&self, id: JobId) -> Result<Option<Job>, StoreError> {
+impl SqliteStore {
+    pub(super) async fn job(&self, id: JobId) -> Answer<Option<Job>> {
         // One transaction, so that the attempts match the row.
         let mut transaction = self.readers.begin().await?;
         let row: Option<JobRow> = sqlx::query_as(with_labels!("WHERE id = ?1"))
@@ -53,11 +38,7 @@ impl Store {
         row.read(attempts).map(Some)
     }
 
-    /// The state of a job, if there is one.
-    ///
-    /// # Errors
-    /// The database's own, or an unreadable row.
-    pub async fn status(&self, id: JobId) -> Result<Option<JobStatus>, StoreError> {
+    pub(super) async fn status(&self, id: JobId) -> Answer<Option<JobStatus>> {
         let word: Option<String> = sqlx::query_scalar("SELECT status FROM jobs WHERE id = ?1")
             .bind(id.to_string())
             .fetch_optional(&self.readers)
@@ -68,14 +49,10 @@ impl Store {
                 what: "status",
             })
         };
-        word.map(read).transpose()
+        Ok(word.map(read).transpose()?)
     }
 
-    /// A page of jobs.
-    ///
-    /// # Errors
-    /// The database's own, or an unreadable row.
-    pub async fn page(&self, page: &Page) -> Result<Vec<JobSummary>, StoreError> {
+    pub(super) async fn page(&self, page: &Page) -> Answer<Vec<JobSummary>> {
         // Separate statements, so that each can use its index.
         let query = match (page.status, &page.label) {
             (None, None) => sqlx::query_as(listed!("WHERE sequence < ?1")),

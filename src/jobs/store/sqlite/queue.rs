@@ -1,58 +1,13 @@
 //! The life of a job: submission, claim, dismissal. The table of jobs is the queue.
 
-use super::ending::{BACK_OFF_MS, LONGEST_BACK_OFF_MS};
+use super::SqliteStore;
+use super::error::Answer;
 use super::history::{begin_attempt, end_attempt};
 use super::lease::milliseconds;
-use super::{Lease, Store, StoreError};
 use crate::jobs::job::{JobId, JobStatus};
+use crate::jobs::store::ending::{BACK_OFF_MS, LONGEST_BACK_OFF_MS};
+use crate::jobs::store::{Claim, Claimant, Dismissal, Lease, StoreError};
 use sqlx::FromRow;
-use std::time::Duration;
-
-/// Claimant of jobs, and the terms of its claims.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Claimant {
-    /// Name of the service; its next start reclaims at once the jobs it left running.
-    pub owner: String,
-    /// Duration of a lease unless it is renewed.
-    pub lease_duration: Duration,
-    /// Program that runs the jobs.
-    pub solver: Solver,
-    /// Uptime of the service.
-    pub up_for: Duration,
-}
-
-/// The program that runs a job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Solver {
-    /// Version of the solver.
-    pub version: &'static str,
-    /// Commit the program was built from.
-    pub commit: &'static str,
-    /// Instruction set of its kernels.
-    pub instructions: &'static str,
-}
-
-/// A job that a worker has just claimed.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Claim {
-    /// The worker's lease.
-    pub lease: Lease,
-    /// The scenario's JSON.
-    pub scenario: String,
-    /// Failed attempts in a row before this attempt.
-    pub setbacks: u32,
-}
-
-/// Result of a request to dismiss a job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Dismissal {
-    /// The job does not exist.
-    Unknown,
-    /// The job is dismissed, by this or an earlier request.
-    Dismissed,
-    /// The job had already ended in this state.
-    Ended(JobStatus),
-}
 
 #[derive(Debug, FromRow)]
 struct ClaimedRow {
@@ -63,14 +18,8 @@ struct ClaimedRow {
     setbacks: u32,
 }
 
-impl Store {
-    /// Claims the oldest accepted job that need not wait after a failed attempt. A job with
-    /// failed attempts waits until the service has been up for its waiting time, so that
-    /// a service that keeps crashing sooner does not fail the job.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn claim(&self, claimant: &Claimant) -> Result<Option<Claim>, StoreError> {
+impl SqliteStore {
+    pub(super) async fn claim(&self, claimant: &Claimant) -> Answer<Option<Claim>> {
         let now_ms = self.now_ms();
         let mut transaction = self.begin_write().await?;
         let row: Option<ClaimedRow> = sqlx::query_as(
@@ -103,12 +52,7 @@ impl Store {
         Ok(Some(claim))
     }
 
-    /// Dismisses a job. A worker that runs it notices at its next write or
-    /// heartbeat; the caller notifies it sooner.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn dismiss(&self, id: JobId) -> Result<Dismissal, StoreError> {
+    pub(super) async fn dismiss(&self, id: JobId) -> Answer<Dismissal> {
         let now_ms = self.now_ms();
         let mut transaction = self.begin_write().await?;
         let row: Option<(String, i64, i64)> =
@@ -146,7 +90,7 @@ impl Store {
 }
 
 impl ClaimedRow {
-    fn read(self) -> Result<Claim, StoreError> {
+    fn read(self) -> Answer<Claim> {
         Ok(Claim {
             lease: lease(&self.id, self.attempt, self.lease_token)?,
             scenario: self.scenario,
@@ -155,7 +99,7 @@ impl ClaimedRow {
     }
 }
 
-pub(super) fn lease(id: &str, attempt: i64, token: i64) -> Result<Lease, StoreError> {
+pub(super) fn lease(id: &str, attempt: i64, token: i64) -> Answer<Lease> {
     let broken = |what| StoreError::Row {
         job: id.to_owned(),
         what,

@@ -1,7 +1,8 @@
 //! The attempts at a job: start, end and kind of end.
 
-use super::{Lease, StoreError};
+use super::error::Answer;
 use crate::jobs::job::{Attempt, JobId};
+use crate::jobs::store::{Lease, StoreError};
 use jiff::Timestamp;
 use sqlx::FromRow;
 use sqlx::sqlite::SqliteConnection;
@@ -21,7 +22,7 @@ struct AttemptRow {
 pub(super) async fn attempts_of(
     connection: &mut SqliteConnection,
     job: JobId,
-) -> Result<Vec<Attempt>, StoreError> {
+) -> Answer<Vec<Attempt>> {
     let rows: Vec<AttemptRow> = sqlx::query_as(
         "SELECT attempt, owner, started_ms, resumed_from_s, ended_ms, ending, detail
          FROM attempts WHERE job_id = ?1 ORDER BY attempt",
@@ -33,7 +34,7 @@ pub(super) async fn attempts_of(
 }
 
 impl AttemptRow {
-    fn read(self, job: JobId) -> Result<Attempt, StoreError> {
+    fn read(self, job: JobId) -> Answer<Attempt> {
         let time = |ms| {
             Timestamp::from_millisecond(ms).map_err(|_| StoreError::Row {
                 job: job.to_string(),
@@ -58,7 +59,7 @@ pub(super) async fn begin_attempt(
     lease: Lease,
     owner: &str,
     now_ms: i64,
-) -> Result<(), StoreError> {
+) -> Answer<()> {
     sqlx::query(
         "INSERT INTO attempts (job_id, attempt, owner, started_ms) VALUES (?1, ?2, ?3, ?4)",
     )
@@ -77,7 +78,7 @@ pub(super) async fn end_attempt(
     lease: Lease,
     now_ms: i64,
     (word, detail): (&str, Option<&str>),
-) -> Result<(), StoreError> {
+) -> Answer<()> {
     sqlx::query(
         "UPDATE attempts SET ended_ms = ?3, ending = ?4, detail = ?5
          WHERE job_id = ?1 AND attempt = ?2 AND ending IS NULL",

@@ -1,28 +1,13 @@
 //! Removal of jobs that have ended, with all that belongs to them.
 
-use super::{Store, StoreError};
+use super::SqliteStore;
+use super::error::Answer;
 use crate::jobs::job::JobId;
+use crate::jobs::store::Removal;
+use crate::jobs::store::page::REMOVED_AT_ONCE;
 
-/// Largest number of jobs removed at once: a long list must not delay submissions.
-const REMOVED_AT_ONCE: u32 = 20;
-
-/// Result of a request to remove a job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Removal {
-    /// The job does not exist.
-    Unknown,
-    /// The job is removed, with its results.
-    Removed,
-    /// The job has not ended.
-    Active,
-}
-
-impl Store {
-    /// Removes a job that has ended.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn remove(&self, id: JobId) -> Result<Removal, StoreError> {
+impl SqliteStore {
+    pub(super) async fn remove(&self, id: JobId) -> Answer<Removal> {
         let mut transaction = self.begin_write().await?;
         let ended: Option<bool> =
             sqlx::query_scalar("SELECT finished_ms IS NOT NULL FROM jobs WHERE id = ?1")
@@ -42,15 +27,7 @@ impl Store {
         Ok(Removal::Removed)
     }
 
-    /// Removes some of the jobs that ended at least this long ago [ms] and returns their
-    /// number. To be called until it returns 0.
-    ///
-    /// A job with an evidently wrong end time counts as ended now, as soon as the
-    /// clock is no longer evidently wrong.
-    ///
-    /// # Errors
-    /// The database's own.
-    pub async fn remove_ended(&self, age_ms: i64) -> Result<u64, StoreError> {
+    pub(super) async fn remove_ended(&self, age_ms: i64) -> Answer<u64> {
         let now_ms = self.now_ms();
         let mut transaction = self.begin_write().await?;
         sqlx::query(

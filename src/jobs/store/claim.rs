@@ -1,0 +1,72 @@
+//! Claims of jobs, the leases they give, and how others end them.
+
+use crate::jobs::job::{JobId, JobStatus};
+use std::time::Duration;
+
+/// Claimant of jobs, and the terms of its claims.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Claimant {
+    /// Name of the service; its next start reclaims at once the jobs it left running.
+    pub owner: String,
+    /// Duration of a lease unless it is renewed.
+    pub lease_duration: Duration,
+    /// Program that runs the jobs.
+    pub solver: Solver,
+    /// Uptime of the service.
+    pub up_for: Duration,
+}
+
+/// The program that runs a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Solver {
+    /// Version of the solver.
+    pub version: &'static str,
+    /// Commit the program was built from.
+    pub commit: &'static str,
+    /// Instruction set of its kernels.
+    pub instructions: &'static str,
+}
+
+/// A job that a worker has just claimed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Claim {
+    /// The worker's lease.
+    pub lease: Lease,
+    /// The scenario's JSON.
+    pub scenario: String,
+    /// Failed attempts in a row before this attempt.
+    pub setbacks: u32,
+}
+
+/// Lease of one worker on a job: every write by the worker names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Lease {
+    /// The job.
+    pub job: JobId,
+    /// Number of the attempt.
+    pub attempt: u32,
+    /// Fencing token: valid until the job gets another lease.
+    pub token: i64,
+}
+
+/// Answer to a heartbeat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Renewal {
+    /// The lease is renewed.
+    Held,
+    /// A client dismissed the job.
+    Dismissed,
+    /// The job has another lease, or has ended.
+    Lost,
+}
+
+/// Result of a request to dismiss a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dismissal {
+    /// The job does not exist.
+    Unknown,
+    /// The job is dismissed, by this or an earlier request.
+    Dismissed,
+    /// The job had already ended in this state.
+    Ended(JobStatus),
+}

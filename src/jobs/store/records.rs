@@ -1,0 +1,46 @@
+//! Records of runs, as they are written and read.
+
+use super::StoredState;
+use crate::jobs::progress::Progress;
+use crate::results::chunk::Block;
+use crate::results::columns::TrajectoryColumns;
+use crate::results::flow::StoredSnapshot;
+
+/// A chunk to be written; it replaces one that begins with the same sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NewChunk {
+    /// Index of the body.
+    pub body: usize,
+    /// Index of its first sample.
+    pub first_sample: usize,
+    /// Number of samples in it.
+    pub samples: usize,
+    /// Time of its first sample [s].
+    pub first_time_s: f64,
+    /// Time of its last sample [s].
+    pub last_time_s: f64,
+    /// The samples.
+    pub block: Block,
+}
+
+/// Results that a run writes to the database at once.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct NewResults {
+    /// Chunks of trajectories.
+    pub chunks: Vec<NewChunk>,
+    /// Snapshots of the flow.
+    pub snapshots: Vec<StoredSnapshot>,
+    /// Progress of the run.
+    pub progress: Progress,
+    /// State of the run after these results.
+    pub state: Option<StoredState>,
+}
+
+/// A chunk read from the store.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredChunk {
+    /// Index of the first sample after it.
+    pub next_sample: i64,
+    /// Its samples.
+    pub columns: TrajectoryColumns,
+}

@@ -1,0 +1,165 @@
+//! Ends of running jobs: success, failure, release, failed attempts.
+
+use super::SqliteStore;
+use super::error::Answer;
+use super::history::end_attempt;
+use crate::jobs::failure::Failure;
+use crate::jobs::store::ending::Consequence;
+use crate::jobs::store::{FailedAttempt, Lease, Returned, StoreError};
+use sqlx::sqlite::SqliteConnection;
+
+impl SqliteStore {
+    pub(super) async fn succeed(
+        &self,
+        lease: Lease,
+        outcome: &str,
+        fingerprint: &str,
+    ) -> Answer<bool> {
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
+        let done = sqlx::query(
+            "UPDATE jobs
+             SET status = 'successful', finished_ms = ?3, outcome = ?4, fingerprint = ?5,
+                 fraction = 1, eta_s = NULL, lease_owner = NULL, lease_expires_ms = NULL
+             WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
+        )
+        .bind(lease.job.to_string())
+        .bind(lease.token)
+        .bind(now_ms)
+        .bind(outcome)
+        .bind(fingerprint)
+        .execute(&mut *transaction)
+        .await?;
+        if done.rows_affected() == 0 {
+            return Ok(false);
+        }
+        end_attempt(&mut transaction, lease, now_ms, ("successful", None)).await?;
+        transaction.commit().await?;
+        Ok(true)
+    }
+
+    pub(super) async fn fail(&self, lease: Lease, failure: &Failure) -> Answer<bool> {
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
+        let done = fail_row(&mut transaction, lease, failure, now_ms).await?;
+        if done {
+            let ending = ("failed", Some(failure.detail.as_str()));
+            end_attempt(&mut transaction, lease, now_ms, ending).await?;
+        }
+        transaction.commit().await?;
+        Ok(done)
+    }
+
+    pub(super) async fn release(&self, lease: Lease) -> Answer<bool> {
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
+        let done = put_back_row(&mut transaction, lease, 0, 0).await?;
+        if done {
+            end_attempt(&mut transaction, lease, now_ms, ("handed-back", None)).await?;
+        }
+        transaction.commit().await?;
+        Ok(done)
+    }
+
+    pub(super) async fn fail_attempt(
+        &self,
+        lease: Lease,
+        failed_attempt: &FailedAttempt,
+    ) -> Answer<Returned> {
+        let mut transaction = self.begin_write().await?;
+        let returned = set_back_row(&mut transaction, lease, failed_attempt, self.now_ms()).await?;
+        transaction.commit().await?;
+        Ok(returned)
+    }
+}
+
+pub(super) async fn set_back_row(
+    connection: &mut SqliteConnection,
+    lease: Lease,
+    failed_attempt: &FailedAttempt,
+    now_ms: i64,
+) -> Answer<Returned> {
+    let found: Option<(u32, bool)> = sqlx::query_as(
+        "SELECT setbacks, EXISTS (SELECT 1 FROM run_states WHERE job_id = ?1 AND attempt = ?3)
+         FROM jobs WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
+    )
+    .bind(lease.job.to_string())
+    .bind(lease.token)
+    .bind(lease.attempt)
+    .fetch_optional(&mut *connection)
+    .await?;
+    let Some((before, got_on)) = found else {
+        return Ok(Returned::Lost);
+    };
+    end_attempt(
+        connection,
+        lease,
+        now_ms,
+        (failed_attempt.word(), failed_attempt.detail()),
+    )
+    .await?;
+    match failed_attempt.consequence(before, got_on) {
+        Consequence::Waits { setbacks, wait_ms } => {
+            put_back_row(connection, lease, setbacks, now_ms + wait_ms).await?;
+            Ok(Returned::Waiting)
+        }
+        Consequence::Fails(failure) => {
+            fail_row(connection, lease, &failure, now_ms).await?;
+            Ok(Returned::Failed)
+        }
+    }
+}
+
+async fn fail_row(
+    connection: &mut SqliteConnection,
+    lease: Lease,
+    failure: &Failure,
+    now_ms: i64,
+) -> Answer<bool> {
+    let problem = serde_json::to_string(failure).map_err(|_| StoreError::Row {
+        job: lease.job.to_string(),
+        what: "failure",
+    })?;
+    let done = sqlx::query(
+        "UPDATE jobs
+         SET status = 'failed', finished_ms = ?3, problem = ?4, eta_s = NULL,
+             lease_owner = NULL, lease_expires_ms = NULL
+         WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
+    )
+    .bind(lease.job.to_string())
+    .bind(lease.token)
+    .bind(now_ms)
+    .bind(problem)
+    .execute(connection)
+    .await?;
+    Ok(done.rows_affected() == 1)
+}
+
+/// Puts a running job back into the queue. Its progress is kept if the next
+/// attempt can resume from a saved state.
+async fn put_back_row(
+    connection: &mut SqliteConnection,
+    lease: Lease,
+    setbacks: u32,
+    not_before_ms: i64,
+) -> Answer<bool> {
+    let done = sqlx::query(
+        "UPDATE jobs
+         SET status = 'accepted', started_ms = NULL, setbacks = setbacks + ?3,
+             not_before_ms = ?4, lease_owner = NULL, lease_expires_ms = NULL,
+             lease_token = lease_token + 1, point_steps_per_s = 0, eta_s = NULL,
+             (fraction, simulated_time_s, steps, substeps) = (
+                 SELECT iif(saved, fraction, 0), iif(saved, simulated_time_s, 0),
+                        iif(saved, steps, 0), iif(saved, substeps, 0)
+                 FROM (SELECT EXISTS (SELECT 1 FROM run_states WHERE job_id = ?1) AS saved)
+             )
+         WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
+    )
+    .bind(lease.job.to_string())
+    .bind(lease.token)
+    .bind(setbacks)
+    .bind(not_before_ms)
+    .execute(connection)
+    .await?;
+    Ok(done.rows_affected() == 1)
+}

@@ -1,0 +1,79 @@
+//! Errors of the driver, and the kind of each for the port.
+
+use crate::jobs::store::{Cause, StoreError, StoreErrorKind};
+use sqlx::migrate::MigrateError;
+
+/// Answer of the database, within this folder.
+pub(super) type Answer<T> = Result<T, SqliteError>;
+
+/// Error within this folder, before it is sorted by its kind.
+#[derive(Debug)]
+pub(super) enum SqliteError {
+    /// Of the database.
+    Database(sqlx::Error),
+    /// Of what it holds.
+    Content(StoreError),
+}
+
+impl From<sqlx::Error> for SqliteError {
+    fn from(error: sqlx::Error) -> Self {
+        Self::Database(error)
+    }
+}
+
+impl From<StoreError> for SqliteError {
+    fn from(error: StoreError) -> Self {
+        Self::Content(error)
+    }
+}
+
+impl From<SqliteError> for StoreError {
+    fn from(error: SqliteError) -> Self {
+        match error {
+            SqliteError::Database(error) => of_kind(kind(&error), error.into()),
+            SqliteError::Content(error) => error,
+        }
+    }
+}
+
+const SQLITE_FULL: i32 = 13;
+
+/// BUSY, LOCKED, READONLY, IOERR, CORRUPT, CANTOPEN, NOTADB.
+const UNAVAILABLE: [i32; 7] = [5, 6, 8, 10, 11, 14, 26];
+
+/// Error of a migration; that of a database that is full or can't be written is not one of
+/// the schema.
+pub(super) fn of_migration(error: MigrateError) -> StoreError {
+    let kind = match &error {
+        MigrateError::Execute(error) | MigrateError::ExecuteMigration(error, _) => kind(error),
+        _ => StoreErrorKind::Defect,
+    };
+    match kind {
+        StoreErrorKind::Defect => StoreError::Schema(error.into()),
+        StoreErrorKind::Full | StoreErrorKind::Unavailable => of_kind(kind, error.into()),
+    }
+}
+
+fn of_kind(kind: StoreErrorKind, cause: Cause) -> StoreError {
+    match kind {
+        StoreErrorKind::Full => StoreError::Full(cause),
+        StoreErrorKind::Unavailable => StoreError::Unavailable(cause),
+        StoreErrorKind::Defect => StoreError::Defect(cause),
+    }
+}
+
+fn kind(error: &sqlx::Error) -> StoreErrorKind {
+    let code = error.as_database_error().and_then(|error| {
+        let code: i32 = error.code()?.parse().ok()?;
+        // The lowest byte of an extended code is the primary one.
+        Some(code & 0xff)
+    });
+    match (code, error) {
+        (Some(SQLITE_FULL), _) => StoreErrorKind::Full,
+        (Some(code), _) if UNAVAILABLE.contains(&code) => StoreErrorKind::Unavailable,
+        (None, sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed | sqlx::Error::Io(_)) => {
+            StoreErrorKind::Unavailable
+        }
+        _ => StoreErrorKind::Defect,
+    }
+}

@@ -1,0 +1,176 @@
+//! The port, served by the operations of this folder. Each is an inherent function in the file
+//! of its subject; here their errors are sorted into those of the port.
+
+use super::SqliteStore;
+use crate::jobs::failure::Failure;
+use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
+use crate::jobs::progress::Progress;
+use crate::jobs::store::{
+    AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, JobCounts, JobStore, Lease,
+    NewResults, Page, Removal, Renewal, Returned, StoreError, StoredChunk, StoredState, Submission,
+    Submitted,
+};
+use crate::results::FlowSnapshot;
+use crate::results::columns::{Selection, TrajectoryColumns};
+use async_trait::async_trait;
+use std::time::Duration;
+
+#[async_trait]
+impl JobStore for SqliteStore {
+    async fn submit(&self, submission: &Submission<'_>) -> Result<Submitted, StoreError> {
+        Ok(Self::submit(self, submission).await?)
+    }
+
+    async fn finished_like(
+        &self,
+        scenario_hash: &str,
+        solver: (&str, &str),
+    ) -> Result<Option<JobId>, StoreError> {
+        Ok(Self::finished_like(self, scenario_hash, solver).await?)
+    }
+
+    async fn claim(&self, claimant: &Claimant) -> Result<Option<Claim>, StoreError> {
+        Ok(Self::claim(self, claimant).await?)
+    }
+
+    async fn dismiss(&self, id: JobId) -> Result<Dismissal, StoreError> {
+        Ok(Self::dismiss(self, id).await?)
+    }
+
+    async fn remove(&self, id: JobId) -> Result<Removal, StoreError> {
+        Ok(Self::remove(self, id).await?)
+    }
+
+    async fn remove_ended(&self, age_ms: i64) -> Result<u64, StoreError> {
+        Ok(Self::remove_ended(self, age_ms).await?)
+    }
+
+    async fn renew(
+        &self,
+        lease: Lease,
+        lease_duration: Duration,
+        progress: &Progress,
+    ) -> Result<Renewal, StoreError> {
+        Ok(Self::renew(self, lease, lease_duration, progress).await?)
+    }
+
+    async fn reclaim_own(&self, owner: &str) -> Result<usize, StoreError> {
+        Ok(Self::reclaim_own(self, owner).await?)
+    }
+
+    async fn reclaim_expired(&self, owner: &str, longest: Duration) -> Result<usize, StoreError> {
+        Ok(Self::reclaim_expired(self, owner, longest).await?)
+    }
+
+    async fn begin(
+        &self,
+        lease: Lease,
+        beginning: &AttemptStart,
+        threads: usize,
+    ) -> Result<bool, StoreError> {
+        Ok(Self::begin(self, lease, beginning, threads).await?)
+    }
+
+    async fn keep(&self, lease: Lease, results: &NewResults) -> Result<bool, StoreError> {
+        Ok(Self::keep(self, lease, results).await?)
+    }
+
+    async fn succeed(
+        &self,
+        lease: Lease,
+        outcome: &str,
+        fingerprint: &str,
+    ) -> Result<bool, StoreError> {
+        Ok(Self::succeed(self, lease, outcome, fingerprint).await?)
+    }
+
+    async fn fail(&self, lease: Lease, failure: &Failure) -> Result<bool, StoreError> {
+        Ok(Self::fail(self, lease, failure).await?)
+    }
+
+    async fn release(&self, lease: Lease) -> Result<bool, StoreError> {
+        Ok(Self::release(self, lease).await?)
+    }
+
+    async fn fail_attempt(
+        &self,
+        lease: Lease,
+        failed_attempt: &FailedAttempt,
+    ) -> Result<Returned, StoreError> {
+        Ok(Self::fail_attempt(self, lease, failed_attempt).await?)
+    }
+
+    async fn job(&self, id: JobId) -> Result<Option<Job>, StoreError> {
+        Ok(Self::job(self, id).await?)
+    }
+
+    async fn status(&self, id: JobId) -> Result<Option<JobStatus>, StoreError> {
+        Ok(Self::status(self, id).await?)
+    }
+
+    async fn page(&self, page: &Page) -> Result<Vec<JobSummary>, StoreError> {
+        Ok(Self::page(self, page).await?)
+    }
+
+    async fn events(&self, after: i64, job: Option<JobId>) -> Result<Vec<Event>, StoreError> {
+        Ok(Self::events(self, after, job).await?)
+    }
+
+    async fn last_event(&self) -> Result<i64, StoreError> {
+        Ok(Self::last_event(self).await?)
+    }
+
+    async fn count_jobs(&self) -> Result<JobCounts, StoreError> {
+        Ok(Self::count_jobs(self).await?)
+    }
+
+    async fn state(&self, job: JobId) -> Result<Option<StoredState>, StoreError> {
+        Ok(Self::state(self, job).await?)
+    }
+
+    async fn chunk(
+        &self,
+        job: JobId,
+        body: usize,
+        from_sample: i64,
+        selection: &Selection,
+    ) -> Result<Option<StoredChunk>, StoreError> {
+        Ok(Self::chunk(self, job, body, from_sample, selection).await?)
+    }
+
+    async fn last_chunk(
+        &self,
+        job: JobId,
+        body: usize,
+    ) -> Result<Option<(usize, TrajectoryColumns)>, StoreError> {
+        Ok(Self::last_chunk(self, job, body).await?)
+    }
+
+    async fn samples(&self, job: JobId, body: usize) -> Result<usize, StoreError> {
+        Ok(Self::samples(self, job, body).await?)
+    }
+
+    async fn snapshot_times(&self, job: JobId) -> Result<Vec<f64>, StoreError> {
+        Ok(Self::snapshot_times(self, job).await?)
+    }
+
+    async fn snapshot(
+        &self,
+        job: JobId,
+        time_s: Option<f64>,
+    ) -> Result<Option<FlowSnapshot>, StoreError> {
+        Ok(Self::snapshot(self, job, time_s).await?)
+    }
+
+    async fn ping(&self) -> Result<(), StoreError> {
+        Ok(Self::ping(self).await?)
+    }
+
+    async fn probe(&self) -> Result<(), StoreError> {
+        Ok(Self::probe(self).await?)
+    }
+
+    async fn close(&self) {
+        Self::close(self).await;
+    }
+}

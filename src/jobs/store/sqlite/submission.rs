@@ -1,0 +1,167 @@
+//! Submission of jobs: one request, one transaction, all of its jobs or none.
+
+use super::SqliteStore;
+use super::error::Answer;
+use super::rows::integer;
+use crate::jobs::job::JobId;
+use crate::jobs::store::{Key, StoreError, Submission, Submitted};
+use crate::jobs::submit::NewJob;
+use sqlx::sqlite::SqliteConnection;
+
+impl SqliteStore {
+    pub(super) async fn submit(&self, submission: &Submission<'_>) -> Answer<Submitted> {
+        let now_ms = self.now_ms();
+        let mut transaction = self.begin_write().await?;
+        if let Some(key) = &submission.key
+            && let Some(before) = former_request(&mut transaction, submission, key).await?
+        {
+            return Ok(before);
+        }
+        if let Some(full) = no_room(&mut transaction, submission).await? {
+            return Ok(full);
+        }
+        let request = match &submission.key {
+            Some(key) => Some(keep_key(&mut transaction, submission, key).await?),
+            None => None,
+        };
+        for job in submission.jobs {
+            insert(
+                &mut transaction,
+                job,
+                submission.submitter,
+                (now_ms, request),
+            )
+            .await?;
+        }
+        transaction.commit().await?;
+        Ok(Submitted::Accepted)
+    }
+
+    pub(super) async fn finished_like(
+        &self,
+        scenario_hash: &str,
+        solver: (&str, &str),
+    ) -> Answer<Option<JobId>> {
+        let id: Option<String> = sqlx::query_scalar(
+            "SELECT id FROM jobs
+             WHERE scenario_hash = ?1 AND status = 'successful'
+               AND solver_version = ?2 AND solver_commit = ?3
+             ORDER BY sequence DESC LIMIT 1",
+        )
+        .bind(scenario_hash)
+        .bind(solver.0)
+        .bind(solver.1)
+        .fetch_optional(&self.readers)
+        .await?;
+        id.map(|id| parse(&id)).transpose()
+    }
+}
+
+async fn former_request(
+    connection: &mut SqliteConnection,
+    submission: &Submission<'_>,
+    key: &Key<'_>,
+) -> Answer<Option<Submitted>> {
+    let former: Option<(i64, Vec<u8>)> = sqlx::query_as(
+        "SELECT sequence, body_hash FROM keyed_requests WHERE submitter = ?1 AND key = ?2",
+    )
+    .bind(submission.submitter.unwrap_or_default())
+    .bind(key.text)
+    .fetch_optional(&mut *connection)
+    .await?;
+    let Some((sequence, body_hash)) = former else {
+        return Ok(None);
+    };
+    if body_hash != key.body_hash {
+        return Ok(Some(Submitted::OtherBody));
+    }
+    let ids: Vec<String> =
+        sqlx::query_scalar("SELECT id FROM jobs WHERE keyed_request = ?1 ORDER BY sequence")
+            .bind(sequence)
+            .fetch_all(connection)
+            .await?;
+    let ids: Result<_, _> = ids.iter().map(|id| parse(id)).collect();
+    Ok(Some(Submitted::Before(ids?)))
+}
+
+async fn no_room(
+    connection: &mut SqliteConnection,
+    submission: &Submission<'_>,
+) -> Answer<Option<Submitted>> {
+    let coming = u32::try_from(submission.jobs.len()).unwrap_or(u32::MAX);
+    let waiting: u32 = sqlx::query_scalar("SELECT count(*) FROM jobs WHERE status = 'accepted'")
+        .fetch_one(&mut *connection)
+        .await?;
+    if waiting.saturating_add(coming) > submission.room.queue {
+        return Ok(Some(Submitted::QueueFull(waiting)));
+    }
+    let Some(quota) = submission.room.submitter else {
+        return Ok(None);
+    };
+    let own: u32 = sqlx::query_scalar(
+        "SELECT count(*) FROM jobs WHERE submitter = ?1 AND status IN ('accepted', 'running')",
+    )
+    .bind(submission.submitter)
+    .fetch_one(connection)
+    .await?;
+    Ok((own.saturating_add(coming) > quota).then_some(Submitted::QuotaSpent(own)))
+}
+
+async fn keep_key(
+    connection: &mut SqliteConnection,
+    submission: &Submission<'_>,
+    key: &Key<'_>,
+) -> Answer<i64> {
+    let sequence = sqlx::query_scalar(
+        "INSERT INTO keyed_requests (submitter, key, body_hash) VALUES (?1, ?2, ?3)
+         RETURNING sequence",
+    )
+    .bind(submission.submitter.unwrap_or_default())
+    .bind(key.text)
+    .bind(&key.body_hash[..])
+    .fetch_one(connection)
+    .await?;
+    Ok(sequence)
+}
+
+async fn insert(
+    connection: &mut SqliteConnection,
+    job: &NewJob,
+    submitter: Option<&str>,
+    (now_ms, request): (i64, Option<i64>),
+) -> Answer<()> {
+    let id = job.id.to_string();
+    sqlx::query(
+        "INSERT INTO jobs (id, created_ms, scenario, title, bodies, solver_version,
+                           scenario_hash, submitter, keyed_request, plan)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
+    )
+    .bind(&id)
+    .bind(now_ms)
+    .bind(&job.scenario)
+    .bind(&job.title)
+    .bind(integer(job.bodies as u64))
+    .bind(job.solver_version)
+    .bind(&job.scenario_hash)
+    .bind(submitter)
+    .bind(request)
+    .bind(&job.plan)
+    .execute(&mut *connection)
+    .await?;
+    for label in &job.labels {
+        sqlx::query("INSERT INTO labels (label, job_id) VALUES (?1, ?2)")
+            .bind(label)
+            .bind(&id)
+            .execute(&mut *connection)
+            .await?;
+    }
+    Ok(())
+}
+
+fn parse(id: &str) -> Answer<JobId> {
+    let id = id.parse().map_err(|_| StoreError::Row {
+        job: id.to_owned(),
+        what: "id",
+    })?;
+    Ok(id)
+}
