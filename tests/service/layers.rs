@@ -1,6 +1,6 @@
 //! Allowed dependencies between layers, checked by the names of the folders: HTTP holds no
-//! SQL, the jobs and their store no HTTP, and HTTP accesses the solver only through
-//! the jobs.
+//! SQL, the jobs and their store no HTTP, HTTP accesses the solver only through the jobs,
+//! and only the driver's folder names the database.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,8 +30,11 @@ const RULES: [(&str, &[&str]); 5] = [
     ),
 ];
 
-/// The only folder that may hold SQL.
-const SQL: &str = "src/jobs/store";
+/// The only folder that may hold SQL and name the library that executes it.
+const DRIVER: &str = "src/jobs/store/sqlite";
+
+/// The only file outside it that may name its type: it opens the store.
+const OPENS_THE_STORE: &str = "src/service.rs";
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
@@ -70,15 +73,31 @@ fn no_folder_names_what_it_must_not_know() {
     }
 }
 
+/// The files of the service and of the solver outside the driver's folder.
+fn outside_the_driver(root: &Path) -> Vec<PathBuf> {
+    let driver = root.join(DRIVER);
+    assert!(driver.is_dir(), "{DRIVER} is not there");
+    let files = ["src", "solver/src"].map(|folder| rust_files(&root.join(folder)));
+    let mut files = files.concat();
+    files.retain(|file| !file.starts_with(&driver));
+    files
+}
+
 #[test]
 fn sql_is_in_one_folder() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for file in rust_files(&root.join("src")) {
-        let holds_sql = code(&file).contains("sqlx");
-        assert!(
-            !holds_sql || file.starts_with(root.join(SQL)),
-            "{}",
-            file.display()
-        );
+    for file in outside_the_driver(root) {
+        let code = code(&file);
+        for name in ["sqlx", "SELECT ", "INSERT INTO ", "PRAGMA ", "pragma_"] {
+            assert!(!code.contains(name), "{} names {name}", file.display());
+        }
     }
+}
+
+#[test]
+fn one_place_names_the_database_and_opens_it() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = outside_the_driver(root);
+    files.retain(|file| code(file).contains("SqliteStore"));
+    assert_eq!(files, [root.join(OPENS_THE_STORE)]);
 }
