@@ -2,12 +2,14 @@
 //!
 //! A sphero-polyhedron is a convex polyhedron, the **core**, swept by a sphere
 //! of the **sphero radius** r (Minkowski sum): flats, edges rounded to
-//! cylinders, vertices to balls. A point of space touches it where its distance
+//! cylinders, vertices to balls. The core may lack a volume: that of a ball is
+//! a point, that of a capsule a segment. A point of space touches it where its distance
 //! from the core is r. Everything here is in the body frame, whose origin is
 //! the centre of mass of the rounded solid.
 
 mod check;
 mod closest;
+mod core;
 mod cuboid;
 mod error;
 mod half_spaces;
@@ -16,12 +18,15 @@ mod moments;
 mod polyhedron;
 mod principal;
 mod regular;
+mod segment;
 mod separation;
 mod sharp;
+mod steiner;
 #[cfg(test)]
 mod tests;
 mod walk;
 
+pub use self::core::CoreEdge;
 pub use closest::{Closest, Feature};
 pub use error::ShapeError;
 pub use polyhedron::{ConvexPolyhedron, Edge, Face};
@@ -30,31 +35,23 @@ pub use regular::RegularSolid;
 pub use separation::{distance_apart, separation};
 pub use sharp::SharpPolyhedron;
 
+use self::core::Core;
 use cuboid::Cuboid;
 use moments::Moments;
 use nalgebra::{Matrix3, Vector3};
+use segment::Segment;
 use std::f64::consts::PI;
 use walk::Walk;
 
-/// A convex polyhedron swept by a sphere.
+/// A convex core swept by a sphere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpheroPolyhedron {
-    core: ConvexPolyhedron,
-    nearest: Nearest,
+    core: Core,
     sphero_radius: f64,
     volume: f64,
     unit_inertia: Matrix3<f64>,
     bounding_radius: f64,
     turning_compliance: f64,
-}
-
-/// Algorithm that finds the nearest feature of the core.
-#[derive(Debug, Clone, PartialEq)]
-enum Nearest {
-    /// Closed form, for a box.
-    Cuboid(Box<Cuboid>),
-    /// Walk over its surface.
-    Walk(Walk),
 }
 
 impl SpheroPolyhedron {
@@ -84,11 +81,29 @@ impl SpheroPolyhedron {
             });
         }
         let (core, cuboid) = Cuboid::new(half)?;
-        Ok(Self::measured(
-            core,
-            Nearest::Cuboid(Box::new(cuboid)),
-            sphero_radius_m,
-        ))
+        let core = Core::Cuboid(core, Box::new(cuboid));
+        Ok(Self::measured(core, sphero_radius_m))
+    }
+
+    /// A ball: a point swept by a sphere.
+    ///
+    /// # Errors
+    /// A radius that is not positive.
+    pub fn ball(radius_m: f64) -> Result<Self, ShapeError> {
+        positive("radius", radius_m)?;
+        Ok(Self::measured(Core::Segment(Segment::point()), radius_m))
+    }
+
+    /// A capsule along x, its length between the tips: a segment swept by a sphere.
+    ///
+    /// # Errors
+    /// A radius that is not positive, or a length not above twice the radius.
+    pub fn capsule(radius_m: f64, length_m: f64) -> Result<Self, ShapeError> {
+        positive("radius", radius_m)?;
+        let between_centres = length_m - 2.0 * radius_m;
+        positive("length between the centres of the ends", between_centres)?;
+        let core = Core::Segment(Segment::of_length(between_centres));
+        Ok(Self::measured(core, radius_m))
     }
 
     /// Any convex core, swept by a sphere of `sphero_radius_m`. The core is
@@ -106,29 +121,25 @@ impl SpheroPolyhedron {
         let moments = Moments::of_dilated(&core, sphero_radius_m);
         let centred = core.translated(&-(moments.first / moments.volume));
         let walk = Walk::on(&centred);
-        Ok(Self::measured(
-            centred,
-            Nearest::Walk(walk),
-            sphero_radius_m,
-        ))
+        let core = Core::Polyhedron(centred, walk);
+        Ok(Self::measured(core, sphero_radius_m))
     }
 
     /// Shape with its properties; `core` is centred already.
-    fn measured(core: ConvexPolyhedron, nearest: Nearest, sphero_radius: f64) -> Self {
+    fn measured(core: Core, sphero_radius: f64) -> Self {
         let farthest = core
             .vertices()
             .iter()
             .map(Vector3::norm)
             .fold(0.0, f64::max);
-        let volume = steiner_volume(&core, sphero_radius);
-        let unit_inertia = Moments::of_dilated(&core, sphero_radius).inertia();
+        let volume = core.dilated_volume(sphero_radius);
+        let unit_inertia = core.dilated_inertia(sphero_radius);
         Self {
             volume,
             unit_inertia,
-            turning_compliance: volume * turning_compliance(&core, sphero_radius, &unit_inertia),
+            turning_compliance: volume * core.turning_compliance(sphero_radius, &unit_inertia),
             bounding_radius: farthest + sphero_radius,
             core,
-            nearest,
             sphero_radius,
         }
     }
@@ -139,11 +150,11 @@ impl SpheroPolyhedron {
     }
 
     /// Edges of the core.
-    pub fn edges(&self) -> &[Edge] {
+    pub fn edges(&self) -> impl Iterator<Item = CoreEdge> + Clone + '_ {
         self.core.edges()
     }
 
-    /// Faces of the core; their planes lie r inside the body's flats.
+    /// Faces of the core, none if it has no volume; their planes lie r inside the body's flats.
     pub fn faces(&self) -> &[Face] {
         self.core.faces()
     }
@@ -194,7 +205,7 @@ impl SpheroPolyhedron {
     /// Surface of the solid dilated by a sphere of radius `distance` [m²]: the places this far from
     /// it.
     pub fn surface_at(&self, distance: f64) -> f64 {
-        steiner_surface(&self.core, self.sphero_radius + distance)
+        self.core.dilated_surface(self.sphero_radius + distance)
     }
 
     /// Reach of the rounded solid from the origin along a unit direction [m] (support
@@ -204,18 +215,15 @@ impl SpheroPolyhedron {
         reach.fold(f64::NEG_INFINITY, f64::max) + self.sphero_radius * direction.norm()
     }
 
-    /// Least distance of two parallel planes with the rounded solid between them [m]: both touch it
-    /// in faces, a face and a vertex, or two edges.
+    /// Radius of the largest ball about the centre of mass inside the rounded solid [m].
+    pub fn inscribed_radius(&self) -> f64 {
+        self.core.inscribed_radius() + self.sphero_radius
+    }
+
+    /// Least distance of two parallel planes with the rounded solid between them [m].
     pub fn least_width(&self) -> f64 {
-        let edges = self.edges();
-        let crosses = edges
-            .iter()
-            .flat_map(|a| edges.iter().map(|b| a.direction.cross(&b.direction)));
-        let directions = crosses.filter_map(|cross| cross.try_normalize(separation::PARALLEL));
-        self.faces()
-            .iter()
-            .map(|face| face.normal)
-            .chain(directions)
+        let directions = self.core.narrow_directions().into_iter();
+        directions
             .map(|direction| self.extent_along(&direction) + self.extent_along(&-direction))
             .fold(f64::INFINITY, f64::min)
     }
@@ -223,29 +231,8 @@ impl SpheroPolyhedron {
     /// The feature of the core nearest to `x` [m]. Distance and, outside the
     /// core, point and normal are continuous in `x`.
     pub fn closest_feature(&self, x: &Vector3<f64>) -> Closest {
-        match &self.nearest {
-            Nearest::Cuboid(cuboid) => cuboid.closest(x),
-            Nearest::Walk(walk) => walk.closest(x),
-        }
+        self.core.closest(x)
     }
-}
-
-/// Largest compliance by turning alone of a place within the sphero radius of a vertex, for
-/// density 1: the largest eigenvalue of −[c]× I⁻¹ [c]×.
-fn turning_compliance(
-    core: &ConvexPolyhedron,
-    sphero_radius: f64,
-    unit_inertia: &Matrix3<f64>,
-) -> f64 {
-    let inverse = unit_inertia.try_inverse().unwrap_or_else(Matrix3::zeros);
-    let of_vertex = |vertex: &Vector3<f64>| {
-        let place = vertex + vertex.normalize() * sphero_radius;
-        let cross = place.cross_matrix();
-        (cross * inverse * cross.transpose())
-            .symmetric_eigenvalues()
-            .max()
-    };
-    core.vertices().iter().map(of_vertex).fold(0.0, f64::max)
 }
 
 fn positive(quantity: &'static str, value: f64) -> Result<(), ShapeError> {
@@ -254,36 +241,4 @@ fn positive(quantity: &'static str, value: f64) -> Result<(), ShapeError> {
     } else {
         Err(ShapeError::NotPositive { quantity, value })
     }
-}
-
-/// Steiner's formula for the volume of a convex core dilated by a sphere [m³].
-fn steiner_volume(core: &ConvexPolyhedron, radius: f64) -> f64 {
-    let faces = core.faces().iter();
-    let surface: f64 = faces.clone().map(|face| face_area(core, face)).sum();
-    let inside: f64 = faces
-        .map(|face| face_area(core, face) * face.offset / 3.0)
-        .sum();
-    let bend: f64 = core
-        .edges()
-        .iter()
-        .map(|edge| edge.length * (PI - edge.interior_dihedral))
-        .sum();
-    inside + surface * radius + bend * radius.powi(2) / 2.0 + 4.0 / 3.0 * PI * radius.powi(3)
-}
-
-/// Steiner's formula for its surface [m²], the volume's derivative by the radius.
-fn steiner_surface(core: &ConvexPolyhedron, radius: f64) -> f64 {
-    let flats: f64 = core.faces().iter().map(|face| face_area(core, face)).sum();
-    let bend = |edge: &Edge| edge.length * (PI - edge.interior_dihedral);
-    let bent: f64 = core.edges().iter().map(bend).sum();
-    flats + bent * radius + 4.0 * PI * radius.powi(2)
-}
-
-/// Area of a face [m²].
-fn face_area(core: &ConvexPolyhedron, face: &Face) -> f64 {
-    let corner = |v: usize| core.vertices()[v];
-    let fan: Vector3<f64> = polyhedron::sides(&face.vertices)
-        .map(|(a, b)| corner(a).cross(&corner(b)))
-        .sum();
-    fan.dot(&face.normal) / 2.0
 }

@@ -1,7 +1,7 @@
 //! Distance between two cores.
 
 use super::SpheroPolyhedron;
-use super::polyhedron::{ConvexPolyhedron, Edge};
+use super::core::{Core, CoreEdge};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// Sine of the angle of two edges below which they have no common normal: they are parallel,
@@ -9,10 +9,11 @@ use nalgebra::{Isometry3, Point3, Vector3};
 pub(super) const PARALLEL: f64 = 1e-12;
 
 /// Distance between the cores of two bodies [m], each given in its own frame and placed by its
-/// pose; zero or negative (minus the depth) when they overlap. Exact for convex polyhedra: the
-/// nearest pair is a vertex and a face, or two edges; and two of them overlap exactly if no
-/// face normal and no cross product of two edges separates them. For the rounded surfaces
-/// subtract both sphero radii.
+/// pose; zero or negative (minus the depth) when they overlap. Exact for convex cores: the
+/// nearest pair is a vertex and a face, or two edges (a core without faces brings its vertices
+/// and its edge); and two of them overlap exactly if no face normal and no cross product of two
+/// edges separates them. Two cores without volume only meet, at the distance 0. For the rounded
+/// surfaces subtract both sphero radii.
 pub fn separation(
     a: &SpheroPolyhedron,
     pose_a: &Isometry3<f64>,
@@ -20,6 +21,10 @@ pub fn separation(
     pose_b: &Isometry3<f64>,
 ) -> f64 {
     let b_in_a = pose_a.inv_mul(pose_b);
+    let neither_has_volume = a.faces().is_empty() && b.faces().is_empty();
+    if neither_has_volume {
+        return nearest(a, b, &b_in_a);
+    }
     let gap = widest_gap(&a.core, &b.core, &b_in_a);
     if gap <= 0.0 {
         gap
@@ -46,13 +51,13 @@ fn nearest(a: &SpheroPolyhedron, b: &SpheroPolyhedron, b_in_a: &Isometry3<f64>) 
 }
 
 /// Largest gap between the projections of `a` and `b` on any separating direction.
-fn widest_gap(a: &ConvexPolyhedron, b: &ConvexPolyhedron, b_in_a: &Isometry3<f64>) -> f64 {
+fn widest_gap(a: &Core, b: &Core, b_in_a: &Isometry3<f64>) -> f64 {
     let b_vertices = moved(b, b_in_a);
     let normals_of_a = a.faces().iter().map(|face| face.normal);
     let normals_of_b = b.faces().iter().map(|face| -(b_in_a * face.normal));
-    let crosses = a.edges().iter().flat_map(|edge_a| {
-        let cross = move |edge_b: &Edge| edge_a.direction.cross(&(b_in_a * edge_b.direction));
-        b.edges().iter().map(cross)
+    let crosses = a.edges().flat_map(|edge_a| {
+        let cross = move |edge_b: CoreEdge| edge_a.direction.cross(&(b_in_a * edge_b.direction));
+        b.edges().map(cross)
     });
     let crosses = crosses
         .filter_map(|cross| cross.try_normalize(PARALLEL))
@@ -72,8 +77,8 @@ fn gap_along(a: &[Vector3<f64>], b: &[Vector3<f64>], direction: &Vector3<f64>) -
     start_of_b - end_of_a
 }
 
-/// Vertices of a polyhedron in another frame.
-fn moved(core: &ConvexPolyhedron, pose: &Isometry3<f64>) -> Vec<Vector3<f64>> {
+/// Vertices of a core in another frame.
+fn moved(core: &Core, pose: &Isometry3<f64>) -> Vec<Vector3<f64>> {
     core.vertices()
         .iter()
         .map(|v| (pose * Point3::from(*v)).coords)
@@ -89,7 +94,7 @@ fn vertex_distance(a: &SpheroPolyhedron, b: &SpheroPolyhedron, b_in_a: &Isometry
 }
 
 /// Nearest pair of edges.
-fn edge_distance(a: &ConvexPolyhedron, b: &ConvexPolyhedron, b_in_a: &Isometry3<f64>) -> f64 {
+fn edge_distance(a: &Core, b: &Core, b_in_a: &Isometry3<f64>) -> f64 {
     let b_vertices = moved(b, b_in_a);
     let mut nearest = f64::INFINITY;
     for edge_a in a.edges() {

@@ -150,7 +150,7 @@ struct Nearby {
     edges: Vec<(usize, [Vec3; 2])>,
 }
 
-/// Two bodies that no face normal separates.
+/// Two bodies that no direction looked at separates.
 struct Pair<'a> {
     bodies: [&'a Body; 2],
     /// Vector from the first body's centre to the second's.
@@ -267,7 +267,7 @@ fn nearby(
 ) -> Nearby {
     let vertices = corners.iter().copied().enumerate();
     let vertices = vertices.filter(|(_, place)| in_reach(place) && reached.meets(&[*place]));
-    let edges = body.shape.edges().iter().enumerate();
+    let edges = body.shape.edges().enumerate();
     let edges = edges.filter_map(|(number, edge)| {
         let ends = edge.vertices.map(|vertex| corners[vertex]);
         let near = ends.iter().any(&in_reach) && reached.meets(&ends);

@@ -28,9 +28,47 @@ pub(super) fn nearest_on(segment: &[Vec3; 2], x: &Vec3) -> Vec3 {
     segment[0] + along * place.clamp(0.0, 1.0)
 }
 
+/// The nearest places of two cores without faces, given by their vertices: one of a point, two
+/// of a segment.
+pub(super) fn nearest_places(a: &[Vec3], b: &[Vec3]) -> (Vec3, Vec3) {
+    let of_a = a.iter().map(|end| (*end, nearest_of(b, end)));
+    let of_b = b.iter().map(|end| (nearest_of(a, end), *end));
+    let crossing = match (a, b) {
+        ([a0, a1], [b0, b1]) => crossing(&[*a0, *a1], &[*b0, *b1]),
+        _ => None,
+    };
+    let apart = |(p, q): &(Vec3, Vec3)| (q - p).norm_squared();
+    let pairs = of_a.chain(of_b).chain(crossing);
+    let nearest = pairs.min_by(|one, other| apart(one).total_cmp(&apart(other)));
+    nearest.unwrap_or_default()
+}
+
+fn nearest_of(core: &[Vec3], x: &Vec3) -> Vec3 {
+    match core {
+        [start, end] => nearest_on(&[*start, *end], x),
+        _ => core.first().copied().unwrap_or_default(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cores_without_faces_have_nearest_places() {
+        let along_x = [-Vec3::x(), Vec3::x()];
+        let across = [Vec3::new(0.5, -1.0, 0.2), Vec3::new(0.5, 1.0, 0.2)];
+        let (p, q) = nearest_places(&along_x, &across);
+        assert!((p - Vec3::new(0.5, 0.0, 0.0)).norm() < 1e-15);
+        assert!((q - Vec3::new(0.5, 0.0, 0.2)).norm() < 1e-15);
+        let beside = along_x.map(|end| end + Vec3::new(1.5, 0.3, 0.0));
+        let (p, q) = nearest_places(&along_x, &beside);
+        assert!(((q - p) - Vec3::y() * 0.3).norm() < 1e-15);
+        let point = [Vec3::new(3.0, 0.0, 1.0)];
+        assert_eq!(nearest_places(&point, &along_x), (point[0], Vec3::x()));
+        assert_eq!(nearest_places(&along_x, &point), (Vec3::x(), point[0]));
+        assert_eq!(nearest_places(&point, &point), (point[0], point[0]));
+    }
 
     #[test]
     fn crossing_segments_are_nearest_where_they_cross() {

@@ -1,13 +1,14 @@
-//! Separation of two bodies along the face normals of their cores.
+//! Separation of two bodies along the face normals of their cores; where neither has faces,
+//! along the line of their nearest places.
 
 use super::contact_points::corners;
+use super::segments::nearest_places;
 use crate::math::Vec3;
 use crate::rigid::Body;
 use crate::shape::distance_apart;
 use nalgebra::{Isometry3, Translation3};
 
-/// The gap of two bodies along a face normal of either core: a lower bound of their distance if
-/// positive.
+/// The gap of two bodies along a direction: a lower bound of their distance if positive.
 pub(super) struct Gap {
     pub(super) width: f64,
     /// Unit vector from the first body to the second.
@@ -50,7 +51,7 @@ impl Separation {
             return gap_at(bodies, apart, corners, face);
         }
         let (face, gap) = widest_gap(bodies, apart, corners);
-        self.face = Some(face);
+        self.face = face;
         gap
     }
 }
@@ -86,9 +87,29 @@ fn gap_at(
     }
 }
 
-/// The widest gap, and its face.
-fn widest_gap(bodies: [&Body; 2], apart: &Vec3, corners: &[Vec<Vec3>; 2]) -> (usize, Gap) {
+/// The gap along the line of the nearest places of two cores without faces, which is their
+/// distance; where they meet, along z.
+fn gap_of_nearest(corners: &[Vec<Vec3>; 2]) -> Gap {
+    let (on_first, on_second) = nearest_places(&corners[0], &corners[1]);
+    let direction = (on_second - on_first).try_normalize(f64::MIN_POSITIVE);
+    let direction = direction.unwrap_or_else(Vec3::z);
+    let heights = |which: usize| corners[which].iter().map(|x| direction.dot(x));
+    let first_to = heights(0).fold(f64::NEG_INFINITY, f64::max);
+    let second_from = heights(1).fold(f64::INFINITY, f64::min);
+    Gap {
+        width: second_from - first_to,
+        direction,
+        first_to,
+        second_from,
+    }
+}
+
+/// The widest gap, and its face if either body has any.
+fn widest_gap(bodies: [&Body; 2], apart: &Vec3, corners: &[Vec<Vec3>; 2]) -> (Option<usize>, Gap) {
     let faces: usize = bodies.iter().map(|body| body.shape.faces().len()).sum();
+    if faces == 0 {
+        return (None, gap_of_nearest(corners));
+    }
     let mut widest = (0, gap_at(bodies, apart, corners, 0));
     for number in 1..faces {
         let gap = gap_at(bodies, apart, corners, number);
@@ -96,11 +117,11 @@ fn widest_gap(bodies: [&Body; 2], apart: &Vec3, corners: &[Vec<Vec3>; 2]) -> (us
             widest = (number, gap);
         }
     }
-    widest
+    (Some(widest.0), widest.1)
 }
 
 /// A lower bound of the distance of two rounded bodies [m], from their face
-/// normals; of no use below 0.
+/// normals or, if they have none, exact; of no use below 0.
 pub fn least_gap(first: &Body, second: &Body) -> f64 {
     let apart = second.state.position - first.state.position;
     let corners = [corners(first, &Vec3::zeros()), corners(second, &apart)];

@@ -1,6 +1,6 @@
 use super::*;
 use crate::math::Mat3;
-use crate::rigid::fixture::{cuboid, tetrahedron};
+use crate::rigid::fixture::{cuboid, of_shape, tetrahedron};
 use crate::shape::SpheroPolyhedron;
 use nalgebra::UnitQuaternion;
 
@@ -75,12 +75,31 @@ fn brought_together(first: &Body, second: &mut Body, direction: &Vec3, depth: f6
 
 /// Random pairs of many kinds that touch.
 fn touching_pairs(count: usize) -> Vec<[Body; 2]> {
-    let mut numbers = Numbers(0.1);
     let kinds = [
         cuboid([0.04; 3]),
         tetrahedron(0.05),
         cuboid([0.03, 0.05, 0.07]),
     ];
+    touching_pairs_of(&kinds, count)
+}
+
+/// Random pairs that touch, balls and capsules and a box among them.
+fn round_pairs(count: usize) -> Vec<[Body; 2]> {
+    let ball = SpheroPolyhedron::ball(0.02).expect("a ball");
+    let capsule = SpheroPolyhedron::capsule(0.01, 0.06).expect("a capsule");
+    let kinds = [
+        of_shape(ball),
+        of_shape(capsule),
+        cuboid([0.03, 0.05, 0.07]),
+    ];
+    let both_boxes = |pair: &[Body; 2]| pair.iter().all(|body| !body.shape.faces().is_empty());
+    let mut pairs = touching_pairs_of(&kinds, count);
+    pairs.retain(|pair| !both_boxes(pair));
+    pairs
+}
+
+fn touching_pairs_of(kinds: &[Body; 3], count: usize) -> Vec<[Body; 2]> {
+    let mut numbers = Numbers(0.1);
     let mut pair = |n: usize| {
         let first = moved(&kinds[n % 3], &numbers.vector(), &(numbers.vector() * 3.0));
         let mut second = moved(&kinds[n / 3 % 3], &Vec3::zeros(), &(numbers.vector() * 3.0));
@@ -94,7 +113,7 @@ fn touching_pairs(count: usize) -> Vec<[Body; 2]> {
 // The force is minus the gradient of the potential, against central differences.
 #[test]
 fn forces_are_the_gradient_of_the_potential() {
-    for [first, second] in &touching_pairs(60) {
+    for [first, second] in touching_pairs(60).iter().chain(&round_pairs(90)) {
         let found = touching(first, second);
         assert!(!found.places.is_empty());
         let on_second =
@@ -121,7 +140,7 @@ fn forces_are_the_gradient_of_the_potential() {
 // The order of the bodies does not matter where features are not tiny.
 #[test]
 fn the_order_of_the_bodies_does_not_matter() {
-    for [first, second] in &touching_pairs(60) {
+    for [first, second] in touching_pairs(60).iter().chain(&round_pairs(90)) {
         let (one, other) = (potential(first, second), potential(second, first));
         assert!((one / other - 1.0).abs() < 1e-9, "{one} {other}");
     }
@@ -159,6 +178,58 @@ fn bodies_that_meet_at_random_touch_once() {
     }
     assert!(once.iter().all(|kind| *kind >= 8), "{once:?}");
     assert!(once.iter().sum::<i32>() > 70, "{once:?}");
+}
+
+// A ball touches in one place, whatever it meets; so does a capsule that is not nearly parallel to
+// what it touches, and its known gap changes nothing.
+#[test]
+fn round_bodies_touch_once() {
+    let pairs = round_pairs(180);
+    let mut once = 0;
+    for [first, second] in &pairs {
+        let found = touching(first, second);
+        let pose = |body: &Body| {
+            let translation = nalgebra::Translation3::from(body.state.position);
+            nalgebra::Isometry3::from_parts(translation, body.state.orientation)
+        };
+        let (a, b) = (&first.shape, &second.shape);
+        let distance = crate::shape::separation(a, &pose(first), b, &pose(second));
+        let overlap = a.sphero_radius() + b.sphero_radius() - distance;
+        let count = found.energy / of_one(first, second, overlap);
+        let has_ball = [a, b].iter().any(|shape| shape.core_vertices().len() == 1);
+        assert!(count > 1.0 - 1e-9 && count < 2.5, "{count}");
+        assert!(!has_ball || count < 1.0 + 1e-9, "{count}");
+        once += i32::from(count < 1.0 + 1e-9);
+        assert!(
+            (least_gap(first, second) + overlap).abs() < 1e-12
+                || !a.faces().is_empty()
+                || !b.faces().is_empty()
+        );
+    }
+    assert!(once > 150, "{once} of {}", pairs.len());
+}
+
+// Side by side two capsules carry each other at the ends of their common length, each once.
+#[test]
+fn parallel_capsules_touch_at_the_ends_of_their_common_length() {
+    let capsule = || of_shape(SpheroPolyhedron::capsule(0.01, 0.06).expect("a capsule"));
+    let (first, mut second) = (capsule(), capsule());
+    second.state.position = Vec3::new(0.015, 0.0, 0.02 - 1e-4);
+    let found = touching(&first, &second);
+    let mut places: Vec<f64> = found
+        .places
+        .iter()
+        .map(|contact| contact.near.place.x)
+        .collect();
+    places.sort_by(f64::total_cmp);
+    assert_eq!(places.len(), 2);
+    assert!(
+        (places[0] + 0.005).abs() < 1e-12 && (places[1] - 0.02).abs() < 1e-12,
+        "{places:?}"
+    );
+    let count = found.energy / of_one(&first, &second, 1e-4);
+    assert!((count - 2.0).abs() < 1e-9, "{count}");
+    assert!((found.push.force.normalize() - Vec3::z()).norm() < 1e-12);
 }
 
 /// Energy of one contact with this overlap [J].

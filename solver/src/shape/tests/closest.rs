@@ -1,7 +1,7 @@
 //! The nearest feature against brute force, and its continuity.
 
 use super::search::{by_search, deepest_face};
-use super::{SpheroPolyhedron, mapped, mesh};
+use super::{SpheroPolyhedron, mapped, mesh, solid};
 use crate::shape::hull::hull_of;
 use crate::shape::walk::Walk;
 use crate::shape::{ConvexPolyhedron, Feature};
@@ -124,12 +124,12 @@ proptest! {
             1 => -corner[axis],
             _ => x[axis],
         });
-        let (fast, general) = (body.closest_feature(&x), by_search(&body.core, &x));
+        let (fast, general) = (body.closest_feature(&x), by_search(solid(&body), &x));
         prop_assert!((fast.distance - general.distance).abs() < 1e-14);
         if fast.distance > 0.0 {
             prop_assert!((fast.point - general.point).norm() < 1e-14);
             prop_assert!((fast.normal - general.normal).norm() < 1e-9);
-            prop_assert!(on_feature(&body.core, fast.feature, &fast.point) < 1e-14);
+            prop_assert!(on_feature(solid(&body), fast.feature, &fast.point) < 1e-14);
         }
     }
 }
@@ -145,7 +145,7 @@ fn every_feature_of_the_cube_answers_by_its_own_name() {
         let found = cube.closest_feature(&(centre(&[vertex]) * 1.5));
         assert_eq!(found.feature, Feature::Vertex(vertex));
     }
-    for (index, edge) in cube.edges().iter().enumerate() {
+    for (index, edge) in cube.edges().enumerate() {
         let found = cube.closest_feature(&(centre(&edge.vertices) * 1.5));
         assert_eq!(found.feature, Feature::Edge(index));
     }
@@ -168,7 +168,7 @@ fn points_on_the_surface_and_at_the_centre_have_a_normal() {
         corner + Vector3::repeat(1e-200),
         Vector3::new(0.9, 0.0, 0.0),
     ] {
-        for found in [cube.closest_feature(&x), by_search(&cube.core, &x)] {
+        for found in [cube.closest_feature(&x), by_search(solid(&cube), &x)] {
             assert_eq!(found.normal.norm(), 1.0, "{x}");
             assert!(found.distance.is_finite());
         }

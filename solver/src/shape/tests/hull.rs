@@ -18,7 +18,7 @@ fn counts(solid: &ConvexPolyhedron) -> [usize; 3] {
 fn core_counts(body: &SpheroPolyhedron) -> [usize; 3] {
     [
         body.core_vertices().len(),
-        body.edges().len(),
+        body.edges().count(),
         body.faces().len(),
     ]
 }

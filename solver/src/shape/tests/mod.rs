@@ -4,6 +4,7 @@ mod closest;
 mod hull;
 mod mass;
 mod principal;
+mod round;
 mod search;
 mod separation;
 mod validity;
@@ -60,6 +61,11 @@ fn mapped((vertices, loops): Mesh, map: &Matrix3<f64>, shift: &Vector3<f64>) -> 
 fn rounded(mesh: Mesh, radius: f64) -> SpheroPolyhedron {
     let core = mapped(mesh, &Matrix3::identity(), &Vector3::zeros());
     SpheroPolyhedron::from_core(core, radius).expect("a positive radius")
+}
+
+/// The core of a body that has a volume.
+fn solid(body: &SpheroPolyhedron) -> &ConvexPolyhedron {
+    body.core.solid().expect("its core has a volume")
 }
 
 /// One of a family of solids, by number.

@@ -1,7 +1,7 @@
 //! Distances between two cores.
 
 use super::search::by_search;
-use super::{SpheroPolyhedron, mapped, mesh};
+use super::{SpheroPolyhedron, mapped, mesh, solid};
 use crate::shape::separation;
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
@@ -110,7 +110,10 @@ fn by_projections(
     pose_b: &Isometry3<f64>,
 ) -> f64 {
     let project = |body: &SpheroPolyhedron, pose: &Isometry3<f64>, x: Vector3<f64>| {
-        let found = by_search(&body.core, &pose.inverse_transform_point(&x.into()).coords);
+        let found = by_search(
+            solid(&body),
+            &pose.inverse_transform_point(&x.into()).coords,
+        );
         if found.distance <= 0.0 {
             x
         } else {

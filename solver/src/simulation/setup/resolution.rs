@@ -139,8 +139,7 @@ impl Crowd {
             let body = &scenario.bodies[place];
             let shape = scenario.shape_of(place);
             let start = scenario.initial_pose(place).position;
-            let faces = shape.faces().iter().map(|face| face.offset);
-            let lowest = faces.fold(f64::INFINITY, f64::min) + shape.sphero_radius();
+            let lowest = shape.inscribed_radius();
             let falling = match body.motion {
                 Some(_) => 0.0,
                 None => 2.0 * scenario.gravity_m_s2 * (start.z - lowest).max(0.0),

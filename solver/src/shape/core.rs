@@ -1,0 +1,161 @@
+//! Cores: every kind of convex set that a sphere is swept over. A further kind of core is a
+//! variant here, with its geometry in a file of its own.
+
+use super::closest::Closest;
+use super::cuboid::Cuboid;
+use super::moments::Moments;
+use super::polyhedron::{ConvexPolyhedron, Face};
+use super::segment::Segment;
+use super::separation::PARALLEL;
+use super::steiner;
+use super::walk::Walk;
+use nalgebra::{Matrix3, Vector3};
+
+/// A convex set whose nearest feature can be found. Only one with a volume has faces.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Core {
+    /// A segment or a point.
+    Segment(Segment),
+    /// A box, its nearest feature in closed form.
+    Cuboid(ConvexPolyhedron, Box<Cuboid>),
+    /// A polyhedron, its nearest feature by a walk over its surface.
+    Polyhedron(ConvexPolyhedron, Walk),
+}
+
+/// An edge of a core.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoreEdge {
+    /// Its ends, by their index into the vertices.
+    pub vertices: [usize; 2],
+    /// Unit vector from the first end to the second.
+    pub direction: Vector3<f64>,
+}
+
+impl Core {
+    /// The core as a polyhedron, if it has a volume.
+    pub(super) fn solid(&self) -> Option<&ConvexPolyhedron> {
+        match self {
+            Self::Segment(_) => None,
+            Self::Cuboid(solid, _) | Self::Polyhedron(solid, _) => Some(solid),
+        }
+    }
+
+    fn segment(&self) -> Option<&Segment> {
+        match self {
+            Self::Segment(segment) => Some(segment),
+            Self::Cuboid(..) | Self::Polyhedron(..) => None,
+        }
+    }
+
+    /// Vertices [m].
+    pub(super) fn vertices(&self) -> &[Vector3<f64>] {
+        match self {
+            Self::Segment(segment) => segment.vertices(),
+            Self::Cuboid(solid, _) | Self::Polyhedron(solid, _) => solid.vertices(),
+        }
+    }
+
+    /// Edges, each once.
+    pub(super) fn edges(&self) -> impl Iterator<Item = CoreEdge> + Clone + '_ {
+        let of_solid = self.solid().into_iter().flat_map(ConvexPolyhedron::edges);
+        let of_segment = self.segment().filter(|segment| segment.has_edge());
+        of_solid
+            .map(|edge| CoreEdge {
+                vertices: edge.vertices,
+                direction: edge.direction,
+            })
+            .chain(of_segment.map(|_| CoreEdge {
+                vertices: [0, 1],
+                direction: Vector3::x(),
+            }))
+    }
+
+    /// Faces; none without a volume.
+    pub(super) fn faces(&self) -> &[Face] {
+        self.solid().map_or(&[], ConvexPolyhedron::faces)
+    }
+
+    /// Nearest feature.
+    pub(super) fn closest(&self, x: &Vector3<f64>) -> Closest {
+        match self {
+            Self::Segment(segment) => segment.closest(x),
+            Self::Cuboid(_, cuboid) => cuboid.closest(x),
+            Self::Polyhedron(_, walk) => walk.closest(x),
+        }
+    }
+
+    /// Volume of the core dilated by a sphere [m³].
+    pub(super) fn dilated_volume(&self, radius: f64) -> f64 {
+        match self {
+            Self::Segment(segment) => segment.dilated_volume(radius),
+            Self::Cuboid(solid, _) | Self::Polyhedron(solid, _) => steiner::volume(solid, radius),
+        }
+    }
+
+    /// Surface of the core dilated by a sphere [m²].
+    pub(super) fn dilated_surface(&self, radius: f64) -> f64 {
+        match self {
+            Self::Segment(segment) => segment.dilated_surface(radius),
+            Self::Cuboid(solid, _) | Self::Polyhedron(solid, _) => steiner::surface(solid, radius),
+        }
+    }
+
+    /// Inertia tensor about the origin of the core dilated by a sphere, for density 1 [m⁵].
+    pub(super) fn dilated_inertia(&self, radius: f64) -> Matrix3<f64> {
+        match self {
+            Self::Segment(segment) => segment.dilated_inertia(radius),
+            Self::Cuboid(solid, _) | Self::Polyhedron(solid, _) => {
+                Moments::of_dilated(solid, radius).inertia()
+            }
+        }
+    }
+
+    /// Largest compliance of a surface place by turning alone, for density 1: of a polyhedron that
+    /// of the places within the radius of a vertex, the largest eigenvalue of −[c]× I⁻¹ [c]×.
+    pub(super) fn turning_compliance(&self, radius: f64, unit_inertia: &Matrix3<f64>) -> f64 {
+        match self {
+            Self::Segment(segment) => segment.turning_compliance(radius, unit_inertia),
+            Self::Cuboid(..) | Self::Polyhedron(..) => {
+                of_vertices(self.vertices(), radius, unit_inertia)
+            }
+        }
+    }
+
+    /// Radius of the largest ball about the origin that does not leave the core [m].
+    pub(super) fn inscribed_radius(&self) -> f64 {
+        match self {
+            Self::Segment(_) => 0.0,
+            Self::Cuboid(solid, _) | Self::Polyhedron(solid, _) => {
+                let offsets = solid.faces().iter().map(|face| face.offset);
+                offsets.fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// Directions that have the one of least width among them: two parallel planes round a
+    /// polyhedron touch it in faces, a face and a vertex, or two edges; round a segment, along it.
+    pub(super) fn narrow_directions(&self) -> Vec<Vector3<f64>> {
+        let Some(solid) = self.solid() else {
+            return vec![Vector3::y()];
+        };
+        let edges = solid.edges();
+        let crosses = edges
+            .iter()
+            .flat_map(|a| edges.iter().map(|b| a.direction.cross(&b.direction)));
+        let directions = crosses.filter_map(|cross| cross.try_normalize(PARALLEL));
+        let normals = solid.faces().iter().map(|face| face.normal);
+        normals.chain(directions).collect()
+    }
+}
+
+fn of_vertices(vertices: &[Vector3<f64>], radius: f64, unit_inertia: &Matrix3<f64>) -> f64 {
+    let inverse = unit_inertia.try_inverse().unwrap_or_else(Matrix3::zeros);
+    let of_vertex = |vertex: &Vector3<f64>| {
+        let place = vertex + vertex.normalize() * radius;
+        let cross = place.cross_matrix();
+        (cross * inverse * cross.transpose())
+            .symmetric_eigenvalues()
+            .max()
+    };
+    vertices.iter().map(of_vertex).fold(0.0, f64::max)
+}
