@@ -5,7 +5,7 @@ use super::failure::{Failure, not_set_up};
 use super::{console, scenario_file};
 use scree_solver::Simulation;
 use scree_solver::rigid::Body;
-use scree_solver::scenario::{Channel, Scenario, Shape, Support};
+use scree_solver::scenario::{Channel, Scenario, Support};
 use scree_solver::shape::PrincipalInertia;
 
 /// Prints the facts that follow from a legal scenario.
@@ -73,7 +73,7 @@ fn flow(scenario: &Scenario) -> String {
 /// Description of a body of the scenario as it was set up.
 fn body(scenario: &Scenario, index: usize, set_up: &Body) -> String {
     let body = &scenario.bodies[index];
-    let shape = shape(&body.shape);
+    let shape = &body.shape;
     let [least, middle, most] = PrincipalInertia::of(&set_up.inertia).moments;
     let [x, y, z]: [f64; 3] = scenario.initial_pose(index).position.into();
     let support = match scenario.support_of(index) {
@@ -90,20 +90,6 @@ fn body(scenario: &Scenario, index: usize, set_up: &Body) -> String {
         "{shape}, rounded by {} m, {:.4} kg, principal moments {least:.3e}, {middle:.3e}, {most:.3e} kg m², centre at {x:.4}, {y:.4}, {z:.4} m {support}{fixed}",
         body.sphero_radius_m, set_up.mass
     )
-}
-
-fn shape(shape: &Shape) -> String {
-    match shape {
-        Shape::Cube { side_m } => format!("cube of {side_m} m"),
-        Shape::Box { sides_m: [x, y, z] } => format!("box of {x} by {y} by {z} m"),
-        Shape::Regular { solid, size_m } => {
-            let solid = format!("{solid:?}").to_lowercase();
-            format!("{solid} with edges of {size_m} m")
-        }
-        Shape::Polyhedron { vertices_m } => {
-            format!("polyhedron round {} points", vertices_m.len())
-        }
-    }
 }
 
 fn recorded(scenario: &Scenario) -> String {

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 const CIRCLE_POINTS: u32 = 32;
 
 /// Outline of a body seen from above [m], anticlockwise: the convex hull of its
-/// core's vertices, turned and moved as in the sample, widened by the rounding
+/// core's vertices (one of a ball, two of a capsule), turned and moved as in the sample, widened by the rounding
 /// radius (the Minkowski sum of hull and disc).
 pub(super) fn from_above(shape: &SpheroPolyhedron, sample: &BodySample) -> Vec<[f64; 2]> {
     let radius = shape.sphero_radius();
@@ -109,6 +109,24 @@ mod tests {
         let expected = triangle + 3.0 * core * 0.002 + std::f64::consts::PI * 0.002_f64.powi(2);
         // A circle of thirty-two points has 0.6 % less area.
         assert!((area / expected - 1.0).abs() < 1e-3, "{area} {expected}");
+    }
+
+    /// From above a ball is a circle, and a capsule a stadium as long and as wide as it is.
+    #[test]
+    fn outlines_of_round_bodies_are_a_circle_and_a_stadium() {
+        let at_origin = resting_at([0.0; 3]);
+        let circle = from_above(&SpheroPolyhedron::ball(0.02).unwrap(), &at_origin);
+        assert_eq!(circle.len(), CIRCLE_POINTS as usize);
+        assert!(
+            circle
+                .iter()
+                .all(|p| (p[0].hypot(p[1]) - 0.02).abs() < 1e-15)
+        );
+        let capsule = SpheroPolyhedron::capsule(0.01, 0.06).unwrap();
+        let stadium = from_above(&capsule, &at_origin);
+        assert!((extent(&stadium, 0) - 0.06).abs() < 1e-15);
+        assert!((extent(&stadium, 1) - 0.02).abs() < 1e-15);
+        assert_eq!(stadium.len(), CIRCLE_POINTS as usize + 2);
     }
 
     /// A 4 cm cube is 4 cm across its flats, rounding included; turned by 45°

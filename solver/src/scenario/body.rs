@@ -2,12 +2,12 @@
 
 use super::motion::read_motion;
 use super::node::Node;
-use super::placement::Size;
-use super::range::{rounded_up, short};
-use super::reader::{Object, Several};
+use super::range::short;
+use super::reader::Object;
 use super::report::Report;
 use super::rules::*;
-use super::{Body, Position, RegularSolid, Shape};
+use super::shape::{Size, read_shape};
+use super::{Body, Position, Shape};
 use crate::shape::ShapeError;
 
 /// The list of bodies; a refused body is `None`.
@@ -35,10 +35,7 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
     let shape = read_shape(&object);
     // A shape without a size has been refused already.
     let size = shape.as_ref().and_then(|shape| shape.size().ok());
-    let sphero_radius_m = object.number_or(
-        &SPHERO_RADIUS,
-        size.map(|size| size.thickness_m / SIZE_PER_SPHERO_RADIUS),
-    );
+    let sphero_radius_m = read_sphero_radius(&object, shape.as_ref(), size);
     let density_kg_m3 = object.number(&BODY_DENSITY);
     let position = object
         .defaulted("position")
@@ -78,82 +75,30 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
     fits.then_some(body)
 }
 
-/// Names of the regular solids.
-pub(super) const REGULAR_SOLIDS: [(&str, RegularSolid); 5] = [
-    ("tetrahedron", RegularSolid::Tetrahedron),
-    ("cube", RegularSolid::Cube),
-    ("octahedron", RegularSolid::Octahedron),
-    ("dodecahedron", RegularSolid::Dodecahedron),
-    ("icosahedron", RegularSolid::Icosahedron),
-];
-
-/// Reader of the value under a shape's name.
-type ShapeReader = fn(&Object<'_>) -> Option<Shape>;
-
-fn read_shape(parent: &Object<'_>) -> Option<Shape> {
-    const SHAPES: &str = "exactly one of: cube, box, regular, polyhedron";
-    let node = parent.required("shape", SHAPES)?;
-    let object = parent.object(node, "shape")?;
-    if object.members().len() != 1 {
-        let why = "must name exactly one shape";
-        object.report.refuse(&object.pointer, SHAPES, None, why);
-        return None;
-    }
-    let shapes = [
-        ("cube", read_cube as ShapeReader),
-        ("box", read_box),
-        ("regular", read_regular),
-        ("polyhedron", read_polyhedron),
-    ];
-    let given = shapes.map(|(key, read)| Some((key, read, object.member(key)?)));
-    object.refuse_unknown();
-    let (key, read, node) = given.into_iter().flatten().next()?;
-    let object = object.object(node, key)?;
-    let shape = read(&object);
-    object.refuse_unknown();
-    shape
-}
-
-fn read_cube(object: &Object<'_>) -> Option<Shape> {
-    let side_m = object.number(&CUBE_SIDE)?;
-    Some(Shape::Cube { side_m })
-}
-
-fn read_box(object: &Object<'_>) -> Option<Shape> {
-    let sides_m = object.vector(&BOX_SIDES)?;
-    Some(Shape::Box { sides_m })
-}
-
-fn read_regular(object: &Object<'_>) -> Option<Shape> {
-    let solid = object.choice("solid", &REGULAR_SOLIDS, None);
-    let size_m = object.number(&REGULAR_SIZE);
-    Some(Shape::Regular {
-        solid: solid?,
-        size_m: size_m?,
-    })
-}
-
-/// A polyhedron that encloses something.
-fn read_polyhedron(object: &Object<'_>) -> Option<Shape> {
-    let points = Several::new(POLYHEDRON_VERTICES, ["point", "points"]);
-    let vertices_m = object.vectors(&VERTICES, &points)?;
-    let shape = Shape::Polyhedron { vertices_m };
-    let why = match shape.size() {
-        Ok(size) if size.thickness_m >= LEAST_THICKNESS => return Some(shape),
-        Ok(size) => format!(
-            "enclose no more than a ball of {} m in diameter",
-            short(rounded_up(size.thickness_m))
-        ),
-        Err(_) => "enclose nothing: they lie in one plane, or nearly so".to_owned(),
+/// The sphero radius; a shape with one of its own takes no other.
+fn read_sphero_radius(
+    object: &Object<'_>,
+    shape: Option<&Shape>,
+    size: Option<Size>,
+) -> Option<f64> {
+    let Some(own) = shape.and_then(Shape::own_radius_m) else {
+        let default = size.map(|size| size.thickness_m / SIZE_PER_SPHERO_RADIUS);
+        return object.number_or(&SPHERO_RADIUS, default);
     };
-    let pointer = object.pointer_to(VERTICES.key);
-    let allowed = format!(
-        "points whose convex hull holds a ball of {} m in diameter",
-        short(LEAST_THICKNESS)
+    let given = object.number_or(&SPHERO_RADIUS, Some(own))?;
+    if given == own {
+        return Some(own);
+    }
+    let why = format!(
+        "is {}, but the shape is round by its own radius_m ({}): leave it out",
+        short(given),
+        short(own)
     );
+    let allowed = format!("{}, or left out", short(own));
+    let pointer = object.pointer_to(SPHERO_RADIUS.key);
     object
         .report
-        .refuse(&pointer, &allowed, VERTICES.unit, &why);
+        .refuse(&pointer, &allowed, SPHERO_RADIUS.unit, &why);
     None
 }
 

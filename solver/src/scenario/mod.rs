@@ -18,6 +18,7 @@ mod reduction;
 mod report;
 mod rules;
 mod sections;
+mod shape;
 #[cfg(test)]
 mod tests;
 
@@ -27,6 +28,7 @@ pub use motion::Motion;
 pub use node::excerpt;
 pub use placement::{Pose, ReleaseBox, Support};
 pub use reduction::{Approach, Ending, Symmetry};
+pub use shape::{FieldValue, SHAPES, Shape, ShapeField, ShapeKind};
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -121,7 +123,7 @@ pub struct Material {
 pub struct Body {
     /// Shape.
     pub shape: Shape,
-    /// Radius of the rounding sphere, r [m].
+    /// Radius of the rounding sphere, r [m]; of a ball or capsule its own.
     pub sphero_radius_m: f64,
     /// Density [kg/m³].
     pub density_kg_m3: f64,
@@ -153,35 +155,6 @@ pub struct Body {
     pub fixed: bool,
     /// Prescribed motion, whatever acts on it; `None`: it is fixed or free.
     pub motion: Option<Motion>,
-}
-
-/// Shape of a body before it is rounded, as JSON `{"cube": {"side_m": 0.04}}`. The flats are
-/// where its faces were.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Shape {
-    /// A cube.
-    Cube {
-        /// Distance between opposite flats, rounding included [m].
-        side_m: f64,
-    },
-    /// A box, its faces along the axes.
-    Box {
-        /// Distances between opposite flats, rounding included [m].
-        sides_m: [f64; 3],
-    },
-    /// A regular solid, lying on a face with an edge along y.
-    Regular {
-        /// The solid.
-        solid: RegularSolid,
-        /// Length of its edges before they are rounded [m].
-        size_m: f64,
-    },
-    /// The convex hull of some points.
-    Polyhedron {
-        /// The points, in body axes with any origin [m].
-        vertices_m: Vec<[f64; 3]>,
-    },
 }
 
 /// Centre of a body.

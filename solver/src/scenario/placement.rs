@@ -1,7 +1,7 @@
 //! Initial placement of bodies and release according to the scenario.
 
-use super::{Body, Channel, Flow, RegularSolid, Scenario, Shape};
-use crate::shape::{ShapeError, SharpPolyhedron, SpheroPolyhedron};
+use super::{Body, Channel, Flow, Scenario};
+use crate::shape::SpheroPolyhedron;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 /// Position and orientation of a body.
@@ -103,62 +103,6 @@ impl Channel {
             front_m,
             vertical_thickness_m,
             width_m: self.width_m,
-        }
-    }
-}
-
-impl Shape {
-    /// Size.
-    pub(super) fn size(&self) -> Result<Size, ShapeError> {
-        let sharp = match self {
-            Self::Cube { side_m } => return Ok(Size::of_box([*side_m; 3])),
-            Self::Box { sides_m } => return Ok(Size::of_box(*sides_m)),
-            Self::Regular { solid, size_m } => SharpPolyhedron::regular(*solid, *size_m)?,
-            Self::Polyhedron { vertices_m } => sharp_hull(vertices_m)?,
-        };
-        Ok(Size {
-            thickness_m: 2.0 * sharp.inradius(),
-            length_m: sharp.diameter(),
-        })
-    }
-
-    /// The solid described, rounded with a radius [m].
-    pub(super) fn build(&self, sphero_radius_m: f64) -> Result<SpheroPolyhedron, ShapeError> {
-        match self {
-            Self::Cube { side_m } => SpheroPolyhedron::cube(*side_m, sphero_radius_m),
-            Self::Box { sides_m } => SpheroPolyhedron::cuboid(*sides_m, sphero_radius_m),
-            Self::Regular {
-                solid: RegularSolid::Cube,
-                size_m,
-            } => SpheroPolyhedron::cube(*size_m, sphero_radius_m),
-            Self::Regular { solid, size_m } => {
-                SharpPolyhedron::regular(*solid, *size_m)?.rounded(sphero_radius_m)
-            }
-            Self::Polyhedron { vertices_m } => sharp_hull(vertices_m)?.rounded(sphero_radius_m),
-        }
-    }
-}
-
-fn sharp_hull(vertices_m: &[[f64; 3]]) -> Result<SharpPolyhedron, ShapeError> {
-    let vertices: Vec<_> = vertices_m.iter().copied().map(Vector3::from).collect();
-    SharpPolyhedron::hull_of(&vertices)
-}
-
-/// Size of a shape; of a cube both are its side.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Size {
-    /// Diameter of the largest ball inside [m].
-    pub(super) thickness_m: f64,
-    /// Longest side of a box; of other shapes the largest distance of two places [m]. A body whose
-    /// centre is this far from a plane is clear of it.
-    pub(super) length_m: f64,
-}
-
-impl Size {
-    fn of_box(sides_m: [f64; 3]) -> Self {
-        Self {
-            thickness_m: sides_m.into_iter().fold(f64::INFINITY, f64::min),
-            length_m: sides_m.into_iter().fold(0.0, f64::max),
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Every number of a scenario: key, range, unit, default. The same table is in
-//! `docs/scenario.md`; a test keeps both consistent.
+//! Every number of a scenario but those of shapes (`shape.rs`): key, range, unit, default. The
+//! same table is in `docs/scenario.md`; a test keeps both consistent.
 //!
 //! Upper and lower limits are generous. They exclude mistakes (metres for millimetres) and
 //! numbers beyond the range of single precision, not unusual scenes.
@@ -26,12 +26,6 @@ pub(super) const QUATERNION_SLACK: f64 = 1e-3;
 pub(super) const TOUCHING: f64 = 1e-3;
 /// Number of rows of a prescribed motion.
 pub(super) const MOTION_TIMES: RangeInclusive<usize> = 1..=1000;
-/// Number of points of a polyhedron: rounding may make twice as many faces of them, and four
-/// times as many vertices.
-pub(super) const POLYHEDRON_VERTICES: RangeInclusive<usize> = 4..=32;
-/// Diameter of the smallest ball a polyhedron must contain [m]: a default sphero radius is then
-/// not below the smallest allowed.
-pub(super) const LEAST_THICKNESS: f64 = 2e-5;
 /// Least sound speed over √(g H) of the release: its own weight then takes a third of
 /// its volume.
 pub(super) const SOFTEST: f64 = std::f64::consts::SQRT_2;
@@ -57,7 +51,7 @@ const PASCAL: &str = "Pa";
 const SECOND: &str = "s";
 const SPEED: &str = "m/s";
 
-const fn metres(key: &'static str, low: f64, high: f64) -> Rule {
+pub(super) const fn metres(key: &'static str, low: f64, high: f64) -> Rule {
     Rule::new(key, closed(low, high)).unit(METRE)
 }
 
@@ -108,10 +102,6 @@ pub(super) const INERTIAL_NUMBER: Rule =
 pub(super) const POISSONS_RATIO: Rule = Rule::new("poissons_ratio", closed(0.0, 0.49)).default(0.3);
 pub(super) const YOUNGS_MODULUS: Rule = modulus("youngs_modulus_pa");
 
-pub(super) const CUBE_SIDE: Rule = metres("side_m", 1e-4, 1e2);
-pub(super) const BOX_SIDES: Rule = metres("sides_m", 1e-4, 1e2);
-pub(super) const REGULAR_SIZE: Rule = metres("size_m", 1e-4, 1e2);
-pub(super) const VERTICES: Rule = metres("vertices_m", -1e2, 1e2);
 pub(super) const SPHERO_RADIUS: Rule = metres("sphero_radius_m", 1e-6, 50.0);
 pub(super) const BODY_DENSITY: Rule = Rule::new("density_kg_m3", closed(0.1, 1e6))
     .unit(DENSITY)

@@ -7,9 +7,11 @@ mod outcome;
 mod plan;
 mod results;
 mod scenario;
+mod shape;
 
 pub use accuracy::*;
 pub use outcome::*;
 pub use plan::*;
 pub use results::*;
 pub use scenario::*;
+pub use shape::*;

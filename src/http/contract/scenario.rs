@@ -1,6 +1,6 @@
 //! The scenario.
 
-use super::AccuracyDocument;
+use super::{AccuracyDocument, ShapeDocument};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -129,7 +129,7 @@ pub struct MaterialDocument {
 pub struct BodyDocument {
     /// Shape.
     pub shape: ShapeDocument,
-    /// Sphero radius, the radius of the rounding sphere [m].
+    /// Sphero radius, the radius of the rounding sphere [m]; of a ball or capsule its own.
     #[schema(required = false)]
     pub sphero_radius_m: f64,
     /// Density [kg/m³].
@@ -201,53 +201,6 @@ pub enum MotionDocument {
         #[schema(required = false)]
         angular_velocity_rad_s: [f64; 3],
     },
-}
-
-/// Shape of a body before rounding; rounding does not move its faces.
-#[derive(Debug, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-#[schema(as = Shape)]
-pub enum ShapeDocument {
-    /// A cube.
-    Cube {
-        /// Distance between opposite faces, rounding included [m].
-        side_m: f64,
-    },
-    /// A box with its faces along the axes.
-    Box {
-        /// Distances between opposite faces, rounding included [m].
-        sides_m: [f64; 3],
-    },
-    /// A regular solid that lies on a face, one edge of which runs along y.
-    Regular {
-        /// Kind of solid.
-        solid: RegularSolidDocument,
-        /// Edge length before rounding [m].
-        size_m: f64,
-    },
-    /// The convex hull of 4 to 32 points.
-    Polyhedron {
-        /// The points, in body axes with any origin [m].
-        #[schema(min_items = 4, max_items = 32)]
-        vertices_m: Vec<[f64; 3]>,
-    },
-}
-
-/// A solid with equal regular faces.
-#[derive(Debug, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-#[schema(as = RegularSolid)]
-pub enum RegularSolidDocument {
-    /// Four triangles.
-    Tetrahedron,
-    /// Six squares.
-    Cube,
-    /// Eight triangles.
-    Octahedron,
-    /// Twelve pentagons.
-    Dodecahedron,
-    /// Twenty triangles.
-    Icosahedron,
 }
 
 /// Centre of a body.

@@ -121,6 +121,12 @@ fn defaults_of_every_shape_follow_its_size() {
             of_corner,
             0.03 * 2_f64.sqrt(),
         ),
+        (json!({"ball": {"radius_m": 0.02}}), 0.02, 0.04),
+        (
+            json!({"capsule": {"radius_m": 0.01, "length_m": 0.05}}),
+            0.01,
+            0.05,
+        ),
     ] {
         let scenario = accepted(&with("/bodies/0/shape", shape));
         let body = &scenario.bodies[0];

@@ -2,12 +2,12 @@
 
 use super::{accepted, minimal, with};
 use crate::scenario::accuracy::QUANTITIES;
-use crate::scenario::body::REGULAR_SOLIDS;
 use crate::scenario::duration::LEAST;
 use crate::scenario::range::Rule;
 use crate::scenario::reader::choice_words;
 use crate::scenario::rules::*;
 use crate::scenario::sections::{APPROACHES, ENDINGS, PRECISIONS, SYMMETRIES};
+use crate::scenario::shape::{POLYHEDRON_VERTICES, REGULAR_SOLIDS, SHAPES, ShapeField};
 use serde_json::Value;
 
 const DOCUMENT: &str = include_str!("../../../../docs/scenario.md");
@@ -93,14 +93,15 @@ fn row(field: &str) -> [&'static str; 5] {
 
 #[test]
 fn ranges_and_units_are_those_of_the_code() {
-    let of_shapes = [
-        ("bodies[].shape.cube.", &[CUBE_SIDE][..]),
-        ("bodies[].shape.box.", &[BOX_SIDES]),
-        ("bodies[].shape.regular.", &[REGULAR_SIZE]),
-        ("bodies[].shape.polyhedron.", &[VERTICES]),
-    ];
-    for (object, rules) in RULES.iter().chain(&of_shapes) {
-        for rule in *rules {
+    let rules_of = RULES
+        .iter()
+        .map(|(object, rules)| (String::from(*object), rules.to_vec()));
+    let of_shapes = SHAPES.iter().map(|kind| {
+        let rules = kind.fields.iter().filter_map(ShapeField::rule);
+        (format!("bodies[].shape.{}.", kind.name), rules.collect())
+    });
+    for (object, rules) in rules_of.chain(of_shapes) {
+        for rule in &rules {
             let [_, _, unit, _, allowed] = row(&format!("{object}{}", rule.key));
             assert_eq!(unit, rule.unit.unwrap_or("–"), "{object}{}", rule.key);
             let words = rule.range.words();
@@ -164,6 +165,24 @@ fn counts_are_those_of_the_code() {
     let times = format!("{} to {} times", MOTION_TIMES.start(), MOTION_TIMES.end());
     assert!(row("bodies[].motion.times_s")[4].contains(&times));
     assert!(row("bodies[].sphero_radius_m")[3].contains("1/20") && SIZE_PER_SPHERO_RADIUS == 20.0);
+}
+
+#[test]
+fn every_shape_is_documented() {
+    let names: Vec<&str> = SHAPES.iter().map(|kind| kind.name).collect();
+    let words = format!("exactly one of: {}", names.join(", "));
+    assert_eq!(row("bodies[].shape")[4], words);
+    for kind in &SHAPES {
+        for field in kind.fields {
+            let [_, meaning, ..] = row(&format!("bodies[].shape.{}.{}", kind.name, field.key()));
+            assert!(!meaning.is_empty());
+        }
+        assert!(
+            DOCUMENT.contains(&format!("**{}**", kind.name)),
+            "{}",
+            kind.name
+        );
+    }
 }
 
 #[test]

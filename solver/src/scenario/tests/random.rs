@@ -1,7 +1,7 @@
 //! The parser answers for any input.
 
 use super::{minimal, with};
-use crate::scenario::body::REGULAR_SOLIDS;
+use crate::scenario::shape::REGULAR_SOLIDS;
 use crate::scenario::{Scenario, ScenarioError};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -66,6 +66,10 @@ fn shape() -> impl Strategy<Value = Value> {
             "regular": {"solid": solid, "size_m": 0.5 * size}
         })),
         places.prop_map(|places| json!({"polyhedron": {"vertices_m": places}})),
+        length().prop_map(|radius| json!({"ball": {"radius_m": 0.5 * radius}})),
+        (length(), 0.0..0.03_f64).prop_map(|(radius, more)| json!({
+            "capsule": {"radius_m": 0.5 * radius, "length_m": 1.01 * radius + more}
+        })),
     ]
 }
 
@@ -142,7 +146,10 @@ proptest! {
         let down = pose.orientation.inverse_transform_vector(&-Vector3::z());
         prop_assert!((pose.position.z - solid.extent_along(&down)).abs() < 1e-15);
         prop_assert!(pose.position.x > solid.bounding_radius());
-        prop_assert!(solid.least_width() > 2.0 * solid.sphero_radius());
+        let round = solid.faces().is_empty();
+        let (width, diameter) = (solid.least_width(), 2.0 * solid.sphero_radius());
+        let rounded_only = width == diameter;
+        prop_assert!(width >= diameter && rounded_only == round);
     }
 
     #[test]

@@ -1,0 +1,94 @@
+//! The shape of a body, from the table of all kinds of shapes.
+
+use scree_solver::scenario::{FieldValue, SHAPES, ShapeField, ShapeKind};
+use serde::Serialize;
+use std::borrow::Cow;
+use utoipa::openapi::schema::{ArrayBuilder, KnownFormat, ObjectBuilder, OneOfBuilder, Type};
+use utoipa::openapi::{RefBuilder, RefOr, Schema, SchemaFormat};
+use utoipa::{PartialSchema, ToSchema};
+
+/// Shape of a body before rounding; rounding does not move its faces.
+#[derive(Debug, Serialize)]
+pub struct ShapeDocument;
+
+/// A solid with equal regular faces.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = RegularSolid)]
+pub enum RegularSolidDocument {
+    /// Four triangles.
+    Tetrahedron,
+    /// Six squares.
+    Cube,
+    /// Eight triangles.
+    Octahedron,
+    /// Twelve pentagons.
+    Dodecahedron,
+    /// Twenty triangles.
+    Icosahedron,
+}
+
+impl PartialSchema for ShapeDocument {
+    fn schema() -> RefOr<Schema> {
+        let about = "Shape of a body before rounding; rounding does not move its faces.";
+        let kinds = OneOfBuilder::new().description(Some(about));
+        SHAPES
+            .iter()
+            .map(kind)
+            .fold(kinds, OneOfBuilder::item)
+            .into()
+    }
+}
+
+impl ToSchema for ShapeDocument {
+    fn name() -> Cow<'static, str> {
+        Cow::Borrowed("Shape")
+    }
+
+    fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
+        let name = RegularSolidDocument::name().into_owned();
+        schemas.push((name, RegularSolidDocument::schema()));
+    }
+}
+
+/// An object with the name of one kind.
+fn kind(kind: &ShapeKind) -> Schema {
+    let fields = ObjectBuilder::new().description(Some(kind.about));
+    let fields = kind.fields.iter().fold(fields, |object, field| {
+        object
+            .property(field.key(), value(field))
+            .required(field.key())
+    });
+    ObjectBuilder::new()
+        .description(Some(kind.about))
+        .property(kind.name, fields)
+        .required(kind.name)
+        .into()
+}
+
+fn value(field: &ShapeField) -> RefOr<Schema> {
+    let about = Some(field.about);
+    match field.value {
+        FieldValue::Number => number().description(about).into(),
+        FieldValue::Vector => ArrayBuilder::new()
+            .items(number())
+            .description(about)
+            .into(),
+        FieldValue::Points(least, most) => ArrayBuilder::new()
+            .items(ArrayBuilder::new().items(number()))
+            .description(about)
+            .min_items(Some(least))
+            .max_items(Some(most))
+            .into(),
+        FieldValue::RegularSolid => RefBuilder::new()
+            .ref_location_from_schema_name(RegularSolidDocument::name())
+            .description(about)
+            .into(),
+    }
+}
+
+fn number() -> ObjectBuilder {
+    ObjectBuilder::new()
+        .schema_type(Type::Number)
+        .format(Some(SchemaFormat::KnownFormat(KnownFormat::Double)))
+}
