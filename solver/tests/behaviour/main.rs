@@ -24,6 +24,7 @@ mod precisions;
 mod prescribed;
 mod reductions;
 mod reported;
+mod round_bodies;
 mod same_bits;
 mod samples;
 mod shapes;

@@ -52,9 +52,19 @@ impl Scene {
         self
     }
 
+    /// A scenario as it is written.
+    pub(crate) fn of(scenario: Value) -> Self {
+        Self(scenario)
+    }
+
     /// Sets a field of the first body.
-    pub(crate) fn first_body(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.0["bodies"][0][key] = value.into();
+    pub(crate) fn first_body(self, key: &str, value: impl Into<Value>) -> Self {
+        self.body_field(0, key, value)
+    }
+
+    /// Sets a field of a body.
+    pub(crate) fn body_field(mut self, body: usize, key: &str, value: impl Into<Value>) -> Self {
+        self.0["bodies"][body][key] = value.into();
         self
     }
 

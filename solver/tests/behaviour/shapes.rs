@@ -27,6 +27,17 @@ fn shapes() -> Vec<(&'static str, Value)> {
     ]
 }
 
+/// Shapes that are round by themselves, which a slope does not hold.
+fn round_shapes() -> Vec<(&'static str, Value)> {
+    vec![
+        ("ball", json!({"ball": {"radius_m": 0.02}})),
+        (
+            "capsule",
+            json!({"capsule": {"radius_m": 0.015, "length_m": 0.06}}),
+        ),
+    ]
+}
+
 // A body without an elevation starts at rest, however its weight is shared: it neither falls
 // nor rocks. On a slope its tangential springs start unstretched: it moves by a fraction of
 // its overlap at rest, 1e-5 m (measured: 2e-6 m).
@@ -65,6 +76,25 @@ fn a_body_of_any_shape_starts_at_rest() {
     }
 }
 
+// A single contact under the centre, or two beside it, carry the weight from the start.
+#[test]
+fn a_round_body_on_the_floor_starts_at_rest() {
+    for (name, shape) in round_shapes() {
+        let scene = Scene::channel(0.0, 1.0, 1.0, 0.2)
+            .body(json!({"shape": shape, "yaw_deg": 30, "position": {"downstream_m": -0.5}}))
+            .lasting(0.3);
+        let simulation = scene.finished();
+        let start = scene.start().bodies()[0].state.position;
+        let body = &simulation.bodies()[0];
+        let moved = (body.state.position - start).norm();
+        println!("{name}: {moved:.1e} m, {:.1e} J", body.kinetic_energy());
+        assert!(
+            moved < 1e-9 && body.kinetic_energy() < 1e-12 * body.mass,
+            "{name}"
+        );
+    }
+}
+
 // The volume of a body is excluded from a release, and no point is nearer to its surface than
 // half the point spacing. The volume is counted in points of which a thousand or more fit; the
 // body stands askew, so that no whole layers of them lie just in or out.
@@ -74,7 +104,7 @@ fn a_release_leaves_room_for_any_shape() {
     const CELL: f64 = 0.006;
     // Of 8 points in a cell, less the tolerance for a lattice that fits.
     let stand_off = 0.98 * 0.25 * CELL;
-    for (name, shape) in shapes() {
+    for (name, shape) in shapes().into_iter().chain(round_shapes()) {
         let position = json!({"downstream_m": -0.2, "elevation_m": 0.1});
         let askew = json!([0.8, 0.2, 0.4, 0.4]);
         let scene = Scene::channel(0.0, 0.5, 1.0, 0.15)
@@ -99,7 +129,7 @@ fn a_release_leaves_room_for_any_shape() {
 // As in balances.rs, with its bounds: an imbalance is rounding.
 #[test]
 fn flow_and_any_shape_balance() {
-    for (name, shape) in shapes() {
+    for (name, shape) in shapes().into_iter().chain(round_shapes()) {
         for (precision, bound) in PRECISIONS.into_iter().zip([1e-12, 2e-7]) {
             let scene = Scene::impact()
                 .first_body("shape", shape.clone())
