@@ -62,13 +62,13 @@ fn rolls(body: Value, axis: usize) -> (f64, f64) {
 }
 
 // (5/7) g sin θ. A soft contact pushes in the middle of its overlap, nearer to the centre than
-// the radius: with the automatic modulus by half a hundredth, which takes 0.3 %.
+// the radius: with the automatic modulus by a thousandth of it here.
 #[test]
 fn a_ball_rolls_down_a_slope() {
     let start = json!({"downstream_m": -3.7});
     let mut stiff = ball(&start);
     stiff["contact_modulus_pa"] = json!(STIFF);
-    for (name, body, bound) in [("stiff", stiff, 2e-4), ("automatic", ball(&start), 4e-3)] {
+    for (name, body, bound) in [("stiff", stiff, 2e-4), ("automatic", ball(&start), 1e-3)] {
         let (share, slip) = rolls(body, 0);
         println!("ball, {name}: {share:.6} of 5/7 g sin θ, slip {slip:.1e}");
         assert!(

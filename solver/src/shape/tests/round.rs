@@ -16,7 +16,7 @@ fn ball(radius: f64) -> SpheroPolyhedron {
 
 /// ∫ y² dV and ∫ x² dV of a capsule by slices across the axis.
 fn by_slices(radius: f64, length: f64) -> [f64; 3] {
-    const SLICES: usize = 200_000;
+    const SLICES: usize = 1_000_000;
     let step = length / SLICES as f64;
     let half = 0.5 * length - radius;
     let slice = |k: usize| {
