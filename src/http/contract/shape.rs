@@ -3,8 +3,10 @@
 use scree_solver::scenario::{FieldValue, SHAPES, ShapeField, ShapeKind};
 use serde::Serialize;
 use std::borrow::Cow;
-use utoipa::openapi::schema::{ArrayBuilder, KnownFormat, ObjectBuilder, OneOfBuilder, Type};
-use utoipa::openapi::{RefBuilder, RefOr, Schema, SchemaFormat};
+use utoipa::openapi::schema::{
+    ArrayBuilder, KnownFormat, ObjectBuilder, OneOfBuilder, RefBuilder, Type,
+};
+use utoipa::openapi::{RefOr, Schema, SchemaFormat};
 use utoipa::{PartialSchema, ToSchema};
 
 /// Shape of a body before rounding; rounding does not move its faces.
