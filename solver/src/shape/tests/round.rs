@@ -155,9 +155,9 @@ fn by_golden_section(
     for _ in 0..200 {
         let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
         if distance(a) < distance(b) {
-            high = b
+            high = b;
         } else {
-            low = a
+            low = a;
         }
     }
     distance(0.5 * (low + high))

@@ -110,10 +110,7 @@ fn by_projections(
     pose_b: &Isometry3<f64>,
 ) -> f64 {
     let project = |body: &SpheroPolyhedron, pose: &Isometry3<f64>, x: Vector3<f64>| {
-        let found = by_search(
-            solid(&body),
-            &pose.inverse_transform_point(&x.into()).coords,
-        );
+        let found = by_search(solid(body), &pose.inverse_transform_point(&x.into()).coords);
         if found.distance <= 0.0 {
             x
         } else {
