@@ -86,13 +86,13 @@ fn tables(report: &Report) -> String {
 
 fn section(Verified { case, found }: &Verified) -> String {
     let mut text = format!("\n### {} `{}`\n\n{}. ", case.number, case.name, case.title);
-    let _ = writeln!(text, "Oracle: {}.", case.source);
+    let _ = writeln!(text, "Reference: {}.", case.source);
     if let How::NotYet(why) = case.how {
         let _ = writeln!(text, "\nNot yet expressible: {why}.");
         return text;
     }
     text.push_str(
-        "\n| quantity | resolution | measured | oracle | unit | error | bar | wall [s] | M point-steps/s | verdict |\n\
+        "\n| quantity | resolution | measured | reference | unit | error | tolerance | wall [s] | M point-steps/s | verdict |\n\
          |---|---|---|---|---|---|---|---|---|---|\n",
     );
     for finding in &found.values {
