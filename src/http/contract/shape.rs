@@ -1,6 +1,6 @@
 //! The shape of a body, from the table of all kinds of shapes.
 
-use scree_solver::scenario::{FieldValue, SHAPES, ShapeField, ShapeKind};
+use crate::jobs::submit::{FieldValue, SHAPES, ShapeField, ShapeKind};
 use serde::Serialize;
 use std::borrow::Cow;
 use utoipa::openapi::schema::{
