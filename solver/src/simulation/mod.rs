@@ -38,6 +38,8 @@ pub use stages::{StageTimer, StepStage};
 #[derive(Debug)]
 pub struct Simulation {
     given: Setup,
+    /// Longest stable sub-step for the contacts of its bodies with points [s].
+    contact_substep: f64,
     state: State,
     scratch: Scratch,
     pool: Arc<ThreadPool>,
@@ -154,6 +156,9 @@ impl Simulation {
     ) -> Self {
         let contact_pairs = island::meet(&mut bodies);
         island::hold(&mut bodies, &given.gravity);
+        let flow_given = given.flow.as_ref();
+        let contact_substep =
+            flow_given.map_or(f64::INFINITY, |flow| flow.contact_substep(&bodies));
         let scratch = Scratch {
             body_reports: vec![BodyReport::default(); bodies.len()],
             in_hand: None,
@@ -170,6 +175,7 @@ impl Simulation {
         };
         Self {
             given,
+            contact_substep,
             state,
             scratch,
             pool,

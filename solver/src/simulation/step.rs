@@ -84,7 +84,7 @@ impl Simulation {
             .limits
             .substep(fastest)
             .min(flow.limits.body_substep(body_speed))
-            .min(flow.contact_substep(&self.state.bodies))
+            .min(self.contact_substep)
             .min(timing.longest_substep);
         let step = flow.limits.substeps_per_step(substep, fastest) * substep;
         let substep = self.for_bodies(substep, step);
