@@ -3,7 +3,7 @@
 use super::job::JobId;
 use scree_solver::scenario::Scenario;
 pub use scree_solver::scenario::{
-    FieldValue, SHAPES, ScenarioError, ShapeField, ShapeKind, Violation, excerpt,
+    FieldValue, REGULAR_SOLIDS, SHAPES, ScenarioError, ShapeField, ShapeKind, Violation, excerpt,
 };
 use scree_solver::{Plan, SetupError, Simulation};
 use serde_json::{Value, json};

@@ -28,7 +28,7 @@ pub use motion::Motion;
 pub use node::excerpt;
 pub use placement::{Pose, ReleaseBox, Support};
 pub use reduction::{Approach, Ending, Symmetry};
-pub use shape::{FieldValue, SHAPES, Shape, ShapeField, ShapeKind};
+pub use shape::{FieldValue, REGULAR_SOLIDS, SHAPES, Shape, ShapeField, ShapeKind};
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

@@ -198,7 +198,7 @@ pub const SHAPES: [ShapeKind; 6] = [
 ];
 
 /// Names of the regular solids.
-pub(super) const REGULAR_SOLIDS: [(&str, RegularSolid); 5] = [
+pub const REGULAR_SOLIDS: [(&str, RegularSolid); 5] = [
     ("tetrahedron", RegularSolid::Tetrahedron),
     ("cube", RegularSolid::Cube),
     ("octahedron", RegularSolid::Octahedron),

@@ -1,6 +1,6 @@
 //! The shape of a body, from the table of all kinds of shapes.
 
-use crate::jobs::submit::{FieldValue, SHAPES, ShapeField, ShapeKind};
+use crate::jobs::submit::{FieldValue, REGULAR_SOLIDS, SHAPES, ShapeField, ShapeKind};
 use serde::Serialize;
 use std::borrow::Cow;
 use utoipa::openapi::schema::{
@@ -13,22 +13,8 @@ use utoipa::{PartialSchema, ToSchema};
 #[derive(Debug, Serialize)]
 pub struct ShapeDocument;
 
-/// A solid with equal regular faces.
-#[derive(Debug, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-#[schema(as = RegularSolid)]
-pub enum RegularSolidDocument {
-    /// Four triangles.
-    Tetrahedron,
-    /// Six squares.
-    Cube,
-    /// Eight triangles.
-    Octahedron,
-    /// Twelve pentagons.
-    Dodecahedron,
-    /// Twenty triangles.
-    Icosahedron,
-}
+/// Name of the schema of regular solids.
+const REGULAR_SOLID: &str = "RegularSolid";
 
 impl PartialSchema for ShapeDocument {
     fn schema() -> RefOr<Schema> {
@@ -48,8 +34,12 @@ impl ToSchema for ShapeDocument {
     }
 
     fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
-        let name = RegularSolidDocument::name().into_owned();
-        schemas.push((name, RegularSolidDocument::schema()));
+        let names = REGULAR_SOLIDS.map(|(name, _)| name);
+        let solids = ObjectBuilder::new()
+            .schema_type(Type::String)
+            .description(Some("A solid with equal regular faces."))
+            .enum_values(Some(names));
+        schemas.push((REGULAR_SOLID.to_owned(), solids.into()));
     }
 }
 
@@ -83,7 +73,7 @@ fn value(field: &ShapeField) -> RefOr<Schema> {
             .max_items(Some(most))
             .into(),
         FieldValue::RegularSolid => RefBuilder::new()
-            .ref_location_from_schema_name(RegularSolidDocument::name())
+            .ref_location_from_schema_name(REGULAR_SOLID)
             .description(about)
             .into(),
     }
