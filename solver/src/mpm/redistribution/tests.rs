@@ -76,14 +76,18 @@ fn at_the_bed(bed: &[Plane], position: &Vec3, [moved, shift, velocity]: [Vec3; 3
     })
 }
 
+/// Checks the shift [m] that is left of a point at a height above a floor [m], which was moved by so
+/// much [m].
+fn check_shift(z: f64, [moved, shift]: [Vec3; 2], expected: Vec3) {
+    let floor = [plane(Vec3::z())];
+    let position = Vec3::new(0.0, 0.0, z);
+    let (found, _) = at_the_bed(&floor, &position, [moved, shift, Vec3::zeros()]);
+    assert!((found - expected).norm() < 1e-18, "{z}: {found:?}");
+}
+
 #[test]
 fn no_point_near_a_wall_is_moved_towards_it() {
-    let floor = [plane(Vec3::z())];
-    let still = Vec3::zeros();
-    let kept = |z: f64, shift: Vec3, expected: Vec3| {
-        let (found, _) = at_the_bed(&floor, &Vec3::new(0.0, 0.0, z), [still, shift, still]);
-        assert!((found - expected).norm() < 1e-18, "{z}: {found:?}");
-    };
+    let kept = |z, shift, expected| check_shift(z, [Vec3::zeros(), shift], expected);
     let (down, up) = (Vec3::new(1e-4, 0.0, -1e-4), Vec3::new(0.0, 0.0, 1e-4));
     kept(0.004, down, Vec3::new(1e-4, 0.0, 0.0));
     kept(-0.002, down, Vec3::new(1e-4, 0.0, 0.0));
@@ -112,12 +116,8 @@ fn a_point_deep_behind_two_walls_is_stopped_by_both() {
 // A quarter of a cell is 2.5 mm.
 #[test]
 fn no_point_deep_behind_a_wall_goes_deeper() {
-    let floor = [plane(Vec3::z())];
     let none = Vec3::zeros();
-    let kept = |z: f64, moved: Vec3, expected: Vec3| {
-        let (found, _) = at_the_bed(&floor, &Vec3::new(0.0, 0.0, z), [moved, none, none]);
-        assert!((found - expected).norm() < 1e-18, "{z}: {found:?}");
-    };
+    let kept = |z, moved, expected| check_shift(z, [moved, none], expected);
     let (down, up) = (Vec3::new(1e-4, 0.0, -1e-4), Vec3::new(0.0, 0.0, 1e-4));
     kept(-0.0026, down, Vec3::new(0.0, 0.0, 1e-4));
     kept(-0.0026, up, none);

@@ -62,11 +62,7 @@ async fn final_states_are_sinks_whatever_the_code_asks_for() {
         fixture.claim("a").await,
         fixture.claim("a").await,
     ];
-    fixture
-        .store
-        .succeed(leases[0], "{}", FINGERPRINT)
-        .await
-        .unwrap();
+    fixture.succeed(leases[0]).await;
     fixture
         .store
         .fail(leases[1], &Failure::internal("x"))
@@ -165,11 +161,7 @@ async fn no_job_is_run_to_its_end_twice_whatever_the_code_asks_for() {
     let fixture = Fixture::new(open).await;
     fixture.submit().await;
     let lease = fixture.claim("a").await;
-    fixture
-        .store
-        .succeed(lease, "{}", FINGERPRINT)
-        .await
-        .unwrap();
+    fixture.succeed(lease).await;
     let again = sqlx::query(
         "INSERT INTO attempts (job_id, attempt, owner, started_ms, ended_ms, ending)
          SELECT job_id, 2, owner, 1, 2, ending FROM attempts",

@@ -39,7 +39,7 @@ async fn a_clock_set_forward_costs_a_lease_and_nothing_else(fixture: &Fixture) {
     let renewed = fixture.store.renew(old, LEASE, &progress).await.unwrap();
     assert_eq!(renewed, Renewal::Held, "nobody was faster");
     assert_eq!(fixture.store.reclaim_expired("b", LEASE).await.unwrap(), 0);
-    assert!(fixture.store.succeed(old, "{}", FINGERPRINT).await.unwrap());
+    assert!(fixture.succeed(old).await);
     assert_eq!(fixture.endings(id).await, ["successful"]);
 }
 
@@ -50,7 +50,7 @@ impl Fixture {
     async fn submit_and_end(&self) -> JobId {
         let id = self.submit().await;
         let lease = self.claim("a").await;
-        assert!(self.store.succeed(lease, "{}", FINGERPRINT).await.unwrap());
+        assert!(self.succeed(lease).await);
         id
     }
 

@@ -42,13 +42,7 @@ async fn a_job_ends_once_and_says_how(fixture: &Fixture) {
     let id = fixture.submit().await;
     let lease = fixture.claim("a").await;
     let failure = Failure::internal("x");
-    assert!(
-        fixture
-            .store
-            .succeed(lease, "{}", FINGERPRINT)
-            .await
-            .unwrap()
-    );
+    assert!(fixture.succeed(lease).await);
     assert!(
         !fixture
             .store
@@ -66,13 +60,7 @@ async fn a_job_ends_once_and_says_how(fixture: &Fixture) {
     let id = fixture.submit().await;
     let lease = fixture.claim("a").await;
     assert!(fixture.store.fail(lease, &failure).await.unwrap());
-    assert!(
-        !fixture
-            .store
-            .succeed(lease, "{}", FINGERPRINT)
-            .await
-            .unwrap()
-    );
+    assert!(!fixture.succeed(lease).await);
     assert!(fixture.job(id).await.problem.is_some());
     assert_eq!(fixture.endings(id).await, ["failed"]);
     assert_eq!(fixture.try_claim("a").await, None, "a failure is final");
@@ -332,11 +320,7 @@ async fn a_saved_state_comes_back_and_ends_the_row_of_setbacks(fixture: &Fixture
         assert_eq!((progress.fraction, progress.eta_s), (0.5, None));
     }
     let lease = fixture.claim("a").await;
-    fixture
-        .store
-        .succeed(lease, "{}", FINGERPRINT)
-        .await
-        .unwrap();
+    fixture.succeed(lease).await;
     assert_eq!(fixture.store.state(id).await.unwrap(), None);
 }
 

@@ -122,6 +122,11 @@ impl Fixture {
         self.try_claim(owner).await.expect("a job to claim")
     }
 
+    /// Ends a job with an empty outcome; false if the lease is no longer valid.
+    pub(super) async fn succeed(&self, lease: Lease) -> bool {
+        self.store.succeed(lease, "{}", FINGERPRINT).await.unwrap()
+    }
+
     async fn job(&self, id: JobId) -> Job {
         self.store.job(id).await.unwrap().unwrap()
     }
