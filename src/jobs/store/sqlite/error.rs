@@ -9,9 +9,9 @@ pub(super) type Answer<T> = Result<T, SqliteError>;
 /// Error within this folder, before it is sorted by its kind.
 #[derive(Debug)]
 pub(super) enum SqliteError {
-    /// Of the database.
+    /// Error of the database.
     Database(sqlx::Error),
-    /// Of what it holds.
+    /// Error of a row or block that it holds.
     Content(StoreError),
 }
 
