@@ -1,15 +1,14 @@
 //! Body sub-steps: bodies that may touch within a sub-step of the flow form an island and move
 //! together (docs/method.md, equations 15, 20 and 48).
 
-use crate::contact::body_body::{ContactPair, Contacts, Separation, least_gap};
+use crate::contact::body_body::{ContactPair, Contacts, Separation};
 use crate::contact::body_wall::evaluate_wall_contacts;
-use crate::contact::broad_phase::{Ball, overlapping_pairs};
 use crate::contact::dissipation::Taken;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
 use crate::method::METHOD;
 use crate::motion::Velocities;
-use crate::rigid::{Body, Freedom, Load};
+use crate::rigid::{Body, Load};
 use crate::walls::{Impulse, Plane};
 use rayon::prelude::*;
 
@@ -19,6 +18,7 @@ mod flight;
 mod in_touch;
 mod member;
 mod mover;
+mod neighbours;
 mod pace;
 mod strides;
 mod touching;
@@ -26,6 +26,7 @@ mod touching;
 pub use balance::EnergyReport;
 use components::islands;
 use mover::Mover;
+use neighbours::{Reaches, restore, states};
 use pace::substeps;
 pub use pace::substeps_ahead;
 #[cfg(test)]
@@ -57,6 +58,8 @@ pub struct BodyReport {
     pub substeps_asked: f64,
     /// Share of the time in body sub-steps that ended in contact with a wall or another body.
     pub supported_share: f64,
+    /// Upper bound of the path of any of its places [m].
+    pub travelled: f64,
     /// Its deepest overlap with a wall or another body, over its sphero radius
     /// or that of the other if smaller.
     pub deepest_overlap_ratio: f64,
@@ -82,7 +85,8 @@ pub struct Surroundings<'a> {
 
 /// Advances all bodies by `dt` under a constant load of the flow each (force, and torque about
 /// the centre at the start), gravity, walls and each other. `contact_pairs` are the contact
-/// histories of the pairs that may touch, in order.
+/// histories of the pairs that may touch, in order. If a body that was struck travelled so far
+/// that it may have met another one unseen, all is computed again with that pair.
 pub fn advance(
     bodies: &mut [Body],
     contact_pairs: &mut Vec<ContactPair>,
@@ -93,31 +97,66 @@ pub fn advance(
 ) {
     let acceleration =
         |place: usize| bodies[place].largest_acceleration(&around.gravity, &flow(place));
-    renew(contact_pairs, &broad_phase(bodies, acceleration, dt));
-    let mut movers = Vec::new();
-    if contact_pairs.is_empty() {
-        advance_apart(bodies, reports, flow, around, dt);
-    } else {
-        let mut islands = islands(bodies, reports, std::mem::take(contact_pairs), flow);
-        islands
-            .par_iter_mut()
-            .for_each(|island| island.advance(around, dt));
-        for island in islands {
-            contact_pairs.extend(
-                island
-                    .contact_pairs
-                    .into_iter()
-                    .map(|island_pair| island_pair.contact_pair),
-            );
-            movers.extend(island.movers);
+    let mut reaches = Reaches::within(bodies, acceleration, dt);
+    reaches.extend_to_struck(bodies);
+    let mut pairs = reaches.pairs(bodies);
+    let start = (bodies.len() > 1).then(|| (states(bodies), contact_pairs.clone()));
+    let movers = loop {
+        renew(contact_pairs, &pairs);
+        let movers = advance_islands(bodies, contact_pairs, reports, &flow, around, dt);
+        let Some((at_start, histories)) = &start else {
+            break movers;
+        };
+        if !reaches.extend_to_travelled(reports) {
+            break movers;
         }
-        contact_pairs.sort_unstable_by_key(|contact_pair| contact_pair.bodies);
-    }
+        let end = states(bodies);
+        restore(bodies, at_start);
+        let further = reaches.pairs(bodies);
+        if further.len() == pairs.len() {
+            restore(bodies, &end);
+            break movers;
+        }
+        pairs = further;
+        contact_pairs.clone_from(histories);
+    };
     follow_motions(bodies, around.time, dt);
     for mover in movers {
         let place = mover.place;
         mover.hand_over(&mut bodies[place], &mut reports[place], dt);
     }
+}
+
+/// Advances the islands that these pairs make of the bodies; returns the bodies with a prescribed
+/// motion near them.
+fn advance_islands(
+    bodies: &mut [Body],
+    contact_pairs: &mut Vec<ContactPair>,
+    reports: &mut [BodyReport],
+    flow: &(impl Fn(usize) -> Load + Sync),
+    around: &Surroundings,
+    dt: f64,
+) -> Vec<Mover> {
+    if contact_pairs.is_empty() {
+        advance_apart(bodies, reports, flow, around, dt);
+        return Vec::new();
+    }
+    let mut islands = islands(bodies, reports, std::mem::take(contact_pairs), flow);
+    islands
+        .par_iter_mut()
+        .for_each(|island| island.advance(around, dt));
+    let mut movers = Vec::new();
+    for island in islands {
+        contact_pairs.extend(
+            island
+                .contact_pairs
+                .into_iter()
+                .map(|island_pair| island_pair.contact_pair),
+        );
+        movers.extend(island.movers);
+    }
+    contact_pairs.sort_unstable_by_key(|contact_pair| contact_pair.bodies);
+    movers
 }
 
 /// Moves the bodies whose motion is prescribed.
@@ -158,7 +197,7 @@ fn advance_apart(
 
 /// Finds the contacts at the start, before anything moved.
 pub fn meet(bodies: &mut [Body]) -> Vec<ContactPair> {
-    let pairs = broad_phase(bodies, |_| 0.0, 0.0);
+    let pairs = Reaches::within(bodies, |_| 0.0, 0.0).pairs(bodies);
     let mut contact_pairs: Vec<ContactPair> =
         pairs.iter().map(|pair| ContactPair::new(*pair)).collect();
     let mut reports = vec![BodyReport::default(); bodies.len()];
@@ -201,88 +240,6 @@ pub fn hold(bodies: &mut [Body], gravity: &Vec3) {
             body.state.still_for = f64::INFINITY;
         }
     }
-}
-
-/// Pairs of bodies, one of them free, that may touch within `dt` under accelerations
-/// [m/s²], in order.
-fn broad_phase(bodies: &[Body], acceleration: impl Fn(usize) -> f64, dt: f64) -> Vec<[usize; 2]> {
-    if bodies.len() < 2 {
-        return Vec::new();
-    }
-    let speed = |(place, body)| speed_within(body, acceleration(place), dt);
-    let speeds: Vec<f64> = bodies.iter().enumerate().map(speed).collect();
-    let mut pairs = pairs_within_reach(bodies, &speeds, dt);
-    // A body that is struck may strike the next: until no more are in reach.
-    while !pairs.is_empty() {
-        let more = pairs_within_reach(bodies, &speeds_after_impacts(bodies, &speeds, &pairs), dt);
-        if more.len() == pairs.len() {
-            break;
-        }
-        pairs = more;
-    }
-    pairs
-}
-
-/// Largest speed [m/s] of a body within `dt` under an acceleration [m/s²], impacts apart.
-fn speed_within(body: &Body, acceleration: f64, dt: f64) -> f64 {
-    match body.freedom {
-        Freedom::Fixed => 0.0,
-        Freedom::Free | Freedom::InPlane | Freedom::Prescribed(_) => {
-            body.speed_ahead() + acceleration * dt
-        }
-    }
-}
-
-/// Distance that a body can travel in `dt` at this speed [m/s], with an allowance for other
-/// accelerations [m].
-fn reach(body: &Body, speed: f64, dt: f64) -> f64 {
-    2.0 * speed * dt + 0.01 * body.shape.sphero_radius()
-}
-
-/// Pairs of bodies, one of them free, that may touch within `dt` at these speeds [m/s].
-fn pairs_within_reach(bodies: &[Body], speeds: &[f64], dt: f64) -> Vec<[usize; 2]> {
-    let reach = |(body, speed): (&Body, &f64)| reach(body, *speed, dt);
-    let reaches: Vec<f64> = bodies.iter().zip(speeds).map(reach).collect();
-    let ball = |(body, reach): (&Body, &f64)| Ball {
-        centre: body.state.position,
-        radius: body.shape.bounding_radius() + reach,
-    };
-    let balls: Vec<Ball> = bodies.iter().zip(&reaches).map(ball).collect();
-    let mut pairs = overlapping_pairs(&balls);
-    pairs.retain(|&[first, second]| {
-        let (one, other) = (&bodies[first], &bodies[second]);
-        let free = is_free(one) || is_free(other);
-        free && least_gap(one, other) < reaches[first] + reaches[second]
-    });
-    pairs
-}
-
-/// Largest speeds [m/s] of the bodies once those in pairs have struck each other: a body may get
-/// all the energy of its connected component, and twice the speed of a prescribed motion.
-fn speeds_after_impacts(bodies: &[Body], speeds: &[f64], pairs: &[[usize; 2]]) -> Vec<f64> {
-    let roots = components::roots(bodies, pairs);
-    let mut driven = speeds.to_vec();
-    for &[one, other] in pairs {
-        for [body, mover] in [[one, other], [other, one]] {
-            if is_free(&bodies[body]) && bodies[mover].prescribed().is_some() {
-                driven[body] = driven[body].max(speeds[body] + 2.0 * speeds[mover]);
-            }
-        }
-    }
-    let mut energies = vec![0.0; bodies.len()];
-    for (place, body) in bodies.iter().enumerate().filter(|(_, body)| is_free(body)) {
-        energies[roots[place]] += 0.5 * body.mass * driven[place] * driven[place];
-    }
-    let after = |(place, body): (usize, &Body)| {
-        if !is_free(body) {
-            return speeds[place];
-        }
-        let all = (2.0 * energies[roots[place]] / body.least_effective_mass()).sqrt();
-        // Alone it keeps its speed.
-        let alone = energies[roots[place]] == 0.5 * body.mass * speeds[place] * speeds[place];
-        if alone { speeds[place] } else { all }
-    };
-    bodies.iter().enumerate().map(after).collect()
 }
 
 fn is_free(body: &Body) -> bool {
@@ -406,7 +363,7 @@ fn advance_together(
             mover.follow(around.time, f64::from(strides.done) * strides.shortest);
         }
         for member in members.iter_mut() {
-            member.body.drift(h);
+            member.drift(h);
         }
         find_contacts(members, movers, contact_pairs, h);
         for member in members.iter_mut() {

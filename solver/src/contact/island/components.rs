@@ -80,7 +80,7 @@ pub(super) fn islands<'a>(
 }
 
 /// Per body the first of its connected component.
-pub(super) fn roots(bodies: &[Body], pairs: &[[usize; 2]]) -> Vec<usize> {
+fn roots(bodies: &[Body], pairs: &[[usize; 2]]) -> Vec<usize> {
     fn root_of(roots: &[usize], mut place: usize) -> usize {
         while roots[place] != place {
             place = roots[place];

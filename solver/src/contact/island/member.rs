@@ -60,6 +60,13 @@ impl<'a> Member<'a> {
         }
     }
 
+    /// Moves it freely for `dt`.
+    pub(super) fn drift(&mut self, dt: f64) {
+        let fastest = self.body.velocity().norm() + self.body.turning_bound();
+        self.report.travelled += fastest * dt;
+        self.body.drift(dt);
+    }
+
     /// Counts a sub-step as long as so many of the shortest.
     pub(super) fn count_substep(&mut self, stride: u32) {
         self.report.substeps += 1;

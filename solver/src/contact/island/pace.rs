@@ -1,10 +1,8 @@
 //! Number of body sub-steps of an island within one of the flow (docs/method.md, equations 20
 //! and 48).
 
-use super::{
-    IslandPair, Member, Mover, Side, Surroundings, body_of, broad_phase, is_free, reach,
-    speed_within,
-};
+use super::neighbours::{Reaches, reach, speed_within};
+use super::{IslandPair, Member, Mover, Side, Surroundings, body_of, is_free};
 use crate::contact::body_body::{ContactPair, pair_law, reduced_mass};
 use crate::contact::body_wall::deepest_overlap;
 use crate::contact::law::ContactLaw;
@@ -69,7 +67,7 @@ pub fn substeps_ahead(
     let falling = |body: &Body| body.largest_acceleration(&around.gravity, &Load::default());
     let free = bodies.iter().filter(|body| is_free(body));
     let alone = free.map(|body| substeps_alone(body, around.planes, falling(body), dt, step));
-    let pairs = broad_phase(bodies, |place| falling(&bodies[place]), step);
+    let pairs = Reaches::within(bodies, |place| falling(&bodies[place]), step).pairs(bodies);
     let island_pair = pairs.into_iter().map(|pair| {
         let both = pair.map(|place| &bodies[place]);
         let known = contact_pairs

@@ -6,8 +6,8 @@ mod flight;
 mod heap;
 
 use super::*;
-use crate::rigid::InverseInertia;
 use crate::rigid::fixture::cuboid;
+use crate::rigid::{Freedom, InverseInertia};
 use nalgebra::UnitQuaternion;
 
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
