@@ -35,6 +35,7 @@
 
 pub mod accuracy;
 pub mod available_volume;
+pub mod bed;
 pub mod body_energy;
 mod compute;
 pub mod contact;

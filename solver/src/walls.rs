@@ -1,50 +1,32 @@
 //! The channel's walls: planes for bodies, and constraints on grid nodes.
 //!
-//! The channel is convex: it lies above the floor and above the incline, and between the
-//! vertical walls. The vertical walls lie on grid planes and act as mirrors: a node and its
-//! images move as one, so a smooth wall reflects exactly (docs/method.md, equation 28). Incline
-//! and floor act on columns of nodes at their intersection with them (equation 29).
+//! The flow lies above the bed and between the vertical walls. The vertical walls lie on grid
+//! planes and act as mirrors: a node and its images move as one, so a smooth wall reflects
+//! exactly (docs/method.md, equation 28). The bed acts on columns of nodes at their intersection
+//! with it (equation 29).
 
+use crate::bed::Bed;
 use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
-mod bed;
 mod boundary;
 mod columns;
 mod constraint;
 mod nodes;
 mod vertical_walls;
 
+pub use crate::bed::Plane;
 pub use boundary::{Boundary, filled};
 pub use constraint::WallPace;
 pub use nodes::NodeAccess;
 pub use vertical_walls::{Ends, VerticalBoundary, VerticalWalls};
 
-/// A wall's surface; its normal points into the channel.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plane {
-    /// Name in messages.
-    pub name: &'static str,
-    /// Unit normal into the channel.
-    pub normal: Vec3,
-    /// normal · x of its places [m].
-    pub offset: f64,
-    /// Coulomb friction of the flow.
-    pub flow_friction: f64,
-}
-
-impl Plane {
-    /// Height of a place above the plane [m]; negative behind it.
-    pub fn height(&self, x: &Vec3) -> f64 {
-        self.normal.dot(x) - self.offset
-    }
-}
-
 /// All walls of the channel.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Walls {
-    /// Incline and floor: every place of the channel is above each of them.
-    pub base: Vec<Plane>,
+    /// The bed.
+    pub bed: Arc<dyn Bed>,
     /// The vertical walls.
     pub vertical_walls: VerticalWalls,
 }
@@ -104,7 +86,7 @@ impl Walls {
             .sides
             .iter()
             .map(VerticalBoundary::plane);
-        self.base.iter().chain(back).chain(sides)
+        self.bed.planes().iter().chain(back).chain(sides)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Scenes in the solver's own terms: blocks of points at places, and of materials, that no
 //! scenario can express.
 
+use scree_solver::bed::PlanarBed;
 use scree_solver::kernel::Lattice;
 use scree_solver::material::{Material, Yielding};
 use scree_solver::math::{Mat3, Sym3, Vec3};
@@ -8,6 +9,7 @@ use scree_solver::points::Point;
 use scree_solver::scenario::Precision;
 use scree_solver::simulation::{Expected, GivenFlow, Guards, Scene, Setup, Timing};
 use scree_solver::walls::{Ends, Plane, VerticalBoundary, VerticalWalls, Walls};
+use std::sync::Arc;
 
 /// Points per cell and axis, as a scenario has them by default.
 pub(super) const PER_CELL: u32 = 2;
@@ -155,14 +157,8 @@ impl Block {
         } else {
             Ends::Back(symmetry(Vec3::x(), 0.0))
         };
-        let floor = Plane {
-            name: "floor",
-            normal: Vec3::z(),
-            offset: 0.0,
-            flow_friction: 0.0,
-        };
         Walls {
-            base: vec![floor],
+            bed: Arc::new(PlanarBed::floor(0.0)),
             vertical_walls: VerticalWalls {
                 ends,
                 sides: [

@@ -10,12 +10,14 @@ use super::blocks::Block;
 use super::run::{CaseError, Run};
 use super::scenes::{GRAVITY, tilted_gravity};
 use scree_solver::Simulation;
+use scree_solver::bed::PlanarBed;
 use scree_solver::material::{Material, Yielding};
 use scree_solver::math::{Sym3, Vec3};
 use scree_solver::points::Point;
 use scree_solver::scenario::Precision;
 use scree_solver::simulation::Scene;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 /// Height of the layer [m].
 pub(super) const HEIGHT: f64 = 0.02;
@@ -132,7 +134,7 @@ impl Slope {
         };
         let mut scene = block.scene();
         scene.given.gravity = tilted_gravity(self.inclination_deg);
-        scene.given.walls.base[0].flow_friction = ROUGH;
+        scene.given.walls.bed = Arc::new(PlanarBed::floor(ROUGH));
         let mut chance = Chance(1);
         let spacing = self.cell() / f64::from(self.per_cell);
         for point in &mut scene.points {

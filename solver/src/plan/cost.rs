@@ -179,7 +179,7 @@ impl Blocks {
         let mut heights: BTreeMap<i64, (i64, i64)> = BTreeMap::new();
         for i in 0..columns.count[0] {
             let x = release.back_m + (f64::from(i) + 0.5) * columns.spacing.x;
-            let bed = scenario.channel.bed_elevation_m(x);
+            let bed = outline.given.walls.bed.elevation(x, 0.0);
             let (low, high) = (block(bed, 2), block(bed + release.vertical_thickness_m, 2));
             let known = heights.entry(block(x, 0)).or_insert((low, high));
             *known = (known.0.min(low), known.1.max(high));

@@ -1,5 +1,6 @@
 //! Expected course of a flow: a rough estimate, for the cost of a run.
 
+use crate::bed::Bed;
 use crate::rigid::Body;
 use crate::scenario::Scenario;
 use crate::simulation::Outline;
@@ -58,13 +59,16 @@ struct Slide {
 
 impl Slide {
     fn of(scenario: &Scenario) -> Self {
-        let channel = &scenario.channel;
-        let (sin, cos) = channel.inclination_rad().sin_cos();
+        let bed = scenario.bed();
+        let back = scenario.release().map_or(0.0, |release| release.back_m);
+        let slope = bed.tangent(back, 0.0);
+        let (sin, cos) = (slope.normal.x, slope.normal.z);
+        let floor = bed.tangent(scenario.channel.runout_length_m, 0.0);
         let gravity = scenario.gravity_m_s2;
         let flow = scenario.flow.as_ref();
         Self {
-            down: gravity * (sin - channel.base_friction * cos).max(0.0) * cos,
-            deceleration: gravity * channel.base_friction,
+            down: gravity * (sin - slope.flow_friction * cos).max(0.0) * cos,
+            deceleration: gravity * floor.flow_friction,
             gravity,
             height: flow.map_or(0.0, |flow| flow.release.height_m),
         }

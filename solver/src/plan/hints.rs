@@ -1,6 +1,7 @@
 //! Hints: legal values of a scenario that are probably not meant, or costly.
 
 use super::cost::longest_substep;
+use crate::bed::Bed;
 use crate::scenario::Scenario;
 use crate::simulation::Outline;
 use serde::{Deserialize, Serialize};
@@ -77,7 +78,7 @@ fn unreached_bodies(scenario: &Scenario) -> Option<Hint> {
         let within = flow.material.static_friction;
         within.min(scenario.channel.base_friction)
     })?;
-    let top = scenario.channel.bed_elevation_m(release.back_m) + release.vertical_thickness_m;
+    let top = scenario.bed().elevation(release.back_m, 0.0) + release.vertical_thickness_m;
     let reach = release.front_m + top / friction;
     let beyond = |body: &usize| {
         let given = &scenario.bodies[*body];

@@ -1,7 +1,6 @@
 //! Records of a run: samples of every body, snapshots of the flow, and the outcome.
 //! Serialised, these are the JSON of the service. Definitions: docs/method.md, section 9.
 
-mod bed;
 mod energy;
 mod error_bars;
 mod means;

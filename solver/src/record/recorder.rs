@@ -3,7 +3,7 @@
 use super::energy::body_energy;
 use super::motion::Motion;
 use super::outcome::{BodyHistory, flow_outcome, front, front_of};
-use super::rest::{Base, EndedEarly, Remaining, body_bound, front_rests};
+use super::rest::{EndedEarly, Remaining, Resting, body_bound, front_rests};
 use super::sampling::Sampling;
 use super::scale::Scale;
 use super::snapshots::Snapshots;
@@ -28,7 +28,7 @@ pub struct Recorder {
     snapshots: Snapshots,
     initial_toe: Option<f64>,
     open_end: f64,
-    base: Base,
+    resting: Resting,
     /// Duration of the run, unless it ends early [s].
     duration: f64,
     ending: Ending,
@@ -49,7 +49,7 @@ impl Recorder {
             snapshots: Snapshots::of(scenario),
             initial_toe: scenario.release().map(|release| release.front_m),
             open_end: scenario.channel.runout_length_m,
-            base: Base::of(scenario),
+            resting: Resting::of(scenario),
             duration: scenario.duration_s,
             ending: scenario.numerics.ending,
             scale: Scale::of(size(scenario), scenario.gravity_m_s2),
@@ -111,7 +111,7 @@ impl Recorder {
             return None;
         }
         let left = (self.duration - time_s).max(0.0);
-        let remaining = Remaining::of(simulation, &self.base, left);
+        let remaining = Remaining::of(simulation, &self.resting, left);
         let body_bound_m = body_bound(simulation, &remaining, left)?;
         let front = front(simulation, self.open_end);
         let farthest = front_of(simulation, &remaining.reaches, self.open_end);

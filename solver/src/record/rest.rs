@@ -24,37 +24,29 @@ pub struct EndedEarly {
     pub front_bound_m: Option<f64>,
 }
 
-/// Surfaces on which the flow slides.
+/// Material of a flow that comes to rest on the bed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Base {
-    /// Friction of the flow.
+pub(super) struct Resting {
+    /// Static friction within it.
     friction: f64,
-    /// Rise of the incline per length.
-    slope: f64,
-    /// True if friction at rest holds a flow on the incline.
-    holds: bool,
     /// Speed below which points are assumed to stay [m/s].
     still: f64,
 }
 
-impl Base {
+impl Resting {
     pub(super) fn of(scenario: &Scenario) -> Self {
-        let channel = &scenario.channel;
-        let slope = channel.inclination_rad().tan();
         let flow = scenario.flow.as_ref();
         let height = flow.map_or(0.0, |flow| flow.release.height_m);
-        let within = flow.map_or(f64::INFINITY, |flow| flow.material.static_friction);
         Self {
-            friction: channel.base_friction,
-            slope,
-            holds: slope < channel.base_friction.min(within),
+            friction: flow.map_or(f64::INFINITY, |flow| flow.material.static_friction),
             still: METHOD.early_stop.still * (scenario.gravity_m_s2 * height).sqrt(),
         }
     }
 
-    /// Height of the bed [m].
-    fn bed_under(&self, x: f64) -> f64 {
-        (-x).max(0.0) * self.slope
+    /// True if friction at rest, within the flow and on the bed, holds a point here.
+    fn is_held(&self, on: &Plane) -> bool {
+        let steepness = on.normal.xy().norm() / on.normal.z;
+        steepness == 0.0 || steepness < on.flow_friction.min(self.friction)
     }
 }
 
@@ -85,18 +77,19 @@ impl Sliding {
 
 impl Remaining {
     /// Remaining energies for so much of the duration left [s].
-    pub(super) fn of(simulation: &Simulation, base: &Base, left: f64) -> Self {
+    pub(super) fn of(simulation: &Simulation, resting: &Resting, left: f64) -> Self {
         let gravity = simulation.gravity().norm();
         let mut remaining = Self {
             reaches: Vec::with_capacity(simulation.point_count()),
             moving: Vec::new(),
         };
         simulation.visit_points(None, |point| {
-            let specific = specific_energy(point, simulation, base);
-            let x = point.position.x;
+            let (x, y) = (point.position.x, point.position.y);
+            let on = simulation.bed().tangent(x, y);
+            let specific = specific_energy(point, simulation, (&on, resting));
             let mut way = 0.0;
             if specific > 0.0 {
-                way = specific / (base.friction * gravity);
+                way = specific / (on.flow_friction * gravity);
                 let energy = point.mass * specific;
                 remaining.moving.push(Sliding { x, way, energy });
             }
@@ -115,12 +108,17 @@ impl Remaining {
 
 /// Energy that a moving point can still spend [J/kg]: its kinetic energy, and the height of the
 /// bed under it (equation 61).
-fn specific_energy(point: &Point, simulation: &Simulation, base: &Base) -> f64 {
-    let (x, speed) = (point.position.x, point.velocity.norm());
-    if speed < base.still && (base.holds || x >= 0.0) {
+fn specific_energy(
+    point: &Point,
+    simulation: &Simulation,
+    (on, resting): (&Plane, &Resting),
+) -> f64 {
+    let speed = point.velocity.norm();
+    if speed < resting.still && resting.is_held(on) {
         return 0.0;
     }
-    0.5 * speed * speed + simulation.gravity().norm() * base.bed_under(x)
+    let (x, y) = (point.position.x, point.position.y);
+    0.5 * speed * speed + simulation.gravity().norm() * simulation.bed().elevation(x, y)
 }
 
 /// Largest distance that any of these bodies, which are at rest, can still move in `left` [s],

@@ -1,6 +1,5 @@
 //! Samples at given times, independent of the steps of a run.
 
-use super::bed::Bed;
 use super::means::Means;
 use super::mode::{Movement, mode};
 use super::motion::Motion;
@@ -17,7 +16,6 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Sampling {
     times: Times,
-    bed: Bed,
     /// End of the last sub-step [s].
     time: f64,
     /// Means of each body since the last sample.
@@ -67,7 +65,6 @@ impl Sampling {
                 next: 0,
                 last: 0.0,
             },
-            bed: Bed::of(&scenario.channel),
             time: 0.0,
             means: vec![Means::default(); scenario.bodies.len()],
             waiting: Vec::new(),
@@ -115,7 +112,7 @@ impl Sampling {
             return samples;
         }
         for (place, body) in simulation.bodies().iter().enumerate() {
-            let submerged_fraction = submerged_fraction(simulation, body, &self.bed);
+            let submerged_fraction = submerged_fraction(simulation, body);
             for sample in &mut samples {
                 sample.bodies[place].submerged_fraction = submerged_fraction;
             }
@@ -152,7 +149,8 @@ impl Sampling {
         motions: &[Motion],
     ) {
         let weight = |body: &Body, motion: &Motion| {
-            let normal = self.bed.normal_at(motion.position.x);
+            let at = motion.position;
+            let normal = simulation.bed().normal(at.x, at.y);
             normal * (-simulation.gravity().dot(&normal) * body.mass)
         };
         let pairs = simulation.bodies().iter().zip(motions).zip(histories);

@@ -1,6 +1,5 @@
 //! Submergence of a body in the flow.
 
-use super::bed::Bed;
 use crate::contact::point_body::Around;
 use crate::contact::screening::screens;
 use crate::math::{Mat3, Vec3};
@@ -24,8 +23,8 @@ const GAP: f64 = 2.0;
 /// centre of a plane through the sectors' shares: a slope of the surface does not count twice,
 /// and one splash does not submerge a body. Sectors behind a side wall or another body are left
 /// out, and so are points there.
-pub(super) fn submerged_fraction(simulation: &Simulation, body: &Body, bed: &Bed) -> f64 {
-    let view = View::of(simulation, body, bed);
+pub(super) fn submerged_fraction(simulation: &Simulation, body: &Body) -> f64 {
+    let view = View::of(simulation, body);
     let others = others_near(simulation.bodies(), body, view.ring);
     let hidden = |place: &Vec3| {
         let mut others = others.iter();
@@ -85,14 +84,14 @@ struct View {
 }
 
 impl View {
-    fn of(simulation: &Simulation, body: &Body, bed: &Bed) -> Self {
+    fn of(simulation: &Simulation, body: &Body) -> Self {
         let centre = body.state.position;
-        let normal = bed.normal_at(centre.x);
+        let normal = simulation.bed().normal(centre.x, centre.y);
         let extent = |direction: Vec3| body.shape.extent_along(&body.to_body(&direction));
         let (radius, spacing) = (body.shape.bounding_radius(), simulation.point_spacing_m());
         Self {
             centre,
-            downstream: bed.downstream_at(centre.x),
+            downstream: Vec3::new(normal.z, 0.0, -normal.x),
             normal,
             low: -extent(-normal),
             high: extent(normal),

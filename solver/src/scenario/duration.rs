@@ -1,6 +1,7 @@
 //! Default duration of a run.
 
 use super::{Channel, Flow};
+use crate::bed::Bed;
 
 /// Shortest duration by default [s].
 pub(super) const LEAST: f64 = 3.0;
@@ -14,9 +15,11 @@ pub(super) fn default_duration(channel: &Channel, flow: Option<&Flow>, gravity_m
     let Some(flow) = flow.filter(|flow| flow.volume_m3 > 0.0) else {
         return LEAST;
     };
-    let (sin, cos) = channel.inclination_rad().sin_cos();
-    let along_slope = -channel.release_box(flow).back_m / cos;
-    let pull = gravity_m_s2 * (sin - channel.base_friction * cos).max(0.0);
+    let back = channel.release_box(flow).back_m;
+    let bed = channel.bed().tangent(back, 0.0);
+    let (sin, cos) = (bed.normal.x, bed.normal.z);
+    let along_slope = -back / cos;
+    let pull = gravity_m_s2 * (sin - bed.flow_friction * cos).max(0.0);
     let sliding = if pull > 0.0 {
         (2.0 * along_slope / pull).sqrt()
     } else {

@@ -8,6 +8,7 @@ use super::rules::{
     TOE_DISTANCE, TOUCHING, VOLUME,
 };
 use super::{Body, Channel, Flow, Numerics};
+use crate::bed::{Bed, Plane};
 use crate::shape::{SpheroPolyhedron, separation};
 use nalgebra::Vector3;
 
@@ -187,14 +188,13 @@ fn is_between(
     report.refuse(&placed.pointer_to(key), &allowed, Some("m"), &why);
 }
 
-/// The body is above the floor and above the plane of the incline: the channel is convex, so
-/// that both hold everywhere in it.
+/// The body is above every plane of the bed.
 fn is_above_the_bed(report: &Report, channel: &Channel, placed: &Placed<'_>) {
-    let normal = channel.slope_normal();
     let position = placed.pose.position;
-    let above_floor = placed.reach(&-Vector3::z());
-    let above_slope = (placed.reach(&-normal) - position.x * normal.x) / normal.z;
-    let lowest = above_floor.max(above_slope);
+    let bed = channel.bed();
+    let above =
+        |plane: &Plane| plane.lowest_centre(placed.reach(&-plane.normal), position.x, position.y);
+    let lowest = bed.planes().iter().map(above).fold(f64::MIN, f64::max);
     if position.z >= lowest - placed.slack {
         return;
     }
@@ -238,8 +238,9 @@ pub(super) fn contacts_carry(
             placed.body.sphero_radius_m,
         );
         let thrown = placed.body.thrown_m_s(placed.shape.bounding_radius());
-        let bed = channel.bed_elevation_m(placed.pose.position.x);
-        let fall = placed.pose.position.z - bed - placed.reach(&-Vector3::z());
+        let position = placed.pose.position;
+        let bed = channel.bed().elevation(position.x, position.y);
+        let fall = position.z - bed - placed.reach(&-Vector3::z());
         let struck = thrown * thrown + 2.0 * gravity_m_s2 * fall.max(0.0);
         let at_rest = mass * gravity_m_s2 / (DEEPEST_AT_REST * radius).powf(1.5);
         let at_impact = 1.25 * mass * struck / (DEEPEST_AT_IMPACT * radius).powf(2.5);

@@ -1,6 +1,7 @@
 //! Initial placement of bodies and release according to the scenario.
 
-use super::{Body, Channel, Flow, Scenario};
+use super::{Body, Channel, Flow, Position, Scenario};
+use crate::bed::{Bed, PlanarBed};
 use crate::shape::SpheroPolyhedron;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
@@ -58,35 +59,20 @@ impl Channel {
         self.inclination_deg.to_radians()
     }
 
-    /// Unit normal of the inclined part, out of the bed.
-    pub fn slope_normal(&self) -> Vector3<f64> {
-        let (sine, cosine) = self.inclination_rad().sin_cos();
-        Vector3::new(sine, 0.0, cosine)
-    }
-
-    /// Elevation of incline or floor at `x_m` downstream [m].
-    pub fn bed_elevation_m(&self, x_m: f64) -> f64 {
-        (-x_m).max(0.0) * self.inclination_rad().tan()
-    }
-
-    /// Normal of the bed under a centre at `x_m`: the incline's above the foot,
-    /// the floor's below it.
-    fn normal_under(&self, x_m: f64) -> Vector3<f64> {
-        if x_m < 0.0 {
-            self.slope_normal()
-        } else {
-            Vector3::z()
-        }
+    /// Its bed.
+    pub fn bed(&self) -> PlanarBed {
+        PlanarBed::channel(self.inclination_rad(), self.base_friction)
     }
 
     /// Speed [m/s] that a flow may reach under this gravity [m/s²]: the back of the release sliding
     /// to the foot against base friction, and the release collapsing, as energies (docs/method.md,
     /// equation 31).
     pub fn fastest_flow(&self, flow: &Flow, gravity_m_s2: f64) -> f64 {
-        let (sin, cos) = self.inclination_rad().sin_cos();
         let sliding = if flow.volume_m3 > 0.0 {
-            let along_slope = -self.release_box(flow).back_m / cos;
-            2.0 * gravity_m_s2 * along_slope * (sin - self.base_friction * cos).max(0.0)
+            let back = self.release_box(flow).back_m;
+            let bed = self.bed().tangent(back, 0.0);
+            let (sin, cos) = (bed.normal.x, bed.normal.z);
+            2.0 * gravity_m_s2 * (-back / cos) * (sin - bed.flow_friction * cos).max(0.0)
         } else {
             0.0
         };
@@ -131,32 +117,40 @@ impl Body {
             return UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z));
         }
         let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_deg.to_radians());
-        if self.position.downstream_m < 0.0 {
-            let tilt = channel.inclination_rad();
-            UnitQuaternion::from_axis_angle(&Vector3::y_axis(), tilt) * yaw
-        } else {
-            yaw
-        }
+        let [x, y] = self.position.in_plane();
+        channel.bed().tilt(x, y) * yaw
     }
 
     /// Pose at the start; without an elevation the body is lowered until it
     /// touches the bed under its centre.
     pub(super) fn pose(&self, shape: &SpheroPolyhedron, channel: &Channel) -> Pose {
         let orientation = self.initial_orientation(channel);
-        let x = self.position.downstream_m;
-        let normal = channel.normal_under(x);
+        let [x, y] = self.position.in_plane();
+        let bed = channel.bed().tangent(x, y);
         let elevation = self.position.elevation_m.unwrap_or_else(|| {
-            let reach = shape.extent_along(&orientation.inverse_transform_vector(&-normal));
-            (reach - x * normal.x) / normal.z
+            let below = orientation.inverse_transform_vector(&-bed.normal);
+            bed.lowest_centre(shape.extent_along(&below), x, y)
         });
         Pose {
-            position: Vector3::new(x, self.position.lateral_m, elevation),
+            position: Vector3::new(x, y, elevation),
             orientation,
         }
     }
 }
 
+impl Position {
+    /// Its place in the plane: downstream and lateral [m].
+    fn in_plane(&self) -> [f64; 2] {
+        [self.downstream_m, self.lateral_m]
+    }
+}
+
 impl Scenario {
+    /// The bed.
+    pub fn bed(&self) -> impl Bed {
+        self.channel.bed()
+    }
+
     /// Initial position and orientation of a body.
     ///
     /// # Panics

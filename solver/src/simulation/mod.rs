@@ -9,6 +9,7 @@ mod setup;
 mod stages;
 mod step;
 
+use crate::bed::Bed;
 use crate::body_energy::BodyEnergy;
 use crate::contact::body_body::ContactPair;
 use crate::contact::island::{self, BodyReport};
@@ -308,6 +309,11 @@ impl Simulation {
     /// unknown.
     pub fn speed_given(&self) -> f64 {
         self.given.guards.speed_given
+    }
+
+    /// The bed.
+    pub fn bed(&self) -> &dyn Bed {
+        self.given.walls.bed.as_ref()
     }
 
     /// The walls as planes for bodies.

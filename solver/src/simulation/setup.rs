@@ -2,6 +2,7 @@
 
 use super::clock::Timing;
 use super::guards::Guards;
+use crate::bed::Bed;
 use crate::contact::island::Surroundings;
 use crate::contact::point_body::Reach;
 use crate::error::SetupError;
@@ -12,6 +13,7 @@ use crate::rigid::Body;
 use crate::scenario::{self, Precision, Scenario};
 use crate::stability::Pace;
 use crate::walls::{Ends, Plane, VerticalBoundary, VerticalWalls, WallPace, Walls};
+use std::sync::Arc;
 
 mod bodies;
 mod flow;
@@ -227,12 +229,6 @@ impl Setup {
 }
 
 fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
-    let base = |name, normal| Plane {
-        name,
-        normal,
-        offset: 0.0,
-        flow_friction: channel.base_friction,
-    };
     let vertical_walls = |name, normal: Vec3, distance: f64| Plane {
         name,
         normal,
@@ -240,12 +236,8 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
         flow_friction: channel.side_friction,
     };
     let half_width = 0.5 * channel.width_m;
-    let mut planes = vec![base("floor", Vec3::z())];
-    if channel.inclination_deg > 0.0 {
-        planes.push(base("incline", channel.slope_normal()));
-    }
     Walls {
-        base: planes,
+        bed: Arc::new(channel.bed()),
         vertical_walls: VerticalWalls {
             ends: Ends::Back(VerticalBoundary::Wall(vertical_walls(
                 "back wall",
@@ -283,10 +275,9 @@ impl Setup {
 
 /// Guards according to the highest fall and the fastest throw.
 fn guards(scenario: &Scenario) -> Guards {
-    let channel = &scenario.channel;
     let release = scenario.release();
     let top = release.map_or(0.0, |release| {
-        channel.bed_elevation_m(release.back_m) + release.vertical_thickness_m
+        scenario.bed().elevation(release.back_m, 0.0) + release.vertical_thickness_m
     });
     let bodies = scenario.bodies.iter().enumerate().map(|(place, body)| {
         let radius = scenario.shape_of(place).bounding_radius();

@@ -1,14 +1,13 @@
 //! Nodes on which walls act, and their available volumes.
 
-use super::Plane;
 use super::Walls;
-use super::bed::Surface;
-use super::columns::{BoundaryColumn, ColumnNode, Way};
+use super::columns::{BoundaryColumn, ColumnNode};
 use super::constraint::ConstrainedVelocity;
 use super::nodes::NodeAccess;
 use super::vertical_walls::{Ends, Meets};
+use crate::bed::Surface;
 use crate::grid::{BLOCK, BLOCK_NODES};
-use crate::kernel::{Lattice, REACH, share_above, share_above_both};
+use crate::kernel::{Lattice, REACH};
 use crate::math::{Sym3, Vec3};
 use crate::method::METHOD;
 use std::ops::Range;
@@ -33,7 +32,7 @@ pub(super) struct ConstraintSet {
     /// Surfaces of the bed that act on it alone: where it is on or below the bed, unless it belongs
     /// to a column.
     pub(super) surfaces: [Option<Surface>; 2],
-    /// Share of the kernels above the planes of the bed.
+    /// Share of the kernels above the bed.
     room: f64,
 }
 
@@ -58,7 +57,7 @@ impl ConstraintSet {
 pub struct Boundary {
     pub(super) members: Vec<Member>,
     pub(super) sets: Vec<ConstraintSet>,
-    /// Other nodes whose kernel a plane of the bed cuts: their places, and the share of it in the
+    /// Other nodes whose kernel the bed cuts: their places, and the share of it in the
     /// channel.
     cut: Vec<(u32, f64)>,
     /// Constraint sets near the bed, by columns.
@@ -214,17 +213,9 @@ impl Walls {
         let vertical_walls =
             ends || first[1] <= 1 || 2 * last[1] >= self.vertical_walls.halves_across - 2;
         let (low, high) = (lattice.position(first), lattice.position(last));
-        // The lowest of a box's corners above a plane.
-        let lowest =
-            |plane: &Plane| {
-                let corner = plane
-                    .normal
-                    .zip_zip_map(&low, &high, |n, low, high| if n > 0.0 { low } else { high });
-                plane.height(&corner)
-            };
         // The kernel's reach along a diagonal.
         let margin = REACH * lattice.spacing.norm();
-        vertical_walls || self.base.iter().any(|plane| lowest(plane) <= margin)
+        vertical_walls || self.bed.is_near(&low, &high, margin)
     }
 
     fn add_set(
@@ -252,7 +243,7 @@ impl Walls {
             });
         let back = self.vertical_walls.meets_back(index);
         let side = self.vertical_walls.meets_side(index);
-        let surfaces = self.surfaces_over(index, nodes.lattice());
+        let surfaces = self.bed.surfaces_over(index, nodes.lattice());
         let alone = boundary.members.len() == start + 1;
         let set = boundary.sets.len() as u32;
         let known = boundary.column_nodes.len();
@@ -266,7 +257,7 @@ impl Walls {
             boundary.members.truncate(start);
             boundary.column_nodes.truncate(known);
         }
-        let room = self.room(&resting, &nodes.lattice().spacing);
+        let room = self.bed.share_above(&resting, &nodes.lattice().spacing);
         if plain && room < 1.0 {
             boundary.cut.push((place as u32, room));
         }
@@ -287,37 +278,5 @@ impl Walls {
             surfaces,
             room,
         });
-    }
-
-    /// Share of the kernel of a node at `x` above the planes of the bed.
-    fn room(&self, x: &Vec3, spacing: &Vec3) -> f64 {
-        let height = |plane: &Plane| {
-            // The kernel is as wide along a slant as along its axes.
-            let width = plane.normal.component_mul(spacing).norm();
-            plane.height(x) / width
-        };
-        match self.base.as_slice() {
-            [] => 1.0,
-            [plane] => share_above(height(plane)),
-            [one, other, ..] => {
-                share_above_both([height(one), height(other)], one.normal.dot(&other.normal))
-            }
-        }
-    }
-
-    /// Surfaces of the bed that a node is on or below: for vertical columns the mean bed there, for
-    /// horizontal ones their plane.
-    fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2] {
-        let x = lattice.position(index);
-        // A node on the plane up to rounding belongs to it.
-        let rounding = 1e-9 * (1.0 + x.norm());
-        // The floor acts before a steep incline, as it comes first in the base.
-        [Way::Vertical, Way::Horizontal].map(|way| {
-            let of_way = self.base.iter().enumerate();
-            let (plane, _) = of_way
-                .filter(|(_, plane)| Way::of(plane) == way && plane.height(&x) <= rounding)
-                .max_by(|one, other| other.1.height(&x).total_cmp(&one.1.height(&x)))?;
-            Some(self.surface_at(plane, way, index[0], lattice))
-        })
     }
 }

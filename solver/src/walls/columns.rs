@@ -6,14 +6,13 @@
 //! 29–29c). The motion near the bed is therefore linear; nodes constrained one by one would let
 //! it slip.
 
-use super::bed::Surface;
+use super::Walls;
 use super::boundary::{Boundary, ConstraintSet};
 use super::constraint::{ConstrainedVelocity, constrain_to};
 use super::vertical_walls::Meets;
-use super::{Plane, Walls};
+use crate::bed::{Surface, Way};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
-use crate::method::METHOD;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -22,34 +21,6 @@ use std::ops::Range;
 const LEAST_SPREAD: f64 = 1e-6;
 /// Columns per task.
 const TASK: usize = 64;
-
-/// Directions of the columns of a node.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Way {
-    /// Along x, on a steep plane. These come first, so that the floor has the last word.
-    Horizontal,
-    /// Along z.
-    Vertical,
-}
-
-impl Way {
-    const BOTH: [Self; 2] = [Self::Horizontal, Self::Vertical];
-
-    fn axis(self) -> usize {
-        match self {
-            Self::Horizontal => 0,
-            Self::Vertical => 2,
-        }
-    }
-
-    pub(super) fn of(plane: &Plane) -> Self {
-        if plane.normal.x.abs() > METHOD.boundary.steep * plane.normal.z {
-            Self::Horizontal
-        } else {
-            Self::Vertical
-        }
-    }
-}
 
 /// A node's place in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -170,7 +141,7 @@ impl Walls {
                 Way::Horizontal => [index[1], index[2]],
                 Way::Vertical => [index[0], index[1]],
             };
-            let (_, _, first) = self.foot(way, across, lattice)?;
+            let first = self.bed.intersection(way, across, lattice)?.first;
             let depth = first - index[way.axis()];
             let here = way == Way::Vertical || !self.is_below_floor(index, lattice);
             (depth >= -1 && here).then_some(ColumnNode {
@@ -182,29 +153,10 @@ impl Walls {
         })
     }
 
-    /// Intersection of a column with the bed: the plane, its distance behind the first node in the
-    /// channel [node distances], and that node's index.
-    fn foot(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<(usize, f64, i32)> {
-        let axis = way.axis();
-        let index = match way {
-            Way::Horizontal => [0, across[0], across[1]],
-            Way::Vertical => [across[0], across[1], 0],
-        };
-        let start = lattice.position(index);
-        let of_way = self.base.iter().enumerate();
-        let (plane, along) = of_way
-            .filter(|(_, plane)| Way::of(plane) == way)
-            .map(|(which, plane)| (which, -plane.height(&start) / plane.normal[axis]))
-            .max_by(|one, other| one.1.total_cmp(&other.1))?;
-        let cells = along / lattice.spacing[axis];
-        // A node on the plane up to rounding is in the channel.
-        let first = (cells - 1e-9 * (1.0 + cells.abs())).ceil();
-        Some((plane, (first - cells).max(0.0), first as i32))
-    }
-
     fn is_below_floor(&self, index: [i32; 3], lattice: &Lattice) -> bool {
-        let first = self.foot(Way::Vertical, [index[0], index[1]], lattice);
-        first.is_some_and(|(_, _, first)| index[2] < first)
+        let across = [index[0], index[1]];
+        let floor = self.bed.intersection(Way::Vertical, across, lattice);
+        floor.is_some_and(|floor| index[2] < floor.first)
     }
 
     /// Makes columns of the column nodes.
@@ -221,8 +173,10 @@ impl Walls {
         for alike in column_nodes.chunk_by(|a, b| (a.way, a.across) == (b.way, b.across)) {
             let end = start + alike.len();
             let ColumnNode { way, across, .. } = alike[0];
-            if let Some((plane, gap, _)) = self.foot(way, across, lattice)
-                && let surface = self.surface_at(plane, way, across[0], lattice)
+            let intersection = self.bed.intersection(way, across, lattice);
+            let surface = self.bed.surface_in(way, across, lattice);
+            if let Some((intersection, surface)) = intersection.zip(surface)
+                && let gap = intersection.gap
                 && let Some(column) =
                     BoundaryColumn::new(column_nodes, start..end, sets, surface, gap)
             {

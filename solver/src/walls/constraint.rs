@@ -1,10 +1,10 @@
 //! Constraints of walls on the motion of nodes.
 
-use super::bed::Surface;
 use super::boundary::{Boundary, ConstraintSet, Member};
 use super::nodes::NodeAccess;
 use super::vertical_walls::Meets;
 use super::{Impulse, Walls};
+use crate::bed::Surface;
 use crate::math::Vec3;
 use rayon::prelude::*;
 

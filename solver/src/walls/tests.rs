@@ -1,4 +1,5 @@
 use super::*;
+use crate::bed::PlanarBed;
 use crate::grid::fixture::PlainGrid;
 use crate::kernel::Lattice;
 
@@ -21,7 +22,7 @@ pub(super) fn plane(name: &'static str, normal: Vec3, offset: f64, flow_friction
 pub(super) fn channel(cells_across: i32, base_friction: f64, side_friction: f64) -> Walls {
     let width = f64::from(cells_across) * H;
     Walls {
-        base: vec![plane("floor", Vec3::z(), 0.0, base_friction)],
+        bed: Arc::new(PlanarBed::floor(base_friction)),
         vertical_walls: VerticalWalls {
             ends: Ends::Back(VerticalBoundary::Wall(plane(
                 "back wall",
@@ -226,10 +227,9 @@ fn a_rough_side_rubs() {
 #[test]
 fn at_the_foot_of_the_back_wall_only_the_slope_is_open() {
     let mut walls = channel(8, 0.0, 0.0);
-    let slope = Vec3::new(0.6, 0.0, 0.8);
-    walls
-        .base
-        .push(plane("incline", slope, 0.6 * H + 0.8 * 4.0 * H, 0.0));
+    let inclination = 0.6f64.atan2(0.8);
+    let offset = 0.6 * H + 0.8 * 4.0 * H;
+    walls.bed = Arc::new(PlanarBed::floor(0.0).with_incline(inclination, offset, 0.0));
     let mut grid = grid_with(&[([0, 3, 2], Vec3::new(-1.0, 0.5, -2.0))]);
     constrained(&walls, &mut grid);
     assert!((velocity(&grid, [0, 3, 2]) - Vec3::new(0.96, 0.5, -0.72)).norm() < 1e-15);

@@ -2,6 +2,7 @@
 //! here is valid and then spoilt by hand so that one guard acts.
 
 use crate::scenes::{Scene, points_by_id};
+use scree_solver::bed::Bed;
 use scree_solver::simulation::{Guards, Scene as Built};
 use scree_solver::{Mover, Simulation, StepError};
 use serde_json::json;
@@ -146,7 +147,7 @@ fn no_point_sinks_into_the_incline() {
             .set("numerics", "precision", precision)
             .lasting(5.5);
         let simulation = scene.finished();
-        let normal = scene.scenario().channel.slope_normal();
+        let normal = scene.scenario().bed().normal(-0.1, 0.0);
         let depths = points_by_id(&simulation)
             .into_iter()
             .map(|point| -normal.dot(&point.position) / 0.02);

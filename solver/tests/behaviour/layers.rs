@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Layers, lowest first. The scenario is a description that depends on shapes only; the
 /// simulation reads it.
-const LAYERS: [&[&str]; 9] = [
+const LAYERS: [&[&str]; 10] = [
     &["math", "error", "method"],
     &["stability"],
     &[
@@ -19,6 +19,7 @@ const LAYERS: [&[&str]; 9] = [
         "contact::law",
         "contact::wall_touch",
     ],
+    &["bed"],
     &["grid", "scenario"],
     &["points", "rigid", "walls"],
     &[

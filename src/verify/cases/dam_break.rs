@@ -25,9 +25,11 @@ use crate::verify::run::{Answer, CaseError, Run};
 use crate::verify::scenes::{GRAVITY, tilted_gravity};
 use crate::verify::{Case, Effort, How};
 use scree_solver::Simulation;
+use scree_solver::bed::PlanarBed;
 use scree_solver::scenario::Precision;
 use scree_solver::simulation::Scene;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 pub(super) const CASE: Case = Case {
     name: "dam-break",
@@ -141,7 +143,7 @@ fn scene(cells: u32, theory: &Theory) -> Scene {
     };
     let mut scene = block.bed(beads::POISSONS_RATIO);
     scene.given.gravity = tilted_gravity(INCLINATION_DEG);
-    scene.given.walls.base[0].flow_friction = FRICTION;
+    scene.given.walls.bed = Arc::new(PlanarBed::floor(FRICTION));
     scene
 }
 

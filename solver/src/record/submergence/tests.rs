@@ -20,8 +20,7 @@ fn scene(inclination_deg: f64, height_m: f64, change: impl FnOnce(&mut Value)) -
 
 fn submerged(scenario: &Scenario) -> f64 {
     let simulation = Simulation::new(scenario, 1).expect("it fits");
-    let bed = Bed::of(&scenario.channel);
-    submerged_fraction(&simulation, &simulation.bodies()[0], &bed)
+    submerged_fraction(&simulation, &simulation.bodies()[0])
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Poses and release.
 
 use super::{accepted, minimal, set, with};
+use crate::bed::Bed;
 use crate::scenario::{Scenario, Support};
 use nalgebra::{Vector3, Vector4};
 use serde_json::json;
@@ -49,7 +50,7 @@ fn yaw_turns_about_the_normal_of_the_bed() {
     );
     let scenario = accepted(&scenario);
     let orientation = scenario.initial_pose(0).orientation;
-    assert!((orientation * Vector3::z() - scenario.channel.slope_normal()).norm() < 1e-15);
+    assert!((orientation * Vector3::z() - scenario.bed().normal(-0.1, 0.0)).norm() < 1e-15);
     // Seen from above, x turns towards y.
     let ahead = orientation * Vector3::x();
     assert!((ahead.y - 0.5).abs() < 1e-15);
@@ -171,10 +172,8 @@ fn the_release_is_where_the_contract_puts_it() {
     assert!(
         (release.length_m() * release.vertical_thickness_m * release.width_m - 0.01).abs() < 1e-16
     );
-    assert!(
-        (scenario.channel.bed_elevation_m(-0.5) - 0.5 * 40_f64.to_radians().tan()).abs() < 1e-15
-    );
-    assert_eq!(scenario.channel.bed_elevation_m(0.5), 0.0);
+    assert!((scenario.bed().elevation(-0.5, 0.0) - 0.5 * 40_f64.to_radians().tan()).abs() < 1e-15);
+    assert_eq!(scenario.bed().elevation(0.5, 0.0), 0.0);
 
     assert_eq!(accepted(&with("/flow", json!(null))).release(), None);
     assert_eq!(accepted(&with("/flow/volume_m3", json!(0))).release(), None);

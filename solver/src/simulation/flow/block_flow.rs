@@ -89,7 +89,7 @@ impl<R: Saved> BlockFlow<R> {
     /// A flow as it was between two steps.
     pub(super) fn restored(blocks: Blocks<R>, given: &Setup) -> Self {
         let packing = packing(given);
-        let base = given.walls.base.iter();
+        let planes = given.walls.bed.planes().iter();
         let mut flow = Self {
             blocks,
             nodes: Nodes::new(given.lattice),
@@ -100,7 +100,7 @@ impl<R: Saved> BlockFlow<R> {
             loads: Loads::default(),
             packing,
             law: Law::of(&packing.material, &given.lattice.spacing),
-            no_shift_zones: base
+            no_shift_zones: planes
                 .map(|plane| NoShiftZone::of(plane, &given.lattice))
                 .collect(),
             level: Instructions::detected().level(),

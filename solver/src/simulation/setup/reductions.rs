@@ -126,9 +126,7 @@ impl ExaminedScene<'_> {
             _ if last.halves_across(self.halves_across()) <= 2 => {
                 Err("what is computed is one cell wide anyway".to_owned())
             }
-            (_, Some(columns)) => {
-                uniform_across(self.scenario, columns, &self.given.lattice, self.bodies)
-            }
+            (_, Some(columns)) => uniform_across(self.scenario, columns, self.given, self.bodies),
         };
         insist(found, asked == Approach::Slab, "approach", "slab")
     }

@@ -2,6 +2,7 @@
 //! (docs/method.md, equation 34).
 
 use super::{GivenFlow, Setup, Share, resting_point};
+use crate::bed::Bed;
 use crate::contact::point_body::PointSphere;
 use crate::error::SetupError;
 use crate::kernel::Lattice;
@@ -10,7 +11,7 @@ use crate::math::{Mat3, Sym3, Vec3};
 use crate::mpm::constitutive::at_rest;
 use crate::points::Point;
 use crate::rigid::Body;
-use crate::scenario::{Channel, ReleaseBox, Scenario};
+use crate::scenario::{ReleaseBox, Scenario};
 use crate::shape::Feature;
 use crate::walls::Plane;
 
@@ -46,10 +47,11 @@ impl Columns {
         let (Some(release), Some(flow)) = (scenario.release(), &given.flow) else {
             return (Vec::new(), 0.0);
         };
+        let bed = given.walls.bed.as_ref();
         let start = Start {
             material: &flow.material,
             gravity: scenario.gravity_m_s2,
-            slope: scenario.channel.inclination_deg.to_radians(),
+            normal: bed.normal(release.back_m, 0.0),
         };
         let mass = flow.material.bulk_density * self.volume;
         let mut points = Vec::new();
@@ -60,7 +62,7 @@ impl Columns {
         for i in 0..along {
             for j in 0..rows {
                 for k in 0..up {
-                    let position = self.place([i, j, k], &scenario.channel, &release);
+                    let position = self.place([i, j, k], bed, &release);
                     let Some(position) = given.place_beside(position, bodies) else {
                         left_out += self.volume * images;
                         continue;
@@ -81,20 +83,25 @@ impl Columns {
         (f64::from(n) + 0.5) * self.spacing[axis]
     }
 
-    fn place(&self, [i, j, k]: [u32; 3], channel: &Channel, release: &ReleaseBox) -> Vec3 {
+    fn place(&self, [i, j, k]: [u32; 3], bed: &dyn Bed, release: &ReleaseBox) -> Vec3 {
         let x = release.back_m + self.along(i, 0);
         let y = self.along(j, 1) - 0.5 * release.width_m;
-        Vec3::new(x, y, channel.bed_elevation_m(x) + self.along(k, 2))
+        Vec3::new(x, y, bed.elevation(x, y) + self.along(k, 2))
     }
 
     /// True if any place of the release is `among` these, at any position across.
-    pub(super) fn any_place(&self, scenario: &Scenario, among: impl Fn(&Vec3) -> bool) -> bool {
+    pub(super) fn any_place(
+        &self,
+        scenario: &Scenario,
+        bed: &dyn Bed,
+        among: impl Fn(&Vec3) -> bool,
+    ) -> bool {
         let Some(release) = scenario.release() else {
             return false;
         };
         let [along, _, up] = self.count;
         let mut places = (0..along).flat_map(|i| (0..up).map(move |k| [i, 0, k]));
-        places.any(|place| among(&self.place(place, &scenario.channel, &release)))
+        places.any(|place| among(&self.place(place, bed, &release)))
     }
 
     /// Columns as close to the given points per cell as whole numbers allow, the volume being
@@ -237,19 +244,20 @@ fn surface_within(reach: f64, body: &Body, place: &Vec3) -> Option<Surface> {
 struct Start<'a> {
     material: &'a Material,
     gravity: f64,
-    slope: f64,
+    /// Normal of the bed under the release.
+    normal: Vec3,
 }
 
 impl Start<'_> {
     /// Sets the stress of a point at a vertical depth [m] in an infinite slope, with no more shear
     /// than it can bear.
     fn press(&self, point: &mut Point, depth: f64) {
-        let (sin, cos) = self.slope.sin_cos();
+        let (sin, cos) = (self.normal.x, self.normal.z);
         let density = self.material.bulk_density;
         let normal_stress = density * self.gravity * depth * cos * cos;
         let shear_stress = density * self.gravity * depth * cos * sin;
         let lateral = self.lateral_ratio();
-        let normal = Vec3::new(sin, 0.0, cos);
+        let normal = self.normal;
         let down = Vec3::new(cos, 0.0, -sin);
         let across = normal * normal.transpose();
         let stress = across * -normal_stress

@@ -1,6 +1,7 @@
 //! Automatic choices: cell size, expected speed, contact modulus
 //! (docs/method.md, equations 30–33).
 
+use crate::bed::Bed;
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::method::METHOD;
@@ -155,7 +156,7 @@ impl Crowd {
                 projected_area: shape.largest_projected_area(),
                 speed_squared: falling + thrown * thrown,
                 lies_on_flow: scenario.release().is_some_and(|release| {
-                    let bed = scenario.channel.bed_elevation_m(start.x);
+                    let bed = scenario.bed().elevation(start.x, start.y);
                     let above = start.z - 3.0 * lowest - bed;
                     let over = release.back_m <= start.x && start.x <= release.front_m;
                     over && above < release.vertical_thickness_m

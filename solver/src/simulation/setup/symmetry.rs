@@ -1,6 +1,6 @@
 //! Symmetries of a scene, by which parts of it are images of others.
 
-use super::Columns;
+use super::{Columns, Setup};
 use crate::contact::point_body::Around;
 use crate::kernel::Lattice;
 use crate::math::Vec3;
@@ -96,7 +96,7 @@ fn mirrored(x: &Vec3) -> Vec3 {
 pub(super) fn uniform_across(
     scenario: &Scenario,
     columns: &Columns,
-    lattice: &Lattice,
+    given: &Setup,
     bodies: &[Body],
 ) -> Result<(), Why> {
     let friction = scenario.channel.side_friction;
@@ -107,7 +107,10 @@ pub(super) fn uniform_across(
     if let Some(place) = bodies.iter().position(moved) {
         return Err(format!("body {place} has a prescribed motion"));
     }
-    let near = |body: &&Body| columns.any_place(scenario, |x| near_body(body, lattice).holds(x));
+    let near = |body: &&Body| {
+        let around = near_body(body, &given.lattice);
+        columns.any_place(scenario, given.walls.bed.as_ref(), |x| around.holds(x))
+    };
     match bodies.iter().position(|body| near(&body)) {
         Some(place) => Err(format!(
             "body {place} stands within {CLEAR_CELLS} cells of the release"

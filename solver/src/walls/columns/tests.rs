@@ -1,13 +1,16 @@
+use crate::bed::PlanarBed;
 use crate::math::Vec3;
-use crate::walls::tests::{H, channel, constrained, grid_with, plane, velocity};
+use crate::walls::tests::{H, channel, constrained, grid_with, velocity};
 use crate::walls::{Impulse, Walls};
+use std::sync::Arc;
 
 /// A channel whose bed is one plane through a place, falling along x.
 fn slope(degrees: f64, through: &Vec3, friction: f64) -> Walls {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let normal = Vec3::new(sin, 0.0, cos);
     let mut walls = channel(8, 0.0, 0.0);
-    walls.base = vec![plane("incline", normal, normal.dot(through), friction)];
+    let bed = PlanarBed::incline(degrees.to_radians(), normal.dot(through), friction);
+    walls.bed = Arc::new(bed);
     walls
 }
 
@@ -42,7 +45,7 @@ fn crossings() -> Vec<(Walls, Vec<[i32; 3]>, Vec3)> {
 #[test]
 fn a_linear_flow_that_sticks_to_the_base_stays() {
     for (walls, nodes, _) in crossings() {
-        let base = &walls.base[0];
+        let base = &walls.bed.planes()[0];
         let along = base.normal.cross(&Vec3::y()) * 3.0;
         let moving = |node: &[i32; 3]| (*node, along * base.height(&at(*node)));
         let moving: Vec<_> = nodes.iter().map(moving).collect();
@@ -60,7 +63,7 @@ fn a_linear_flow_that_sticks_to_the_base_stays() {
 #[test]
 fn the_base_acts_at_its_own_place() {
     for (walls, nodes, foot) in crossings() {
-        let base = &walls.base[0];
+        let base = &walls.bed.planes()[0];
         let along = base.normal.cross(&Vec3::y());
         let arriving = [
             along * 3.0 - base.normal,
@@ -85,7 +88,7 @@ fn the_base_acts_at_its_own_place() {
 #[test]
 fn what_leaves_the_base_is_left_alone() {
     for (walls, nodes, _) in crossings() {
-        let leaving = |which: usize| (nodes[which], walls.base[0].normal * which as f64);
+        let leaving = |which: usize| (nodes[which], walls.bed.planes()[0].normal * which as f64);
         let moving = [0, 1, 2].map(leaving);
         let mut grid = grid_with(&moving);
         constrained(&walls, &mut grid);
@@ -99,7 +102,7 @@ fn what_leaves_the_base_is_left_alone() {
 #[test]
 fn a_lone_node_behind_the_base_is_held() {
     for (walls, nodes, _) in crossings() {
-        let mut grid = grid_with(&[(nodes[0], -walls.base[0].normal)]);
+        let mut grid = grid_with(&[(nodes[0], -walls.bed.planes()[0].normal)]);
         let given = constrained(&walls, &mut grid);
         assert!(velocity(&grid, nodes[0]).norm() < 1e-15);
         assert_ne!(given, Impulse::default());

@@ -1,0 +1,133 @@
+//! The bed: the ground under flow and bodies. All that places, holds, guards or draws something
+//! asks it for heights and normals, and knows neither inclination nor slope break.
+
+use crate::kernel::Lattice;
+use crate::math::Vec3;
+use crate::method::METHOD;
+use nalgebra::UnitQuaternion;
+use std::fmt::Debug;
+
+mod planar;
+
+pub use planar::PlanarBed;
+
+/// A plane surface; its normal points to the side of the flow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// Name in messages.
+    pub name: &'static str,
+    /// Unit normal to the side of the flow.
+    pub normal: Vec3,
+    /// normal · x of its places [m].
+    pub offset: f64,
+    /// Coulomb friction of the flow.
+    pub flow_friction: f64,
+}
+
+impl Plane {
+    /// Height of a place above the plane [m]; negative behind it.
+    pub fn height(&self, x: &Vec3) -> f64 {
+        self.normal.dot(x) - self.offset
+    }
+
+    /// Elevation [m] of the centre of a body above (x, y) that reaches so far [m] against the
+    /// normal and touches the plane.
+    pub fn lowest_centre(&self, reach: f64, x: f64, y: f64) -> f64 {
+        (reach + self.offset - x * self.normal.x - y * self.normal.y) / self.normal.z
+    }
+}
+
+/// Surface that stops inflow and applies Coulomb friction to nodes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surface {
+    /// Unit normal out of the bed.
+    pub normal: Vec3,
+    /// Coulomb friction of the flow.
+    pub friction: f64,
+}
+
+/// Directions of the columns of nodes through a bed: along the axis closest to its normal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Way {
+    /// Along x, on a steep bed. These come first, so that the floor has the last word.
+    Horizontal,
+    /// Along z.
+    Vertical,
+}
+
+impl Way {
+    /// Both directions, in the order in which they act.
+    pub const BOTH: [Self; 2] = [Self::Horizontal, Self::Vertical];
+
+    /// Its axis.
+    pub fn axis(self) -> usize {
+        match self {
+            Self::Horizontal => 0,
+            Self::Vertical => 2,
+        }
+    }
+
+    /// Direction of the columns through a bed with this normal.
+    pub fn through(normal: &Vec3) -> Self {
+        if normal.x.abs() > METHOD.boundary.steep * normal.z {
+            Self::Horizontal
+        } else {
+            Self::Vertical
+        }
+    }
+}
+
+/// Intersection of a column of nodes with the bed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Intersection {
+    /// Its distance behind the first node above the bed [node distances].
+    pub gap: f64,
+    /// Index of that node along the column.
+    pub first: i32,
+}
+
+/// The ground under flow and bodies: one elevation for every place in the plane.
+pub trait Bed: Debug + Send + Sync {
+    /// Elevation at (x, y) [m].
+    fn elevation(&self, x: f64, y: f64) -> f64;
+
+    /// Plane that touches it at (x, y).
+    fn tangent(&self, x: f64, y: f64) -> Plane;
+
+    /// Rotation that lays a horizontal body flat on it at (x, y), without a turn about the normal.
+    fn tilt(&self, x: f64, y: f64) -> UnitQuaternion<f64>;
+
+    /// Planes of which it is the upper envelope, as bodies and points meet it.
+    fn planes(&self) -> &[Plane];
+
+    /// Share of the kernel of a node at `x` above it (its available volume).
+    fn share_above(&self, x: &Vec3, spacing: &Vec3) -> f64;
+
+    /// Intersection with the column of nodes in this direction, by its indices across it; `None`
+    /// if the bed has no columns of this direction.
+    fn intersection(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<Intersection>;
+
+    /// The bed at that intersection, averaged with the transfer's kernel.
+    fn surface_in(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<Surface>;
+
+    /// Surfaces, for columns of each direction, that a node is on or below.
+    fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2];
+
+    /// Unit normal at (x, y).
+    fn normal(&self, x: f64, y: f64) -> Vec3 {
+        self.tangent(x, y).normal
+    }
+
+    /// True if it comes nearer than `margin` [m] to the box between these corners.
+    fn is_near(&self, low: &Vec3, high: &Vec3, margin: f64) -> bool {
+        let lowest = |plane: &Plane| {
+            let corner = plane.normal.zip_zip_map(
+                low,
+                high,
+                |n, low, high| if n > 0.0 { low } else { high },
+            );
+            plane.height(&corner)
+        };
+        self.planes().iter().any(|plane| lowest(plane) <= margin)
+    }
+}
