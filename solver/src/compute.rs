@@ -3,7 +3,7 @@
 use crate::error::{SetupError, StepError};
 use crate::record::{Outcome, Record, Recorder};
 use crate::scenario::Scenario;
-use crate::simulation::Simulation;
+use crate::simulation::{PreparedScene, Simulation};
 use std::ops::ControlFlow;
 use thiserror::Error;
 
@@ -31,8 +31,9 @@ pub fn compute(
     threads: usize,
     mut take: impl FnMut(Record) + Send,
 ) -> Result<Outcome, ComputeError> {
-    let mut simulation = Simulation::new(scenario, threads)?;
-    let mut recorder = Recorder::new(scenario);
+    let prepared = PreparedScene::of(scenario)?;
+    let mut recorder = Recorder::of(&prepared);
+    let mut simulation = Simulation::of(prepared, threads)?;
     recorder.start(&simulation).into_iter().for_each(&mut take);
     simulation.run(f64::INFINITY, |simulation, report| {
         let records = recorder.observe(simulation, report);

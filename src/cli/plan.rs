@@ -7,6 +7,7 @@ use super::{console, scenario_file};
 use scree::jobs::forecast::{ForecastError, Planned, PlannedRefinementRun, WallTime, forecast};
 use scree_solver::plan::{Choice, Cost, Hint, Stage};
 use scree_solver::record::Role;
+use scree_solver::simulation::PreparedScene;
 
 /// Prints the plan of a scenario's run.
 ///
@@ -16,7 +17,8 @@ pub(super) fn plan(options: &PlanOptions) -> Result<(), Failure> {
     let scenario = scenario_file::read(&options.scenario)?;
     let asked = options.threads.map(usize::from);
     let threads = asked.or(scenario.numerics.threads).unwrap_or_else(cores);
-    let planned = forecast(&scenario, threads).map_err(|error| match error {
+    let prepared = PreparedScene::of(&scenario).map_err(|error| not_set_up(&error))?;
+    let planned = forecast(&prepared, threads).map_err(|error| match error {
         ForecastError::Setup(error) => not_set_up(&error),
         ForecastError::Step(error) => Failure::Numerical(error.to_string()),
     })?;

@@ -1,9 +1,10 @@
 //! Forecast of the wall time of a run on this machine, from its first steps.
 
 use scree_solver::accuracy::ConvergenceStudy;
-use scree_solver::plan::{self, Cost, Plan, Stage};
+use scree_solver::plan::{Cost, Plan, Stage};
 use scree_solver::record::Role;
 use scree_solver::scenario::{Approach, Scenario};
+use scree_solver::simulation::PreparedScene;
 use scree_solver::{SetupError, Simulation, StepError};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -78,13 +79,14 @@ pub enum ForecastError {
     Step(#[from] StepError),
 }
 
-/// Plans a scenario's run and times its first steps on this number of threads; takes about
+/// Plans the run of a prepared scene and times its first steps on this number of threads; takes about
 /// a second.
 ///
 /// # Errors
-/// The scenario can't be set up, or its first steps fail.
-pub fn forecast(scenario: &Scenario, threads: usize) -> Result<Planned, ForecastError> {
-    let plan = Plan::new(scenario)?;
+/// A refinement run can't be set up, or the first steps of a run fail.
+pub fn forecast(prepared: &PreparedScene, threads: usize) -> Result<Planned, ForecastError> {
+    let plan = Plan::of(prepared);
+    let scenario = &prepared.scenario;
     let refinement_runs = refinement_runs(scenario, threads)?;
     let first: f64 = refinement_runs.iter().map(|run| run.expected_s).sum();
     let answer = Span::of(scenario, &plan.cost, threads, TIMED_FOR)?;
@@ -120,7 +122,7 @@ fn refinement_runs(
     before
         .map(|study_run| {
             let scenario = convergence_study.scenario_of(study_run);
-            let cost = plan::cost(&scenario)?;
+            let cost = Plan::new(&scenario)?.cost;
             let span = Span::of(&scenario, &cost, threads, COMPANION_TIMED_FOR)?;
             Ok(PlannedRefinementRun {
                 role: study_run.role,

@@ -93,11 +93,11 @@ impl JobService {
     /// The scenario is invalid, or its first steps fail.
     pub async fn plan(&self, scenario: &str) -> Result<Planned, PlanError> {
         let threads = self.threads_per_worker;
-        let scenario = submit::read(scenario, threads)?;
-        let threads = scenario.numerics.threads.unwrap_or(threads);
+        let prepared = submit::read(scenario, threads)?;
+        let threads = prepared.scenario.numerics.threads.unwrap_or(threads);
         // One plan at a time: concurrent timings would slow each other.
         let _alone = self.planning.lock().await;
-        let planned = spawn_blocking(move || forecast(&scenario, threads)).await;
+        let planned = spawn_blocking(move || forecast(&prepared, threads)).await;
         planned
             .map_err(|error| PlanError::BrokenOff(error.to_string()))?
             .map_err(Into::into)

@@ -6,6 +6,7 @@ use super::saved_run::{self, SavedRunError, Spent};
 use super::watch::Watch;
 use scree_solver::record::{Outcome, Record, Recorder};
 use scree_solver::scenario::Scenario;
+use scree_solver::simulation::PreparedScene;
 use scree_solver::{Ending, SetupError, Simulation, StepError};
 use std::sync::atomic::{AtomicU8, Ordering};
 use thiserror::Error;
@@ -133,9 +134,10 @@ impl Run {
     /// # Errors
     /// The solver can't set it up.
     pub fn afresh(scenario: &Scenario, threads: usize) -> Result<Self, SetupError> {
+        let prepared = PreparedScene::of(scenario)?;
         Ok(Self {
-            simulation: Simulation::new(scenario, threads)?,
-            recorder: Recorder::new(scenario),
+            recorder: Recorder::of(&prepared),
+            simulation: Simulation::of(prepared, threads)?,
             spent: Spent::default(),
             duration_s: scenario.duration_s,
         })

@@ -91,6 +91,7 @@ pub fn restore(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scree_solver::simulation::PreparedScene;
 
     const SCENARIO: &str = r#"{"channel": {"inclination_deg": 30, "incline_length_m": 0.4,
         "runout_length_m": 0.4, "width_m": 0.1}, "flow": null, "duration_s": 0.1,
@@ -99,8 +100,9 @@ mod tests {
     #[test]
     fn a_run_comes_back_as_it_was_and_only_to_its_own_scenario_and_build() {
         let scenario = Scenario::from_json(SCENARIO).unwrap();
-        let simulation = Simulation::new(&scenario, 1).unwrap();
-        let recorder = Recorder::new(&scenario);
+        let prepared = PreparedScene::of(&scenario).unwrap();
+        let recorder = Recorder::of(&prepared);
+        let simulation = Simulation::of(prepared, 1).unwrap();
         let spent = Spent {
             wall_s: 1.5,
             point_steps: 7,
@@ -128,8 +130,9 @@ mod tests {
     #[test]
     fn bytes_that_are_cut_off_are_no_run() {
         let scenario = Scenario::from_json(SCENARIO).unwrap();
-        let simulation = Simulation::new(&scenario, 1).unwrap();
-        let recorder = Recorder::new(&scenario);
+        let prepared = PreparedScene::of(&scenario).unwrap();
+        let recorder = Recorder::of(&prepared);
+        let simulation = Simulation::of(prepared, 1).unwrap();
         let bytes = save(&simulation, &recorder, Spent::default()).unwrap();
         for length in 0..bytes.len() {
             assert!(restore(&scenario, 1, &bytes[..length]).is_err(), "{length}");

@@ -5,7 +5,8 @@ use scree_solver::scenario::Scenario;
 pub use scree_solver::scenario::{
     FieldValue, REGULAR_SOLIDS, SHAPES, ScenarioError, ShapeField, ShapeKind, Violation, excerpt,
 };
-use scree_solver::{Plan, SetupError, Simulation};
+use scree_solver::simulation::PreparedScene;
+use scree_solver::{Plan, SetupError};
 use serde_json::{Value, json};
 
 /// A job that may enter the queue.
@@ -57,11 +58,12 @@ pub fn validate(
     means: &Means,
     mut labels: Vec<String>,
 ) -> Result<NewJob, ScenarioError> {
-    let scenario = read(text, means.threads_per_worker)?;
-    let plan = Plan::new(&scenario).map_err(|error| unwritable(&error))?;
+    let prepared = read(text, means.threads_per_worker)?;
+    let plan = Plan::of(&prepared);
     if let Some(violation) = too_costly(plan.cost.point_steps, means.point_steps) {
         return Err(ScenarioError::Invalid(vec![violation]));
     }
+    let scenario = prepared.scenario;
     let json = serde_json::to_string(&scenario).map_err(|error| unwritable(&error))?;
     labels.sort();
     labels.dedup();
@@ -82,19 +84,18 @@ pub fn validate(
 ///
 /// # Errors
 /// All rules that the scenario breaks.
-pub fn read(text: &str, threads_per_worker: usize) -> Result<Scenario, ScenarioError> {
+pub fn read(text: &str, threads_per_worker: usize) -> Result<PreparedScene, ScenarioError> {
     match Scenario::from_json(text) {
         Ok(scenario) => {
-            let mut violations = Vec::new();
-            violations.extend(not_set_up(&scenario));
-            violations.extend(too_many_threads(
-                scenario.numerics.threads,
-                threads_per_worker,
-            ));
-            if violations.is_empty() {
-                Ok(scenario)
-            } else {
-                Err(ScenarioError::Invalid(violations))
+            let threads = too_many_threads(scenario.numerics.threads, threads_per_worker);
+            let prepared = PreparedScene::of(&scenario);
+            match (prepared, threads) {
+                (Ok(prepared), None) => Ok(prepared),
+                (prepared, threads) => {
+                    let setup = prepared.err().and_then(|error| not_set_up(&error));
+                    let violations = setup.into_iter().chain(threads).collect();
+                    Err(ScenarioError::Invalid(violations))
+                }
             }
         }
         Err(ScenarioError::Invalid(mut violations)) => {
@@ -110,8 +111,7 @@ pub fn read(text: &str, threads_per_worker: usize) -> Result<Scenario, ScenarioE
 
 /// A flow too large for any run, or a reduction that the scene does not allow, is
 /// refused at submission, not when the job's turn has come.
-fn not_set_up(scenario: &Scenario) -> Option<Violation> {
-    let error = Simulation::check(scenario).err()?;
+fn not_set_up(error: &SetupError) -> Option<Violation> {
     let detail = error.to_string();
     match error {
         SetupError::TooManyPoints {

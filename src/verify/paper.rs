@@ -2,7 +2,7 @@
 
 use super::run::{Answer, CaseError, Run, scenario_of, scene_of};
 use scree_solver::record::Recorder;
-use scree_solver::simulation::Scene;
+use scree_solver::simulation::PreparedScene;
 use scree_solver::stability::Limits;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -42,8 +42,9 @@ pub(super) fn limits_of(scene: &Value) -> Result<Limits, CaseError> {
 /// The scene is refused or can't be computed, or the flow doesn't move the cube.
 pub(super) fn motion(scene: &Value) -> Result<Answer<4>, CaseError> {
     let scenario = scenario_of(scene)?;
-    let mut run = Run::start(Scene::whole(&scenario)?)?;
-    let mut recorder = Recorder::new(&scenario);
+    let prepared = PreparedScene::whole(&scenario)?;
+    let mut recorder = Recorder::of(&prepared);
+    let mut run = Run::start(prepared.scene())?;
     recorder.start(&run.simulation);
     run.watch(f64::INFINITY, |simulation, report| {
         recorder.observe(simulation, report);

@@ -4,7 +4,7 @@ use super::run::{CaseError, Run, scenario_of};
 use scree_solver::accuracy::ConvergenceStudy;
 use scree_solver::record::{Outcome, Recorder};
 use scree_solver::scenario::Scenario;
-use scree_solver::simulation::Scene;
+use scree_solver::simulation::PreparedScene;
 use serde_json::Value;
 use std::ops::ControlFlow;
 
@@ -27,8 +27,9 @@ pub(super) fn answer(document: &Value) -> Result<Outcome, CaseError> {
 
 /// Outcome of one run of a scenario.
 fn outcome(scenario: &Scenario) -> Result<Outcome, CaseError> {
-    let mut run = Run::start(Scene::of(scenario)?)?;
-    let mut recorder = Recorder::new(scenario);
+    let prepared = PreparedScene::of(scenario)?;
+    let mut recorder = Recorder::of(&prepared);
+    let mut run = Run::start(prepared.scene())?;
     recorder.start(&run.simulation);
     run.watch(f64::INFINITY, |simulation, report| {
         recorder.observe(simulation, report);

@@ -3,7 +3,7 @@
 use crate::error::SetupError;
 use crate::record::Role;
 use crate::scenario::{Accuracy, Scenario};
-use crate::simulation::Simulation;
+use crate::simulation::PreparedScene;
 
 /// A refinement run's cell size over the answer's, and the range within which a run that is
 /// done already serves as well.
@@ -76,7 +76,7 @@ pub(super) struct ResolvedLengths {
 
 impl ResolvedLengths {
     pub(super) fn of(scenario: &Scenario) -> Result<Self, SetupError> {
-        let (cell_size_m, sound_speed_m_s) = Simulation::resolution(scenario)?;
+        let prepared = PreparedScene::of(scenario)?;
         let bodies = 0..scenario.bodies.len();
         let flow = scenario.flow.as_ref();
         Ok(Self {
@@ -85,8 +85,8 @@ impl ResolvedLengths {
                 .reduce(f64::min),
             release_m: flow.map_or(0.0, |flow| flow.release.height_m),
             width_m: scenario.channel.width_m,
-            cell_size_m,
-            sound_speed_m_s: sound_speed_m_s.unwrap_or(0.0),
+            cell_size_m: prepared.cell_size_m(),
+            sound_speed_m_s: prepared.sound_speed_m_s().unwrap_or(0.0),
             stiffness_is_given: flow.is_some_and(|flow| flow.material.youngs_modulus_pa.is_some()),
         })
     }

@@ -4,7 +4,7 @@ use super::error_bars::relative;
 use super::refinement_runs::{ResolvedLengths, StudyRun};
 use crate::record::{Basis, Role, UncertaintyInterval};
 use crate::scenario::Scenario;
-use crate::simulation::Simulation;
+use crate::simulation::PreparedScene;
 
 /// Cell sizes that are tried first, over the largest of use. The last but one is also run with
 /// a material of reduced stiffness.
@@ -109,8 +109,8 @@ pub(super) fn next(progress: &Progress, given: &Scenario) -> NextRun {
     let cell_size_m = progress.cell_size_m / wanted.clamp(least, most).min(affordable);
     let mut finer = given.clone();
     finer.numerics.cell_size_m = Some(cell_size_m);
-    match Simulation::check(&finer) {
-        Ok(()) => NextRun::Finer(cell_size_m),
+    match PreparedScene::of(&finer) {
+        Ok(_) => NextRun::Finer(cell_size_m),
         Err(error) => NextRun::GiveUp(error.to_string()),
     }
 }

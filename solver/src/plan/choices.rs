@@ -2,7 +2,7 @@
 
 use crate::contact::island;
 use crate::scenario::{Ending, Scenario};
-use crate::simulation::Outline;
+use crate::simulation::PreparedScene;
 use serde::{Deserialize, Serialize};
 
 /// Exact except for the order in which sums are rounded.
@@ -24,14 +24,15 @@ pub struct Choice {
 }
 
 /// All choices for a scenario.
-pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Vec<Choice> {
+pub(super) fn of(prepared: &PreparedScene) -> Vec<Choice> {
+    let scenario = &prepared.scenario;
     vec![
-        mirror(outline),
-        slab(outline),
-        no_bodies(outline),
-        asleep(outline),
-        stiffness(scenario, outline),
-        blocks(outline),
+        mirror(prepared),
+        slab(prepared),
+        no_bodies(prepared),
+        asleep(prepared),
+        stiffness(prepared),
+        blocks(prepared),
         ending(scenario),
     ]
 }
@@ -51,8 +52,8 @@ fn choice(
     }
 }
 
-fn mirror(outline: &Outline) -> Choice {
-    let found = outline.reductions.mirror.clone();
+fn mirror(prepared: &PreparedScene) -> Choice {
+    let found = prepared.reductions.mirror.clone();
     let why = "flow and bodies are symmetric about the centre plane";
     choice(
         "half of the flow is computed, the other half is its mirror image",
@@ -62,8 +63,8 @@ fn mirror(outline: &Outline) -> Choice {
     )
 }
 
-fn slab(outline: &Outline) -> Choice {
-    let found = outline.reductions.slab.clone();
+fn slab(prepared: &PreparedScene) -> Choice {
+    let found = prepared.reductions.slab.clone();
     let why = "the side walls are smooth, and nothing varies across until the flow nears a body";
     choice(
         "the flow begins as a slab of one cell",
@@ -73,8 +74,8 @@ fn slab(outline: &Outline) -> Choice {
     )
 }
 
-fn no_bodies(outline: &Outline) -> Choice {
-    let found = match outline.bodies.len() {
+fn no_bodies(prepared: &PreparedScene) -> Choice {
+    let found = match prepared.bodies.len() {
         0 => Ok("there are no bodies".to_owned()),
         1 => Err("there is a body".to_owned()),
         more => Err(format!("there are {more} bodies")),
@@ -82,9 +83,9 @@ fn no_bodies(outline: &Outline) -> Choice {
     choice("no contacts are looked for", "exact", None, found)
 }
 
-fn asleep(outline: &Outline) -> Choice {
-    let mut bodies = outline.bodies.clone();
-    island::hold(&mut bodies, &outline.given.gravity);
+fn asleep(prepared: &PreparedScene) -> Choice {
+    let mut bodies = prepared.bodies.clone();
+    island::hold(&mut bodies, &prepared.given.gravity);
     let held = bodies.iter().filter(|body| body.is_held()).count();
     let found = match held {
         0 => Err("no free body is held by the walls alone".to_owned()),
@@ -99,13 +100,14 @@ fn asleep(outline: &Outline) -> Choice {
     )
 }
 
-fn stiffness(scenario: &Scenario, outline: &Outline) -> Choice {
+fn stiffness(prepared: &PreparedScene) -> Choice {
+    let scenario = &prepared.scenario;
     let given = scenario.numerics.sound_speed_m_s.is_some();
     let modulus = scenario
         .flow
         .as_ref()
         .and_then(|flow| flow.material.youngs_modulus_pa);
-    let found = match &outline.given.flow {
+    let found = match &prepared.given.flow {
         None => Err("there is no flow".to_owned()),
         Some(flow) if given || modulus.is_some() => Err(format!(
             "the stiffness is given: where the flow or a body presses hardest, density \
@@ -127,8 +129,8 @@ fn stiffness(scenario: &Scenario, outline: &Outline) -> Choice {
     )
 }
 
-fn blocks(outline: &Outline) -> Choice {
-    let found = match outline.columns {
+fn blocks(prepared: &PreparedScene) -> Choice {
+    let found = match prepared.columns {
         Some(_) => Ok("a node without points near it does nothing"),
         None => Err("there is no flow: there are neither points nor nodes"),
     };

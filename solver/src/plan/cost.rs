@@ -7,8 +7,8 @@ use crate::mpm::chunk::Chunk;
 use crate::mpm::lanes::Real;
 use crate::mpm::nodes::NodeBlock;
 use crate::mpm::rows::Tile;
-use crate::scenario::{Ending, Precision, Scenario};
-use crate::simulation::{Columns, Outline, Share};
+use crate::scenario::{Ending, Precision};
+use crate::simulation::{Columns, PreparedScene, Share};
 use crate::stability::Limits;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -53,23 +53,25 @@ pub struct Stage {
 
 impl Cost {
     /// The cost of a scene: equations 25–27 at the expected speed (31).
-    pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Self {
-        let points = outline.columns.map_or(0, |columns| columns.points());
-        let (substeps, steps) = steps(outline, points);
-        let course = Course::of(scenario, outline);
+    /// Cost of a prepared scene's run.
+    pub fn of(prepared: &PreparedScene) -> Self {
+        let scenario = &prepared.scenario;
+        let points = prepared.columns.map_or(0, |columns| columns.points());
+        let (substeps, steps) = steps(prepared, points);
+        let course = Course::of(prepared);
         let expected_end_s = match scenario.numerics.ending {
             Ending::Auto => course.rests.min(scenario.duration_s),
             Ending::Full => scenario.duration_s,
         };
-        let stages = stages(outline, &course, substeps, expected_end_s);
+        let stages = stages(prepared, &course, substeps, expected_end_s);
         let last = stages.last().map_or(points, |stage| stage.points);
         Self {
-            cell_size_m: outline.given.lattice.spacing.x,
+            cell_size_m: prepared.given.lattice.spacing.x,
             points,
             substeps,
             steps,
             point_steps: stages.iter().map(|of| of.points * of.substeps).sum(),
-            memory_bytes: memory(scenario, outline, points, last),
+            memory_bytes: memory(prepared, points, last),
             expected_end_s,
             stages,
         }
@@ -77,26 +79,26 @@ impl Cost {
 }
 
 /// Stages, with their parts of this number of sub-steps.
-fn stages(outline: &Outline, course: &Course, substeps: u64, end: f64) -> Vec<Stage> {
-    let duration = outline.given.timing.duration;
+fn stages(prepared: &PreparedScene, course: &Course, substeps: u64, end: f64) -> Vec<Stage> {
+    let duration = prepared.given.timing.duration;
     let within = |from: f64, to: f64| {
         let share = (to - from).max(0.0) / duration.max(f64::MIN_POSITIVE);
         (substeps as f64 * share).round() as u64
     };
     let stage = |share: Share, from: f64, to: f64| {
-        let halves = outline.given.walls.vertical_walls.halves_across;
+        let halves = prepared.given.walls.vertical_walls.halves_across;
         let rows = |columns: &Columns| u64::from(share.rows_across(columns, halves));
         let of_row = |columns: &Columns| columns.points() / u64::from(columns.count[1]);
         Stage {
             share,
-            points: outline
+            points: prepared
                 .columns
                 .map_or(0, |columns| of_row(&columns) * rows(&columns)),
             substeps: within(from, to),
             expected_substeps: within(from.min(end), to.min(end)),
         }
     };
-    match &outline.reductions.shares {
+    match &prepared.reductions.shares {
         None => vec![stage(Share::Whole, 0.0, duration)],
         Some(shares) if shares.first == shares.last => vec![stage(shares.last, 0.0, duration)],
         Some(shares) => {
@@ -111,13 +113,13 @@ fn stages(outline: &Outline, course: &Course, substeps: u64, end: f64) -> Vec<St
 }
 
 /// Sub-steps and steps of the whole duration.
-fn steps(outline: &Outline, points: u64) -> (u64, u64) {
-    let duration = outline.given.timing.duration;
-    let flow = outline.given.flow.as_ref().filter(|_| points > 0);
+fn steps(prepared: &PreparedScene, points: u64) -> (u64, u64) {
+    let duration = prepared.given.timing.duration;
+    let flow = prepared.given.flow.as_ref().filter(|_| points > 0);
     let Some(flow) = flow else {
         return over(duration, METHOD.time_step.without_flow, 1.0);
     };
-    let longest = longest_substep(&flow.limits).min(flow.contact_substep(&outline.bodies));
+    let longest = longest_substep(&flow.limits).min(flow.contact_substep(&prepared.bodies));
     let allowed = flow.limits.substeps_per_step(longest, flow.limits.slow);
     over(duration, longest, allowed)
 }
@@ -134,10 +136,11 @@ fn over(duration: f64, longest: f64, per_step: f64) -> (u64, u64) {
 }
 
 /// Memory of so many points, of which so many are computed [bytes].
-fn memory(scenario: &Scenario, outline: &Outline, points: u64, computed: u64) -> u64 {
-    let cells = 0.5 * f64::from(outline.given.walls.vertical_walls.halves_across);
+fn memory(prepared: &PreparedScene, points: u64, computed: u64) -> u64 {
+    let scenario = &prepared.scenario;
+    let cells = 0.5 * f64::from(prepared.given.walls.vertical_walls.halves_across);
     let share = computed as f64 / points.max(1) as f64;
-    let blocks = Blocks::of_release(scenario, outline, share * cells);
+    let blocks = Blocks::of_release(prepared, share * cells);
     let of_precision = match scenario.numerics.precision {
         Precision::Single => memory_of::<f32>,
         Precision::Double => memory_of::<f64>,
@@ -163,14 +166,15 @@ struct Blocks {
 
 impl Blocks {
     /// Blocks occupied by so many cells across of the release, and blocks in reach of its kernels.
-    fn of_release(scenario: &Scenario, outline: &Outline, cells_across: f64) -> Self {
-        let (Some(release), Some(columns)) = (scenario.release(), outline.columns) else {
+    fn of_release(prepared: &PreparedScene, cells_across: f64) -> Self {
+        let scenario = &prepared.scenario;
+        let (Some(release), Some(columns)) = (scenario.release(), prepared.columns) else {
             return Self {
                 of_points: 0.0,
                 of_nodes: 0.0,
             };
         };
-        let lattice = &outline.given.lattice;
+        let lattice = &prepared.given.lattice;
         // A block's points lie from half a cell on to half a cell beyond it.
         let block = |place: f64, axis: usize| {
             let cells = (place - lattice.origin[axis]) / lattice.spacing[axis];
@@ -179,7 +183,7 @@ impl Blocks {
         let mut heights: BTreeMap<i64, (i64, i64)> = BTreeMap::new();
         for i in 0..columns.count[0] {
             let x = release.back_m + (f64::from(i) + 0.5) * columns.spacing.x;
-            let bed = outline.given.walls.bed.elevation(x, 0.0);
+            let bed = prepared.given.walls.bed.elevation(x, 0.0);
             let (low, high) = (block(bed, 2), block(bed + release.vertical_thickness_m, 2));
             let known = heights.entry(block(x, 0)).or_insert((low, high));
             *known = (known.0.min(low), known.1.max(high));

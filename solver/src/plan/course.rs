@@ -3,7 +3,7 @@
 use crate::bed::Bed;
 use crate::rigid::Body;
 use crate::scenario::Scenario;
-use crate::simulation::Outline;
+use crate::simulation::PreparedScene;
 
 /// Acceleration of a collapsing front, over gravity.
 const COLLAPSE: f64 = 0.25;
@@ -23,7 +23,8 @@ pub(super) struct Course {
 
 impl Course {
     /// Course of a scenario's flow.
-    pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Self {
+    pub(super) fn of(prepared: &PreparedScene) -> Self {
+        let scenario = &prepared.scenario;
         let Some(release) = scenario.release() else {
             return Self {
                 meets_body: f64::INFINITY,
@@ -31,13 +32,13 @@ impl Course {
             };
         };
         let slide = Slide::of(scenario);
-        let front = outline.bodies.iter().map(|body| {
+        let front = prepared.bodies.iter().map(|body| {
             let back = body.state.position.x - body.shape.bounding_radius();
-            back - 3.5 * outline.given.lattice.spacing.x - release.front_m
+            back - 3.5 * prepared.given.lattice.spacing.x - release.front_m
         });
         let way = front.fold(f64::INFINITY, f64::min).max(0.0);
         let rests = slide.rests_after(-release.back_m);
-        let mut prescribed = outline.bodies.iter().filter_map(Body::prescribed);
+        let mut prescribed = prepared.bodies.iter().filter_map(Body::prescribed);
         let stirred = prescribed.any(|body| !body.motion.rests_from(rests));
         Self {
             meets_body: slide.front_takes(way),

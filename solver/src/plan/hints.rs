@@ -3,7 +3,7 @@
 use super::cost::longest_substep;
 use crate::bed::Bed;
 use crate::scenario::Scenario;
-use crate::simulation::Outline;
+use crate::simulation::PreparedScene;
 use serde::{Deserialize, Serialize};
 
 /// An inclination below this may have been meant in radians [°].
@@ -23,13 +23,14 @@ pub struct Hint {
 }
 
 /// All hints for a scenario.
-pub(super) fn of(scenario: &Scenario, outline: &Outline) -> Vec<Hint> {
+pub(super) fn of(prepared: &PreparedScene) -> Vec<Hint> {
+    let scenario = &prepared.scenario;
     let hints = [
         inclination_in_radians(scenario),
-        thin_bodies(scenario, outline),
+        thin_bodies(prepared),
         unreached_bodies(scenario),
-        light_bodies(scenario, outline),
-        cells_by_target(scenario, outline),
+        light_bodies(prepared),
+        cells_by_target(prepared),
     ];
     hints.into_iter().flatten().collect()
 }
@@ -54,9 +55,10 @@ fn inclination_in_radians(scenario: &Scenario) -> Option<Hint> {
 }
 
 /// Bodies thinner than a cell, which the flow hardly resolves.
-fn thin_bodies(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
-    outline.columns?;
-    let cell = outline.given.lattice.spacing.x;
+fn thin_bodies(prepared: &PreparedScene) -> Option<Hint> {
+    let scenario = &prepared.scenario;
+    prepared.columns?;
+    let cell = prepared.given.lattice.spacing.x;
     let width = |body: usize| scenario.shape_of(body).least_width();
     let thin = bodies(scenario).filter(|body| width(*body) < cell);
     let thin: Vec<usize> = thin.collect();
@@ -98,17 +100,18 @@ fn unreached_bodies(scenario: &Scenario) -> Option<Hint> {
 }
 
 /// Bodies so light that their contacts with the flow take short sub-steps (equation 26).
-fn light_bodies(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
-    outline.columns.filter(|columns| columns.points() > 0)?;
-    let flow = outline.given.flow.as_ref()?;
+fn light_bodies(prepared: &PreparedScene) -> Option<Hint> {
+    let scenario = &prepared.scenario;
+    prepared.columns.filter(|columns| columns.points() > 0)?;
+    let flow = prepared.given.flow.as_ref()?;
     let own = longest_substep(&flow.limits);
-    let taken = |body: usize| own / flow.contact_substep(&outline.bodies[body..=body]);
+    let taken = |body: usize| own / flow.contact_substep(&prepared.bodies[body..=body]);
     let light: Vec<usize> = bodies(scenario)
         .filter(|body| taken(*body) > MANY_TIMES)
         .collect();
     let lightest = light.iter().copied();
     let lightest = lightest.max_by(|a, b| taken(*a).total_cmp(&taken(*b)))?;
-    let duration = outline.given.timing.duration;
+    let duration = prepared.given.timing.duration;
     let detail = format!(
         "{} light against the flow: with a density of {} kg/m³, where the bulk has {}, body \
          {lightest} alone takes {:.0} sub-steps instead of {:.0} (equation 26)",
@@ -122,9 +125,10 @@ fn light_bodies(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
 }
 
 /// Cells of a plan that differ from those of the run.
-fn cells_by_target(scenario: &Scenario, outline: &Outline) -> Option<Hint> {
+fn cells_by_target(prepared: &PreparedScene) -> Option<Hint> {
+    let scenario = &prepared.scenario;
     let (target, quantity) = scenario.accuracy.goal()?;
-    let cell = outline.given.lattice.spacing.x;
+    let cell = prepared.given.lattice.spacing.x;
     let detail = format!(
         "the target of {target} for {} chooses the cells, by its first runs: this cost is that \
          of the cells a run without a target takes ({cell:.4} m)",

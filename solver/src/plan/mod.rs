@@ -12,7 +12,7 @@ pub use hints::Hint;
 
 use crate::error::SetupError;
 use crate::scenario::Scenario;
-use crate::simulation::Outline;
+use crate::simulation::PreparedScene;
 use serde::{Deserialize, Serialize};
 
 /// Plan of a run: the parts computed and left out with reasons, the cost, and probable
@@ -33,19 +33,15 @@ impl Plan {
     /// # Errors
     /// Too many points for one run, or a requested reduction that the scene does not allow.
     pub fn new(scenario: &Scenario) -> Result<Self, SetupError> {
-        let outline = Outline::of(scenario)?;
-        Ok(Self {
-            choices: choices::of(scenario, &outline),
-            hints: hints::of(scenario, &outline),
-            cost: Cost::of(scenario, &outline),
-        })
+        Ok(Self::of(&PreparedScene::of(scenario)?))
     }
-}
 
-/// Cost of a scenario's run.
-///
-/// # Errors
-/// As for [`Plan::new`].
-pub fn cost(scenario: &Scenario) -> Result<Cost, SetupError> {
-    Ok(Cost::of(scenario, &Outline::of(scenario)?))
+    /// Plan of a prepared scene's run.
+    pub fn of(prepared: &PreparedScene) -> Self {
+        Self {
+            choices: choices::of(prepared),
+            hints: hints::of(prepared),
+            cost: Cost::of(prepared),
+        }
+    }
 }

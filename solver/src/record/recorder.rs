@@ -11,7 +11,7 @@ use super::{BodyOutcome, Conservation, Cost, FlowSnapshot, Outcome, Record, Samp
 use crate::plan::Plan;
 use crate::rigid::Body;
 use crate::scenario::{Ending, Scenario};
-use crate::simulation::{Simulation, SubstepReport};
+use crate::simulation::{PreparedScene, Simulation, SubstepReport};
 use serde::{Deserialize, Serialize};
 
 /// Size of a scene without flow or bodies [m].
@@ -41,8 +41,9 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// A recorder for this scenario.
-    pub fn new(scenario: &Scenario) -> Self {
+    /// A recorder for the run of a prepared scene.
+    pub fn of(prepared: &PreparedScene) -> Self {
+        let scenario = &prepared.scenario;
         Self {
             histories: Vec::new(),
             sampling: Sampling::of(scenario),
@@ -54,8 +55,7 @@ impl Recorder {
             ending: scenario.numerics.ending,
             scale: Scale::of(size(scenario), scenario.gravity_m_s2),
             next_look: 0.0,
-            // A scenario without a plan can't be set up either.
-            plan: Plan::new(scenario).ok(),
+            plan: Some(Plan::of(prepared)),
             ended_early: None,
         }
     }

@@ -118,7 +118,13 @@ impl Body {
         }
         let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_deg.to_radians());
         let [x, y] = self.position.in_plane();
-        channel.bed().tilt(x, y) * yaw
+        let tilt = channel.bed().tilt(x, y);
+        // Zeros keep their signs.
+        if tilt == UnitQuaternion::identity() {
+            yaw
+        } else {
+            tilt * yaw
+        }
     }
 
     /// Pose at the start; without an elevation the body is lowered until it

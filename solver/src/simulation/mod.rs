@@ -32,7 +32,9 @@ use std::sync::Arc;
 
 pub use clock::Timing;
 pub use guards::Guards;
-pub use setup::{Columns, Expected, GivenFlow, Outline, Reductions, Scene, Setup, Share, Shares};
+pub use setup::{
+    Columns, Expected, GivenFlow, PreparedScene, Reductions, Scene, Setup, Share, Shares,
+};
 pub use stages::{StageTimer, StepStage};
 
 /// A run in progress: its set-up, state and scratch memory.
@@ -111,9 +113,18 @@ impl Simulation {
     /// Sets up a scenario on `threads` solver threads.
     ///
     /// # Errors
-    /// Too many points for one run, or threads that can't be started.
+    /// Too many points for one run, a reduction that the scene does not allow, or threads that
+    /// can't be started.
     pub fn new(scenario: &Scenario, threads: usize) -> Result<Self, SetupError> {
-        Self::of_scene(Scene::of(scenario)?, threads)
+        Self::of(PreparedScene::of(scenario)?, threads)
+    }
+
+    /// Sets up a prepared scene on `threads` solver threads.
+    ///
+    /// # Errors
+    /// Threads that can't be started.
+    pub fn of(prepared: PreparedScene, threads: usize) -> Result<Self, SetupError> {
+        Self::of_scene(prepared.scene(), threads)
     }
 
     /// Sets up a scene on `threads` solver threads. Only a scenario's scene can be restored once
@@ -128,25 +139,6 @@ impl Simulation {
         simulation.state.clock.volume_left_out = scene.volume_left_out;
         simulation.start_audit();
         Ok(simulation)
-    }
-
-    /// Checks that a scenario can be set up, without doing it.
-    ///
-    /// # Errors
-    /// Too many points for one run.
-    pub fn check(scenario: &Scenario) -> Result<(), SetupError> {
-        Outline::of(scenario).map(drop)
-    }
-
-    /// Cell size [m] and √(K/ρ) [m/s] of a scenario's run, automatic choices made; no sound speed
-    /// without a flow.
-    ///
-    /// # Errors
-    /// Too many points for one run.
-    pub fn resolution(scenario: &Scenario) -> Result<(f64, Option<f64>), SetupError> {
-        let given = Outline::of(scenario)?.given;
-        let sound_speed_m_s = given.flow.map(|flow| flow.limits.sound_speed);
-        Ok((given.lattice.spacing.x, sound_speed_m_s))
     }
 
     fn assemble(

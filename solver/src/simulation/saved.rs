@@ -2,7 +2,7 @@
 
 use super::clock::Clock;
 use super::flow::SavedFlow;
-use super::setup::Outline;
+use super::setup::PreparedScene;
 use super::{Simulation, start_threads};
 use crate::body_energy::BodyEnergy;
 use crate::contact::body_body::ContactPair;
@@ -60,14 +60,14 @@ pub(super) fn restore(
         });
     }
     let pool = start_threads(threads).map_err(|error| unreadable(error.to_string()))?;
-    let outline = Outline::of(scenario).map_err(|error| unreadable(error.to_string()))?;
-    let (given, bodies) = (outline.given, outline.bodies);
+    let prepared = PreparedScene::of(scenario).map_err(|error| unreadable(error.to_string()))?;
+    let (given, bodies) = (prepared.given, prepared.bodies);
     if bodies.len() != saved.bodies.len() {
         return Err(RestoreError::OtherScenario {
             what: "the number of bodies",
         });
     }
-    let flow = saved.flow.restored(&given, outline.reductions.shares);
+    let flow = saved.flow.restored(&given, prepared.reductions.shares);
     let mut simulation = Simulation::assemble(given, flow, bodies, pool);
     for (body, state) in simulation.state.bodies.iter_mut().zip(saved.bodies) {
         body.state = state;

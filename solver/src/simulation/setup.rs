@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 mod bodies;
 mod flow;
+mod prepared;
 mod reductions;
 mod release;
 mod resolution;
@@ -24,11 +25,10 @@ mod settle;
 mod share;
 mod symmetry;
 
-use bodies::bodies;
 pub use flow::GivenFlow;
+pub use prepared::PreparedScene;
 pub use reductions::Reductions;
 pub use release::Columns;
-use resolution::Crowd;
 pub use resolution::Expected;
 pub use share::{Share, Shares};
 pub(super) use symmetry::near_body;
@@ -76,60 +76,13 @@ pub struct Setup {
     pub guards: Guards,
 }
 
-/// A scene without its points: all that is known of a run before its set-up.
-#[derive(Debug)]
-pub struct Outline {
-    /// Constant set-up.
-    pub given: Setup,
-    /// The bodies at the start.
-    pub bodies: Vec<Body>,
-    /// Columns of points that the release is divided into; `None` without a flow.
-    pub columns: Option<Columns>,
-    /// Reductions of the computation.
-    pub reductions: Reductions,
-}
-
-impl Outline {
-    /// The outline of a scenario's scene.
-    ///
-    /// # Errors
-    /// Too many points for one run, or a reduction that the scene does not allow.
-    pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
-        let mut outline = Self::whole(scenario)?;
-        outline.reductions = Reductions::of(
-            scenario,
-            &outline.given,
-            outline.columns.as_ref(),
-            &outline.bodies,
-        )?;
-        outline.reductions.confine(&mut outline.bodies);
-        Ok(outline)
-    }
-
-    /// The outline of a scenario's scene that is computed as a whole, whatever the scenario says.
-    ///
-    /// # Errors
-    /// Too many points for one run.
-    pub fn whole(scenario: &Scenario) -> Result<Self, SetupError> {
-        let crowd = Crowd::of(scenario);
-        let expected = resolution::expected(scenario, &crowd);
-        let (given, columns) = Setup::of(scenario, expected)?;
-        Ok(Self {
-            bodies: bodies(scenario, &given, &crowd, &expected),
-            given,
-            columns,
-            reductions: Reductions::none(),
-        })
-    }
-}
-
 impl Scene {
     /// The scene of a scenario, with the reductions of its numerics.
     ///
     /// # Errors
     /// Too many points for one run, or a reduction that the scene does not allow.
     pub fn of(scenario: &Scenario) -> Result<Self, SetupError> {
-        Ok(Self::within(scenario, Outline::of(scenario)?))
+        Ok(PreparedScene::of(scenario)?.scene())
     }
 
     /// The scene of a scenario, computed as a whole: it can be changed by hand without its
@@ -138,24 +91,7 @@ impl Scene {
     /// # Errors
     /// Too many points for one run.
     pub fn whole(scenario: &Scenario) -> Result<Self, SetupError> {
-        Ok(Self::within(scenario, Outline::whole(scenario)?))
-    }
-
-    fn within(scenario: &Scenario, outline: Outline) -> Self {
-        let share = outline.reductions.first_share();
-        let (given, bodies) = (outline.given, outline.bodies);
-        let (points, volume_left_out) = match outline.columns {
-            Some(columns) => columns.release(scenario, &given, &bodies, share),
-            None => (Vec::new(), 0.0),
-        };
-        Self {
-            given,
-            bodies,
-            points,
-            precision: scenario.numerics.precision,
-            volume_left_out,
-            shares: outline.reductions.shares,
-        }
+        Ok(PreparedScene::whole(scenario)?.scene())
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::scenes::Scene;
 use scree_solver::record::{BodyOutcome, Recorder};
+use scree_solver::simulation::PreparedScene;
 use scree_solver::{Ending, Simulation};
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -26,7 +27,7 @@ fn struck(length: f64) -> (f64, BodyOutcome) {
         .lasting(1.5 * length.sqrt())
         .scenario();
     let mut simulation = Simulation::new(&scenario, 1).expect("the scene fits");
-    let mut recorder = Recorder::new(&scenario);
+    let mut recorder = Recorder::of(&PreparedScene::of(&scenario).expect("it fits"));
     recorder.start(&simulation);
     let ending = simulation.run(f64::INFINITY, |simulation, report| {
         recorder.observe(simulation, report);

@@ -2,6 +2,7 @@
 
 use crate::scenes::{Scene, run, watch};
 use scree_solver::record::Recorder;
+use scree_solver::simulation::PreparedScene;
 use scree_solver::{SaveError, StepError};
 use serde_json::json;
 
@@ -11,7 +12,7 @@ fn a_run_of_no_duration_is_its_start() {
     let simulation = scene.finished();
     assert_eq!(simulation.time_s(), 0.0);
     assert_eq!(simulation.counts(), (0, 0, 0));
-    let mut recorder = Recorder::new(&scene.scenario());
+    let mut recorder = Recorder::of(&PreparedScene::of(&scene.scenario()).expect("it fits"));
     assert_eq!(
         recorder.start(&simulation).len(),
         2,
@@ -38,7 +39,8 @@ fn nothing_at_all_runs_to_its_end() {
     let scene = Scene::channel(35.0, 1.0, 1.0, 0.2).lasting(0.5);
     let simulation = scene.finished();
     assert_eq!(simulation.time_s(), 0.5);
-    let outcome = Recorder::new(&scene.scenario()).outcome(&simulation, 1.0);
+    let outcome = Recorder::of(&PreparedScene::of(&scene.scenario()).expect("it fits"))
+        .outcome(&simulation, 1.0);
     assert!(outcome.bodies.is_empty());
     assert_eq!(outcome.flow.front_m, None);
 }

@@ -1,7 +1,7 @@
 //! The plan of a run against the run.
 
 use crate::scenes::{PRECISIONS, Scene, run};
-use scree_solver::plan;
+use scree_solver::Plan;
 use serde_json::json;
 
 /// Scenes of different kinds: a cube struck, a flow only, bodies only.
@@ -20,7 +20,7 @@ fn scenes() -> [Scene; 4] {
 fn points_and_steps_are_as_many_as_foretold() {
     for scene in scenes() {
         let simulation = scene.finished();
-        let foretold = plan::cost(&scene.scenario()).expect("the scene fits");
+        let foretold = Plan::new(&scene.scenario()).expect("the scene fits").cost;
         let (steps, substeps, point_steps) = simulation.counts();
         println!("{foretold:?}; {steps} steps, {substeps} sub-steps, {point_steps} point-steps");
         assert_eq!(foretold.points, simulation.released_points());
@@ -37,7 +37,7 @@ fn memory_is_about_as_much_as_foretold() {
     for precision in PRECISIONS {
         let scene = Scene::impact().precision(precision).lasting(0.5);
         let mut simulation = scene.start();
-        let foretold = plan::cost(&scene.scenario()).expect("the scene fits");
+        let foretold = Plan::new(&scene.scenario()).expect("the scene fits").cost;
         let mut most = 0;
         for tenths in 1..=5 {
             run(&mut simulation, f64::from(tenths) / 10.0);

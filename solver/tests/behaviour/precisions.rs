@@ -3,6 +3,7 @@
 use crate::scenes::{Scene, run};
 use scree_solver::math::Vec3;
 use scree_solver::record::Recorder;
+use scree_solver::simulation::PreparedScene;
 use scree_solver::{Instructions, Simulation};
 
 /// A channel with a cube, on cells a little smaller than it.
@@ -11,7 +12,8 @@ fn coarse() -> Scene {
 }
 
 fn front_m(scene: &Scene, simulation: &Simulation) -> f64 {
-    let outcome = Recorder::new(&scene.scenario()).outcome(simulation, 1.0);
+    let outcome = Recorder::of(&PreparedScene::of(&scene.scenario()).expect("it fits"))
+        .outcome(simulation, 1.0);
     outcome.flow.front_m.expect("there is a flow")
 }
 

@@ -4,7 +4,7 @@
 use crate::scenes::{PRECISIONS, Scene, points_by_id, run, watch};
 use scree_solver::math::Vec3;
 use scree_solver::record::Recorder;
-use scree_solver::simulation::{Outline, Scene as SolverScene};
+use scree_solver::simulation::{PreparedScene, Scene as SolverScene};
 use scree_solver::{Simulation, StepError};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -252,7 +252,7 @@ fn no_run_ends_early_while_a_motion_lasts() {
             .set("numerics", "ending", "auto")
             .lasting(3.0);
         let scenario = scene.scenario();
-        let mut recorder = Recorder::new(&scenario);
+        let mut recorder = Recorder::of(&PreparedScene::of(&scenario).expect("it fits"));
         let mut simulation = scene.start();
         recorder.start(&simulation);
         let mut ended = None;
@@ -275,7 +275,7 @@ fn no_run_ends_early_while_a_motion_lasts() {
 fn only_a_motion_in_the_centre_plane_is_mirrored() {
     let reductions = |motion: Value| {
         let scene = Scene::impact().first_body("motion", motion);
-        let outline = Outline::of(&scene.scenario()).expect("the scene fits");
+        let outline = PreparedScene::of(&scene.scenario()).expect("the scene fits");
         outline.reductions
     };
     let in_plane =

@@ -3,6 +3,7 @@
 use scree_solver::Simulation;
 use scree_solver::record::{BodyOutcome, BodySample, Outcome, Record, Recorder};
 use scree_solver::scenario::Scenario;
+use scree_solver::simulation::PreparedScene;
 use serde_json::Value;
 use std::ops::ControlFlow;
 
@@ -19,7 +20,7 @@ impl Told {
         let scenario = Scenario::from_json(&scene.to_string()).expect("it is legal");
         let mut simulation = Simulation::new(&scenario, 1).expect("it fits");
         let start = centre(&simulation);
-        let mut recorder = Recorder::new(&scenario);
+        let mut recorder = Recorder::of(&PreparedScene::of(&scenario).expect("it fits"));
         let mut records = recorder.start(&simulation);
         let run = simulation.run(f64::INFINITY, |simulation, report| {
             records.extend(recorder.observe(simulation, report));

@@ -3,6 +3,7 @@
 use crate::scenes::{PRECISIONS, Scene, points_by_id};
 use scree_solver::record::{BodySample, Outcome, Record, Recorder};
 use scree_solver::scenario::Scenario;
+use scree_solver::simulation::PreparedScene;
 use scree_solver::{Ending, Simulation};
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -21,7 +22,7 @@ struct Shown {
 /// Runs a scenario, saved to bytes and restored at these times [s].
 fn shown(scenario: &Scenario, moved_at: &[f64]) -> Shown {
     let mut simulation = Simulation::new(scenario, 1).expect("the scene fits");
-    let mut recorder = Recorder::new(scenario);
+    let mut recorder = Recorder::of(&PreparedScene::of(scenario).expect("it fits"));
     let mut records = recorder.start(&simulation);
     for until in moved_at.iter().chain([&f64::INFINITY]) {
         let ending = simulation.run(*until, |simulation, report| {

@@ -3,6 +3,7 @@
 use crate::scenes::Scene;
 use scree_solver::Simulation;
 use scree_solver::record::{BodyOutcome, BodySample, Mode, Record, Recorder};
+use scree_solver::simulation::PreparedScene;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 
@@ -16,7 +17,7 @@ fn told(scene: &Scene) -> (Vec<Mode>, BodyOutcome) {
 fn sampled(scene: &Scene) -> (Vec<BodySample>, BodyOutcome) {
     let scenario = scene.scenario();
     let mut simulation = Simulation::new(&scenario, 1).expect("the scene fits");
-    let mut recorder = Recorder::new(&scenario);
+    let mut recorder = Recorder::of(&PreparedScene::of(&scenario).expect("it fits"));
     let mut records = recorder.start(&simulation);
     simulation
         .run(f64::INFINITY, |simulation, report| {

@@ -8,6 +8,7 @@ use crate::cli::failure::{Failure, not_set_up};
 use crate::cli::machine::cores;
 use scree::jobs::forecast::{ForecastError, forecast};
 use scree_solver::scenario::Scenario;
+use scree_solver::simulation::PreparedScene;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -96,7 +97,8 @@ impl Foretold {
         let (mut expected, mut took) = (Vec::new(), Vec::new());
         let (mut points, mut expected_end_s, mut ended_s) = (0, 0.0, 0.0);
         for _ in 0..repeats {
-            let planned = forecast(&scenario, cores()).map_err(|error| match error {
+            let prepared = PreparedScene::of(&scenario).map_err(|error| not_set_up(&error))?;
+            let planned = forecast(&prepared, cores()).map_err(|error| match error {
                 ForecastError::Setup(error) => not_set_up(&error),
                 ForecastError::Step(error) => Failure::Numerical(error.to_string()),
             })?;

@@ -19,8 +19,8 @@ fn hints(changes: &[(&str, Value)]) -> Vec<(String, String)> {
         scene.pointer_mut(parent).expect("such a parent")[key] = value.clone();
     }
     let scenario = Scenario::from_value(&scene).unwrap_or_else(|error| panic!("{error:?}"));
-    let outline = Outline::of(&scenario).expect("it fits");
-    let found = of(&scenario, &outline);
+    let prepared = PreparedScene::of(&scenario).expect("it fits");
+    let found = of(&prepared);
     found
         .into_iter()
         .map(|hint| (hint.field, hint.detail))
@@ -100,7 +100,9 @@ fn a_body_so_light_that_it_takes_more_sub_steps_is_told() {
     let scenario = |density: f64| {
         let mut scene = scene();
         scene["bodies"][0]["density_kg_m3"] = json!(density);
-        crate::plan::cost(&Scenario::from_value(&scene).expect("legal")).expect("it fits")
+        crate::Plan::new(&Scenario::from_value(&scene).expect("legal"))
+            .expect("it fits")
+            .cost
     };
     let (light, heavy) = (scenario(2.0).substeps, scenario(2500.0).substeps);
     let told = format!("{light} sub-steps instead of {heavy}");

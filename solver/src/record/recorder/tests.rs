@@ -1,5 +1,6 @@
 use super::*;
 use crate::record::SNAPSHOT_POINTS;
+use crate::simulation::PreparedScene;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 
@@ -16,7 +17,7 @@ fn scenario(change: impl FnOnce(&mut Value)) -> Scenario {
 
 fn records_of(scenario: &Scenario) -> (Vec<Record>, Simulation, Recorder) {
     let mut simulation = Simulation::new(scenario, 1).expect("it fits");
-    let mut recorder = Recorder::new(scenario);
+    let mut recorder = Recorder::of(&PreparedScene::of(scenario).expect("it fits"));
     let mut records = recorder.start(&simulation);
     simulation
         .run(f64::INFINITY, |simulation, report| {

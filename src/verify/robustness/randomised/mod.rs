@@ -11,7 +11,7 @@ use super::trial::{self, Ended, Trial, TrialReport};
 use crate::verify::dice::Dice;
 use crate::verify::on_all_cores::side_by_side;
 use crate::verify::run::scenario_of;
-use scree_solver::Simulation;
+use scree_solver::simulation::PreparedScene;
 use serde::Serialize;
 use serde_json::Value;
 use std::sync::Mutex;
@@ -90,7 +90,7 @@ pub fn scenario(field: Field, seed: u64) -> Option<(Value, u64)> {
             Field::Everything => draw::scenario(&mut dice),
             Field::BodiesAlone => bodies_alone::scenario(&mut dice),
         };
-        let legal = scenario_of(&drawn).is_ok_and(|scenario| Simulation::check(&scenario).is_ok());
+        let legal = scenario_of(&drawn).is_ok_and(|scenario| PreparedScene::of(&scenario).is_ok());
         let small = field == Field::BodiesAlone || draw::is_small(&drawn);
         if legal && small {
             return Some((drawn, u64::from(refused)));
