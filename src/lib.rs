@@ -3,7 +3,7 @@
 //!
 //! Structure: [`service::start`] binds the address, opens the database
 //! and starts the workers; [`http`] receives jobs and returns results;
-//! [`jobs`] keeps them in the database and runs them; [`results`] converts the records of a
+//! [`jobs`] keeps them in the database; [`runs`] computes a scenario; [`results`] converts the records of a
 //! run into stored and served forms; [`pictures`] draws them. Separately,
 //! [`verify`] compares the solver with known answers.
 
@@ -12,5 +12,6 @@ pub mod http;
 pub mod jobs;
 pub mod pictures;
 pub mod results;
+pub mod runs;
 pub mod service;
 pub mod verify;

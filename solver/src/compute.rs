@@ -4,7 +4,6 @@ use crate::error::{SetupError, StepError};
 use crate::record::{Outcome, Record, Recorder};
 use crate::scenario::Scenario;
 use crate::simulation::{PreparedScene, Simulation};
-use std::ops::ControlFlow;
 use thiserror::Error;
 
 /// Reason why a scenario could not be computed.
@@ -36,18 +35,9 @@ pub fn compute(
     let mut simulation = Simulation::of(prepared, threads)?;
     recorder.start(&simulation).into_iter().for_each(&mut take);
     simulation.run(f64::INFINITY, |simulation, report| {
-        let records = recorder.observe(simulation, report);
+        let (records, flow) = recorder.watch(simulation, report);
         records.into_iter().for_each(&mut take);
-        if !report.step_ended {
-            return ControlFlow::Continue(());
-        }
-        match recorder.end_early(simulation) {
-            Some(last) => {
-                last.into_iter().for_each(&mut take);
-                ControlFlow::Break(())
-            }
-            None => ControlFlow::Continue(()),
-        }
+        flow
     })?;
     Ok(recorder.outcome(&simulation, 0.0))
 }

@@ -2,7 +2,7 @@
 
 use super::console;
 use indicatif::{ProgressBar, ProgressStyle};
-use scree::jobs::progress::Progress;
+use scree::runs::Progress;
 use std::io::IsTerminal;
 
 /// Positions of the bar.

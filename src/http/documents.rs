@@ -3,7 +3,7 @@
 use super::contract::{OutcomeDocument, PlanDocument, ScenarioDocument};
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
-use crate::jobs::progress::Progress;
+use crate::runs::Progress;
 use jiff::Timestamp;
 use serde::Serialize;
 use serde_json::value::RawValue;

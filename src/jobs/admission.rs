@@ -138,7 +138,7 @@ impl JobService {
     /// # Errors
     /// The store's own.
     pub async fn finished_like(&self, job: &NewJob) -> Result<Option<JobId>, StoreError> {
-        let solver = (job.solver_version, super::saved_run::COMMIT);
+        let solver = (job.solver_version, crate::runs::COMMIT);
         self.store.finished_like(&job.scenario_hash, solver).await
     }
 }

@@ -1,6 +1,6 @@
 //! A job as seen outside the database.
 
-use super::progress::Progress;
+use crate::runs::Progress;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;

@@ -3,11 +3,11 @@
 
 use super::job::JobId;
 use super::lease_heartbeat::LeaseHeartbeat;
-use super::progress::ProgressBoard;
-use super::runner::{Stop, StopFlag};
 use super::store::{JobStore, Lease};
 use super::worker;
 use crate::config::{PoolSize, Queue, Recording, Retention, ServiceConfig};
+use crate::runs::ProgressBoard;
+use crate::runs::{Stop, StopFlag};
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};

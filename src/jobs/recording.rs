@@ -2,13 +2,13 @@
 //! store at intervals, in few large blocks, at times with the run's state.
 
 use super::open_chunk::OpenChunk;
-use super::progress::{Progress, ProgressBoard};
-use super::runner::Sink;
 use super::store::{JobStore, Lease, NewResults, ResumePoint, StoreError, StoredState};
 use crate::config::Recording;
 use crate::results::chunk::BlockError;
 use crate::results::fingerprint::Fingerprint;
 use crate::results::flow::StoredSnapshot;
+use crate::runs::Sink;
+use crate::runs::{Progress, ProgressBoard};
 use scree_solver::record::{Record, Sample};
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -1,14 +1,14 @@
 //! One worker: claims jobs, runs them, and records their ends.
 
-use super::convergence_study::Runs;
 use super::failure::Failure;
 use super::pool::{Equipment, RunningJobGuard};
 use super::recording::{KeepError, StoreSink};
-use super::runner::{Run, RunEnd, RunError, Stop, StopFlag};
-use super::saved_run::{COMMIT, SavedRunError};
 use super::store::{
     AttemptStart, Claim, Claimant, FailedAttempt, Lease, ResumePoint, Solver, StoreError,
 };
+use crate::runs::convergence_study::Runs;
+use crate::runs::{COMMIT, SavedRunError};
+use crate::runs::{Run, RunEnd, RunError, Stop, StopFlag};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
 use scree_solver::{Instructions, SetupError};

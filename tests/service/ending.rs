@@ -1,7 +1,7 @@
 //! Runs that end before their duration, because nothing can move any more.
 
-use scree::jobs::progress::Progress;
-use scree::jobs::runner::{self, RunEnd, Sink, StopFlag};
+use scree::runs::Progress;
+use scree::runs::{RunEnd, Sink, StopFlag, run};
 use scree_solver::record::{Outcome, Record};
 use scree_solver::scenario::Scenario;
 use serde_json::{Value, json};
@@ -37,7 +37,7 @@ fn run(scene: &Value, ending: &str) -> (Outcome, Counted) {
     scene["numerics"]["ending"] = json!(ending);
     let scenario = Scenario::from_json(&scene.to_string()).unwrap();
     let mut sink = Counted::default();
-    match runner::run(&scenario, 1, &StopFlag::default(), &mut sink) {
+    match run::run(&scenario, 1, &StopFlag::default(), &mut sink) {
         Ok(RunEnd::Completed(outcome)) => (*outcome, sink),
         other => panic!("{other:?}"),
     }

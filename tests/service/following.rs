@@ -236,7 +236,7 @@ async fn an_answer_says_what_it_comes_from() {
         "of the scenario as it is shown"
     );
     assert_eq!(provenance["solver_version"], scree_solver::VERSION);
-    assert_eq!(provenance["solver_commit"], scree::jobs::saved_run::COMMIT);
+    assert_eq!(provenance["solver_commit"], scree::runs::COMMIT);
     let instructions = scree_solver::Instructions::detected().to_string();
     assert_eq!(provenance["instructions"], instructions);
     assert_eq!(provenance["threads"], 1);

@@ -1,17 +1,29 @@
 //! Allowed dependencies between layers, checked by the names of the folders: HTTP holds no
-//! SQL, the jobs and their store no HTTP, HTTP accesses the solver only through the jobs,
+//! SQL, the jobs and their store no HTTP, the runs no job, HTTP accesses the solver only through the jobs,
 //! and only the driver's folder names the database.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder of the service, and the names that none of its files may contain.
-const RULES: [(&str, &[&str]); 5] = [
+const RULES: [(&str, &[&str]); 6] = [
     ("src/http", &["sqlx", "scree_solver", "SELECT ", "rayon"]),
     ("src/jobs", &["axum", "hyper", "crate::http"]),
     (
         "src/jobs/store",
         &["tokio::net", "Simulation", "Recorder", "Scenario"],
+    ),
+    (
+        "src/runs",
+        &[
+            "sqlx",
+            "axum",
+            "clap",
+            "tokio",
+            "crate::jobs",
+            "crate::http",
+            "println",
+        ],
     ),
     (
         "src/results",

@@ -1,9 +1,9 @@
 //! The runner, used by the service and the command line.
 
 use crate::app::tiny_scene;
-use scree::jobs::progress::Progress;
-use scree::jobs::runner::{self, RunEnd, RunError, Sink, StopFlag};
 use scree::results::TrajectoryColumns;
+use scree::runs::Progress;
+use scree::runs::{RunEnd, RunError, Sink, StopFlag, run};
 use scree_solver::record::{Record, Sample};
 use scree_solver::scenario::Scenario;
 
@@ -38,7 +38,7 @@ fn run(stop: &StopFlag, room: usize) -> (Result<RunEnd, RunError<&'static str>>,
         kept: Vec::new(),
         room,
     };
-    let ended = runner::run(&scenario, 1, stop, &mut sink);
+    let ended = run::run(&scenario, 1, stop, &mut sink);
     (ended, sink.kept)
 }
 

@@ -1,7 +1,7 @@
 //! Checks that every scenario of the repository can be run.
 
-use scree::jobs::progress::Progress;
-use scree::jobs::runner::{self, RunEnd, Sink, StopFlag};
+use scree::runs::Progress;
+use scree::runs::{RunEnd, Sink, StopFlag, run};
 use scree_solver::record::Record;
 use scree_solver::scenario::Scenario;
 use std::convert::Infallible;
@@ -52,7 +52,7 @@ fn every_shipped_scenario_runs_coarsely() {
         scenario.duration_s = scenario.duration_s.min(LONGEST_RUN_S);
         scenario.numerics.cell_size_m = Some(scenario.channel.width_m / CELLS_ACROSS);
         let mut sink = Collected::default();
-        let ended = runner::run(&scenario, 1, &StopFlag::default(), &mut sink).unwrap();
+        let ended = run::run(&scenario, 1, &StopFlag::default(), &mut sink).unwrap();
         let RunEnd::Completed(outcome) = ended else {
             panic!("{} was stopped", file.display())
         };

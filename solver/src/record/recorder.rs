@@ -13,6 +13,7 @@ use crate::rigid::Body;
 use crate::scenario::{Ending, Scenario};
 use crate::simulation::{PreparedScene, Simulation, SubstepReport};
 use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
 
 /// Size of a scene without flow or bodies [m].
 const SIZE_OF_NOTHING: f64 = 1.0;
@@ -69,6 +70,24 @@ impl Recorder {
             .collect();
         let samples = self.sampling.start(simulation, &self.histories);
         in_order(samples, self.snapshots.due(simulation))
+    }
+
+    /// Adds one sub-step; returns its records (mostly none), and `Break` once nothing can move a
+    /// body or the front any more.
+    pub fn watch(
+        &mut self,
+        simulation: &Simulation,
+        report: &SubstepReport,
+    ) -> (Vec<Record>, ControlFlow<()>) {
+        let mut records = self.observe(simulation, report);
+        let last = report.step_ended.then(|| self.end_early(simulation));
+        match last.flatten() {
+            Some(last) => {
+                records.extend(last);
+                (records, ControlFlow::Break(()))
+            }
+            None => (records, ControlFlow::Continue(())),
+        }
     }
 
     /// Adds one sub-step; returns the records at the end of a step (mostly none).

@@ -6,12 +6,10 @@ use super::stopwatch::median;
 use crate::cli::columns::table;
 use crate::cli::failure::{Failure, not_set_up};
 use crate::cli::machine::cores;
-use scree::jobs::progress::Progress;
-use scree::jobs::runner::{self, RunEnd, RunError, Sink, StopFlag};
-use scree_solver::record::{Outcome, Record};
+use scree::runs::{NoSink, RunEnd, RunError, StopFlag, run};
+use scree_solver::record::Outcome;
 use scree_solver::scenario::{Approach, Ending, Scenario, Symmetry};
 use serde::Serialize;
-use std::convert::Infallible;
 use std::time::Instant;
 
 /// Cell sizes, coarse ones first [m]: two, three and four cells per cube side.
@@ -128,25 +126,10 @@ fn at(cell_size_m: f64, repeats: u32) -> Result<Vec<Saving>, Failure> {
     Ok(outcomes.into_iter().enumerate().map(saving).collect())
 }
 
-/// A sink that keeps nothing.
-struct Nothing;
-
-impl Sink for Nothing {
-    type Error = Infallible;
-
-    fn record(&mut self, _: Record) -> Result<(), Infallible> {
-        Ok(())
-    }
-
-    fn progress(&mut self, _: &Progress) -> Result<(), Infallible> {
-        Ok(())
-    }
-}
-
 /// Runs a scenario as a job would; the time of its set-up is included.
 pub(super) fn timed(scenario: &Scenario, threads: usize) -> Result<(f64, Outcome), Failure> {
     let start = Instant::now();
-    match runner::run(scenario, threads, &StopFlag::default(), &mut Nothing) {
+    match run::run(scenario, threads, &StopFlag::default(), &mut NoSink) {
         Ok(RunEnd::Completed(outcome)) => Ok((start.elapsed().as_secs_f64(), *outcome)),
         Ok(RunEnd::Stopped) => Err(Failure::Other("the run was stopped".to_owned())),
         Err(RunError::Setup(error)) => Err(not_set_up(&error)),

@@ -1,8 +1,8 @@
 //! The service's documents, as the client reads them.
 
 use crate::cli::failure::Failure;
-use scree::jobs::progress::Progress;
 use scree::results::TrajectoryColumns;
+use scree::runs::Progress;
 use scree_solver::record::{FlowSnapshot, Outcome, Sample};
 use scree_solver::scenario::Scenario;
 use serde::Deserialize;

@@ -7,9 +7,9 @@ use super::{
 };
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
-use crate::jobs::progress::Progress;
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
+use crate::runs::Progress;
 use async_trait::async_trait;
 use std::fmt::Debug;
 use std::time::Duration;

@@ -1,10 +1,10 @@
 //! Records of runs, as they are written and read.
 
 use super::StoredState;
-use crate::jobs::progress::Progress;
 use crate::results::chunk::Block;
 use crate::results::columns::TrajectoryColumns;
 use crate::results::flow::StoredSnapshot;
+use crate::runs::Progress;
 
 /// A chunk to be written; it replaces one that begins with the same sample.
 #[derive(Debug, Clone, PartialEq)]

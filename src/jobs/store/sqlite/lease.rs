@@ -6,8 +6,8 @@ use super::error::Answer;
 use super::queue::lease;
 use super::results::keep_progress;
 use crate::jobs::job::JobStatus;
-use crate::jobs::progress::Progress;
 use crate::jobs::store::{FailedAttempt, Lease, Renewal};
+use crate::runs::Progress;
 use std::time::Duration;
 
 impl SqliteStore {

@@ -4,7 +4,6 @@
 use super::SqliteStore;
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
-use crate::jobs::progress::Progress;
 use crate::jobs::store::{
     AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, JobCounts, JobStore, Lease,
     NewResults, Page, Removal, Renewal, Returned, StoreError, StoredChunk, StoredState, Submission,
@@ -12,6 +11,7 @@ use crate::jobs::store::{
 };
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
+use crate::runs::Progress;
 use async_trait::async_trait;
 use std::time::Duration;
 

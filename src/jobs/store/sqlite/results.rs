@@ -5,12 +5,12 @@ use super::error::Answer;
 use super::rows::integer;
 use super::states::write_state;
 use crate::jobs::job::{JobId, JobStatus};
-use crate::jobs::progress::Progress;
 use crate::jobs::store::{Lease, NewChunk, NewResults, StoreError, StoredChunk};
 use crate::results::FlowSnapshot;
 use crate::results::chunk::{self, Block, BlockError};
 use crate::results::columns::{Selection, TrajectoryColumns};
 use crate::results::flow::StoredSnapshot;
+use crate::runs::Progress;
 use sqlx::FromRow;
 use sqlx::sqlite::SqliteConnection;
 

@@ -2,8 +2,8 @@
 
 use super::error::Answer;
 use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
-use crate::jobs::progress::Progress;
 use crate::jobs::store::StoreError;
+use crate::runs::Progress;
 use jiff::Timestamp;
 use serde_json::value::RawValue;
 use sqlx::FromRow;

@@ -13,7 +13,7 @@ pub const COMMIT: &str = env!("BUILD_COMMIT");
 
 /// Cost of a run so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Spent {
+pub(super) struct Spent {
     /// Wall time [s].
     pub wall_s: f64,
     /// Sub-steps summed over the points that took part.
@@ -52,7 +52,7 @@ pub enum SavedRunError {
 ///
 /// # Errors
 /// The simulation is in the middle of a step, or has failed.
-pub fn save(
+pub(super) fn save(
     simulation: &Simulation,
     recorder: &Recorder,
     spent: Spent,
@@ -71,7 +71,7 @@ pub fn save(
 ///
 /// # Errors
 /// The bytes are of another version or another scenario, or no state at all.
-pub fn restore(
+pub(super) fn restore(
     scenario: &Scenario,
     threads: usize,
     bytes: &[u8],

@@ -8,6 +8,7 @@ use scree_solver::record::{Outcome, Record, Recorder};
 use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
 use scree_solver::{Ending, SetupError, Simulation, StepError};
+use std::convert::Infallible;
 use std::sync::atomic::{AtomicU8, Ordering};
 use thiserror::Error;
 
@@ -40,6 +41,22 @@ pub trait Sink: Send {
     /// # Errors
     /// The sink's own; the run ends.
     fn state(&mut self, _time_s: f64, _state: &[u8]) -> Result<(), Self::Error> {
+        Ok(())
+    }
+}
+
+/// A sink that keeps nothing: for the outcome alone.
+#[derive(Debug)]
+pub struct NoSink;
+
+impl Sink for NoSink {
+    type Error = Infallible;
+
+    fn record(&mut self, _: Record) -> Result<(), Infallible> {
+        Ok(())
+    }
+
+    fn progress(&mut self, _: &Progress) -> Result<(), Infallible> {
         Ok(())
     }
 }

@@ -2,7 +2,7 @@
 //! stop.
 
 use super::progress::Progress;
-use super::runner::{Sink, Stop, StopFlag};
+use super::run::{Sink, Stop, StopFlag};
 use super::saved_run::{self, Spent};
 use scree_solver::record::{Outcome, Record, Recorder};
 use scree_solver::{Simulation, SubstepReport};
@@ -64,9 +64,10 @@ impl<'a, S: Sink> Watch<'a, S> {
             return ControlFlow::Break(());
         }
         self.pace.count(report);
-        let mut records = self.recorder.observe(simulation, report);
-        if report.step_ended {
-            records.extend(self.end_early(simulation));
+        let (records, flow) = self.recorder.watch(simulation, report);
+        if flow.is_break() {
+            self.ended_early = true;
+            self.pace.duration_s = simulation.time_s();
         }
         // Read once: a request that arrives in between is handled next time.
         let stop = self.stop.asked();
@@ -82,16 +83,6 @@ impl<'a, S: Sink> Watch<'a, S> {
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
-    }
-
-    /// The last records, if nothing can move any more.
-    fn end_early(&mut self, simulation: &Simulation) -> Vec<Record> {
-        let last = self.recorder.end_early(simulation);
-        if last.is_some() {
-            self.ended_early = true;
-            self.pace.duration_s = simulation.time_s();
-        }
-        last.unwrap_or_default()
     }
 
     /// Saves the state at the end of a step, if it is due or this is the last chance.

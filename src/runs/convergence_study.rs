@@ -2,7 +2,7 @@
 //! answer, or as many runs as its target takes.
 
 use super::progress::Progress;
-use super::runner::{Run, RunEnd, RunError, Sink, StopFlag};
+use super::run::{Run, RunEnd, RunError, Sink, StopFlag};
 use super::saved_run::SavedRunError;
 use super::saved_study::{self, SavedStudy};
 use scree_solver::accuracy::{ConvergenceStudy, StudyRun};

@@ -1,0 +1,16 @@
+//! Runs of one scenario, without the service: [`run`](mod@run) computes it from its start or from
+//! a saved state, [`convergence_study`] makes the refinement runs of its uncertainty intervals
+//! before. The command line, the verification and the workers of the service all compute scenarios
+//! this way; records and progress go to a [`Sink`] of theirs.
+
+pub mod convergence_study;
+mod headed;
+mod progress;
+pub mod run;
+mod saved_run;
+mod saved_study;
+mod watch;
+
+pub use progress::{Progress, ProgressBoard};
+pub use run::{NoSink, Run, RunEnd, RunError, Sink, Stop, StopFlag};
+pub use saved_run::{COMMIT, SavedRunError};
