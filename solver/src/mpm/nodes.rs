@@ -90,14 +90,14 @@ impl<R: Real> Nodes<R> {
         });
     }
 
-    /// Takes what was missing of the momentum, and the compressive strains, from the tiles;
-    /// `room` is the mass that fills a kernel, ρ_c h³ [kg].
-    pub fn take_rest(&mut self, tiles: &[Tile<R>], room: R, level: Level) {
+    /// Takes the residual of the momentum, and the compressive strains, from the tiles;
+    /// `kernel_mass` is the mass that fills a kernel, ρ_c h³ [kg].
+    pub fn take_residual(&mut self, tiles: &[Tile<R>], kernel_mass: R, level: Level) {
         self.for_each_block(|block, sources| {
             dispatch!(level, simd => {
-                let mut rest = NodeBlock::EMPTY;
-                add_up(simd, sources, tiles, &mut rest);
-                take_rest(simd, &rest, room, block);
+                let mut residual = NodeBlock::EMPTY;
+                add_up(simd, sources, tiles, &mut residual);
+                take_residual(simd, &residual, kernel_mass, block);
             });
         });
     }
@@ -160,7 +160,7 @@ impl<R: Real> Nodes<R> {
     /// Volume fraction of the nodes in the tile of a block of points, and values that points do not
     /// use.
     #[inline(always)]
-    pub fn fullness_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile<R>) {
+    pub fn volume_fraction_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile<R>) {
         fill(simd, self.layout.reach(block), &self.remainder, tile);
     }
 
@@ -424,7 +424,12 @@ fn per_mass<S: Simd, R: Real>(simd: S, motion: &NodeBlock<R>, sums: &mut NodeBlo
 }
 
 #[inline(always)]
-fn take_rest<S: Simd, R: Real>(simd: S, rest: &NodeBlock<R>, room: R, block: WholeBlock<R>) {
+fn take_residual<S: Simd, R: Real>(
+    simd: S,
+    residual: &NodeBlock<R>,
+    kernel_mass: R,
+    block: WholeBlock<R>,
+) {
     let WholeBlock {
         motion,
         remainder,
@@ -432,9 +437,9 @@ fn take_rest<S: Simd, R: Real>(simd: S, rest: &NodeBlock<R>, room: R, block: Who
     } = block;
     for node in 0..BLOCK_NODES {
         let moving = &mut motion.0[4 * node..4 * node + 4];
-        let given = &rest.0[4 * node..4 * node + 4];
+        let given = &residual.0[4 * node..4 * node + 4];
         let mass = moving[0];
-        remainder.0[4 * node] = (mass + given[0]) / room;
+        remainder.0[4 * node] = (mass + given[0]) / kernel_mass;
         if mass > R::ZERO {
             let per_mass = quad::<S, R>(simd, R::of(1.0) / mass);
             displacement.0[4 * node] = given[0] / mass;

@@ -130,7 +130,7 @@ impl<'a, R: Real> KernelStep<'a, R> {
             });
         }
         let full = self.step.material.bulk_density * self.step.lattice.cell_volume();
-        self.nodes.take_rest(&momentum, R::of(full), level);
+        self.nodes.take_residual(&momentum, R::of(full), level);
     }
 
     fn substeps(&mut self) {
@@ -158,14 +158,14 @@ impl<'a, R: Real> KernelStep<'a, R> {
         let zones = self.step.bed.iter();
         let zones: Vec<NoShiftZone<R>> =
             zones.map(|plane| NoShiftZone::of(plane, lattice)).collect();
-        let roomiest = lattice.largest_point_volume() * self.step.material.bulk_density;
+        let largest_volume_mass = lattice.largest_point_volume() * self.step.material.bulk_density;
         let ending = Ending {
             law: &self.law,
             lattice,
             dt: R::of(self.step.dt),
             redistribution: &self.step.redistribution,
             no_shift_zones: &zones,
-            roomiest: R::of(roomiest),
+            largest_volume_mass: R::of(largest_volume_mass),
         };
         let nodes = &self.nodes;
         for (place, block) in self.blocks.occupied_mut().iter_mut().enumerate() {
@@ -173,7 +173,7 @@ impl<'a, R: Real> KernelStep<'a, R> {
                 let mut tiles = EndTiles::EMPTY;
                 nodes.motion_tile(simd, place, &mut tiles.motion);
                 nodes.displacement_tile(simd, place, &mut tiles.displacement);
-                nodes.fullness_tile(simd, place, &mut tiles.twist);
+                nodes.volume_fraction_tile(simd, place, &mut tiles.twist);
                 tiles.cross();
                 gather_motion(simd, block, &ending, &tiles);
             });

@@ -201,7 +201,7 @@ impl<R: Saved> BlockFlow<R> {
     /// Computes the residual transfer, the compressive strains and the first forces, and smooths
     /// strain rates.
     fn residual_transfer(&mut self, given: &Setup, strain_rate_smoothing: &StrainRateSmoothing) {
-        let room = self.packing.material.bulk_density * given.lattice.spacing.product();
+        let kernel_mass = self.packing.material.bulk_density * given.lattice.spacing.product();
         let (nodes, law, level) = (&self.nodes, &self.law, self.level);
         self.blocks
             .occupied_mut()
@@ -220,7 +220,8 @@ impl<R: Saved> BlockFlow<R> {
                     residual_transfer(simd, block, law, &tiles.motion, rest, force);
                 });
             });
-        self.nodes.take_rest(&self.momentum, R::of(room), level);
+        self.nodes
+            .take_residual(&self.momentum, R::of(kernel_mass), level);
     }
 
     fn penetration_correction(
@@ -371,7 +372,7 @@ impl<R: Saved> Flow for BlockFlow<R> {
             dt: R::of(end.dt),
             redistribution: &end.redistribution,
             no_shift_zones: &self.no_shift_zones,
-            roomiest: R::of(
+            largest_volume_mass: R::of(
                 given.lattice.largest_point_volume() * self.packing.material.bulk_density,
             ),
         };
@@ -384,7 +385,7 @@ impl<R: Saved> Flow for BlockFlow<R> {
                     let mut tiles = EndTiles::EMPTY;
                     nodes.motion_tile(simd, place, &mut tiles.motion);
                     nodes.displacement_tile(simd, place, &mut tiles.displacement);
-                    nodes.fullness_tile(simd, place, &mut tiles.twist);
+                    nodes.volume_fraction_tile(simd, place, &mut tiles.twist);
                     tiles.cross();
                     gather_motion(simd, block, &ending, &tiles);
                 });
