@@ -3,8 +3,8 @@
 
 use super::blocks::Block;
 use super::constitutive::Law;
-use super::deformation::{Matrix, strain};
-use super::lanes::{Real, Splat, load};
+use super::deformation::strain;
+use super::lanes::{Matrix, Real, Splat, load};
 use super::redistribution::{
     NoShiftZone, PointState, RedistributionRates, ShiftingSums, excess_volume_fraction,
     redistribute,
