@@ -2,18 +2,19 @@
 //! surface at the closest feature (docs/method.md, equations 21–24).
 
 use crate::contact::screening::{screening_bodies, screens};
-use crate::kernel::PointStencil;
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
 use crate::walls::{Boundary, Impulse, NodeAccess};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
+mod access;
 mod around;
 mod effective_mass;
 mod force;
 mod penetration_correction;
 
+pub use access::{Moving, PointAccess};
 pub use around::Around;
 use effective_mass::{ContactSum, GridCompliance};
 use force::{Compliance, PointContact, PointForce};
@@ -60,29 +61,6 @@ pub struct ContactTime {
     pub dt: f64,
     /// Elapsed share of the step, 0..1.
     pub passed: f64,
-}
-
-/// Access to the points of a flow for contacts within a step.
-pub trait PointAccess: Sync {
-    /// Place of a point in memory, from one transfer to the next.
-    type Place: Copy + Send + Sync;
-    /// Finds the points that were within a box at the transfer.
-    fn find_within(&self, around: &Around, found: &mut Vec<Self::Place>);
-    /// Position of a point at the transfer [m].
-    fn resting(&self, place: Self::Place) -> Vec3;
-    /// Nodes that a point exchanges momentum with until the next transfer.
-    fn stencil(&self, place: Self::Place) -> PointStencil;
-    /// Current state of a point.
-    fn moving(&self, place: Self::Place) -> Moving;
-}
-
-/// State of a point within a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moving {
-    /// Current position [m].
-    pub position: Vec3,
-    /// Current velocity [m/s].
-    pub velocity: Vec3,
 }
 
 /// A point that may touch a body within the step.

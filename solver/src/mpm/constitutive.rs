@@ -1,8 +1,7 @@
 //! The constitutive law: stress of the points of a chunk after a strain (docs/method.md,
 //! equations 3–6).
 
-use super::deformation::Matrix;
-use super::lanes::{Real, Splat};
+use super::lanes::{Matrix, Real, Splat};
 use crate::material::{Material, Yielding};
 use crate::math::{Sym3, Vec3};
 use fearless_simd::{Level, dispatch, prelude::*};

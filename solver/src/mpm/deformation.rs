@@ -3,11 +3,8 @@
 
 use super::chunk::Chunk;
 use super::constitutive::{Deviator, Law};
-use super::lanes::{Real, Splat, load, load_each};
+use super::lanes::{Matrix, Real, Splat, load, load_each};
 use fearless_simd::prelude::*;
-
-/// A 3 × 3 matrix of each point of a chunk, `[row][column]`.
-pub type Matrix<S, R> = [[<R as Real>::Vector<S>; 3]; 3];
 
 /// Minor of a matrix, of two rows and two columns.
 #[inline(always)]

@@ -3,8 +3,8 @@
 
 use super::blocks::Block;
 use super::constitutive::Law;
-use super::deformation::{Matrix, strain};
-use super::lanes::{Real, Splat, load};
+use super::deformation::strain;
+use super::lanes::{Matrix, Real, Splat, load};
 use super::redistribution::{
     NoShiftZone, PointState, RedistributionRates, ShiftingSums, excess_volume_fraction,
     redistribute,
@@ -67,7 +67,7 @@ pub struct Ending<'a, R: Real> {
     /// Zones at the planes of the bed.
     pub no_shift_zones: &'a [NoShiftZone<R>],
     /// Mass that fills the largest volume a point can have [kg].
-    pub roomiest: R,
+    pub largest_volume_mass: R,
 }
 
 /// Takes the points through the last sub-step of a step and moves them with the nodes (equations
@@ -85,7 +85,7 @@ pub fn gather_motion<S: Simd, R: Real>(
         dt,
         redistribution,
         no_shift_zones,
-        roomiest,
+        largest_volume_mass,
     } = *ending;
     let number = Splat::<S, R>::new(simd);
     let spacing = &lattice.spacing;
@@ -130,7 +130,7 @@ pub fn gather_motion<S: Simd, R: Real>(
                 .min(number.of(0.0)),
             mean_compression,
             excess_volume_fraction,
-            slope: crowding_slope(simd, &moments),
+            slope: excess_volume_fraction_gradient(simd, &moments),
         };
         let mut position = moved;
         for axis in 0..3 {
@@ -155,8 +155,11 @@ pub fn gather_motion<S: Simd, R: Real>(
             *part = redistributed.rise.mul_add(before, before).to_array();
         }
         let mass = load::<S, R>(simd, &chunk.mass);
-        let roomiest = number.all(roomiest) / mass - number.of(1.0);
-        chunk.volumetric_strain = redistributed.volumetric_strain.min(roomiest).to_array();
+        let largest_strain = number.all(largest_volume_mass) / mass - number.of(1.0);
+        chunk.volumetric_strain = redistributed
+            .volumetric_strain
+            .min(largest_strain)
+            .to_array();
         spread.add(simd, chunk, &redistributed.shift, &velocity, spacing);
         for axis in 0..3 {
             chunk.velocity[axis] = velocity[axis].to_array();
@@ -171,9 +174,12 @@ pub fn gather_motion<S: Simd, R: Real>(
     block.note_end(sums.end(), spread.total(&origin));
 }
 
-/// h ∇excess volume fraction, per axis [1/cell].
+/// Gradient of the excess volume fraction, per axis [1/cell].
 #[inline(always)]
-fn crowding_slope<S: Simd, R: Real>(simd: S, moments: &Moments<R>) -> [R::Vector<S>; 3] {
+fn excess_volume_fraction_gradient<S: Simd, R: Real>(
+    simd: S,
+    moments: &Moments<R>,
+) -> [R::Vector<S>; 3] {
     let number = Splat::<S, R>::new(simd);
     let mut slope = [number.of(0.0); 3];
     for axis in 0..3 {

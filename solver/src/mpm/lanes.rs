@@ -1,9 +1,7 @@
 //! Precisions of the flow, and the vectors that its kernels compute with: one text of every
 //! formula serves sixteen points side by side in single precision and eight in double.
 
-use fearless_simd::{
-    f32x4, f32x8, f32x16, f64x4, f64x8, mask32x16, mask64x8, prelude::*, u32x16, u64x8,
-};
+use fearless_simd::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fmt::Debug;
@@ -138,6 +136,9 @@ pub trait Row<S: Simd, R: Real>: Copy {
     fn sum_of_nodes(self) -> R::Quad<S>;
 }
 
+/// A 3 × 3 matrix of each point of a chunk, `[row][column]`.
+pub type Matrix<S, R> = [[<R as Real>::Vector<S>; 3]; 3];
+
 /// Vectors with the same number in every lane. A closure would not be compiled for the
 /// instructions of `S`.
 #[derive(Clone, Copy)]
@@ -219,213 +220,5 @@ macro_rules! scalar_functions {
     };
 }
 
-impl Real for f32 {
-    const LANES: usize = 16;
-    const ZERO: Self = 0.0;
-    const ZEROS: [Self; 16] = [0.0; 16];
-    const NO_IDS: [u32; 16] = [0; 16];
-    const SMALLEST: f64 = Self::MIN_POSITIVE as f64;
-    const NO_SUMS: [f64; 16] = [0.0; 16];
-
-    type Lanes = [Self; 16];
-    type Ids = [u32; 16];
-    type Sums = [f64; 16];
-    type Vector<S: Simd> = f32x16<S>;
-    type Quad<S: Simd> = f32x4<S>;
-    type TwoNodes<S: Simd> = f32x8<S>;
-    type Row<S: Simd> = SingleRow<S>;
-
-    #[inline(always)]
-    fn of(value: f64) -> Self {
-        value as Self
-    }
-
-    #[inline(always)]
-    fn indices<S: Simd>(values: f32x16<S>) -> [u32; 16] {
-        let whole: u32x16<S> = values.to_int();
-        whole.into()
-    }
-
-    scalar_functions!();
-}
-
-impl Real for f64 {
-    const LANES: usize = 8;
-    const ZERO: Self = 0.0;
-    const ZEROS: [Self; 8] = [0.0; 8];
-    const NO_IDS: [u32; 8] = [0; 8];
-    const SMALLEST: f64 = Self::MIN_POSITIVE;
-    const NO_SUMS: [f64; 8] = [0.0; 8];
-
-    type Lanes = [Self; 8];
-    type Ids = [u32; 8];
-    type Sums = [f64; 8];
-    type Vector<S: Simd> = f64x8<S>;
-    type Quad<S: Simd> = f64x4<S>;
-    type TwoNodes<S: Simd> = f64x8<S>;
-    type Row<S: Simd> = DoubleRow<S>;
-
-    #[inline(always)]
-    fn of(value: f64) -> Self {
-        value
-    }
-
-    #[inline(always)]
-    fn indices<S: Simd>(values: f64x8<S>) -> [u32; 8] {
-        let whole: u64x8<S> = values.to_int();
-        let whole: [u64; 8] = whole.into();
-        let mut indices = [0; 8];
-        for (index, whole) in indices.iter_mut().zip(whole) {
-            *index = whole as u32;
-        }
-        indices
-    }
-
-    scalar_functions!();
-}
-
-/// Row in single precision, one vector.
-#[derive(Clone, Copy)]
-pub struct SingleRow<S: Simd>(f32x16<S>);
-
-impl<S: Simd> Row<S, f32> for SingleRow<S> {
-    #[inline(always)]
-    fn zero(simd: S) -> Self {
-        Self(f32x16::splat(simd, 0.0))
-    }
-
-    #[inline(always)]
-    fn load(simd: S, numbers: &[f32]) -> Self {
-        Self(f32x16::from_slice(simd, numbers))
-    }
-
-    #[inline(always)]
-    fn store(self, numbers: &mut [f32]) {
-        self.0.store_slice(numbers);
-    }
-
-    #[inline(always)]
-    fn repeated(quad: f32x4<S>) -> Self {
-        Self(f32x16::block_splat(quad))
-    }
-
-    #[inline(always)]
-    fn along_z(simd: S, [first, second, third]: [f32; 3]) -> Self {
-        let [first, second, third] = [
-            f32x16::splat(simd, first),
-            f32x16::splat(simd, second),
-            f32x16::splat(simd, third),
-        ];
-        let lower = mask32x16::from_bitmask(simd, 0x00f0).select(second, first);
-        let upper = mask32x16::from_bitmask(simd, 0x0f00).select(third, lower);
-        let beyond = mask32x16::from_bitmask(simd, 0xf000);
-        Self(beyond.select(f32x16::splat(simd, 0.0), upper))
-    }
-
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
-
-    #[inline(always)]
-    fn scaled(self, factor: f32x16<S>) -> Self {
-        Self(self.0 * factor)
-    }
-
-    #[inline(always)]
-    fn scaled_plus(self, factor: f32x16<S>, other: Self) -> Self {
-        Self(self.0.mul_add(factor, other.0))
-    }
-
-    #[inline(always)]
-    fn times(self, other: Self) -> Self {
-        Self(self.0 * other.0)
-    }
-
-    #[inline(always)]
-    fn times_plus(self, factor: Self, other: Self) -> Self {
-        Self(self.0.mul_add(factor.0, other.0))
-    }
-
-    #[inline(always)]
-    fn sum_of_nodes(self) -> f32x4<S> {
-        let (low, high) = self.0.split();
-        let (even, odd) = (low + high).split();
-        even + odd
-    }
-}
-
-/// Row in double precision, two vectors.
-#[derive(Clone, Copy)]
-pub struct DoubleRow<S: Simd>([f64x8<S>; 2]);
-
-impl<S: Simd> Row<S, f64> for DoubleRow<S> {
-    #[inline(always)]
-    fn zero(simd: S) -> Self {
-        Self([f64x8::splat(simd, 0.0); 2])
-    }
-
-    #[inline(always)]
-    fn load(simd: S, numbers: &[f64]) -> Self {
-        let (low, high) = numbers.split_at(ROW / 2);
-        Self([f64x8::from_slice(simd, low), f64x8::from_slice(simd, high)])
-    }
-
-    #[inline(always)]
-    fn store(self, numbers: &mut [f64]) {
-        let (low, high) = numbers.split_at_mut(ROW / 2);
-        self.0[0].store_slice(low);
-        self.0[1].store_slice(high);
-    }
-
-    #[inline(always)]
-    fn repeated(quad: f64x4<S>) -> Self {
-        Self([quad.combine(quad); 2])
-    }
-
-    #[inline(always)]
-    fn along_z(simd: S, [first, second, third]: [f64; 3]) -> Self {
-        let upper = mask64x8::from_bitmask(simd, 0xf0);
-        Self([
-            upper.select(f64x8::splat(simd, second), f64x8::splat(simd, first)),
-            upper.select(f64x8::splat(simd, 0.0), f64x8::splat(simd, third)),
-        ])
-    }
-
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        Self([self.0[0] + other.0[0], self.0[1] + other.0[1]])
-    }
-
-    #[inline(always)]
-    fn scaled(self, factor: f64x8<S>) -> Self {
-        Self([self.0[0] * factor, self.0[1] * factor])
-    }
-
-    #[inline(always)]
-    fn scaled_plus(self, factor: f64x8<S>, other: Self) -> Self {
-        Self([
-            self.0[0].mul_add(factor, other.0[0]),
-            self.0[1].mul_add(factor, other.0[1]),
-        ])
-    }
-
-    #[inline(always)]
-    fn times(self, other: Self) -> Self {
-        Self([self.0[0] * other.0[0], self.0[1] * other.0[1]])
-    }
-
-    #[inline(always)]
-    fn times_plus(self, factor: Self, other: Self) -> Self {
-        Self([
-            self.0[0].mul_add(factor.0[0], other.0[0]),
-            self.0[1].mul_add(factor.0[1], other.0[1]),
-        ])
-    }
-
-    #[inline(always)]
-    fn sum_of_nodes(self) -> f64x4<S> {
-        let (even, odd) = (self.0[0] + self.0[1]).split();
-        even + odd
-    }
-}
+mod double;
+mod single;

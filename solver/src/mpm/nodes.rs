@@ -1,41 +1,23 @@
 //! Nodes of the grid, in blocks of 4³, only where points are, and their update (docs/method.md,
 //! equations 8–10).
 
-use super::lanes::{NODE_NUMBERS, ROW, Real, Row};
+use super::lanes::Real;
 use super::p2g::Components;
 use super::rows::Tile;
 use super::stencil::weights;
-use crate::grid::layout::{Layout, OCTANTS, there, within};
-use crate::grid::{BLOCK, BLOCK_NODES, BlockKey, TILE, in_block, in_tile};
+use crate::grid::layout::{Layout, within};
+use crate::grid::{BLOCK_NODES, BlockKey};
 use crate::kernel::{Lattice, PointStencil, WIDTH};
 use crate::math::{Sym3, Vec3};
 use crate::walls::NodeAccess;
 use fearless_simd::{Level, dispatch, prelude::*};
 use rayon::prelude::*;
 
-/// Four numbers of each node of a block.
-#[derive(Debug, Clone, Copy)]
-#[repr(C, align(64))]
-pub struct NodeBlock<R>([R; NODE_NUMBERS * BLOCK_NODES]);
+mod block;
 
-impl<R: Real> NodeBlock<R> {
-    const EMPTY: Self = Self([R::ZERO; NODE_NUMBERS * BLOCK_NODES]);
+pub use block::NodeBlock;
+use block::{Push, WholeBlock, add_up, advance, fill, per_mass, take, take_residual};
 
-    fn node(&self, node: usize) -> &[R] {
-        &self.0[4 * node..4 * node + 4]
-    }
-}
-
-/// All numbers of the nodes of a block; see [`Nodes`].
-struct WholeBlock<'a, R> {
-    motion: &'a mut NodeBlock<R>,
-    remainder: &'a mut NodeBlock<R>,
-    displacement: &'a mut NodeBlock<R>,
-}
-
-/// A node lighter than this [kg] is empty: its numbers would be rounding, and
-/// the points hardly see it.
-const LIGHTEST: f64 = 1e-30;
 /// Blocks of nodes one task takes.
 const TASK: usize = 16;
 /// The grid of one step.
@@ -90,14 +72,14 @@ impl<R: Real> Nodes<R> {
         });
     }
 
-    /// Takes what was missing of the momentum, and the compressive strains, from the tiles;
-    /// `room` is the mass that fills a kernel, ρ_c h³ [kg].
-    pub fn take_rest(&mut self, tiles: &[Tile<R>], room: R, level: Level) {
+    /// Takes the residual of the momentum, and the compressive strains, from the tiles;
+    /// `kernel_mass` is the mass that fills a kernel, ρ_c h³ [kg].
+    pub fn take_residual(&mut self, tiles: &[Tile<R>], kernel_mass: R, level: Level) {
         self.for_each_block(|block, sources| {
             dispatch!(level, simd => {
-                let mut rest = NodeBlock::EMPTY;
-                add_up(simd, sources, tiles, &mut rest);
-                take_rest(simd, &rest, room, block);
+                let mut residual = NodeBlock::EMPTY;
+                add_up(simd, sources, tiles, &mut residual);
+                take_residual(simd, &residual, kernel_mass, block);
             });
         });
     }
@@ -160,7 +142,7 @@ impl<R: Real> Nodes<R> {
     /// Volume fraction of the nodes in the tile of a block of points, and values that points do not
     /// use.
     #[inline(always)]
-    pub fn fullness_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile<R>) {
+    pub fn volume_fraction_tile<S: Simd>(&self, simd: S, block: usize, tile: &mut Tile<R>) {
         fill(simd, self.layout.reach(block), &self.remainder, tile);
     }
 
@@ -301,14 +283,6 @@ impl<R: Real> NodeAccess for Nodes<R> {
     }
 }
 
-/// Changes that a sub-step adds to every node with mass.
-struct Push<R> {
-    /// Δt g, after a zero [m/s].
-    fall: [R; 4],
-    /// [s].
-    dt: R,
-}
-
 fn add_weighted<R: Real>(sum: &mut [R; 4], part: &[R], weight: R) {
     for (sum, part) in sum.iter_mut().zip(part) {
         *sum += weight * *part;
@@ -321,166 +295,6 @@ fn vector<R: Real>(numbers: &[R]) -> Vec3 {
         numbers[2].to_f64(),
         numbers[3].to_f64(),
     )
-}
-
-/// Rows along z that a tile shares with the block in an octant of it: the numbers along x and
-/// y, and their beginning in the tile. They are whole, four nodes long, in the lower octants
-/// and half as long in the upper ones.
-const fn shared(octant: [usize; 3]) -> ([usize; 2], usize) {
-    let rows = [
-        if octant[0] == 0 { BLOCK } else { TILE - BLOCK },
-        if octant[1] == 0 { BLOCK } else { TILE - BLOCK },
-    ];
-    let start = in_tile(octant[0] * BLOCK, octant[1] * BLOCK, octant[2] * BLOCK);
-    (rows, start)
-}
-
-#[inline(always)]
-fn fill<S: Simd, R: Real>(simd: S, reach: &[u32; 8], blocks: &[NodeBlock<R>], tile: &mut Tile<R>) {
-    for (octant, block) in OCTANTS.iter().zip(reach) {
-        let nodes = &blocks[*block as usize].0;
-        let ([along_x, along_y], start) = shared(*octant);
-        for a in 0..along_x {
-            for b in 0..along_y {
-                let from = &nodes[4 * in_block(a, b, 0)..];
-                let to = &mut tile.0[4 * (start + in_tile(a, b, 0))..];
-                if octant[2] == 0 {
-                    R::Row::<S>::load(simd, &from[..ROW]).store(&mut to[..ROW]);
-                } else {
-                    let half = R::TwoNodes::<S>::from_slice(simd, &from[..ROW / 2]);
-                    half.store_slice(&mut to[..ROW / 2]);
-                }
-            }
-        }
-    }
-}
-
-#[inline(always)]
-fn add_up<S: Simd, R: Real>(
-    simd: S,
-    sources: &[u32; 8],
-    tiles: &[Tile<R>],
-    sums: &mut NodeBlock<R>,
-) {
-    *sums = NodeBlock::EMPTY;
-    for (octant, source) in OCTANTS.iter().zip(sources) {
-        let Some(source) = there(*source) else {
-            continue;
-        };
-        let tile = &tiles[source].0;
-        let ([along_x, along_y], start) = shared(*octant);
-        for a in 0..along_x {
-            for b in 0..along_y {
-                let part = &tile[4 * (start + in_tile(a, b, 0))..];
-                let sum = &mut sums.0[4 * in_block(a, b, 0)..];
-                if octant[2] == 0 {
-                    let (part, sum) = (&part[..ROW], &mut sum[..ROW]);
-                    let part = R::Row::<S>::load(simd, part);
-                    R::Row::load(simd, sum).plus(part).store(sum);
-                } else {
-                    let (part, sum) = (&part[..ROW / 2], &mut sum[..ROW / 2]);
-                    let part = R::TwoNodes::<S>::from_slice(simd, part);
-                    (R::TwoNodes::from_slice(simd, sum) + part).store_slice(sum);
-                }
-            }
-        }
-    }
-}
-
-#[inline(always)]
-fn take<S: Simd, R: Real>(
-    simd: S,
-    sources: &[u32; 8],
-    tiles: &[Tile<R>],
-    motion: &mut NodeBlock<R>,
-) {
-    add_up(simd, sources, tiles, motion);
-    for node in motion.0.chunks_exact_mut(4) {
-        let mass = node[0];
-        if mass > R::of(LIGHTEST) {
-            let velocity =
-                R::Quad::<S>::from_slice(simd, node) * quad::<S, R>(simd, R::of(1.0) / mass);
-            velocity.store_slice(node);
-            node[0] = mass;
-        } else {
-            quad::<S, R>(simd, R::ZERO).store_slice(node);
-        }
-    }
-}
-
-/// Sums over nodes with mass, over their masses; zero elsewhere.
-#[inline(always)]
-fn per_mass<S: Simd, R: Real>(simd: S, motion: &NodeBlock<R>, sums: &mut NodeBlock<R>) {
-    for (sum, moving) in sums.0.chunks_exact_mut(4).zip(motion.0.chunks_exact(4)) {
-        let mass = moving[0];
-        let per_mass = if mass > R::ZERO {
-            R::of(1.0) / mass
-        } else {
-            R::ZERO
-        };
-        let mean = R::Quad::<S>::from_slice(simd, sum) * quad::<S, R>(simd, per_mass);
-        mean.store_slice(sum);
-    }
-}
-
-#[inline(always)]
-fn take_rest<S: Simd, R: Real>(simd: S, rest: &NodeBlock<R>, room: R, block: WholeBlock<R>) {
-    let WholeBlock {
-        motion,
-        remainder,
-        displacement,
-    } = block;
-    for node in 0..BLOCK_NODES {
-        let moving = &mut motion.0[4 * node..4 * node + 4];
-        let given = &rest.0[4 * node..4 * node + 4];
-        let mass = moving[0];
-        remainder.0[4 * node] = (mass + given[0]) / room;
-        if mass > R::ZERO {
-            let per_mass = quad::<S, R>(simd, R::of(1.0) / mass);
-            displacement.0[4 * node] = given[0] / mass;
-            let missing = R::Quad::<S>::from_slice(simd, given);
-            let velocity = missing.mul_add(per_mass, R::Quad::<S>::from_slice(simd, moving));
-            velocity.store_slice(moving);
-            moving[0] = mass;
-        }
-    }
-}
-
-#[inline(always)]
-fn advance<S: Simd, R: Real>(simd: S, forces: &NodeBlock<R>, push: &Push<R>, block: WholeBlock<R>) {
-    let WholeBlock {
-        motion,
-        remainder,
-        displacement,
-    } = block;
-    let fall = R::Quad::<S>::from_slice(simd, &push.fall);
-    let dt = quad::<S, R>(simd, push.dt);
-    for node in 0..BLOCK_NODES {
-        let here = 4 * node..4 * node + 4;
-        let moving = &mut motion.0[here.clone()];
-        let mass = moving[0];
-        if mass > R::ZERO {
-            let left = &mut remainder.0[here.clone()];
-            let moved = &mut displacement.0[here.clone()];
-            let (volume_fraction, compressive) = (left[0], moved[0]);
-            let force = R::Quad::<S>::from_slice(simd, &forces.0[here]);
-            let before = R::Quad::<S>::from_slice(simd, moving);
-            let owed = fall + R::Quad::<S>::from_slice(simd, left);
-            // Kahan's sum.
-            let change = force.mul_add(quad::<S, R>(simd, push.dt / mass), owed);
-            let velocity = before + change;
-            (change - (velocity - before)).store_slice(left);
-            let displaced = velocity.mul_add(dt, R::Quad::<S>::from_slice(simd, moved));
-            displaced.store_slice(moved);
-            velocity.store_slice(moving);
-            (moving[0], left[0], moved[0]) = (mass, volume_fraction, compressive);
-        }
-    }
-}
-
-#[inline(always)]
-fn quad<S: Simd, R: Real>(simd: S, value: R) -> R::Quad<S> {
-    R::Quad::<S>::simd_from(simd, value)
 }
 
 #[cfg(test)]

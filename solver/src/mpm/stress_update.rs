@@ -4,8 +4,8 @@
 use super::blocks::Block;
 use super::chunk::Chunk;
 use super::constitutive::Law;
-use super::deformation::{Matrix, Strained, strain};
-use super::lanes::{Real, Splat};
+use super::deformation::{Strained, strain};
+use super::lanes::{Matrix, Real, Splat};
 use super::rows::{LinearFields, Moments, Tile};
 use super::stencil::Stencils;
 use fearless_simd::prelude::*;

@@ -1,7 +1,7 @@
 //! Conditions under which vertices and loops form a convex solid.
 
 use super::error::ShapeError;
-use super::polyhedron::{Face, sides};
+use super::face::{Face, sides};
 use nalgebra::Vector3;
 
 /// Distances below this fraction of the solid's size count as zero: far above

@@ -3,13 +3,17 @@
 
 use super::closest::Closest;
 use super::cuboid::Cuboid;
+use super::face::Face;
 use super::moments::Moments;
-use super::polyhedron::{ConvexPolyhedron, Face};
+use super::polyhedron::ConvexPolyhedron;
 use super::segment::Segment;
-use super::separation::PARALLEL;
 use super::steiner;
 use super::walk::Walk;
 use nalgebra::{Matrix3, Vector3};
+
+/// Sine of the angle of two edges below which they have no common normal: they are parallel,
+/// and face normals separate instead.
+pub(super) const PARALLEL: f64 = 1e-12;
 
 /// A convex set whose nearest feature can be found. Only one with a volume has faces.
 #[derive(Debug, Clone, PartialEq)]

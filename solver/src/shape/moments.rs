@@ -13,7 +13,8 @@
 //! that edge into the vertex. Ω is the difference between a full turn and the angles of the
 //! faces at the vertex (Gauss–Bonnet).
 
-use super::polyhedron::{ConvexPolyhedron, Edge, Face};
+use super::face::Face;
+use super::polyhedron::{ConvexPolyhedron, Edge};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 

@@ -1,12 +1,8 @@
 //! Distance between two cores.
 
 use super::SpheroPolyhedron;
-use super::core::{Core, CoreEdge};
+use super::core::{Core, CoreEdge, PARALLEL};
 use nalgebra::{Isometry3, Point3, Vector3};
-
-/// Sine of the angle of two edges below which they have no common normal: they are parallel,
-/// and face normals separate instead.
-pub(super) const PARALLEL: f64 = 1e-12;
 
 /// Distance between the cores of two bodies [m], each given in its own frame and placed by its
 /// pose; zero or negative (minus the depth) when they overlap. Exact for convex cores: the

@@ -1,6 +1,7 @@
 //! Steiner's formulas for a convex polyhedron dilated by a sphere.
 
-use super::polyhedron::{self, ConvexPolyhedron, Edge, Face};
+use super::face::{Face, sides};
+use super::polyhedron::{ConvexPolyhedron, Edge};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -30,7 +31,7 @@ pub(super) fn surface(core: &ConvexPolyhedron, radius: f64) -> f64 {
 /// Area of a face [m²].
 fn face_area(core: &ConvexPolyhedron, face: &Face) -> f64 {
     let corner = |v: usize| core.vertices()[v];
-    let fan: Vector3<f64> = polyhedron::sides(&face.vertices)
+    let fan: Vector3<f64> = sides(&face.vertices)
         .map(|(a, b)| corner(a).cross(&corner(b)))
         .sum();
     fan.dot(&face.normal) / 2.0

@@ -8,7 +8,8 @@
 //! decreases, so rounding can't cause cycles.
 
 use super::closest::{Closest, Feature, on_face, outside};
-use super::polyhedron::{ConvexPolyhedron, Edge, Face};
+use super::face::Face;
+use super::polyhedron::{ConvexPolyhedron, Edge};
 use nalgebra::Vector3;
 
 /// A core in the layout of the walk.

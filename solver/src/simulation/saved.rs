@@ -1,7 +1,7 @@
 //! Saved states.
 
 use super::clock::Clock;
-use super::flow::SavedFlow;
+use super::flow::{SavedFlow, restore as restore_flow};
 use super::setup::PreparedScene;
 use super::{Simulation, start_threads};
 use crate::body_energy::BodyEnergy;
@@ -67,7 +67,7 @@ pub(super) fn restore(
             what: "the number of bodies",
         });
     }
-    let flow = saved.flow.restored(&given, prepared.reductions.shares);
+    let flow = restore_flow(saved.flow, &given, prepared.reductions.shares);
     let mut simulation = Simulation::assemble(given, flow, bodies, pool);
     for (body, state) in simulation.state.bodies.iter_mut().zip(saved.bodies) {
         body.state = state;

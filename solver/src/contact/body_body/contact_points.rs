@@ -2,7 +2,7 @@
 //! bodies and its gradient (docs/method.md, equations 43 and 44; docs/decisions/0010).
 
 use super::segments::{crossing, nearest_on};
-use super::separation::Separation;
+use super::separation::{Separation, corners};
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
@@ -250,13 +250,6 @@ impl<'a> Pair<'a> {
             .filter_map(|end| self.between(&nearest_on(on_first, end), end));
         of_first.chain(of_second).collect()
     }
-}
-
-/// Core vertices in world axes, the body's centre being at `centre`.
-pub(super) fn corners(body: &Body, centre: &Vec3) -> Vec<Vec3> {
-    let turn = body.state.orientation.to_rotation_matrix();
-    let vertices = body.shape.core_vertices().iter();
-    vertices.map(|vertex| centre + turn * vertex).collect()
 }
 
 fn nearby(

@@ -1,7 +1,6 @@
 //! Separation of two bodies along the face normals of their cores; where neither has faces,
 //! along the line of their nearest places.
 
-use super::contact_points::corners;
 use super::segments::nearest_places;
 use crate::math::Vec3;
 use crate::rigid::Body;
@@ -137,4 +136,11 @@ pub fn distance(first: &Body, second: &Body) -> f64 {
     };
     let cores = distance_apart(&first.shape, &pose(first), &second.shape, &pose(second));
     cores - first.shape.sphero_radius() - second.shape.sphero_radius()
+}
+
+/// Core vertices in world axes, the body's centre being at `centre`.
+pub(super) fn corners(body: &Body, centre: &Vec3) -> Vec<Vec3> {
+    let turn = body.state.orientation.to_rotation_matrix();
+    let vertices = body.shape.core_vertices().iter();
+    vertices.map(|vertex| centre + turn * vertex).collect()
 }

@@ -4,32 +4,14 @@
 //! velocities before and after it. The remainder after subtracting all known terms was
 //! therefore made: by contacts, by turning, or by the finite length of the steps.
 
-use super::{IslandPair, Member, Mover, Side, body_of};
+use super::member::Member;
+use super::mover::Mover;
+use super::pair::{IslandPair, Side, body_of};
+use super::report::EnergyReport;
 use crate::contact::body_body::Exchange;
 use crate::contact::dissipation::Taken;
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
-
-/// Energy of a body in a sub-step of the flow, by cause [J]. Contacts with another free body
-/// are halved between the two.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct EnergyReport {
-    /// Work of the flow on it.
-    pub flow: f64,
-    /// Work of gravity.
-    pub gravity: f64,
-    /// Energy received from other bodies: the work of prescribed motions, and half of the
-    /// difference of a contact's work on it and on the other free body.
-    pub bodies: f64,
-    /// Energy dissipated by damping and slip, in its contacts with walls and bodies.
-    pub dissipated: f64,
-    /// Part of this that the kick before the next drift will dissipate.
-    pub pending: f64,
-    /// Change of its kinetic and stored energy, less all known terms.
-    pub made: f64,
-    /// Kinetic energy and energy stored in its contacts at the end.
-    pub present: f64,
-}
 
 /// Begins the balance of a sub-step of the flow.
 pub(super) fn begin(members: &mut [Member], contact_pairs: &[IslandPair]) {

@@ -1,11 +1,22 @@
 //! Division of the bodies into islands, with the fixed and prescribed bodies round them.
 
+use super::member::Member;
 use super::mover::Mover;
-use super::{BodyReport, Island, IslandPair, Member, Side, is_free};
+use super::pair::{IslandPair, Side};
+use super::report::BodyReport;
 use crate::contact::body_body::{ContactPair, Contacts, Separation, pair_law};
 use crate::contact::dissipation::Taken;
 use crate::contact::law::ContactLaw;
 use crate::rigid::{Body, Load};
+
+/// Free bodies that move together.
+#[derive(Default)]
+pub(super) struct Island<'a> {
+    pub(super) members: Vec<Member<'a>>,
+    /// Bodies with a prescribed motion near them.
+    pub(super) movers: Vec<Mover>,
+    pub(super) contact_pairs: Vec<IslandPair<'a>>,
+}
 
 /// Place of a body while the islands are made.
 #[derive(Clone, Copy)]
@@ -38,7 +49,7 @@ pub(super) fn islands<'a>(
     let mut seats: Vec<Seat> = Vec::with_capacity(bodies.len());
     for (place, (body, report)) in bodies.iter_mut().zip(reports).enumerate() {
         *report = BodyReport::default();
-        if !is_free(body) {
+        if !body.is_free() {
             seats.push(Seat::Outside(body));
             continue;
         }
@@ -89,7 +100,7 @@ fn roots(bodies: &[Body], pairs: &[[usize; 2]]) -> Vec<usize> {
     }
     let mut roots: Vec<usize> = (0..bodies.len()).collect();
     for pair in pairs {
-        if pair.iter().all(|&place| is_free(&bodies[place])) {
+        if pair.iter().all(|&place| bodies[place].is_free()) {
             let [a, b] = pair.map(|place| root_of(&roots, place));
             roots[a.max(b)] = a.min(b);
         }

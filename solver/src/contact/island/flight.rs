@@ -1,7 +1,10 @@
 //! Time in which no new contact of an island can begin: it is crossed in one body sub-step
 //! (docs/method.md, equation 20a).
 
-use super::{IslandPair, Member, Mover, Side, Surroundings, body_of};
+use super::member::Member;
+use super::mover::Mover;
+use super::pair::{IslandPair, Side, body_of};
+use super::surroundings::Surroundings;
 use crate::contact::body_body::{distance, least_gap};
 use crate::math::Vec3;
 use crate::method::METHOD;

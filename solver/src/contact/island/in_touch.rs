@@ -1,8 +1,11 @@
 //! Length of body sub-steps in contact: a contact with little energy at stake needs no short
 //! ones (docs/method.md, equation 20b).
 
+use super::member::Member;
+use super::mover::Mover;
 use super::pace::{longest, relative_speed};
-use super::{IslandPair, Member, Mover, Side, Surroundings, body_of};
+use super::pair::{IslandPair, Side, body_of};
+use super::surroundings::Surroundings;
 use crate::contact::body_body::reduced_mass;
 use crate::contact::body_wall::overlaps;
 use crate::contact::law::ContactLaw;

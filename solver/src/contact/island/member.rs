@@ -1,11 +1,26 @@
 //! A free body of an island: its loads, and its report.
 
-use super::{BodyReport, Member};
+use super::report::BodyReport;
 use crate::contact::dissipation::Taken;
 use crate::math::Vec3;
 use crate::method::METHOD;
 use crate::motion::Velocities;
 use crate::rigid::{Body, Load};
+
+/// A free body of an island.
+pub(super) struct Member<'a> {
+    pub(super) body: &'a mut Body,
+    pub(super) report: &'a mut BodyReport,
+    pub(super) flow: Load,
+    /// Position of its centre at the start of the flow's sub-step [m].
+    pub(super) start: Vec3,
+    /// Mean velocities in the last half kick in which flow or bodies acted on it.
+    pub(super) mean: Velocities,
+    /// Damping and losses of its contacts with walls in the last sub-step.
+    pub(super) taken: Taken,
+    /// Shortest sub-steps over which it was in contact.
+    pub(super) supported: u32,
+}
 
 impl<'a> Member<'a> {
     pub(super) fn new(body: &'a mut Body, report: &'a mut BodyReport, flow: Load) -> Self {

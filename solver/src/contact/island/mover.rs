@@ -1,6 +1,6 @@
 //! A body with a prescribed motion among the free bodies of an island.
 
-use super::BodyReport;
+use super::report::BodyReport;
 use crate::rigid::{Body, Load};
 use nalgebra::UnitQuaternion;
 

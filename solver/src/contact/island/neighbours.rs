@@ -1,7 +1,7 @@
 //! Neighbour search: the pairs of bodies that may touch within a sub-step of the flow, from the
 //! distance that each may travel in it (docs/method.md, "Islands").
 
-use super::{BodyReport, is_free};
+use super::report::BodyReport;
 use crate::contact::body_body::least_gap;
 use crate::contact::broad_phase::{Ball, overlapping_pairs};
 use crate::rigid::{Body, BodyState, Freedom};
@@ -31,7 +31,7 @@ impl Reaches {
         let mut pairs = overlapping_pairs(&balls);
         pairs.retain(|&[first, second]| {
             let (one, other) = (&bodies[first], &bodies[second]);
-            let free = is_free(one) || is_free(other);
+            let free = one.is_free() || other.is_free();
             free && least_gap(one, other) < self.0[first] + self.0[second]
         });
         pairs

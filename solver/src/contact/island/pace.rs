@@ -1,8 +1,11 @@
 //! Number of body sub-steps of an island within one of the flow (docs/method.md, equations 20
 //! and 48).
 
+use super::member::Member;
+use super::mover::Mover;
 use super::neighbours::{Reaches, reach, speed_within};
-use super::{IslandPair, Member, Mover, Side, Surroundings, body_of, is_free};
+use super::pair::{IslandPair, Side, body_of};
+use super::surroundings::Surroundings;
 use crate::contact::body_body::{ContactPair, pair_law, reduced_mass};
 use crate::contact::body_wall::deepest_overlap;
 use crate::contact::law::ContactLaw;
@@ -65,7 +68,7 @@ pub fn substeps_ahead(
     step: f64,
 ) -> f64 {
     let falling = |body: &Body| body.largest_acceleration(&around.gravity, &Load::default());
-    let free = bodies.iter().filter(|body| is_free(body));
+    let free = bodies.iter().filter(|body| body.is_free());
     let alone = free.map(|body| substeps_alone(body, around.planes, falling(body), dt, step));
     let pairs = Reaches::within(bodies, |place| falling(&bodies[place]), step).pairs(bodies);
     let island_pair = pairs.into_iter().map(|pair| {
@@ -114,7 +117,7 @@ fn substeps_of_pair(both: [&Body; 2], law: &ContactLaw, deepest: f64, gained: f6
     });
     let speed = gained + speeds.sum::<f64>();
     let impact = impact_overlap(law, reduced_mass(both[0], both[1]), speed);
-    let free = both.into_iter().filter(|body| is_free(body));
+    let free = both.into_iter().filter(|body| body.is_free());
     let inverse: f64 = free.map(|body| 1.0 / body.least_effective_mass()).sum();
     let deepest = deepest.max(impact);
     if deepest > 0.0 {
@@ -134,7 +137,7 @@ pub(super) fn relative_speed(both: [&Body; 2]) -> f64 {
         }
     };
     let linear = |body: &Body| {
-        if is_free(body) {
+        if body.is_free() {
             body.velocity()
         } else {
             Vec3::zeros()

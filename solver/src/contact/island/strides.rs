@@ -3,7 +3,10 @@
 
 use super::flight::clear_for;
 use super::in_touch::{is_quiet, longest_in_touch};
-use super::{IslandPair, Member, Mover, Surroundings};
+use super::member::Member;
+use super::mover::Mover;
+use super::pair::IslandPair;
+use super::surroundings::Surroundings;
 use crate::rigid::Load;
 
 /// Number of short sub-steps left below which gaps and contacts are not evaluated, since that

@@ -1,6 +1,8 @@
 //! Contacts of the bodies of an island, found and updated in a sub-step.
 
-use super::{IslandPair, Member, Mover, Side, body_of};
+use super::member::Member;
+use super::mover::Mover;
+use super::pair::{IslandPair, Side, body_of};
 use crate::contact::body_body::Contacts;
 use crate::rigid::{BodyState, Load};
 

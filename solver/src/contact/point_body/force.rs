@@ -1,6 +1,6 @@
 //! Force of a body on one point (docs/method.md, equations 21–24).
 
-use super::{Moving, PointAccess};
+use super::access::{Moving, PointAccess};
 use crate::contact::law::ContactLaw;
 use crate::kernel::PointStencil;
 use crate::math::Vec3;

@@ -1,4 +1,6 @@
+use super::block::{cell_of, is_settled};
 use super::*;
+use crate::grid::BLOCK;
 use crate::mpm::fixture::Random;
 
 const LANES: usize = f32::LANES;

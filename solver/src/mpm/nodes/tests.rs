@@ -1,5 +1,5 @@
 use super::*;
-use crate::grid::{TILE_NODES, block_of, index_of};
+use crate::grid::{BLOCK, TILE, TILE_NODES, block_of, in_tile, index_of};
 use crate::mpm::fixture::levels;
 
 fn lattice() -> Lattice {

@@ -1,14 +1,12 @@
 //! A flow of points in blocks, in either precision: the stages of a step over all blocks, in
 //! parallel.
 
-use super::{Bounds, Finished, Flow, OffendingPoint, SavedFlow, StepEnd, StepStart, Substep};
+use super::offending_point::{Bounds, OffendingPoint};
+use super::saved_flow::{Saved, SavedFlow};
+use super::stages::{Finished, Flow, StepEnd, StepStart, Substep};
 use crate::available_volume::exclude_volume;
-use crate::contact::point_body::{
-    self, Around, ContactTime, CouplingGrid, FlowLoad, Loads, PenetratingPoint,
-    PenetrationCorrection,
-};
+use crate::contact::point_body::{Around, ContactTime, CouplingGrid, FlowLoad, Loads};
 use crate::diagnostics::Totals;
-use crate::grid::{BLOCK, BlockKey};
 use crate::mpm::blocks::{Block, Blocks};
 use crate::mpm::constitutive::Law;
 use crate::mpm::g2p::{EndTiles, Ending, gather_motion};
@@ -26,31 +24,17 @@ use crate::points::Point;
 use crate::rigid::Body;
 use crate::simulation::setup::Setup;
 use crate::simulation::stages::{StageEnds, StepStage};
-use crate::walls::{Boundary, Impulse, Plane};
+use crate::walls::{Boundary, Impulse};
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 mod access;
+mod corrections;
+mod inspection;
 
 use access::{Access, Place};
-
-/// A precision whose flows a checkpoint holds.
-pub(in crate::simulation) trait Saved: Real {
-    /// A flow between two steps.
-    fn saved(blocks: Blocks<Self>) -> SavedFlow;
-}
-
-impl Saved for f32 {
-    fn saved(blocks: Blocks<Self>) -> SavedFlow {
-        SavedFlow::Single(blocks)
-    }
-}
-
-impl Saved for f64 {
-    fn saved(blocks: Blocks<Self>) -> SavedFlow {
-        SavedFlow::Double(blocks)
-    }
-}
+use corrections::{correct_penetration, take_outflow, wrap_periodic};
+use inspection::{find_offending_point, sum_up};
 
 /// A flow of points in blocks.
 #[derive(Debug)]
@@ -164,23 +148,6 @@ impl<R: Saved> BlockFlow<R> {
             });
     }
 
-    /// Moves points that crossed a periodic boundary to its other end.
-    fn wrap_periodic(&mut self, given: &Setup) {
-        let vertical_walls = &given.walls.vertical_walls;
-        if !vertical_walls.is_periodic() {
-            return;
-        }
-        for block in self.blocks.occupied_mut() {
-            let first = f64::from(block.key[0]) * BLOCK as f64;
-            for slot in 0..block.count() {
-                let [x, y, z] = block.position(slot);
-                if let Some(cells) = vertical_walls.periodic_shift(first + x.to_f64()) {
-                    block.shift(slot, &[x + R::of(f64::from(cells)), y, z]);
-                }
-            }
-        }
-    }
-
     /// Scatters the points' strain rates to the nodes. The tiles of forces are free until there are
     /// forces.
     fn scatter_strain_rates(&mut self) {
@@ -201,7 +168,7 @@ impl<R: Saved> BlockFlow<R> {
     /// Computes the residual transfer, the compressive strains and the first forces, and smooths
     /// strain rates.
     fn residual_transfer(&mut self, given: &Setup, strain_rate_smoothing: &StrainRateSmoothing) {
-        let room = self.packing.material.bulk_density * given.lattice.spacing.product();
+        let kernel_mass = self.packing.material.bulk_density * given.lattice.spacing.product();
         let (nodes, law, level) = (&self.nodes, &self.law, self.level);
         self.blocks
             .occupied_mut()
@@ -220,39 +187,8 @@ impl<R: Saved> BlockFlow<R> {
                     residual_transfer(simd, block, law, &tiles.motion, rest, force);
                 });
             });
-        self.nodes.take_rest(&self.momentum, R::of(room), level);
-    }
-
-    fn penetration_correction(
-        &mut self,
-        bodies: &[Body],
-        walls: &[Plane],
-    ) -> (u64, Option<PenetratingPoint>) {
-        let (mut count, mut stuck) = (0, None);
-        for (which, (body, candidates)) in bodies.iter().zip(&self.loads.candidates).enumerate() {
-            for candidate in candidates {
-                let place = &candidate.place;
-                let block = &mut self.blocks.occupied_mut()[place.block as usize];
-                let slot = place.slot as usize;
-                let position = self.packing.position(&block.key, &block.position(slot));
-                match point_body::penetration_correction(&position, body, walls) {
-                    None => {}
-                    Some(PenetrationCorrection::To(outside)) => {
-                        block.shift(slot, &self.packing.in_block(&block.key, &outside));
-                        count += 1;
-                    }
-                    Some(PenetrationCorrection::NoRoom { depth }) => {
-                        let here = PenetratingPoint {
-                            point: block.get(slot).id,
-                            body: which,
-                            depth,
-                        };
-                        stuck = PenetratingPoint::deeper(stuck, here);
-                    }
-                }
-            }
-        }
-        (count, stuck)
+        self.nodes
+            .take_residual(&self.momentum, R::of(kernel_mass), level);
     }
 }
 
@@ -371,7 +307,7 @@ impl<R: Saved> Flow for BlockFlow<R> {
             dt: R::of(end.dt),
             redistribution: &end.redistribution,
             no_shift_zones: &self.no_shift_zones,
-            roomiest: R::of(
+            largest_volume_mass: R::of(
                 given.lattice.largest_point_volume() * self.packing.material.bulk_density,
             ),
         };
@@ -384,7 +320,7 @@ impl<R: Saved> Flow for BlockFlow<R> {
                     let mut tiles = EndTiles::EMPTY;
                     nodes.motion_tile(simd, place, &mut tiles.motion);
                     nodes.displacement_tile(simd, place, &mut tiles.displacement);
-                    nodes.fullness_tile(simd, place, &mut tiles.twist);
+                    nodes.volume_fraction_tile(simd, place, &mut tiles.twist);
                     tiles.cross();
                     gather_motion(simd, block, &ending, &tiles);
                 });
@@ -393,8 +329,14 @@ impl<R: Saved> Flow for BlockFlow<R> {
         self.sum_up_ends();
         let blocks = self.blocks.occupied().iter();
         let spread = blocks.fold(Shifting::default(), |sum, block| sum.plus(&block.spread()));
-        let (penetration_correction, stuck) = self.penetration_correction(bodies, &given.planes);
-        self.wrap_periodic(given);
+        let (penetration_correction, stuck) = correct_penetration(
+            &mut self.blocks,
+            &self.packing,
+            &self.loads.candidates,
+            bodies,
+            &given.planes,
+        );
+        wrap_periodic(&mut self.blocks, &given.walls.vertical_walls);
         stages.done(StepStage::G2p);
         self.blocks.settle();
         stages.done(StepStage::Rebin);
@@ -406,44 +348,14 @@ impl<R: Saved> Flow for BlockFlow<R> {
     }
 
     fn offending_point(&self, bounds: &Bounds) -> Option<OffendingPoint> {
-        let Bounds {
-            planes, tolerance, ..
-        } = *bounds;
         let densest = self.packing.material.bulk_density / (1.0 + self.lowest_dilation);
         let every = self.flawed || densest > bounds.densest;
-        let lattice = &self.packing.lattice;
-        let behind = |plane: &Plane, block: &Block<R>| {
-            let height = |slot| {
-                let position = block.position(slot);
-                plane.height(&self.packing.position(&block.key, &position))
-            };
-            lowest(plane, lattice, &block.key) < -tolerance
-                && (0..block.count()).any(|slot| height(slot) < -tolerance)
-        };
-        let suspect = |block: &&Block<R>| every || planes.iter().any(|plane| behind(plane, block));
-        let suspects = self.blocks.occupied().iter().filter(suspect);
-        let mut points = suspects.flat_map(|block| {
-            (0..block.count()).map(|slot| self.packing.unpack(&block.key, &block.get(slot)))
-        });
-        points.find_map(|point| OffendingPoint::of(&point, bounds))
+        find_offending_point(self.blocks.occupied(), &self.packing, every, bounds)
     }
 
     fn remove_outflow(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)> {
         let packing = self.packing;
-        let mut gone = Vec::new();
-        let near_end = |key: &BlockKey| {
-            let last = packing
-                .lattice
-                .position(key.map(|k| (k + 1) * BLOCK as i32));
-            last.x + packing.lattice.spacing.x > end
-        };
-        self.blocks.take_out(near_end, |key, point| {
-            let beyond = packing.position(key, &point.position).x > end;
-            if beyond {
-                gone.push(packing.unpack(key, point));
-            }
-            beyond
-        });
+        let gone = take_outflow(&mut self.blocks, &packing, end);
         if gone.is_empty() {
             return None;
         }
@@ -458,7 +370,6 @@ impl<R: Saved> Flow for BlockFlow<R> {
     fn totals(&self, given: &Setup) -> Totals {
         let (packing, level) = (&self.packing, self.level);
         let of_block = |block: &Block<R>| dispatch!(level, _simd => totals::of_block(block, packing, &given.gravity));
-        // A tree of its own, so that the sums do not depend on the threads.
         sum_up(self.blocks.occupied(), &of_block)
     }
 
@@ -490,29 +401,4 @@ impl<R: Saved> Flow for BlockFlow<R> {
         let grid = self.nodes.bytes() + tiles * size_of::<Tile<R>>();
         (self.blocks.bytes(), grid)
     }
-}
-
-/// Adds up what the blocks have, half by half.
-fn sum_up<R: Real>(blocks: &[Block<R>], of: &(impl Fn(&Block<R>) -> Totals + Sync)) -> Totals {
-    match blocks {
-        [] => Totals::default(),
-        [block] => of(block),
-        _ => {
-            let (low, high) = blocks.split_at(blocks.len() / 2);
-            let (low, high) = rayon::join(|| sum_up(low, of), || sum_up(high, of));
-            low.plus(&high)
-        }
-    }
-}
-
-/// Height above a plane of the lowest possible place of a point of this block [m].
-fn lowest(plane: &Plane, lattice: &crate::kernel::Lattice, key: &BlockKey) -> f64 {
-    let first = lattice.position(key.map(|k| k * BLOCK as i32)) + lattice.spacing * 0.5;
-    let size = lattice.spacing * BLOCK as f64;
-    let corner = plane.normal.zip_zip_map(
-        &first,
-        &size,
-        |n, low, size| if n > 0.0 { low } else { low + size },
-    );
-    plane.height(&corner)
 }

@@ -1,6 +1,8 @@
 //! The flow of a run of bodies alone: none.
 
-use super::{Bounds, Finished, Flow, OffendingPoint, SavedFlow, StepEnd, StepStart, Substep};
+use super::offending_point::{Bounds, OffendingPoint};
+use super::saved_flow::SavedFlow;
+use super::stages::{Finished, Flow, StepEnd, StepStart, Substep};
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::Totals;
 use crate::mpm::instructions::Instructions;

@@ -2,9 +2,10 @@
 //! whole flow (docs/method.md, section 12).
 
 use super::images::{Images, load_of_both};
-use super::{
-    Bounds, Finished, Flow, OffendingPoint, SavedFlow, StepEnd, StepStart, Substep, plainly,
-};
+use super::offending_point::{Bounds, OffendingPoint};
+use super::saved_flow::SavedFlow;
+use super::stages::{Finished, Flow, StepEnd, StepStart, Substep};
+use super::whole::{restore_whole, start_whole};
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::Totals;
 use crate::mpm::instructions::Instructions;
@@ -40,7 +41,7 @@ impl SharedFlow {
         precision: Precision,
     ) -> Self {
         let mut shared = Self::of(shares.first, shares, whole, precision);
-        shared.flow = plainly(points, &shared.given, precision);
+        shared.flow = start_whole(points, &shared.given, precision);
         shared
     }
 
@@ -48,7 +49,7 @@ impl SharedFlow {
     pub(super) fn restored(saved: SavedFlow, share: Share, shares: Shares, whole: &Setup) -> Self {
         let precision = saved.precision();
         let mut shared = Self::of(share, shares, whole, precision);
-        shared.flow = saved.restored(&shared.given, None);
+        shared.flow = restore_whole(saved, &shared.given);
         shared
     }
 
@@ -63,7 +64,7 @@ impl SharedFlow {
         planes.push(*given.walls.vertical_walls.sides[1].plane());
         Self {
             planes,
-            flow: plainly(&[], &given, precision),
+            flow: start_whole(&[], &given, precision),
             images: Images::of_share(share, &shares.columns, whole),
             share,
             shares,
@@ -103,7 +104,7 @@ impl SharedFlow {
         let shares = self.shares.clone();
         *self = Self::of(wider, shares, whole, self.precision);
         self.on_bodies = on_bodies;
-        self.flow = plainly(&points, &self.given, self.precision);
+        self.flow = start_whole(&points, &self.given, self.precision);
         instructions
             .into_iter()
             .for_each(|best| self.limit_instructions(best));

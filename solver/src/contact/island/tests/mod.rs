@@ -5,9 +5,12 @@ mod collisions;
 mod flight;
 mod heap;
 
+use super::pace::substeps_alone;
 use super::*;
+use crate::contact::law::ContactLaw;
 use crate::rigid::fixture::cuboid;
 use crate::rigid::{Freedom, InverseInertia};
+use crate::walls::Plane;
 use nalgebra::UnitQuaternion;
 
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);

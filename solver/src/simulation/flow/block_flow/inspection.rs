@@ -1,0 +1,67 @@
+//! Inspection of the points in all blocks: their sums, and offending points.
+
+use crate::diagnostics::Totals;
+use crate::grid::{BLOCK, BlockKey};
+use crate::kernel::Lattice;
+use crate::mpm::blocks::Block;
+use crate::mpm::lanes::Real;
+use crate::mpm::packing::Packing;
+use crate::simulation::flow::offending_point::{Bounds, OffendingPoint};
+use crate::walls::Plane;
+
+/// Sum over the blocks, half by half: a tree of its own, so that the sum does not depend on the
+/// threads.
+pub(super) fn sum_up<R: Real>(
+    blocks: &[Block<R>],
+    of: &(impl Fn(&Block<R>) -> Totals + Sync),
+) -> Totals {
+    match blocks {
+        [] => Totals::default(),
+        [block] => of(block),
+        _ => {
+            let (low, high) = blocks.split_at(blocks.len() / 2);
+            let (low, high) = rayon::join(|| sum_up(low, of), || sum_up(high, of));
+            low.plus(&high)
+        }
+    }
+}
+
+/// An offending point, if there is one: of `every` block, or of those whose points are behind a
+/// wall.
+pub(super) fn find_offending_point<R: Real>(
+    blocks: &[Block<R>],
+    packing: &Packing,
+    every: bool,
+    bounds: &Bounds,
+) -> Option<OffendingPoint> {
+    let Bounds {
+        planes, tolerance, ..
+    } = *bounds;
+    let lattice = &packing.lattice;
+    let behind = |plane: &Plane, block: &Block<R>| {
+        let height = |slot| {
+            let position = block.position(slot);
+            plane.height(&packing.position(&block.key, &position))
+        };
+        lowest(plane, lattice, &block.key) < -tolerance
+            && (0..block.count()).any(|slot| height(slot) < -tolerance)
+    };
+    let suspect = |block: &&Block<R>| every || planes.iter().any(|plane| behind(plane, block));
+    let suspects = blocks.iter().filter(suspect);
+    let mut points = suspects.flat_map(|block| {
+        (0..block.count()).map(|slot| packing.unpack(&block.key, &block.get(slot)))
+    });
+    points.find_map(|point| OffendingPoint::of(&point, bounds))
+}
+
+/// Height above a plane of the lowest possible place of a point of this block [m].
+fn lowest(plane: &Plane, lattice: &Lattice, key: &BlockKey) -> f64 {
+    let first = lattice.position(key.map(|k| k * BLOCK as i32)) + lattice.spacing * 0.5;
+    let size = lattice.spacing * BLOCK as f64;
+    let corner = plane.normal.zip_zip_map(
+        &first,
+        &size,
+        |n, low, size| if n > 0.0 { low } else { low + size },
+    );
+    plane.height(&corner)
+}
