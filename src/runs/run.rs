@@ -1,5 +1,4 @@
-//! Runs one scenario: the simulation, with a recorder, into a sink. The
-//! service's workers and the command line both run jobs through this module.
+//! One run of a scenario: the simulation, with a recorder, into a sink.
 
 use super::progress::Progress;
 use super::saved_run::{self, SavedRunError, Spent};

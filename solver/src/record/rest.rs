@@ -27,8 +27,8 @@ pub struct EndedEarly {
 /// Material of a flow that comes to rest on the bed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Resting {
-    /// Static friction within it.
-    friction: f64,
+    /// Static friction within it; `None` without a flow.
+    friction: Option<f64>,
     /// Speed below which points are assumed to stay [m/s].
     still: f64,
 }
@@ -38,7 +38,7 @@ impl Resting {
         let flow = scenario.flow.as_ref();
         let height = flow.map_or(0.0, |flow| flow.release.height_m);
         Self {
-            friction: flow.map_or(f64::INFINITY, |flow| flow.material.static_friction),
+            friction: flow.map(|flow| flow.material.static_friction),
             still: METHOD.early_stop.still * (scenario.gravity_m_s2 * height).sqrt(),
         }
     }
@@ -46,7 +46,8 @@ impl Resting {
     /// True if friction at rest, within the flow and on the bed, holds a point here.
     fn is_held(&self, on: &Plane) -> bool {
         let steepness = on.normal.xy().norm() / on.normal.z;
-        steepness == 0.0 || steepness < on.flow_friction.min(self.friction)
+        let within = self.friction.unwrap_or(on.flow_friction);
+        steepness == 0.0 || steepness < on.flow_friction.min(within)
     }
 }
 
