@@ -12,6 +12,10 @@ pub(super) struct Reaches(Vec<f64>);
 impl Reaches {
     /// Distances under these accelerations [m/s²], impacts apart.
     pub(super) fn within(bodies: &[Body], acceleration: impl Fn(usize) -> f64, dt: f64) -> Self {
+        // A body alone has no neighbour, and a steady run allocates nothing.
+        if bodies.len() < 2 {
+            return Self(Vec::new());
+        }
         let reach = |(place, body): (usize, &Body)| {
             reach(body, speed_within(body, acceleration(place), dt), dt)
         };
@@ -20,9 +24,6 @@ impl Reaches {
 
     /// Pairs of bodies, one of them free, that may touch, in order.
     pub(super) fn pairs(&self, bodies: &[Body]) -> Vec<[usize; 2]> {
-        if bodies.len() < 2 {
-            return Vec::new();
-        }
         let ball = |(body, reach): (&Body, &f64)| Ball {
             centre: body.state.position,
             radius: body.shape.bounding_radius() + reach,
