@@ -30,6 +30,12 @@ impl Plane {
         self.normal.dot(x) - self.offset
     }
 
+    /// Least height above the plane [m] of the box between these corners.
+    pub fn height_of_box(&self, low: &Vec3, high: &Vec3) -> f64 {
+        let lowest = |normal, low, high| if normal > 0.0 { low } else { high };
+        self.height(&self.normal.zip_zip_map(low, high, lowest))
+    }
+
     /// Elevation [m] of the centre of a body above (x, y) that reaches so far [m] against the
     /// normal and touches the plane.
     pub fn lowest_centre(&self, reach: f64, x: f64, y: f64) -> f64 {
@@ -120,14 +126,7 @@ pub trait Bed: Debug + Send + Sync {
 
     /// True if it comes nearer than `margin` [m] to the box between these corners.
     fn is_near(&self, low: &Vec3, high: &Vec3, margin: f64) -> bool {
-        let lowest = |plane: &Plane| {
-            let corner = plane.normal.zip_zip_map(
-                low,
-                high,
-                |n, low, high| if n > 0.0 { low } else { high },
-            );
-            plane.height(&corner)
-        };
-        self.planes().iter().any(|plane| lowest(plane) <= margin)
+        let is_near = |plane: &Plane| plane.height_of_box(low, high) <= margin;
+        self.planes().iter().any(is_near)
     }
 }

@@ -127,7 +127,9 @@ impl PlanarBed {
 
 impl Bed for PlanarBed {
     fn elevation(&self, x: f64, _: f64) -> f64 {
-        self.elevation_of(self.highest_at(x), x)
+        let each = 0..self.planes.len();
+        each.map(|which| self.elevation_of(which, x))
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 
     fn tangent(&self, x: f64, _: f64) -> Plane {

@@ -57,11 +57,5 @@ pub(super) fn find_offending_point<R: Real>(
 /// Height above a plane of the lowest possible place of a point of this block [m].
 fn lowest(plane: &Plane, lattice: &Lattice, key: &BlockKey) -> f64 {
     let first = lattice.position(key.map(|k| k * BLOCK as i32)) + lattice.spacing * 0.5;
-    let size = lattice.spacing * BLOCK as f64;
-    let corner = plane.normal.zip_zip_map(
-        &first,
-        &size,
-        |n, low, size| if n > 0.0 { low } else { low + size },
-    );
-    plane.height(&corner)
+    plane.height_of_box(&first, &(first + lattice.spacing * BLOCK as f64))
 }
