@@ -93,18 +93,21 @@ fn advance_islands(
     islands
         .par_iter_mut()
         .for_each(|island| island.advance(around, dt));
-    let mut movers = Vec::new();
+    let (histories, movers) = dissolved(islands);
+    *contact_pairs = histories;
+    movers
+}
+
+/// Contact histories of all islands, in order, and the bodies with a prescribed motion near them.
+fn dissolved(islands: Vec<Island>) -> (Vec<ContactPair>, Vec<Mover>) {
+    let (mut histories, mut movers) = (Vec::new(), Vec::new());
     for island in islands {
-        contact_pairs.extend(
-            island
-                .contact_pairs
-                .into_iter()
-                .map(|island_pair| island_pair.contact_pair),
-        );
+        let of_island = island.contact_pairs.into_iter();
+        histories.extend(of_island.map(|island_pair| island_pair.contact_pair));
         movers.extend(island.movers);
     }
-    contact_pairs.sort_unstable_by_key(|contact_pair| contact_pair.bodies);
-    movers
+    histories.sort_unstable_by_key(|contact_pair| contact_pair.bodies);
+    (histories, movers)
 }
 
 /// Moves the bodies whose motion is prescribed.
@@ -146,32 +149,19 @@ fn advance_apart(
 /// Finds the contacts at the start, before anything moved.
 pub fn meet(bodies: &mut [Body]) -> Vec<ContactPair> {
     let pairs = Reaches::within(bodies, |_| 0.0, 0.0).pairs(bodies);
-    let mut contact_pairs: Vec<ContactPair> =
-        pairs.iter().map(|pair| ContactPair::new(*pair)).collect();
+    let contact_pairs = pairs.into_iter().map(ContactPair::new).collect();
     let mut reports = vec![BodyReport::default(); bodies.len()];
-    let at_rest = |_| Load::default();
-    for mut island in islands(
-        bodies,
-        &mut reports,
-        std::mem::take(&mut contact_pairs),
-        at_rest,
-    ) {
-        let Island {
-            members,
-            movers,
-            contact_pairs: island_pair,
-        } = &mut island;
-        find_contacts(members, movers, island_pair, 0.0);
-        evaluate_body_contacts(members, movers, island_pair, 0.0);
-        contact_pairs.extend(
-            island
-                .contact_pairs
-                .into_iter()
-                .map(|island_pair| island_pair.contact_pair),
-        );
+    let mut islands = islands(bodies, &mut reports, contact_pairs, |_| Load::default());
+    for Island {
+        members,
+        movers,
+        contact_pairs,
+    } in &mut islands
+    {
+        find_contacts(members, movers, contact_pairs, 0.0);
+        evaluate_body_contacts(members, movers, contact_pairs, 0.0);
     }
-    contact_pairs.sort_unstable_by_key(|contact_pair| contact_pair.bodies);
-    contact_pairs
+    dissolved(islands).0
 }
 
 /// Marks the bodies that the walls alone hold at the start: at rest, with loads that balance up
