@@ -122,7 +122,7 @@ fn refinement_runs(
     before
         .map(|study_run| {
             let scenario = convergence_study.scenario_of(study_run);
-            let cost = Plan::new(&scenario)?.cost;
+            let cost = Cost::of(&PreparedScene::of(&scenario)?);
             let span = Span::of(&scenario, &cost, threads, COMPANION_TIMED_FOR)?;
             Ok(PlannedRefinementRun {
                 role: study_run.role,

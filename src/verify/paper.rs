@@ -1,6 +1,6 @@
 //! The source paper's scene and the motion of its cube.
 
-use super::run::{Answer, CaseError, Run, scenario_of, scene_of};
+use super::run::{Answer, CaseError, Run, scenario_of};
 use scree_solver::record::Recorder;
 use scree_solver::simulation::PreparedScene;
 use scree_solver::stability::Limits;
@@ -31,7 +31,7 @@ pub(super) fn scene(cells: f64) -> Value {
 /// # Errors
 /// The scene is refused.
 pub(super) fn limits_of(scene: &Value) -> Result<Limits, CaseError> {
-    let flow = scene_of(scene)?.given.flow;
+    let flow = PreparedScene::whole(&scenario_of(scene)?)?.given.flow;
     Ok(flow.ok_or(CaseError::Never("there is no flow"))?.limits)
 }
 

@@ -52,8 +52,7 @@ pub struct Stage {
 }
 
 impl Cost {
-    /// The cost of a scene: equations 25–27 at the expected speed (31).
-    /// Cost of a prepared scene's run.
+    /// Cost of a prepared scene's run: equations 25–27 at the expected speed (31).
     pub fn of(prepared: &PreparedScene) -> Self {
         let scenario = &prepared.scenario;
         let points = prepared.columns.map_or(0, |columns| columns.points());

@@ -1,8 +1,6 @@
 //! Expected course of a flow: a rough estimate, for the cost of a run.
 
-use crate::bed::Bed;
 use crate::rigid::Body;
-use crate::scenario::Scenario;
 use crate::simulation::PreparedScene;
 
 /// Acceleration of a collapsing front, over gravity.
@@ -31,7 +29,7 @@ impl Course {
                 rests: f64::INFINITY,
             };
         };
-        let slide = Slide::of(scenario);
+        let slide = Slide::of(prepared);
         let front = prepared.bodies.iter().map(|body| {
             let back = body.state.position.x - body.shape.bounding_radius();
             back - 3.5 * prepared.given.lattice.spacing.x - release.front_m
@@ -59,8 +57,8 @@ struct Slide {
 }
 
 impl Slide {
-    fn of(scenario: &Scenario) -> Self {
-        let bed = scenario.bed();
+    fn of(prepared: &PreparedScene) -> Self {
+        let (scenario, bed) = (&prepared.scenario, &prepared.given.walls.bed);
         let back = scenario.release().map_or(0.0, |release| release.back_m);
         let slope = bed.tangent(back, 0.0);
         let (sin, cos) = (slope.normal.x, slope.normal.z);

@@ -1,7 +1,6 @@
 //! Hints: legal values of a scenario that are probably not meant, or costly.
 
 use super::cost::longest_substep;
-use crate::bed::Bed;
 use crate::scenario::Scenario;
 use crate::simulation::PreparedScene;
 use serde::{Deserialize, Serialize};
@@ -28,7 +27,7 @@ pub(super) fn of(prepared: &PreparedScene) -> Vec<Hint> {
     let hints = [
         inclination_in_radians(scenario),
         thin_bodies(prepared),
-        unreached_bodies(scenario),
+        unreached_bodies(prepared),
         light_bodies(prepared),
         cells_by_target(prepared),
     ];
@@ -74,13 +73,15 @@ fn thin_bodies(prepared: &PreparedScene) -> Option<Hint> {
 
 /// Bodies at rest beyond the reach of the flow's energy: a flow that starts at its highest
 /// place has lost all height to friction by then.
-fn unreached_bodies(scenario: &Scenario) -> Option<Hint> {
+fn unreached_bodies(prepared: &PreparedScene) -> Option<Hint> {
+    let scenario = &prepared.scenario;
     let release = scenario.release()?;
     let friction = scenario.flow.as_ref().map(|flow| {
         let within = flow.material.static_friction;
         within.min(scenario.channel.base_friction)
     })?;
-    let top = scenario.bed().elevation(release.back_m, 0.0) + release.vertical_thickness_m;
+    let bed = &prepared.given.walls.bed;
+    let top = bed.elevation(release.back_m, 0.0) + release.vertical_thickness_m;
     let reach = release.front_m + top / friction;
     let beyond = |body: &usize| {
         let given = &scenario.bodies[*body];

@@ -120,11 +120,11 @@ impl Setup {
             gravity: Vec3::new(0.0, 0.0, -scenario.gravity_m_s2),
             lattice,
             planes: walls.planes().copied().collect(),
+            guards: guards(scenario, walls.bed.as_ref()),
             walls,
             partners: Vec::new(),
             open_end: channel.runout_length_m,
             flow,
-            guards: guards(scenario),
         };
         Ok((given, columns))
     }
@@ -210,10 +210,10 @@ impl Setup {
 }
 
 /// Guards according to the highest fall and the fastest throw.
-fn guards(scenario: &Scenario) -> Guards {
+fn guards(scenario: &Scenario, bed: &dyn Bed) -> Guards {
     let release = scenario.release();
     let top = release.map_or(0.0, |release| {
-        scenario.bed().elevation(release.back_m, 0.0) + release.vertical_thickness_m
+        bed.elevation(release.back_m, 0.0) + release.vertical_thickness_m
     });
     let bodies = scenario.bodies.iter().enumerate().map(|(place, body)| {
         let radius = scenario.shape_of(place).bounding_radius();
