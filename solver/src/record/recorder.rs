@@ -37,7 +37,7 @@ pub struct Recorder {
     scale: Scale,
     /// Time of the next check for an early end [s].
     next_look: f64,
-    plan: Option<Plan>,
+    plan: Plan,
     ended_early: Option<EndedEarly>,
 }
 
@@ -56,7 +56,7 @@ impl Recorder {
             ending: scenario.numerics.ending,
             scale: Scale::of(size(scenario), scenario.gravity_m_s2),
             next_look: 0.0,
-            plan: Some(Plan::of(prepared)),
+            plan: Plan::of(prepared),
             ended_early: None,
         }
     }
@@ -106,7 +106,7 @@ impl Recorder {
     /// Ends the run at the end of a step, if nothing can move a body or the front any more and the
     /// scenario allows it: then returns the last records, and the outcome says so. The check has
     /// times of its own.
-    pub fn end_early(&mut self, simulation: &Simulation) -> Option<Vec<Record>> {
+    fn end_early(&mut self, simulation: &Simulation) -> Option<Vec<Record>> {
         let time_s = simulation.time_s();
         if time_s < self.next_look || time_s >= self.duration {
             return None;
@@ -191,7 +191,7 @@ impl Recorder {
                 sound_speed_m_s: simulation.sound_speed_m_s(),
             },
             ended_early: self.ended_early.clone(),
-            plan: self.plan.clone(),
+            plan: Some(self.plan.clone()),
             accuracy: None,
         }
     }

@@ -5,7 +5,6 @@ use scree_solver::record::{BodyOutcome, Recorder};
 use scree_solver::simulation::PreparedScene;
 use scree_solver::{Ending, Simulation};
 use serde_json::json;
-use std::ops::ControlFlow;
 
 /// A flow that strikes a cube and passes it, its lengths this many times as large: time of the
 /// end, and the cube's outcome.
@@ -26,15 +25,12 @@ fn struck(length: f64) -> (f64, BodyOutcome) {
         .set("channel", "base_friction", 0.6)
         .lasting(1.5 * length.sqrt())
         .scenario();
-    let mut simulation = Simulation::new(&scenario, 1).expect("the scene fits");
-    let mut recorder = Recorder::of(&PreparedScene::of(&scenario).expect("it fits"));
+    let prepared = PreparedScene::of(&scenario).expect("the scene fits");
+    let mut recorder = Recorder::of(&prepared);
+    let mut simulation = Simulation::of(prepared, 1).expect("it starts");
     recorder.start(&simulation);
     let ending = simulation.run(f64::INFINITY, |simulation, report| {
-        recorder.observe(simulation, report);
-        if report.step_ended && recorder.end_early(simulation).is_some() {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
+        recorder.watch(simulation, report).1
     });
     assert_eq!(ending, Ok(Ending::Interrupted), "it never rests");
     let mut outcome = recorder.outcome(&simulation, 1.0);

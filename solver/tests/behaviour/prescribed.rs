@@ -257,9 +257,8 @@ fn no_run_ends_early_while_a_motion_lasts() {
         recorder.start(&simulation);
         let mut ended = None;
         watch(&mut simulation, f64::INFINITY, |simulation, report| {
-            recorder.observe(simulation, report);
-            if report.step_ended && ended.is_none() {
-                ended = recorder.end_early(simulation).map(|_| report.time_s);
+            if ended.is_none() && recorder.watch(simulation, report).1.is_break() {
+                ended = Some(report.time_s);
             }
         })
         .expect("the scene runs");

@@ -18,9 +18,10 @@ struct Told {
 impl Told {
     fn of(scene: &Value) -> Self {
         let scenario = Scenario::from_json(&scene.to_string()).expect("it is legal");
-        let mut simulation = Simulation::new(&scenario, 1).expect("it fits");
+        let prepared = PreparedScene::of(&scenario).expect("it fits");
+        let mut recorder = Recorder::of(&prepared);
+        let mut simulation = Simulation::of(prepared, 1).expect("it starts");
         let start = centre(&simulation);
-        let mut recorder = Recorder::of(&PreparedScene::of(&scenario).expect("it fits"));
         let mut records = recorder.start(&simulation);
         let run = simulation.run(f64::INFINITY, |simulation, report| {
             records.extend(recorder.observe(simulation, report));

@@ -4,8 +4,7 @@
 use crate::scenes::{PRECISIONS, Scene, points_by_id, run};
 use scree_solver::record::{Record, Recorder};
 use scree_solver::scenario::{Approach, Scenario};
-use scree_solver::simulation::PreparedScene;
-use scree_solver::simulation::Share;
+use scree_solver::simulation::{PreparedScene, Share};
 use scree_solver::{Ending, SaveError, Simulation};
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -20,8 +19,9 @@ struct Recorded {
 
 impl Recorded {
     fn start(scenario: &Scenario, threads: usize) -> Self {
-        let simulation = Simulation::new(scenario, threads).expect("the scene fits");
-        let mut recorder = Recorder::of(&PreparedScene::of(scenario).expect("it fits"));
+        let prepared = PreparedScene::of(scenario).expect("the scene fits");
+        let mut recorder = Recorder::of(&prepared);
+        let simulation = Simulation::of(prepared, threads).expect("it starts");
         let records = recorder.start(&simulation);
         Self {
             simulation,

@@ -6,7 +6,6 @@ use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
 use scree_solver::{Ending, Simulation};
 use serde_json::json;
-use std::ops::ControlFlow;
 
 /// Shorter than a sub-step, about a step, and longer than the run [s].
 const INTERVALS: [f64; 3] = [7e-5, 0.003, 1.0];
@@ -21,17 +20,15 @@ struct Shown {
 
 /// Runs a scenario, saved to bytes and restored at these times [s].
 fn shown(scenario: &Scenario, moved_at: &[f64]) -> Shown {
-    let mut simulation = Simulation::new(scenario, 1).expect("the scene fits");
-    let mut recorder = Recorder::of(&PreparedScene::of(scenario).expect("it fits"));
+    let prepared = PreparedScene::of(scenario).expect("the scene fits");
+    let mut recorder = Recorder::of(&prepared);
+    let mut simulation = Simulation::of(prepared, 1).expect("it starts");
     let mut records = recorder.start(&simulation);
     for until in moved_at.iter().chain([&f64::INFINITY]) {
         let ending = simulation.run(*until, |simulation, report| {
-            records.extend(recorder.observe(simulation, report));
-            if let Some(last) = recorder.end_early(simulation).filter(|_| report.step_ended) {
-                records.extend(last);
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
+            let (taken, flow) = recorder.watch(simulation, report);
+            records.extend(taken);
+            flow
         });
         if ending == Ok(Ending::Interrupted) {
             break;

@@ -16,8 +16,9 @@ fn told(scene: &Scene) -> (Vec<Mode>, BodyOutcome) {
 /// Samples of the first body, and its outcome, at the end of its run.
 fn sampled(scene: &Scene) -> (Vec<BodySample>, BodyOutcome) {
     let scenario = scene.scenario();
-    let mut simulation = Simulation::new(&scenario, 1).expect("the scene fits");
-    let mut recorder = Recorder::of(&PreparedScene::of(&scenario).expect("it fits"));
+    let prepared = PreparedScene::of(&scenario).expect("the scene fits");
+    let mut recorder = Recorder::of(&prepared);
+    let mut simulation = Simulation::of(prepared, 1).expect("it starts");
     let mut records = recorder.start(&simulation);
     simulation
         .run(f64::INFINITY, |simulation, report| {
