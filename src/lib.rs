@@ -3,9 +3,9 @@
 //!
 //! Structure: [`service::start`] binds the address, opens the database
 //! and starts the workers; [`http`] receives jobs and returns results;
-//! [`jobs`] keeps them in the database; [`runs`] computes a scenario; [`results`] converts the records of a
-//! run into stored and served forms; [`pictures`] draws them. Separately,
-//! [`verify`] compares the solver with known answers.
+//! [`jobs`] keeps them in the database; [`runs`] computes a scenario; [`results`] converts the
+//! records of a run into stored and served forms; [`pictures`] draws them. Separately, [`verify`]
+//! compares the solver with known answers.
 
 pub mod config;
 pub mod http;

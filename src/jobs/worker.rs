@@ -7,8 +7,7 @@ use super::store::{
     AttemptStart, Claim, Claimant, FailedAttempt, Lease, ResumePoint, Solver, StoreError,
 };
 use crate::runs::convergence_study::Runs;
-use crate::runs::{COMMIT, SavedRunError};
-use crate::runs::{Run, RunEnd, RunError, Stop, StopFlag};
+use crate::runs::{COMMIT, Run, RunEnd, RunError, SavedRunError, Stop, StopFlag};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
 use scree_solver::{Instructions, SetupError};

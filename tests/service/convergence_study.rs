@@ -1,9 +1,7 @@
 //! Answers that need several runs.
 
 use crate::app::{TestApp, tiny_scene};
-use scree::runs::Progress;
-use scree::runs::convergence_study;
-use scree::runs::{RunEnd, RunError, Sink, StopFlag};
+use scree::runs::{Progress, RunEnd, RunError, Sink, StopFlag, convergence_study};
 use scree_solver::record::{Outcome, Record, Role, Sample};
 use scree_solver::scenario::Scenario;
 use serde_json::{Value, json};

@@ -1,7 +1,6 @@
 //! Runs that end before their duration, because nothing can move any more.
 
-use scree::runs::Progress;
-use scree::runs::{RunEnd, Sink, StopFlag, run};
+use scree::runs::{Progress, RunEnd, Sink, StopFlag, run};
 use scree_solver::record::{Outcome, Record};
 use scree_solver::scenario::Scenario;
 use serde_json::{Value, json};

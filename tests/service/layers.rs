@@ -1,6 +1,6 @@
 //! Allowed dependencies between layers, checked by the names of the folders: HTTP holds no
-//! SQL, the jobs and their store no HTTP, the runs no job, HTTP accesses the solver only through the jobs,
-//! and only the driver's folder names the database.
+//! SQL, the jobs and their store no HTTP, the runs no job, HTTP accesses the solver only through
+//! the jobs, and only the driver's folder names the database.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -18,5 +18,5 @@ mod layers;
 mod plans;
 mod restart;
 mod results;
-mod runner;
+mod runs;
 mod scenarios;

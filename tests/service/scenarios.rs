@@ -1,7 +1,6 @@
 //! Checks that every scenario of the repository can be run.
 
-use scree::runs::Progress;
-use scree::runs::{RunEnd, Sink, StopFlag, run};
+use scree::runs::{Progress, RunEnd, Sink, StopFlag, run};
 use scree_solver::record::Record;
 use scree_solver::scenario::Scenario;
 use std::convert::Infallible;

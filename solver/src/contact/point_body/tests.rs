@@ -9,8 +9,7 @@ use crate::kernel::{Lattice, PointStencil, Stencil};
 use crate::rigid::InverseInertia;
 use crate::rigid::fixture::{cuboid, of_shape};
 use crate::shape::{Feature, RegularSolid, SharpPolyhedron};
-use crate::walls::NodeAccess;
-use crate::walls::Plane;
+use crate::walls::{NodeAccess, Plane};
 use nalgebra::UnitQuaternion;
 
 const SPHERE: PointSphere = PointSphere {

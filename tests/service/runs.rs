@@ -1,9 +1,8 @@
-//! The runner, used by the service and the command line.
+//! Runs of a scenario, without the service.
 
 use crate::app::tiny_scene;
 use scree::results::TrajectoryColumns;
-use scree::runs::Progress;
-use scree::runs::{RunEnd, RunError, Sink, StopFlag, run};
+use scree::runs::{Progress, RunEnd, RunError, Sink, StopFlag, run};
 use scree_solver::record::{Record, Sample};
 use scree_solver::scenario::Scenario;
 
