@@ -4,9 +4,13 @@ use super::error::ShapeError;
 use super::face::{Face, sides};
 use nalgebra::Vector3;
 
-/// Distances below this fraction of the solid's size count as zero: far above
+/// Lengths below this fraction of the solid's size count as zero: far above
 /// the rounding of f64 coordinates (1e-16), far below any feature that matters.
-const FLATNESS: f64 = 1e-9;
+const NO_LENGTH: f64 = 1e-9;
+/// Distance of a face's vertex from its plane that is allowed, over the size. A vertex that
+/// stands for two nearer to each other than the smallest feature is in the planes of one only,
+/// and a little off those of the other: 5e-9 at most in a million rounded boulders.
+const FLATNESS: f64 = 1e-8;
 /// Distance of a vertex behind a face that it is not part of, as a fraction of the solid's
 /// size. Much less than the flatness, so that a vertex whose coordinates are ambiguous may be
 /// part of a face or not.
@@ -58,7 +62,7 @@ pub(super) fn euler(vertices: usize, edges: usize, faces: usize) -> Result<(), S
 pub(super) fn convex(vertices: &[Vector3<f64>], faces: &[Face]) -> Result<(), ShapeError> {
     let size = extent(vertices);
     for (index, face) in faces.iter().enumerate() {
-        if !is_flat_and_convex(vertices, face, FLATNESS * size) {
+        if !is_flat_and_convex(vertices, face, size) {
             return Err(ShapeError::BadFace { face: index });
         }
         let in_front = |v: &usize| face.normal.dot(&vertices[*v]) - face.offset > -BEHIND * size;
@@ -85,8 +89,10 @@ pub(super) fn extent(vertices: &[Vector3<f64>]) -> f64 {
 
 /// True if no vertex is off the plane, and every other vertex of the face strictly to the left
 /// of every side.
-fn is_flat_and_convex(vertices: &[Vector3<f64>], face: &Face, tolerance: f64) -> bool {
-    let flat = |&v: &usize| (face.normal.dot(&vertices[v]) - face.offset).abs() <= tolerance;
+fn is_flat_and_convex(vertices: &[Vector3<f64>], face: &Face, size: f64) -> bool {
+    let height = |v: usize| (face.normal.dot(&vertices[v]) - face.offset).abs();
+    let flat = |&v: &usize| height(v) <= FLATNESS * size;
+    let tolerance = NO_LENGTH * size;
     let left_of_side = |(a, b): (usize, usize)| {
         let side = vertices[b] - vertices[a];
         let inward = face.normal.cross(&side);

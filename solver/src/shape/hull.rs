@@ -12,26 +12,38 @@ use super::polyhedron::ConvexPolyhedron;
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 
-/// Distance from a plane that still counts as in it, over the solid's size: a tenth of the
-/// allowed bend of a face, and far above rounding.
+/// Distance from a plane that still counts as in it, over the solid's size: a hundredth
+/// of the allowed bend of a face, and far above rounding.
 const COPLANAR: f64 = 1e-10;
 /// Smallest feature kept, over the solid's size. The normal of a triangle narrower than this is
 /// not accurate to [`COPLANAR`].
 const SMALLEST: f64 = 1e-5;
+/// Smallest features tried in turn. A feature about as large as the limit can be one point for one
+/// face and two for its neighbour, whose loops then don't close; with another limit it is the same
+/// for both.
+const LIMITS: [f64; 3] = [SMALLEST, 2e-6, 5e-5];
 
 /// The convex hull of some points, without points inside it, in a face or on an edge.
 ///
 /// # Errors
 /// Points that enclose no volume.
 pub(super) fn hull_of(points: &[Vector3<f64>]) -> Result<ConvexPolyhedron, ShapeError> {
-    Candidates::of(points, extent(points)).hull()
+    let size = extent(points);
+    let first = Candidates::of(points, size, SMALLEST).hull();
+    LIMITS[1..].iter().fold(first, |found, &limit| {
+        found.or_else(|error| {
+            Candidates::of(points, size, limit)
+                .hull()
+                .map_err(|_| error)
+        })
+    })
 }
 
 /// Outward unit normals of the hull's faces. Unlike the hull itself they are always defined,
 /// though faces that are nearly flat may consist of several pieces.
 pub(super) fn normals(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let size = extent(points);
-    let faces = Candidates::of(points, size).faces(size);
+    let faces = Candidates::of(points, size, SMALLEST).faces(size);
     faces.iter().map(|face| face.normal).collect()
 }
 
@@ -39,20 +51,25 @@ pub(super) fn normals(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
 #[derive(Debug, Clone)]
 pub(super) struct Candidates {
     points: Vec<Vector3<f64>>,
+    /// Smallest feature kept, over the size.
+    smallest: f64,
 }
 
 impl Candidates {
-    /// Points of a solid of this size [m]; those nearer to an earlier one than the smallest feature
-    /// are the same.
-    pub(super) fn of(points: &[Vector3<f64>], size: f64) -> Self {
+    /// Points of a solid of this size [m]; those nearer to an earlier one than the smallest feature,
+    /// a fraction of the size, are the same.
+    pub(super) fn of(points: &[Vector3<f64>], size: f64, smallest: f64) -> Self {
         let mut different: Vec<Vector3<f64>> = Vec::new();
         for point in points {
-            let near = |other: &Vector3<f64>| (other - point).norm() <= SMALLEST * size;
+            let near = |other: &Vector3<f64>| (other - point).norm() <= smallest * size;
             if !different.iter().any(near) {
                 different.push(*point);
             }
         }
-        Self { points: different }
+        Self {
+            points: different,
+            smallest,
+        }
     }
 
     /// Their convex hull, without points inside it, in a face or on an edge.
@@ -65,7 +82,7 @@ impl Candidates {
             let faces = self.faces(size);
             let loops: Vec<Vec<usize>> = faces
                 .iter()
-                .map(|face| face.corners(&self.points, SMALLEST * size))
+                .map(|face| face.corners(&self.points, self.smallest * size))
                 .collect();
             let is_vertex = |point: &usize| {
                 let of_point = || {
@@ -99,7 +116,7 @@ impl Candidates {
                 }
             }
         }
-        self.merged(faces, SMALLEST * size)
+        self.merged(faces, self.smallest * size)
     }
 
     /// Merges faces that share more than an edge.
@@ -133,7 +150,7 @@ impl Candidates {
         let across = to_b.cross(&to_c);
         let longest = to_b.norm_squared().max(to_c.norm_squared());
         let longest = longest.max((c - b).norm_squared());
-        if across.norm_squared() <= (SMALLEST * size).powi(2) * longest {
+        if across.norm_squared() <= (self.smallest * size).powi(2) * longest {
             return None;
         }
         let near = COPLANAR * size * across.norm();

@@ -269,6 +269,23 @@ fn a_radius_from_the_inradius_on_is_refused() {
     ));
 }
 
+/// Boulders drawn at random that were refused: a vertex stands for two places that are nearer to
+/// each other than the smallest feature. Per line the sphero radius over the inradius, and places.
+const NARROW: &str = include_str!("narrow_boulders.txt");
+
+#[test]
+fn a_boulder_with_a_feature_at_the_limit_can_be_rounded() {
+    for line in NARROW.lines() {
+        let mut numbers = line.split([' ', ',']).map(|n| n.parse().unwrap());
+        let share: f64 = numbers.next().unwrap();
+        let numbers: Vec<f64> = numbers.collect();
+        let points: Vec<_> = numbers.chunks(3).map(Vector3::from_column_slice).collect();
+        let sharp = SharpPolyhedron::hull_of(&points).unwrap();
+        let body = sharp.rounded(share * sharp.inradius());
+        assert!(body.is_ok(), "{share}: {body:?}");
+    }
+}
+
 proptest! {
     #[test]
     fn a_hull_holds_its_points_and_no_more(points in cloud(24)) {
