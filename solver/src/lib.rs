@@ -53,6 +53,8 @@ pub mod points;
 pub mod record;
 pub mod rigid;
 pub mod scenario;
+#[cfg(feature = "schema")]
+pub mod schema;
 pub mod shape;
 pub mod simulation;
 pub mod stability;

@@ -34,7 +34,7 @@ pub(super) struct BatchDocument {
 #[serde(deny_unknown_fields)]
 pub(super) struct BatchJob {
     /// The scenario.
-    #[schema(value_type = super::contract::ScenarioDocument)]
+    #[schema(value_type = crate::jobs::documents::Scenario)]
     scenario: Box<RawValue>,
     /// Additional labels of this job.
     #[serde(default)]

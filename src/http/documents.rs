@@ -1,6 +1,6 @@
 //! Documents of the service's answers.
 
-use super::contract::{OutcomeDocument, PlanDocument, ScenarioDocument};
+use crate::jobs::documents::{Outcome, Plan, Scenario};
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
 use crate::runs::Progress;
@@ -39,16 +39,16 @@ pub(super) struct JobDocument {
     /// Provenance of the answer.
     pub provenance: Provenance,
     /// The scenario with every default filled in.
-    #[schema(value_type = ScenarioDocument)]
+    #[schema(value_type = Scenario)]
     pub scenario: Box<RawValue>,
     /// Plan of the computation and its cost, made at submission; null for jobs
     /// accepted by an older version.
-    #[schema(required = true, value_type = Option<PlanDocument>)]
+    #[schema(required = true, value_type = Option<Plan>)]
     pub plan: Option<Box<RawValue>>,
     /// Progress so far.
     pub progress: Progress,
     /// The answer; null unless successful.
-    #[schema(required = true, value_type = Option<OutcomeDocument>)]
+    #[schema(required = true, value_type = Option<Outcome>)]
     pub outcome: Option<Box<RawValue>>,
     /// Reason of the failure; null unless failed.
     #[schema(required = true, value_type = Option<Failure>)]

@@ -1,6 +1,5 @@
 //! Snapshots of the flow.
 
-use super::contract::FlowSchema;
 use super::etag;
 use super::jobs::find;
 use super::named_job::NamedJob;
@@ -17,6 +16,30 @@ use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::{StreamExt, stream};
+use utoipa::ToSchema;
+
+/// The flow at one instant.
+#[derive(ToSchema)]
+#[expect(
+    dead_code,
+    reason = "a type of the contract: the document is written by its own code"
+)]
+#[schema(as = FlowSnapshot)]
+struct FlowSchema {
+    /// The job.
+    #[schema(format = "uuid")]
+    job_id: String,
+    /// Simulated time [s].
+    time_s: f64,
+    /// Number of points in the flow at that time.
+    points: u64,
+    /// Thinning factor: one in this many points is kept.
+    thinning: u32,
+    /// Position of each kept point [m].
+    position_m: Vec<[f32; 3]>,
+    /// Speed of each kept point [m/s].
+    speed_m_s: Vec<f32>,
+}
 
 /// Get a snapshot of the flow
 ///

@@ -5,7 +5,6 @@
 mod access;
 mod batch;
 mod common_answers;
-pub mod contract;
 mod documents;
 mod etag;
 mod events;

@@ -1,8 +1,8 @@
 //! Plans: computation and cost of a run.
 
-use super::contract::{PlanDocument, PlannedRefinementRunDocument, ScenarioDocument};
 use super::problem::Problem;
 use super::scenario_body::ScenarioText;
+use crate::jobs::documents::{Plan, PlannedRefinementRun, Scenario};
 use crate::jobs::forecast::WallTime;
 use crate::jobs::{JobService, PlanError};
 use axum::Json;
@@ -17,10 +17,10 @@ use utoipa::ToSchema;
 #[schema(as = Planned)]
 pub(super) struct PlannedDocument {
     /// Computation, reductions and cost of the run.
-    #[schema(value_type = PlanDocument)]
+    #[schema(value_type = Plan)]
     pub plan: Value,
     /// Runs made before that of the answer; with a target, the first ones.
-    #[schema(value_type = Vec<PlannedRefinementRunDocument>)]
+    #[schema(value_type = Vec<PlannedRefinementRun>)]
     pub refinement_runs: Value,
     /// Expected wall time of all runs on a worker of this service.
     pub wall_time: WallTime,
@@ -34,7 +34,7 @@ pub(super) struct PlannedDocument {
     post,
     path = "/v1/plans",
     tag = "plans",
-    request_body = ScenarioDocument,
+    request_body = Scenario,
     responses(
         (status = 200, description = "The plan", body = PlannedDocument),
         (status = 400, description = "The body is not JSON", body = Problem, content_type = "application/problem+json"),

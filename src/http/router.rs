@@ -7,6 +7,7 @@ use super::scenario_body::BodyDeadline;
 use super::{batch, common_answers, events, flow, jobs, plans, submission, system, trajectory};
 use crate::config::ServiceConfig;
 use crate::jobs::JobService;
+use crate::jobs::documents::complete;
 use axum::extract::{DefaultBodyLimit, Request};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
@@ -75,7 +76,11 @@ fn documented(limit: Duration) -> OpenApiRouter<JobService> {
         .routes(routes!(events::events))
         .routes(routes!(plans::plan))
         .merge(quick);
-    common_answers::add(all.get_openapi_mut());
+    let contract = all.get_openapi_mut();
+    common_answers::add(contract);
+    if let Some(components) = &mut contract.components {
+        complete(&mut components.schemas);
+    }
     all
 }
 

@@ -31,7 +31,7 @@ const RETRY_AFTER_S: u8 = 10;
         ("reuse" = Option<String>, Query, description = "\"finished\": a successful job with the same scenario, run by this very program, is as good as a new one"),
         ("Idempotency-Key" = Option<String>, Header, description = "A name for this request, 1 to 255 visible ASCII characters"),
     ),
-    request_body = super::contract::ScenarioDocument,
+    request_body = crate::jobs::documents::Scenario,
     responses(
         (status = 200, description = "A finished job with the same scenario (`reuse=finished`)", body = JobDocument,
          headers(("Location" = String, description = "Where the job is"))),

@@ -1,19 +1,36 @@
 //! Trajectories, written to the client while they are read chunk by chunk.
 
-use super::contract::TrajectorySchema;
 use super::jobs::find;
 use super::named_job::NamedJob;
 use super::problem::Problem;
 use super::query::Query;
 use crate::jobs::store::StoreError;
 use crate::jobs::{JobService, TrajectoryRange};
-use crate::results::columns::{Selection, Selector};
+use crate::results::columns::{Selection, Selector, TrajectoryColumns};
 use crate::results::table::{Field, Format, Heading, Writer};
 use axum::body::{Body, Bytes};
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
+use utoipa::ToSchema;
+
+/// The trajectory of one body.
+#[derive(ToSchema)]
+#[expect(
+    dead_code,
+    reason = "a type of the contract: the document is written by its own code"
+)]
+#[schema(as = Trajectory)]
+struct TrajectorySchema {
+    /// The job.
+    #[schema(format = "uuid")]
+    job_id: String,
+    /// Index of the body in the scenario.
+    body: u32,
+    /// Columns with one entry per sample.
+    columns: TrajectoryColumns,
+}
 
 /// Samples that fit an archive without ZIP64: 4 GiB of 269 bytes, and headers.
 const LARGEST_ARCHIVE: usize = 15_000_000;

@@ -42,7 +42,7 @@ pub struct Planned {
 }
 
 /// A planned run behind uncertainty intervals.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PlannedRefinementRun {
     /// Purpose of the run.
     pub role: Role,

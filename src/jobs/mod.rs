@@ -4,6 +4,7 @@
 
 mod admission;
 pub mod clock;
+pub mod documents;
 pub mod failure;
 pub mod forecast;
 pub mod job;

@@ -2,9 +2,7 @@
 
 use super::job::JobId;
 use scree_solver::scenario::Scenario;
-pub use scree_solver::scenario::{
-    FieldValue, REGULAR_SOLIDS, SHAPES, ScenarioError, ShapeField, ShapeKind, Violation, excerpt,
-};
+pub use scree_solver::scenario::{ScenarioError, Violation, excerpt};
 use scree_solver::simulation::PreparedScene;
 use scree_solver::{Plan, SetupError};
 use serde_json::{Value, json};

@@ -2,14 +2,15 @@
 
 use scree_solver::record::{BodySample, Mode, Sample};
 use serde::Deserialize;
+use utoipa::ToSchema;
 
-/// The trajectory of one body, one column a quantity, all of equal length.
-/// The fields are the columns of the trajectory document, in its order.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+/// Columns of a trajectory, all of equal length, in the order of the trajectory document. Forces
+/// and torques are means since the sample before.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, ToSchema)]
 pub struct TrajectoryColumns {
-    /// Sample times [s].
+    /// Simulated time [s].
     pub time_s: Vec<f64>,
-    /// Centre [m].
+    /// Centre [x, y, z] [m].
     pub position_m: Vec<[f64; 3]>,
     /// Unit quaternion [w, x, y, z].
     pub orientation: Vec<[f64; 4]>,
@@ -19,21 +20,21 @@ pub struct TrajectoryColumns {
     pub angular_velocity_rad_s: Vec<[f64; 3]>,
     /// Force of the flow [N].
     pub flow_force_n: Vec<[f64; 3]>,
-    /// Torque of the flow [N m].
+    /// Torque of the flow about the centre [N m].
     pub flow_torque_nm: Vec<[f64; 3]>,
     /// Force of the walls [N].
     pub wall_force_n: Vec<[f64; 3]>,
-    /// Torque of the walls [N m].
+    /// Torque of the walls about the centre [N m].
     pub wall_torque_nm: Vec<[f64; 3]>,
-    /// Force of other bodies [N].
+    /// Force of other bodies, fixed ones included [N].
     pub body_force_n: Vec<[f64; 3]>,
-    /// Torque of other bodies [N m].
+    /// Torque of other bodies about the centre [N m].
     pub body_torque_nm: Vec<[f64; 3]>,
     /// Material points in contact.
     pub touching_points: Vec<u32>,
-    /// Share of the height below the surface of the flow, 0..1.
+    /// Share of the body's height below the surface of the flow, 0..1.
     pub submerged_fraction: Vec<f64>,
-    /// Modes of the body's motion.
+    /// Mode of motion.
     pub mode: Vec<Mode>,
 }
 

@@ -118,3 +118,35 @@ impl Contract {
         }
     }
 }
+
+/// The tables of `docs/scenario.md` are made from the code. To update them after an intended
+/// change: `UPDATE_OPENAPI=1 cargo test --test service contract`
+#[test]
+fn the_tables_of_the_scenario_are_those_of_the_code() {
+    const HEAD: &str = "| Field | Meaning | Unit | Default | Allowed |";
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scenario.md");
+    let document = std::fs::read_to_string(&path).unwrap();
+    let schemas = scree::http::openapi().components.unwrap().schemas;
+    let mut tables = scree_solver::schema::tables(&schemas).into_iter();
+    let mut lines = document.lines().peekable();
+    let mut current = String::new();
+    while let Some(line) = lines.next() {
+        current += &format!("{line}\n");
+        if line == HEAD {
+            current += &format!("{}\n", lines.next().unwrap());
+            while lines.next_if(|line| line.starts_with('|')).is_some() {}
+            for row in tables.next().unwrap() {
+                current += &format!("{row}\n");
+            }
+        }
+    }
+    assert_eq!(tables.next(), None, "a table is missing in the document");
+    if std::env::var_os("UPDATE_OPENAPI").is_some() {
+        std::fs::write(&path, &current).unwrap();
+    }
+    assert!(
+        current == document,
+        "the tables of docs/scenario.md are not what the code says; if the change is wanted, \
+         run UPDATE_OPENAPI=1 cargo test --test service contract"
+    );
+}

@@ -8,18 +8,20 @@ use serde::{Deserialize, Serialize};
 /// Exact except for the order in which sums are rounded.
 const ROUNDING: &str = "exact but for rounding";
 
-/// A part that could be left out of a computation.
+/// A reduction of the computation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Choice {
-    /// The reduction.
+    /// Reduction that was considered.
     pub what: String,
-    /// True if it is made.
+    /// True if the reduction is made.
     pub taken: bool,
-    /// Reason for the choice.
+    /// Reason for or against the reduction.
     pub why: String,
-    /// Error that it makes.
+    /// Error caused by the reduction.
     pub error: String,
-    /// The field that overrides the choice, as a JSON pointer; null if there is none.
+    /// Field of the scenario that overrides the decision, as a JSON pointer; null if there is
+    /// none.
     pub decided_by: Option<String>,
 }
 

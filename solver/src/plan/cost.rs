@@ -18,36 +18,38 @@ const SPREADING: f64 = 2.0;
 
 /// Cost of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = PlannedCost))]
 pub struct Cost {
     /// Cell size [m].
     pub cell_size_m: f64,
     /// Material points of the flow at the start.
     pub points: u64,
-    /// Acoustic sub-steps of the whole duration.
+    /// Acoustic sub-steps of a run of the whole duration.
     pub substeps: u64,
-    /// Transfers between points and grid in the whole duration.
+    /// Transfers between points and grid of a run of the whole duration.
     pub steps: u64,
-    /// Sub-steps summed over the computed points in the whole duration, if none leaves.
+    /// Sub-steps summed over the computed points, of a run of the whole duration.
     pub point_steps: u64,
     /// Memory for points and grid once the flow has spread [bytes].
     pub memory_bytes: u64,
-    /// Expected end of the run [s]: the time at which friction has stopped the sliding flow, or the
-    /// duration.
+    /// Time at which the run is expected to end [s].
     pub expected_end_s: f64,
-    /// Shares of the flow that are computed, one after the other.
+    /// Parts of the run, one after the other, by the share of the flow that is computed.
     pub stages: Vec<Stage>,
 }
 
-/// A part of a run in which the same share of the flow is computed.
+/// Part of a run during which the same share of the flow is computed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Stage {
-    /// The share.
+    /// Share of the flow.
     pub share: Share,
-    /// Points of it.
+    /// Points of the share.
     pub points: u64,
     /// Expected number of sub-steps.
     pub substeps: u64,
-    /// The part of them before the expected end.
+    /// Expected number of sub-steps before the expected end.
     pub expected_substeps: u64,
 }
 

@@ -12,10 +12,12 @@ const MANY_TIMES: f64 = 1.5;
 /// Largest number of bodies named in a hint.
 const NAMED_BODIES: usize = 3;
 
-/// A hint that the author of a scenario may want to check a value.
+/// Warning about a scenario: something that is allowed, but probably not intended or unexpectedly
+/// costly.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Hint {
-    /// The field concerned, as a JSON pointer.
+    /// Field that the warning is about, as a JSON pointer.
     pub field: String,
     /// One sentence for people.
     pub detail: String,

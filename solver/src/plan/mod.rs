@@ -15,13 +15,13 @@ use crate::scenario::Scenario;
 use crate::simulation::PreparedScene;
 use serde::{Deserialize, Serialize};
 
-/// Plan of a run: the parts computed and left out with reasons, the cost, and probable
-/// mistakes.
+/// Plan of a run: its computation, its reductions with their reasons, and its cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Plan {
-    /// All parts that could be left out.
+    /// Every reduction that was considered.
     pub choices: Vec<Choice>,
-    /// Values to check before the run.
+    /// Warnings to check before the run; absent from plans of an older version.
     pub hints: Vec<Hint>,
     /// Cost of the run.
     pub cost: Cost,

@@ -4,14 +4,15 @@
 use crate::scenario::Quantity;
 use serde::{Deserialize, Serialize};
 
-/// A quantity with the interval in which its grid-converged value is expected.
+/// A quantity with the interval in which its grid-converged value (h → 0) is expected.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct UncertaintyInterval {
-    /// The value of the answer, a copy; null if it did not happen.
+    /// Value of the answer, equal to that in the outcome; null if the event did not happen.
     pub value: Option<f64>,
     /// Lower end; null if there is none.
     pub low: Option<f64>,
-    /// Upper end; null if there is none: it may also not happen at all.
+    /// Upper end; null if there is none: the event may also never happen.
     pub high: Option<f64>,
     /// Observed order of convergence; null if the values don't converge.
     pub order: Option<f64>,
@@ -19,114 +20,121 @@ pub struct UncertaintyInterval {
     pub basis: Basis,
 }
 
-/// Basis of an interval.
+/// Basis of an uncertainty interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Basis {
     /// Values that converge at a plausible order.
     Converging,
-    /// Values that turn, scatter, or change more with finer cells: a wide interval.
+    /// Values that oscillate, scatter, or change more with finer cells: a wide interval.
     Scattered,
     /// The same value in all runs.
     Same,
     /// Only one coarser run, so no order: a wide interval.
     OneRefinementRun,
-    /// It happened in none of the runs.
+    /// The event happened in none of the runs.
     NeverHappened,
-    /// It happened in some of the runs only: there is no upper end.
+    /// The event happened in some of the runs only: there is no upper end.
     SometimesHappened,
-    /// There is no other run to compare with.
+    /// No other run to compare with.
     Nothing,
 }
 
 /// Uncertainty intervals of a body's quantities, under the keys of its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct BodyErrorBars {
-    /// Of `onset_time_s`.
+    /// Interval of `onset_time_s`.
     pub onset_time_s: UncertaintyInterval,
-    /// Of `peak_speed_m_s`.
+    /// Interval of `peak_speed_m_s`.
     pub peak_speed_m_s: UncertaintyInterval,
-    /// Of `peak_speed_time_s`.
+    /// Interval of `peak_speed_time_s`.
     pub peak_speed_time_s: UncertaintyInterval,
-    /// Of `stop_time_s`.
+    /// Interval of `stop_time_s`.
     pub stop_time_s: UncertaintyInterval,
-    /// Of `displacement_m`.
+    /// Interval of `displacement_m`.
     pub displacement_m: UncertaintyInterval,
-    /// Of `path_length_m`.
+    /// Interval of `path_length_m`.
     pub path_length_m: UncertaintyInterval,
-    /// Of each component of `final_position_m`.
+    /// Interval of each component of `final_position_m`.
     pub final_position_m: [UncertaintyInterval; 3],
 }
 
 /// Uncertainty intervals of the flow's quantities, under the keys of its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct FlowErrorBars {
-    /// Of `front_m`.
+    /// Interval of `front_m`.
     pub front_m: UncertaintyInterval,
-    /// Of `runout_m`.
+    /// Interval of `runout_m`.
     pub runout_m: UncertaintyInterval,
-    /// Of `outflow_mass_kg`.
+    /// Interval of `outflow_mass_kg`.
     pub outflow_mass_kg: UncertaintyInterval,
 }
 
-/// The runs behind the intervals, and the result of a target.
+/// Runs behind the intervals, and the result of the target.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct AccuracyReport {
-    /// All runs in the order they were made.
+    /// All runs, in the order in which they were made.
     pub runs: Vec<RunCost>,
-    /// Point-steps of all other runs over those of the answer's.
+    /// Point-steps of all other runs, over those of the run of the answer.
     pub extra_cost: f64,
-    /// Wall time of all other runs over that of the answer's; null if the answer took no time.
-    /// Larger in small scenes, where the cost per step outweighs that of the points.
+    /// Wall time of all other runs, over that of the run of the answer; null if the latter took no
+    /// time. Larger in small scenes, where the fixed cost of a step prevails.
     pub extra_wall_cost: Option<f64>,
-    /// Report on the target; null if none was given.
+    /// Result of the target; null if none was given.
     pub target: Option<TargetReport>,
 }
 
-/// A run behind an interval.
+/// One of the runs behind an uncertainty interval.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct RunCost {
-    /// Role of the run.
+    /// Purpose of the run.
     pub role: Role,
     /// Cell size [m].
     pub cell_size_m: f64,
     /// Cells across the thinnest body; null without bodies.
     pub cells_per_body: Option<f64>,
-    /// √(K/ρ) of the bulk [m/s].
+    /// Speed of sound in the bulk [m/s].
     pub sound_speed_m_s: f64,
-    /// Sub-steps summed over the computed points; null if it failed.
+    /// Sub-steps summed over the points that took part; null if the run failed.
     pub point_steps: Option<u64>,
-    /// Wall time, measured by the caller [s]; null if it failed.
+    /// Wall time [s]; null if the run failed.
     pub wall_s: Option<f64>,
-    /// Reason for the failure; null if it succeeded.
+    /// Reason of the failure; null if the run succeeded.
     pub failure: Option<String>,
 }
 
-/// Role of a run.
+/// Purpose of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
-    /// Larger cells than the answer's.
+    /// Run with larger cells than those of the answer.
     Coarser,
-    /// A material of reduced stiffness, at the cell size of a coarser run.
+    /// Run with a material of reduced stiffness, at the cell size of a coarser run.
     ReducedStiffness,
-    /// The answer.
+    /// Run of the answer.
     Answer,
 }
 
-/// Report on a target: the error asked for and the one reached.
+/// Result of the target.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct TargetReport {
-    /// The target quantity.
+    /// Quantity to which the target applies.
     pub quantity: Quantity,
-    /// Index of the body whose quantity it is; null for the flow's.
+    /// Index of the body whose quantity it is; null for a quantity of the flow.
     pub body: Option<u32>,
-    /// Largest distance of the interval's ends from the value, over the value, as asked.
+    /// Requested largest distance of the interval from the value, over the value.
     pub asked: f64,
-    /// The distance reached; null if the interval has an open end or the value is 0.
+    /// Distance reached, over the value; null if the interval has an open end or the value is 0.
     pub reached: Option<f64>,
-    /// True if the distance reached is within the one asked for.
+    /// True if the distance reached is no larger than the requested one.
     pub met: bool,
-    /// Reason for which it was not met; null if it was.
+    /// Reason why the target was not met; null if it was met.
     pub reason: Option<String>,
 }

@@ -25,19 +25,20 @@ pub use recorder::Recorder;
 pub use rest::EndedEarly;
 use serde::{Deserialize, Serialize};
 
-/// Mode of a body's motion.
+/// Mode of motion of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Mode {
-    /// At rest.
+    /// At rest, or fixed.
     Resting,
-    /// On a wall or another body, and hardly turning over as it travels.
+    /// In contact with a wall or another body, and hardly turning over as it travels.
     Sliding,
-    /// On a wall or another body, turning over about as fast as it travels.
+    /// In contact with a wall or another body, turning over about as fast as it travels.
     Rolling,
-    /// Off walls and other bodies most of the time since the last sample.
+    /// Without contact with walls and other bodies for most of the time since the last sample.
     Saltating,
-    /// Carried by the flow, more than by walls and other bodies.
+    /// Supported by the flow more than by walls and other bodies.
     Carried,
 }
 
@@ -109,18 +110,21 @@ pub enum Record {
     Snapshot(FlowSnapshot),
 }
 
-/// Outcome of one body. An event that did not happen is `None` (null).
+/// Outcome of one body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct BodyOutcome {
-    /// First time the flow touched it [s].
+    /// Time of the first contact with the flow [s]; null if there was none.
     pub first_contact_time_s: Option<f64>,
-    /// First time at which the centre is a fortieth of the body's size from its start [s].
+    /// First time at which the centre is a fortieth of the body's size (cube root of its volume)
+    /// from its initial position [s].
     pub onset_time_s: Option<f64>,
     /// Largest speed of the centre [m/s].
     pub peak_speed_m_s: f64,
-    /// Time of the largest speed [s]; null for a body that never moved.
+    /// Time of the largest speed of the centre [s].
     pub peak_speed_time_s: Option<f64>,
-    /// Time since which it is at rest [s]; null if it still moves at the end or never moved.
+    /// Time from which on the body is at rest until the end [s]; null if it still moves or never
+    /// moved.
     pub stop_time_s: Option<f64>,
     /// Net horizontal displacement of the centre [m].
     pub displacement_m: f64,
@@ -130,44 +134,46 @@ pub struct BodyOutcome {
     pub final_position_m: [f64; 3],
     /// Orientation at the end [w, x, y, z].
     pub final_orientation: [f64; 4],
-    /// Uncertainty intervals of all but the orientation; `None` unless asked for.
+    /// Uncertainty intervals of all but the orientation; null unless asked for.
     pub error_bars: Option<BodyErrorBars>,
-    /// Mass and resistance to turning.
+    /// Mass and principal moments of inertia.
     pub mass_properties: MassProperties,
-    /// Balance of its energy; null for a fixed or prescribed body.
+    /// Energy balance of the body; null if no load moves it.
     pub energy: Option<BodyEnergy>,
 }
 
-/// Balance of a body's energy (equation 38a): kinetic + potential + stored = start + work of
-/// the flow + work of bodies − dissipated + made.
+/// Energy balance of a body: kinetic + potential + stored = start + work of the flow + work of
+/// bodies − dissipated + made.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct BodyEnergy {
     /// Kinetic, potential and stored energy at the start [J].
     pub start_j: f64,
     /// Kinetic energy at the end [J].
     pub kinetic_j: f64,
-    /// Potential energy over the floor at the end [J].
+    /// Potential energy, relative to the floor, at the end [J].
     pub potential_j: f64,
-    /// Energy stored in its contacts with walls and bodies at the end; half of that in contacts
-    /// with another free body [J].
+    /// Energy stored in its contacts with walls and bodies at the end; half of that stored in
+    /// contacts with other free bodies [J].
     pub stored_j: f64,
     /// Work of the flow on it [J].
     pub flow_work_j: f64,
-    /// Energy received from other bodies: work of prescribed motions, and half of the difference of
-    /// a contact's work on it and on the other free body [J].
+    /// Energy received from other bodies: work of prescribed motions, and half of the difference
+    /// of a contact's work on this and on the other free body [J].
     pub body_work_j: f64,
     /// Energy dissipated by damping and slip in its contacts with walls and bodies [J].
     pub dissipated_j: f64,
-    /// Energy that nothing accounts for: made by the computation if positive, lost if not [J].
+    /// Unaccounted energy: created by the computation if positive, lost if negative [J].
     pub made_j: f64,
-    /// Largest rise of that above its running minimum, over the sum of the largest kinetic and
-    /// stored energy, the exchange with flow and bodies, the range of its potential energy, and m g
-    /// times its radius.
+    /// Largest rise of `made_j` above its running minimum, over the sum of the largest kinetic and
+    /// stored energy, all energy exchanged with flow and bodies, the potential energy of its rises
+    /// and falls, and m g times its radius. A run ends beyond 0.01.
     pub made_share: f64,
 }
 
-/// Mass properties of a rounded body about its centre of mass, exact (equation 14).
+/// Mass properties of a rounded body about its centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct MassProperties {
     /// Mass [kg].
     pub mass_kg: f64,
@@ -175,58 +181,58 @@ pub struct MassProperties {
     pub volume_m3: f64,
     /// Principal moments of inertia, the smallest first [kg m²].
     pub principal_moments_kg_m2: [f64; 3],
-    /// Unit axes of these moments in body axes, right-handed; about equal moments
+    /// Unit vectors of the principal axes in body axes, right-handed; for about equal moments,
     /// those nearest to the body axes.
     pub principal_axes: [[f64; 3]; 3],
 }
 
 /// Outcome of the flow.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct FlowOutcome {
-    /// The x beyond which 0.1 % of the released mass lies, mass that left through the open end
-    /// included [m]; null without a flow.
+    /// Position x beyond which 0.1 % of the released mass lies [m].
     pub front_m: Option<f64>,
     /// Front minus the initial toe [m].
     pub runout_m: Option<f64>,
     /// Mass that left through the open end [kg].
     pub outflow_mass_kg: f64,
-    /// Volume of the release not placed because a body is there [m³].
+    /// Volume of the release that was not placed because a body occupies it [m³].
     pub excluded_volume_m3: f64,
-    /// Uncertainty intervals of all but the volume left out; `None` unless asked for.
+    /// Uncertainty intervals of all but the excluded volume; null unless asked for.
     pub error_bars: Option<FlowErrorBars>,
 }
 
-/// Conservation audit of a run, a measure of its reliability.
+/// Checks that tell whether the run can be trusted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Conservation {
-    /// |mass now + mass left − mass released| / mass released.
+    /// Relative error of the mass balance.
     pub mass_error: f64,
-    /// Largest linear momentum imbalance of flow + bodies against gravity and
-    /// wall impulses over all steps, relative to Σ m|v| plus the accumulated
-    /// impulse.
+    /// Largest relative residual of the linear momentum balance.
     pub momentum_residual: f64,
-    /// Largest imbalance of angular momentum about the origin, relative likewise.
+    /// Largest relative residual of the angular momentum balance.
     pub angular_momentum_residual: f64,
-    /// Angular momentum from particle shifting; the residual does not count it.
+    /// Relative angular momentum created by particle redistribution; the residual does not include
+    /// it.
     pub angular_momentum_from_shifting: f64,
-    /// Largest rise of mechanical energy above its running minimum, relative
-    /// to the largest kinetic energy.
+    /// Largest relative rise of mechanical energy.
     pub energy_residual: f64,
-    /// Largest overlap of a point with a body, δ/(R_p + r).
+    /// Largest overlap of a point with a body, over the sum of point radius and sphero radius.
     pub max_overlap_ratio: f64,
-    /// Largest overlap of a body with a wall or another body, δ/r, r the smaller
-    /// sphero radius of two bodies.
+    /// Largest overlap of a body with a wall or another body, over its sphero radius (the smaller
+    /// of two).
     pub max_body_overlap_ratio: f64,
-    /// Penetration corrections: points that ended a step inside a body's core.
+    /// Number of penetration corrections of points out of a body.
     pub penetration_corrections: u64,
     /// Points that left through the open end.
     pub points_outflow: u64,
-    /// Points lost otherwise: zero in a finished run.
+    /// Points lost in any other way.
     pub points_lost: u64,
 }
 
 /// Cost of the answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Cost {
     /// Material points at the start.
     pub points: u64,
@@ -234,35 +240,36 @@ pub struct Cost {
     pub steps: u64,
     /// Acoustic sub-steps.
     pub substeps: u64,
-    /// Sub-steps summed over the computed points.
+    /// Sub-steps summed over the points that took part.
     pub point_steps: u64,
-    /// Wall time, measured by the caller [s].
+    /// Wall time [s].
     pub wall_s: f64,
-    /// Sub-steps of one point, per second of wall time.
+    /// Point-steps (sub-steps of one point) per second of wall time [1/s].
     pub point_steps_per_s: f64,
-    /// Threads the solver used.
+    /// Solver threads.
     pub threads: usize,
     /// Cell size [m].
     pub cell_size_m: f64,
-    /// √(K/ρ) in use [m/s]; null without a flow.
+    /// Sound speed in use [m/s].
     pub sound_speed_m_s: Option<f64>,
 }
 
-/// The answer in short.
+/// The answer in short. Null stands for an event that did not happen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Outcome {
     /// One entry per body, in the scenario's order.
     pub bodies: Vec<BodyOutcome>,
     /// The flow.
     pub flow: FlowOutcome,
-    /// Conservation audit, a measure of its reliability.
+    /// Checks that tell whether the run can be trusted.
     pub conservation: Conservation,
-    /// Cost, without the runs behind intervals.
+    /// Cost of the run, without the runs behind intervals.
     pub cost: Cost,
-    /// Early end of the run; null if it ran for its duration.
+    /// Early stop of the run; null if it ran for its whole duration.
     pub ended_early: Option<EndedEarly>,
-    /// Plan made before the run: the parts computed and left out, with reasons.
+    /// Plan of the run: computation and reductions, as decided before the run.
     pub plan: Option<Plan>,
-    /// Basis of the intervals; `None` unless asked for.
+    /// Runs behind the intervals; null unless asked for.
     pub accuracy: Option<AccuracyReport>,
 }

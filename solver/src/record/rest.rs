@@ -11,16 +11,17 @@ use crate::simulation::Simulation;
 use crate::walls::Plane;
 use serde::{Deserialize, Serialize};
 
-/// Early end of a run, with bounds of the changes that the rest could have made.
+/// Early stop of a run, with bounds on the changes that the rest of the run could have made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct EndedEarly {
-    /// Time of the end [s].
+    /// Time of the early stop [s].
     pub time_s: f64,
-    /// Reason.
+    /// Reason for the early stop.
     pub reason: String,
-    /// Bound of the further displacement of a body [m].
+    /// Bound on the further displacement of any body [m].
     pub body_bound_m: f64,
-    /// Bound of the further advance of the front [m]; null without a flow.
+    /// Bound on the further advance of the front [m]; null without a flow.
     pub front_bound_m: Option<f64>,
 }
 

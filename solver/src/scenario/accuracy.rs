@@ -6,19 +6,21 @@ use super::rules::{BUDGET, CELL_SIZE, TARGET, TARGET_BODY};
 use super::{Flow, Numerics};
 use serde::{Deserialize, Serialize};
 
-/// Demands on the answer's accuracy.
+/// Requested accuracy of the answer, and whether it reports uncertainty intervals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Accuracy {
-    /// True if every quantity of the outcome gets an interval (docs/error-bars.md).
+    /// Coarser runs give every quantity of the outcome an uncertainty interval.
     pub error_bars: bool,
-    /// Largest distance of the interval's ends from the value of `quantity`, over the value; met by
-    /// the choice of cells; `None`: the cells are those of `numerics`.
+    /// How far the interval of `quantity` may reach from its value, over it; to be met by the
+    /// choice of cells; `null`: `numerics` chooses them. The outcome then has bands, too.
     pub target: Option<f64>,
-    /// The quantity of `target`.
+    /// The outcome's key that `target` is about; `null` without a target.
     pub quantity: Option<Quantity>,
-    /// Index of the body whose quantity it is.
+    /// Index of the body whose quantity that is.
     pub body: u32,
-    /// Largest number of point-steps for `target`, those of all runs together.
+    /// Point-steps (sub-steps of one point) that may be spent on `target`, those of all runs
+    /// together.
     pub budget_point_steps: f64,
 }
 
@@ -29,19 +31,20 @@ impl Accuracy {
     }
 }
 
-/// A quantity of the outcome, as JSON by its key.
+/// A quantity of the outcome, by its key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub enum Quantity {
-    /// First time a body's centre is a fortieth of the body's size from its start.
+    /// First time a body's centre is 1 mm from its start.
     #[serde(rename = "onset_time_s")]
     Onset,
     /// Largest speed of a body's centre.
     #[serde(rename = "peak_speed_m_s")]
     PeakSpeed,
-    /// Time of that.
+    /// Time of the largest speed of a body's centre.
     #[serde(rename = "peak_speed_time_s")]
     PeakTime,
-    /// Time since which a body has been at rest.
+    /// Time from which on a body is at rest.
     #[serde(rename = "stop_time_s")]
     Stop,
     /// Net horizontal displacement of a body.
@@ -53,7 +56,7 @@ pub enum Quantity {
     /// Front of the flow.
     #[serde(rename = "front_m")]
     Front,
-    /// Front of the flow less that of the release.
+    /// Front of the flow minus the front of the release.
     #[serde(rename = "runout_m")]
     Runout,
 }

@@ -7,6 +7,8 @@ mod accuracy;
 mod agreement;
 mod body;
 mod duration;
+#[cfg(feature = "schema")]
+mod fields;
 mod fit;
 mod motion;
 mod node;
@@ -17,6 +19,8 @@ mod reader;
 mod reduction;
 mod report;
 mod rules;
+#[cfg(feature = "schema")]
+pub(crate) mod schema;
 mod sections;
 mod shape;
 #[cfg(test)]
@@ -33,38 +37,43 @@ pub use shape::{FieldValue, REGULAR_SOLIDS, SHAPES, Shape, ShapeField, ShapeKind
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A validated scenario. Serialised, it is the scenario's JSON with every
-/// default filled in; `None` stands for "automatic".
+/// A scenario. Fields with a default may be left out; the service's answer has all of them filled
+/// in, and null stands for "automatic".
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Scenario {
     /// Free text.
     pub title: String,
     /// The channel.
     pub channel: Channel,
-    /// The granular flow; `None`: no flow.
+    /// The flow; `null`: no flow.
     pub flow: Option<Flow>,
-    /// The rigid bodies.
+    /// The bodies; `[]`: none.
     pub bodies: Vec<Body>,
-    /// Gravity [m/s²].
+    /// Gravity, along −z [m/s²].
     pub gravity_m_s2: f64,
-    /// Simulated time [s].
+    /// Simulated time [s]; 0 gives the start alone.
     pub duration_s: f64,
-    /// Time between samples [s]: samples lie at k · interval and at the end.
+    /// Time between samples, which lie at its multiples and at the end [s]; changes no bit of the
+    /// motion.
     pub sample_interval_s: f64,
-    /// Snapshots of the flow, at equal intervals over the run, both ends included.
+    /// Number of snapshots of the flow, evenly spread, both ends included, each at the end of the
+    /// step that holds its time; 1: the start.
     pub flow_snapshots: u32,
     /// Numerical choices.
     pub numerics: Numerics,
-    /// Accuracy asked for.
+    /// How good the answer has to be.
     pub accuracy: Accuracy,
 }
 
-/// Incline and floor between two side walls.
+/// Incline and floor between two side walls. x runs downstream and is 0 at the foot of the
+/// incline; y runs across and is 0 on the centre line; z runs up and is 0 on the floor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Channel {
-    /// Inclination of the inclined part [°].
+    /// Inclination θ of the incline [°].
     pub inclination_deg: f64,
-    /// Horizontal length l0 of the inclined part [m].
+    /// Horizontal length l0 of the incline [m].
     pub incline_length_m: f64,
     /// Horizontal length l1 of the floor [m].
     pub runout_length_m: f64,
@@ -78,145 +87,149 @@ pub struct Channel {
 
 /// The granular flow.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Flow {
-    /// Released volume [m³].
+    /// Released volume [m³]; 0 is a flow without points, anything else below 1e-15 is refused.
     pub volume_m3: f64,
-    /// Release.
+    /// Position and shape of the release.
     pub release: Release,
     /// Material.
     pub material: Material,
 }
 
-/// Shape of the release: the whole width, vertical front and back, upper face
-/// parallel to the slope.
+/// The release: as wide as the channel, with vertical front and back and an upper face parallel to
+/// the slope.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Release {
     /// Thickness normal to the slope [m].
     pub height_m: f64,
-    /// Horizontal distance of the front from the foot of the incline [m].
+    /// Horizontal distance of the front from the foot [m].
     pub toe_distance_m: f64,
 }
 
 /// Granular material.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Material {
-    /// Density of the bulk at rest, ρ_c [kg/m³].
+    /// Density of the bulk at rest [kg/m³].
     pub bulk_density_kg_m3: f64,
-    /// Density of a grain, ρ_s [kg/m³].
+    /// Density of a grain [kg/m³].
     pub grain_density_kg_m3: f64,
-    /// Diameter of a grain, d [m].
+    /// Diameter d of a grain in the inertial number [m].
     pub grain_diameter_m: f64,
-    /// Friction at rest, μ_s.
+    /// Friction at rest μ_s.
     pub static_friction: f64,
-    /// Friction at large inertial number, μ_2 (equal to μ_s: Drucker–Prager).
+    /// Friction at large inertial number μ_2; equal to μ_s: Drucker–Prager.
     pub limiting_friction: f64,
-    /// Inertial number I0.
+    /// Inertial number I0 half-way between the two frictions.
     pub reference_inertial_number: f64,
-    /// Poisson's ratio ν.
+    /// Poisson's ratio.
     pub poissons_ratio: f64,
-    /// Young's modulus E [Pa]; `None`: from the sound speed.
+    /// Young's modulus [Pa]; `null`: from the sound speed.
     pub youngs_modulus_pa: Option<f64>,
 }
 
 /// A rigid body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Body {
-    /// Shape.
+    /// The shape before rounding: `{"cube": {…}}`.
     pub shape: Shape,
-    /// Radius of the rounding sphere, r [m]; of a ball or capsule its own.
+    /// Radius of the sphere that rounds edges and vertices [m].
     pub sphero_radius_m: f64,
     /// Density [kg/m³].
     pub density_kg_m3: f64,
-    /// Position of its centre at the start.
+    /// Initial position of its centre.
     pub position: Position,
-    /// Turn about the normal of its support [°].
+    /// Turn about the normal of the bed under the centre, x towards y [°].
     pub yaw_deg: f64,
-    /// Free orientation [w, x, y, z] instead of `yaw_deg`.
+    /// Quaternion [w, x, y, z] from body to channel axes, instead of yaw.
     pub orientation: Option<[f64; 4]>,
-    /// Initial velocity [m/s].
+    /// Velocity of the centre at the start [m/s].
     pub velocity_m_s: [f64; 3],
-    /// Initial angular velocity, world axes [rad/s].
+    /// Angular velocity at the start, in channel axes [rad/s].
     pub angular_velocity_rad_s: [f64; 3],
-    /// Coulomb friction with walls and other bodies.
+    /// Coulomb friction with walls and other bodies; of two bodies √(μ_A μ_B).
     pub friction: f64,
     /// Restitution with walls and other bodies.
     pub restitution: f64,
-    /// Rolling resistance on walls and other bodies: the couple of a contact is
-    /// at most this × its equivalent radius × its normal force.
+    /// Rolling resistance on walls and other bodies: the couple of a contact is at most this × its
+    /// equivalent radius × its normal force; of two bodies the larger.
     pub rolling_friction: f64,
     /// Coulomb friction with the flow.
     pub flow_friction: f64,
     /// Restitution with the flow.
     pub flow_restitution: f64,
-    /// Hertz contact modulus E* with rigid walls [Pa], of two bodies
-    /// 1/E* = 1/E_A + 1/E_B; `None`: by equation 33 of `docs/method.md`.
+    /// Hertz contact modulus E* with rigid walls [Pa]; of two bodies 1/E* = 1/E_A + 1/E_B.
     pub contact_modulus_pa: Option<f64>,
     /// A fixed body is a barrier.
     pub fixed: bool,
-    /// Prescribed motion, whatever acts on it; `None`: it is fixed or free.
+    /// How the body moves whatever acts on it; `null`: it is free, or fixed.
     pub motion: Option<Motion>,
 }
 
 /// Centre of a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Position {
-    /// x [m].
+    /// x of the centre of mass [m].
     pub downstream_m: f64,
-    /// y [m].
+    /// y of the centre of mass [m].
     pub lateral_m: f64,
-    /// z [m]; `None`: resting on the floor or flat on the incline.
+    /// z of the centre of mass [m]; `null`: rests on the bed under the centre.
     pub elevation_m: Option<f64>,
 }
 
-/// Numerical choices; `None`: automatic.
+/// Numerical choices; null: automatic.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Numerics {
-    /// Cell size h [m].
+    /// Size of a grid cell [m].
     pub cell_size_m: Option<f64>,
     /// Material points per cell.
     pub points_per_cell: u32,
-    /// √(K/ρ) [m/s].
+    /// √(K/ρ) of the bulk [m/s]; not together with `youngs_modulus_pa`.
     pub sound_speed_m_s: Option<f64>,
     /// Courant number of the acoustic sub-step.
     pub courant: Option<f64>,
-    /// Courant number of the flow's step.
+    /// Courant number of the flow's own step.
     pub flow_courant: Option<f64>,
     /// Arithmetic of points and grid.
     pub precision: Precision,
-    /// Use of a scene's symmetry: computation by halves.
+    /// Whether a scene that is symmetric about the centre plane is computed by halves.
     pub symmetry: Symmetry,
-    /// Computation of a flow before it varies across the channel.
+    /// How a flow is computed before it varies across the channel.
     pub approach: Approach,
     /// Formulation of contacts between points and bodies.
     pub coupling: Coupling,
-    /// End of the run.
+    /// When the run ends.
     pub ending: Ending,
     /// Solver threads.
     pub threads: Option<usize>,
 }
 
-/// Formulation of contacts between points and bodies. As JSON `"half_spacing"` or
-/// `"source_paper"`.
+/// Contact formulation between points and bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Coupling {
-    /// A point's centre stands off by half the point spacing, where the continuum's
-    /// surface is; the overlap carries the largest pressure expected.
+    /// A point's centre keeps a distance of half the point spacing.
     #[default]
     HalfSpacing,
-    /// A point is a sphere of its own volume, as stiff as the material (P3).
+    /// A point is a sphere of its own volume (source paper, P3).
     SourcePaper,
 }
 
-/// Arithmetic of the flow, its points and its grid; bodies, time and audits are
-/// in f64 either way. As JSON `"single"` or `"double"`.
+/// Arithmetic precision of points and grid; bodies, time and audits are in 64 bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Precision {
-    /// 32 bits, sixteen points at a time.
+    /// 32 bits, the faster choice.
     #[default]
     Single,
-    /// The plain reference path, in f64.
+    /// 64 bits, the reference.
     Double,
 }
 

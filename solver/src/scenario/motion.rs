@@ -8,26 +8,28 @@ use crate::motion::{PrescribedMotion, Velocities};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Prescribed motion of a body, as JSON `{"velocity_m_s": [0.1, 0, 0]}`, or with `times_s` and
-/// as many velocities.
+/// Prescribed motion of a body, in channel axes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(untagged)]
 pub enum Motion {
-    /// By a table: velocities are linear in time between its rows, and constant before
-    /// the first and after the last one.
+    /// Motion by a table: velocities are linear between its times, and constant before the first
+    /// and after the last one.
     Table {
-        /// Times of the rows, ascending [s].
+        /// Times of a table, each after the one before [s]; left out: constant velocities.
         times_s: Vec<f64>,
-        /// Velocity of the centre in each row [m/s].
+        /// Velocity of the centre at each of the times, in channel axes [m/s]; without times a
+        /// single one.
         velocity_m_s: Vec<[f64; 3]>,
-        /// Angular velocity in each row, world axes [rad/s].
+        /// Angular velocity about the centre at each of the times, in channel axes [rad/s];
+        /// without times a single one.
         angular_velocity_rad_s: Vec<[f64; 3]>,
     },
-    /// Constant velocities.
+    /// Constant motion.
     Constant {
-        /// Velocity of the centre [m/s].
+        /// Velocity of the centre, in channel axes [m/s].
         velocity_m_s: [f64; 3],
-        /// Angular velocity, world axes [rad/s].
+        /// Angular velocity about the centre, in channel axes [rad/s].
         angular_velocity_rad_s: [f64; 3],
     },
 }

@@ -17,9 +17,9 @@ pub(super) struct Rule {
 /// An interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Range {
-    low: f64,
-    high: f64,
-    low_is_open: bool,
+    pub(super) low: f64,
+    pub(super) high: f64,
+    pub(super) low_is_open: bool,
 }
 
 /// low <= x <= high.

@@ -2,39 +2,43 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Use of a scene's symmetry about the centre plane: computation by halves.
+/// Computation of a scene that is symmetric about the centre plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Symmetry {
-    /// Computation by halves where it is exact.
+    /// As a symmetric half where that is exact.
     #[default]
     Auto,
-    /// No use of symmetry.
+    /// In full.
     Full,
-    /// Computation by halves; a scene that is not symmetric is refused.
+    /// As a symmetric half; a scene that is not symmetric is refused.
     Mirror,
 }
 
-/// Computation of a flow that is still uniform across the channel.
+/// Computation of a flow that does not vary across the channel yet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Approach {
-    /// Computation in a slab of one cell where it is exact.
+    /// As a quasi-2D slab of one cell where that is exact.
     #[default]
     Auto,
-    /// Computation across the whole width.
+    /// Over the full width.
     Full,
-    /// Computation in a slab; a scene that varies across from the start is refused.
+    /// As a quasi-2D slab; a scene that varies across the channel from the start is refused.
     Slab,
 }
 
-/// End of a run.
+/// Condition that ends a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
-    /// Early, when nothing can move a body or the front any more, or with its duration.
+    /// Early stop once nothing can move a body or the front any more; at the latest after the
+    /// duration.
     #[default]
     Auto,
-    /// End with its duration.
+    /// At the end of the duration.
     Full,
 }

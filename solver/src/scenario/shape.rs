@@ -115,7 +115,7 @@ pub const SHAPES: [ShapeKind; 6] = [
         name: "cube",
         about: "A cube.",
         fields: &[ShapeField {
-            about: "Distance between opposite faces, rounding included [m].",
+            about: "Distance between opposite faces [m]; rounding does not move them.",
             value: FieldValue::Number,
             name: FieldName::Ruled(CUBE_SIDE),
         }],
@@ -128,7 +128,7 @@ pub const SHAPES: [ShapeKind; 6] = [
         name: "box",
         about: "A box with its faces along the axes.",
         fields: &[ShapeField {
-            about: "Distances between opposite faces, rounding included [m].",
+            about: "Distances between opposite faces [x, y, z] [m]; rounding does not move them.",
             value: FieldValue::Vector,
             name: FieldName::Ruled(BOX_SIDES),
         }],
@@ -147,7 +147,7 @@ pub const SHAPES: [ShapeKind; 6] = [
                 name: FieldName::Word(SOLID),
             },
             ShapeField {
-                about: "Edge length before rounding [m].",
+                about: "Length of its edges before they are rounded [m].",
                 value: FieldValue::Number,
                 name: FieldName::Ruled(REGULAR_SIZE),
             },
@@ -158,7 +158,7 @@ pub const SHAPES: [ShapeKind; 6] = [
         name: "polyhedron",
         about: "The convex hull of 4 to 32 points.",
         fields: &[ShapeField {
-            about: "The points, in body axes with any origin [m].",
+            about: "Points [x, y, z] whose convex hull is the body before rounding, in body axes with any origin [m].",
             value: FieldValue::Points(*POLYHEDRON_VERTICES.start(), *POLYHEDRON_VERTICES.end()),
             name: FieldName::Ruled(VERTICES),
         }],
@@ -183,12 +183,12 @@ pub const SHAPES: [ShapeKind; 6] = [
                 sphero radius than its own.",
         fields: &[
             ShapeField {
-                about: "Radius of cylinder and ends [m].",
+                about: "Radius of the cylinder and of its round ends [m].",
                 value: FieldValue::Number,
                 name: FieldName::Ruled(RADIUS),
             },
             ShapeField {
-                about: "Length from tip to tip, above twice the radius [m].",
+                about: "Length from tip to tip, along the body's x axis [m]; above twice the radius.",
                 value: FieldValue::Number,
                 name: FieldName::Ruled(LENGTH),
             },
@@ -216,7 +216,7 @@ impl ShapeField {
     }
 
     /// The rule of its numbers; of a word none.
-    #[cfg(test)]
+    #[cfg(feature = "schema")]
     pub(super) fn rule(&self) -> Option<Rule> {
         match self.name {
             FieldName::Ruled(rule) => Some(rule),

@@ -1,81 +1,147 @@
-//! Agreement of `docs/scenario.md` with the code.
+//! Agreement of `docs/scenario.md` and of the table of fields with the readers.
 
 use super::{accepted, minimal, with};
-use crate::scenario::accuracy::QUANTITIES;
 use crate::scenario::duration::LEAST;
-use crate::scenario::range::Rule;
-use crate::scenario::reader::choice_words;
+use crate::scenario::fields::{Default, Field, Kind, SECTIONS};
 use crate::scenario::rules::*;
-use crate::scenario::sections::{APPROACHES, ENDINGS, PRECISIONS, SYMMETRIES};
-use crate::scenario::shape::{POLYHEDRON_VERTICES, REGULAR_SOLIDS, SHAPES, ShapeField};
-use serde_json::Value;
+use crate::scenario::schema::default;
+use crate::scenario::shape::{POLYHEDRON_VERTICES, SHAPES};
+use crate::scenario::{Scenario, ScenarioError, Violation};
+use serde_json::{Value, json};
 
 const DOCUMENT: &str = include_str!("../../../../docs/scenario.md");
 
-/// Every rule and its object.
-const RULES: [(&str, &[Rule]); 10] = [
-    ("", &[GRAVITY, DURATION, SAMPLE_INTERVAL, FLOW_SNAPSHOTS]),
-    (
-        "channel.",
-        &[
-            INCLINATION,
-            INCLINE_LENGTH,
-            RUNOUT_LENGTH,
-            WIDTH,
-            BASE_FRICTION,
-            SIDE_FRICTION,
-        ],
-    ),
-    ("flow.", &[VOLUME]),
-    ("flow.release.", &[RELEASE_HEIGHT, TOE_DISTANCE]),
-    (
-        "flow.material.",
-        &[
-            BULK_DENSITY,
-            GRAIN_DENSITY,
-            GRAIN_DIAMETER,
-            STATIC_FRICTION,
-            LIMITING_FRICTION,
-            INERTIAL_NUMBER,
-            POISSONS_RATIO,
-            YOUNGS_MODULUS,
-        ],
-    ),
-    (
-        "bodies[].",
-        &[
-            SPHERO_RADIUS,
-            BODY_DENSITY,
-            YAW,
-            ORIENTATION,
-            VELOCITY,
-            ANGULAR_VELOCITY,
-            FRICTION,
-            RESTITUTION,
-            ROLLING_FRICTION,
-            FLOW_FRICTION,
-            FLOW_RESTITUTION,
-            CONTACT_MODULUS,
-        ],
-    ),
-    ("bodies[].position.", &[DOWNSTREAM, LATERAL, ELEVATION]),
-    (
-        "bodies[].motion.",
-        &[MOTION_TIME, VELOCITY, ANGULAR_VELOCITY],
-    ),
-    (
-        "numerics.",
-        &[
-            CELL_SIZE,
-            POINTS_PER_CELL,
-            SOUND_SPEED,
-            COURANT,
-            FLOW_COURANT,
-            THREADS,
-        ],
-    ),
-    ("accuracy.", &[TARGET, TARGET_BODY, BUDGET]),
-];
+/// A scenario with every field, and a motion by a table.
+fn filled() -> Value {
+    let mut filled = serde_json::to_value(accepted(&minimal())).unwrap();
+    let velocities = json!([[0.0, 0.0, 0.0], [0.1, 0.0, 0.0]]);
+    filled["bodies"][0]["motion"] = json!({
+        "times_s": [0.0, 1.0], "velocity_m_s": velocities, "angular_velocity_rad_s": velocities,
+    });
+    filled
+}
+
+/// Every field of the table with its JSON pointer in the filled scenario.
+fn fields() -> impl Iterator<Item = (String, &'static Field)> {
+    SECTIONS.iter().flat_map(|section| {
+        let path = section.path.replace("[]", ".0").replace('.', "/");
+        let pointer = move |field: &Field| format!("/{path}{}", field.key);
+        section
+            .fields
+            .iter()
+            .map(move |field| (pointer(field), field))
+    })
+}
+
+fn violations(document: &Value) -> Vec<Violation> {
+    match Scenario::from_value(document) {
+        Err(ScenarioError::Invalid(violations)) => violations,
+        _ => Vec::new(),
+    }
+}
+
+/// True if a violation is about a field, or an entry of its list.
+fn refused(document: &Value, pointer: &str) -> bool {
+    let found = violations(document);
+    found.iter().any(|one| one.pointer.starts_with(pointer))
+}
+
+fn without(pointer: &str) -> Value {
+    let mut document = filled();
+    let (parent, key) = pointer.rsplit_once('/').unwrap();
+    let parent = document.pointer_mut(parent).unwrap();
+    parent.as_object_mut().unwrap().remove(key);
+    document
+}
+
+/// The filled scenario with another number in a field, in a list the first.
+fn with_number(pointer: &str, value: f64) -> Value {
+    let mut document = filled();
+    let mut place = document.pointer_mut(pointer).unwrap();
+    if pointer == "/bodies/0/orientation" {
+        *place = json!([1.0, 0.0, 0.0, 0.0]);
+    }
+    while place.is_array() {
+        place = &mut place[0];
+    }
+    *place = json!(value);
+    document
+}
+
+#[test]
+fn every_field_is_in_the_table() {
+    fn keys(value: &Value, pointer: &str, found: &mut Vec<String>) {
+        let Value::Object(members) = value else {
+            return;
+        };
+        for (key, member) in members {
+            let pointer = format!("{pointer}/{key}");
+            if key != "shape" {
+                keys(member, &pointer, found);
+            }
+            match member {
+                Value::Array(items) => keys(&items[0], &format!("{pointer}/0"), found),
+                _ => {}
+            }
+            found.push(pointer);
+        }
+    }
+    let mut found = Vec::new();
+    keys(&filled(), "", &mut found);
+    let mut listed: Vec<String> = fields().map(|(pointer, _)| pointer).collect();
+    found.sort();
+    listed.sort();
+    assert_eq!(found, listed);
+}
+
+#[test]
+fn numbers_are_read_by_their_ranges() {
+    for (pointer, field) in fields() {
+        let Some(rule) = field.rule() else {
+            continue;
+        };
+        let beyond = rule.range.high.abs() * 2.0 + 1.0;
+        let mut values = vec![beyond, -beyond];
+        if rule.range.low_is_open {
+            values.push(rule.range.low);
+        }
+        if matches!(field.kind, Kind::Whole(_)) {
+            values.push(rule.range.low + 0.5);
+        }
+        for value in values {
+            let document = with_number(&pointer, value);
+            assert!(refused(&document, &pointer), "{pointer}: {value}");
+        }
+        // Other rules than those of the number may still refuse its ends.
+        for value in [rule.range.high, rule.range.low] {
+            let outside = format!("outside {}", rule.range.words());
+            let found = violations(&with_number(&pointer, value));
+            let of_range = found.iter().find(|one| one.detail.contains(&outside));
+            let end_is_open = rule.range.low_is_open && value == rule.range.low;
+            assert_eq!(of_range.is_some(), end_is_open, "{pointer}: {value}");
+        }
+    }
+}
+
+#[test]
+fn fields_left_out_have_their_defaults() {
+    let mut constants = 0;
+    for (pointer, field) in fields() {
+        let document = without(&pointer);
+        let missing = refused(&document, &pointer);
+        // Without its times a table is none.
+        let needed = matches!(field.kind, Kind::List(..)) || field.default == Default::Required;
+        assert_eq!(missing, needed, "{pointer}");
+        if let Some(value) = default(field) {
+            let read = serde_json::to_value(accepted(&document)).unwrap();
+            let read = read.pointer(&pointer).unwrap();
+            assert_eq!(read, &value, "{pointer}");
+            constants += 1;
+        }
+    }
+    assert!(constants > 25, "{constants}");
+    assert!(DOCUMENT.contains(&format!("| {LEAST}, or as many seconds")));
+}
 
 /// Cells of the document's row about a field.
 fn row(field: &str) -> [&'static str; 5] {
@@ -89,65 +155,6 @@ fn row(field: &str) -> [&'static str; 5] {
     cells
         .try_into()
         .unwrap_or_else(|_| panic!("five cells about {field}"))
-}
-
-#[test]
-fn ranges_and_units_are_those_of_the_code() {
-    let rules_of = RULES
-        .iter()
-        .map(|(object, rules)| (String::from(*object), rules.to_vec()));
-    let of_shapes = SHAPES.iter().map(|kind| {
-        let rules = kind.fields.iter().filter_map(ShapeField::rule);
-        (format!("bodies[].shape.{}.", kind.name), rules.collect())
-    });
-    for (object, rules) in rules_of.chain(of_shapes) {
-        for rule in &rules {
-            let [_, _, unit, _, allowed] = row(&format!("{object}{}", rule.key));
-            assert_eq!(unit, rule.unit.unwrap_or("–"), "{object}{}", rule.key);
-            let words = rule.range.words();
-            let rest = allowed.strip_prefix(&words);
-            let ends = rest
-                .is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '.'));
-            assert!(ends, "{object}{}: {allowed} is not {words}", rule.key);
-        }
-    }
-}
-
-/// Every leaf of the filled scenario, by the name the document gives it.
-fn leaves(value: &Value, name: &str, found: &mut Vec<(String, Value)>) {
-    match value {
-        Value::Object(members) => {
-            for (key, member) in members {
-                let dot = if name.is_empty() { "" } else { "." };
-                leaves(member, &format!("{name}{dot}{key}"), found);
-            }
-        }
-        Value::Array(items) if items.iter().any(Value::is_object) => {
-            leaves(&items[0], &format!("{name}[]"), found);
-        }
-        leaf => found.push((name.to_owned(), leaf.clone())),
-    }
-}
-
-#[test]
-fn every_field_is_described_with_its_default() {
-    let filled = serde_json::to_value(accepted(&minimal())).unwrap();
-    let mut fields = Vec::new();
-    leaves(&filled, "", &mut fields);
-    let mut constants = 0;
-    for (field, value) in &fields {
-        let [_, meaning, _, default, _] = row(field);
-        assert!(!meaning.is_empty());
-        if let Some(json) = default.strip_prefix('`') {
-            let documented: Value = serde_json::from_str(json.trim_end_matches('`')).unwrap();
-            assert_eq!(&documented, value, "{field}");
-            constants += 1;
-        }
-    }
-    // All but the five required numbers, the two that follow the side, and the
-    // duration.
-    assert_eq!(constants, fields.len() - 8);
-    assert!(row("duration_s")[3].starts_with(&format!("{LEAST}, or")));
 }
 
 #[test]
@@ -168,45 +175,18 @@ fn counts_are_those_of_the_code() {
 }
 
 #[test]
-fn every_shape_is_documented() {
-    let names: Vec<&str> = SHAPES.iter().map(|kind| kind.name).collect();
-    let words = format!("exactly one of: {}", names.join(", "));
-    assert_eq!(row("bodies[].shape")[4], words);
+fn every_shape_is_described() {
     for kind in &SHAPES {
-        for field in kind.fields {
-            let [_, meaning, ..] = row(&format!("bodies[].shape.{}.{}", kind.name, field.key()));
-            assert!(!meaning.is_empty());
-        }
-        assert!(
-            DOCUMENT.contains(&format!("**{}**", kind.name)),
-            "{}",
-            kind.name
-        );
+        let name = format!("**{}**", kind.name);
+        assert!(DOCUMENT.contains(&name), "{name}");
     }
-}
-
-#[test]
-fn words_are_those_of_the_code() {
-    let [_, _, unit, _, allowed] = row("numerics.precision");
-    assert_eq!(unit, "–");
-    assert_eq!(allowed.replace('`', ""), choice_words(&PRECISIONS));
-    let allowed = |field| row(field)[4].replace('`', "");
-    assert_eq!(allowed("numerics.symmetry"), choice_words(&SYMMETRIES));
-    assert_eq!(allowed("numerics.approach"), choice_words(&APPROACHES));
-    assert_eq!(allowed("numerics.ending"), choice_words(&ENDINGS));
-    let [_, _, unit, _, allowed] = row("bodies[].shape.regular.solid");
-    assert_eq!(unit, "–");
-    assert_eq!(allowed.replace('`', ""), choice_words(&REGULAR_SOLIDS));
-    let [_, _, unit, _, allowed] = row("accuracy.quantity");
-    assert_eq!(unit, "–");
-    assert_eq!(allowed.replace('`', ""), choice_words(&QUANTITIES));
 }
 
 #[test]
 fn the_example_is_legal() {
     let start = DOCUMENT.find("```json").expect("an example") + "```json".len();
     let length = DOCUMENT[start..].find("```").expect("its end");
-    let example = crate::scenario::Scenario::from_json(&DOCUMENT[start..start + length]);
+    let example = Scenario::from_json(&DOCUMENT[start..start + length]);
     assert_eq!(example, Ok(accepted(&minimal())));
 }
 

@@ -3,6 +3,7 @@
 mod agreement;
 mod answers;
 mod defaults;
+#[cfg(feature = "schema")]
 mod document;
 mod fields;
 mod motion;

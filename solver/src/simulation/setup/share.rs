@@ -5,15 +5,16 @@ use crate::math::Vec3;
 use crate::walls::{Plane, VerticalBoundary, Walls};
 use serde::{Deserialize, Serialize};
 
-/// Computed share of the flow; the rest are its images.
+/// Share of the flow that is computed; images stand for the rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Share {
-    /// The whole flow.
+    /// The full flow.
     Whole,
-    /// The right half, y ≤ 0, before a mirror in the centre plane.
+    /// The right half, with a symmetry plane.
     Half,
-    /// One cell next to the right wall, before a mirror of its own.
+    /// A quasi-2D slab: one cell next to the right wall.
     Slab,
 }
 

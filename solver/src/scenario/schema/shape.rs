@@ -1,7 +1,7 @@
 //! The shape of a body, from the table of all kinds of shapes.
 
-use crate::jobs::submit::{FieldValue, REGULAR_SOLIDS, SHAPES, ShapeField, ShapeKind};
-use serde::Serialize;
+use super::limit_number;
+use crate::scenario::{FieldValue, REGULAR_SOLIDS, SHAPES, Shape, ShapeField, ShapeKind};
 use std::borrow::Cow;
 use utoipa::openapi::schema::{
     ArrayBuilder, KnownFormat, ObjectBuilder, OneOfBuilder, RefBuilder, Type,
@@ -9,14 +9,10 @@ use utoipa::openapi::schema::{
 use utoipa::openapi::{RefOr, Schema, SchemaFormat};
 use utoipa::{PartialSchema, ToSchema};
 
-/// Shape of a body before rounding; rounding does not move its faces.
-#[derive(Debug, Serialize)]
-pub struct ShapeDocument;
-
 /// Name of the schema of regular solids.
 const REGULAR_SOLID: &str = "RegularSolid";
 
-impl PartialSchema for ShapeDocument {
+impl PartialSchema for Shape {
     fn schema() -> RefOr<Schema> {
         let about = "Shape of a body before rounding; rounding does not move its faces.";
         let kinds = OneOfBuilder::new().description(Some(about));
@@ -28,7 +24,7 @@ impl PartialSchema for ShapeDocument {
     }
 }
 
-impl ToSchema for ShapeDocument {
+impl ToSchema for Shape {
     fn name() -> Cow<'static, str> {
         Cow::Borrowed("Shape")
     }
@@ -61,13 +57,10 @@ fn kind(kind: &ShapeKind) -> Schema {
 fn value(field: &ShapeField) -> RefOr<Schema> {
     let about = Some(field.about);
     match field.value {
-        FieldValue::Number => number().description(about).into(),
-        FieldValue::Vector => ArrayBuilder::new()
-            .items(number())
-            .description(about)
-            .into(),
+        FieldValue::Number => number(field).description(about).into(),
+        FieldValue::Vector => vector(field).description(about).into(),
         FieldValue::Points(least, most) => ArrayBuilder::new()
-            .items(ArrayBuilder::new().items(number()))
+            .items(vector(field))
             .description(about)
             .min_items(Some(least))
             .max_items(Some(most))
@@ -79,8 +72,20 @@ fn value(field: &ShapeField) -> RefOr<Schema> {
     }
 }
 
-fn number() -> ObjectBuilder {
-    ObjectBuilder::new()
+fn number(field: &ShapeField) -> ObjectBuilder {
+    let mut number = ObjectBuilder::new()
         .schema_type(Type::Number)
         .format(Some(SchemaFormat::KnownFormat(KnownFormat::Double)))
+        .build();
+    if let Some(rule) = field.rule() {
+        limit_number(&mut number, &rule, false);
+    }
+    number.into()
+}
+
+fn vector(field: &ShapeField) -> ArrayBuilder {
+    ArrayBuilder::new()
+        .items(number(field))
+        .min_items(Some(3))
+        .max_items(Some(3))
 }
