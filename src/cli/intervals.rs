@@ -1,7 +1,9 @@
 //! Uncertainty intervals as a table for people.
 
 use super::columns::table;
-use scree_solver::record::{AccuracyReport, Basis, Outcome, Role, UncertaintyInterval};
+use scree_solver::record::{
+    AccuracyReport, BODY_QUANTITIES, Basis, FLOW_QUANTITIES, Outcome, Role, UncertaintyInterval,
+};
 use std::fmt::Write as _;
 
 /// Sign for an open end or a missing order.
@@ -25,25 +27,15 @@ fn rows(outcome: &Outcome) -> Vec<[String; 7]> {
         let Some(bars) = &body.error_bars else {
             continue;
         };
-        let [x, y, z] = &bars.final_position_m;
-        for (name, interval) in [
-            ("onset [s]", &bars.onset_time_s),
-            ("peak [m/s]", &bars.peak_speed_m_s),
-            ("peak at [s]", &bars.peak_speed_time_s),
-            ("rest from [s]", &bars.stop_time_s),
-            ("displaced [m]", &bars.displacement_m),
-            ("path [m]", &bars.path_length_m),
-            ("final x [m]", x),
-            ("final y [m]", y),
-            ("final z [m]", z),
-        ] {
-            rows.push(row(&format!("body {index}"), name, interval));
+        for quantity in &BODY_QUANTITIES {
+            let interval = (quantity.interval)(bars);
+            rows.push(row(&format!("body {index}"), quantity.heading, interval));
         }
     }
     if let Some(bars) = &outcome.flow.error_bars {
-        rows.push(row("flow", "front [m]", &bars.front_m));
-        rows.push(row("flow", "run-out [m]", &bars.runout_m));
-        rows.push(row("flow", "outflow [kg]", &bars.outflow_mass_kg));
+        for quantity in &FLOW_QUANTITIES {
+            rows.push(row("flow", quantity.heading, (quantity.interval)(bars)));
+        }
     }
     rows
 }

@@ -90,7 +90,7 @@ fn a_run_killed_many_times_ends_with_the_same_bits() {
     ];
     let place = Place::new(&settings);
     let (long, apart_s, pause) = match kills {
-        2 => (scene(3.0), 0.8, Duration::ZERO),
+        2 => (scene(20.0), 5.0, Duration::ZERO),
         _ => (finest_scene(3.0), 0.01, Duration::from_millis(700)),
     };
     let served = place.serve();

@@ -1,8 +1,11 @@
 //! Uncertainty intervals of all quantities of an outcome, from the outcomes of its refinement
 //! runs.
 
-use super::series::{ErrorScale, GridSeries, QuantityKind};
-use crate::record::{BodyErrorBars, BodyOutcome, FlowErrorBars, Outcome, UncertaintyInterval};
+use super::series::{ErrorScale, GridSeries};
+use crate::record::{
+    BODY_QUANTITIES, BodyErrorBars, BodyQuantity, FLOW_QUANTITIES, FlowErrorBars, FlowQuantity,
+    Outcome, QuantityKind, UncertaintyInterval,
+};
 use crate::scenario::Quantity;
 
 /// The outcomes from which an interval is made.
@@ -22,38 +25,19 @@ impl StudyOutcomes<'_> {
     /// Uncertainty intervals of a body's quantities.
     pub(super) fn body(&self, index: usize) -> BodyErrorBars {
         let way_m = self.answer.bodies[index].displacement_m;
-        let interval = |kind: QuantityKind, of: fn(&BodyOutcome) -> Option<f64>| {
-            self.interval(kind, way_m, |outcome| of(&outcome.bodies[index]))
-        };
-        let place = |axis: usize| {
-            let kind = [QuantityKind::Along, QuantityKind::Across, QuantityKind::Up][axis];
-            self.interval(kind, way_m, |outcome| {
-                Some(outcome.bodies[index].final_position_m[axis])
-            })
-        };
-        BodyErrorBars {
-            onset_time_s: interval(QuantityKind::Moment, |body| body.onset_time_s),
-            peak_speed_m_s: interval(QuantityKind::Speed, |body| Some(body.peak_speed_m_s)),
-            peak_speed_time_s: interval(QuantityKind::Moment, |body| body.peak_speed_time_s),
-            stop_time_s: interval(QuantityKind::Stop, |body| body.stop_time_s),
-            displacement_m: interval(QuantityKind::Length, |body| Some(body.displacement_m)),
-            path_length_m: interval(QuantityKind::Length, |body| Some(body.path_length_m)),
-            final_position_m: [0, 1, 2].map(place),
-        }
+        BodyErrorBars::of(|quantity| {
+            let of = |outcome: &Outcome| (quantity.value)(&outcome.bodies[index]);
+            self.interval(quantity.kind, way_m, of)
+        })
     }
 
     /// Uncertainty intervals of the flow's quantities.
     pub(super) fn flow(&self) -> FlowErrorBars {
         let way_m = self.answer.flow.runout_m.map_or(0.0, f64::abs);
-        let interval =
-            |kind: QuantityKind, of: fn(&Outcome) -> Option<f64>| self.interval(kind, way_m, of);
-        FlowErrorBars {
-            front_m: interval(QuantityKind::Reach, |outcome| outcome.flow.front_m),
-            runout_m: interval(QuantityKind::Reach, |outcome| outcome.flow.runout_m),
-            outflow_mass_kg: interval(QuantityKind::Mass, |outcome| {
-                Some(outcome.flow.outflow_mass_kg)
-            }),
-        }
+        FlowErrorBars::of(|quantity| {
+            let of = |outcome: &Outcome| (quantity.value)(&outcome.flow);
+            self.interval(quantity.kind, way_m, of)
+        })
     }
 
     fn interval(
@@ -85,37 +69,31 @@ pub(super) fn interval_of(
     quantity: Quantity,
     body: u32,
 ) -> Option<UncertaintyInterval> {
-    if !quantity.is_of_a_body() {
-        let bars = outcome.flow.error_bars.as_ref()?;
-        return Some(match quantity {
-            Quantity::Front => bars.front_m,
-            _ => bars.runout_m,
-        });
+    if let Some(of_flow) = of_flow(quantity) {
+        return Some(*(of_flow.interval)(outcome.flow.error_bars.as_ref()?));
     }
     let bars = outcome.bodies.get(body as usize)?.error_bars.as_ref()?;
-    Some(match quantity {
-        Quantity::Onset => bars.onset_time_s,
-        Quantity::PeakSpeed => bars.peak_speed_m_s,
-        Quantity::PeakTime => bars.peak_speed_time_s,
-        Quantity::Stop => bars.stop_time_s,
-        Quantity::PathLength => bars.path_length_m,
-        _ => bars.displacement_m,
-    })
+    Some(*(of_body(quantity)?.interval)(bars))
 }
 
 /// A quantity of an outcome; `None` if it did not happen.
 pub(super) fn value_of(outcome: &Outcome, quantity: Quantity, body: u32) -> Option<f64> {
-    let of_body = outcome.bodies.get(body as usize);
-    match quantity {
-        Quantity::Front => outcome.flow.front_m,
-        Quantity::Runout => outcome.flow.runout_m,
-        Quantity::Onset => of_body?.onset_time_s,
-        Quantity::PeakSpeed => Some(of_body?.peak_speed_m_s),
-        Quantity::PeakTime => of_body?.peak_speed_time_s,
-        Quantity::Stop => of_body?.stop_time_s,
-        Quantity::Displacement => Some(of_body?.displacement_m),
-        Quantity::PathLength => Some(of_body?.path_length_m),
+    if let Some(of_flow) = of_flow(quantity) {
+        return (of_flow.value)(&outcome.flow);
     }
+    (of_body(quantity)?.value)(outcome.bodies.get(body as usize)?)
+}
+
+fn of_flow(quantity: Quantity) -> Option<&'static FlowQuantity> {
+    FLOW_QUANTITIES
+        .iter()
+        .find(|one| one.name == quantity.key())
+}
+
+fn of_body(quantity: Quantity) -> Option<&'static BodyQuantity> {
+    BODY_QUANTITIES
+        .iter()
+        .find(|one| one.name == quantity.key())
 }
 
 /// Distance from the value to the farther end of an interval, over the value; `None` if an end

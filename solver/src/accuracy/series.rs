@@ -2,7 +2,7 @@
 //! equations 70–74).
 
 use super::fit::{LinearFit, observed_order};
-use crate::record::{Basis, UncertaintyInterval};
+use crate::record::{Basis, QuantityKind, UncertaintyInterval};
 
 /// Half the width over the difference, if there is only one.
 const SAFETY_OF_ONE: f64 = 3.0;
@@ -13,29 +13,6 @@ const PLAUSIBLE: (f64, f64) = (0.5, 4.0);
 const FLOOR_CELLS: f64 = 0.01;
 /// The same error as a share of the value.
 const FLOOR_SHARE: f64 = 0.002;
-
-/// Kind of a quantity, which decides how its interval is made, and its natural bounds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum QuantityKind {
-    /// Time at which something begins or is largest: not negative.
-    Moment,
-    /// Time at which something comes to rest: not negative.
-    Stop,
-    /// A speed: not negative.
-    Speed,
-    /// A length of a body's path: not negative.
-    Length,
-    /// A coordinate along the channel.
-    Along,
-    /// A coordinate across it.
-    Across,
-    /// A height.
-    Up,
-    /// Position of a flow's front, or its run-out.
-    Reach,
-    /// A mass: not negative.
-    Mass,
-}
 
 /// Weights of the parts of an interval (equation 72).
 #[derive(Debug)]

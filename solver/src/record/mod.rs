@@ -7,6 +7,7 @@ mod means;
 mod mode;
 mod motion;
 mod outcome;
+mod quantities;
 mod recorder;
 mod rest;
 mod sampling;
@@ -20,6 +21,9 @@ use crate::plan::Plan;
 pub use error_bars::{
     AccuracyReport, Basis, BodyErrorBars, FlowErrorBars, Role, RunCost, TargetReport,
     UncertaintyInterval,
+};
+pub use quantities::{
+    BODY_QUANTITIES, BodyQuantity, FLOW_QUANTITIES, FlowQuantity, OutcomeQuantity, QuantityKind,
 };
 pub use recorder::Recorder;
 pub use rest::EndedEarly;
@@ -121,7 +125,7 @@ pub struct BodyOutcome {
     pub onset_time_s: Option<f64>,
     /// Largest speed of the centre [m/s].
     pub peak_speed_m_s: f64,
-    /// Time of the largest speed of the centre [s].
+    /// Time of the largest speed of the centre [s]; null for a body that never moved.
     pub peak_speed_time_s: Option<f64>,
     /// Time from which on the body is at rest until the end [s]; null if it still moves or never
     /// moved.
@@ -190,9 +194,10 @@ pub struct MassProperties {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct FlowOutcome {
-    /// Position x beyond which 0.1 % of the released mass lies [m].
+    /// Position x beyond which 0.1 % of the released mass lies, mass that left through the open end
+    /// included [m]; null without a flow.
     pub front_m: Option<f64>,
-    /// Front minus the initial toe [m].
+    /// Front minus the initial toe [m]; null without a flow.
     pub runout_m: Option<f64>,
     /// Mass that left through the open end [kg].
     pub outflow_mass_kg: f64,
@@ -250,7 +255,7 @@ pub struct Cost {
     pub threads: usize,
     /// Cell size [m].
     pub cell_size_m: f64,
-    /// Sound speed in use [m/s].
+    /// Speed of sound in use, √(K/ρ) [m/s]; null without a flow.
     pub sound_speed_m_s: Option<f64>,
 }
 

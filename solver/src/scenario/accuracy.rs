@@ -35,7 +35,7 @@ impl Accuracy {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub enum Quantity {
-    /// First time a body's centre is 1 mm from its start.
+    /// First time a body's centre is a fortieth of the body's size from its start.
     #[serde(rename = "onset_time_s")]
     Onset,
     /// Largest speed of a body's centre.

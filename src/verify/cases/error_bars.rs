@@ -16,7 +16,9 @@ use crate::verify::on_all_cores::side_by_side;
 use crate::verify::run::{Answer, CaseError, Cost};
 use crate::verify::with_error_bars::answer;
 use crate::verify::{Case, Effort, How};
-use scree_solver::record::{Basis, BodyErrorBars, BodyOutcome, Outcome, UncertaintyInterval};
+use scree_solver::record::{
+    BODY_QUANTITIES, Basis, BodyOutcome, BodyQuantity, Outcome, QuantityKind, UncertaintyInterval,
+};
 use serde_json::{Value, json};
 
 pub(super) const CASE: Case = Case {
@@ -42,60 +44,23 @@ const EXTRA_COST: f64 = 0.35;
 /// Quantile of the normal distribution for an interval of 95 %.
 const TWO_SIDED_95: f64 = 1.96;
 
-/// A quantity of one outcome.
+/// The interval of a quantity of one outcome.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
-    value: Option<f64>,
     interval: Option<UncertaintyInterval>,
     /// Scale for the width of its interval.
     scale: Option<f64>,
 }
 
-type OfABody = fn(&BodyOutcome) -> Seen;
-
-const OF_BODIES: [(&str, OfABody); 9] = [
-    ("onset_time_s", |body| {
-        plain(body, body.onset_time_s, |bars| bars.onset_time_s)
-    }),
-    ("peak_speed_m_s", |body| {
-        plain(body, Some(body.peak_speed_m_s), |bars| bars.peak_speed_m_s)
-    }),
-    ("peak_speed_time_s", |body| {
-        plain(body, body.peak_speed_time_s, |bars| bars.peak_speed_time_s)
-    }),
-    ("stop_time_s", |body| {
-        plain(body, body.stop_time_s, |bars| bars.stop_time_s)
-    }),
-    ("displacement_m", |body| {
-        plain(body, Some(body.displacement_m), |bars| bars.displacement_m)
-    }),
-    ("path_length_m", |body| {
-        plain(body, Some(body.path_length_m), |bars| bars.path_length_m)
-    }),
-    ("final_position_m, x", |body| place(body, 0)),
-    ("final_position_m, y", |body| place(body, 1)),
-    ("final_position_m, z", |body| place(body, 2)),
-];
-
-fn plain(
-    body: &BodyOutcome,
-    value: Option<f64>,
-    interval: fn(&BodyErrorBars) -> UncertaintyInterval,
-) -> Seen {
+/// A quantity of a body; a coordinate is scaled by the displacement.
+fn seen(quantity: &BodyQuantity, body: &BodyOutcome) -> Seen {
+    let scale = match quantity.kind {
+        QuantityKind::Along | QuantityKind::Across | QuantityKind::Up => Some(body.displacement_m),
+        _ => (quantity.value)(body),
+    };
     Seen {
-        value,
-        interval: body.error_bars.as_ref().map(interval),
-        scale: value,
-    }
-}
-
-/// A component of the final position of a body, scaled by its displacement.
-fn place(body: &BodyOutcome, axis: usize) -> Seen {
-    let interval = |bars: &BodyErrorBars| bars.final_position_m[axis];
-    Seen {
-        value: Some(body.final_position_m[axis]),
-        interval: body.error_bars.as_ref().map(interval),
-        scale: Some(body.displacement_m),
+        interval: body.error_bars.as_ref().map(quantity.interval).copied(),
+        scale,
     }
 }
 
@@ -119,9 +84,9 @@ fn run(effort: Effort, findings: &mut Findings) {
     }
     let mut all = of_flows(&trials);
     judge("runout_m", &all, findings);
-    for (name, of) in OF_BODIES {
-        let of_bodies = of_bodies(&trials, of);
-        judge(name, &of_bodies, findings);
+    for quantity in &BODY_QUANTITIES {
+        let of_bodies = of_bodies(&trials, quantity);
+        judge(quantity.name, &of_bodies, findings);
         all.extend(of_bodies);
     }
     judge("all together", &all, findings);
@@ -181,12 +146,14 @@ impl Trial {
     }
 }
 
-fn of_bodies(pairs: &[Pair], of: OfABody) -> Vec<Trial> {
+fn of_bodies(pairs: &[Pair], quantity: &BodyQuantity) -> Vec<Trial> {
     let bodies = pairs.iter().flat_map(|Pair { answer, finer }| {
         let both = answer.bodies.iter().zip(&finer.bodies);
         both.filter(|both| both.0.onset_time_s.is_some() || both.1.onset_time_s.is_some())
     });
-    let trial = |(body, finer): (&BodyOutcome, &BodyOutcome)| trial(of(body), of(finer).value);
+    let trial = |(body, finer): (&BodyOutcome, &BodyOutcome)| {
+        trial(seen(quantity, body), (quantity.value)(finer))
+    };
     bodies.filter_map(trial).collect()
 }
 
@@ -194,7 +161,6 @@ fn of_flows(pairs: &[Pair]) -> Vec<Trial> {
     let of_flow = |pair: &Pair| {
         let flow = &pair.answer.flow;
         let seen = Seen {
-            value: flow.runout_m,
             interval: flow.error_bars.as_ref().map(|bars| bars.runout_m),
             scale: flow.runout_m,
         };
