@@ -38,7 +38,14 @@ const LAYERS: [&[&str]; 10] = [
 ];
 
 /// Above the layers, in this order: they combine them.
-const ON_TOP: [&str; 5] = ["simulation", "plan", "record", "accuracy", "compute"];
+const ON_TOP: [&str; 6] = [
+    "simulation",
+    "plan",
+    "record",
+    "accuracy",
+    "compute",
+    "schema",
+];
 
 fn rank(module: &str) -> Option<usize> {
     let on_top = || {
