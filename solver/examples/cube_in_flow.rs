@@ -2,21 +2,19 @@
 
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
+use scree_solver::scenario::BodyBuilder;
 use scree_solver::{Scenario, compute};
-use serde_json::json;
 use std::error::Error;
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    let scenario = Scenario::from_json(
-        &json!({
-            "channel": {"inclination_deg": 50, "incline_length_m": 1.0,
-                        "runout_length_m": 1.0, "width_m": 0.12},
-            "flow": {"volume_m3": 0.004, "release": {"height_m": 0.15}},
-            "bodies": [{"shape": {"cube": {"side_m": 0.04}}, "position": {"downstream_m": 0.04}}],
-            "numerics": {"cell_size_m": 0.03}, "duration_s": 0.5
-        })
-        .to_string(),
-    )?;
+    let scenario = Scenario::builder(50.0, 1.0, 1.0)
+        .width(0.12)
+        .flow(0.004)
+        .release(0.15, 0.05)
+        .body(BodyBuilder::cube(0.04).at(0.04, 0.0))
+        .cell_size(0.03)
+        .duration(0.5)
+        .build()?;
     let outcome = compute(&scenario, 1, |_| {})?;
     let cube = &outcome.bodies[0];
     println!("struck at {:.3} s", cube.onset_time_s.unwrap_or(f64::NAN));

@@ -247,6 +247,7 @@ impl StepError {
 
 /// A state that can't be saved now.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SaveError {
     /// The run can't go on from here.
     #[error("a run that failed is not saved: {0}")]
@@ -261,6 +262,7 @@ pub enum SaveError {
 
 /// A saved state that can't be restored.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum RestoreError {
     /// The bytes are not a saved state of this solver version.
     #[error("not a saved state of this solver: {0}")]

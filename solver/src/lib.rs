@@ -33,21 +33,16 @@
 //! estimated. The numbers of the method that were chosen are in [`METHOD`]. The crate has no
 //! clock, files, environment or service of its own.
 
+// With closed doors, what only benchmark and verification use is not used at all.
+#![cfg_attr(not(feature = "kernels"), allow(dead_code, unreachable_pub))]
+
 pub mod accuracy;
-pub mod available_volume;
 pub mod bed;
-pub mod body_energy;
 mod compute;
-pub mod contact;
-pub mod diagnostics;
 pub mod error;
-pub mod grid;
-pub mod kernel;
 pub mod material;
 pub mod math;
-pub mod method;
 pub mod motion;
-pub mod mpm;
 pub mod plan;
 pub mod points;
 pub mod record;
@@ -57,11 +52,58 @@ pub mod scenario;
 pub mod schema;
 pub mod shape;
 pub mod simulation;
-pub mod stability;
 pub mod walls;
+
+// The kernels of the method, open to its benchmark and verification alone.
+#[cfg(not(feature = "kernels"))]
+mod available_volume;
+#[cfg(feature = "kernels")]
+#[doc(hidden)]
+pub mod available_volume;
+#[cfg(not(feature = "kernels"))]
+mod body_energy;
+#[cfg(feature = "kernels")]
+#[doc(hidden)]
+pub mod body_energy;
+#[cfg(not(feature = "kernels"))]
+mod contact;
+#[cfg(feature = "kernels")]
+#[doc(hidden)]
+pub mod contact;
+#[cfg(not(feature = "kernels"))]
+mod diagnostics;
+#[cfg(feature = "kernels")]
+#[doc(hidden)]
+pub mod diagnostics;
+#[cfg(not(feature = "kernels"))]
+mod grid;
+#[cfg(feature = "kernels")]
+#[doc(hidden)]
+pub mod grid;
+#[cfg(not(feature = "kernels"))]
+mod kernel;
+#[cfg(feature = "kernels")]
+#[doc(hidden)]
+pub mod kernel;
+#[cfg(not(feature = "kernels"))]
+mod method;
+#[cfg(feature = "kernels")]
+#[doc(hidden)]
+pub mod method;
+#[cfg(not(feature = "kernels"))]
+mod mpm;
+#[cfg(feature = "kernels")]
+#[doc(hidden)]
+pub mod mpm;
+#[cfg(not(feature = "kernels"))]
+mod stability;
+#[cfg(feature = "kernels")]
+#[doc(hidden)]
+pub mod stability;
 
 pub use accuracy::ConvergenceStudy;
 pub use compute::{ComputeError, compute};
+pub use diagnostics::Audit;
 pub use error::{Mover, RestoreError, SaveError, SetupError, StepError};
 pub use method::METHOD;
 pub use mpm::instructions::Instructions;

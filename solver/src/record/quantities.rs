@@ -5,6 +5,7 @@ use super::{BodyErrorBars, BodyOutcome, FlowErrorBars, FlowOutcome, UncertaintyI
 
 /// Kind of a quantity, which decides how its interval is made, and its natural bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum QuantityKind {
     /// Time at which something begins or is largest: not negative.
     Moment,

@@ -34,6 +34,7 @@ impl Accuracy {
 /// A quantity of the outcome, by its key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[non_exhaustive]
 pub enum Quantity {
     /// First time a body's centre is a fortieth of the body's size from its start.
     #[serde(rename = "onset_time_s")]

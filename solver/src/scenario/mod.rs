@@ -6,6 +6,7 @@
 mod accuracy;
 mod agreement;
 mod body;
+mod builder;
 mod duration;
 #[cfg(feature = "schema")]
 mod fields;
@@ -28,6 +29,7 @@ mod tests;
 
 pub use crate::shape::RegularSolid;
 pub use accuracy::{Accuracy, Quantity};
+pub use builder::{BodyBuilder, ScenarioBuilder};
 pub use motion::Motion;
 pub use node::excerpt;
 pub use placement::{Pose, ReleaseBox, Support};
@@ -213,6 +215,7 @@ pub struct Numerics {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Coupling {
     /// A point's centre keeps a distance of half the point spacing.
     #[default]
@@ -225,6 +228,7 @@ pub enum Coupling {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Precision {
     /// 32 bits, the faster choice.
     #[default]

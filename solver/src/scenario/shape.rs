@@ -15,6 +15,7 @@ use std::ops::RangeInclusive;
 /// where its faces were. A ball and a capsule are round by themselves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Shape {
     /// A cube.
     Cube {

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// A shape that can't be built.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ShapeError {
     /// A length is not positive and finite.
     #[error("{quantity} is {value} m, not a positive finite length")]

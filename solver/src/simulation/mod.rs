@@ -102,6 +102,7 @@ pub struct SubstepReport {
 
 /// Reason for which a run returned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Ending {
     /// It reached the given time.
     Reached,

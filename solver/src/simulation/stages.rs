@@ -4,6 +4,7 @@ use std::fmt;
 
 /// Stages of the step, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum StepStage {
     /// Grid laid, mass, momentum and first forces scattered to it.
     P2g,

@@ -1,8 +1,8 @@
 //! Reductions against the full model.
 
 use crate::scenes::{PRECISIONS, Scene, points_by_id, run};
+use scree_solver::Audit;
 use scree_solver::Simulation;
-use scree_solver::diagnostics::Audit;
 use scree_solver::points::Point;
 use scree_solver::simulation::Share;
 use serde_json::json;

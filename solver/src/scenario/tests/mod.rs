@@ -2,6 +2,7 @@
 
 mod agreement;
 mod answers;
+mod builder;
 mod defaults;
 #[cfg(feature = "schema")]
 mod document;
