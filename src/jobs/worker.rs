@@ -108,7 +108,7 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResu
         equipment.recording.clone(),
         guard.run.board.clone(),
     );
-    if claim.setbacks > 0 {
+    if claim.failed_attempts > 0 {
         sink.save_early();
     }
     let stop = &*guard.run.stop;

@@ -35,7 +35,7 @@ pub struct Claim {
     /// The scenario's JSON.
     pub scenario: String,
     /// Failed attempts in a row before this attempt.
-    pub setbacks: u32,
+    pub failed_attempts: u32,
 }
 
 /// Lease of one worker on a job: every write by the worker names it.

@@ -42,7 +42,7 @@ pub(super) enum Consequence {
     /// The job returns to the queue.
     Waits {
         /// Failed attempts in a row that this one adds.
-        setbacks: u32,
+        failed_attempts: u32,
         /// Time before it may be claimed again [ms].
         wait_ms: i64,
     },
@@ -58,7 +58,7 @@ impl FailedAttempt {
         if saved && by_death {
             // The attempt made progress, and the next one continues from there.
             return Consequence::Waits {
-                setbacks: 0,
+                failed_attempts: 0,
                 wait_ms: 0,
             };
         }
@@ -72,7 +72,7 @@ impl FailedAttempt {
             Self::Expired | Self::Infrastructure(_) => BACK_OFF_MS[before as usize],
         };
         Consequence::Waits {
-            setbacks: 1,
+            failed_attempts: 1,
             wait_ms,
         }
     }

@@ -80,7 +80,7 @@ pub(super) async fn set_back_row(
     now_ms: i64,
 ) -> Answer<Returned> {
     let found: Option<(u32, bool)> = sqlx::query_as(
-        "SELECT setbacks, EXISTS (SELECT 1 FROM run_states WHERE job_id = ?1 AND attempt = ?3)
+        "SELECT failed_attempts, EXISTS (SELECT 1 FROM run_states WHERE job_id = ?1 AND attempt = ?3)
          FROM jobs WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
     )
     .bind(lease.job.to_string())
@@ -99,8 +99,11 @@ pub(super) async fn set_back_row(
     )
     .await?;
     match failed_attempt.consequence(before, got_on) {
-        Consequence::Waits { setbacks, wait_ms } => {
-            put_back_row(connection, lease, setbacks, now_ms + wait_ms).await?;
+        Consequence::Waits {
+            failed_attempts,
+            wait_ms,
+        } => {
+            put_back_row(connection, lease, failed_attempts, now_ms + wait_ms).await?;
             Ok(Returned::Waiting)
         }
         Consequence::Fails(failure) => {
@@ -140,12 +143,12 @@ async fn fail_row(
 async fn put_back_row(
     connection: &mut SqliteConnection,
     lease: Lease,
-    setbacks: u32,
+    failed_attempts: u32,
     not_before_ms: i64,
 ) -> Answer<bool> {
     let done = sqlx::query(
         "UPDATE jobs
-         SET status = 'accepted', started_ms = NULL, setbacks = setbacks + ?3,
+         SET status = 'accepted', started_ms = NULL, failed_attempts = failed_attempts + ?3,
              not_before_ms = ?4, lease_owner = NULL, lease_expires_ms = NULL,
              lease_token = lease_token + 1, point_steps_per_s = 0, eta_s = NULL,
              (fraction, simulated_time_s, steps, substeps) = (
@@ -157,7 +160,7 @@ async fn put_back_row(
     )
     .bind(lease.job.to_string())
     .bind(lease.token)
-    .bind(setbacks)
+    .bind(failed_attempts)
     .bind(not_before_ms)
     .execute(connection)
     .await?;

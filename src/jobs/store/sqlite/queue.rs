@@ -15,7 +15,7 @@ struct ClaimedRow {
     attempt: i64,
     lease_token: i64,
     scenario: String,
-    setbacks: u32,
+    failed_attempts: u32,
 }
 
 impl SqliteStore {
@@ -29,8 +29,8 @@ impl SqliteStore {
                  lease_owner = ?3, lease_expires_ms = ?4, lease_token = lease_token + 1
              WHERE sequence = (SELECT min(sequence) FROM jobs WHERE status = 'accepted'
                                AND (not_before_ms <= ?1 OR not_before_ms > ?5)
-                               AND (setbacks = 0 OR ?8 >= iif(setbacks = 1, ?9, ?10)))
-             RETURNING id, attempt, lease_token, scenario, setbacks",
+                               AND (failed_attempts = 0 OR ?8 >= iif(failed_attempts = 1, ?9, ?10)))
+             RETURNING id, attempt, lease_token, scenario, failed_attempts",
         )
         .bind(now_ms)
         .bind(claimant.solver.version)
@@ -94,7 +94,7 @@ impl ClaimedRow {
         Ok(Claim {
             lease: lease(&self.id, self.attempt, self.lease_token)?,
             scenario: self.scenario,
-            setbacks: self.setbacks,
+            failed_attempts: self.failed_attempts,
         })
     }
 }

@@ -103,7 +103,7 @@ pub(super) async fn write_state(
     let id = lease.job.to_string();
     for statement in [
         "DELETE FROM run_states WHERE job_id = ?1",
-        "UPDATE jobs SET setbacks = 0 WHERE id = ?1",
+        "UPDATE jobs SET failed_attempts = 0 WHERE id = ?1",
     ] {
         sqlx::query(statement)
             .bind(&id)

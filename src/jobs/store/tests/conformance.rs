@@ -15,12 +15,12 @@ conformance! {
     a_lease_that_ran_out_is_another_s_to_take
     a_saved_job_whose_lease_ran_out_is_taken_at_once
     a_former_self_s_jobs_are_taken_back_at_once_and_no_others
-    the_third_setback_in_a_row_is_the_last
+    the_third_failed_attempt_in_a_row_is_the_last
     a_job_cut_off_waits_until_the_service_has_lived_as_long
-    after_a_setback_a_job_waits_longer_each_time
-    a_saved_state_comes_back_and_ends_the_row_of_setbacks
+    after_a_failed_attempt_a_job_waits_longer_each_time
+    a_saved_state_comes_back_and_ends_the_row_of_failed_attempts
     an_attempt_begins_at_its_saved_state_or_afresh
-    a_job_handed_back_keeps_its_state_and_has_no_setback
+    a_job_handed_back_keeps_its_state_and_has_no_failed_attempt
 }
 
 async fn jobs_are_claimed_in_the_order_of_submission_and_once(fixture: &Fixture) {
@@ -202,7 +202,7 @@ async fn a_saved_job_whose_lease_ran_out_is_taken_at_once(fixture: &Fixture) {
     for (own, other) in [("a", "b"), ("b", "a")].repeat(TOLERATED_SETBACKS as usize) {
         let claim = fixture.store.claim(&at_once(own)).await.unwrap();
         let claim = claim.expect("what has got on waits for nothing");
-        assert_eq!((claim.lease.job, claim.setbacks), (id, 0));
+        assert_eq!((claim.lease.job, claim.failed_attempts), (id, 0));
         let kept = results_and_state(3);
         assert!(fixture.store.keep(claim.lease, &kept).await.unwrap());
         fixture.pass(LEASE);
@@ -228,7 +228,7 @@ async fn a_former_self_s_jobs_are_taken_back_at_once_and_no_others(fixture: &Fix
     assert_eq!(fixture.endings(jobs[0]).await, ["cut-off", ""]);
 }
 
-async fn the_third_setback_in_a_row_is_the_last(fixture: &Fixture) {
+async fn the_third_failed_attempt_in_a_row_is_the_last(fixture: &Fixture) {
     let id = fixture.submit().await;
     for attempt in 1..=TOLERATED_SETBACKS {
         assert_eq!(fixture.claim("a").await.attempt, attempt);
@@ -250,7 +250,7 @@ async fn a_job_cut_off_waits_until_the_service_has_lived_as_long(fixture: &Fixtu
         up_for: Duration::from_millis(up_ms),
         ..claimant("a")
     };
-    for (wait_ms, setbacks) in [(0, 0), (2_000, 1), (8_000, 2)] {
+    for (wait_ms, failed_attempts) in [(0, 0), (2_000, 1), (8_000, 2)] {
         if wait_ms > 0 {
             let too_soon = after(wait_ms - 1);
             for _ in 0..5 {
@@ -260,17 +260,20 @@ async fn a_job_cut_off_waits_until_the_service_has_lived_as_long(fixture: &Fixtu
             }
             let other = fixture.submit().await;
             let claim = store.claim(&too_soon).await.unwrap().unwrap();
-            assert_eq!((claim.lease.job, claim.setbacks), (other, 0));
+            assert_eq!((claim.lease.job, claim.failed_attempts), (other, 0));
             assert!(store.succeed(claim.lease, "{}", FINGERPRINT).await.unwrap());
         }
         let claim = store.claim(&after(wait_ms)).await.unwrap().unwrap();
-        assert_eq!((claim.lease.job, claim.setbacks), (id, setbacks));
+        assert_eq!(
+            (claim.lease.job, claim.failed_attempts),
+            (id, failed_attempts)
+        );
         assert_eq!(store.reclaim_own("a").await.unwrap(), 1);
     }
     assert_eq!(fixture.status(id).await, JobStatus::Failed);
 }
 
-async fn after_a_setback_a_job_waits_longer_each_time(fixture: &Fixture) {
+async fn after_a_failed_attempt_a_job_waits_longer_each_time(fixture: &Fixture) {
     let id = fixture.submit().await;
     let failed_attempt = FailedAttempt::Infrastructure("no room".to_owned());
     for wait_s in [2, 8] {
@@ -299,7 +302,7 @@ async fn after_a_setback_a_job_waits_longer_each_time(fixture: &Fixture) {
     assert_eq!(attempts[0].detail.as_deref(), Some("no room"));
 }
 
-async fn a_saved_state_comes_back_and_ends_the_row_of_setbacks(fixture: &Fixture) {
+async fn a_saved_state_comes_back_and_ends_the_row_of_failed_attempts(fixture: &Fixture) {
     let id = fixture.submit().await;
     let at_once = Claimant {
         up_for: Duration::ZERO,
@@ -309,7 +312,7 @@ async fn a_saved_state_comes_back_and_ends_the_row_of_setbacks(fixture: &Fixture
         // A job that made progress waits for nothing.
         let claim = fixture.store.claim(&at_once).await.unwrap().unwrap();
         let lease = claim.lease;
-        assert_eq!(claim.setbacks, 0);
+        assert_eq!(claim.failed_attempts, 0);
         let kept = results_and_state(count);
         assert!(fixture.store.keep(lease, &kept).await.unwrap());
         let state = fixture.store.state(id).await.unwrap().unwrap();
@@ -353,7 +356,7 @@ async fn an_attempt_begins_at_its_saved_state_or_afresh(fixture: &Fixture) {
     assert_eq!(fixture.job(id).await.summary.progress.fraction, 0.0);
 }
 
-async fn a_job_handed_back_keeps_its_state_and_has_no_setback(fixture: &Fixture) {
+async fn a_job_handed_back_keeps_its_state_and_has_no_failed_attempt(fixture: &Fixture) {
     let id = fixture.submit().await;
     for _ in 0..=TOLERATED_SETBACKS {
         let lease = fixture.claim("a").await;

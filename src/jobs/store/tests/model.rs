@@ -59,7 +59,7 @@ struct ModelJob {
     owner: usize,
     expires_ms: i64,
     not_before_ms: i64,
-    setbacks: u32,
+    failed_attempts: u32,
     saved: bool,
     /// True if the current attempt has saved a state.
     saved_now: bool,
@@ -122,13 +122,13 @@ impl Model {
             Self::penetration_correction(job, now_ms);
             return Returned::Waiting;
         }
-        let wait_ms = match (why, job.setbacks) {
+        let wait_ms = match (why, job.failed_attempts) {
             (Why::CutOff, _) => 0,
             (_, 0) => 2_000,
             (_, _) => 8_000,
         };
-        job.setbacks += 1;
-        if job.setbacks == 3 {
+        job.failed_attempts += 1;
+        if job.failed_attempts == 3 {
             Self::end(job, JobStatus::Failed);
             return Returned::Failed;
         }
@@ -255,7 +255,7 @@ impl Pair {
                 if let Some(job) = held.filter(|job| Model::is(job, JobStatus::Running)) {
                     job.saved = true;
                     job.saved_now = true;
-                    job.setbacks = 0;
+                    job.failed_attempts = 0;
                 }
                 let lease = self.leases[number(pick)];
                 let kept = store.keep(lease, &results_and_state(3)).await;
