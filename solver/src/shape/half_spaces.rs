@@ -5,6 +5,7 @@ use super::error::ShapeError;
 use super::polyhedron::ConvexPolyhedron;
 use super::{check, hull};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
+use std::collections::BTreeSet;
 
 /// Angle below which two planes are one face \[rad\]: coordinates typed with six digits turn
 /// parts of a face by less.
@@ -14,6 +15,11 @@ const ONE_FACE: f64 = 1e-5;
 const NO_CROSSING: f64 = 1e-7;
 /// Distance in front of a plane that still counts as behind, over the size.
 const BEHIND: f64 = 1e-9;
+/// Sine of the angle of two planes below which their line is not sought: it would be anywhere.
+const NO_LINE: f64 = 1e-3;
+/// Tolerance of a line's place, over the size, and of its slope against a plane: well above the
+/// rounding of the line and [`BEHIND`].
+const NEAR_LINE: f64 = 1e-7;
 /// Rounding of lengths, over the size.
 const ROUNDING: f64 = 1e-12;
 /// More exchanges than any set of planes needs; a limit for cycles caused by rounding.
@@ -113,16 +119,61 @@ impl HalfSpaces {
     /// No solid remains, or one too small to tell its features apart.
     pub(super) fn eroded(&self, depth: f64) -> Result<ConvexPolyhedron, ShapeError> {
         let count = self.planes.len();
+        let edges = self.edges(depth);
+        let next = |a: usize| edges[a].range(a + 1..).copied();
         let mut crossings = Vec::new();
         for a in 0..count {
-            for b in a + 1..count {
-                crossings.extend((b + 1..count).filter_map(|c| self.crossing([a, b, c], depth)));
+            for b in next(a) {
+                let thirds = next(b).filter(|c| edges[a].contains(c));
+                crossings.extend(thirds.filter_map(|c| self.crossing([a, b, c], depth)));
             }
         }
         // Of several crossings at one place the sharpest is first, and is kept.
         crossings.sort_by(|a, b| b.0.total_cmp(&a.0));
         let places: Vec<_> = crossings.into_iter().map(|(_, place)| place).collect();
         hull::hull_of(&places)
+    }
+
+    /// For each plane those with which it may have an edge in common when all are moved in by
+    /// `depth` [m].
+    fn edges(&self, depth: f64) -> Vec<BTreeSet<usize>> {
+        let mut edges = vec![BTreeSet::new(); self.planes.len()];
+        for a in 0..self.planes.len() {
+            for b in a + 1..self.planes.len() {
+                if self.may_share_an_edge(a, b, depth) {
+                    edges[a].insert(b);
+                    edges[b].insert(a);
+                }
+            }
+        }
+        edges
+    }
+
+    /// True unless the planes' line is nowhere behind all others.
+    fn may_share_an_edge(&self, a: usize, b: usize, depth: f64) -> bool {
+        let [(a, of_a), (b, of_b)] = [a, b].map(|plane| self.planes[plane]);
+        let Some(along) = a.cross(&b).try_normalize(NO_LINE) else {
+            return true;
+        };
+        let (of_a, of_b, cosine) = (of_a - depth, of_b - depth, a.dot(&b));
+        let of_line = a * (of_a - of_b * cosine) + b * (of_b - of_a * cosine);
+        let near = of_line / (1.0 - cosine * cosine);
+        let (mut start, mut end) = (f64::NEG_INFINITY, f64::INFINITY);
+        for (normal, offset) in &self.planes {
+            let room = offset - depth - normal.dot(&near) + NEAR_LINE * self.size;
+            let slope = normal.dot(&along);
+            if slope > NEAR_LINE {
+                end = end.min(room / slope);
+            } else if slope < -NEAR_LINE {
+                start = start.max(room / slope);
+            } else if room < -NEAR_LINE * self.size {
+                return false;
+            }
+            if start > end {
+                return false;
+            }
+        }
+        true
     }
 
     /// Intersection of three planes moved in by `depth` [m], and its triple product, if it is
@@ -145,5 +196,47 @@ impl HalfSpaces {
             |(normal, offset): &(Vector3<f64>, f64)| normal.dot(&place) - (offset - depth) <= near;
         let meet = self.planes.iter().all(behind);
         meet.then_some((spanned.abs(), place))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn place() -> impl Strategy<Value = Vector3<f64>> {
+        prop::array::uniform3(-1.0..1.0_f64).prop_map(|place| {
+            // Half of the places on a coarse grid, for planes that meet in more than three.
+            let place = if place[0] > 0.0 {
+                place.map(|c| (c * 4.0).round() / 4.0)
+            } else {
+                place
+            };
+            Vector3::from(place)
+        })
+    }
+
+    proptest! {
+        // The search for vertices leaves out no three planes that have one.
+        #[test]
+        fn planes_of_a_vertex_share_edges(
+            points in prop::collection::vec(place(), 8..20),
+            share in 0.02..0.95_f64,
+        ) {
+            let Ok(within) = HalfSpaces::round(&points) else { return Ok(()) };
+            let depth = share * within.inradius();
+            let edges = within.edges(depth);
+            let count = within.planes.len();
+            for a in 0..count {
+                for b in a + 1..count {
+                    for c in b + 1..count {
+                        if within.crossing([a, b, c], depth).is_some() {
+                            let is_kept = [(a, b), (a, c), (b, c)].iter().all(|(one, other)| edges[*one].contains(other));
+                            prop_assert!(is_kept, "{a} {b} {c}");
+                        }
+                    }
+                }
+            }
+        }
     }
 }

@@ -1,14 +1,16 @@
 //! Convex hulls of a few points.
 //!
-//! A face is a plane through three of the points with none in front. Every triple is tried:
-//! with the few dozen points of a body that is fast, and it needs no assumption on their order
-//! or position, where faster methods fail on rounded coordinates. Two faces of a convex solid
+//! A face is a plane through three of the points with none in front. Every triple is tried whose
+//! three lines each have all points on one side, seen along the line: that leaves few, and needs no
+//! assumption on the order or position of points, where faster methods fail on rounded
+//! coordinates. Two faces of a convex solid
 //! share at most two vertices, so planes that share three are one face: coplanar triangles are
 //! merged, and points with ambiguous coordinates can't tear the surface.
 
 use super::check::extent;
 use super::error::ShapeError;
 use super::polyhedron::ConvexPolyhedron;
+use super::rim::on_rim;
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 
@@ -104,9 +106,11 @@ impl Candidates {
         let count = self.points.len();
         let mut faces: Vec<Flat> = Vec::new();
         let mut split = [0, 0];
+        let rim = on_rim(&self.points, size);
+        let next = |a: usize| rim[a].range(a + 1..).copied();
         for a in 0..count {
-            for b in a + 1..count {
-                for c in b + 1..count {
+            for b in next(a) {
+                for c in next(b).filter(|c| rim[a].contains(c)) {
                     let known = |face: &Flat| [a, b, c].iter().all(|p| face.points.contains(p));
                     if let Some(normal) = self.outward([a, b, c], size, &mut split)
                         && !faces.iter().any(known)
@@ -234,5 +238,45 @@ impl Flat {
         let sticks_out = after.cross(&before).dot(&self.normal);
         let least = least * (after - before).norm();
         sticks_out < -least || (sticks_out <= least && before.dot(&after) < 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Clouds with many points in common planes, and in common lines, as typed ones have.
+    fn cloud() -> impl Strategy<Value = Vec<Vector3<f64>>> {
+        let grid = prop::array::uniform3(-3..=3_i32).prop_map(|p| p.map(|c| f64::from(c) * 0.1));
+        let free = prop::array::uniform3(-0.3..0.3_f64);
+        let typed = free
+            .clone()
+            .prop_map(|p| p.map(|c| (c * 1e5).round() / 1e5));
+        let of = |place: BoxedStrategy<[f64; 3]>| {
+            prop::collection::vec(place.prop_map(Vector3::from), 4..24)
+        };
+        prop_oneof![of(grid.boxed()), of(free.boxed()), of(typed.boxed())]
+    }
+
+    proptest! {
+        // The search for faces leaves out no triple that would be one.
+        #[test]
+        fn three_points_of_a_face_are_on_the_rim(points in cloud()) {
+            let size = extent(&points);
+            let candidates = Candidates::of(&points, size, SMALLEST);
+            let rim = on_rim(&candidates.points, size);
+            let count = candidates.points.len();
+            for a in 0..count {
+                for b in a + 1..count {
+                    for c in b + 1..count {
+                        if candidates.outward([a, b, c], size, &mut [0, 0]).is_some() {
+                            let is_kept = [(a, b), (a, c), (b, c)].iter().all(|(one, other)| rim[*one].contains(other));
+                            prop_assert!(is_kept, "{a} {b} {c}");
+                        }
+                    }
+                }
+            }
+        }
     }
 }

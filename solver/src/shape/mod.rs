@@ -19,6 +19,7 @@ mod moments;
 mod polyhedron;
 mod principal;
 mod regular;
+mod rim;
 mod segment;
 mod separation;
 mod sharp;
