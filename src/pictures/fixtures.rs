@@ -5,8 +5,8 @@ use scree_solver::record::{
     Outcome, Sample,
 };
 use scree_solver::scenario::{
-    Accuracy, Approach, Body, Channel, Coupling, Ending, Flow, Material, Numerics, Position,
-    Precision, Release,
+    Accuracy, Approach, Body, BuiltSolid, Channel, Coupling, Ending, Flow, Material, Numerics,
+    Position, Precision, Release,
 };
 use scree_solver::scenario::{Scenario, Shape, Symmetry};
 
@@ -32,6 +32,7 @@ pub(super) fn cube(side_m: f64, sphero_radius_m: f64) -> Body {
         contact_modulus_pa: None,
         fixed: false,
         motion: None,
+        solid: BuiltSolid::default(),
     }
 }
 

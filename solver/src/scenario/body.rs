@@ -7,7 +7,7 @@ use super::reader::Object;
 use super::report::Report;
 use super::rules::*;
 use super::shape::{Size, read_shape};
-use super::{Body, Position, Shape};
+use super::{Body, BuiltSolid, Position, Shape};
 use crate::shape::ShapeError;
 
 /// The list of bodies; a refused body is `None`.
@@ -51,7 +51,8 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
     let fixed = object.flag("fixed", false);
     let motion = read_motion(&object);
     object.refuse_unknown();
-    let fits = rounding_fits(&object, shape.as_ref(), sphero_radius_m);
+    let solid = BuiltSolid::default();
+    let fits = rounding_fits(&object, &solid, shape.as_ref(), sphero_radius_m);
     let ((yaw_deg, orientation), (velocity_m_s, angular_velocity_rad_s)) = (turn?, velocities?);
     let body = Body {
         shape: shape?,
@@ -70,6 +71,7 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
         contact_modulus_pa: contact_modulus_pa?,
         fixed: fixed?,
         motion: motion?,
+        solid,
     };
     moves_one_way(&object, &body);
     fits.then_some(body)
@@ -190,11 +192,16 @@ fn moves_one_way(object: &Object<'_>, body: &Body) {
 }
 
 /// True if the shape can be rounded with this radius; otherwise it is refused.
-fn rounding_fits(object: &Object<'_>, shape: Option<&Shape>, radius: Option<f64>) -> bool {
+fn rounding_fits(
+    object: &Object<'_>,
+    solid: &BuiltSolid,
+    shape: Option<&Shape>,
+    radius: Option<f64>,
+) -> bool {
     let (Some(shape), Some(radius)) = (shape, radius) else {
         return false;
     };
-    let Err(error) = shape.build(radius) else {
+    let Err(error) = solid.of(shape, radius) else {
         return true;
     };
     let pointer = object.pointer_to(SPHERO_RADIUS.key);

@@ -107,7 +107,7 @@ impl Placed<'_> {
 fn placed<'a>(channel: &Channel, bodies: &'a [Option<Body>]) -> Vec<Placed<'a>> {
     let place = |(index, body): (usize, &'a Option<Body>)| {
         let body = body.as_ref()?;
-        let shape = body.shape.build(body.sphero_radius_m).ok()?;
+        let shape = body.build().ok()?;
         Some(Placed {
             pointer: format!("/bodies/{index}"),
             pose: body.pose(&shape, channel),

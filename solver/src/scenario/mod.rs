@@ -24,6 +24,7 @@ mod rules;
 pub(crate) mod schema;
 mod sections;
 mod shape;
+mod solid;
 #[cfg(test)]
 mod tests;
 
@@ -35,7 +36,9 @@ pub use node::excerpt;
 pub use placement::{Pose, ReleaseBox, Support};
 pub use reduction::{Approach, Ending, Symmetry};
 pub use shape::{FieldValue, REGULAR_SOLIDS, SHAPES, Shape, ShapeField, ShapeKind};
+pub use solid::BuiltSolid;
 
+use crate::shape::{ShapeError, SpheroPolyhedron};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -169,6 +172,16 @@ pub struct Body {
     pub fixed: bool,
     /// How the body moves whatever acts on it; `null`: it is free, or fixed.
     pub motion: Option<Motion>,
+    /// The solid of these dimensions, built at its first use.
+    #[serde(skip)]
+    pub solid: BuiltSolid,
+}
+
+impl Body {
+    /// The rounded solid of its shape.
+    pub(crate) fn build(&self) -> Result<SpheroPolyhedron, ShapeError> {
+        self.solid.of(&self.shape, self.sphero_radius_m)
+    }
 }
 
 /// Centre of a body.

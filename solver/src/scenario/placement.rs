@@ -184,8 +184,7 @@ impl Scenario {
     /// If there is no such body, or the scenario did not come from the parser,
     /// which refuses dimensions that make no solid.
     pub fn shape_of(&self, body: usize) -> SpheroPolyhedron {
-        let body = &self.bodies[body];
-        let built = body.shape.build(body.sphero_radius_m);
+        let built = self.bodies[body].build();
         built.expect("the parser refuses dimensions that make no solid")
     }
 

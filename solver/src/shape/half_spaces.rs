@@ -2,10 +2,10 @@
 //! every plane moved in.
 
 use super::error::ShapeError;
+use super::pairs::Pairs;
 use super::polyhedron::ConvexPolyhedron;
 use super::{check, hull};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
-use std::collections::BTreeSet;
 
 /// Angle below which two planes are one face \[rad\]: coordinates typed with six digits turn
 /// parts of a face by less.
@@ -118,35 +118,21 @@ impl HalfSpaces {
     /// # Errors
     /// No solid remains, or one too small to tell its features apart.
     pub(super) fn eroded(&self, depth: f64) -> Result<ConvexPolyhedron, ShapeError> {
-        let count = self.planes.len();
         let edges = self.edges(depth);
-        let next = |a: usize| edges[a].range(a + 1..).copied();
-        let mut crossings = Vec::new();
-        for a in 0..count {
-            for b in next(a) {
-                let thirds = next(b).filter(|c| edges[a].contains(c));
-                crossings.extend(thirds.filter_map(|c| self.crossing([a, b, c], depth)));
-            }
-        }
+        let crossings = edges.triples();
+        let crossings = crossings.filter_map(|triple| self.crossing(triple, depth));
+        let mut crossings: Vec<_> = crossings.collect();
         // Of several crossings at one place the sharpest is first, and is kept.
         crossings.sort_by(|a, b| b.0.total_cmp(&a.0));
         let places: Vec<_> = crossings.into_iter().map(|(_, place)| place).collect();
         hull::hull_of(&places)
     }
 
-    /// For each plane those with which it may have an edge in common when all are moved in by
-    /// `depth` [m].
-    fn edges(&self, depth: f64) -> Vec<BTreeSet<usize>> {
-        let mut edges = vec![BTreeSet::new(); self.planes.len()];
-        for a in 0..self.planes.len() {
-            for b in a + 1..self.planes.len() {
-                if self.may_share_an_edge(a, b, depth) {
-                    edges[a].insert(b);
-                    edges[b].insert(a);
-                }
-            }
-        }
-        edges
+    /// Planes that may have an edge in common when all are moved in by `depth` [m].
+    fn edges(&self, depth: f64) -> Pairs {
+        Pairs::among(self.planes.len(), |a, b| {
+            self.may_share_an_edge(a, b, depth)
+        })
     }
 
     /// True unless the planes' line is nowhere behind all others.
@@ -202,6 +188,7 @@ impl HalfSpaces {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shape::pairs::all_triples;
     use proptest::prelude::*;
 
     fn place() -> impl Strategy<Value = Vector3<f64>> {
@@ -226,16 +213,9 @@ mod tests {
             let Ok(within) = HalfSpaces::round(&points) else { return Ok(()) };
             let depth = share * within.inradius();
             let edges = within.edges(depth);
-            let count = within.planes.len();
-            for a in 0..count {
-                for b in a + 1..count {
-                    for c in b + 1..count {
-                        if within.crossing([a, b, c], depth).is_some() {
-                            let is_kept = [(a, b), (a, c), (b, c)].iter().all(|(one, other)| edges[*one].contains(other));
-                            prop_assert!(is_kept, "{a} {b} {c}");
-                        }
-                    }
-                }
+            for triple in all_triples(within.planes.len()) {
+                let is_vertex = within.crossing(triple, depth).is_some();
+                prop_assert!(!is_vertex || edges.hold(triple), "{triple:?}");
             }
         }
     }

@@ -103,21 +103,14 @@ impl Candidates {
 
     /// The faces, each with all points that lie in it.
     fn faces(&self, size: f64) -> Vec<Flat> {
-        let count = self.points.len();
         let mut faces: Vec<Flat> = Vec::new();
         let mut split = [0, 0];
-        let rim = on_rim(&self.points, size);
-        let next = |a: usize| rim[a].range(a + 1..).copied();
-        for a in 0..count {
-            for b in next(a) {
-                for c in next(b).filter(|c| rim[a].contains(c)) {
-                    let known = |face: &Flat| [a, b, c].iter().all(|p| face.points.contains(p));
-                    if let Some(normal) = self.outward([a, b, c], size, &mut split)
-                        && !faces.iter().any(known)
-                    {
-                        faces.push(self.flat(a, normal, size));
-                    }
-                }
+        for triple in on_rim(&self.points, size).triples() {
+            let known = |face: &Flat| triple.iter().all(|p| face.points.contains(p));
+            if let Some(normal) = self.outward(triple, size, &mut split)
+                && !faces.iter().any(known)
+            {
+                faces.push(self.flat(triple[0], normal, size));
             }
         }
         self.merged(faces, self.smallest * size)
@@ -244,6 +237,7 @@ impl Flat {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shape::pairs::all_triples;
     use proptest::prelude::*;
 
     /// Clouds with many points in common planes, and in common lines, as typed ones have.
@@ -266,16 +260,9 @@ mod tests {
             let size = extent(&points);
             let candidates = Candidates::of(&points, size, SMALLEST);
             let rim = on_rim(&candidates.points, size);
-            let count = candidates.points.len();
-            for a in 0..count {
-                for b in a + 1..count {
-                    for c in b + 1..count {
-                        if candidates.outward([a, b, c], size, &mut [0, 0]).is_some() {
-                            let is_kept = [(a, b), (a, c), (b, c)].iter().all(|(one, other)| rim[*one].contains(other));
-                            prop_assert!(is_kept, "{a} {b} {c}");
-                        }
-                    }
-                }
+            for triple in all_triples(candidates.points.len()) {
+                let is_face = candidates.outward(triple, size, &mut [0, 0]).is_some();
+                prop_assert!(!is_face || rim.hold(triple), "{triple:?}");
             }
         }
     }

@@ -16,6 +16,7 @@ mod face;
 mod half_spaces;
 mod hull;
 mod moments;
+mod pairs;
 mod polyhedron;
 mod principal;
 mod regular;

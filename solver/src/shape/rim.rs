@@ -1,7 +1,7 @@
 //! Pairs of points on the rim of a cloud: those that can be in one face.
 
+use super::pairs::Pairs;
 use nalgebra::Vector3;
-use std::collections::BTreeSet;
 
 /// Distance from a line within which a point says nothing of what lies on either side, over the
 /// size.
@@ -10,21 +10,14 @@ const ON_LINE: f64 = 1e-4;
 /// 1e-10, seen from [`ON_LINE`], and as much again many times over.
 const SLACK: f64 = 1e-5;
 
-/// For each point those with which it is on the rim: seen along the line through both, all points
-/// lie in a half-plane. Two points of one face always are.
-pub(super) fn on_rim(points: &[Vector3<f64>], size: f64) -> Vec<BTreeSet<usize>> {
-    let mut pairs = vec![BTreeSet::new(); points.len()];
+/// Pairs on the rim: seen along the line through both, all points lie in a half-plane. Two points
+/// of one face always are.
+pub(super) fn on_rim(points: &[Vector3<f64>], size: f64) -> Pairs {
     // Places that refuted a pair come first: they often refute the next, too.
     let mut places = points.to_vec();
-    for a in 0..points.len() {
-        for b in a + 1..points.len() {
-            if is_on_rim(&mut places, [points[a], points[b]], size) {
-                pairs[a].insert(b);
-                pairs[b].insert(a);
-            }
-        }
-    }
-    pairs
+    Pairs::among(points.len(), |a, b| {
+        is_on_rim(&mut places, [points[a], points[b]], size)
+    })
 }
 
 fn is_on_rim(places: &mut [Vector3<f64>], [from, to]: [Vector3<f64>; 2], size: f64) -> bool {
