@@ -136,6 +136,17 @@ impl Core {
         }
     }
 
+    /// True if two of its vertices are further apart along a unit vector than this [m], and by more
+    /// than rounding: most directions are told so by the first few.
+    pub(super) fn is_wider(&self, direction: &Vector3<f64>, width: f64) -> bool {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        self.vertices().iter().any(|vertex| {
+            let place = direction.dot(vertex);
+            (low, high) = (low.min(place), high.max(place));
+            high - low > width * (1.0 + 1e-9)
+        })
+    }
+
     /// Directions that have the one of least width among them: two parallel planes round a
     /// polyhedron touch it in faces, a face and a vertex, or two edges; round a segment, along it.
     pub(super) fn narrow_directions(&self) -> Vec<Vector3<f64>> {

@@ -226,10 +226,17 @@ impl SpheroPolyhedron {
 
     /// Least distance of two parallel planes with the rounded solid between them [m].
     pub fn least_width(&self) -> f64 {
-        let directions = self.core.narrow_directions().into_iter();
-        directions
-            .map(|direction| self.extent_along(&direction) + self.extent_along(&-direction))
-            .fold(f64::INFINITY, f64::min)
+        let mut least = f64::INFINITY;
+        for direction in self.core.narrow_directions() {
+            if !self
+                .core
+                .is_wider(&direction, least - 2.0 * self.sphero_radius)
+            {
+                let width = self.extent_along(&direction) + self.extent_along(&-direction);
+                least = least.min(width);
+            }
+        }
+        least
     }
 
     /// The feature of the core nearest to `x` [m]. Distance and, outside the
