@@ -10,12 +10,14 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use thiserror::Error;
 
+mod browser;
 mod queue;
 #[cfg(test)]
 mod tests;
 mod tokens;
 mod upkeep;
 
+pub use browser::Browser;
 pub use queue::Queue;
 pub use tokens::{Scope, Token};
 pub use upkeep::{Log, LogFormat, Retention};
@@ -41,6 +43,8 @@ pub struct ServiceConfig {
     pub retention: Retention,
     /// Format of the log.
     pub log: Log,
+    /// What browsers may do.
+    pub browser: Browser,
     /// Access tokens; without any, no request needs one.
     pub tokens: Vec<Token>,
 }
@@ -155,6 +159,7 @@ impl Default for ServiceConfig {
             },
             retention: Retention::default(),
             log: Log::default(),
+            browser: Browser::default(),
             tokens: Vec::new(),
         }
     }
@@ -189,6 +194,7 @@ impl ServiceConfig {
     pub fn check(&self, cores: usize) -> Result<PoolSize, ConfigError> {
         tokens::check(&self.tokens)?;
         self.check_listen()?;
+        self.browser.check()?;
         self.check_limits()?;
         self.queue.check()?;
         self.workers.check(cores)

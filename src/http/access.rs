@@ -11,7 +11,14 @@ use axum::response::{IntoResponse, Response};
 use std::sync::Arc;
 
 /// Paths open without a token: they reveal nothing about jobs.
-const OPEN: [&str; 4] = ["/", "/healthz", "/readyz", "/openapi.json"];
+const OPEN: [&str; 6] = [
+    "/",
+    "/page.js",
+    "/page.css",
+    "/healthz",
+    "/readyz",
+    "/openapi.json",
+];
 
 /// Sender of a request.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,14 +11,18 @@ pub(super) fn add(contract: &mut OpenApi) {
         let asks_for_token = !is_open(path);
         for operation in [&mut item.get, &mut item.post, &mut item.delete] {
             let Some(operation) = operation else { continue };
+            let mut why_forbidden = "The request is for a name that is not the service's, or from \
+                                     a page that may not use it";
             if asks_for_token {
                 answer(
                     operation,
                     "401",
                     "No good access token, where one is needed",
                 );
-                answer(operation, "403", "The access token is not good for this");
+                why_forbidden = "The access token is not good for this, the request is for a name \
+                                 that is not the service's, or from a page that may not use it";
             }
+            answer(operation, "403", why_forbidden);
             answer(
                 operation,
                 "500",

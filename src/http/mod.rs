@@ -4,6 +4,7 @@
 
 mod access;
 mod batch;
+mod browser;
 mod common_answers;
 mod documents;
 mod etag;

@@ -1,6 +1,7 @@
 //! Routes of requests, and the layers around them.
 
 use super::access::{self, Gate};
+use super::browser::{self, Doors};
 use super::metrics::{self, RequestCounts};
 use super::problem::Problem;
 use super::scenario_body::BodyDeadline;
@@ -32,9 +33,17 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
     let (router, contract) = documented(limits.request_timeout()).split_for_parts();
     let contract = contract_text(&contract);
     let body_timeout = limits.body_read_timeout();
-    router
+    let router = router
         .route("/openapi.json", get(|| serve_contract(contract)))
         .route("/", get(|| async { Html(include_str!("page.html")) }))
+        .route(
+            "/page.js",
+            get(|| asset("text/javascript", include_str!("page.js"))),
+        )
+        .route(
+            "/page.css",
+            get(|| asset("text/css", include_str!("page.css"))),
+        )
         .fallback(system::no_such_route)
         .method_not_allowed_fallback(system::wrong_method)
         .with_state(jobs)
@@ -43,7 +52,14 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
             set_deadline(body_timeout, request, next)
         }))
         .layer(from_fn_with_state(Gate::new(&config.tokens), access::check))
+        .layer(from_fn_with_state(Doors::new(config), browser::check));
+    let router = match browser::cors(config) {
+        Some(cors) => router.layer(cors),
+        None => router,
+    };
+    router
         .layer(CatchPanicLayer::custom(after_panic))
+        .layer(from_fn(browser::harden))
         .layer(from_fn(metrics::count))
         .layer(Extension(Arc::new(RequestCounts::default())))
         .layer(
@@ -128,6 +144,10 @@ fn description() -> OpenApi {
 fn contract_text(contract: &OpenApi) -> String {
     // A document of strings and maps can always be serialised.
     contract.to_pretty_json().unwrap_or_default()
+}
+
+async fn asset(media_type: &'static str, text: &'static str) -> Response {
+    ([(header::CONTENT_TYPE, media_type)], text).into_response()
 }
 
 async fn serve_contract(contract: String) -> Response {

@@ -89,13 +89,13 @@ fn connect_narrowly(address: &str) -> TcpStream {
 }
 
 fn half_a_head(mut stream: TcpStream) -> io::Result<()> {
-    stream.write_all(b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Half")?;
+    stream.write_all(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nX-Half")?;
     stream.read_to_end(&mut Vec::new()).map(drop)
 }
 
 fn a_body_in_drops(mut stream: TcpStream) -> io::Result<()> {
     stream.write_all(
-        b"POST /v1/jobs HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n\
+        b"POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n\
           Content-Length: 100000\r\n\r\n",
     )?;
     stream.set_read_timeout(Some(Duration::from_millis(100)))?;
@@ -114,6 +114,6 @@ fn a_body_in_drops(mut stream: TcpStream) -> io::Result<()> {
 /// Asks for far more than the buffers on both sides hold, and reads none of it.
 fn read_nothing(mut stream: TcpStream) -> io::Result<()> {
     loop {
-        stream.write_all(b"GET /openapi.json HTTP/1.1\r\nHost: x\r\n\r\n")?;
+        stream.write_all(b"GET /openapi.json HTTP/1.1\r\nHost: localhost\r\n\r\n")?;
     }
 }

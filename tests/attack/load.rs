@@ -139,7 +139,7 @@ fn count_bytes(address: &str, path: &str) -> usize {
     let mut stream = TcpStream::connect(address).expect("a connection");
     write!(
         stream,
-        "GET {path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"
+        "GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
     )
     .expect("it reads");
     let (mut buffer, mut total) = (vec![0; 1 << 16], 0);

@@ -93,7 +93,7 @@ async fn half_a_request_does_not_hold_the_service() {
     for _ in 0..2 {
         let mut stream = TcpStream::connect(app.address()).await.unwrap();
         stream
-            .write_all(b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Half")
+            .write_all(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nX-Half")
             .await
             .unwrap();
         held.push(stream);

@@ -5,6 +5,7 @@
 mod access;
 mod app;
 mod bad_input;
+mod browser;
 mod citations;
 mod contract;
 mod convergence_study;
