@@ -4,7 +4,7 @@ use super::limit_number;
 use crate::scenario::{FieldValue, REGULAR_SOLIDS, SHAPES, Shape, ShapeField, ShapeKind};
 use std::borrow::Cow;
 use utoipa::openapi::schema::{
-    ArrayBuilder, KnownFormat, ObjectBuilder, OneOfBuilder, RefBuilder, Type,
+    AdditionalProperties, ArrayBuilder, KnownFormat, ObjectBuilder, OneOfBuilder, RefBuilder, Type,
 };
 use utoipa::openapi::{RefOr, Schema, SchemaFormat};
 use utoipa::{PartialSchema, ToSchema};
@@ -41,17 +41,23 @@ impl ToSchema for Shape {
 
 /// An object with the name of one kind.
 fn kind(kind: &ShapeKind) -> Schema {
-    let fields = ObjectBuilder::new().description(Some(kind.about));
+    let fields = closed().description(Some(kind.about));
     let fields = kind.fields.iter().fold(fields, |object, field| {
         object
             .property(field.key(), value(field))
             .required(field.key())
     });
-    ObjectBuilder::new()
+    closed()
         .description(Some(kind.about))
         .property(kind.name, fields)
         .required(kind.name)
         .into()
+}
+
+/// An object without further keys.
+fn closed() -> ObjectBuilder {
+    ObjectBuilder::new()
+        .additional_properties(Some(AdditionalProperties::<Schema>::FreeForm(false)))
 }
 
 fn value(field: &ShapeField) -> RefOr<Schema> {
