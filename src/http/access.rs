@@ -82,6 +82,25 @@ impl Caller {
         }
     }
 
+    /// True if the caller may read a job submitted by `submitter`: everything with the scope
+    /// `read`, with `submit` what it submitted.
+    pub(super) fn may_read(&self, submitter: Option<&str>) -> bool {
+        self.may(Scope::Read) || (self.name().is_some() && self.name() == submitter)
+    }
+
+    /// Checks that the caller may read a job submitted by `submitter`.
+    ///
+    /// # Errors
+    /// The job is another submitter's, and the token lacks the scope to read it.
+    pub(super) fn must_read(&self, submitter: Option<&str>) -> Result<(), Problem> {
+        if self.may_read(submitter) {
+            return Ok(());
+        }
+        Err(forbidden(
+            "the job is not this token's, which lacks the scope \"read\"",
+        ))
+    }
+
     /// Checks that the caller may change a job submitted by `submitter`.
     ///
     /// # Errors
@@ -116,7 +135,10 @@ pub(super) async fn check(State(gate): State<Gate>, mut request: Request, next: 
         return unauthorised();
     };
     let scope = needed(request.method());
-    if !caller.may(scope) {
+    // Whether a job is the caller's own shows once it is found.
+    let may_be_own = scope == Scope::Read && names_a_job(request.uri().path());
+    let allowed = caller.may(scope) || (may_be_own && caller.may(Scope::Submit));
+    if !allowed {
         return forbidden(&format!("the token lacks the scope \"{}\"", scope.word()))
             .into_response();
     }
@@ -127,6 +149,10 @@ pub(super) async fn check(State(gate): State<Gate>, mut request: Request, next: 
 /// True if the path is open without a token.
 pub(super) fn is_open(path: &str) -> bool {
     OPEN.contains(&path)
+}
+
+fn names_a_job(path: &str) -> bool {
+    path.starts_with("/v1/jobs/")
 }
 
 fn needed(method: &Method) -> Scope {

@@ -70,7 +70,7 @@ pub(super) async fn events(
     let first = jobs.events(start.after, job).await?;
     if let Some(id) = job {
         let status = jobs.status(id).await?;
-        let status = status.ok_or_else(|| super::jobs::unknown_job(&id.to_string()))?;
+        let status = status.ok_or_else(|| super::named_job::unknown_job(&id.to_string()))?;
         if first.is_empty() && start.reset.is_none() && status.is_final() {
             return Ok(StatusCode::NO_CONTENT.into_response());
         }

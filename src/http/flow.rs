@@ -1,8 +1,8 @@
 //! Snapshots of the flow.
 
+use super::access::Caller;
 use super::etag;
-use super::jobs::find;
-use super::named_job::NamedJob;
+use super::named_job::{NamedJob, find};
 use super::problem::Problem;
 use super::query::Query;
 use crate::jobs::JobService;
@@ -62,6 +62,7 @@ struct FlowSchema {
 )]
 pub(super) async fn flow(
     State(jobs): State<JobService>,
+    caller: Caller,
     NamedJob(id): NamedJob,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
@@ -69,7 +70,7 @@ pub(super) async fn flow(
     let mut query = Query::new(query.as_deref());
     let time_s = query.number("time_s", "s");
     query.finish()?;
-    let job_id = find(&jobs, &id).await?.summary.id;
+    let job_id = find(&jobs, &caller, &id).await?.summary.id;
     let snapshot = jobs.snapshot(job_id, time_s).await?;
     let snapshot = snapshot.ok_or_else(|| {
         Problem::not_found(
@@ -100,9 +101,10 @@ pub(super) async fn flow(
 )]
 pub(super) async fn flow_archive(
     State(jobs): State<JobService>,
+    caller: Caller,
     NamedJob(id): NamedJob,
 ) -> Result<Response, Problem> {
-    let job = find(&jobs, &id).await?.summary.id;
+    let job = find(&jobs, &caller, &id).await?.summary.id;
     let times_s = jobs.snapshot_times(job).await?;
     let mut archive = ZipWriter::default();
     let mut head = Vec::new();

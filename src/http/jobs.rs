@@ -3,12 +3,12 @@
 use super::access::Caller;
 use super::documents::{JobDocument, JobPageDocument};
 use super::etag;
-use super::named_job::NamedJob;
+use super::named_job::{NamedJob, find, named, unknown_job};
 use super::problem::Problem;
 use super::query::Query;
-use crate::jobs::job::{Job, JobId, JobStatus};
+use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::{Page, Removal};
-use crate::jobs::submit::{excerpt, label};
+use crate::jobs::submit::label;
 use crate::jobs::{Dismissed, JobService};
 use axum::Json;
 use axum::extract::{RawQuery, State};
@@ -88,6 +88,7 @@ pub(super) async fn list(
 )]
 pub(super) async fn show(
     State(jobs): State<JobService>,
+    caller: Caller,
     NamedJob(id): NamedJob,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
@@ -99,11 +100,16 @@ pub(super) async fn show(
         (seconds <= LONGEST_WAIT_S).then_some(seconds)
     });
     query.finish()?;
-    if let Some(seconds) = wait_s {
-        let longest = Duration::from_secs(u64::from(seconds));
-        jobs.wait_for_end(parse_id(&id)?, longest).await?;
-    }
-    etag::json(&headers, &JobDocument::from(find(&jobs, &id).await?))
+    let job = find(&jobs, &caller, &id).await?;
+    let Some(seconds) = wait_s else {
+        return etag::json(&headers, &JobDocument::from(job));
+    };
+    let longest = Duration::from_secs(u64::from(seconds));
+    jobs.wait_for_end(job.summary.id, longest).await?;
+    etag::json(
+        &headers,
+        &JobDocument::from(find(&jobs, &caller, &id).await?),
+    )
 }
 
 /// Dismiss or remove a job
@@ -137,11 +143,13 @@ pub(super) async fn dismiss(
     let mut query = Query::new(query.as_deref());
     let remove = query.word("remove", "ended", |word| (word == "ended").then_some(()));
     query.finish()?;
-    caller.may_change(find(&jobs, &id).await?.submitter.as_deref())?;
+    let job = named(&jobs, &id).await?;
+    caller.may_change(job.submitter.as_deref())?;
+    let job = job.summary.id;
     if remove.is_some() {
-        return removed(&jobs, &id).await;
+        return removed(&jobs, job, &id).await;
     }
-    match jobs.dismiss(parse_id(&id)?).await? {
+    match jobs.dismiss(job).await? {
         Dismissed::Done(job) => Ok(Json(JobDocument::from(*job)).into_response()),
         Dismissed::Unknown => Err(unknown_job(&id)),
         Dismissed::TooLate(status) => Err(Problem::new(
@@ -156,8 +164,8 @@ pub(super) async fn dismiss(
     }
 }
 
-async fn removed(jobs: &JobService, id: &str) -> Result<Response, Problem> {
-    match jobs.remove(parse_id(id)?).await? {
+async fn removed(jobs: &JobService, job: JobId, id: &str) -> Result<Response, Problem> {
+    match jobs.remove(job).await? {
         Removal::Removed => Ok(StatusCode::NO_CONTENT.into_response()),
         Removal::Unknown => Err(unknown_job(id)),
         Removal::Active => Err(Problem::new(
@@ -170,20 +178,6 @@ async fn removed(jobs: &JobService, id: &str) -> Result<Response, Problem> {
 }
 
 /// The job with this identifier, or a "not found" problem.
-pub(super) async fn find(jobs: &JobService, id: &str) -> Result<Job, Problem> {
-    jobs.job(parse_id(id)?)
-        .await?
-        .ok_or_else(|| unknown_job(id))
-}
-
-fn parse_id(id: &str) -> Result<JobId, Problem> {
-    id.parse().map_err(|_| unknown_job(id))
-}
-
-pub(super) fn unknown_job(id: &str) -> Problem {
-    Problem::not_found("unknown-job", format!("there is no job {}", excerpt(id)))
-}
-
 fn read_page(query: Option<&str>) -> Result<Page, Problem> {
     let mut query = Query::new(query);
     let words = JobStatus::ALL.map(JobStatus::word).join(", ");

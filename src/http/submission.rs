@@ -2,11 +2,11 @@
 
 use super::access::Caller;
 use super::documents::JobDocument;
-use super::jobs::find;
+use super::named_job::find;
 use super::problem::{FieldError, Problem};
 use super::query::Query;
 use super::scenario_body::{ScenarioText, malformed};
-use crate::jobs::job::JobId;
+use crate::jobs::job::Job;
 use crate::jobs::store::Key;
 use crate::jobs::submit::{ScenarioError, label};
 use crate::jobs::{JobService, SubmissionRequest, SubmitError};
@@ -64,8 +64,10 @@ pub(super) async fn submit(
     let new = jobs.validate(&text, labels)?;
     if reuse.is_some()
         && let Some(id) = jobs.finished_like(&new).await?
+        && let Ok(job) = find(&jobs, &caller, &id.to_string()).await
     {
-        return answer(&jobs, StatusCode::OK, id).await;
+        // One that the caller may not read is none to it.
+        return Ok(answer(StatusCode::OK, job));
     }
     let request = format!("{uri}\n{text}");
     let key = key(&headers, &request)?;
@@ -80,16 +82,16 @@ pub(super) async fn submit(
     let id = ids
         .first()
         .ok_or_else(|| Problem::internal("a request without jobs"))?;
-    answer(&jobs, StatusCode::ACCEPTED, *id).await
+    let job = find(&jobs, &caller, &id.to_string()).await?;
+    Ok(answer(StatusCode::ACCEPTED, job))
 }
 
 /// Rule for a label, for people.
 pub(super) const LABEL_RULE: &str = "1 to 64 letters, digits or any of . _ : = / -";
 
-async fn answer(jobs: &JobService, status: StatusCode, id: JobId) -> Result<Response, Problem> {
-    let job = find(jobs, &id.to_string()).await?;
-    let location = [(header::LOCATION, format!("/v1/jobs/{id}"))];
-    Ok((status, location, Json(JobDocument::from(job))).into_response())
+fn answer(status: StatusCode, job: Job) -> Response {
+    let location = [(header::LOCATION, format!("/v1/jobs/{}", job.summary.id))];
+    (status, location, Json(JobDocument::from(job))).into_response()
 }
 
 /// Idempotency-Key of the request, if it has one.

@@ -1,7 +1,7 @@
 //! Trajectories, written to the client while they are read chunk by chunk.
 
-use super::jobs::find;
-use super::named_job::NamedJob;
+use super::access::Caller;
+use super::named_job::{NamedJob, find};
 use super::problem::Problem;
 use super::query::Query;
 use crate::jobs::store::StoreError;
@@ -74,12 +74,13 @@ struct TrajectoryQuery {
 )]
 pub(super) async fn trajectory(
     State(jobs): State<JobService>,
+    caller: Caller,
     NamedJob(id): NamedJob,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let query = read_query(query.as_deref(), &headers)?;
-    let job = find(&jobs, &id).await?;
+    let job = find(&jobs, &caller, &id).await?;
     if query.body >= job.bodies {
         return Err(unknown_body(query.body, job.bodies));
     }

@@ -20,6 +20,7 @@ fn with_tokens(config: &mut ServiceConfig) {
         token("ann", &[Scope::Submit, Scope::Read]),
         token("ben", &[Scope::Submit, Scope::Read]),
         token("eve", &[Scope::Read]),
+        token("sue", &[Scope::Submit]),
         token("root", &[Scope::Submit, Scope::Read, Scope::Admin]),
     ];
 }
@@ -140,5 +141,29 @@ async fn the_key_of_one_is_not_the_key_of_another() {
     assert_ne!(jobs[0], jobs[1]);
     let running = ask(&app, "eve", Method::GET, &jobs[0]).await.body;
     assert!(is_running(&running) || running["status"] == "accepted");
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_token_that_may_submit_reads_what_it_submitted() {
+    let app = TestApp::start_with(with_tokens).await;
+    let own = ask(&app, "sue", Method::POST, "/v1/jobs").await;
+    assert_eq!(own.status, StatusCode::ACCEPTED, "{:#}", own.body);
+    let own = own.location.unwrap();
+    let others = ask(&app, "ann", Method::POST, "/v1/jobs").await;
+    let others = others.location.unwrap();
+    for part in ["", "/trajectory", "/flow.zip"] {
+        let path = format!("{own}{part}");
+        let read = app.client.get(app.url(&path));
+        let read = read.header("authorization", "Bearer sue's secret");
+        let status = read.send().await.unwrap().status();
+        assert_eq!(status, StatusCode::OK, "{path}");
+        let refused = ask(&app, "sue", Method::GET, &format!("{others}{part}")).await;
+        refused.assert_problem(StatusCode::FORBIDDEN, "not-allowed");
+    }
+    for path in ["/v1/jobs", "/v1/events", "/metrics"] {
+        let refused = ask(&app, "sue", Method::GET, path).await;
+        refused.assert_problem(StatusCode::FORBIDDEN, "not-allowed");
+    }
     app.stop().await;
 }
