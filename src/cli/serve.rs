@@ -5,6 +5,7 @@ use super::console;
 use super::failure::Failure;
 use scree::config::{LogFormat, ServiceConfig};
 use scree::service::{self, StartError};
+use std::io::IsTerminal;
 use std::path::Path;
 use tracing::level_filters::LevelFilter;
 
@@ -61,6 +62,8 @@ pub(super) fn not_started(error: &StartError) -> Failure {
 pub(super) fn log_to_standard_error(level: LevelFilter) {
     tracing_subscriber::fmt()
         .with_writer(std::io::stderr)
+        // A file with colour codes can't be searched.
+        .with_ansi(std::io::stderr().is_terminal())
         .with_max_level(level)
         .init();
 }

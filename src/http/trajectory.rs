@@ -13,6 +13,7 @@ use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
+use std::collections::BTreeSet;
 use utoipa::ToSchema;
 
 /// The trajectory of one body.
@@ -182,11 +183,15 @@ fn read_query(query: Option<&str>, headers: &HeaderMap) -> Result<TrajectoryQuer
         Format::ALL.into_iter().find(|format| format.word() == word)
     });
     let names: Vec<&str> = Field::all().iter().map(|field| field.name()).collect();
-    let rule = format!("names with commas between them, of {}", names.join(", "));
+    let rule = format!(
+        "names with commas between them, each once, of {}",
+        names.join(", ")
+    );
     let fields = query.word("fields", &rule, |text| {
-        text.split(',')
-            .map(Field::from_name)
-            .collect::<Option<Vec<_>>>()
+        let names: Vec<&str> = text.split(',').collect();
+        let once = names.iter().collect::<BTreeSet<_>>().len() == names.len();
+        let fields = names.into_iter().map(Field::from_name);
+        fields.collect::<Option<Vec<_>>>().filter(|_| once)
     });
     query.finish()?;
     Ok(TrajectoryQuery {

@@ -23,7 +23,7 @@ fn it_tells_its_address_answers_and_stops_when_asked() {
         .args(["serve", "--listen", "127.0.0.1:0", "--database"])
         .arg(scene.path("test.db"))
         .stdout(Stdio::piped())
-        .stderr(Stdio::null())
+        .stderr(Stdio::piped())
         .spawn()
         .unwrap();
     let mut served = Served(child);
@@ -55,6 +55,14 @@ fn it_tells_its_address_answers_and_stops_when_asked() {
             .success()
     );
     assert_eq!(served.0.wait().unwrap().code(), Some(0));
+    let mut log = String::new();
+    let stderr = served.0.stderr.as_mut().unwrap();
+    stderr.read_to_string(&mut log).unwrap();
+    assert!(log.contains("/healthz"), "{log}");
+    assert!(
+        !log.contains('\u{1b}'),
+        "colours in a log that is no terminal"
+    );
     assert!(scene.path("test.db").is_file());
 }
 

@@ -190,6 +190,7 @@ async fn bad_questions_are_answered_with_what_is_wrong_in_them() {
         ("trajectory?stride=1&stride=2", &["stride"]),
         ("trajectory?format=xml", &["format"]),
         ("trajectory?fields=speed", &["fields"]),
+        ("trajectory?fields=mode,time_s,mode", &["fields"]),
         (
             "trajectory?stride=0&from_s=x&spam=1",
             &["from_s", "stride", "spam"],
