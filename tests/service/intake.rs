@@ -38,6 +38,29 @@ async fn the_same_request_with_the_same_key_gets_the_same_job() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_key_answers_the_same_after_some_of_its_jobs_are_removed() {
+    let app = TestApp::start().await;
+    let scenes = ["A", "B", "C"].map(|title| {
+        let mut scene = tiny_scene();
+        scene["title"] = json!(title);
+        json!({ "scenario": scene })
+    });
+    let batch = json!({ "jobs": scenes });
+    let first = post_with_key(&app, "/v1/batches", "k", &batch).await;
+    let ids = first.body["ids"].as_array().unwrap().clone();
+    assert_eq!(ids.len(), 3);
+    let path = |id: &Value| format!("/v1/jobs/{}", id.as_str().unwrap());
+    app.wait_for_success(&path(&ids[0])).await;
+    let removed = app.delete(&format!("{}?remove=ended", path(&ids[0]))).await;
+    assert_eq!(removed.status, StatusCode::NO_CONTENT);
+    let again = post_with_key(&app, "/v1/batches", "k", &batch).await;
+    assert_eq!((again.status, &again.body), (first.status, &first.body));
+    let second = app.get(&path(&ids[1])).await;
+    assert_eq!(second.body["scenario"]["title"], "B");
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn many_at_once_with_one_key_make_one_job() {
     let app = TestApp::start().await;
     let (path, scene) = ("/v1/jobs", tiny_scene());

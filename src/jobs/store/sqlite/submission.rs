@@ -62,24 +62,24 @@ async fn former_request(
     submission: &Submission<'_>,
     key: &Key<'_>,
 ) -> Answer<Option<Submitted>> {
-    let former: Option<(i64, Vec<u8>)> = sqlx::query_as(
-        "SELECT sequence, body_hash FROM keyed_requests WHERE submitter = ?1 AND key = ?2",
+    let former: Option<(Vec<u8>, String)> = sqlx::query_as(
+        "SELECT body_hash, job_ids FROM keyed_requests WHERE submitter = ?1 AND key = ?2",
     )
     .bind(submission.submitter.unwrap_or_default())
     .bind(key.text)
-    .fetch_optional(&mut *connection)
+    .fetch_optional(connection)
     .await?;
-    let Some((sequence, body_hash)) = former else {
+    let Some((body_hash, ids)) = former else {
         return Ok(None);
     };
     if body_hash != key.body_hash {
         return Ok(Some(Submitted::OtherBody));
     }
-    let ids: Vec<String> =
-        sqlx::query_scalar("SELECT id FROM jobs WHERE keyed_request = ?1 ORDER BY sequence")
-            .bind(sequence)
-            .fetch_all(connection)
-            .await?;
+    // All of them, in the order of the request: some may have been removed since.
+    let ids: Vec<String> = serde_json::from_str(&ids).map_err(|_| StoreError::Row {
+        job: ids,
+        what: "job_ids of a keyed request",
+    })?;
     let ids: Result<_, _> = ids.iter().map(|id| parse(id)).collect();
     Ok(Some(Submitted::Before(ids?)))
 }
@@ -107,18 +107,25 @@ async fn no_room(
     Ok((own.saturating_add(coming) > quota).then_some(Submitted::QuotaSpent(own)))
 }
 
+/// Identifiers of a request's jobs as a JSON list.
+fn ids_of(submission: &Submission<'_>) -> String {
+    let ids = submission.jobs.iter().map(|job| job.id.to_string());
+    serde_json::Value::from(ids.collect::<Vec<_>>()).to_string()
+}
+
 async fn keep_key(
     connection: &mut SqliteConnection,
     submission: &Submission<'_>,
     key: &Key<'_>,
 ) -> Answer<i64> {
     let sequence = sqlx::query_scalar(
-        "INSERT INTO keyed_requests (submitter, key, body_hash) VALUES (?1, ?2, ?3)
+        "INSERT INTO keyed_requests (submitter, key, body_hash, job_ids) VALUES (?1, ?2, ?3, ?4)
          RETURNING sequence",
     )
     .bind(submission.submitter.unwrap_or_default())
     .bind(key.text)
     .bind(&key.body_hash[..])
+    .bind(ids_of(submission))
     .fetch_one(connection)
     .await?;
     Ok(sequence)
