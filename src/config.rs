@@ -43,7 +43,7 @@ pub struct ServiceConfig {
     pub retention: Retention,
     /// Format of the log.
     pub log: Log,
-    /// What browsers may do.
+    /// Permissions of browsers.
     pub browser: Browser,
     /// Access tokens; without any, no request needs one.
     pub tokens: Vec<Token>,

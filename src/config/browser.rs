@@ -3,7 +3,7 @@
 use super::{ConfigError, not_allowed};
 use serde::{Deserialize, Serialize};
 
-/// What browsers may do. Programs other than browsers are not concerned, but for `Host`.
+/// Permissions of browsers. Programs other than browsers are not concerned, but for `Host`.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Browser {

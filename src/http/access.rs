@@ -85,7 +85,12 @@ impl Caller {
     /// True if the caller may read a job submitted by `submitter`: everything with the scope
     /// `read`, with `submit` what it submitted.
     pub(super) fn may_read(&self, submitter: Option<&str>) -> bool {
-        self.may(Scope::Read) || (self.name().is_some() && self.name() == submitter)
+        self.may(Scope::Read) || self.is(submitter)
+    }
+
+    /// True if the caller holds the token of this submitter.
+    fn is(&self, submitter: Option<&str>) -> bool {
+        self.name().is_some() && self.name() == submitter
     }
 
     /// Checks that the caller may read a job submitted by `submitter`.
@@ -106,7 +111,7 @@ impl Caller {
     /// # Errors
     /// The job is another submitter's, and the token has no administrator's scope.
     pub(super) fn may_change(&self, submitter: Option<&str>) -> Result<(), Problem> {
-        if self.may(Scope::Admin) || (self.name().is_some() && self.name() == submitter) {
+        if self.may(Scope::Admin) || self.is(submitter) {
             return Ok(());
         }
         Err(forbidden(

@@ -117,16 +117,15 @@ pub(super) async fn harden(request: Request, next: Next) -> Response {
     response
 }
 
-/// What pages of the listed origins may ask and read (CORS); `None` if there are none.
+/// Permissions of pages of the listed origins (CORS); `None` if there are none.
 pub(super) fn cors(config: &ServiceConfig) -> Option<CorsLayer> {
     let origins = config.browser.origins.iter();
     let origins: Vec<HeaderValue> = origins.filter_map(|origin| origin.parse().ok()).collect();
-    let layer = CorsLayer::new();
-    (!origins.is_empty()).then(|| allowing(layer, origins))
+    (!origins.is_empty()).then(|| allowing(origins))
 }
 
-fn allowing(layer: CorsLayer, origins: Vec<HeaderValue>) -> CorsLayer {
-    layer
+fn allowing(origins: Vec<HeaderValue>) -> CorsLayer {
+    CorsLayer::new()
         .allow_origin(origins)
         .allow_methods([Method::GET, Method::POST, Method::DELETE])
         .allow_headers([

@@ -12,8 +12,9 @@ use serde::{Deserialize, Serialize};
 pub struct Accuracy {
     /// Coarser runs give every quantity of the outcome an uncertainty interval.
     pub error_bars: bool,
-    /// How far the interval of `quantity` may reach from its value, over it; to be met by the
-    /// choice of cells; `null`: `numerics` chooses them. The outcome then has bands, too.
+    /// Largest distance of the ends of the interval of `quantity` from its value, over the value;
+    /// met by the choice of cells; `null`: `numerics` chooses them. The outcome then has intervals,
+    /// too.
     pub target: Option<f64>,
     /// The outcome's key that `target` is about; `null` without a target.
     pub quantity: Option<Quantity>,

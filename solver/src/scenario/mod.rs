@@ -67,7 +67,7 @@ pub struct Scenario {
     pub flow_snapshots: u32,
     /// Numerical choices.
     pub numerics: Numerics,
-    /// How good the answer has to be.
+    /// Accuracy asked of the answer.
     pub accuracy: Accuracy,
 }
 
@@ -170,7 +170,7 @@ pub struct Body {
     pub contact_modulus_pa: Option<f64>,
     /// A fixed body is a barrier.
     pub fixed: bool,
-    /// How the body moves whatever acts on it; `null`: it is free, or fixed.
+    /// Prescribed motion of the body, whatever acts on it; `null`: it is free, or fixed.
     pub motion: Option<Motion>,
     /// The solid of these dimensions, built at its first use.
     #[serde(skip)]
@@ -212,13 +212,13 @@ pub struct Numerics {
     pub flow_courant: Option<f64>,
     /// Arithmetic of points and grid.
     pub precision: Precision,
-    /// Whether a scene that is symmetric about the centre plane is computed by halves.
+    /// Use of the symmetry of a scene about the centre plane: computation by halves.
     pub symmetry: Symmetry,
-    /// How a flow is computed before it varies across the channel.
+    /// Computation of a flow before it varies across the channel.
     pub approach: Approach,
     /// Formulation of contacts between points and bodies.
     pub coupling: Coupling,
-    /// When the run ends.
+    /// End of the run.
     pub ending: Ending,
     /// Solver threads.
     pub threads: Option<usize>,

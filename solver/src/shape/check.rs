@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 const NO_LENGTH: f64 = 1e-9;
 /// Distance of a face's vertex from its plane that is allowed, over the size. A vertex that
 /// stands for two nearer to each other than the smallest feature is in the planes of one only,
-/// and a little off those of the other: 5e-9 at most in a million rounded boulders.
+/// and a little off those of the other: up to 5e-9 in boulders drawn at random.
 const FLATNESS: f64 = 1e-8;
 /// Distance of a vertex behind a face that it is not part of, as a fraction of the solid's
 /// size. Much less than the flatness, so that a vertex whose coordinates are ambiguous may be

@@ -4,7 +4,7 @@ use super::{accepted, minimal, with};
 use crate::scenario::duration::LEAST;
 use crate::scenario::fields::{Default, Field, Kind, SECTIONS};
 use crate::scenario::rules::*;
-use crate::scenario::schema::default;
+use crate::scenario::schema::{SHORTEST, default};
 use crate::scenario::shape::{POLYHEDRON_VERTICES, SHAPES};
 use crate::scenario::{Scenario, ScenarioError, Violation};
 use serde_json::{Value, json};
@@ -187,6 +187,7 @@ fn the_example_is_legal() {
     let length = DOCUMENT[start..].find("```").expect("its end");
     let example = Scenario::from_json(&DOCUMENT[start..start + length]);
     assert_eq!(example, Ok(accepted(&minimal())));
+    assert!(DOCUMENT.contains(SHORTEST), "the contract has another one");
 }
 
 #[test]
