@@ -283,6 +283,7 @@ fn bodies_substep(criterion: &mut Criterion) {
         flow_friction: 0.4,
     }];
     let around = Surroundings {
+        cancellation: None,
         planes: &planes,
         gravity: Vec3::new(0.0, 0.0, -GRAVITY),
         time: 0.0,

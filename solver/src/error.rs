@@ -258,6 +258,9 @@ pub enum SaveError {
         /// Simulated time [s].
         time_s: f64,
     },
+    /// The run was cancelled: it may have stopped within a sub-step.
+    #[error("a run that was cancelled is not saved")]
+    Cancelled,
 }
 
 /// A saved state that can't be restored.

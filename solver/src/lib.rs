@@ -38,6 +38,7 @@
 
 pub mod accuracy;
 pub mod bed;
+mod cancellation;
 mod compute;
 pub mod error;
 pub mod material;
@@ -102,6 +103,7 @@ mod stability;
 pub mod stability;
 
 pub use accuracy::ConvergenceStudy;
+pub use cancellation::Cancellation;
 pub use compute::{ComputeError, compute};
 pub use diagnostics::Audit;
 pub use error::{Mover, RestoreError, SaveError, SetupError, StepError};

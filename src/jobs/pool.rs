@@ -19,11 +19,16 @@ use tokio::sync::watch;
 /// wait after a failed attempt.
 const IDLE_LOOK: Duration = Duration::from_secs(1);
 
+/// Share of the drain time after which a job that has not saved its state is cancelled.
+const GRACE: f64 = 0.7;
+
 /// The workers of a service.
 #[derive(Debug)]
 pub struct Pool {
     registry: Arc<RunningJobRegistry>,
     threads: Vec<JoinHandle<()>>,
+    /// Time for which running jobs may go on to save their state once the pool stops.
+    grace: Duration,
     /// Dropped last: leases are renewed until every worker has ended.
     _keeper: LeaseHeartbeat,
 }
@@ -101,6 +106,7 @@ impl Pool {
         let mut pool = Self {
             registry: Arc::clone(&equipment.registry),
             threads: Vec::new(),
+            grace: config.limits.drain_timeout().mul_f64(GRACE),
             _keeper: LeaseHeartbeat::start(equipment.clone())?,
         };
         for index in 0..size.workers {
@@ -119,9 +125,11 @@ impl Pool {
     }
 
     /// Makes running jobs save their state and return to the queue, and waits
-    /// until every worker has ended. Blocks.
+    /// until every worker has ended. A job whose current step takes too long returns with the
+    /// state saved last. Blocks.
     pub fn stop(mut self) {
         self.registry.close();
+        self.registry.cancel_after(self.grace);
         for thread in self.threads.drain(..) {
             if thread.join().is_err() {
                 tracing::error!("a worker thread had panicked");
@@ -161,6 +169,18 @@ impl RunningJobRegistry {
             registered.run.stop.ask(Stop::OnceSaved);
         }
         self.changed.notify_all();
+    }
+
+    /// Waits until no job runs any more, and cancels those that still run after this time.
+    fn cancel_after(&self, grace: Duration) {
+        let waited = self
+            .changed
+            .wait_timeout_while(self.state(), grace, |state| !state.running.is_empty());
+        let (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        for registered in state.running.values() {
+            tracing::warn!(id = %registered.run.lease.job, "its state can't be saved in time: it goes back as it was saved last");
+            registered.run.stop.raise();
+        }
     }
 
     /// The running jobs.
@@ -230,6 +250,7 @@ impl RunningJobRegistry {
 impl Drop for RunningJobGuard {
     fn drop(&mut self) {
         self.registry.state().running.remove(&self.run.lease.job);
+        self.registry.changed.notify_all();
     }
 }
 

@@ -7,7 +7,7 @@ use super::store::{
     AttemptStart, Claim, Claimant, FailedAttempt, Lease, ResumePoint, Solver, StoreError,
 };
 use crate::runs::convergence_study::Runs;
-use crate::runs::{COMMIT, Run, RunEnd, RunError, SavedRunError, Stop, StopFlag};
+use crate::runs::{COMMIT, Run, RunEnd, RunError, SavedRunError, StopFlag};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
 use scree_solver::{Instructions, SetupError};
@@ -26,9 +26,9 @@ enum JobResult {
     Failed(Failure),
     /// Failed attempt, through no fault of the scenario.
     AttemptFailed(String),
-    /// Stopped because the service stops.
+    /// Stopped by request: the job returns to the queue, unless it was dismissed or lost.
     Released,
-    /// Dismissed or lost: nothing is left to record.
+    /// Lost to another worker: nothing is left to record.
     Gone,
 }
 
@@ -113,7 +113,7 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResu
     }
     let stop = &*guard.run.stop;
     if stop.is_raised() {
-        return stopped(stop);
+        return JobResult::Released;
     }
     let ended = run_to_end(
         equipment,
@@ -128,7 +128,7 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResu
     };
     match ended {
         Ok(RunEnd::Completed(outcome)) => JobResult::Successful(outcome, sink.fingerprint().hex()),
-        Ok(RunEnd::Stopped) => stopped(stop),
+        Ok(RunEnd::Stopped) => JobResult::Released,
         Err(error) => result_of_error(&error),
     }
 }
@@ -222,14 +222,6 @@ fn restored<T>(
     }
 }
 
-/// Result that a raised flag asks for.
-fn stopped(stop: &StopFlag) -> JobResult {
-    match stop.asked() {
-        Stop::OnceSaved => JobResult::Released,
-        Stop::AtOnce | Stop::AtTheEnd => JobResult::Gone,
-    }
-}
-
 fn result_of_error(error: &RunError<KeepError>) -> JobResult {
     match error {
         RunError::Step(error) => JobResult::Failed(Failure::numerical(error)),
@@ -275,7 +267,7 @@ fn record_result(
         }
         JobResult::Released => {
             let released = runtime.block_on(store.release(lease))?;
-            info!(released, "stopped with the service");
+            info!(released, "stopped");
         }
         JobResult::Gone => info!("stopped"),
     }

@@ -6,7 +6,7 @@ use super::watch::Watch;
 use scree_solver::record::{Outcome, Record, Recorder};
 use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
-use scree_solver::{Ending, SetupError, Simulation, StepError};
+use scree_solver::{Cancellation, Ending, SetupError, Simulation, StepError};
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicU8, Ordering};
 use thiserror::Error;
@@ -68,28 +68,40 @@ pub enum Stop {
     AtTheEnd,
     /// Once its state is saved, at the end of the current step.
     OnceSaved,
-    /// After the current sub-step.
+    /// Within the current sub-step, whose records are lost.
     AtOnce,
 }
 
 /// Request to a run to stop. A request is never withdrawn.
 #[derive(Debug, Default)]
-pub struct StopFlag(AtomicU8);
+pub struct StopFlag {
+    asked: AtomicU8,
+    cancellation: Cancellation,
+}
 
 impl StopFlag {
-    /// Asks for a stop after the current sub-step.
+    /// Asks for a stop at once.
     pub fn raise(&self) {
         self.ask(Stop::AtOnce);
     }
 
     /// Asks for a stop; the earlier of two requests counts.
     pub fn ask(&self, stop: Stop) {
-        self.0.fetch_max(stop as u8, Ordering::Relaxed);
+        self.asked.fetch_max(stop as u8, Ordering::Relaxed);
+        if stop == Stop::AtOnce {
+            self.cancellation.ask();
+        }
+    }
+
+    /// The same request, as the solver looks for it within a sub-step.
+    pub(super) fn cancellation(&self) -> Cancellation {
+        self.cancellation.clone()
     }
 
     /// The stop asked for.
     pub fn asked(&self) -> Stop {
-        [Stop::AtTheEnd, Stop::OnceSaved, Stop::AtOnce][usize::from(self.0.load(Ordering::Relaxed))]
+        [Stop::AtTheEnd, Stop::OnceSaved, Stop::AtOnce]
+            [usize::from(self.asked.load(Ordering::Relaxed))]
     }
 
     /// True if a stop was asked for.
@@ -188,6 +200,7 @@ impl Run {
             spent,
             duration_s,
         } = self;
+        simulation.cancel_with(stop.cancellation());
         let mut watch = Watch::new(recorder, duration_s, spent, (stop, sink));
         let (_, substeps, _) = simulation.counts();
         if substeps == 0 {

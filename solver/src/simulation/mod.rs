@@ -11,6 +11,7 @@ mod step;
 
 use crate::bed::Bed;
 use crate::body_energy::BodyEnergy;
+use crate::cancellation::Cancellation;
 use crate::contact::body_body::ContactPair;
 use crate::contact::island::{self, BodyReport};
 use crate::contact::point_body::{Around, FlowLoad};
@@ -48,6 +49,7 @@ pub struct Simulation {
     pool: Arc<ThreadPool>,
     /// Error that ended the run.
     failed: Option<StepError>,
+    cancellation: Cancellation,
 }
 
 /// State in a checkpoint.
@@ -106,7 +108,7 @@ pub struct SubstepReport {
 pub enum Ending {
     /// It reached the given time.
     Reached,
-    /// The observer asked it to stop.
+    /// The observer asked it to stop, or it was cancelled.
     Interrupted,
 }
 
@@ -174,7 +176,13 @@ impl Simulation {
             scratch,
             pool,
             failed: None,
+            cancellation: Cancellation::default(),
         }
+    }
+
+    /// Ends the run within a sub-step once this is asked; it is interrupted then.
+    pub fn cancel_with(&mut self, cancellation: Cancellation) {
+        self.cancellation = cancellation;
     }
 
     /// Runs to the first step end at or after `until_s` (never beyond the scenario's duration),
@@ -205,6 +213,9 @@ impl Simulation {
         }
         let until = until_s.min(self.given.timing.duration);
         while self.state.clock.time < until || self.scratch.in_hand.is_some() {
+            if self.cancellation.is_asked() {
+                return Ok(Ending::Interrupted);
+            }
             let report = match self.advance() {
                 Ok(report) => report,
                 Err(error) => {
@@ -212,7 +223,8 @@ impl Simulation {
                     return Err(error);
                 }
             };
-            if observe(self, &report).is_break() {
+            // What a sub-step left that was given up is nothing to be observed.
+            if self.cancellation.is_asked() || observe(self, &report).is_break() {
                 return Ok(Ending::Interrupted);
             }
         }
@@ -384,6 +396,9 @@ impl Simulation {
     pub fn save(&self) -> Result<Vec<u8>, SaveError> {
         if let Some(error) = &self.failed {
             return Err(SaveError::Failed(error.clone()));
+        }
+        if self.cancellation.is_asked() {
+            return Err(SaveError::Cancelled);
         }
         match &self.scratch.in_hand {
             None => Ok(saved::save(self)),

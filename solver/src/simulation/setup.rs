@@ -205,6 +205,7 @@ impl Setup {
             time,
             planes: &self.planes,
             gravity: self.gravity,
+            cancellation: None,
         }
     }
 }

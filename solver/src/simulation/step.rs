@@ -4,7 +4,7 @@ use super::flow::{StepEnd, StepStart, Substep};
 use super::stages::StepStage;
 use super::{Simulation, StepInHand, SubstepReport};
 use crate::body_energy::BodyEnergy;
-use crate::contact::island;
+use crate::contact::island::{self, Surroundings};
 use crate::contact::point_body::impulse_on_flow;
 use crate::diagnostics::{Audit, FlowMoments, Totals};
 use crate::error::StepError;
@@ -29,6 +29,9 @@ impl Simulation {
         step.done += 1;
         let last = step.done == step.pace.count;
         self.substep(Substep { dt, passed, last });
+        if self.cancellation.is_asked() {
+            return Ok(self.report(dt));
+        }
         self.look_at_body_steps(dt)?;
         let clock = &mut self.state.clock;
         clock.time = step.start + f64::from(step.done) * dt;
@@ -137,7 +140,10 @@ impl Simulation {
         }
         let on_bodies = state.flow.on_bodies();
         let flow = |body: usize| on_bodies.get(body).map_or_else(Load::default, |on| on.load);
-        let around = given.surroundings(state.clock.time);
+        let around = Surroundings {
+            cancellation: Some(&self.cancellation),
+            ..given.surroundings(state.clock.time)
+        };
         let (bodies, contact_pairs) = (&mut state.bodies, &mut state.contact_pairs);
         let reports = &mut scratch.body_reports;
         island::advance(bodies, contact_pairs, reports, flow, &around, dt);

@@ -63,6 +63,9 @@ pub(super) fn advance_together(
     let mut strides = Strides::new(dt / asked, asked as u32);
     balance::begin(members, contact_pairs);
     while strides.are_left() {
+        if around.is_cancelled() {
+            return;
+        }
         let (stride, longer) = strides.next(members, movers, contact_pairs, around);
         balance::stretch(members, longer);
         let h = f64::from(stride) * strides.shortest;

@@ -11,6 +11,7 @@ fn balances(
     spoil: impl Fn(&mut [Body]),
 ) -> Vec<BodyEnergy> {
     let around = Surroundings {
+        cancellation: None,
         planes: &[floor()],
         gravity: GRAVITY,
         time: 0.0,

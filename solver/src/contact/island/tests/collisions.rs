@@ -101,6 +101,7 @@ fn rebound(turn: &Vec3, restitution: f64, at_a_body: bool) -> f64 {
         ..floor()
     }];
     let around = Surroundings {
+        cancellation: None,
         planes: if at_a_body { &[] } else { &planes },
         gravity: Vec3::zeros(),
         time: 0.0,

@@ -78,6 +78,7 @@ fn deepest(bodies: &[Body], contact_pairs: &[ContactPair], planes: &[Plane]) -> 
 fn a_heap_comes_to_rest_and_sleeps_until_touched() {
     let (mut bodies, planes) = heap();
     let around = Surroundings {
+        cancellation: None,
         planes: &planes,
         gravity: GRAVITY,
         time: 0.0,
@@ -157,6 +158,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         pool.expect("threads").install(|| {
             let (mut bodies, planes) = heap();
             let around = Surroundings {
+                cancellation: None,
                 planes: &planes,
                 gravity: GRAVITY,
                 time: 0.0,

@@ -46,6 +46,7 @@ fn advance(
 /// Advances a body on its own.
 fn alone(body: &mut Body, flow: &Load, dt: f64) -> BodyReport {
     let around = Surroundings {
+        cancellation: None,
         planes: &[floor()],
         gravity: GRAVITY,
         time: 0.0,
@@ -159,6 +160,7 @@ impl Numbers {
 }
 
 const NOWHERE: Surroundings = Surroundings {
+    cancellation: None,
     planes: &[],
     gravity: Vec3::new(0.0, 0.0, 0.0),
     time: 0.0,
@@ -183,6 +185,7 @@ fn rolling_resistance_holds_a_round_body_on_a_slope() {
         let mut body = round.clone();
         body.rolling_friction = rolling;
         let around = Surroundings {
+            cancellation: None,
             planes: &[floor()],
             // 10° of slope.
             gravity: 9.81 * Vec3::new(0.173_648, 0.0, -0.984_808),
