@@ -10,14 +10,18 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use thiserror::Error;
 
+mod admission;
 mod browser;
+mod limits;
 mod queue;
 #[cfg(test)]
 mod tests;
 mod tokens;
 mod upkeep;
 
+pub use admission::Admission;
 pub use browser::Browser;
+pub use limits::Limits;
 pub use queue::Queue;
 pub use tokens::{Scope, Token};
 pub use upkeep::{Log, LogFormat, Retention};
@@ -35,6 +39,8 @@ pub struct ServiceConfig {
     pub workers: Workers,
     /// Leases of jobs.
     pub queue: Queue,
+    /// Admission pool.
+    pub admission: Admission,
     /// Limits on clients.
     pub limits: Limits,
     /// Recording of results in the database while a job runs.
@@ -57,33 +63,6 @@ pub struct Workers {
     pub count: usize,
     /// Solver threads of one job; `None`: the cores are shared evenly.
     pub threads_per_worker: Option<usize>,
-}
-
-/// Limits on clients.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Limits {
-    /// Largest request body [bytes].
-    pub request_body_bytes: usize,
-    /// Longest wait for the head of a request [s].
-    pub header_read_timeout_s: f64,
-    /// Longest wait for the body of a request [s].
-    pub body_read_timeout_s: f64,
-    /// Longest time for which a client may read nothing of its answer [s].
-    pub write_timeout_s: f64,
-    /// Longest time from the head of a request to the head of its answer [s].
-    pub request_timeout_s: f64,
-    /// Connections served at the same time; more wait in the listen queue.
-    pub connections: usize,
-    /// Time that requests in progress may take once the service stops [s].
-    pub drain_timeout_s: f64,
-    /// Largest number of jobs that may wait; more are refused with 429.
-    pub queued_jobs: u32,
-    /// Largest number of point-steps (points times sub-steps) that a job may be planned to take;
-    /// `None`: no limit.
-    pub job_point_steps: Option<u64>,
-    /// Largest size of the database [bytes]; `None`: no limit but the disk.
-    pub database_bytes: Option<u64>,
 }
 
 /// Recording of results.
@@ -141,18 +120,8 @@ impl Default for ServiceConfig {
                 lease_s: 30.0,
                 heartbeat_interval_s: 2.0,
             },
-            limits: Limits {
-                request_body_bytes: 1024 * 1024,
-                header_read_timeout_s: 10.0,
-                body_read_timeout_s: 10.0,
-                write_timeout_s: 10.0,
-                request_timeout_s: 30.0,
-                connections: 256,
-                drain_timeout_s: 5.0,
-                queued_jobs: 10_000,
-                job_point_steps: None,
-                database_bytes: None,
-            },
+            admission: Admission::default(),
+            limits: Limits::default(),
             recording: Recording {
                 flush_interval_s: 0.5,
                 state_interval_s: 5.0,
@@ -195,7 +164,10 @@ impl ServiceConfig {
         tokens::check(&self.tokens)?;
         self.check_listen()?;
         self.browser.check()?;
-        self.check_limits()?;
+        self.check_times()?;
+        self.admission.check()?;
+        self.limits.check()?;
+        self.retention.check()?;
         self.queue.check()?;
         self.workers.check(cores)
     }
@@ -212,7 +184,7 @@ impl ServiceConfig {
         ))
     }
 
-    fn check_limits(&self) -> Result<(), ConfigError> {
+    fn check_times(&self) -> Result<(), ConfigError> {
         let limits = &self.limits;
         for (key, value) in [
             ("limits.header_read_timeout_s", limits.header_read_timeout_s),
@@ -220,6 +192,7 @@ impl ServiceConfig {
             ("limits.write_timeout_s", limits.write_timeout_s),
             ("limits.request_timeout_s", limits.request_timeout_s),
             ("limits.drain_timeout_s", limits.drain_timeout_s),
+            ("admission.time_limit_s", self.admission.time_limit_s),
             (
                 "recording.flush_interval_s",
                 self.recording.flush_interval_s,
@@ -239,16 +212,7 @@ impl ServiceConfig {
                 return Err(not_allowed(key, value, "allowed is 0 < x <= 3600 s"));
             }
         }
-        for (key, value) in [
-            ("limits.request_body_bytes", limits.request_body_bytes),
-            ("limits.connections", limits.connections),
-            ("limits.queued_jobs", limits.queued_jobs as usize),
-        ] {
-            if value == 0 {
-                return Err(not_allowed(key, value, "allowed is x >= 1"));
-            }
-        }
-        self.retention.check()
+        Ok(())
     }
 }
 
@@ -271,33 +235,6 @@ impl Workers {
             workers: self.count,
             threads_per_worker: threads,
         })
-    }
-}
-
-impl Limits {
-    /// Longest wait for the head of a request.
-    pub fn header_read_timeout(&self) -> Duration {
-        Duration::from_secs_f64(self.header_read_timeout_s)
-    }
-
-    /// Longest wait for the body of a request.
-    pub fn body_read_timeout(&self) -> Duration {
-        Duration::from_secs_f64(self.body_read_timeout_s)
-    }
-
-    /// Longest time for which a client may read nothing of its answer.
-    pub fn write_timeout(&self) -> Duration {
-        Duration::from_secs_f64(self.write_timeout_s)
-    }
-
-    /// Longest time to the head of an answer.
-    pub fn request_timeout(&self) -> Duration {
-        Duration::from_secs_f64(self.request_timeout_s)
-    }
-
-    /// Time that requests in progress may take once the service stops.
-    pub fn drain_timeout(&self) -> Duration {
-        Duration::from_secs_f64(self.drain_timeout_s)
     }
 }
 

@@ -2,11 +2,12 @@
 
 use crate::config::{ConfigError, PoolSize, ServiceConfig};
 use crate::http;
-use crate::jobs::JobService;
 use crate::jobs::clock::SystemClock;
 use crate::jobs::pool::Pool;
 use crate::jobs::store::sqlite::SqliteStore;
 use crate::jobs::store::{JobStore, StoreError};
+use crate::jobs::submit::Means;
+use crate::jobs::{AdmissionPool, JobService};
 use std::net::SocketAddr;
 use std::sync::Arc;
 use thiserror::Error;
@@ -115,12 +116,16 @@ async fn serve(
         tracing::warn!(left_running, "the last service died under jobs: they go on");
     }
     let pool = Pool::start(Arc::clone(store), size, config).map_err(StartError::Workers)?;
-    let limits = config.limits.clone();
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let means = Means {
+        threads_per_worker: size.threads_per_worker,
+        point_steps: config.limits.job_point_steps,
+    };
     let jobs = JobService::new(
         Arc::clone(store),
         pool.registry(),
-        limits,
-        size.threads_per_worker,
+        config.limits.clone(),
+        (AdmissionPool::new(&config.admission, cores), means),
     );
     let router = http::router(jobs, config);
     let (stop, stopped) = watch::channel(false);

@@ -1,6 +1,7 @@
 //! Reasons for the failure of a command.
 
 use super::console;
+use scree::jobs::forecast::ForecastError;
 use scree::pictures::PictureError;
 use scree_solver::SetupError;
 use std::fmt::Display;
@@ -50,6 +51,16 @@ impl Failure {
             Self::Input(_) => 2,
             Self::Numerical(_) => 3,
             Self::Missed(_) => 4,
+        }
+    }
+}
+
+impl From<ForecastError> for Failure {
+    fn from(error: ForecastError) -> Self {
+        match error {
+            ForecastError::Setup(error) => not_set_up(&error),
+            ForecastError::Step(error) => Self::Numerical(error.to_string()),
+            error @ ForecastError::Cancelled => Self::Other(error.to_string()),
         }
     }
 }

@@ -8,6 +8,7 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use std::net::{IpAddr, Ipv6Addr};
 use std::sync::Arc;
 
 /// Paths open without a token: they reveal nothing about jobs.
@@ -20,11 +21,15 @@ const OPEN: [&str; 6] = [
     "/openapi.json",
 ];
 
+/// Address from which a request came.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PeerAddress(pub(super) IpAddr);
+
 /// Sender of a request.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Caller {
-    /// Any sender: the service asks for no token.
-    Anyone,
+    /// Any sender at this address: the service asks for no token.
+    Anyone(IpAddr),
     /// Holder of this token.
     Holder(Arc<Token>),
 }
@@ -39,9 +44,9 @@ impl Gate {
     }
 
     /// The caller, if the request shows a valid token or none is required.
-    fn caller(&self, headers: &HeaderMap) -> Option<Caller> {
+    fn caller(&self, address: IpAddr, headers: &HeaderMap) -> Option<Caller> {
         if self.0.is_empty() {
-            return Some(Caller::Anyone);
+            return Some(Caller::Anyone(address));
         }
         let shown = bearer(headers)?;
         let hash = blake3::hash(shown.as_bytes());
@@ -61,15 +66,23 @@ impl Caller {
     /// Name of the token.
     pub(super) fn name(&self) -> Option<&str> {
         match self {
-            Self::Anyone => None,
+            Self::Anyone(_) => None,
             Self::Holder(token) => Some(&token.name),
+        }
+    }
+
+    /// Name under which the caller has its share of what is scarce: token, or else address.
+    pub(super) fn share(&self) -> String {
+        match self {
+            Self::Anyone(address) => format!("address {address}"),
+            Self::Holder(token) => format!("token {}", token.name),
         }
     }
 
     /// Largest number of jobs that may wait or run at a time.
     pub(super) fn quota(&self) -> Option<u32> {
         match self {
-            Self::Anyone => None,
+            Self::Anyone(_) => None,
             Self::Holder(token) => token.active_jobs,
         }
     }
@@ -77,7 +90,7 @@ impl Caller {
     /// True if the caller has this scope.
     fn may(&self, scope: Scope) -> bool {
         match self {
-            Self::Anyone => true,
+            Self::Anyone(_) => true,
             Self::Holder(token) => token.may(scope),
         }
     }
@@ -132,11 +145,13 @@ impl<S: Send + Sync> FromRequestParts<S> for Caller {
 
 /// Passes a request on if its token allows it.
 pub(super) async fn check(State(gate): State<Gate>, mut request: Request, next: Next) -> Response {
+    let address = request.extensions().get::<PeerAddress>();
+    let address = address.map_or(Ipv6Addr::UNSPECIFIED.into(), |peer| peer.0);
     if is_open(request.uri().path()) {
-        request.extensions_mut().insert(Caller::Anyone);
+        request.extensions_mut().insert(Caller::Anyone(address));
         return next.run(request).await;
     }
-    let Some(caller) = gate.caller(request.headers()) else {
+    let Some(caller) = gate.caller(address, request.headers()) else {
         return unauthorised();
     };
     let scope = needed(request.method());

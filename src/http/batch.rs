@@ -1,19 +1,23 @@
 //! Submission of many scenarios at once.
 
 use super::access::Caller;
+use super::idempotency;
 use super::problem::{FieldError, Problem};
 use super::query::Query;
 use super::scenario_body::{ScenarioText, malformed};
-use super::submission::{LABEL_RULE, key};
+use super::submission::LABEL_RULE;
 use crate::jobs::job::JobId;
+use crate::jobs::store::Key;
 use crate::jobs::submit::{LABELS_AT_MOST, NewJob, ScenarioError, excerpt, label};
-use crate::jobs::{JobService, SubmissionRequest};
-use axum::Json;
+use crate::jobs::{JobService, Submission, SubmissionRequest};
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, Uri};
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
+use std::iter::Enumerate;
+use std::time::{Duration, Instant};
+use std::vec;
 use utoipa::ToSchema;
 
 /// Many scenarios in one request.
@@ -69,7 +73,7 @@ pub(super) struct BatchAnswer {
         (status = 413, description = "The body is too large", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "The body is not declared as JSON", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "Scenarios break rules (`errors` has them all), or the Idempotency-Key came with another request", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many jobs wait; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many jobs wait, or too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
         (status = 507, description = "The disk is full", body = Problem, content_type = "application/problem+json"),
     )
 )]
@@ -82,20 +86,53 @@ pub(super) async fn submit_batch(
     ScenarioText(text): ScenarioText,
 ) -> Result<Response, Problem> {
     Query::new(query.as_deref()).finish()?;
-    let batch = read_batch(&text)?;
-    let new = admit_all(&jobs, &batch)?;
-    let request = format!("{uri}\n{text}");
-    let key = key(&headers, &request)?;
-    let ids = jobs
-        .submit(&SubmissionRequest {
-            jobs: &new,
-            submitter: caller.name(),
+    let key = idempotency::key(&headers, &format!("{uri}\n{text}"))?;
+    let submitter = caller.name();
+    if let Some(key) = &key
+        && let Some(former) = jobs.former_request(submitter, key).await?
+    {
+        return send(&jobs, submitter, Some(key), former).await;
+    }
+    let new = read_in_slices(&jobs, &caller, text).await?;
+    let submission = jobs
+        .submit(SubmissionRequest {
+            jobs: new,
+            submitter: submitter.map(str::to_owned),
             quota: caller.quota(),
-            key,
+            key: key.clone(),
         })
         .await?;
-    let ids = ids.iter().map(JobId::to_string).collect();
-    Ok((StatusCode::ACCEPTED, Json(BatchAnswer { ids })).into_response())
+    send(&jobs, submitter, key.as_ref(), submission).await
+}
+
+/// Reads and checks a batch in slices, between which others have their turns.
+async fn read_in_slices(
+    jobs: &JobService,
+    caller: &Caller,
+    text: String,
+) -> Result<Vec<NewJob>, Problem> {
+    let place = jobs.enter(&caller.share())?;
+    let batch = place.work(move |_| read_batch(&text)).await??;
+    let mut reading = BatchReading::new(jobs.clone(), batch);
+    while !reading.is_done() {
+        reading = place.work(move |_| reading.slice()).await?;
+    }
+    reading.finish()
+}
+
+/// Sends the answer to a batch: the one kept of the first request with its key, if there is one.
+async fn send(
+    jobs: &JobService,
+    submitter: Option<&str>,
+    key: Option<&Key>,
+    submission: Submission,
+) -> Result<Response, Problem> {
+    if let Some(answer) = submission.answer {
+        return Ok(idempotency::response(answer));
+    }
+    let ids = submission.jobs.iter().map(JobId::to_string).collect();
+    let answer = idempotency::answer(StatusCode::ACCEPTED, None, &BatchAnswer { ids })?;
+    idempotency::send(jobs, submitter, key, answer).await
 }
 
 fn read_batch(text: &str) -> Result<BatchDocument, Problem> {
@@ -124,33 +161,70 @@ fn without_long_texts(error: &serde_json::Error) -> String {
     format!("{}{position}", excerpt(&message))
 }
 
-/// Checks every scenario and every label; the problem lists all faults.
-fn admit_all(jobs: &JobService, batch: &BatchDocument) -> Result<Vec<NewJob>, Problem> {
-    let mut wrong = Vec::new();
-    let common = read_labels(&batch.labels, "/labels", &mut wrong);
-    let mut admitted = Vec::new();
-    for (place, job) in batch.jobs.iter().enumerate() {
+/// Longest time for which scenarios are checked before others have their turn.
+const SLICE: Duration = Duration::from_millis(50);
+
+/// A batch whose scenarios and labels are being checked; all faults are listed.
+struct BatchReading {
+    jobs: JobService,
+    common: Vec<String>,
+    left: Enumerate<vec::IntoIter<BatchJob>>,
+    admitted: Vec<NewJob>,
+    wrong: Vec<FieldError>,
+}
+
+impl BatchReading {
+    fn new(jobs: JobService, batch: BatchDocument) -> Self {
+        let mut wrong = Vec::new();
+        Self {
+            jobs,
+            common: read_labels(&batch.labels, "/labels", &mut wrong),
+            left: batch.jobs.into_iter().enumerate(),
+            admitted: Vec::new(),
+            wrong,
+        }
+    }
+
+    fn is_done(&self) -> bool {
+        self.left.len() == 0
+    }
+
+    /// Checks some of the jobs, at least one.
+    fn slice(mut self) -> Self {
+        let began = Instant::now();
+        while let Some((place, job)) = self.left.next() {
+            self.check(place, &job);
+            if began.elapsed() >= SLICE {
+                break;
+            }
+        }
+        self
+    }
+
+    fn check(&mut self, place: usize, job: &BatchJob) {
         let at = format!("/jobs/{place}");
-        let mut labels = read_labels(&job.labels, &format!("{at}/labels"), &mut wrong);
-        labels.extend_from_slice(&common);
-        match jobs.validate(job.scenario.get(), labels) {
-            Ok(new) => admitted.push(new),
+        let wrong = &mut self.wrong;
+        let mut labels = read_labels(&job.labels, &format!("{at}/labels"), wrong);
+        labels.extend_from_slice(&self.common);
+        match self.jobs.validate(job.scenario.get(), labels) {
+            Ok(new) => self.admitted.push(new),
             Err(ScenarioError::Invalid(violations)) => {
                 let named = violations.into_iter().map(FieldError::from);
                 wrong.extend(named.map(|error| error.under(&format!("{at}/scenario"))));
             }
             Err(error @ ScenarioError::Malformed { .. }) => {
-                wrong.push(FieldError::of_body(
-                    &format!("{at}/scenario"),
-                    &error.to_string(),
-                ));
+                let at = format!("{at}/scenario");
+                wrong.push(FieldError::of_body(&at, &error.to_string()));
             }
         }
     }
-    if wrong.is_empty() {
-        Ok(admitted)
-    } else {
-        Err(Problem::invalid_scenario(wrong))
+
+    fn finish(self) -> Result<Vec<NewJob>, Problem> {
+        if self.wrong.is_empty() {
+            Ok(self.admitted)
+        } else {
+            Err(Problem::invalid_scenario(self.wrong))
+        }
     }
 }
 

@@ -10,6 +10,7 @@ mod documents;
 mod etag;
 mod events;
 mod flow;
+mod idempotency;
 mod jobs;
 mod metrics;
 mod named_job;

@@ -1,5 +1,6 @@
 //! Plans: computation and cost of a run.
 
+use super::access::Caller;
 use super::problem::Problem;
 use super::scenario_body::ScenarioText;
 use crate::jobs::documents::{Plan, PlannedRefinementRun, Scenario};
@@ -40,14 +41,16 @@ pub(super) struct PlannedDocument {
         (status = 400, description = "The body is not JSON", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "The body is too large", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "The body is not declared as JSON", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The scenario breaks rules (`errors` has them all), or its first steps can't be taken", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The scenario breaks rules (`errors` has them all), or its first steps can't be taken, or the run is planned to take more than this service allows", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn plan(
     State(jobs): State<JobService>,
+    caller: Caller,
     ScenarioText(text): ScenarioText,
 ) -> Result<Json<PlannedDocument>, Problem> {
-    let planned = jobs.plan(&text).await?;
+    let planned = jobs.plan(&caller.share(), text).await?;
     let plan = serde_json::to_value(&planned.plan).map_err(|error| Problem::internal(&error))?;
     let refinement_runs = serde_json::to_value(&planned.refinement_runs)
         .map_err(|error| Problem::internal(&error))?;
@@ -69,7 +72,7 @@ impl From<PlanError> for Problem {
                 "No forecast",
                 error.to_string(),
             ),
-            PlanError::BrokenOff(error) => Self::internal(&error),
+            PlanError::Admission(error) => error.into(),
         }
     }
 }

@@ -78,8 +78,7 @@ pub fn openapi() -> OpenApi {
 /// The routes; those that wait by design have no time limit.
 fn documented(limit: Duration) -> OpenApiRouter<JobService> {
     let quick = OpenApiRouter::new()
-        .routes(routes!(submission::submit, jobs::list))
-        .routes(routes!(batch::submit_batch))
+        .routes(routes!(jobs::list))
         .routes(routes!(trajectory::trajectory))
         .routes(routes!(flow::flow))
         .routes(routes!(flow::flow_archive))
@@ -90,6 +89,9 @@ fn documented(limit: Duration) -> OpenApiRouter<JobService> {
     let mut all = OpenApiRouter::with_openapi(description())
         .routes(routes!(jobs::show, jobs::dismiss))
         .routes(routes!(events::events))
+        // The admission pool limits their time: what is being stored is carried through.
+        .routes(routes!(submission::submit))
+        .routes(routes!(batch::submit_batch))
         .routes(routes!(plans::plan))
         .merge(quick);
     let contract = all.get_openapi_mut();

@@ -2,6 +2,7 @@
 //! head of a request: clients that send half of one would be kept for ever, and
 //! would keep the service from stopping.
 
+use super::access::PeerAddress;
 use super::slow_client::SlowClientTimeout;
 use crate::config::Limits;
 use axum::Router;
@@ -58,8 +59,9 @@ async fn accept(
     let places = Arc::new(Semaphore::new(limits.connections));
     while let Ok(place) = Arc::clone(&places).acquire_owned().await {
         match listener.accept().await {
-            Ok((stream, _)) => {
-                let connection = connection(stream, router.clone(), limits, graceful);
+            Ok((stream, peer)) => {
+                let peer = PeerAddress(peer.ip());
+                let connection = connection(stream, peer, router.clone(), limits, graceful);
                 connections.spawn(async move {
                     connection.await;
                     drop(place);
@@ -77,11 +79,15 @@ async fn accept(
 /// Serves one connection to its end.
 fn connection(
     stream: TcpStream,
+    peer: PeerAddress,
     router: Router,
     limits: &Limits,
     graceful: &GracefulShutdown,
 ) -> impl Future<Output = ()> + Send + use<> {
-    let service = router.map_request(|request: Request<Incoming>| request.map(Body::new));
+    let service = router.map_request(move |mut request: Request<Incoming>| {
+        request.extensions_mut().insert(peer);
+        request.map(Body::new)
+    });
     let connection = http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(limits.header_read_timeout())

@@ -2,18 +2,18 @@
 
 use super::access::Caller;
 use super::documents::JobDocument;
+use super::idempotency;
 use super::named_job::named;
 use super::problem::{FieldError, Problem};
 use super::query::Query;
 use super::scenario_body::{ScenarioText, malformed};
 use crate::jobs::job::Job;
-use crate::jobs::store::Key;
-use crate::jobs::submit::{ScenarioError, label};
-use crate::jobs::{JobService, SubmissionRequest, SubmitError};
-use axum::Json;
+use crate::jobs::store::{KeptAnswer, Key};
+use crate::jobs::submit::{NewJob, ScenarioError, label};
+use crate::jobs::{AdmissionError, JobService, Submission, SubmissionRequest, SubmitError};
 use axum::extract::{RawQuery, State};
-use axum::http::{HeaderMap, StatusCode, Uri, header};
-use axum::response::{IntoResponse, Response};
+use axum::http::{HeaderMap, StatusCode, Uri};
+use axum::response::Response;
 
 /// Seconds after which a client may retry if the queue is full.
 const RETRY_AFTER_S: u8 = 10;
@@ -21,7 +21,7 @@ const RETRY_AFTER_S: u8 = 10;
 /// Submit a scenario
 ///
 /// The body is the bare scenario. The job is on disk when the answer is sent. With
-/// an `Idempotency-Key`, a repeated request gets the same job.
+/// an `Idempotency-Key`, a repeated request gets the answer of the first one.
 #[utoipa::path(
     post,
     path = "/v1/jobs",
@@ -43,7 +43,7 @@ const RETRY_AFTER_S: u8 = 10;
         (status = 413, description = "The body is too large", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "The body is not declared as JSON", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "The scenario or the query breaks rules (`errors` has them all), or the Idempotency-Key came with another request", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many jobs wait; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many jobs wait, or too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
         (status = 507, description = "The disk is full", body = Problem, content_type = "application/problem+json"),
     )
 )]
@@ -61,61 +61,81 @@ pub(super) async fn submit(
         (word == "finished").then_some(())
     });
     query.finish()?;
-    let new = jobs.validate(&text, labels)?;
-    if reuse.is_some()
-        && let Some(id) = jobs.finished_like(&new).await?
+    let key = idempotency::key(&headers, &format!("{uri}\n{text}"))?;
+    if let Some(key) = &key
+        && let Some(former) = jobs.former_request(caller.name(), key).await?
     {
-        let job = named(&jobs, &id.to_string()).await?;
-        // One that the caller may not read is none to it.
-        if caller.may_read(job.submitter.as_deref()) {
-            return Ok(answer(StatusCode::OK, job));
-        }
+        return answer_again(&jobs, &caller, key, former).await;
     }
-    let request = format!("{uri}\n{text}");
-    let key = key(&headers, &request)?;
-    let ids = jobs
-        .submit(&SubmissionRequest {
-            jobs: &[new],
-            submitter: caller.name(),
+    let place = jobs.enter(&caller.share())?;
+    let reader = jobs.clone();
+    let new = place
+        .work(move |_| reader.validate(&text, labels))
+        .await
+        .map_err(SubmitError::from)??;
+    drop(place);
+    let finished = match reuse {
+        Some(()) => readable_like(&jobs, &caller, &new).await?,
+        None => None,
+    };
+    let submission = jobs
+        .submit(SubmissionRequest {
+            // A finished job is as good: only the key is new.
+            jobs: finished.is_none().then_some(new).into_iter().collect(),
+            submitter: caller.name().map(str::to_owned),
             quota: caller.quota(),
-            key,
+            key: key.clone(),
         })
         .await?;
-    let id = ids
-        .first()
-        .ok_or_else(|| Problem::internal("a request without jobs"))?;
-    let job = named(&jobs, &id.to_string()).await?;
-    Ok(answer(StatusCode::ACCEPTED, job))
+    if let Some(answer) = submission.answer {
+        return Ok(idempotency::response(answer));
+    }
+    let (status, job) = match (finished, submission.jobs.first()) {
+        (Some(job), None) => (StatusCode::OK, job),
+        (_, Some(id)) => (StatusCode::ACCEPTED, named(&jobs, &id.to_string()).await?),
+        (None, None) => return Err(Problem::internal("a request without jobs")),
+    };
+    let answer = answer(status, job)?;
+    idempotency::send(&jobs, caller.name(), key.as_ref(), answer).await
+}
+
+/// A finished job like this one that the caller may read.
+async fn readable_like(
+    jobs: &JobService,
+    caller: &Caller,
+    new: &NewJob,
+) -> Result<Option<Job>, Problem> {
+    let Some(id) = jobs.finished_like(new).await? else {
+        return Ok(None);
+    };
+    let job = jobs.job(id).await?;
+    // One that the caller may not read is none to it.
+    Ok(job.filter(|job| caller.may_read(job.submitter.as_deref())))
+}
+
+/// The answer to a request that came before: the one that was kept, or, if the service died
+/// before there was one, one made from its job.
+async fn answer_again(
+    jobs: &JobService,
+    caller: &Caller,
+    key: &Key,
+    former: Submission,
+) -> Result<Response, Problem> {
+    if let Some(answer) = former.answer {
+        return Ok(idempotency::response(answer));
+    }
+    let id = former.jobs.first();
+    let id = id.ok_or_else(|| Problem::internal("a kept key without a job or an answer"))?;
+    let answer = answer(StatusCode::ACCEPTED, named(jobs, &id.to_string()).await?)?;
+    idempotency::send(jobs, caller.name(), Some(key), answer).await
 }
 
 /// Rule for a label, for people.
 pub(super) const LABEL_RULE: &str = "1 to 64 letters, digits or any of . _ : = / -";
 
-fn answer(status: StatusCode, job: Job) -> Response {
-    let location = [(header::LOCATION, format!("/v1/jobs/{}", job.summary.id))];
-    (status, location, Json(JobDocument::from(job))).into_response()
-}
-
-/// Idempotency-Key of the request, if it has one.
-pub(super) fn key<'a>(headers: &'a HeaderMap, request: &str) -> Result<Option<Key<'a>>, Problem> {
-    let Some(value) = headers.get("idempotency-key") else {
-        return Ok(None);
-    };
-    let text = value.to_str().unwrap_or_default();
-    let is_legal =
-        (1..=255).contains(&text.len()) && text.bytes().all(|byte| byte.is_ascii_graphic());
-    if !is_legal {
-        return Err(Problem::new(
-            StatusCode::UNPROCESSABLE_ENTITY,
-            "invalid-key",
-            "Invalid Idempotency-Key",
-            "an Idempotency-Key has 1 to 255 visible ASCII characters",
-        ));
-    }
-    Ok(Some(Key {
-        text,
-        body_hash: *blake3::hash(request.as_bytes()).as_bytes(),
-    }))
+fn answer(status: StatusCode, job: Job) -> Result<KeptAnswer, Problem> {
+    let location = format!("/v1/jobs/{}", job.summary.id);
+    idempotency::answer(status, Some(location), &JobDocument::from(job))
 }
 
 impl From<SubmitError> for Problem {
@@ -124,10 +144,11 @@ impl From<SubmitError> for Problem {
         match error {
             SubmitError::Scenario(error) => error.into(),
             SubmitError::Store(error) => error.into(),
+            SubmitError::Admission(error) => error.into(),
             SubmitError::InFlight => {
                 Self::new(StatusCode::CONFLICT, "key-in-use", "Being answered", detail)
             }
-            SubmitError::OtherBody => Self::new(
+            SubmitError::OtherRequest => Self::new(
                 StatusCode::UNPROCESSABLE_ENTITY,
                 "key-of-another-request",
                 "Idempotency-Key of another request",
@@ -137,6 +158,27 @@ impl From<SubmitError> for Problem {
                 Self::busy("queue-full", "Too many jobs wait", &detail)
             }
             SubmitError::QuotaSpent { .. } => Self::busy("quota-spent", "Too many jobs", &detail),
+        }
+    }
+}
+
+impl From<AdmissionError> for Problem {
+    fn from(error: AdmissionError) -> Self {
+        let detail = error.to_string();
+        match error {
+            AdmissionError::Full { .. } | AdmissionError::ShareSpent { .. } => {
+                Self::busy("admission-full", "Too many requests", &detail)
+            }
+            AdmissionError::TimedOut { .. } => Self {
+                retry_after_s: Some(RETRY_AFTER_S),
+                ..Self::new(
+                    StatusCode::SERVICE_UNAVAILABLE,
+                    "timed-out",
+                    "Timed out",
+                    detail,
+                )
+            },
+            AdmissionError::BrokenOff(_) => Self::internal(&detail),
         }
     }
 }

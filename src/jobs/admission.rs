@@ -1,24 +1,34 @@
 //! Admission of jobs: no request is admitted twice, and none beyond the capacity of the queue.
 
 use super::JobService;
+use super::admission_pool::AdmissionError;
 use super::job::JobId;
-use super::store::{Key, Room, StoreError, Submission, Submitted};
+use super::store::{self, FormerRequest, KeptAnswer, Key, Room, StoreError, Submitted};
 use super::submit::{NewJob, ScenarioError};
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
 
 /// Contents of one request.
-#[derive(Debug, Clone, Copy)]
-pub struct SubmissionRequest<'a> {
+#[derive(Debug, Clone)]
+pub struct SubmissionRequest {
     /// Its jobs.
-    pub jobs: &'a [NewJob],
+    pub jobs: Vec<NewJob>,
     /// Name of the access token of the request.
-    pub submitter: Option<&'a str>,
+    pub submitter: Option<String>,
     /// Largest number of jobs of this submitter that may wait or run.
     pub quota: Option<u32>,
     /// Its Idempotency-Key.
-    pub key: Option<Key<'a>>,
+    pub key: Option<Key>,
+}
+
+/// Result of a request: its jobs, and the answer it got if it came before.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Submission {
+    /// Its jobs, in its order.
+    pub jobs: Vec<JobId>,
+    /// The answer kept of the first request with its key.
+    pub answer: Option<KeptAnswer>,
 }
 
 /// Reason why jobs are refused.
@@ -27,15 +37,18 @@ pub enum SubmitError {
     /// The scenario is invalid.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
+    /// The request is not admitted.
+    #[error(transparent)]
+    Admission(#[from] AdmissionError),
     /// The jobs can't be stored.
     #[error(transparent)]
     Store(#[from] StoreError),
     /// A request with this key is in progress.
     #[error("a request with this Idempotency-Key is being answered")]
     InFlight,
-    /// The key was used before with another body.
+    /// The key was used before with another request.
     #[error("this Idempotency-Key came before with another request")]
-    OtherBody,
+    OtherRequest,
     /// Too many jobs wait.
     #[error("{waiting} jobs wait, and the queue of this service takes {limit}")]
     QueueFull {
@@ -85,43 +98,59 @@ impl Drop for Taken {
     }
 }
 
+impl Submission {
+    fn of_former(former: FormerRequest) -> Result<Self, SubmitError> {
+        match former {
+            FormerRequest::Other => Err(SubmitError::OtherRequest),
+            FormerRequest::Same { jobs, answer } => Ok(Self { jobs, answer }),
+        }
+    }
+}
+
 impl JobService {
-    /// Puts the jobs of a request into the queue, all or none; they are on disk
-    /// when this returns. A repeated request gets the jobs of the first one.
+    /// Puts the jobs of a request into the queue, all or none; they are on disk when this
+    /// returns. Once begun it is carried through, also if its client leaves.
     ///
     /// # Errors
-    /// The queue is full, the key is invalid, or the jobs can't be stored.
-    pub async fn submit(
-        &self,
-        admission: &SubmissionRequest<'_>,
-    ) -> Result<Vec<JobId>, SubmitError> {
-        let taken = match &admission.key {
-            None => None,
-            Some(key) => {
-                let submitter = admission.submitter.unwrap_or_default();
-                let taken = self.in_flight.take(submitter, key.text);
-                Some(taken.ok_or(SubmitError::InFlight)?)
-            }
-        };
+    /// The queue is full, the key is in use or was another request's, or the jobs can't be stored.
+    pub async fn submit(&self, request: SubmissionRequest) -> Result<Submission, SubmitError> {
+        let service = self.clone();
+        let carried_through = tokio::spawn(async move { service.store_request(&request).await });
+        carried_through
+            .await
+            .map_err(|error| StoreError::Defect(error.into()))?
+    }
+
+    async fn store_request(&self, request: &SubmissionRequest) -> Result<Submission, SubmitError> {
+        let submitter = request.submitter.as_deref();
+        let key = request.key.as_ref();
+        let _taken = key
+            .map(|key| {
+                let taken = self
+                    .in_flight
+                    .take(submitter.unwrap_or_default(), &key.text);
+                taken.ok_or(SubmitError::InFlight)
+            })
+            .transpose()?;
         let room = Room {
             queue: self.limits.queued_jobs,
-            submitter: admission.quota,
+            submitter: request.quota,
         };
-        let submission = Submission {
-            jobs: admission.jobs,
-            submitter: admission.submitter,
-            key: admission.key,
+        let submission = store::Submission {
+            jobs: &request.jobs,
+            submitter,
+            key,
             room,
         };
-        let submitted = self.store.submit(&submission).await;
-        drop(taken);
-        match submitted? {
+        match self.store.submit(&submission).await? {
             Submitted::Accepted => {
                 self.registry.announce();
-                Ok(admission.jobs.iter().map(|job| job.id).collect())
+                Ok(Submission {
+                    jobs: request.jobs.iter().map(|job| job.id).collect(),
+                    answer: None,
+                })
             }
-            Submitted::Before(jobs) => Ok(jobs),
-            Submitted::OtherBody => Err(SubmitError::OtherBody),
+            Submitted::Before(former) => Submission::of_former(former),
             Submitted::QueueFull(waiting) => Err(SubmitError::QueueFull {
                 waiting,
                 limit: room.queue,
@@ -131,6 +160,32 @@ impl JobService {
                 limit: room.submitter.unwrap_or_default(),
             }),
         }
+    }
+
+    /// The first request with this key, if there was one.
+    ///
+    /// # Errors
+    /// It was another request, or the store's own.
+    pub async fn former_request(
+        &self,
+        submitter: Option<&str>,
+        key: &Key,
+    ) -> Result<Option<Submission>, SubmitError> {
+        let former = self.store.former_request(submitter, key).await?;
+        former.map(Submission::of_former).transpose()
+    }
+
+    /// Keeps the answer to a request with a key, for its repetitions.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn keep_answer(
+        &self,
+        submitter: Option<&str>,
+        key: &Key,
+        answer: &KeptAnswer,
+    ) -> Result<(), StoreError> {
+        self.store.keep_answer(submitter, key, answer).await
     }
 
     /// A successful job with the same scenario, run by this same program.

@@ -5,7 +5,7 @@ use scree_solver::plan::{Cost, Plan, Stage};
 use scree_solver::record::Role;
 use scree_solver::scenario::{Approach, Scenario};
 use scree_solver::simulation::PreparedScene;
-use scree_solver::{SetupError, Simulation, StepError};
+use scree_solver::{Cancellation, SetupError, Simulation, StepError};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -77,19 +77,26 @@ pub enum ForecastError {
     /// The first steps fail.
     #[error(transparent)]
     Step(#[from] StepError),
+    /// The forecast was cancelled.
+    #[error("the forecast was cancelled")]
+    Cancelled,
 }
 
 /// Plans the run of a prepared scene and times its first steps on this number of threads; takes about
 /// a second.
 ///
 /// # Errors
-/// A refinement run can't be set up, or the first steps of a run fail.
-pub fn forecast(prepared: &PreparedScene, threads: usize) -> Result<Planned, ForecastError> {
+/// A refinement run can't be set up, the first steps of a run fail, or the forecast is cancelled.
+pub fn forecast(
+    prepared: &PreparedScene,
+    threads: usize,
+    cancellation: &Cancellation,
+) -> Result<Planned, ForecastError> {
     let plan = Plan::of(prepared);
     let scenario = &prepared.scenario;
-    let refinement_runs = refinement_runs(scenario, threads)?;
+    let refinement_runs = refinement_runs(scenario, (threads, cancellation))?;
     let first: f64 = refinement_runs.iter().map(|run| run.expected_s).sum();
-    let answer = Span::of(scenario, &plan.cost, threads, TIMED_FOR)?;
+    let answer = Span::of(scenario, &plan.cost, (threads, cancellation), TIMED_FOR)?;
     let target = scenario.accuracy.target;
     let (expected, longest) = if target.is_some() {
         let per_point_step = answer.longest / plan.cost.point_steps.max(1) as f64;
@@ -113,7 +120,7 @@ pub fn forecast(prepared: &PreparedScene, threads: usize) -> Result<Planned, For
 /// The runs made before that of the answer.
 fn refinement_runs(
     scenario: &Scenario,
-    threads: usize,
+    (threads, cancellation): (usize, &Cancellation),
 ) -> Result<Vec<PlannedRefinementRun>, ForecastError> {
     let convergence_study = ConvergenceStudy::of(scenario)?;
     let before = convergence_study
@@ -123,7 +130,12 @@ fn refinement_runs(
         .map(|study_run| {
             let scenario = convergence_study.scenario_of(study_run);
             let cost = Cost::of(&PreparedScene::of(&scenario)?);
-            let span = Span::of(&scenario, &cost, threads, COMPANION_TIMED_FOR)?;
+            let span = Span::of(
+                &scenario,
+                &cost,
+                (threads, cancellation),
+                COMPANION_TIMED_FOR,
+            )?;
             Ok(PlannedRefinementRun {
                 role: study_run.role,
                 cell_size_m: study_run.cell_size_m,
@@ -146,7 +158,7 @@ impl Span {
     fn of(
         scenario: &Scenario,
         cost: &Cost,
-        threads: usize,
+        means: (usize, &Cancellation),
         timed_for: Duration,
     ) -> Result<Self, ForecastError> {
         let timed = coarsened(scenario, cost);
@@ -159,7 +171,7 @@ impl Span {
             if place > 0 {
                 timed.numerics.approach = Approach::Full;
             }
-            let per_substep = seconds_per_substep(&timed, stage, threads, timed_for)?;
+            let per_substep = seconds_per_substep(&timed, stage, means, timed_for)?;
             let spreading = if stage.points > 0 { SPREADING } else { 1.0 };
             span.expected += stage.expected_substeps as f64 * per_substep * spreading;
             span.longest += stage.substeps as f64 * per_substep * spreading;
@@ -168,13 +180,18 @@ impl Span {
     }
 }
 
-/// The scenario with cells so large that its timing is cheap.
+/// The scenario with cells so large, or a release so short, that its timing is cheap.
 fn coarsened(scenario: &Scenario, cost: &Cost) -> Scenario {
     let mut coarse = scenario.clone();
     let more = cost.points as f64 / MOST_POINTS;
     if more > 1.0 {
-        let cell_size_m = cost.cell_size_m * more.cbrt();
-        coarse.numerics.cell_size_m = Some(cell_size_m.min(scenario.channel.width_m));
+        let cell_size_m = (cost.cell_size_m * more.cbrt()).min(scenario.channel.width_m);
+        coarse.numerics.cell_size_m = Some(cell_size_m);
+        // A narrow channel allows no larger cells.
+        let fewer = (cell_size_m / cost.cell_size_m).powi(3);
+        if let Some(flow) = &mut coarse.flow {
+            flow.volume_m3 *= (fewer / more).min(1.0);
+        }
     }
     coarse
 }
@@ -183,10 +200,14 @@ fn coarsened(scenario: &Scenario, cost: &Cost) -> Scenario {
 fn seconds_per_substep(
     timed: &Scenario,
     stage: &Stage,
-    threads: usize,
+    (threads, cancellation): (usize, &Cancellation),
     timed_for: Duration,
 ) -> Result<f64, ForecastError> {
+    if cancellation.is_asked() {
+        return Err(ForecastError::Cancelled);
+    }
     let mut simulation = Simulation::new(timed, threads)?;
+    simulation.cancel_with(cancellation.clone());
     let computed = simulation.computed_points().max(1) as f64;
     let mut timing = Timing::lasting(timed_for);
     simulation.run(f64::INFINITY, |simulation, report| {
@@ -198,6 +219,9 @@ fn seconds_per_substep(
             ControlFlow::Continue(())
         }
     })?;
+    if cancellation.is_asked() {
+        return Err(ForecastError::Cancelled);
+    }
     Ok(timing.per_substep * (stage.points.max(1) as f64 / computed))
 }
 

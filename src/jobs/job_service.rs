@@ -1,6 +1,7 @@
 //! Job service: all operations on jobs that clients may ask for.
 
 use super::admission::InFlight;
+use super::admission_pool::{AdmissionError, AdmissionPool, Admitted};
 use super::forecast::{ForecastError, Planned, forecast};
 use super::job::{Job, JobId, JobStatus, JobSummary};
 use super::pool::RunningJobRegistry;
@@ -10,8 +11,6 @@ use crate::config::Limits;
 use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
-use tokio::sync::Mutex;
-use tokio::task::spawn_blocking;
 use tokio::time::{Instant, sleep, timeout};
 
 /// Time that a dismissal waits for the run to end, so that its answer shows the job's final
@@ -28,8 +27,8 @@ pub struct JobService {
     pub(super) registry: Arc<RunningJobRegistry>,
     pub(super) limits: Limits,
     pub(super) in_flight: InFlight,
-    threads_per_worker: usize,
-    planning: Arc<Mutex<()>>,
+    pool: AdmissionPool,
+    means: Means,
 }
 
 /// Reason why there is no plan.
@@ -41,9 +40,9 @@ pub enum PlanError {
     /// The first steps fail.
     #[error(transparent)]
     Forecast(#[from] ForecastError),
-    /// The planning task panicked or was cancelled.
-    #[error("planning broke off: {0}")]
-    BrokenOff(String),
+    /// The request is not admitted.
+    #[error(transparent)]
+    Admission(#[from] AdmissionError),
 }
 
 /// Result of a request to dismiss a job.
@@ -63,44 +62,50 @@ impl JobService {
         store: Arc<dyn JobStore>,
         registry: Arc<RunningJobRegistry>,
         limits: Limits,
-        threads_per_worker: usize,
+        (pool, means): (AdmissionPool, Means),
     ) -> Self {
         Self {
             store,
             registry,
             limits,
             in_flight: InFlight::default(),
-            threads_per_worker,
-            planning: Arc::default(),
+            pool,
+            means,
         }
     }
 
-    /// Checks a scenario.
+    /// Takes a place in the admission pool for a request of this caller.
+    ///
+    /// # Errors
+    /// The pool is full, or the caller has its share of it.
+    pub fn enter(&self, caller: &str) -> Result<Admitted, AdmissionError> {
+        self.pool.enter(caller)
+    }
+
+    /// Checks a scenario; work for the admission pool.
     ///
     /// # Errors
     /// All rules that the scenario breaks.
     pub fn validate(&self, scenario: &str, labels: Vec<String>) -> Result<NewJob, ScenarioError> {
-        let means = Means {
-            threads_per_worker: self.threads_per_worker,
-            point_steps: self.limits.job_point_steps,
-        };
-        submit::validate(scenario, &means, labels)
+        submit::validate(scenario, &self.means, labels)
     }
 
-    /// Plan of a job with this scenario, and a forecast of its wall time.
+    /// Plan of a job with this scenario, and a forecast of its wall time, for this caller.
     ///
     /// # Errors
-    /// The scenario is invalid, or its first steps fail.
-    pub async fn plan(&self, scenario: &str) -> Result<Planned, PlanError> {
-        let threads = self.threads_per_worker;
-        let prepared = submit::read(scenario, threads)?;
-        let threads = prepared.scenario.numerics.threads.unwrap_or(threads);
-        // One plan at a time: concurrent timings would slow each other.
-        let _alone = self.planning.lock().await;
-        let planned = spawn_blocking(move || forecast(&prepared, threads)).await;
-        planned
-            .map_err(|error| PlanError::BrokenOff(error.to_string()))?
-            .map_err(Into::into)
+    /// The scenario is invalid, its first steps fail, or the caller is not admitted.
+    pub async fn plan(&self, caller: &str, scenario: String) -> Result<Planned, PlanError> {
+        let place = self.enter(caller)?;
+        let means = self.means;
+        let prepared = place
+            .work(move |_| submit::read_affordable(&scenario, &means))
+            .await??;
+        let threads = prepared.scenario.numerics.threads;
+        let threads = threads.unwrap_or(means.threads_per_worker);
+        let planned = place
+            .time(move |cancellation| forecast(&prepared, threads, cancellation))
+            .await?;
+        Ok(planned?)
     }
 
     /// The job, if there is one.

@@ -3,9 +3,11 @@
 //! them through [`JobService`].
 
 mod admission;
+mod admission_pool;
 pub mod clock;
 pub mod documents;
 pub mod failure;
+mod fair_queue;
 pub mod forecast;
 pub mod job;
 mod job_service;
@@ -18,6 +20,7 @@ pub mod store;
 pub mod submit;
 mod worker;
 
-pub use admission::{SubmissionRequest, SubmitError};
+pub use admission::{Submission, SubmissionRequest, SubmitError};
+pub use admission_pool::{AdmissionError, AdmissionPool, Admitted};
 pub use job_service::{Dismissed, JobService, PlanError};
 pub use reading::TrajectoryRange;

@@ -1,6 +1,7 @@
 //! Validation of submitted scenarios.
 
 use super::job::JobId;
+use scree_solver::plan::Cost;
 use scree_solver::scenario::Scenario;
 pub use scree_solver::scenario::{ScenarioError, Violation, excerpt};
 use scree_solver::simulation::PreparedScene;
@@ -56,11 +57,8 @@ pub fn validate(
     means: &Means,
     mut labels: Vec<String>,
 ) -> Result<NewJob, ScenarioError> {
-    let prepared = read(text, means.threads_per_worker)?;
+    let prepared = read_affordable(text, means)?;
     let plan = Plan::of(&prepared);
-    if let Some(violation) = too_costly(plan.cost.point_steps, means.point_steps) {
-        return Err(ScenarioError::Invalid(vec![violation]));
-    }
     let scenario = prepared.scenario;
     let json = serde_json::to_string(&scenario).map_err(|error| unwritable(&error))?;
     labels.sort();
@@ -75,6 +73,19 @@ pub fn validate(
         labels,
         solver_version: scree_solver::VERSION,
     })
+}
+
+/// Reads a scenario whose run these resources allow.
+///
+/// # Errors
+/// All rules that the scenario breaks.
+pub fn read_affordable(text: &str, means: &Means) -> Result<PreparedScene, ScenarioError> {
+    let prepared = read(text, means.threads_per_worker)?;
+    let cost = Cost::of(&prepared);
+    match too_costly(cost.point_steps, means.point_steps) {
+        None => Ok(prepared),
+        Some(violation) => Err(ScenarioError::Invalid(vec![violation])),
+    }
 }
 
 /// Reads a scenario for a service whose workers have `threads_per_worker` solver

@@ -38,6 +38,43 @@ async fn the_same_request_with_the_same_key_gets_the_same_job() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_key_brings_the_answer_of_the_first_request_word_by_word() {
+    let app = TestApp::start().await;
+    let first = post_with_key(&app, "/v1/jobs", "a", &tiny_scene()).await;
+    let job = first.location.clone().unwrap();
+    app.wait_for_success(&job).await;
+    let reused = post_with_key(&app, "/v1/jobs?reuse=finished", "b", &tiny_scene()).await;
+    assert_eq!(
+        (reused.status, &reused.location),
+        (StatusCode::OK, &first.location)
+    );
+    assert_eq!(reused.body["status"], "successful");
+    let removed = app.delete(&format!("{job}?remove=ended")).await;
+    assert_eq!(removed.status, StatusCode::NO_CONTENT);
+    let cases = [
+        ("/v1/jobs", "a", first),
+        ("/v1/jobs?reuse=finished", "b", reused),
+    ];
+    for (path, key, before) in cases {
+        let again = post_with_key(&app, path, key, &tiny_scene()).await;
+        assert_eq!(
+            (again.status, again.location),
+            (before.status, before.location)
+        );
+        assert_eq!(again.body, before.body);
+        let other = post_with_key(&app, path, key, &endless_scene()).await;
+        other.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "key-of-another-request");
+    }
+    let jobs = app.get("/v1/jobs").await;
+    assert_eq!(
+        jobs.body["jobs"],
+        json!([]),
+        "no job was made by a repetition"
+    );
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_key_answers_the_same_after_some_of_its_jobs_are_removed() {
     let app = TestApp::start().await;
     let scenes = ["A", "B", "C"].map(|title| {

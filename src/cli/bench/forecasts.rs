@@ -6,7 +6,8 @@ use super::stopwatch::median;
 use crate::cli::columns::table;
 use crate::cli::failure::{Failure, not_set_up};
 use crate::cli::machine::cores;
-use scree::jobs::forecast::{ForecastError, forecast};
+use scree::jobs::forecast::forecast;
+use scree_solver::Cancellation;
 use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
 use serde::Serialize;
@@ -98,10 +99,7 @@ impl Foretold {
         let (mut points, mut expected_end_s, mut ended_s) = (0, 0.0, 0.0);
         for _ in 0..repeats {
             let prepared = PreparedScene::of(&scenario).map_err(|error| not_set_up(&error))?;
-            let planned = forecast(&prepared, cores()).map_err(|error| match error {
-                ForecastError::Setup(error) => not_set_up(&error),
-                ForecastError::Step(error) => Failure::Numerical(error.to_string()),
-            })?;
+            let planned = forecast(&prepared, cores(), &Cancellation::default())?;
             points = planned.plan.cost.points;
             expected_end_s = planned.plan.cost.expected_end_s;
             expected.extend(planned.wall_time.expected_s);

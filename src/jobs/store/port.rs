@@ -2,8 +2,9 @@
 //! that `tests/conformance.rs` tests.
 
 use super::{
-    AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, JobCounts, Lease, NewResults,
-    Page, Removal, Renewal, Returned, StoreError, StoredChunk, StoredState, Submission, Submitted,
+    AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, FormerRequest, JobCounts,
+    KeptAnswer, Key, Lease, NewResults, Page, Removal, Renewal, Returned, StoreError, StoredChunk,
+    StoredState, Submission, Submitted,
 };
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
@@ -29,9 +30,23 @@ type Answer<T> = Result<T, StoreError>;
 pub trait JobStore: Debug + Send + Sync {
     // The queue.
 
-    /// Puts the jobs of a request into the queue, all or none. A request whose key came
-    /// before is answered with the jobs of the first one.
+    /// Puts the jobs of a request into the queue, all or none, unless its key came before.
     async fn submit(&self, submission: &Submission<'_>) -> Answer<Submitted>;
+
+    /// The first request of this submitter with this key, if there was one.
+    async fn former_request(
+        &self,
+        submitter: Option<&str>,
+        key: &Key,
+    ) -> Answer<Option<FormerRequest>>;
+
+    /// Keeps the answer to a submitted request with a key, unless one is kept.
+    async fn keep_answer(
+        &self,
+        submitter: Option<&str>,
+        key: &Key,
+        answer: &KeptAnswer,
+    ) -> Answer<()>;
 
     /// The newest successful job with a scenario of this hash, run by this solver (version
     /// and commit).

@@ -1,6 +1,6 @@
 //! Submission of jobs: one request, all of its jobs or none.
 
-use crate::jobs::job::JobId;
+use super::{FormerRequest, Key};
 use crate::jobs::submit::NewJob;
 
 /// Contents of one request.
@@ -11,18 +11,9 @@ pub struct Submission<'a> {
     /// Name of the access token of the request.
     pub submitter: Option<&'a str>,
     /// Its Idempotency-Key.
-    pub key: Option<Key<'a>>,
+    pub key: Option<&'a Key>,
     /// Capacity for jobs that wait.
     pub room: Room,
-}
-
-/// An Idempotency-Key, and the body of its request.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Key<'a> {
-    /// The key.
-    pub text: &'a str,
-    /// BLAKE3 of the body.
-    pub body_hash: [u8; 32],
 }
 
 /// Largest number of jobs that may wait, those of the request included.
@@ -39,10 +30,8 @@ pub struct Room {
 pub enum Submitted {
     /// The jobs wait.
     Accepted,
-    /// A repeated request: the jobs of the first one.
-    Before(Vec<JobId>),
-    /// The key was used before with another body.
-    OtherBody,
+    /// The key came before.
+    Before(FormerRequest),
     /// The queue is full: number of waiting jobs.
     QueueFull(u32),
     /// The quota is used up: number of jobs of this submitter that wait or run.

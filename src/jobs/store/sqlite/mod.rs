@@ -14,6 +14,7 @@ mod error;
 mod events;
 mod health;
 mod history;
+mod keyed_requests;
 mod lease;
 mod lock;
 mod port;

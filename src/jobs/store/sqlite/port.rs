@@ -5,9 +5,9 @@ use super::SqliteStore;
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
 use crate::jobs::store::{
-    AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, JobCounts, JobStore, Lease,
-    NewResults, Page, Removal, Renewal, Returned, StoreError, StoredChunk, StoredState, Submission,
-    Submitted,
+    AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, FormerRequest, JobCounts,
+    JobStore, KeptAnswer, Key, Lease, NewResults, Page, Removal, Renewal, Returned, StoreError,
+    StoredChunk, StoredState, Submission, Submitted,
 };
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
@@ -19,6 +19,23 @@ use std::time::Duration;
 impl JobStore for SqliteStore {
     async fn submit(&self, submission: &Submission<'_>) -> Result<Submitted, StoreError> {
         Ok(Self::submit(self, submission).await?)
+    }
+
+    async fn former_request(
+        &self,
+        submitter: Option<&str>,
+        key: &Key,
+    ) -> Result<Option<FormerRequest>, StoreError> {
+        Ok(Self::former_request(self, submitter, key).await?)
+    }
+
+    async fn keep_answer(
+        &self,
+        submitter: Option<&str>,
+        key: &Key,
+        answer: &KeptAnswer,
+    ) -> Result<(), StoreError> {
+        Ok(Self::keep_answer(self, submitter, key, answer).await?)
     }
 
     async fn finished_like(

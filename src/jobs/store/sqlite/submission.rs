@@ -2,9 +2,10 @@
 
 use super::SqliteStore;
 use super::error::Answer;
+use super::keyed_requests::{former_request, keep_key};
 use super::rows::integer;
 use crate::jobs::job::JobId;
-use crate::jobs::store::{Key, StoreError, Submission, Submitted};
+use crate::jobs::store::{StoreError, Submission, Submitted};
 use crate::jobs::submit::NewJob;
 use sqlx::sqlite::SqliteConnection;
 
@@ -12,26 +13,24 @@ impl SqliteStore {
     pub(super) async fn submit(&self, submission: &Submission<'_>) -> Answer<Submitted> {
         let now_ms = self.now_ms();
         let mut transaction = self.begin_write().await?;
-        if let Some(key) = &submission.key
-            && let Some(before) = former_request(&mut transaction, submission, key).await?
+        let submitter = submission.submitter;
+        if let Some(key) = submission.key
+            && let Some(former) = former_request(&mut transaction, submitter, key).await?
         {
-            return Ok(before);
+            return Ok(Submitted::Before(former));
         }
         if let Some(full) = no_room(&mut transaction, submission).await? {
             return Ok(full);
         }
-        let request = match &submission.key {
-            Some(key) => Some(keep_key(&mut transaction, submission, key).await?),
+        let request = match submission.key {
+            Some(key) => {
+                let ids = submission.jobs.iter().map(|job| job.id);
+                Some(keep_key(&mut transaction, submitter, key, ids).await?)
+            }
             None => None,
         };
         for job in submission.jobs {
-            insert(
-                &mut transaction,
-                job,
-                submission.submitter,
-                (now_ms, request),
-            )
-            .await?;
+            insert(&mut transaction, job, submitter, (now_ms, request)).await?;
         }
         transaction.commit().await?;
         Ok(Submitted::Accepted)
@@ -57,33 +56,6 @@ impl SqliteStore {
     }
 }
 
-async fn former_request(
-    connection: &mut SqliteConnection,
-    submission: &Submission<'_>,
-    key: &Key<'_>,
-) -> Answer<Option<Submitted>> {
-    let former: Option<(Vec<u8>, String)> = sqlx::query_as(
-        "SELECT body_hash, job_ids FROM keyed_requests WHERE submitter = ?1 AND key = ?2",
-    )
-    .bind(submission.submitter.unwrap_or_default())
-    .bind(key.text)
-    .fetch_optional(connection)
-    .await?;
-    let Some((body_hash, ids)) = former else {
-        return Ok(None);
-    };
-    if body_hash != key.body_hash {
-        return Ok(Some(Submitted::OtherBody));
-    }
-    // All of them, in the order of the request: some may have been removed since.
-    let ids: Vec<String> = serde_json::from_str(&ids).map_err(|_| StoreError::Row {
-        job: ids,
-        what: "job_ids of a keyed request",
-    })?;
-    let ids: Result<_, _> = ids.iter().map(|id| parse(id)).collect();
-    Ok(Some(Submitted::Before(ids?)))
-}
-
 async fn no_room(
     connection: &mut SqliteConnection,
     submission: &Submission<'_>,
@@ -105,30 +77,6 @@ async fn no_room(
     .fetch_one(connection)
     .await?;
     Ok((own.saturating_add(coming) > quota).then_some(Submitted::QuotaSpent(own)))
-}
-
-/// Identifiers of a request's jobs as a JSON list.
-fn ids_of(submission: &Submission<'_>) -> String {
-    let ids = submission.jobs.iter().map(|job| job.id.to_string());
-    serde_json::Value::from(ids.collect::<Vec<_>>()).to_string()
-}
-
-async fn keep_key(
-    connection: &mut SqliteConnection,
-    submission: &Submission<'_>,
-    key: &Key<'_>,
-) -> Answer<i64> {
-    let sequence = sqlx::query_scalar(
-        "INSERT INTO keyed_requests (submitter, key, body_hash, job_ids) VALUES (?1, ?2, ?3, ?4)
-         RETURNING sequence",
-    )
-    .bind(submission.submitter.unwrap_or_default())
-    .bind(key.text)
-    .bind(&key.body_hash[..])
-    .bind(ids_of(submission))
-    .fetch_one(connection)
-    .await?;
-    Ok(sequence)
 }
 
 async fn insert(
@@ -165,7 +113,7 @@ async fn insert(
     Ok(())
 }
 
-fn parse(id: &str) -> Answer<JobId> {
+pub(super) fn parse(id: &str) -> Answer<JobId> {
     let id = id.parse().map_err(|_| StoreError::Row {
         job: id.to_owned(),
         what: "id",

@@ -1,0 +1,133 @@
+//! Requests with an Idempotency-Key, and their answers.
+
+use super::SqliteStore;
+use super::error::Answer;
+use super::submission::parse;
+use crate::jobs::job::JobId;
+use crate::jobs::store::{FormerRequest, KeptAnswer, Key, StoreError};
+use sqlx::FromRow;
+use sqlx::sqlite::SqliteConnection;
+
+/// Level of zstd at which an answer, mostly a scenario's text, is compressed.
+const LEVEL: i32 = 3;
+
+/// Largest answer read back [bytes]: a batch's identifiers, or a job with a scenario of any size
+/// that a request may have.
+const LARGEST_ANSWER: usize = 1 << 30;
+
+#[derive(Debug, FromRow)]
+struct KeyedRequestRow {
+    body_hash: Vec<u8>,
+    job_ids: String,
+    answer_status: Option<u16>,
+    answer_location: Option<String>,
+    answer_body: Option<Vec<u8>>,
+}
+
+impl SqliteStore {
+    pub(super) async fn former_request(
+        &self,
+        submitter: Option<&str>,
+        key: &Key,
+    ) -> Answer<Option<FormerRequest>> {
+        let mut connection = self.readers.acquire().await?;
+        former_request(&mut connection, submitter, key).await
+    }
+
+    pub(super) async fn keep_answer(
+        &self,
+        submitter: Option<&str>,
+        key: &Key,
+        answer: &KeptAnswer,
+    ) -> Answer<()> {
+        let body = zstd::bulk::compress(answer.body.as_bytes(), LEVEL)
+            .map_err(|error| StoreError::Defect(error.into()))?;
+        let mut transaction = self.begin_write().await?;
+        sqlx::query(
+            "UPDATE keyed_requests
+             SET answer_status = ?3, answer_location = ?4, answer_body = ?5
+             WHERE submitter = ?1 AND key = ?2 AND answer_status IS NULL",
+        )
+        .bind(submitter.unwrap_or_default())
+        .bind(&key.text)
+        .bind(answer.status)
+        .bind(&answer.location)
+        .bind(body)
+        .execute(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        Ok(())
+    }
+}
+
+pub(super) async fn former_request(
+    connection: &mut SqliteConnection,
+    submitter: Option<&str>,
+    key: &Key,
+) -> Answer<Option<FormerRequest>> {
+    let row: Option<KeyedRequestRow> = sqlx::query_as(
+        "SELECT body_hash, job_ids, answer_status, answer_location, answer_body
+         FROM keyed_requests WHERE submitter = ?1 AND key = ?2",
+    )
+    .bind(submitter.unwrap_or_default())
+    .bind(&key.text)
+    .fetch_optional(connection)
+    .await?;
+    row.map(|row| row.read(key)).transpose()
+}
+
+/// Records a request with a key and its jobs; returns its number.
+pub(super) async fn keep_key(
+    connection: &mut SqliteConnection,
+    submitter: Option<&str>,
+    key: &Key,
+    jobs: impl Iterator<Item = JobId>,
+) -> Answer<i64> {
+    let ids: Vec<String> = jobs.map(|id| id.to_string()).collect();
+    let sequence = sqlx::query_scalar(
+        "INSERT INTO keyed_requests (submitter, key, body_hash, job_ids) VALUES (?1, ?2, ?3, ?4)
+         RETURNING sequence",
+    )
+    .bind(submitter.unwrap_or_default())
+    .bind(&key.text)
+    .bind(&key.request_hash[..])
+    .bind(serde_json::Value::from(ids).to_string())
+    .fetch_one(connection)
+    .await?;
+    Ok(sequence)
+}
+
+impl KeyedRequestRow {
+    fn read(self, key: &Key) -> Answer<FormerRequest> {
+        if self.body_hash != key.request_hash {
+            return Ok(FormerRequest::Other);
+        }
+        let unreadable = |what| StoreError::Row {
+            job: format!("of the key {}", key.text),
+            what,
+        };
+        let ids: Vec<String> =
+            serde_json::from_str(&self.job_ids).map_err(|_| unreadable("identifiers"))?;
+        let jobs: Result<_, _> = ids.iter().map(|id| parse(id)).collect();
+        let answer = match (self.answer_status, self.answer_body) {
+            (Some(status), Some(body)) => Some(KeptAnswer {
+                status,
+                location: self.answer_location,
+                body: text(&body).ok_or_else(|| unreadable("kept answer"))?,
+            }),
+            _ => None,
+        };
+        Ok(FormerRequest::Same {
+            jobs: jobs?,
+            answer,
+        })
+    }
+}
+
+fn text(compressed: &[u8]) -> Option<String> {
+    let mut reader = zstd::stream::read::Decoder::new(compressed).ok()?;
+    let mut bytes = Vec::new();
+    let limit = LARGEST_ANSWER as u64;
+    std::io::Read::read_to_end(&mut std::io::Read::take(&mut reader, limit), &mut bytes).ok()?;
+    String::from_utf8(bytes).ok()
+}
