@@ -11,6 +11,7 @@ pub mod config;
 pub mod http;
 pub mod jobs;
 pub mod pictures;
+mod quota;
 pub mod results;
 pub mod runs;
 pub mod service;

@@ -7,7 +7,8 @@ use crate::jobs::pool::Pool;
 use crate::jobs::store::sqlite::SqliteStore;
 use crate::jobs::store::{JobStore, StoreError};
 use crate::jobs::submit::Means;
-use crate::jobs::{AdmissionPool, JobService};
+use crate::jobs::{AdmissionPool, Followers, JobService};
+use std::io;
 use std::net::SocketAddr;
 use std::sync::Arc;
 use thiserror::Error;
@@ -27,14 +28,14 @@ pub enum StartError {
         /// The address asked for.
         address: SocketAddr,
         /// Error of the system.
-        source: std::io::Error,
+        source: io::Error,
     },
     /// The database can't be used.
     #[error(transparent)]
     Store(#[from] StoreError),
     /// The workers can't be started.
     #[error("cannot start the workers: {0}")]
-    Workers(std::io::Error),
+    Workers(io::Error),
 }
 
 /// A service that takes requests and runs jobs until it is stopped.
@@ -42,8 +43,16 @@ pub enum StartError {
 pub struct RunningService {
     address: SocketAddr,
     store: Arc<dyn JobStore>,
+    tasks: Tasks,
+}
+
+/// Tasks of a service.
+#[derive(Debug)]
+struct Tasks {
     pool: Pool,
-    server: JoinHandle<()>,
+    news: JoinHandle<()>,
+    /// It only ends by itself if its listener is dead; `None` once that has been told.
+    server: Option<JoinHandle<io::Result<()>>>,
     stop: watch::Sender<bool>,
 }
 
@@ -53,14 +62,37 @@ impl RunningService {
         self.address
     }
 
+    /// Returns why the service serves no requests any more, without having been stopped.
+    pub async fn broken(&mut self) -> String {
+        let Some(server) = &mut self.tasks.server else {
+            return "the server has ended".to_owned();
+        };
+        let ended = server.await;
+        self.tasks.server = None;
+        match ended {
+            Ok(Ok(())) => "the server has ended".to_owned(),
+            Ok(Err(error)) => format!("no connection can be accepted any more: {error}"),
+            Err(error) => format!("the server broke off: {error}"),
+        }
+    }
+
     /// Refuses new requests, completes those in progress, saves running jobs and
     /// releases them into the queue, and returns once all is written.
     pub async fn stop(self) {
-        self.stop.send_replace(true);
-        let pool = self.pool;
+        let Tasks {
+            pool,
+            news,
+            server,
+            stop,
+        } = self.tasks;
+        stop.send_replace(true);
         let workers = tokio::task::spawn_blocking(move || pool.stop());
-        let (server, workers) = tokio::join!(self.server, workers);
-        for (what, ended) in [("server", server), ("workers", workers)] {
+        if let Some(server) = server
+            && let Err(error) = server.await
+        {
+            tracing::error!(%error, "the server did not stop as it should");
+        }
+        for (what, ended) in [("workers", workers.await), ("news", news.await)] {
             if let Err(error) = ended {
                 tracing::error!(%error, what, "did not stop as it should");
             }
@@ -81,14 +113,12 @@ pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> 
     let (listener, address) = listen(config.listen).await?;
     let store = open_store(&config).await?;
     match serve(&config, size, &store, listener).await {
-        Ok((pool, server, stop)) => {
+        Ok(tasks) => {
             tracing::info!(%address, ?size, database = %config.database.display(), "serving");
             Ok(RunningService {
                 address,
                 store,
-                pool,
-                server,
-                stop,
+                tasks,
             })
         }
         Err(error) => {
@@ -110,7 +140,7 @@ async fn serve(
     size: PoolSize,
     store: &Arc<dyn JobStore>,
     listener: TcpListener,
-) -> Result<(Pool, JoinHandle<()>, watch::Sender<bool>), StartError> {
+) -> Result<Tasks, StartError> {
     let left_running = store.reclaim_own(&config.queue.name).await?;
     if left_running > 0 {
         tracing::warn!(left_running, "the last service died under jobs: they go on");
@@ -121,16 +151,23 @@ async fn serve(
         threads_per_worker: size.threads_per_worker,
         point_steps: config.limits.job_point_steps,
     };
+    let (followers, news) = Followers::start(Arc::clone(store), pool.registry());
     let jobs = JobService::new(
         Arc::clone(store),
         pool.registry(),
         config.limits.clone(),
         (AdmissionPool::new(&config.admission, cores), means),
+        followers,
     );
     let router = http::router(jobs, config);
     let (stop, stopped) = watch::channel(false);
     let server = http::server::serve(listener, router, config.limits.clone(), stopped);
-    Ok((pool, tokio::spawn(server), stop))
+    Ok(Tasks {
+        pool,
+        news,
+        server: Some(tokio::spawn(server)),
+        stop,
+    })
 }
 
 async fn listen(address: SocketAddr) -> Result<(TcpListener, SocketAddr), StartError> {

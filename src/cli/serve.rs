@@ -26,13 +26,16 @@ pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
     runtime.block_on(async {
         // Before the address is announced: signals sent before the handlers exist would be lost.
         let asked_to_stop = StopRequests::listen()?;
-        let running = service::start(config)
+        let mut running = service::start(config)
             .await
             .map_err(|error| not_started(&error))?;
         console::answer(&format!("listening on http://{}", running.address()))?;
-        asked_to_stop.first().await;
+        let broken = tokio::select! {
+            () = asked_to_stop.first() => None,
+            why = running.broken() => Some(why),
+        };
         running.stop().await;
-        Ok(())
+        broken.map_or(Ok(()), |why| Err(Failure::Other(why)))
     })
 }
 

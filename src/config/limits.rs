@@ -57,7 +57,7 @@ impl Default for Limits {
             write_timeout_s: 10.0,
             request_timeout_s: 30.0,
             connections: 256,
-            connections_per_address: 256,
+            connections_per_address: 128,
             operator_connections: 16,
             streams: 128,
             streams_per_caller: 64,

@@ -25,13 +25,19 @@ pub(super) fn add(contract: &mut OpenApi) {
             answer(operation, "403", why_forbidden);
             answer(
                 operation,
+                "429",
+                "The caller has too many requests in progress, or waits for too many jobs; try \
+                 again after `Retry-After` seconds",
+            );
+            answer(
+                operation,
                 "500",
                 "A defect; the log has the details under `error_id`",
             );
             answer(
                 operation,
                 "503",
-                "It took too long, or the database can't be used now",
+                "It took too long, all connections are busy, or the database can't be used now",
             );
         }
     }

@@ -3,21 +3,21 @@
 
 use super::problem::Problem;
 use super::query::Query;
-use crate::jobs::JobService;
+use super::shares::StreamRight;
 use crate::jobs::job::JobId;
-use crate::jobs::store::Event;
+use crate::jobs::store::{Event, StoreError};
+use crate::jobs::{JobService, News};
+use crate::quota::InUse;
 use axum::body::{Body, Bytes};
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
-use std::convert::Infallible;
 use std::ops::RangeInclusive;
 use std::time::Duration;
-use tokio::time::{Instant, sleep};
-
-/// Time between two polls for events.
-const LOOK_PAUSE: Duration = Duration::from_millis(200);
+use tokio::sync::broadcast::Receiver;
+use tokio::sync::broadcast::error::RecvError;
+use tokio::time::timeout;
 
 /// Time without an event after which a comment is sent, so that both ends notice a lost connection.
 const LONGEST_SILENCE: Duration = Duration::from_secs(10);
@@ -50,11 +50,13 @@ const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
         (status = 200, description = "The events", body = String, content_type = "text/event-stream"),
         (status = 204, description = "The job has ended, and nothing is to be told any more"),
         (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many streams are open; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "A parameter or `Last-Event-ID` is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn events(
     State(jobs): State<JobService>,
+    right: StreamRight,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -66,6 +68,9 @@ pub(super) async fn events(
         query.whole_of("Last-Event-ID", &text, &NUMBERS)
     });
     query.finish()?;
+    let place = right.enter()?;
+    // Joined before the first look, so that nothing is missed in between.
+    let news = jobs.news();
     let start = Start::after(seen.or(after), job, jobs.last_event().await?);
     let first = jobs.events(start.after, job).await?;
     if let Some(id) = job {
@@ -80,12 +85,22 @@ pub(super) async fn events(
         job,
         after: start.after,
         reset: start.reset,
+        is_behind: !first.is_empty(),
         ready: first,
-        spoke: Instant::now(),
+        news,
+        has_ended: false,
+        _place: place,
     };
-    let pieces = stream::unfold(follower, |follower| async {
-        let (text, follower) = follower.next().await?;
-        Some((Ok::<_, Infallible>(Bytes::from(text)), follower))
+    let pieces = stream::unfold(Some(follower), |follower| async {
+        let mut follower = follower?;
+        match follower.piece().await {
+            Ok(None) => None,
+            Ok(Some(text)) => Some((Ok(Bytes::from(text)), Some(follower))),
+            Err(error) => {
+                tracing::error!(%error, "a stream of events breaks off");
+                Some((Err(error), None))
+            }
+        }
     });
     let kind = [
         (header::CONTENT_TYPE, "text/event-stream"),
@@ -120,46 +135,63 @@ struct Follower {
     job: Option<JobId>,
     after: i64,
     reset: Option<String>,
+    /// Events to be sent next.
     ready: Vec<Event>,
-    spoke: Instant,
+    /// True if events from before the news are still to be read.
+    is_behind: bool,
+    news: Receiver<News>,
+    /// True once the end of the followed job is sent.
+    has_ended: bool,
+    _place: InUse,
 }
 
 impl Follower {
     /// The next piece of text; none at the end of the stream.
-    async fn next(mut self) -> Option<(String, Self)> {
+    async fn piece(&mut self) -> Result<Option<String>, StoreError> {
         if let Some(reset) = self.reset.take() {
-            return Some((reset, self));
+            return Ok(Some(reset));
         }
         loop {
             if let Some(last) = self.ready.last() {
                 self.after = last.sequence;
-                let text = self.ready.drain(..).map(|event| text(&event)).collect();
-                self.spoke = Instant::now();
-                return Some((text, self));
+                let final_of =
+                    |event: &Event| Some(event.job) == self.job && event.status.is_final();
+                self.has_ended |= self.ready.iter().any(final_of);
+                return Ok(Some(
+                    self.ready.drain(..).map(|event| text(&event)).collect(),
+                ));
             }
-            if self.jobs.is_closing() || self.has_ended().await? {
-                return None;
+            if self.has_ended {
+                return Ok(None);
             }
-            if self.spoke.elapsed() > LONGEST_SILENCE {
-                self.spoke = Instant::now();
-                return Some((":\n\n".to_owned(), self));
+            if self.is_behind {
+                self.ready = self.jobs.events(self.after, self.job).await?;
+                self.is_behind = !self.ready.is_empty();
+                continue;
             }
-            sleep(LOOK_PAUSE).await;
-            self.ready = self.jobs.events(self.after, self.job).await.ok()?;
+            match timeout(LONGEST_SILENCE, self.news.recv()).await {
+                Ok(Ok(News::Events(events))) => {
+                    let wanted = |event: &&Event| {
+                        event.sequence > self.after && self.job.is_none_or(|job| event.job == job)
+                    };
+                    self.ready = events.iter().filter(wanted).copied().collect();
+                }
+                Ok(Ok(News::Closing) | Err(RecvError::Closed)) => return Ok(None),
+                Ok(Err(RecvError::Lagged(_))) => self.is_behind = true,
+                Err(_) => {
+                    self.has_ended = self.is_removed().await?;
+                    return Ok(Some(":\n\n".to_owned()));
+                }
+            }
         }
     }
 
-    /// True if the followed job has ended and all its events are sent; none
-    /// if the database does not answer.
-    async fn has_ended(&mut self) -> Option<bool> {
-        let Some(job) = self.job else {
-            return Some(false);
-        };
-        let status = self.jobs.status(job).await.ok()?;
-        let ended = status.is_none_or(|status| status.is_final());
-        // Events between the last poll and the job's end are still to be sent.
-        self.ready = self.jobs.events(self.after, self.job).await.ok()?;
-        Some(ended && self.ready.is_empty())
+    /// True if the followed job was removed, with its events.
+    async fn is_removed(&self) -> Result<bool, StoreError> {
+        match self.job {
+            None => Ok(false),
+            Some(job) => Ok(self.jobs.status(job).await?.is_none()),
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use super::etag;
 use super::named_job::{NamedJob, find, named, unknown_job};
 use super::problem::Problem;
 use super::query::Query;
+use super::shares::StreamRight;
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::{Page, Removal};
 use crate::jobs::submit::label;
@@ -90,6 +91,7 @@ pub(super) async fn show(
     State(jobs): State<JobService>,
     caller: Caller,
     NamedJob(id): NamedJob,
+    right: StreamRight,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -105,7 +107,9 @@ pub(super) async fn show(
         return etag::json(&headers, &JobDocument::from(job));
     };
     let longest = Duration::from_secs(u64::from(seconds));
+    let place = right.enter()?;
     jobs.wait_for_end(job.summary.id, longest).await?;
+    drop(place);
     etag::json(
         &headers,
         &JobDocument::from(find(&jobs, &caller, &id).await?),

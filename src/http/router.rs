@@ -5,6 +5,7 @@ use super::browser::{self, Doors};
 use super::metrics::{self, RequestCounts};
 use super::problem::Problem;
 use super::scenario_body::BodyDeadline;
+use super::shares::{self, Shares};
 use super::{batch, common_answers, events, flow, jobs, plans, submission, system, trajectory};
 use crate::config::ServiceConfig;
 use crate::jobs::JobService;
@@ -51,6 +52,7 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
         .layer(from_fn(move |request, next| {
             set_deadline(body_timeout, request, next)
         }))
+        .layer(from_fn_with_state(Shares::new(limits), shares::limit))
         .layer(from_fn_with_state(Gate::new(&config.tokens), access::check))
         .layer(from_fn_with_state(Doors::new(config), browser::check));
     let router = match browser::cors(config) {

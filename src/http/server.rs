@@ -2,21 +2,25 @@
 //! head of a request: clients that send half of one would be kept for ever, and
 //! would keep the service from stopping.
 
-use super::access::PeerAddress;
+use super::connections::{Connections, OpenConnection};
+use super::operator;
 use super::slow_client::SlowClientTimeout;
+use super::tracked_body::TrackedBody;
 use crate::config::Limits;
 use axum::Router;
 use axum::body::Body;
-use axum::http::Request;
+use axum::http::{Request, Response};
 use hyper::body::Incoming;
 use hyper::server::conn::http1;
+use hyper::service::service_fn;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::server::graceful::GracefulShutdown;
-use hyper_util::service::TowerToHyperService;
+use std::convert::Infallible;
+use std::io;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::{Semaphore, watch};
+use tokio::sync::watch;
 use tokio::task::JoinSet;
 use tower::ServiceExt;
 
@@ -24,21 +28,27 @@ use tower::ServiceExt;
 /// an immediate retry would only burn a core.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 
+/// Refusals in a row after which the listener counts as dead: a minute of them.
+const MOST_REFUSALS: u32 = 600;
+
 /// Serves until `stop` changes, then accepts no more connections, gives requests
 /// in progress a limited time to finish, and closes the remaining connections.
+///
+/// # Errors
+/// The listener accepts no connections any more.
 pub async fn serve(
     listener: TcpListener,
     router: Router,
     limits: Limits,
     mut stop: watch::Receiver<bool>,
-) {
+) -> io::Result<()> {
     let graceful = GracefulShutdown::new();
-    let mut connections = JoinSet::new();
-    tokio::select! {
-        () = accept(&listener, &router, &limits, &graceful, &mut connections) => {}
+    let mut tasks = JoinSet::new();
+    let ended = tokio::select! {
+        error = accept(&listener, &router, &limits, &graceful, &mut tasks) => Err(error),
         // An error means that the other end is gone, which also means stop.
-        _ = stop.changed() => {}
-    }
+        _ = stop.changed() => Ok(()),
+    };
     drop(listener);
     if tokio::time::timeout(limits.drain_timeout(), graceful.shutdown())
         .await
@@ -46,59 +56,86 @@ pub async fn serve(
     {
         tracing::warn!("requests in hand did not finish in time and were cut off");
     }
-    connections.shutdown().await;
+    tasks.shutdown().await;
+    ended
 }
 
+/// Accepts connections until the listener is dead; returns its error.
 async fn accept(
     listener: &TcpListener,
     router: &Router,
     limits: &Limits,
     graceful: &GracefulShutdown,
-    connections: &mut JoinSet<()>,
-) {
-    let places = Arc::new(Semaphore::new(limits.connections));
-    while let Ok(place) = Arc::clone(&places).acquire_owned().await {
+    tasks: &mut JoinSet<()>,
+) -> io::Error {
+    let connections = Connections::new(limits.clone());
+    let mut refusals = 0;
+    loop {
         match listener.accept().await {
             Ok((stream, peer)) => {
-                let peer = PeerAddress(peer.ip());
-                let connection = connection(stream, peer, router.clone(), limits, graceful);
-                connections.spawn(async move {
-                    connection.await;
-                    drop(place);
-                });
+                refusals = 0;
+                match connections.open(peer.ip().to_canonical()) {
+                    Some(open) => {
+                        tasks.spawn(connection(stream, open, router.clone(), limits, graceful));
+                    }
+                    // Without a place there is no time for a request either.
+                    None => drop(stream),
+                }
             }
             Err(error) => {
                 tracing::warn!(%error, "a connection was not taken");
+                refusals += 1;
+                if refusals >= MOST_REFUSALS {
+                    return error;
+                }
                 tokio::time::sleep(ACCEPT_PAUSE).await;
             }
         }
-        while connections.try_join_next().is_some() {}
+        while tasks.try_join_next().is_some() {}
     }
 }
 
 /// Serves one connection to its end.
 fn connection(
     stream: TcpStream,
-    peer: PeerAddress,
+    open: OpenConnection,
     router: Router,
     limits: &Limits,
     graceful: &GracefulShutdown,
 ) -> impl Future<Output = ()> + Send + use<> {
-    let service = router.map_request(move |mut request: Request<Incoming>| {
-        request.extensions_mut().insert(peer);
-        request.map(Body::new)
-    });
+    let open = Arc::new(open);
+    let served = Arc::clone(&open);
+    let service = service_fn(move |request| answer(router.clone(), Arc::clone(&served), request));
     let connection = http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(limits.header_read_timeout())
         .serve_connection(
             TokioIo::new(SlowClientTimeout::new(stream, limits.write_timeout())),
-            TowerToHyperService::new(service),
+            service,
         );
     let connection = graceful.watch(connection);
     async move {
-        if let Err(error) = connection.await {
-            tracing::debug!(%error, "a connection ended early");
+        tokio::select! {
+            ended = connection => if let Err(error) = ended {
+                tracing::debug!(%error, "a connection ended early");
+            },
+            () = open.closed() => tracing::debug!("an idle connection made room for another"),
         }
     }
+}
+
+/// Answers one request; the connection is busy until its answer is written.
+async fn answer(
+    router: Router,
+    open: Arc<OpenConnection>,
+    request: Request<Incoming>,
+) -> Result<Response<TrackedBody>, Infallible> {
+    let busy = open.begin_request();
+    let mut request = request.map(Body::new);
+    request.extensions_mut().insert(open.peer());
+    let response = match operator::refusal(open.place(), &request) {
+        Some(refused) => refused,
+        None => router.oneshot(request).await?,
+    };
+    Ok(response.map(|body| TrackedBody::new(body, busy)))
 }

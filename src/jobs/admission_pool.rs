@@ -4,9 +4,9 @@
 
 use super::fair_queue::FairQueue;
 use crate::config::Admission;
+use crate::quota::{InUse, Quota, UsedUp};
 use scree_solver::Cancellation;
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 use thiserror::Error;
 use tokio::time::{Instant, timeout_at};
 
@@ -16,8 +16,8 @@ pub struct AdmissionPool {
     threads: FairQueue,
     /// The one thread of timings, which would slow each other.
     timings: FairQueue,
-    guests: Arc<Mutex<BTreeMap<String, usize>>>,
-    limits: Admission,
+    requests: Quota,
+    time_limit: Duration,
 }
 
 /// Reason why a request is not admitted.
@@ -55,7 +55,7 @@ pub enum AdmissionError {
 #[derive(Debug)]
 pub struct Admitted {
     pool: AdmissionPool,
-    caller: String,
+    place: InUse,
     end: Instant,
     cancellation: Cancellation,
 }
@@ -66,8 +66,8 @@ impl AdmissionPool {
         Self {
             threads: FairQueue::new(limits.threads(cores)),
             timings: FairQueue::new(1),
-            guests: Arc::default(),
-            limits: limits.clone(),
+            requests: Quota::new(limits.requests, limits.requests_per_caller()),
+            time_limit: limits.time_limit(),
         }
     }
 
@@ -76,26 +76,19 @@ impl AdmissionPool {
     /// # Errors
     /// The pool is full, or the caller has its share of it.
     pub fn enter(&self, caller: &str) -> Result<Admitted, AdmissionError> {
-        let mut guests = self.guests();
-        let requests: usize = guests.values().sum();
-        if requests >= self.limits.requests {
-            return Err(AdmissionError::Full { requests });
-        }
-        let own = guests.get(caller).copied().unwrap_or_default();
-        if own >= self.limits.requests_per_caller() {
-            return Err(AdmissionError::ShareSpent { requests: own });
-        }
-        guests.insert(caller.to_owned(), own + 1);
+        let place = self
+            .requests
+            .enter(caller)
+            .map_err(|used_up| match used_up {
+                UsedUp::ByAll(requests) => AdmissionError::Full { requests },
+                UsedUp::ByCaller(requests) => AdmissionError::ShareSpent { requests },
+            })?;
         Ok(Admitted {
             pool: self.clone(),
-            caller: caller.to_owned(),
-            end: Instant::now() + self.limits.time_limit(),
+            place,
+            end: Instant::now() + self.time_limit,
             cancellation: Cancellation::default(),
         })
-    }
-
-    fn guests(&self) -> MutexGuard<'_, BTreeMap<String, usize>> {
-        self.guests.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -128,7 +121,7 @@ impl Admitted {
         threads: &FairQueue,
         work: impl FnOnce(&Cancellation) -> T + Send + 'static,
     ) -> Result<T, AdmissionError> {
-        let turn = timeout_at(self.end, threads.turn(&self.caller)).await;
+        let turn = timeout_at(self.end, threads.turn(self.place.caller())).await;
         let turn = turn.map_err(|_| self.timed_out())?;
         let cancellation = self.cancellation.clone();
         let done = tokio::task::spawn_blocking(move || {
@@ -145,7 +138,7 @@ impl Admitted {
     }
 
     fn timed_out(&self) -> AdmissionError {
-        let limit_s = self.pool.limits.time_limit().as_secs();
+        let limit_s = self.pool.time_limit.as_secs();
         AdmissionError::TimedOut { limit_s }
     }
 }
@@ -153,13 +146,6 @@ impl Admitted {
 impl Drop for Admitted {
     fn drop(&mut self) {
         self.cancellation.ask();
-        let mut guests = self.pool.guests();
-        if let Some(requests) = guests.get_mut(&self.caller) {
-            *requests -= 1;
-            if *requests == 0 {
-                guests.remove(&self.caller);
-            }
-        }
     }
 }
 
@@ -167,7 +153,6 @@ impl Drop for Admitted {
 mod tests {
     use super::*;
     use std::sync::mpsc;
-    use std::time::Duration;
 
     fn pool(requests: usize, time_limit_s: f64) -> AdmissionPool {
         let limits = Admission {
@@ -176,20 +161,6 @@ mod tests {
             time_limit_s,
         };
         AdmissionPool::new(&limits, 1)
-    }
-
-    #[test]
-    fn one_caller_has_half_of_the_pool_and_all_of_them_the_whole() {
-        let pool = pool(4, 1.0);
-        let a: Vec<_> = (0..2).map(|_| pool.enter("a").unwrap()).collect();
-        let refused = pool.enter("a").unwrap_err();
-        assert_eq!(refused, AdmissionError::ShareSpent { requests: 2 });
-        let _b: Vec<_> = (0..2).map(|_| pool.enter("b").unwrap()).collect();
-        let refused = pool.enter("c").unwrap_err();
-        assert_eq!(refused, AdmissionError::Full { requests: 4 });
-        drop(a);
-        assert!(pool.enter("c").is_ok());
-        assert_eq!(pool.guests().len(), 1, "a caller who left is forgotten");
     }
 
     #[tokio::test]

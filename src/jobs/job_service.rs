@@ -4,6 +4,7 @@ use super::admission::InFlight;
 use super::admission_pool::{AdmissionError, AdmissionPool, Admitted};
 use super::forecast::{ForecastError, Planned, forecast};
 use super::job::{Job, JobId, JobStatus, JobSummary};
+use super::news::{Followers, News};
 use super::pool::RunningJobRegistry;
 use super::store::{Dismissal, Event, JobCounts, JobStore, Page, Removal, StoreError};
 use super::submit::{self, Means, NewJob, ScenarioError};
@@ -11,14 +12,13 @@ use crate::config::Limits;
 use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
-use tokio::time::{Instant, sleep, timeout};
+use tokio::sync::broadcast::Receiver;
+use tokio::sync::broadcast::error::RecvError;
+use tokio::time::{Instant, timeout, timeout_at};
 
 /// Time that a dismissal waits for the run to end, so that its answer shows the job's final
 /// state. A run stops after the current sub-step, well within this time.
 const STOP_WAIT: Duration = Duration::from_millis(450);
-
-/// Time between two polls for the end of a job.
-const LOOK_PAUSE: Duration = Duration::from_millis(50);
 
 /// Service that clients use to submit, follow, dismiss and remove jobs.
 #[derive(Debug, Clone)]
@@ -29,6 +29,7 @@ pub struct JobService {
     pub(super) in_flight: InFlight,
     pool: AdmissionPool,
     means: Means,
+    followers: Followers,
 }
 
 /// Reason why there is no plan.
@@ -63,8 +64,10 @@ impl JobService {
         registry: Arc<RunningJobRegistry>,
         limits: Limits,
         (pool, means): (AdmissionPool, Means),
+        followers: Followers,
     ) -> Self {
         Self {
+            followers,
             store,
             registry,
             limits,
@@ -157,17 +160,24 @@ impl JobService {
     /// The store's own.
     pub async fn wait_for_end(&self, id: JobId, longest: Duration) -> Result<(), StoreError> {
         let end = Instant::now() + longest;
-        while self
-            .status(id)
-            .await?
-            .is_some_and(|status| !status.is_final())
-        {
-            if Instant::now() >= end || self.is_closing() {
-                break;
+        let mut news = self.news();
+        let goes_on = |status: Option<JobStatus>| status.is_some_and(|status| !status.is_final());
+        while goes_on(self.status(id).await?) {
+            // Until there is news of it; one who is behind looks at the job itself.
+            loop {
+                match timeout_at(end, news.recv()).await {
+                    Err(_) | Ok(Ok(News::Closing) | Err(RecvError::Closed)) => return Ok(()),
+                    Ok(Ok(News::Events(events))) if events.iter().all(|event| event.job != id) => {}
+                    Ok(Ok(News::Events(_)) | Err(RecvError::Lagged(_))) => break,
+                }
             }
-            sleep(LOOK_PAUSE.min(end.duration_since(Instant::now()))).await;
         }
         Ok(())
+    }
+
+    /// News of jobs: of all events that are stored after this returns.
+    pub fn news(&self) -> Receiver<News> {
+        self.followers.join()
     }
 
     /// Removes a job that has ended, with all its records.
@@ -192,11 +202,6 @@ impl JobService {
     /// The store's own.
     pub async fn last_event(&self) -> Result<i64, StoreError> {
         self.store.last_event().await
-    }
-
-    /// True if the service is stopping.
-    pub fn is_closing(&self) -> bool {
-        self.registry.submissions().is_none()
     }
 
     /// Counts jobs.

@@ -1,0 +1,83 @@
+//! News of jobs: one task reads the events of the database and tells all who follow, who would
+//! otherwise each ask the database all the time.
+
+use super::pool::RunningJobRegistry;
+use super::store::{Event, JobStore, StoreError};
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::broadcast;
+use tokio::task::JoinHandle;
+use tokio::time::sleep;
+use tracing::warn;
+
+/// Time between two looks for events.
+const LOOK_PAUSE: Duration = Duration::from_millis(50);
+
+/// Pieces of news that a follower may be behind; one that is further behind asks the database.
+const BACKLOG: usize = 256;
+
+/// A piece of news.
+#[derive(Debug, Clone)]
+pub enum News {
+    /// Events, in order.
+    Events(Arc<[Event]>),
+    /// The service is stopping: no more news follows.
+    Closing,
+}
+
+/// Those who follow the jobs of a service.
+#[derive(Debug, Clone)]
+pub struct Followers(broadcast::Sender<News>);
+
+impl Followers {
+    /// Starts the task that tells the news; it ends when the registry closes.
+    pub fn start(
+        store: Arc<dyn JobStore>,
+        registry: Arc<RunningJobRegistry>,
+    ) -> (Self, JoinHandle<()>) {
+        let (sender, _) = broadcast::channel(BACKLOG);
+        let followers = Self(sender.clone());
+        let task = tokio::spawn(async move { tell(&*store, &registry, &sender).await });
+        (followers, task)
+    }
+
+    /// News from now on: of all events that are stored after this returns.
+    pub(super) fn join(&self) -> broadcast::Receiver<News> {
+        self.0.subscribe()
+    }
+}
+
+async fn tell(
+    store: &dyn JobStore,
+    registry: &RunningJobRegistry,
+    sender: &broadcast::Sender<News>,
+) {
+    let mut last = None;
+    while registry.submissions().is_some() {
+        match next(store, &mut last).await {
+            Ok(events) if events.is_empty() => {}
+            // Without a follower nobody misses it.
+            Ok(events) => drop(sender.send(News::Events(events.into()))),
+            Err(error) => warn!(%error, "events can't be read now"),
+        }
+        sleep(LOOK_PAUSE).await;
+    }
+    drop(sender.send(News::Closing));
+}
+
+/// All events after the last ones.
+async fn next(store: &dyn JobStore, last: &mut Option<i64>) -> Result<Vec<Event>, StoreError> {
+    let mut after = match *last {
+        Some(last) => last,
+        None => store.last_event().await?,
+    };
+    let mut events = Vec::new();
+    loop {
+        let page = store.events(after, None).await?;
+        let Some(newest) = page.last() else { break };
+        after = newest.sequence;
+        events.extend(page);
+    }
+    *last = Some(after);
+    Ok(events)
+}
