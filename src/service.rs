@@ -6,7 +6,7 @@ use crate::jobs::JobService;
 use crate::jobs::clock::SystemClock;
 use crate::jobs::pool::Pool;
 use crate::jobs::store::sqlite::SqliteStore;
-use crate::jobs::store::{JobStore, StoreError};
+use crate::jobs::store::{JobStore, StoreError, StoreErrorKind};
 use std::net::SocketAddr;
 use std::sync::Arc;
 use thiserror::Error;
@@ -100,7 +100,8 @@ pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> 
 /// The store of the service: the one place that names a database.
 async fn open_store(config: &ServiceConfig) -> Result<Arc<dyn JobStore>, StoreError> {
     let largest = config.limits.database_bytes;
-    let store = SqliteStore::open_with(&config.database, largest, Arc::new(SystemClock)).await?;
+    let store =
+        SqliteStore::open_with(&config.database, largest, Arc::new(SystemClock::default())).await?;
     Ok(Arc::new(store))
 }
 
@@ -110,11 +111,9 @@ async fn serve(
     store: &Arc<dyn JobStore>,
     listener: TcpListener,
 ) -> Result<(Pool, JoinHandle<()>, watch::Sender<bool>), StartError> {
-    let left_running = store.reclaim_own(&config.queue.name).await?;
-    if left_running > 0 {
-        tracing::warn!(left_running, "the last service died under jobs: they go on");
-    }
-    let pool = Pool::start(Arc::clone(store), size, config).map_err(StartError::Workers)?;
+    let left_running = left_running(config, store).await?;
+    let pool = Pool::start(Arc::clone(store), size, config, left_running);
+    let pool = pool.map_err(StartError::Workers)?;
     let limits = config.limits.clone();
     let jobs = JobService::new(
         Arc::clone(store),
@@ -126,6 +125,22 @@ async fn serve(
     let (stop, stopped) = watch::channel(false);
     let server = http::server::serve(listener, router, config.limits.clone(), stopped);
     Ok((pool, tokio::spawn(server), stop))
+}
+
+/// Number of jobs that a former process left running, once they are reclaimed; `None` if the
+/// database can't be written now.
+async fn left_running(
+    config: &ServiceConfig,
+    store: &Arc<dyn JobStore>,
+) -> Result<Option<usize>, StoreError> {
+    match store.reclaim_own(&config.queue.name).await {
+        Ok(count) => Ok(Some(count)),
+        Err(error) if error.kind() == StoreErrorKind::Defect => Err(error),
+        Err(error) => {
+            tracing::error!(%error, "no job is run until the database can be written");
+            Ok(None)
+        }
+    }
 }
 
 async fn listen(address: SocketAddr) -> Result<(TcpListener, SocketAddr), StartError> {

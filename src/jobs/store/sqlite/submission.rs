@@ -1,8 +1,8 @@
 //! Submission of jobs: one request, one transaction, all of its jobs or none.
 
-use super::SqliteStore;
 use super::error::Answer;
 use super::rows::integer;
+use super::{Now, SqliteStore};
 use crate::jobs::job::JobId;
 use crate::jobs::store::{Key, StoreError, Submission, Submitted};
 use crate::jobs::submit::NewJob;
@@ -10,7 +10,7 @@ use sqlx::sqlite::SqliteConnection;
 
 impl SqliteStore {
     pub(super) async fn submit(&self, submission: &Submission<'_>) -> Answer<Submitted> {
-        let now_ms = self.now_ms();
+        let now = self.now();
         let mut transaction = self.begin_write().await?;
         if let Some(key) = &submission.key
             && let Some(before) = former_request(&mut transaction, submission, key).await?
@@ -25,13 +25,7 @@ impl SqliteStore {
             None => None,
         };
         for job in submission.jobs {
-            insert(
-                &mut transaction,
-                job,
-                submission.submitter,
-                (now_ms, request),
-            )
-            .await?;
+            insert(&mut transaction, job, submission.submitter, (now, request)).await?;
         }
         transaction.commit().await?;
         Ok(Submitted::Accepted)
@@ -51,7 +45,7 @@ impl SqliteStore {
         .bind(scenario_hash)
         .bind(solver.0)
         .bind(solver.1)
-        .fetch_optional(&self.readers)
+        .fetch_optional(self.readers.pool())
         .await?;
         id.map(|id| parse(&id)).transpose()
     }
@@ -135,16 +129,17 @@ async fn insert(
     connection: &mut SqliteConnection,
     job: &NewJob,
     submitter: Option<&str>,
-    (now_ms, request): (i64, Option<i64>),
+    (now, request): (Now, Option<i64>),
 ) -> Answer<()> {
     let id = job.id.to_string();
     sqlx::query(
         "INSERT INTO jobs (id, created_ms, scenario, title, bodies, solver_version,
-                           scenario_hash, submitter, keyed_request, plan)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
+                           scenario_hash, submitter, keyed_request, plan,
+                           created_operating_ms)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
     )
     .bind(&id)
-    .bind(now_ms)
+    .bind(now.wall_ms)
     .bind(&job.scenario)
     .bind(&job.title)
     .bind(integer(job.bodies as u64))
@@ -153,6 +148,7 @@ async fn insert(
     .bind(submitter)
     .bind(request)
     .bind(&job.plan)
+    .bind(now.operating_ms)
     .execute(&mut *connection)
     .await?;
     for label in &job.labels {
