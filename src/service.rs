@@ -5,14 +5,17 @@ use crate::http;
 use crate::jobs::JobService;
 use crate::jobs::clock::SystemClock;
 use crate::jobs::pool::Pool;
-use crate::jobs::store::sqlite::SqliteStore;
+use crate::jobs::store::sqlite::{SqliteStore, backup};
 use crate::jobs::store::{JobStore, StoreError, StoreErrorKind};
 use std::net::SocketAddr;
+use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
 use tokio::net::TcpListener;
 use tokio::sync::watch;
 use tokio::task::JoinHandle;
+
+pub use backup::{Backup, BackupError};
 
 /// Error at the start of the service.
 #[derive(Debug, Error)]
@@ -103,6 +106,18 @@ async fn open_store(config: &ServiceConfig) -> Result<Arc<dyn JobStore>, StoreEr
     let store =
         SqliteStore::open_with(&config.database, largest, Arc::new(SystemClock::default())).await?;
     Ok(Arc::new(store))
+}
+
+/// Copies a database, which a service may be using, to a file.
+///
+/// # Errors
+/// [`BackupError`]; the destination is unchanged then.
+pub async fn back_up(
+    database: &Path,
+    destination: &Path,
+    replace: bool,
+) -> Result<Backup, BackupError> {
+    backup::back_up(database, destination, replace).await
 }
 
 async fn serve(

@@ -12,6 +12,7 @@
 //!
 //! [`JobStore`]: super::JobStore
 
+pub mod backup;
 mod ending;
 mod error;
 mod events;
