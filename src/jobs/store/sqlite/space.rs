@@ -20,8 +20,8 @@ impl SqliteStore {
         let began = Instant::now();
         let mut given = false;
         while self.free_pages().await? > KEPT_PAGES && began.elapsed() < TIME_AT_ONCE {
-            // Pages of one slice: it holds up other writes, for less than 50 ms.
-            sqlx::query("PRAGMA incremental_vacuum(128)")
+            // So few pages that other writes wait for less than 50 ms.
+            sqlx::query("PRAGMA incremental_vacuum(32)")
                 .execute(&self.writer)
                 .await?;
             given = true;

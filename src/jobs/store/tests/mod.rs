@@ -95,7 +95,12 @@ pub(super) struct Fixture {
 
 impl Fixture {
     pub(super) async fn new(open: Open) -> Self {
-        let directory = Arc::new(TempDir::new().unwrap());
+        Self::within(TempDir::new().unwrap(), open).await
+    }
+
+    /// A driver with the database in this folder.
+    pub(super) async fn within(directory: TempDir, open: Open) -> Self {
+        let directory = Arc::new(directory);
         let clock = Arc::new(SetClock::new());
         let store = open(directory.path().to_owned(), clock.clone()).await;
         Self {
@@ -172,7 +177,7 @@ impl Fixture {
             .collect()
     }
 
-    fn pass(&self, time: Duration) {
+    pub(super) fn pass(&self, time: Duration) {
         self.clock.pass(time);
     }
 }

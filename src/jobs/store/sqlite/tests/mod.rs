@@ -1,5 +1,10 @@
-//! Rules of the SQLite driver alone: those that the database enforces, the single file,
-//! the lock, the kinds of its errors.
+//! Rules of the SQLite driver alone: those that the database enforces, the lock, the kinds of
+//! its errors; the file ([`files`]), former versions ([`upgrade`]), backups and space.
+
+mod backups;
+mod files;
+mod space;
+mod upgrade;
 
 use super::SqliteStore;
 use crate::jobs::clock::{Clock, SystemClock};
@@ -113,7 +118,7 @@ async fn outcomes_of_former_versions_get_the_present_keys() {
         .succeed(lease, former, FINGERPRINT)
         .await
         .unwrap();
-    let renaming = include_str!("../../../../migrations/0007_outcome_keys.sql");
+    let renaming = include_str!("../../../../../migrations/0007_outcome_keys.sql");
     sqlx::raw_sql(renaming)
         .execute(&mut past(&fixture).await)
         .await
