@@ -2,7 +2,7 @@
 
 use super::error::SqliteError;
 use super::file::Location;
-use super::inspection::{inspect, reading};
+use super::inspection::{connect_to_read, immutable, inspect};
 use crate::jobs::store::StoreError;
 use crate::results::chunk::Block;
 use futures_util::TryStreamExt;
@@ -83,7 +83,11 @@ pub async fn back_up(
         .tempfile_in(directory)
         .map_err(failed)?
         .into_temp_path();
-    copy_to(&location.path, &copy).await?;
+    let name = copy.to_str().ok_or_else(|| {
+        let reason = "its folder's name is not valid UTF-8, which SQLite needs";
+        failed(io::Error::new(io::ErrorKind::InvalidInput, reason))
+    })?;
+    copy_to(&location.path, name).await?;
     let jobs = verify(&copy).await?;
     let bytes = sync(&copy).map_err(failed)?;
     publish(copy, destination, replace)?;
@@ -112,8 +116,8 @@ fn directory_of(destination: &Path) -> &Path {
     }
 }
 
-async fn copy_to(database: &Path, copy: &Path) -> Result<(), BackupError> {
-    let mut connection = reading(database).connect().await?;
+async fn copy_to(database: &Path, copy: &str) -> Result<(), BackupError> {
+    let mut connection = connect_to_read(database).await?;
     // The copy can give free space back, also if the database can't.
     let shrinks: i64 = sqlx::query_scalar("PRAGMA auto_vacuum")
         .fetch_one(&mut connection)
@@ -124,7 +128,7 @@ async fn copy_to(database: &Path, copy: &Path) -> Result<(), BackupError> {
             .await?;
     }
     sqlx::query("VACUUM INTO ?1")
-        .bind(copy.to_string_lossy())
+        .bind(copy)
         .execute(&mut connection)
         .await?;
     Ok(connection.close().await?)
@@ -132,7 +136,7 @@ async fn copy_to(database: &Path, copy: &Path) -> Result<(), BackupError> {
 
 /// Checks a copy, and counts its jobs.
 async fn verify(copy: &Path) -> Result<u64, BackupError> {
-    let mut connection = reading(copy).connect().await?;
+    let mut connection = immutable(copy).connect().await?;
     let verdict: Vec<String> = sqlx::query_scalar("PRAGMA integrity_check")
         .fetch_all(&mut connection)
         .await?;
@@ -159,7 +163,8 @@ async fn verify_blocks(connection: &mut SqliteConnection) -> Result<(), BackupEr
             .is_ok_and(|checksum| Block { data, checksum }.is_sound());
         if !sound {
             return Err(BackupError::Unsound(format!(
-                "a block of job {job} does not have its checksum"
+                "a block of job {job} does not have its checksum, nor has it in the database; \
+                 remove this job there, and try again"
             )));
         }
     }

@@ -73,7 +73,14 @@ enum Fault {
 /// # Errors
 /// It is not a database, that of another program, or of a newer version.
 pub(super) async fn inspect(path: &Path) -> Result<Inspected, StoreError> {
-    let mut connection = reading(path).connect().await.map_err(SqliteError::from)?;
+    // Without a log no connection is open that could write it, and none is created.
+    let logged = beside(path, "-wal").exists();
+    let connected = if logged {
+        connect_to_read(path).await
+    } else {
+        immutable(path).connect().await
+    };
+    let mut connection = connected.map_err(SqliteError::from)?;
     let looked = look(&mut connection).await;
     connection.close().await.map_err(SqliteError::from)?;
     looked?.map_err(|fault| {
@@ -82,16 +89,32 @@ pub(super) async fn inspect(path: &Path) -> Result<Inspected, StoreError> {
     })
 }
 
-/// Options to read a database without leaving a trace: while no connection has it open and
-/// nothing is left to recover, no further file is needed.
-pub(super) fn reading(path: &Path) -> SqliteConnectOptions {
-    let options = SqliteConnectOptions::new().filename(path).read_only(true);
-    options.immutable(is_complete(path))
+/// A connection to a file that nobody writes, which needs no further file.
+pub(super) fn immutable(path: &Path) -> SqliteConnectOptions {
+    let options = SqliteConnectOptions::new().filename(path);
+    options.read_only(true).immutable(true)
 }
 
 /// True if all of a database is in its main file.
 pub(super) fn is_complete(path: &Path) -> bool {
     fs::metadata(beside(path, "-wal")).map_or(true, |log| log.len() == 0)
+}
+
+/// A connection that reads beside a service, or where nobody can write.
+pub(super) async fn connect_to_read(path: &Path) -> Result<SqliteConnection, sqlx::Error> {
+    let options = SqliteConnectOptions::new().filename(path).read_only(true);
+    match has_read(options).await {
+        Err(_) if is_complete(path) => has_read(immutable(path)).await,
+        connected => connected,
+    }
+}
+
+async fn has_read(options: SqliteConnectOptions) -> Result<SqliteConnection, sqlx::Error> {
+    let mut connection = options.connect().await?;
+    sqlx::query("SELECT count(*) FROM sqlite_schema")
+        .execute(&mut connection)
+        .await?;
+    Ok(connection)
 }
 
 async fn look(connection: &mut SqliteConnection) -> Answer<Result<Inspected, Fault>> {

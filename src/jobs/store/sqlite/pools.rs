@@ -1,7 +1,7 @@
 //! Connections to a database: one that writes, and those that read.
 
 use super::error::SqliteError;
-use super::inspection::is_complete;
+use super::inspection::{immutable, is_complete};
 use crate::jobs::store::StoreError;
 use sqlx::Connection;
 use sqlx::sqlite::{
@@ -40,8 +40,7 @@ impl Readers {
         let (shared, immutable) = match connect(options.clone()).await {
             Ok(shared) => (shared, None),
             Err(_) if is_complete(path) => {
-                let alone = SqliteConnectOptions::new().filename(path).immutable(true);
-                let alone = connect(alone.read_only(true)).await;
+                let alone = connect(immutable(path)).await;
                 let alone = alone.map_err(SqliteError::from)?;
                 (pool().connect_lazy_with(options), Some(alone))
             }

@@ -12,7 +12,7 @@ pub(super) static MIGRATOR: Migrator = sqlx::migrate!();
 
 /// Length up to which a database of a former version is rewritten at the start, so that it
 /// can give free space back to the system [bytes]: this takes about a second. A longer one
-/// becomes so by `scree backup`.
+/// becomes so in a copy by `scree backup`.
 const REWRITTEN_BYTES: u64 = 64 << 20;
 
 /// Brings a database to this version's schema and settings.

@@ -1,6 +1,7 @@
 //! Backups of a database in use.
 
 use super::super::backup::{BackupError, back_up};
+use super::upgrade::former;
 use super::*;
 use std::fs;
 
@@ -84,4 +85,26 @@ async fn a_backup_of_a_damaged_database_is_not_kept() {
         "{unsound}"
     );
     assert!(!destination.exists());
+}
+
+#[tokio::test]
+async fn a_backup_of_a_former_version_can_give_space_back() {
+    let directory = TempDir::new().unwrap();
+    let database = directory.path().join("former.db");
+    former(&database).await;
+    // Its block is made up.
+    sqlx::query("DELETE FROM trajectory_chunks")
+        .execute(&mut connect(&database).await)
+        .await
+        .unwrap();
+    let destination = directory.path().join("backup.db");
+    let made = back_up(&database, &destination, false).await.unwrap();
+    assert_eq!(made.jobs, 5);
+    for (path, expected) in [(&database, 0), (&destination, 2)] {
+        let set: i64 = sqlx::query_scalar("PRAGMA auto_vacuum")
+            .fetch_one(&mut connect(path).await)
+            .await
+            .unwrap();
+        assert_eq!(set, expected, "{path:?}");
+    }
 }

@@ -36,7 +36,7 @@ DELETE FROM jobs WHERE sequence = 6;
 ";
 
 /// Makes such a database.
-async fn former(path: &Path) {
+pub(super) async fn former(path: &Path) {
     let url = format!("sqlite://{}?mode=rwc", path.display());
     let mut connection = SqliteConnection::connect(&url).await.unwrap();
     MIGRATOR
