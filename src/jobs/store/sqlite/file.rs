@@ -15,6 +15,7 @@ pub(super) enum FileFault {
     NoDirectory,
     #[error("it is not a regular file: name a file")]
     NotAFile,
+    #[cfg(unix)]
     #[error(
         "the file has {0} names (hard links), so that two services could use it at once: remove \
          the other names, or use a copy of it (scree backup)"

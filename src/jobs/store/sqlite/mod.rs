@@ -7,7 +7,7 @@
 //! the disk before it is acknowledged (`synchronous=FULL`). A lock file beside the
 //! database keeps a second service from using it.
 //!
-//! A database is inspected read-only before anything is written ([`inspection`]). One that
+//! A database is inspected read-only before anything is written (`inspection.rs`). One that
 //! can't be written is read all the same, and written as soon as it can be.
 //!
 //! [`JobStore`]: super::JobStore

@@ -11,6 +11,7 @@ conformance! {
     what_ended_by_a_wrong_clock_is_kept_as_long_as_anything
     what_ended_is_kept_as_long_while_the_clock_jumps_back_and_forth
     the_time_between_stop_and_start_does_not_count
+    a_crash_loses_little_of_the_time_that_has_passed
     a_lease_goes_on_after_a_restart_for_what_was_left_of_it
 }
 
@@ -148,6 +149,19 @@ async fn the_time_between_stop_and_start_does_not_count(fixture: &Fixture) {
     assert!(fixture.store.job(id).await.unwrap().is_none());
     let id = fixture.submit_and_end().await;
     fixture.is_kept_for_a_day(id).await;
+}
+
+async fn a_crash_loses_little_of_the_time_that_has_passed(fixture: &Fixture) {
+    let fixture = fixture.another().await;
+    fixture.submit_and_end().await;
+    for _ in 0..24 {
+        fixture.pass(DAY / 24 - Duration::from_secs(1));
+        fixture.store.maintain().await.unwrap();
+    }
+    let fixture = fixture.opened_after_a_crash().await;
+    assert_eq!(fixture.remove_older_than_a_day().await, 0);
+    fixture.pass(Duration::from_secs(24));
+    assert_eq!(fixture.remove_older_than_a_day().await, 1);
 }
 
 async fn a_lease_goes_on_after_a_restart_for_what_was_left_of_it(fixture: &Fixture) {

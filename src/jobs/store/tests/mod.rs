@@ -124,6 +124,13 @@ impl Fixture {
         }
     }
 
+    /// The same database, opened again without having been closed.
+    async fn opened_after_a_crash(self) -> Self {
+        drop(self.store);
+        let store = (self.open)(self.directory.path().to_owned(), self.clock.clone()).await;
+        Self { store, ..self }
+    }
+
     /// Another empty database of the same driver.
     async fn another(&self) -> Self {
         Self::new(self.open).await
