@@ -163,6 +163,7 @@ impl ServiceConfig {
     pub fn check(&self, cores: usize) -> Result<PoolSize, ConfigError> {
         tokens::check(&self.tokens)?;
         self.check_listen()?;
+        self.check_database()?;
         self.browser.check()?;
         self.check_times()?;
         self.admission.check()?;
@@ -182,6 +183,18 @@ impl ServiceConfig {
             "without access tokens (\"scree token\" makes one) the service only listens on the \
              loopback interface (127.0.0.1 or [::1])",
         ))
+    }
+
+    /// SQLite gives these names a meaning of their own, and the lock file would be beside
+    /// something that is no file.
+    fn check_database(&self) -> Result<(), ConfigError> {
+        let name = self.database.to_string_lossy();
+        if !name.is_empty() && name != ":memory:" && !name.starts_with("file:") {
+            return Ok(());
+        }
+        let reason = "allowed is the path of a file; a database in memory would lose every job, \
+                      and a path is not written as a URI";
+        Err(not_allowed("database", format!("{name:?}"), reason))
     }
 
     fn check_times(&self) -> Result<(), ConfigError> {

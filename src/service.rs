@@ -4,17 +4,20 @@ use crate::config::{ConfigError, PoolSize, ServiceConfig};
 use crate::http;
 use crate::jobs::clock::SystemClock;
 use crate::jobs::pool::Pool;
-use crate::jobs::store::sqlite::SqliteStore;
-use crate::jobs::store::{JobStore, StoreError};
+use crate::jobs::store::sqlite::{SqliteStore, backup};
+use crate::jobs::store::{JobStore, StoreError, StoreErrorKind};
 use crate::jobs::submit::Means;
 use crate::jobs::{AdmissionPool, Followers, JobService};
 use std::io;
 use std::net::SocketAddr;
+use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
 use tokio::net::TcpListener;
 use tokio::sync::watch;
 use tokio::task::JoinHandle;
+
+pub use backup::{Backup, BackupError};
 
 /// Error at the start of the service.
 #[derive(Debug, Error)]
@@ -131,8 +134,21 @@ pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> 
 /// The store of the service: the one place that names a database.
 async fn open_store(config: &ServiceConfig) -> Result<Arc<dyn JobStore>, StoreError> {
     let largest = config.limits.database_bytes;
-    let store = SqliteStore::open_with(&config.database, largest, Arc::new(SystemClock)).await?;
+    let store =
+        SqliteStore::open_with(&config.database, largest, Arc::new(SystemClock::default())).await?;
     Ok(Arc::new(store))
+}
+
+/// Copies a database, which a service may be using, to a file.
+///
+/// # Errors
+/// [`BackupError`]; the destination is unchanged then.
+pub async fn back_up(
+    database: &Path,
+    destination: &Path,
+    replace: bool,
+) -> Result<Backup, BackupError> {
+    backup::back_up(database, destination, replace).await
 }
 
 async fn serve(
@@ -141,11 +157,9 @@ async fn serve(
     store: &Arc<dyn JobStore>,
     listener: TcpListener,
 ) -> Result<Tasks, StartError> {
-    let left_running = store.reclaim_own(&config.queue.name).await?;
-    if left_running > 0 {
-        tracing::warn!(left_running, "the last service died under jobs: they go on");
-    }
-    let pool = Pool::start(Arc::clone(store), size, config).map_err(StartError::Workers)?;
+    let left_running = left_running(config, store).await?;
+    let pool = Pool::start(Arc::clone(store), size, config, left_running);
+    let pool = pool.map_err(StartError::Workers)?;
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let means = Means {
         threads_per_worker: size.threads_per_worker,
@@ -168,6 +182,22 @@ async fn serve(
         server: Some(tokio::spawn(server)),
         stop,
     })
+}
+
+/// Number of jobs that a former process left running, once they are reclaimed; `None` if the
+/// database can't be written now.
+async fn left_running(
+    config: &ServiceConfig,
+    store: &Arc<dyn JobStore>,
+) -> Result<Option<usize>, StoreError> {
+    match store.reclaim_own(&config.queue.name).await {
+        Ok(count) => Ok(Some(count)),
+        Err(error) if error.kind() == StoreErrorKind::Defect => Err(error),
+        Err(error) => {
+            tracing::error!(%error, "no job is run until the database can be written");
+            Ok(None)
+        }
+    }
 }
 
 async fn listen(address: SocketAddr) -> Result<(TcpListener, SocketAddr), StartError> {

@@ -20,6 +20,8 @@ const EXIT_CODES: &str =
 pub(super) enum Command {
     /// Start the HTTP service
     Serve(ServeOptions),
+    /// Copy the service's database, which may be in use, to a file
+    Backup(BackupOptions),
     /// Make an access token for the service
     Token(TokenOptions),
     /// Compute one scenario here, without the service
@@ -50,6 +52,19 @@ pub(super) struct ServeOptions {
     /// [default: configs/service.toml, if it exists]
     #[arg(long, value_name = "FILE")]
     pub(super) config: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct BackupOptions {
+    /// Database of the service
+    #[arg(long, value_name = "FILE", default_value = "scree.db")]
+    pub(super) database: PathBuf,
+    /// File to write
+    #[arg(value_name = "DEST")]
+    pub(super) destination: PathBuf,
+    /// Replace the destination if it exists
+    #[arg(long)]
+    pub(super) replace: bool,
 }
 
 #[derive(Debug, Args)]

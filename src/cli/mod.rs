@@ -5,6 +5,7 @@
 //! in use).
 
 mod arguments;
+mod backup;
 mod bench;
 mod charts;
 mod columns;
@@ -37,6 +38,7 @@ pub(crate) fn run() -> ExitCode {
     };
     let result = match &arguments.command {
         Command::Serve(options) => serve::serve(options),
+        Command::Backup(options) => backup::backup(options),
         Command::Token(options) => token::token(options),
         Command::Run(options) => local_run::run(options),
         Command::Plan(options) => plan::plan(options),

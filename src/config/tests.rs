@@ -76,6 +76,17 @@ fn what_types_can_not_forbid_is_refused_by_name() {
     assert!(nan.contains("recording.flush_interval_s = NaN"), "{nan}");
     let zero = refused(|config| config.limits.connections = 0);
     assert!(zero.contains("limits.connections = 0"), "{zero}");
+    for name in ["", ":memory:", "file:scree.db?mode=memory"] {
+        let config = ServiceConfig {
+            database: name.into(),
+            ..ServiceConfig::default()
+        };
+        let refused = config.check(2).unwrap_err().to_string();
+        assert!(
+            refused.contains(&format!("database = {name:?}")),
+            "{refused}"
+        );
+    }
     let open = refused(|config| config.listen = "0.0.0.0:80".parse().unwrap());
     assert!(open.contains("listen = 0.0.0.0:80"), "{open}");
     assert!(ServiceConfig::default().check(2).is_ok());

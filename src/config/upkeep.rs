@@ -8,7 +8,7 @@ use std::time::Duration;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Retention {
-    /// Days after which a job that has ended is removed; `None`: never.
+    /// Days of running service after which a job that has ended is removed; `None`: never.
     pub ended_jobs_d: Option<f64>,
 }
 

@@ -1,18 +1,14 @@
 //! Renews the leases of running jobs on a thread of its own, so that busy
 //! workers don't lose their jobs. Also reclaims jobs whose lease, held by
-//! another service, has run out, and removes jobs after their retention time.
+//! another service, has run out, removes jobs after their retention time, and does the
+//! upkeep of the store.
 
 use super::pool::Equipment;
 use super::store::{Renewal, StoreError};
-use jiff::Timestamp;
 use std::io;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
-use std::time::Instant;
 use tracing::{error, info, warn};
-
-/// Difference between the clock and the time that passed above which the clock has jumped [s].
-const TRUSTED_S: f64 = 60.0;
 
 /// Thread of the heartbeat; it ends once this is dropped.
 #[derive(Debug)]
@@ -32,11 +28,13 @@ impl LeaseHeartbeat {
         let thread = std::thread::Builder::new()
             .name("keeper".to_owned())
             .spawn(move || {
-                let retention = RetentionTask::new();
+                let mut upkeep = Upkeep::default();
                 // Nothing is ever sent: a closed channel marks the end.
                 while ended.recv_timeout(beat) == Err(RecvTimeoutError::Timeout) {
+                    equipment.reclaim_former_jobs();
                     renew_leases(&equipment);
-                    retention.remove_old(&equipment);
+                    remove_old(&equipment);
+                    upkeep.perform(&equipment);
                 }
             })?;
         Ok(Self {
@@ -84,51 +82,41 @@ fn renew_leases(equipment: &Equipment) {
     }
 }
 
-/// Removes jobs after their retention time, if the clock can be trusted.
-struct RetentionTask {
-    began: Instant,
-    wall: Timestamp,
+/// Removes jobs after their retention time.
+fn remove_old(equipment: &Equipment) {
+    let Some(age) = equipment.retention.ended_jobs() else {
+        return;
+    };
+    let age_ms = i64::try_from(age.as_millis()).unwrap_or(i64::MAX);
+    match equipment
+        .runtime
+        .block_on(equipment.store.remove_ended(age_ms))
+    {
+        Ok(0) => {}
+        Ok(count) => info!(count, "removed jobs that ended long ago"),
+        Err(error) => warn!(%error, "old jobs can't be removed now"),
+    }
 }
 
-impl RetentionTask {
-    fn new() -> Self {
-        Self {
-            began: Instant::now(),
-            wall: Timestamp::now(),
-        }
-    }
+/// Upkeep of the store; the log has the beginning and the end of a time without it.
+#[derive(Debug, Default)]
+struct Upkeep {
+    failing: bool,
+}
 
-    /// A clock that jumped must not remove anything: it is unknown which of its
-    /// two times was right.
-    fn clock_jumped(&self) -> bool {
-        let passed = Timestamp::now().duration_since(self.wall).as_secs_f64();
-        (passed - self.began.elapsed().as_secs_f64()).abs() > TRUSTED_S
-    }
-
-    fn remove_old(&self, equipment: &Equipment) {
-        let Some(age) = equipment.retention.ended_jobs() else {
-            return;
-        };
-        if self.clock_jumped() {
-            return;
+impl Upkeep {
+    fn perform(&mut self, equipment: &Equipment) {
+        let maintained = equipment.runtime.block_on(equipment.store.maintain());
+        match &maintained {
+            Ok(()) if self.failing => info!("the database can be written again"),
+            Err(error) if !self.failing => error!(%error, "the database can't be written"),
+            Ok(()) | Err(_) => {}
         }
-        let age_ms = i64::try_from(age.as_millis()).unwrap_or(i64::MAX);
-        match equipment
-            .runtime
-            .block_on(equipment.store.remove_ended(age_ms))
-        {
-            Ok(0) => {}
-            Ok(count) => info!(count, "removed jobs that ended long ago"),
-            Err(error) => warn!(%error, "old jobs can't be removed now"),
-        }
+        self.failing = maintained.is_err();
     }
 }
 
 fn reclaim_expired(equipment: &Equipment) -> Result<usize, StoreError> {
-    let queue = &equipment.queue;
-    equipment.runtime.block_on(
-        equipment
-            .store
-            .reclaim_expired(&queue.name, queue.lease_duration()),
-    )
+    let expired = equipment.store.reclaim_expired(&equipment.queue.name);
+    equipment.runtime.block_on(expired)
 }

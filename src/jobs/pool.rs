@@ -57,6 +57,8 @@ pub struct RunningJobRegistry {
 struct State {
     /// Number of jobs submitted so far.
     submissions: u64,
+    /// True once jobs may be claimed.
+    open: bool,
     closing: bool,
     running: BTreeMap<JobId, RegisteredRun>,
 }
@@ -84,7 +86,8 @@ pub(super) struct RunningJobGuard {
 }
 
 impl Pool {
-    /// Starts the workers. They use the current tokio runtime for the database.
+    /// Starts the workers. They use the current tokio runtime for the database. `left_running`
+    /// is the number of jobs reclaimed from a former process; `None`: they could not be yet.
     ///
     /// # Errors
     /// The system refuses a thread.
@@ -92,6 +95,7 @@ impl Pool {
         store: Arc<dyn JobStore>,
         size: PoolSize,
         config: &ServiceConfig,
+        left_running: Option<usize>,
     ) -> io::Result<Self> {
         let equipment = Equipment {
             store,
@@ -103,6 +107,9 @@ impl Pool {
             recording: config.recording.clone(),
             retention: config.retention.clone(),
         };
+        if let Some(count) = left_running {
+            equipment.registry.open(count);
+        }
         let mut pool = Self {
             registry: Arc::clone(&equipment.registry),
             threads: Vec::new(),
@@ -146,7 +153,44 @@ impl Drop for Pool {
     }
 }
 
+impl Equipment {
+    /// Reclaims the jobs that a former process of this name left running, once the store can
+    /// be written. Until then no worker claims a job, so that none of its own is taken back.
+    pub(super) fn reclaim_former_jobs(&self) {
+        if self.registry.is_open() {
+            return;
+        }
+        match self
+            .runtime
+            .block_on(self.store.reclaim_own(&self.queue.name))
+        {
+            Ok(count) => self.registry.open(count),
+            Err(error) => tracing::warn!(%error, "former jobs can't be reclaimed now"),
+        }
+    }
+}
+
 impl RunningJobRegistry {
+    /// Lets the workers claim jobs: those that were left running, this many, are reclaimed.
+    pub(super) fn open(&self, left_running: usize) {
+        if left_running > 0 {
+            tracing::warn!(left_running, "the last service died under jobs: they go on");
+        }
+        self.state().open = true;
+        self.announce();
+    }
+
+    fn is_open(&self) -> bool {
+        self.state().open
+    }
+
+    /// Waits until jobs may be claimed. False if the registry closes first.
+    pub(super) fn wait_until_open(&self) -> bool {
+        let shut = |state: &mut State| !state.open && !state.closing;
+        let waited = self.changed.wait_while(self.state(), shut);
+        !waited.unwrap_or_else(PoisonError::into_inner).closing
+    }
+
     /// Notifies the workers of a submitted job.
     pub fn announce(&self) {
         self.state().submissions += 1;

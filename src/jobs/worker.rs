@@ -44,6 +44,9 @@ pub(super) fn work(equipment: &Equipment) {
         },
         up_for: Duration::ZERO,
     };
+    if !equipment.registry.wait_until_open() {
+        return;
+    }
     while let Some(seen) = equipment.registry.submissions() {
         claimant.up_for = equipment.started.elapsed();
         match equipment.runtime.block_on(equipment.store.claim(&claimant)) {

@@ -70,12 +70,17 @@ impl Block {
         Ok(Self { data, checksum })
     }
 
+    /// True if the bytes are those that were sealed.
+    pub fn is_sound(&self) -> bool {
+        blake3::hash(&self.data).as_bytes() == &self.checksum
+    }
+
     /// Checks and decompresses into at most `limit` bytes.
     ///
     /// # Errors
     /// [`BlockError`], if the bytes differ from those sealed.
     pub fn open(&self, limit: usize) -> Result<Vec<u8>, BlockError> {
-        if blake3::hash(&self.data).as_bytes() != &self.checksum {
+        if !self.is_sound() {
             return Err(BlockError::Checksum);
         }
         Ok(zstd::bulk::decompress(&self.data, limit)?)

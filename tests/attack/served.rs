@@ -2,7 +2,13 @@
 
 use crate::client::{ask, get};
 use serde_json::{Value, json};
+#[cfg(unix)]
+use std::fs::{self, Permissions};
 use std::io::{BufRead, BufReader, Read};
+#[cfg(unix)]
+use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
+#[cfg(unix)]
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -53,8 +59,45 @@ impl Place {
         self.directory.path()
     }
 
+    /// The same place with another setting.
+    pub(crate) fn with(mut self, setting: (&'static str, &str)) -> Self {
+        self.settings.push((setting.0, setting.1.to_owned()));
+        self
+    }
+
+    /// Takes away the permission to write there; returns the user to whom that applies: no
+    /// permission holds for root.
+    #[cfg(unix)]
+    pub(crate) fn hand_over_read_only(&self) -> u32 {
+        const NOBODY: u32 = 65_534;
+        let user = fs::metadata(self.path()).expect("it is there").uid();
+        let user = if user == 0 { NOBODY } else { user };
+        for path in [self.path(), &self.database()] {
+            chown(path, Some(user), None).expect("by root, or to oneself");
+        }
+        fs::remove_file(self.path().join("scree.db.lock")).expect("the lock file");
+        self.set_modes(0o400, 0o500);
+        user
+    }
+
+    #[cfg(unix)]
+    pub(crate) fn make_writable(&self) {
+        self.set_modes(0o600, 0o700);
+    }
+
+    #[cfg(unix)]
+    fn set_modes(&self, file: u32, folder: u32) {
+        for (path, mode) in [(self.path(), folder), (&self.database(), file)] {
+            fs::set_permissions(path, Permissions::from_mode(mode)).expect("by its owner");
+        }
+    }
+
     fn command(&self) -> Command {
-        let mut command = Command::new(binary());
+        self.command_of(&binary())
+    }
+
+    fn command_of(&self, program: &Path) -> Command {
+        let mut command = Command::new(program);
         command
             .current_dir(self.path())
             .args(["serve", "--listen", "127.0.0.1:0", "--database"])
@@ -72,7 +115,27 @@ impl Place {
 
     /// Starts the service and waits until it listens.
     pub(crate) fn serve(&self) -> Served {
-        let child = self.command().stderr(Stdio::null()).spawn();
+        Self::listening(&mut self.command())
+    }
+
+    /// The same under a user, who may not be able to read the folder of the build.
+    #[cfg(unix)]
+    pub(crate) fn serve_as(&self, user: u32) -> Served {
+        let program = tempfile::Builder::new()
+            .permissions(Permissions::from_mode(0o755))
+            .tempdir()
+            .expect("a folder for the program");
+        let path = program.path().join("scree");
+        fs::copy(binary(), &path).expect("a copy of the program");
+        let mut command = self.command_of(&path);
+        let served = Self::listening(command.uid(user));
+        // It runs without its name.
+        drop(program);
+        served
+    }
+
+    fn listening(command: &mut Command) -> Served {
+        let child = command.stderr(Stdio::null()).spawn();
         let mut child = child.expect("the binary starts");
         let mut line = String::new();
         let stdout = child.stdout.take().expect("piped");
@@ -108,11 +171,20 @@ impl Served {
         self.child.wait().expect("it ends");
     }
 
+    /// Stops the service in order.
+    #[cfg(unix)]
+    pub(crate) fn stop(mut self) {
+        let id = self.child.id().to_string();
+        let sent = Command::new("kill").args(["-TERM", &id]).status();
+        assert!(sent.expect("kill").success());
+        self.child.wait().expect("it ends");
+    }
+
     /// Memory of the process.
     #[cfg(target_os = "linux")]
     pub(crate) fn resident_bytes(&self) -> usize {
         let path = format!("/proc/{}/status", self.child.id());
-        let text = std::fs::read_to_string(path).expect("it runs");
+        let text = fs::read_to_string(path).expect("it runs");
         let line = text.lines().find_map(|line| line.strip_prefix("VmRSS:"));
         let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<usize>().ok());
         1024 * kilobytes.expect("a number")

@@ -1,6 +1,7 @@
 //! The command line as a user sees it: arguments in; exit code, texts and
 //! files out.
 
+mod backup;
 mod bench;
 mod command;
 mod demo;

@@ -9,6 +9,7 @@ fn help_and_version_are_answers() {
     assert_eq!(help.code, Some(0));
     for command in [
         "serve",
+        "backup",
         "run",
         "plan",
         "validate",

@@ -10,10 +10,6 @@ pub const TOLERATED_SETBACKS: u32 = 3;
 /// the service before it claims the job again.
 pub(super) const BACK_OFF_MS: [i64; 2] = [2_000, 8_000];
 
-/// Longest wait after a failed attempt [ms]. A longer remaining wait means
-/// that the clock was set back.
-pub(super) const LONGEST_BACK_OFF_MS: i64 = BACK_OFF_MS[1];
-
 /// Cause of the end of an attempt through no fault of the scenario.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FailedAttempt {

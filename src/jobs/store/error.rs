@@ -29,8 +29,8 @@ pub enum StoreError {
         /// Name of the lock that the other service holds.
         lock: String,
     },
-    /// The database's schema does not fit this version, and can't be made to.
-    #[error("migration: {0}")]
+    /// The database is not one of this program and version, and can't be made so.
+    #[error("database: {0}")]
     Schema(#[source] Cause),
     /// The disk is full, or the database has reached its own limit.
     #[error("database: {0}")]
@@ -67,12 +67,12 @@ impl StoreError {
     pub fn kind(&self) -> StoreErrorKind {
         match self {
             Self::Full(_) => StoreErrorKind::Full,
-            Self::Unavailable(_) | Self::Refused => StoreErrorKind::Unavailable,
-            Self::InUse { .. }
-            | Self::Schema(_)
-            | Self::Row { .. }
-            | Self::Block { .. }
-            | Self::Defect(_) => StoreErrorKind::Defect,
+            Self::InUse { .. } | Self::Unavailable(_) | Self::Refused => {
+                StoreErrorKind::Unavailable
+            }
+            Self::Schema(_) | Self::Row { .. } | Self::Block { .. } | Self::Defect(_) => {
+                StoreErrorKind::Defect
+            }
         }
     }
 }

@@ -71,8 +71,8 @@ pub trait JobStore: Debug + Send + Sync {
     /// Removes some of the jobs that ended at least this long ago [ms] and returns their
     /// number. To be called until it returns 0.
     ///
-    /// A job with an evidently wrong end time counts as ended now, as soon as the
-    /// clock is no longer evidently wrong.
+    /// Counted is time for which a service had the database open: no jump of the time of day
+    /// changes it, and time between a stop and the next start is not in it.
     async fn remove_ended(&self, age_ms: i64) -> Answer<u64>;
 
     // Leases. Every write of a worker names its lease.
@@ -89,12 +89,10 @@ pub trait JobStore: Debug + Send + Sync {
     /// They may be claimed again at once. Returns their number.
     async fn reclaim_own(&self, owner: &str) -> Answer<usize>;
 
-    /// Reclaims jobs of other services whose lease, of at most `longest`, has run
-    /// out. Returns their number.
+    /// Reclaims jobs of other services whose lease has run out. Returns their number.
     ///
-    /// A lease that ends later than possible is from before the clock was set
-    /// back: a live worker renews it, and the fencing token makes other writes harmless.
-    async fn reclaim_expired(&self, owner: &str, longest: Duration) -> Answer<usize>;
+    /// Leases and waits are measured by time that passes, not by the time of day.
+    async fn reclaim_expired(&self, owner: &str) -> Answer<usize>;
 
     // Attempts.
 
@@ -187,6 +185,11 @@ pub trait JobStore: Debug + Send + Sync {
     /// Checks with a real write that a job could be stored: allocates space for one, and
     /// writes to the disk. Fails if a job could not be stored.
     async fn probe(&self) -> Answer<()>;
+
+    /// Upkeep, to be done at each heartbeat: notes the time that has passed, fails if what is
+    /// written would be lost, and gives space of removed jobs back to the system, a little at
+    /// a time.
+    async fn maintain(&self) -> Answer<()>;
 
     /// Closes the database. All that was acknowledged is in it; no operation succeeds
     /// afterwards.

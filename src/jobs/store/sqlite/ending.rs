@@ -1,8 +1,8 @@
 //! Ends of running jobs: success, failure, release, failed attempts.
 
-use super::SqliteStore;
 use super::error::Answer;
 use super::history::end_attempt;
+use super::{Now, SqliteStore};
 use crate::jobs::failure::Failure;
 use crate::jobs::store::ending::Consequence;
 use crate::jobs::store::{FailedAttempt, Lease, Returned, StoreError};
@@ -15,36 +15,38 @@ impl SqliteStore {
         outcome: &str,
         fingerprint: &str,
     ) -> Answer<bool> {
-        let now_ms = self.now_ms();
+        let now = self.now();
         let mut transaction = self.begin_write().await?;
         let done = sqlx::query(
             "UPDATE jobs
-             SET status = 'successful', finished_ms = ?3, outcome = ?4, fingerprint = ?5,
-                 fraction = 1, eta_s = NULL, lease_owner = NULL, lease_expires_ms = NULL
+             SET status = 'successful', finished_ms = ?3, ended_operating_ms = ?6, outcome = ?4,
+                 fingerprint = ?5,
+                 fraction = 1, eta_s = NULL, lease_owner = NULL, lease_expires_operating_ms = NULL
              WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
         )
         .bind(lease.job.to_string())
         .bind(lease.token)
-        .bind(now_ms)
+        .bind(now.wall_ms)
         .bind(outcome)
         .bind(fingerprint)
+        .bind(now.operating_ms)
         .execute(&mut *transaction)
         .await?;
         if done.rows_affected() == 0 {
             return Ok(false);
         }
-        end_attempt(&mut transaction, lease, now_ms, ("successful", None)).await?;
+        end_attempt(&mut transaction, lease, now.wall_ms, ("successful", None)).await?;
         transaction.commit().await?;
         Ok(true)
     }
 
     pub(super) async fn fail(&self, lease: Lease, failure: &Failure) -> Answer<bool> {
-        let now_ms = self.now_ms();
+        let now = self.now();
         let mut transaction = self.begin_write().await?;
-        let done = fail_row(&mut transaction, lease, failure, now_ms).await?;
+        let done = fail_row(&mut transaction, lease, failure, now).await?;
         if done {
             let ending = ("failed", Some(failure.detail.as_str()));
-            end_attempt(&mut transaction, lease, now_ms, ending).await?;
+            end_attempt(&mut transaction, lease, now.wall_ms, ending).await?;
         }
         transaction.commit().await?;
         Ok(done)
@@ -67,7 +69,7 @@ impl SqliteStore {
         failed_attempt: &FailedAttempt,
     ) -> Answer<Returned> {
         let mut transaction = self.begin_write().await?;
-        let returned = set_back_row(&mut transaction, lease, failed_attempt, self.now_ms()).await?;
+        let returned = set_back_row(&mut transaction, lease, failed_attempt, self.now()).await?;
         transaction.commit().await?;
         Ok(returned)
     }
@@ -77,7 +79,7 @@ pub(super) async fn set_back_row(
     connection: &mut SqliteConnection,
     lease: Lease,
     failed_attempt: &FailedAttempt,
-    now_ms: i64,
+    now: Now,
 ) -> Answer<Returned> {
     let found: Option<(u32, bool)> = sqlx::query_as(
         "SELECT failed_attempts, EXISTS (SELECT 1 FROM run_states WHERE job_id = ?1 AND attempt = ?3)
@@ -94,7 +96,7 @@ pub(super) async fn set_back_row(
     end_attempt(
         connection,
         lease,
-        now_ms,
+        now.wall_ms,
         (failed_attempt.word(), failed_attempt.detail()),
     )
     .await?;
@@ -103,11 +105,17 @@ pub(super) async fn set_back_row(
             failed_attempts,
             wait_ms,
         } => {
-            put_back_row(connection, lease, failed_attempts, now_ms + wait_ms).await?;
+            put_back_row(
+                connection,
+                lease,
+                failed_attempts,
+                now.operating_ms + wait_ms,
+            )
+            .await?;
             Ok(Returned::Waiting)
         }
         Consequence::Fails(failure) => {
-            fail_row(connection, lease, &failure, now_ms).await?;
+            fail_row(connection, lease, &failure, now).await?;
             Ok(Returned::Failed)
         }
     }
@@ -117,7 +125,7 @@ async fn fail_row(
     connection: &mut SqliteConnection,
     lease: Lease,
     failure: &Failure,
-    now_ms: i64,
+    now: Now,
 ) -> Answer<bool> {
     let problem = serde_json::to_string(failure).map_err(|_| StoreError::Row {
         job: lease.job.to_string(),
@@ -125,14 +133,16 @@ async fn fail_row(
     })?;
     let done = sqlx::query(
         "UPDATE jobs
-         SET status = 'failed', finished_ms = ?3, problem = ?4, eta_s = NULL,
-             lease_owner = NULL, lease_expires_ms = NULL
+         SET status = 'failed', finished_ms = ?3, ended_operating_ms = ?5, problem = ?4,
+             eta_s = NULL,
+             lease_owner = NULL, lease_expires_operating_ms = NULL
          WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",
     )
     .bind(lease.job.to_string())
     .bind(lease.token)
-    .bind(now_ms)
+    .bind(now.wall_ms)
     .bind(problem)
+    .bind(now.operating_ms)
     .execute(connection)
     .await?;
     Ok(done.rows_affected() == 1)
@@ -144,12 +154,12 @@ async fn put_back_row(
     connection: &mut SqliteConnection,
     lease: Lease,
     failed_attempts: u32,
-    not_before_ms: i64,
+    not_before_operating_ms: i64,
 ) -> Answer<bool> {
     let done = sqlx::query(
         "UPDATE jobs
          SET status = 'accepted', started_ms = NULL, failed_attempts = failed_attempts + ?3,
-             not_before_ms = ?4, lease_owner = NULL, lease_expires_ms = NULL,
+             not_before_operating_ms = ?4, lease_owner = NULL, lease_expires_operating_ms = NULL,
              lease_token = lease_token + 1, point_steps_per_s = 0, eta_s = NULL,
              (fraction, simulated_time_s, steps, substeps) = (
                  SELECT iif(saved, fraction, 0), iif(saved, simulated_time_s, 0),
@@ -161,7 +171,7 @@ async fn put_back_row(
     .bind(lease.job.to_string())
     .bind(lease.token)
     .bind(failed_attempts)
-    .bind(not_before_ms)
+    .bind(not_before_operating_ms)
     .execute(connection)
     .await?;
     Ok(done.rows_affected() == 1)

@@ -36,6 +36,14 @@ impl From<SqliteError> for StoreError {
     }
 }
 
+impl SqliteError {
+    /// True if the connection's file could not be opened for writing.
+    pub(super) fn is_read_only(&self) -> bool {
+        matches!(self, Self::Database(error) if code(error) == Some(SQLITE_READONLY))
+    }
+}
+
+const SQLITE_READONLY: i32 = 8;
 const SQLITE_FULL: i32 = 13;
 
 /// BUSY, LOCKED, READONLY, IOERR, CORRUPT, CANTOPEN, NOTADB.
@@ -63,12 +71,7 @@ fn of_kind(kind: StoreErrorKind, cause: Cause) -> StoreError {
 }
 
 fn kind(error: &sqlx::Error) -> StoreErrorKind {
-    let code = error.as_database_error().and_then(|error| {
-        let code: i32 = error.code()?.parse().ok()?;
-        // The lowest byte of an extended code is the primary one.
-        Some(code & 0xff)
-    });
-    match (code, error) {
+    match (code(error), error) {
         (Some(SQLITE_FULL), _) => StoreErrorKind::Full,
         (Some(code), _) if UNAVAILABLE.contains(&code) => StoreErrorKind::Unavailable,
         (None, sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed | sqlx::Error::Io(_)) => {
@@ -76,4 +79,11 @@ fn kind(error: &sqlx::Error) -> StoreErrorKind {
         }
         _ => StoreErrorKind::Defect,
     }
+}
+
+/// Primary code of an error of SQLite.
+fn code(error: &sqlx::Error) -> Option<i32> {
+    let code: i32 = error.as_database_error()?.code()?.parse().ok()?;
+    // The lowest byte of an extended code is the primary one.
+    Some(code & 0xff)
 }

@@ -31,13 +31,13 @@ impl SqliteStore {
         if let Some(job) = job {
             query = query.bind(job.to_string());
         }
-        let rows: Vec<EventRow> = query.fetch_all(&self.readers).await?;
+        let rows: Vec<EventRow> = query.fetch_all(self.readers.pool()).await?;
         rows.into_iter().map(EventRow::read).collect()
     }
 
     pub(super) async fn last_event(&self) -> Answer<i64> {
         let last = sqlx::query_scalar("SELECT seq FROM sqlite_sequence WHERE name = 'events'");
-        let last: Option<i64> = last.fetch_optional(&self.readers).await?;
+        let last: Option<i64> = last.fetch_optional(self.readers.pool()).await?;
         Ok(last.unwrap_or(0))
     }
 }

@@ -10,7 +10,7 @@ const PROBED_ROOM: u32 = 65_536;
 
 impl SqliteStore {
     pub(super) async fn ping(&self) -> Answer<()> {
-        sqlx::query("SELECT 1").execute(&self.readers).await?;
+        sqlx::query("SELECT 1").execute(self.readers.pool()).await?;
         Ok(())
     }
 
@@ -33,7 +33,7 @@ impl SqliteStore {
     pub(super) async fn count_jobs(&self) -> Answer<JobCounts> {
         let counts: Vec<(String, i64)> =
             sqlx::query_as("SELECT status, count(*) FROM jobs GROUP BY status")
-                .fetch_all(&self.readers)
+                .fetch_all(self.readers.pool())
                 .await?;
         let count = |status: JobStatus| {
             let found = counts.iter().find(|(word, _)| word == status.word());
@@ -42,17 +42,17 @@ impl SqliteStore {
         let attempts: Vec<(String, i64)> = sqlx::query_as(
             "SELECT ending, count(*) FROM attempts WHERE ending IS NOT NULL GROUP BY ending",
         )
-        .fetch_all(&self.readers)
+        .fetch_all(self.readers.pool())
         .await?;
         let oldest_waiting_ms: Option<i64> = sqlx::query_scalar(
-            "SELECT created_ms FROM jobs WHERE status = 'accepted' ORDER BY sequence LIMIT 1",
+            "SELECT created_operating_ms FROM jobs WHERE status = 'accepted' ORDER BY sequence LIMIT 1",
         )
-        .fetch_optional(&self.readers)
+        .fetch_optional(self.readers.pool())
         .await?;
         let pages: i64 = sqlx::query_scalar(
             "SELECT page_count * page_size FROM pragma_page_count, pragma_page_size",
         )
-        .fetch_one(&self.readers)
+        .fetch_one(self.readers.pool())
         .await?;
         Ok(JobCounts {
             jobs: JobStatus::ALL.map(|status| (status, count(status))),
@@ -62,8 +62,8 @@ impl SqliteStore {
                 .map(|(ending, count)| (ending, count.unsigned_abs()))
                 .collect(),
             oldest_waiting_s: oldest_waiting_ms.map_or(0.0, |since| {
-                // A clock that was set back must not give a negative age.
-                ((self.now_ms() - since) as f64 * 1e-3).max(0.0)
+                // After a crash some operating time may be lost.
+                ((self.operating_ms() - since) as f64 * 1e-3).max(0.0)
             }),
         })
     }

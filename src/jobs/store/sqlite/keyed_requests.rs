@@ -30,7 +30,7 @@ impl SqliteStore {
         submitter: Option<&str>,
         key: &Key,
     ) -> Answer<Option<FormerRequest>> {
-        let mut connection = self.readers.acquire().await?;
+        let mut connection = self.readers.pool().acquire().await?;
         former_request(&mut connection, submitter, key).await
     }
 

@@ -25,9 +25,9 @@ impl SqliteStore {
             None => return Ok(Renewal::Lost),
         };
         if renewal == Renewal::Held {
-            sqlx::query("UPDATE jobs SET lease_expires_ms = ?2 WHERE id = ?1")
+            sqlx::query("UPDATE jobs SET lease_expires_operating_ms = ?2 WHERE id = ?1")
                 .bind(lease.job.to_string())
-                .bind(self.now_ms() + milliseconds(lease_duration))
+                .bind(self.operating_ms() + milliseconds(lease_duration))
                 .execute(&mut *transaction)
                 .await?;
         }
@@ -46,34 +46,27 @@ impl SqliteStore {
         .await?;
         for (id, attempt, token) in &left {
             let lease = lease(id, *attempt, *token)?;
-            set_back_row(
-                &mut transaction,
-                lease,
-                &FailedAttempt::CutOff,
-                self.now_ms(),
-            )
-            .await?;
+            set_back_row(&mut transaction, lease, &FailedAttempt::CutOff, self.now()).await?;
         }
         transaction.commit().await?;
         Ok(left.len())
     }
 
-    pub(super) async fn reclaim_expired(&self, owner: &str, longest: Duration) -> Answer<usize> {
-        let now_ms = self.now_ms();
+    pub(super) async fn reclaim_expired(&self, owner: &str) -> Answer<usize> {
+        let now = self.now();
         let mut transaction = self.begin_write().await?;
         let left: Vec<(String, i64, i64)> = sqlx::query_as(
             "SELECT id, attempt, lease_token FROM jobs
              WHERE status = 'running' AND lease_owner <> ?1
-               AND (lease_expires_ms <= ?2 OR lease_expires_ms > ?3) ORDER BY sequence",
+               AND lease_expires_operating_ms <= ?2 ORDER BY sequence",
         )
         .bind(owner)
-        .bind(now_ms)
-        .bind(now_ms + 2 * milliseconds(longest))
+        .bind(now.operating_ms)
         .fetch_all(&mut *transaction)
         .await?;
         for (id, attempt, token) in &left {
             let lease = lease(id, *attempt, *token)?;
-            set_back_row(&mut transaction, lease, &FailedAttempt::Expired, now_ms).await?;
+            set_back_row(&mut transaction, lease, &FailedAttempt::Expired, now).await?;
         }
         transaction.commit().await?;
         Ok(left.len())

@@ -1,9 +1,11 @@
 //! Lock file beside the database, which keeps a second service from using it.
 
+use super::file::{beside, private};
 use crate::jobs::store::StoreError;
-use std::fs::{File, TryLockError};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
 /// Error of the system about the lock file.
@@ -14,25 +16,60 @@ struct LockFileError {
     source: io::Error,
 }
 
-/// Takes the lock of a database; it is held until the file is closed.
-pub(super) fn take(database: &Path) -> Result<File, StoreError> {
-    // By its canonical path, so that a link to it uses the same lock.
-    let real = database
-        .canonicalize()
-        .unwrap_or_else(|_| database.to_owned());
-    let mut path = real.into_os_string();
-    path.push(".lock");
-    let path = PathBuf::from(path);
-    let failed = |path, source| StoreError::Unavailable(LockFileError { path, source }.into());
-    let file = match File::options().create(true).append(true).open(&path) {
-        Ok(file) => file,
-        Err(source) => return Err(failed(path, source)),
-    };
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(StoreError::InUse {
-            lock: path.display().to_string(),
-        }),
-        Err(TryLockError::Error(source)) => Err(failed(path, source)),
+/// Lock of a database. Where the lock file can't be created, because nothing there can be
+/// written, it is taken before the first write.
+#[derive(Debug)]
+pub(super) struct Lock {
+    /// By the canonical path of the database, so that a link to it uses the same lock.
+    path: PathBuf,
+    held: Mutex<Option<File>>,
+}
+
+impl Lock {
+    pub(super) fn of(database: &Path) -> Self {
+        Self {
+            path: beside(database, ".lock"),
+            held: Mutex::default(),
+        }
+    }
+
+    /// Takes the lock, unless it is held already.
+    ///
+    /// # Errors
+    /// Another service holds it, or the file can't be created.
+    pub(super) fn take(&self) -> Result<(), StoreError> {
+        let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
+        if held.is_none() {
+            *held = Some(self.lock_file()?);
+        }
+        Ok(())
+    }
+
+    /// True if the lock is held.
+    pub(super) fn is_held(&self) -> bool {
+        let held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
+        held.is_some()
+    }
+
+    /// Releases the lock.
+    pub(super) fn release(&self) {
+        *self.held.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+
+    fn lock_file(&self) -> Result<File, StoreError> {
+        let failed = |source| {
+            let path = self.path.clone();
+            StoreError::Unavailable(LockFileError { path, source }.into())
+        };
+        let file = private(OpenOptions::new().create(true).append(true))
+            .open(&self.path)
+            .map_err(failed)?;
+        match file.try_lock() {
+            Ok(()) => Ok(file),
+            Err(TryLockError::WouldBlock) => Err(StoreError::InUse {
+                lock: self.path.display().to_string(),
+            }),
+            Err(TryLockError::Error(source)) => Err(failed(source)),
+        }
     }
 }

@@ -7,56 +7,68 @@
 //! the disk before it is acknowledged (`synchronous=FULL`). A lock file beside the
 //! database keeps a second service from using it.
 //!
+//! A database is inspected read-only before anything is written (`inspection.rs`). One that
+//! can't be written is read all the same, and written as soon as it can be.
+//!
 //! [`JobStore`]: super::JobStore
 
+pub mod backup;
 mod ending;
 mod error;
 mod events;
+mod file;
 mod health;
 mod history;
+mod inspection;
 mod keyed_requests;
 mod lease;
 mod lock;
+mod operating_time;
+mod pools;
 mod port;
 mod queue;
 mod read;
 mod removal;
 mod results;
 mod rows;
+mod schema;
+mod space;
 mod states;
 mod submission;
 #[cfg(test)]
 pub(super) mod tests;
 
-use super::StoreError;
+use super::{StoreError, StoreErrorKind};
 use crate::jobs::clock::{Clock, SystemClock};
-use error::{Answer, SqliteError, of_migration};
-use sqlx::sqlite::{
-    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
-};
-use sqlx::{Connection, Sqlite, Transaction};
-use std::fs::File;
+use error::Answer;
+use file::{DatabaseFile, Location};
+use inspection::{Inspected, Version, inspect};
+use lock::Lock;
+use operating_time::OperatingTime;
+use pools::{Readers, writer, writing};
+use sqlx::sqlite::SqlitePool;
+use sqlx::{Sqlite, Transaction};
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
 
-/// Connections that read. More would only wait for the same disk.
-const READERS: u32 = 4;
-
-/// Time that a connection waits for a lock held by another. Only a backup tool could
-/// hold one for long.
-const BUSY_TIMEOUT: Duration = Duration::from_secs(5);
-
-/// Length to which the write-ahead log is truncated [bytes].
-const LOG_BYTES: u32 = 16 << 20;
+/// One moment, by both clocks.
+#[derive(Debug, Clone, Copy)]
+struct Now {
+    /// Time of day, to be shown [ms].
+    wall_ms: i64,
+    /// Operating time, by which durations are measured [ms].
+    operating_ms: i64,
+}
 
 /// The database of one service.
 #[derive(Debug)]
 pub struct SqliteStore {
     writer: SqlitePool,
-    readers: SqlitePool,
+    readers: Readers,
     clock: Arc<dyn Clock>,
-    _lock: File,
+    operating_time: OperatingTime,
+    file: DatabaseFile,
+    lock: Lock,
 }
 
 impl SqliteStore {
@@ -66,11 +78,12 @@ impl SqliteStore {
     /// # Errors
     /// Another service uses the database, or it can't be opened.
     pub async fn open(path: &Path) -> Result<Self, StoreError> {
-        Self::open_with(path, None, Arc::new(SystemClock)).await
+        Self::open_with(path, None, Arc::new(SystemClock::default())).await
     }
 
     /// The same, with a largest size of the database [bytes] and a clock that
-    /// may differ from the system's.
+    /// may differ from the system's. A database of this version that can't be written is
+    /// opened for reading, and written once it can be.
     ///
     /// # Errors
     /// Another service uses the database, or it can't be opened.
@@ -79,76 +92,111 @@ impl SqliteStore {
         largest_bytes: Option<u64>,
         clock: Arc<dyn Clock>,
     ) -> Result<Self, StoreError> {
-        let lock = lock::take(path)?;
-        let (writer, readers) = connect(path, largest_bytes).await?;
-        Ok(Self {
-            writer,
+        let location = Location::of(path)?;
+        let inspected = match location.found {
+            Some(_) => inspect(&location.path).await?,
+            None => Inspected::NOTHING,
+        };
+        let lock = Lock::of(&location.path);
+        let locked = lock.take();
+        if matches!(locked, Err(StoreError::InUse { .. })) || inspected.version == Version::Former {
+            locked?;
+        }
+        location.warn_of_readers();
+        let file = location.create_if_missing()?;
+        let options = writing(file.path(), largest_bytes);
+        if lock.is_held() {
+            schema::prepare(&options, inspected).await?;
+        }
+        let readers = Readers::open(file.path()).await?;
+        let operating_time = OperatingTime::resume(readers.pool(), Arc::clone(&clock)).await?;
+        let store = Self {
+            writer: writer(options),
             readers,
             clock,
-            _lock: lock,
-        })
+            operating_time,
+            file,
+            lock,
+        };
+        store.try_to_write().await?;
+        Ok(store)
+    }
+
+    /// Writes, if it is possible. A database that is full or can't be written is still read.
+    async fn try_to_write(&self) -> Result<(), StoreError> {
+        let Err(error) = self.note_operating_time().await.map_err(StoreError::from) else {
+            return Ok(());
+        };
+        match error.kind() {
+            StoreErrorKind::Full | StoreErrorKind::Unavailable => {
+                tracing::error!(%error, "the database can't be written now, only read");
+                Ok(())
+            }
+            StoreErrorKind::Defect => Err(error),
+        }
     }
 
     /// Closes the database: readers first, so that the writer, as the last connection,
     /// merges the write-ahead log into the file.
     pub(super) async fn close(&self) {
+        if !self.writer.is_closed()
+            && let Err(error) = self.note_operating_time().await.map_err(StoreError::from)
+        {
+            tracing::warn!(%error, "the end of operation can't be noted");
+        }
         self.readers.close().await;
         self.writer.close().await;
+        self.lock.release();
     }
 
     /// A transaction that has the write lock from its beginning, so that it
-    /// can't fail half-way for lack of it.
+    /// can't fail half-way for lack of it. It is refused if what it writes would not be found
+    /// under the database's name.
     async fn begin_write(&self) -> Answer<Transaction<'static, Sqlite>> {
-        Ok(self.writer.begin_with("BEGIN IMMEDIATE").await?)
+        self.file.check()?;
+        let mut transaction = self.writer.begin_with("BEGIN IMMEDIATE").await?;
+        self.lock.take()?;
+        if let Err(error) = self.operating_time.note(&mut *transaction).await {
+            drop(transaction);
+            self.close_writer_if_read_only(&error).await;
+            return Err(error);
+        }
+        self.file.check_with_log()?;
+        self.readers.follow_writer();
+        Ok(transaction)
+    }
+
+    /// A connection to a file that could not be written never writes, even once it can be.
+    async fn close_writer_if_read_only(&self, error: &error::SqliteError) {
+        if error.is_read_only()
+            && let Ok(connection) = self.writer.acquire().await
+            && let Err(error) = connection.close().await
+        {
+            tracing::warn!(%error, "a connection to the database can't be closed");
+        }
+    }
+
+    async fn note_operating_time(&self) -> Answer<()> {
+        let mut transaction = self.begin_write().await?;
+        self.operating_time.note_last(&mut *transaction).await?;
+        transaction.commit().await?;
+        Ok(())
+    }
+
+    fn now(&self) -> Now {
+        Now {
+            wall_ms: self.now_ms(),
+            operating_ms: self.operating_ms(),
+        }
     }
 
     /// The time of day, as stored in rows [ms].
     fn now_ms(&self) -> i64 {
         self.clock.now().as_millisecond()
     }
-}
 
-/// The connection that writes, after migration to this version's schema, and those that read.
-async fn connect(
-    path: &Path,
-    largest_bytes: Option<u64>,
-) -> Result<(SqlitePool, SqlitePool), StoreError> {
-    let options = SqliteConnectOptions::new()
-        .filename(path)
-        .journal_mode(SqliteJournalMode::Wal)
-        .synchronous(SqliteSynchronous::Full)
-        .foreign_keys(true)
-        .busy_timeout(BUSY_TIMEOUT)
-        // A log that grew under a saved state is truncated again.
-        .pragma("journal_size_limit", LOG_BYTES.to_string());
-    let writer = SqlitePoolOptions::new()
-        .max_connections(1)
-        // On a full disk SQLite ends a transaction itself, which the
-        // connection does not notice; it could never begin another one.
-        .before_acquire(|connection, _| {
-            let usable = !connection.is_in_transaction();
-            Box::pin(async move { Ok(usable) })
-        })
-        .connect_with(limited(options.clone(), largest_bytes).create_if_missing(true))
-        .await
-        .map_err(SqliteError::from)?;
-    sqlx::migrate!().run(&writer).await.map_err(of_migration)?;
-    let readers = SqlitePoolOptions::new()
-        .max_connections(READERS)
-        .connect_with(options.read_only(true))
-        .await
-        .map_err(SqliteError::from)?;
-    Ok((writer, readers))
-}
-
-/// SQLite's page size [bytes].
-const PAGE_BYTES: u64 = 4096;
-
-fn limited(options: SqliteConnectOptions, largest_bytes: Option<u64>) -> SqliteConnectOptions {
-    match largest_bytes {
-        None => options,
-        Some(bytes) => options
-            .page_size(PAGE_BYTES as u32)
-            .pragma("max_page_count", (bytes / PAGE_BYTES).max(1).to_string()),
+    /// Operating time of the database [ms].
+    fn operating_ms(&self) -> i64 {
+        self.operating_time.now_ms()
     }
 }

@@ -75,8 +75,8 @@ impl JobStore for SqliteStore {
         Ok(Self::reclaim_own(self, owner).await?)
     }
 
-    async fn reclaim_expired(&self, owner: &str, longest: Duration) -> Result<usize, StoreError> {
-        Ok(Self::reclaim_expired(self, owner, longest).await?)
+    async fn reclaim_expired(&self, owner: &str) -> Result<usize, StoreError> {
+        Ok(Self::reclaim_expired(self, owner).await?)
     }
 
     async fn begin(
@@ -185,6 +185,10 @@ impl JobStore for SqliteStore {
 
     async fn probe(&self) -> Result<(), StoreError> {
         Ok(Self::probe(self).await?)
+    }
+
+    async fn maintain(&self) -> Result<(), StoreError> {
+        Ok(Self::maintain(self).await?)
     }
 
     async fn close(&self) {

@@ -5,7 +5,7 @@ use super::error::Answer;
 use super::history::{begin_attempt, end_attempt};
 use super::lease::milliseconds;
 use crate::jobs::job::{JobId, JobStatus};
-use crate::jobs::store::ending::{BACK_OFF_MS, LONGEST_BACK_OFF_MS};
+use crate::jobs::store::ending::BACK_OFF_MS;
 use crate::jobs::store::{Claim, Claimant, Dismissal, Lease, StoreError};
 use sqlx::FromRow;
 
@@ -20,23 +20,23 @@ struct ClaimedRow {
 
 impl SqliteStore {
     pub(super) async fn claim(&self, claimant: &Claimant) -> Answer<Option<Claim>> {
-        let now_ms = self.now_ms();
+        let now = self.now();
         let mut transaction = self.begin_write().await?;
         let row: Option<ClaimedRow> = sqlx::query_as(
             "UPDATE jobs
              SET status = 'running', started_ms = ?1, solver_version = ?2, attempt = attempt + 1,
                  solver_commit = ?6, instructions = ?7,
-                 lease_owner = ?3, lease_expires_ms = ?4, lease_token = lease_token + 1
+                 lease_owner = ?3, lease_expires_operating_ms = ?4, lease_token = lease_token + 1
              WHERE sequence = (SELECT min(sequence) FROM jobs WHERE status = 'accepted'
-                               AND (not_before_ms <= ?1 OR not_before_ms > ?5)
+                               AND not_before_operating_ms <= ?5
                                AND (failed_attempts = 0 OR ?8 >= iif(failed_attempts = 1, ?9, ?10)))
              RETURNING id, attempt, lease_token, scenario, failed_attempts",
         )
-        .bind(now_ms)
+        .bind(now.wall_ms)
         .bind(claimant.solver.version)
         .bind(&claimant.owner)
-        .bind(now_ms + milliseconds(claimant.lease_duration))
-        .bind(now_ms + LONGEST_BACK_OFF_MS)
+        .bind(now.operating_ms + milliseconds(claimant.lease_duration))
+        .bind(now.operating_ms)
         .bind(claimant.solver.commit)
         .bind(claimant.solver.instructions)
         .bind(milliseconds(claimant.up_for))
@@ -47,13 +47,13 @@ impl SqliteStore {
         let Some(claim) = row.map(ClaimedRow::read).transpose()? else {
             return Ok(None);
         };
-        begin_attempt(&mut transaction, claim.lease, &claimant.owner, now_ms).await?;
+        begin_attempt(&mut transaction, claim.lease, &claimant.owner, now.wall_ms).await?;
         transaction.commit().await?;
         Ok(Some(claim))
     }
 
     pub(super) async fn dismiss(&self, id: JobId) -> Answer<Dismissal> {
-        let now_ms = self.now_ms();
+        let now = self.now();
         let mut transaction = self.begin_write().await?;
         let row: Option<(String, i64, i64)> =
             sqlx::query_as("SELECT status, attempt, lease_token FROM jobs WHERE id = ?1")
@@ -74,16 +74,17 @@ impl SqliteStore {
         }
         sqlx::query(
             "UPDATE jobs
-             SET status = 'dismissed', finished_ms = ?2, eta_s = NULL,
-                 lease_owner = NULL, lease_expires_ms = NULL
+             SET status = 'dismissed', finished_ms = ?2, ended_operating_ms = ?3, eta_s = NULL,
+                 lease_owner = NULL, lease_expires_operating_ms = NULL
              WHERE id = ?1",
         )
         .bind(id.to_string())
-        .bind(now_ms)
+        .bind(now.wall_ms)
+        .bind(now.operating_ms)
         .execute(&mut *transaction)
         .await?;
         let lease = lease(&id.to_string(), attempt, token)?;
-        end_attempt(&mut transaction, lease, now_ms, ("dismissed", None)).await?;
+        end_attempt(&mut transaction, lease, now.wall_ms, ("dismissed", None)).await?;
         transaction.commit().await?;
         Ok(Dismissal::Dismissed)
     }

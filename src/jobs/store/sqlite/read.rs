@@ -28,7 +28,7 @@ macro_rules! listed {
 impl SqliteStore {
     pub(super) async fn job(&self, id: JobId) -> Answer<Option<Job>> {
         // One transaction, so that the attempts match the row.
-        let mut transaction = self.readers.begin().await?;
+        let mut transaction = self.readers.pool().begin().await?;
         let row: Option<JobRow> = sqlx::query_as(with_labels!("WHERE id = ?1"))
             .bind(id.to_string())
             .fetch_optional(&mut *transaction)
@@ -41,7 +41,7 @@ impl SqliteStore {
     pub(super) async fn status(&self, id: JobId) -> Answer<Option<JobStatus>> {
         let word: Option<String> = sqlx::query_scalar("SELECT status FROM jobs WHERE id = ?1")
             .bind(id.to_string())
-            .fetch_optional(&self.readers)
+            .fetch_optional(self.readers.pool())
             .await?;
         let read = |word: String| {
             JobStatus::from_word(&word).ok_or_else(|| StoreError::Row {
@@ -70,7 +70,7 @@ impl SqliteStore {
             .bind(page.limit)
             .bind(page.status.map(JobStatus::word))
             .bind(&page.label)
-            .fetch_all(&self.readers)
+            .fetch_all(self.readers.pool())
             .await?;
         rows.into_iter().map(SummaryRow::read).collect()
     }

@@ -28,23 +28,13 @@ impl SqliteStore {
     }
 
     pub(super) async fn remove_ended(&self, age_ms: i64) -> Answer<u64> {
-        let now_ms = self.now_ms();
         let mut transaction = self.begin_write().await?;
-        sqlx::query(
-            "UPDATE jobs SET kept_since_ms = ?1
-             WHERE finished_ms IS NOT NULL AND kept_since_ms IS NULL
-               AND ?1 >= (SELECT max(created_ms) FROM jobs)
-               AND ?1 >= (SELECT max(finished_ms) FROM jobs WHERE finished_ms IS NOT NULL)",
-        )
-        .bind(now_ms)
-        .execute(&mut *transaction)
-        .await?;
         let done = sqlx::query(
             "DELETE FROM jobs WHERE id IN (
-                 SELECT id FROM jobs WHERE finished_ms IS NOT NULL AND kept_since_ms <= ?1
-                 ORDER BY kept_since_ms LIMIT ?2)",
+                 SELECT id FROM jobs WHERE ended_operating_ms <= ?1
+                 ORDER BY ended_operating_ms LIMIT ?2)",
         )
-        .bind(now_ms - age_ms)
+        .bind(self.operating_ms().saturating_sub(age_ms))
         .bind(REMOVED_AT_ONCE)
         .execute(&mut *transaction)
         .await?;

@@ -70,7 +70,7 @@ impl SqliteStore {
         .bind(from_sample)
         .bind(selection.earliest_s())
         .bind(selection.latest_s())
-        .fetch_optional(&self.readers)
+        .fetch_optional(self.readers.pool())
         .await?;
         row.map(ChunkRow::read)
             .transpose()
@@ -83,7 +83,7 @@ impl SqliteStore {
         )
         .bind(job.to_string())
         .bind(integer(body as u64))
-        .fetch_one(&self.readers)
+        .fetch_one(self.readers.pool())
         .await?;
         Ok(end.map_or(0, length))
     }
@@ -92,7 +92,10 @@ impl SqliteStore {
         let times = sqlx::query_scalar(
             "SELECT time_s FROM flow_snapshots WHERE job_id = ?1 ORDER BY time_s",
         );
-        Ok(times.bind(job.to_string()).fetch_all(&self.readers).await?)
+        Ok(times
+            .bind(job.to_string())
+            .fetch_all(self.readers.pool())
+            .await?)
     }
 
     pub(super) async fn last_chunk(
@@ -106,7 +109,7 @@ impl SqliteStore {
         )
         .bind(job.to_string())
         .bind(integer(body as u64))
-        .fetch_optional(&self.readers)
+        .fetch_optional(self.readers.pool())
         .await?;
         let Some(row) = row else { return Ok(None) };
         let first_sample = length(row.first_sample);
@@ -127,7 +130,7 @@ impl SqliteStore {
         )
         .bind(job.to_string())
         .bind(time_s)
-        .fetch_optional(&self.readers)
+        .fetch_optional(self.readers.pool())
         .await?;
         row.map(SnapshotRow::read)
             .transpose()

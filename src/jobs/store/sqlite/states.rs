@@ -25,7 +25,7 @@ struct StateRow {
 impl SqliteStore {
     pub(super) async fn state(&self, job: JobId) -> Answer<Option<StoredState>> {
         // One transaction, so that all pieces belong to one state.
-        let mut transaction = self.readers.begin().await?;
+        let mut transaction = self.readers.pool().begin().await?;
         let row: Option<StateRow> = sqlx::query_as(
             "SELECT time_s, samples, fingerprint, bytes, checksum FROM run_states WHERE job_id = ?1",
         )

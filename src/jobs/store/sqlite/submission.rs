@@ -1,9 +1,9 @@
 //! Submission of jobs: one request, one transaction, all of its jobs or none.
 
-use super::SqliteStore;
 use super::error::Answer;
 use super::keyed_requests::{former_request, keep_key};
 use super::rows::integer;
+use super::{Now, SqliteStore};
 use crate::jobs::job::JobId;
 use crate::jobs::store::{StoreError, Submission, Submitted};
 use crate::jobs::submit::NewJob;
@@ -11,7 +11,7 @@ use sqlx::sqlite::SqliteConnection;
 
 impl SqliteStore {
     pub(super) async fn submit(&self, submission: &Submission<'_>) -> Answer<Submitted> {
-        let now_ms = self.now_ms();
+        let now = self.now();
         let mut transaction = self.begin_write().await?;
         let submitter = submission.submitter;
         if let Some(key) = submission.key
@@ -30,7 +30,7 @@ impl SqliteStore {
             None => None,
         };
         for job in submission.jobs {
-            insert(&mut transaction, job, submitter, (now_ms, request)).await?;
+            insert(&mut transaction, job, submitter, (now, request)).await?;
         }
         transaction.commit().await?;
         Ok(Submitted::Accepted)
@@ -50,7 +50,7 @@ impl SqliteStore {
         .bind(scenario_hash)
         .bind(solver.0)
         .bind(solver.1)
-        .fetch_optional(&self.readers)
+        .fetch_optional(self.readers.pool())
         .await?;
         id.map(|id| parse(&id)).transpose()
     }
@@ -83,16 +83,17 @@ async fn insert(
     connection: &mut SqliteConnection,
     job: &NewJob,
     submitter: Option<&str>,
-    (now_ms, request): (i64, Option<i64>),
+    (now, request): (Now, Option<i64>),
 ) -> Answer<()> {
     let id = job.id.to_string();
     sqlx::query(
         "INSERT INTO jobs (id, created_ms, scenario, title, bodies, solver_version,
-                           scenario_hash, submitter, keyed_request, plan)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
+                           scenario_hash, submitter, keyed_request, plan,
+                           created_operating_ms)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
     )
     .bind(&id)
-    .bind(now_ms)
+    .bind(now.wall_ms)
     .bind(&job.scenario)
     .bind(&job.title)
     .bind(integer(job.bodies as u64))
@@ -101,6 +102,7 @@ async fn insert(
     .bind(submitter)
     .bind(request)
     .bind(&job.plan)
+    .bind(now.operating_ms)
     .execute(&mut *connection)
     .await?;
     for label in &job.labels {

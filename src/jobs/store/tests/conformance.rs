@@ -172,7 +172,7 @@ async fn a_lease_that_is_renewed_does_not_run_out(fixture: &Fixture) {
         fixture.pass(LEASE / 2);
         let renewed = fixture.store.renew(lease, LEASE, &progress).await.unwrap();
         assert_eq!(renewed, Renewal::Held);
-        let taken = fixture.store.reclaim_expired("b", LEASE).await.unwrap();
+        let taken = fixture.store.reclaim_expired("b").await.unwrap();
         assert_eq!(taken, 0);
     }
     assert_eq!(fixture.job(lease.job).await.summary.progress, progress);
@@ -182,9 +182,9 @@ async fn a_lease_that_ran_out_is_another_s_to_take(fixture: &Fixture) {
     let id = fixture.submit().await;
     let old = fixture.claim("a").await;
     fixture.pass(LEASE);
-    let own = fixture.store.reclaim_expired("a", LEASE).await.unwrap();
+    let own = fixture.store.reclaim_expired("a").await.unwrap();
     assert_eq!(own, 0, "its own process knows better");
-    assert_eq!(fixture.store.reclaim_expired("b", LEASE).await.unwrap(), 1);
+    assert_eq!(fixture.store.reclaim_expired("b").await.unwrap(), 1);
     assert_eq!(fixture.status(id).await, JobStatus::Accepted);
     fixture.pass(Duration::from_secs(10));
     let new = fixture.claim("b").await;
@@ -206,14 +206,14 @@ async fn a_saved_job_whose_lease_ran_out_is_taken_at_once(fixture: &Fixture) {
         let kept = results_and_state(3);
         assert!(fixture.store.keep(claim.lease, &kept).await.unwrap());
         fixture.pass(LEASE);
-        let taken = fixture.store.reclaim_expired(other, LEASE).await;
+        let taken = fixture.store.reclaim_expired(other).await;
         assert_eq!(taken.unwrap(), 1);
     }
     let others = fixture.submit().await;
     fixture.claim("a").await;
     assert_eq!(fixture.claim("a").await.job, others);
     fixture.pass(LEASE);
-    assert_eq!(fixture.store.reclaim_expired("b", LEASE).await.unwrap(), 2);
+    assert_eq!(fixture.store.reclaim_expired("b").await.unwrap(), 2);
     assert_eq!(fixture.try_claim("b").await, None, "these saved nothing");
 }
 

@@ -49,39 +49,59 @@ const LEASE: Duration = Duration::from_secs(30);
 
 /// A clock that stands still until it is set.
 #[derive(Debug)]
-struct SetClock(Mutex<Timestamp>);
+pub(super) struct SetClock(Mutex<(Timestamp, Duration)>);
 
 impl SetClock {
+    fn new() -> Self {
+        let now = Timestamp::from_second(1_700_000_000).unwrap();
+        Self(Mutex::new((now, Duration::ZERO)))
+    }
+
+    /// The time of day is set, by so much; no time passes.
     fn jump(&self, by: SignedDuration) {
-        *self.0.lock().unwrap() += by;
+        self.0.lock().unwrap().0 += by;
+    }
+
+    fn pass(&self, time: Duration) {
+        let mut clock = self.0.lock().unwrap();
+        clock.0 += time;
+        clock.1 += time;
     }
 }
 
 impl Clock for SetClock {
     fn now(&self) -> Timestamp {
-        *self.0.lock().unwrap()
+        self.0.lock().unwrap().0
+    }
+
+    fn uptime(&self) -> Duration {
+        self.0.lock().unwrap().1
     }
 }
 
 /// A store that is being opened.
 pub(super) type Opening = Pin<Box<dyn Future<Output = Arc<dyn JobStore>> + Send>>;
 
-/// Constructor of a driver: opens an empty database, in this folder if it is one of files.
+/// Constructor of a driver: opens a database, empty at first, in this folder if it is one of files.
 pub(super) type Open = fn(PathBuf, Arc<dyn Clock>) -> Opening;
 
 /// A driver with an empty database.
 pub(super) struct Fixture {
     pub(super) store: Arc<dyn JobStore>,
     clock: Arc<SetClock>,
-    pub(super) directory: TempDir,
+    pub(super) directory: Arc<TempDir>,
     open: Open,
 }
 
 impl Fixture {
     pub(super) async fn new(open: Open) -> Self {
-        let directory = TempDir::new().unwrap();
-        let now = Timestamp::from_second(1_700_000_000).unwrap();
-        let clock = Arc::new(SetClock(Mutex::new(now)));
+        Self::within(TempDir::new().unwrap(), open).await
+    }
+
+    /// A driver with the database in this folder.
+    pub(super) async fn within(directory: TempDir, open: Open) -> Self {
+        let directory = Arc::new(directory);
+        let clock = Arc::new(SetClock::new());
         let store = open(directory.path().to_owned(), clock.clone()).await;
         Self {
             store,
@@ -89,6 +109,26 @@ impl Fixture {
             directory,
             open,
         }
+    }
+
+    /// The same database, closed and opened again after this time.
+    async fn reopened_after(&self, time: Duration) -> Self {
+        self.store.close().await;
+        self.pass(time);
+        let store = (self.open)(self.directory.path().to_owned(), self.clock.clone()).await;
+        Self {
+            store,
+            clock: self.clock.clone(),
+            directory: self.directory.clone(),
+            open: self.open,
+        }
+    }
+
+    /// The same database, opened again without having been closed.
+    async fn opened_after_a_crash(self) -> Self {
+        drop(self.store);
+        let store = (self.open)(self.directory.path().to_owned(), self.clock.clone()).await;
+        Self { store, ..self }
     }
 
     /// Another empty database of the same driver.
@@ -144,8 +184,8 @@ impl Fixture {
             .collect()
     }
 
-    fn pass(&self, time: Duration) {
-        self.clock.jump(SignedDuration::try_from(time).unwrap());
+    pub(super) fn pass(&self, time: Duration) {
+        self.clock.pass(time);
     }
 }
 

@@ -29,7 +29,10 @@ enum Event {
     Dismiss(usize),
     Crash(usize),
     TakeBackExpired(usize),
+    /// The time of day is set, by so many milliseconds.
     Jump(i64),
+    /// So many milliseconds pass.
+    Pass(u64),
 }
 
 fn event() -> impl Strategy<Value = Event> {
@@ -45,7 +48,8 @@ fn event() -> impl Strategy<Value = Event> {
         1 => any::<usize>().prop_map(Event::Dismiss),
         2 => (0..2usize).prop_map(Event::Crash),
         2 => (0..2usize).prop_map(Event::TakeBackExpired),
-        4 => prop_oneof![0..20_000i64, 20_000..90_000i64, -90_000..0i64].prop_map(Event::Jump),
+        2 => any::<i32>().prop_map(|seconds| Event::Jump(i64::from(seconds) * 100)),
+        4 => prop_oneof![0..20_000u64, 20_000..90_000u64].prop_map(Event::Pass),
     ]
 }
 
@@ -67,6 +71,7 @@ struct ModelJob {
 
 #[derive(Debug, Default)]
 struct Model {
+    /// Operating time.
     now_ms: i64,
     jobs: BTreeMap<usize, ModelJob>,
 }
@@ -98,7 +103,7 @@ impl Model {
 
     fn claimable(&mut self) -> Option<(usize, &mut ModelJob)> {
         let now = self.now_ms;
-        let free = |job: &ModelJob| job.not_before_ms <= now || job.not_before_ms > now + 8_000;
+        let free = |job: &ModelJob| job.not_before_ms <= now;
         let mut jobs = self.jobs.iter_mut().map(|(place, job)| (*place, job));
         jobs.find(|(_, job)| Self::is(job, JobStatus::Accepted) && free(job))
     }
@@ -180,16 +185,19 @@ impl Pair {
             }
             Event::TakeBackExpired(owner) => {
                 let expected = self.model.reclaim_expired(Why::Expired, |job, now| {
-                    let expires = job.expires_ms;
-                    job.owner != owner && (expires <= now || expires > now + 2 * LEASE_MS)
+                    job.owner != owner && job.expires_ms <= now
                 });
                 let store = &self.fixture.store;
-                let taken = store.reclaim_expired(OWNERS[owner], LEASE).await;
+                let taken = store.reclaim_expired(OWNERS[owner]).await;
                 assert_eq!(taken.unwrap(), expected);
             }
             Event::Jump(by_ms) => {
+                // No rule is about the time of day.
                 self.fixture.clock.jump(SignedDuration::from_millis(by_ms));
-                self.model.now_ms += by_ms;
+            }
+            Event::Pass(time_ms) => {
+                self.fixture.pass(Duration::from_millis(time_ms));
+                self.model.now_ms += time_ms.cast_signed();
             }
             _ if !self.leases.is_empty() => self.write(event).await,
             _ => {}
@@ -321,11 +329,7 @@ impl Pair {
 async fn play(fixture: Fixture, events: &[Event]) {
     let mut pair = Pair {
         fixture,
-        model: Model {
-            // Not near 0, which means "never waits" to the store.
-            now_ms: 1_700_000_000_000,
-            ..Model::default()
-        },
+        model: Model::default(),
         ids: Vec::new(),
         leases: Vec::new(),
     };

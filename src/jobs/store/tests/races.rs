@@ -20,7 +20,7 @@ async fn no_stale_worker_ever_writes(fixture: &Fixture) {
         let id = fixture.submit().await;
         let stale = fixture.claim("a").await;
         fixture.pass(LEASE);
-        fixture.store.reclaim_expired("b", LEASE).await.unwrap();
+        fixture.store.reclaim_expired("b").await.unwrap();
         fixture.pass(Duration::from_secs(10));
         let fresh = fixture.claim("b").await;
         assert_eq!(fresh.job, id);

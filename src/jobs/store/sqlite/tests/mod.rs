@@ -1,5 +1,10 @@
-//! Rules of the SQLite driver alone: those that the database enforces, the single file,
-//! the lock, the kinds of its errors.
+//! Rules of the SQLite driver alone: those that the database enforces, the lock, the kinds of
+//! its errors; the file ([`files`]), former versions ([`upgrade`]), backups and space.
+
+mod backups;
+mod files;
+mod space;
+mod upgrade;
 
 use super::SqliteStore;
 use crate::jobs::clock::{Clock, SystemClock};
@@ -80,9 +85,10 @@ async fn final_states_are_sinks_whatever_the_code_asks_for() {
     );
 
     for statement in [
-        "UPDATE jobs SET status = 'accepted', started_ms = NULL, finished_ms = NULL, outcome = NULL, problem = NULL",
-        "UPDATE jobs SET status = 'running', finished_ms = NULL, outcome = NULL, problem = NULL",
+        "UPDATE jobs SET status = 'accepted', started_ms = NULL, finished_ms = NULL, ended_operating_ms = NULL, outcome = NULL, problem = NULL",
+        "UPDATE jobs SET status = 'running', finished_ms = NULL, ended_operating_ms = NULL, outcome = NULL, problem = NULL",
         "UPDATE jobs SET finished_ms = 0",
+        "UPDATE jobs SET ended_operating_ms = 0",
         "UPDATE jobs SET outcome = '[]' WHERE outcome IS NOT NULL",
     ] {
         let refused = sqlx::query(statement)
@@ -112,7 +118,7 @@ async fn outcomes_of_former_versions_get_the_present_keys() {
         .succeed(lease, former, FINGERPRINT)
         .await
         .unwrap();
-    let renaming = include_str!("../../../../migrations/0007_outcome_keys.sql");
+    let renaming = include_str!("../../../../../migrations/0007_outcome_keys.sql");
     sqlx::raw_sql(renaming)
         .execute(&mut past(&fixture).await)
         .await
@@ -138,13 +144,12 @@ async fn rows_that_make_no_sense_are_refused() {
     for statement in [
         "UPDATE jobs SET status = 'done'",
         "UPDATE jobs SET status = 'running'",
-        "UPDATE jobs SET status = 'running', started_ms = 1, lease_owner = 'a', lease_expires_ms = 9",
-        "UPDATE jobs SET lease_owner = 'a', lease_expires_ms = 9",
+        "UPDATE jobs SET status = 'running', started_ms = 1, lease_owner = 'a', lease_expires_operating_ms = 9",
+        "UPDATE jobs SET lease_owner = 'a', lease_expires_operating_ms = 9",
         "UPDATE jobs SET lease_token = -1",
-        "UPDATE jobs SET finished_ms = 1",
-        "UPDATE jobs SET status = 'successful', started_ms = 1, finished_ms = 2, outcome = '{}'",
+        "UPDATE jobs SET finished_ms = 1, ended_operating_ms = 1",
+        "UPDATE jobs SET status = 'successful', started_ms = 1, finished_ms = 2, ended_operating_ms = 2, outcome = '{}'",
         "UPDATE jobs SET outcome = '{}'",
-        "UPDATE jobs SET scenario = 'no JSON'",
         "UPDATE jobs SET fraction = 1.5",
         "UPDATE jobs SET steps = 'many'",
         "INSERT INTO trajectory_chunks SELECT 'nobody', 0, 0, 1, 0, 0, 'planes-zstd-1', zeroblob(32), zeroblob(1)",
@@ -229,7 +234,7 @@ async fn a_database_at_its_limit_is_full() {
     // What the empty schema takes, and less than a probe more.
     SqliteStore::open(&path).await.unwrap().close().await;
     let taken = std::fs::metadata(&path).unwrap().len();
-    let clock = Arc::new(SystemClock);
+    let clock = Arc::new(SystemClock::default());
     let store = SqliteStore::open_with(&path, Some(taken + 8192), clock).await;
     let store: Arc<dyn JobStore> = Arc::new(store.unwrap());
     let refused = store.probe().await.unwrap_err();
@@ -255,20 +260,4 @@ async fn a_file_that_is_no_database_is_unavailable() {
     std::fs::write(&path, "not a database. ".repeat(512)).unwrap();
     let refused = SqliteStore::open(&path).await.unwrap_err();
     assert_eq!(refused.kind(), StoreErrorKind::Unavailable, "{refused}");
-}
-
-#[tokio::test]
-async fn a_database_of_a_later_version_does_not_fit() {
-    let fixture = Fixture::new(open).await;
-    fixture.store.close().await;
-    let path = fixture.directory.path().join("test.db");
-    drop(fixture.store);
-    sqlx::query("UPDATE _sqlx_migrations SET version = 9999 WHERE version = 1")
-        .execute(&mut connect(&path).await)
-        .await
-        .unwrap();
-    let refused = SqliteStore::open(&path).await.unwrap_err();
-    assert!(matches!(refused, StoreError::Schema(_)), "{refused:?}");
-    let text = refused.to_string();
-    assert!(text.starts_with("migration: "), "{text}");
 }

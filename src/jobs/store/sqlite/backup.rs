@@ -1,0 +1,194 @@
+//! Consistent copy of a database that a service may be using.
+
+use super::error::SqliteError;
+use super::file::Location;
+use super::inspection::{connect_to_read, immutable, inspect};
+use crate::jobs::store::StoreError;
+use crate::results::chunk::Block;
+use futures_util::TryStreamExt;
+use sqlx::sqlite::SqliteConnection;
+use sqlx::{ConnectOptions, Connection};
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+use tempfile::TempPath;
+use thiserror::Error;
+
+/// A backup that was made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Backup {
+    /// Its length [bytes].
+    pub bytes: u64,
+    /// Number of jobs in it.
+    pub jobs: u64,
+}
+
+/// Reason why there is no backup. Whatever it is, the destination is as it was.
+#[derive(Debug, Error)]
+pub enum BackupError {
+    /// The database does not exist.
+    #[error("database {0} not found")]
+    Missing(PathBuf),
+    /// The destination exists, and must not be replaced.
+    #[error("{0} exists: name another file, or pass --replace to replace it")]
+    Exists(PathBuf),
+    /// The destination is the database.
+    #[error("{0} is the database itself: name another file")]
+    Itself(PathBuf),
+    /// The copy can't be written.
+    #[error("{path}: {source}")]
+    Destination {
+        /// The destination.
+        path: PathBuf,
+        /// Error of the system.
+        source: io::Error,
+    },
+    /// The copy is not sound, which the database itself may not be.
+    #[error("the copy is not sound, and was removed: {0}")]
+    Unsound(String),
+    /// The database can't be read.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl From<sqlx::Error> for BackupError {
+    fn from(error: sqlx::Error) -> Self {
+        Self::Store(SqliteError::from(error).into())
+    }
+}
+
+/// Writes a copy of a database, as it is at one moment, to a file that nobody else can read.
+///
+/// # Errors
+/// [`BackupError`]; the destination is unchanged then.
+pub async fn back_up(
+    database: &Path,
+    destination: &Path,
+    replace: bool,
+) -> Result<Backup, BackupError> {
+    let location = Location::of(database)?;
+    if location.found.is_none() {
+        return Err(BackupError::Missing(database.to_owned()));
+    }
+    check_destination(&location.path, destination, replace)?;
+    inspect(&location.path).await?;
+    let failed = |source| BackupError::Destination {
+        path: destination.to_owned(),
+        source,
+    };
+    // Beside the destination, so that it can be renamed; with access for its owner alone.
+    let directory = directory_of(destination);
+    let copy = tempfile::Builder::new()
+        .prefix(".scree-backup-")
+        .tempfile_in(directory)
+        .map_err(failed)?
+        .into_temp_path();
+    let name = copy.to_str().ok_or_else(|| {
+        let reason = "its folder's name is not valid UTF-8, which SQLite needs";
+        failed(io::Error::new(io::ErrorKind::InvalidInput, reason))
+    })?;
+    copy_to(&location.path, name).await?;
+    let jobs = verify(&copy).await?;
+    let bytes = sync(&copy).map_err(failed)?;
+    publish(copy, destination, replace)?;
+    File::open(directory)
+        .and_then(|directory| directory.sync_all())
+        .map_err(failed)?;
+    Ok(Backup { bytes, jobs })
+}
+
+fn check_destination(
+    database: &Path,
+    destination: &Path,
+    replace: bool,
+) -> Result<(), BackupError> {
+    match destination.canonicalize() {
+        Ok(real) if real == database => Err(BackupError::Itself(destination.to_owned())),
+        Ok(_) if !replace => Err(BackupError::Exists(destination.to_owned())),
+        _ => Ok(()),
+    }
+}
+
+fn directory_of(destination: &Path) -> &Path {
+    match destination.parent() {
+        Some(directory) if directory != Path::new("") => directory,
+        _ => Path::new("."),
+    }
+}
+
+async fn copy_to(database: &Path, copy: &str) -> Result<(), BackupError> {
+    let mut connection = connect_to_read(database).await?;
+    // The copy can give free space back, also if the database can't.
+    let shrinks: i64 = sqlx::query_scalar("PRAGMA auto_vacuum")
+        .fetch_one(&mut connection)
+        .await?;
+    if shrinks == 0 {
+        sqlx::query("PRAGMA auto_vacuum = INCREMENTAL")
+            .execute(&mut connection)
+            .await?;
+    }
+    sqlx::query("VACUUM INTO ?1")
+        .bind(copy)
+        .execute(&mut connection)
+        .await?;
+    Ok(connection.close().await?)
+}
+
+/// Checks a copy, and counts its jobs.
+async fn verify(copy: &Path) -> Result<u64, BackupError> {
+    let mut connection = immutable(copy).connect().await?;
+    let verdict: Vec<String> = sqlx::query_scalar("PRAGMA integrity_check")
+        .fetch_all(&mut connection)
+        .await?;
+    if verdict != ["ok"] {
+        return Err(BackupError::Unsound(verdict.join("; ")));
+    }
+    verify_blocks(&mut connection).await?;
+    let jobs: i64 = sqlx::query_scalar("SELECT count(*) FROM jobs")
+        .fetch_one(&mut connection)
+        .await?;
+    connection.close().await?;
+    Ok(jobs.unsigned_abs())
+}
+
+/// Checks the checksums of all stored blocks.
+async fn verify_blocks(connection: &mut SqliteConnection) -> Result<(), BackupError> {
+    let mut blocks = sqlx::query_as::<_, (String, Vec<u8>, Vec<u8>)>(
+        "SELECT job_id, checksum, data FROM trajectory_chunks
+         UNION ALL SELECT job_id, checksum, data FROM flow_snapshots",
+    )
+    .fetch(connection);
+    while let Some((job, checksum, data)) = blocks.try_next().await? {
+        let sound = <[u8; 32]>::try_from(checksum)
+            .is_ok_and(|checksum| Block { data, checksum }.is_sound());
+        if !sound {
+            return Err(BackupError::Unsound(format!(
+                "a block of job {job} does not have its checksum, nor has it in the database; \
+                 remove this job there, and try again"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Waits until the copy is on the disk, and returns its length [bytes].
+fn sync(copy: &Path) -> io::Result<u64> {
+    let file = File::options().write(true).open(copy)?;
+    file.sync_all()?;
+    Ok(file.metadata()?.len())
+}
+
+fn publish(copy: TempPath, destination: &Path, replace: bool) -> Result<(), BackupError> {
+    let renamed = if replace {
+        copy.persist(destination)
+    } else {
+        copy.persist_noclobber(destination)
+    };
+    renamed.map_err(|error| match error.error.kind() {
+        io::ErrorKind::AlreadyExists => BackupError::Exists(destination.to_owned()),
+        _ => BackupError::Destination {
+            path: destination.to_owned(),
+            source: error.error,
+        },
+    })
+}
