@@ -7,7 +7,7 @@ use crate::jobs::pool::Pool;
 use crate::jobs::store::sqlite::{SqliteStore, backup};
 use crate::jobs::store::{JobStore, StoreError, StoreErrorKind};
 use crate::jobs::submit::Means;
-use crate::jobs::{AdmissionPool, Followers, JobService};
+use crate::jobs::{AdmissionPool, Followers, JobLimits, JobService};
 use std::io;
 use std::net::SocketAddr;
 use std::path::Path;
@@ -164,6 +164,7 @@ async fn serve(
     let means = Means {
         threads_per_worker: size.threads_per_worker,
         point_steps: config.limits.job_point_steps,
+        memory_bytes: JobLimits::new(&config.limits, size).memory_bytes,
     };
     let (followers, news) = Followers::start(Arc::clone(store), pool.registry());
     let jobs = JobService::new(

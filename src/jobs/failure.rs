@@ -1,5 +1,6 @@
 //! Failure of a job, as the problem document stored with it.
 
+use super::job_limits::Excess;
 use scree_solver::{Mover, SetupError, StepError};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -65,6 +66,42 @@ impl Failure {
             error.to_string(),
             numbers,
         )
+    }
+
+    /// The job exceeds a limit of the service.
+    pub fn excess(excess: &Excess) -> Self {
+        let (kind, title, numbers) = match excess {
+            Excess::Memory {
+                needed_bytes,
+                limit_bytes,
+            } => (
+                "memory",
+                "Too much memory",
+                json!({"needed_bytes": needed_bytes, "limit_bytes": limit_bytes}),
+            ),
+            Excess::NoMemory {
+                needed_bytes,
+                available_bytes,
+            } => (
+                "memory",
+                "Too much memory",
+                json!({"needed_bytes": needed_bytes, "available_bytes": available_bytes}),
+            ),
+            Excess::WallTime { spent_s, limit_s } => (
+                "wall-time",
+                "Too much wall time",
+                json!({"spent_s": spent_s, "limit_s": limit_s}),
+            ),
+            Excess::Results {
+                written_bytes,
+                limit_bytes,
+            } => (
+                "results-size",
+                "Too large results",
+                json!({"written_bytes": written_bytes, "limit_bytes": limit_bytes}),
+            ),
+        };
+        Self::new(kind, title, excess.to_string(), numbers)
     }
 
     /// The solver failed unexpectedly; the log has the details

@@ -10,6 +10,7 @@ pub mod failure;
 mod fair_queue;
 pub mod forecast;
 pub mod job;
+mod job_limits;
 mod job_service;
 mod lease_heartbeat;
 mod news;
@@ -23,6 +24,7 @@ mod worker;
 
 pub use admission::{Submission, SubmissionRequest, SubmitError};
 pub use admission_pool::{AdmissionError, AdmissionPool, Admitted};
+pub use job_limits::{Excess, JobLimits};
 pub use job_service::{Dismissed, JobService, PlanError};
 pub use news::{Followers, News};
 pub use reading::TrajectoryRange;

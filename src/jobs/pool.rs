@@ -2,6 +2,7 @@
 //! don't delay each other.
 
 use super::job::JobId;
+use super::job_limits::JobLimits;
 use super::lease_heartbeat::LeaseHeartbeat;
 use super::store::{JobStore, Lease};
 use super::worker;
@@ -43,6 +44,7 @@ pub(super) struct Equipment {
     pub(super) started: Instant,
     pub(super) queue: Queue,
     pub(super) recording: Recording,
+    pub(super) job_limits: JobLimits,
     pub(super) retention: Retention,
 }
 
@@ -105,6 +107,7 @@ impl Pool {
             started: Instant::now(),
             queue: config.queue.clone(),
             recording: config.recording.clone(),
+            job_limits: JobLimits::new(&config.limits, size),
             retention: config.retention.clone(),
         };
         if let Some(count) = left_running {

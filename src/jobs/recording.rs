@@ -1,13 +1,14 @@
 //! The sink of the service: collects the records of a run and writes them to the
 //! store at intervals, in few large blocks, at times with the run's state.
 
+use super::job_limits::{Excess, JobLimits};
 use super::open_chunk::OpenChunk;
 use super::store::{JobStore, Lease, NewResults, ResumePoint, StoreError, StoredState};
 use crate::config::Recording;
 use crate::results::chunk::BlockError;
 use crate::results::fingerprint::Fingerprint;
 use crate::results::flow::StoredSnapshot;
-use crate::runs::{Progress, ProgressBoard, Sink};
+use crate::runs::{Progress, ProgressBoard, Resources, Sink};
 use scree_solver::record::{Record, Sample};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -38,6 +39,9 @@ pub enum KeepError {
     /// A block can't be encoded.
     #[error(transparent)]
     Block(#[from] BlockError),
+    /// The job exceeds a limit.
+    #[error(transparent)]
+    Excess(#[from] Excess),
     /// Records that a saved state depends on are missing.
     #[error("samples recorded before the saved state are missing")]
     Missing,
@@ -51,6 +55,10 @@ pub struct StoreSink {
     runtime: Handle,
     lease: Lease,
     recording: Recording,
+    limits: JobLimits,
+    /// Size of the results written in this attempt [bytes].
+    written_bytes: u64,
+    begun: Instant,
     /// Time after the start at which the first state is due.
     first_state: Duration,
     board: Arc<ProgressBoard>,
@@ -79,7 +87,7 @@ impl StoreSink {
     pub fn new(
         (store, runtime): (Arc<dyn JobStore>, Handle),
         lease: Lease,
-        recording: Recording,
+        (recording, limits): (Recording, JobLimits),
         board: Arc<ProgressBoard>,
     ) -> Self {
         let now = Instant::now();
@@ -102,6 +110,9 @@ impl StoreSink {
             },
             first_state: recording.state_interval(),
             recording,
+            limits,
+            written_bytes: 0,
+            begun: now,
         }
     }
 
@@ -110,7 +121,7 @@ impl StoreSink {
         let mut sink = Self::new(
             (Arc::clone(&self.store), self.runtime.clone()),
             self.lease,
-            self.recording.clone(),
+            (self.recording.clone(), self.limits.clone()),
             Arc::clone(&self.board),
         );
         sink.begin_with_a_state_in(self.first_state);
@@ -183,13 +194,15 @@ impl StoreSink {
             results.chunks.extend(open.sealed(body)?);
         }
         self.times.flushed = Instant::now();
+        let bytes = results.bytes();
         match self.runtime.block_on(self.store.keep(self.lease, &results)) {
             Ok(true) => {
                 self.times.refused_since = None;
+                self.written_bytes += bytes;
                 self.open_chunks
                     .iter_mut()
                     .for_each(OpenChunk::mark_written);
-                Ok(())
+                Ok(self.limits.check_results(self.written_bytes)?)
             }
             Ok(false) => Err(KeepError::Lost),
             Err(error) => {
@@ -239,6 +252,19 @@ impl Sink for StoreSink {
                 Ok(())
             }
         }
+    }
+
+    fn before_set_up(&mut self, memory_bytes: u64) -> Result<(), KeepError> {
+        Ok(self.limits.check_before(memory_bytes)?)
+    }
+
+    fn resources(&mut self, resources: &Resources) -> Result<(), KeepError> {
+        let since_begun = self.begun.elapsed().as_secs_f64();
+        self.limits.check(&Resources {
+            wall_s: resources.wall_s.max(since_begun),
+            ..*resources
+        })?;
+        Ok(())
     }
 
     fn progress(&mut self, progress: &Progress) -> Result<(), KeepError> {

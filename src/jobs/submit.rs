@@ -1,7 +1,9 @@
 //! Validation of submitted scenarios.
 
 use super::job::JobId;
+use scree_solver::accuracy::ConvergenceStudy;
 use scree_solver::plan::Cost;
+use scree_solver::record::Role;
 use scree_solver::scenario::Scenario;
 pub use scree_solver::scenario::{ScenarioError, Violation, excerpt};
 use scree_solver::simulation::PreparedScene;
@@ -46,6 +48,8 @@ pub struct Means {
     pub threads_per_worker: usize,
     /// Largest number of point-steps that a job may be planned to take.
     pub point_steps: Option<u64>,
+    /// Largest memory that a job may be planned to need [bytes].
+    pub memory_bytes: u64,
 }
 
 /// Validates a scenario for a service with these resources, and plans its run.
@@ -81,10 +85,59 @@ pub fn validate(
 /// All rules that the scenario breaks.
 pub fn read_affordable(text: &str, means: &Means) -> Result<PreparedScene, ScenarioError> {
     let prepared = read(text, means.threads_per_worker)?;
-    let cost = Cost::of(&prepared);
-    match too_costly(cost.point_steps, means.point_steps) {
-        None => Ok(prepared),
-        Some(violation) => Err(ScenarioError::Invalid(vec![violation])),
+    let planned = Planned::of(&prepared)?;
+    let excesses = [
+        too_costly(planned.point_steps, means.point_steps),
+        too_large(planned.memory_bytes, means.memory_bytes),
+    ];
+    let excesses: Vec<Violation> = excesses.into_iter().flatten().collect();
+    if excesses.is_empty() {
+        Ok(prepared)
+    } else {
+        Err(ScenarioError::Invalid(excesses))
+    }
+}
+
+/// Cost of all runs of a job: that of the answer and those behind its uncertainty intervals.
+struct Planned {
+    /// Sum over the runs, bodies' sub-steps included.
+    point_steps: u64,
+    /// Largest of a run [bytes].
+    memory_bytes: u64,
+}
+
+impl Planned {
+    fn of(prepared: &PreparedScene) -> Result<Self, ScenarioError> {
+        let answer = Cost::of(prepared);
+        let mut planned = Self {
+            point_steps: answer.work(),
+            memory_bytes: answer.memory_bytes,
+        };
+        let accuracy = &prepared.scenario.accuracy;
+        if !accuracy.takes_several_runs() {
+            return Ok(planned);
+        }
+        let study = ConvergenceStudy::of(&prepared.scenario).map_err(|error| refused(&error))?;
+        for study_run in study.to_do().filter(|run| run.role != Role::Answer) {
+            let scenario = study.scenario_of(study_run);
+            let prepared = PreparedScene::of(&scenario).map_err(|error| refused(&error))?;
+            let cost = Cost::of(&prepared);
+            planned.point_steps = planned.point_steps.saturating_add(cost.work());
+            planned.memory_bytes = planned.memory_bytes.max(cost.memory_bytes);
+        }
+        if accuracy.target.is_some() {
+            // The cells are not known yet; the budget is.
+            planned.point_steps = planned.point_steps.max(accuracy.budget_point_steps as u64);
+        }
+        Ok(planned)
+    }
+}
+
+/// A run behind the intervals that can't be set up.
+fn refused(error: &SetupError) -> ScenarioError {
+    match not_set_up(error) {
+        Some(violation) => ScenarioError::Invalid(vec![violation]),
+        None => unwritable(error),
     }
 }
 
@@ -166,12 +219,28 @@ fn too_costly(planned: u64, most: Option<u64>) -> Option<Violation> {
     Some(Violation {
         pointer: String::new(),
         value: json!(planned),
-        allowed: format!("a run of at most {most} planned point-steps"),
+        allowed: format!("runs of at most {most} planned point-steps"),
         unit: Some("point-steps".to_owned()),
         detail: format!(
-            "the run is planned to take {planned} point-steps (points times sub-steps), and \
-             limits.job_point_steps of this service is {most}: coarser cells (numerics.cell_size_m) \
-             or a shorter duration_s take fewer"
+            "the job is planned to take {planned} point-steps (points times sub-steps of all its \
+             runs; a sub-step of a body in contact counts as 40), and limits.job_point_steps of \
+             this service is {most}: coarser cells (numerics.cell_size_m), softer bodies \
+             (contact_modulus_pa) or a shorter duration_s take fewer"
+        ),
+    })
+}
+
+/// A run that would need more memory than this service allows for a job.
+fn too_large(planned: u64, most: u64) -> Option<Violation> {
+    (planned > most).then(|| Violation {
+        pointer: "/numerics/cell_size_m".to_owned(),
+        value: json!(planned),
+        allowed: format!("cells with which a run is planned to need at most {most} bytes"),
+        unit: Some("bytes".to_owned()),
+        detail: format!(
+            "a run of the job is planned to need {planned} bytes of memory, and \
+             limits.job_memory_bytes of this service is {most}: larger cells \
+             (numerics.cell_size_m) need less"
         ),
     })
 }

@@ -7,9 +7,11 @@ use super::store::{
     AttemptStart, Claim, Claimant, FailedAttempt, Lease, ResumePoint, Solver, StoreError,
 };
 use crate::runs::convergence_study::Runs;
-use crate::runs::{COMMIT, Run, RunEnd, RunError, SavedRunError, StopFlag};
+use crate::runs::{COMMIT, Run, RunEnd, RunError, SavedRunError, Sink, StopFlag};
+use scree_solver::plan::Cost;
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
+use scree_solver::simulation::PreparedScene;
 use scree_solver::{Instructions, SetupError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -108,7 +110,7 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResu
     let mut sink = StoreSink::new(
         (Arc::clone(&equipment.store), equipment.runtime.clone()),
         claim.lease,
-        equipment.recording.clone(),
+        (equipment.recording.clone(), equipment.job_limits.clone()),
         guard.run.board.clone(),
     );
     if claim.failed_attempts > 0 {
@@ -143,6 +145,8 @@ fn run_to_end(
     (scenario, threads): (&Scenario, usize),
     (stop, sink): (&StopFlag, &mut StoreSink),
 ) -> Result<RunEnd, RunError<KeepError>> {
+    let memory_bytes = Cost::of(&PreparedScene::of(scenario)?).memory_bytes;
+    sink.before_set_up(memory_bytes).map_err(RunError::Sink)?;
     let what = (scenario, threads);
     if scenario.accuracy.takes_several_runs() {
         let ways: Ways<Runs> = (Runs::restored, Runs::afresh);
@@ -235,6 +239,7 @@ fn result_of_error(error: &RunError<KeepError>) -> JobResult {
             JobResult::AttemptFailed(error.to_string())
         }
         RunError::Sink(KeepError::Lost) => JobResult::Gone,
+        RunError::Sink(KeepError::Excess(excess)) => JobResult::Failed(Failure::excess(excess)),
         RunError::Sink(error) => JobResult::AttemptFailed(error.to_string()),
     }
 }

@@ -1,13 +1,15 @@
 //! Executes all runs that a scenario's answer needs: the refinement runs of its intervals, then the
 //! answer, or as many runs as its target takes.
 
-use super::progress::Progress;
+use super::progress::{Progress, Resources};
 use super::run::{Run, RunEnd, RunError, Sink, StopFlag};
 use super::saved_run::SavedRunError;
 use super::saved_study::{self, SavedStudy};
 use scree_solver::accuracy::{ConvergenceStudy, StudyRun};
+use scree_solver::plan::Cost;
 use scree_solver::record::Record;
 use scree_solver::scenario::Scenario;
+use scree_solver::simulation::PreparedScene;
 use scree_solver::{SetupError, StepError};
 use std::borrow::Cow;
 use std::time::Instant;
@@ -100,7 +102,10 @@ impl Runs {
                 Some(begun) => begun,
                 None => {
                     let scenario = self.convergence_study.scenario_of(study_run);
-                    (Run::afresh(&scenario, self.threads)?, Vec::new())
+                    let prepared = PreparedScene::of(&scenario)?;
+                    let planned = whole.sink.before_set_up(Cost::of(&prepared).memory_bytes);
+                    planned.map_err(RunError::Sink)?;
+                    (Run::of(prepared, self.threads)?, Vec::new())
                 }
             };
             let mut part = Part {
@@ -221,6 +226,10 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
     fn progress(&mut self, progress: &Progress) -> Result<(), S::Error> {
         let fraction = self.convergence_study.share_done(progress.fraction);
         self.whole.tell(progress, fraction)
+    }
+
+    fn resources(&mut self, used: &Resources) -> Result<(), S::Error> {
+        self.whole.sink.resources(used)
     }
 
     fn wants_state(&mut self) -> bool {

@@ -11,6 +11,6 @@ mod saved_run;
 mod saved_study;
 mod watch;
 
-pub use progress::{Progress, ProgressBoard};
+pub use progress::{Progress, ProgressBoard, Resources};
 pub use run::{NoSink, Run, RunEnd, RunError, Sink, Stop, StopFlag};
 pub use saved_run::{COMMIT, SavedRunError};

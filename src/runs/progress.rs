@@ -23,6 +23,15 @@ pub struct Progress {
     pub eta_s: Option<f64>,
 }
 
+/// Resources that a run uses.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Resources {
+    /// Memory of its points and nodes [bytes].
+    pub memory_bytes: u64,
+    /// Wall time so far, of attempts before this one too [s].
+    pub wall_s: f64,
+}
+
 /// Progress board: the progress of a run, written by the run and read by others.
 #[derive(Debug, Default)]
 pub struct ProgressBoard(Mutex<Progress>);

@@ -1,6 +1,6 @@
 //! One run of a scenario: the simulation, with a recorder, into a sink.
 
-use super::progress::Progress;
+use super::progress::{Progress, Resources};
 use super::saved_run::{self, SavedRunError, Spent};
 use super::watch::Watch;
 use scree_solver::record::{Outcome, Record, Recorder};
@@ -27,6 +27,22 @@ pub trait Sink: Send {
     /// # Errors
     /// The sink's own; the run ends.
     fn progress(&mut self, progress: &Progress) -> Result<(), Self::Error>;
+
+    /// Takes the memory that a run is planned to need [bytes], before it is set up.
+    ///
+    /// # Errors
+    /// The sink's own; the run is not set up.
+    fn before_set_up(&mut self, _memory_bytes: u64) -> Result<(), Self::Error> {
+        Ok(())
+    }
+
+    /// Takes the resources that a run uses, whenever its progress is told.
+    ///
+    /// # Errors
+    /// The sink's own; the run ends.
+    fn resources(&mut self, _used: &Resources) -> Result<(), Self::Error> {
+        Ok(())
+    }
 
     /// True if it is time to save the run's state. Called wherever a state can be saved; a
     /// sink that keeps no states always returns false.
@@ -162,12 +178,19 @@ impl Run {
     /// # Errors
     /// The solver can't set it up.
     pub fn afresh(scenario: &Scenario, threads: usize) -> Result<Self, SetupError> {
-        let prepared = PreparedScene::of(scenario)?;
+        Self::of(PreparedScene::of(scenario)?, threads)
+    }
+
+    /// A run at the start of a prepared scene.
+    ///
+    /// # Errors
+    /// The solver can't set it up.
+    pub fn of(prepared: PreparedScene, threads: usize) -> Result<Self, SetupError> {
         Ok(Self {
             recorder: Recorder::of(&prepared),
-            simulation: Simulation::of(prepared, threads)?,
             spent: Spent::default(),
-            duration_s: scenario.duration_s,
+            duration_s: prepared.scenario.duration_s,
+            simulation: Simulation::of(prepared, threads)?,
         })
     }
 

@@ -1,7 +1,7 @@
 //! Watches a run between two sub-steps: handles records, progress, states and requests to
 //! stop.
 
-use super::progress::Progress;
+use super::progress::{Progress, Resources};
 use super::run::{Sink, Stop, StopFlag};
 use super::saved_run::{self, Spent};
 use scree_solver::record::{Outcome, Record, Recorder};
@@ -74,7 +74,7 @@ impl<'a, S: Sink> Watch<'a, S> {
         let stop_here = stop == Stop::AtOnce || (stop == Stop::OnceSaved && report.step_ended);
         let taken = self
             .hand_on(records)
-            .and_then(|()| self.tell_progress())
+            .and_then(|()| self.tell_progress(simulation))
             .and_then(|()| self.save(simulation, report, stop));
         if let Err(error) = taken {
             self.refused = Some(error);
@@ -117,11 +117,16 @@ impl<'a, S: Sink> Watch<'a, S> {
             .try_for_each(|record| self.sink.record(record))
     }
 
-    fn tell_progress(&mut self) -> Result<(), S::Error> {
-        match self.pace.due() {
-            Some(progress) => self.sink.progress(&progress),
-            None => Ok(()),
-        }
+    fn tell_progress(&mut self, simulation: &Simulation) -> Result<(), S::Error> {
+        let Some(progress) = self.pace.due() else {
+            return Ok(());
+        };
+        let (points, grid) = simulation.bytes();
+        self.sink.resources(&Resources {
+            memory_bytes: (points + grid) as u64,
+            wall_s: self.pace.wall_s(),
+        })?;
+        self.sink.progress(&progress)
     }
 
     /// Reports the last progress, or the sink's refusal.

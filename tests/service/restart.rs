@@ -147,6 +147,7 @@ async fn a_job_that_keeps_taking_the_service_down_fails() {
 async fn cut_off(directory: &TempDir, times: u32) -> Lease {
     let store = SqliteStore::open(&database(directory)).await.unwrap();
     let means = submit::Means {
+        memory_bytes: u64::MAX,
         threads_per_worker: 1,
         point_steps: None,
     };

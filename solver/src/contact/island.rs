@@ -26,7 +26,7 @@ use integration::advance_together;
 use member::Member;
 use mover::Mover;
 use neighbours::{Reaches, restore, states};
-pub use pace::substeps_ahead;
+pub use pace::{substeps_ahead, substeps_at_rest};
 pub use report::{BodyReport, EnergyReport};
 pub use surroundings::Surroundings;
 use touching::{evaluate_body_contacts, find_contacts};

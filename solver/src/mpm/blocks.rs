@@ -29,14 +29,21 @@ pub struct Blocks<R: Real> {
     born: Vec<BlockKey>,
 }
 
+/// Points that arrive at once when blocks are made.
+const ARRIVING: usize = 1 << 16;
+
 impl<R: Real> Blocks<R> {
     /// Points, each with its block.
-    pub fn of(points: impl Iterator<Item = (BlockKey, Packed<R>)>) -> Self {
-        let mut blocks = Self {
-            travelling: points.collect(),
-            ..Self::default()
-        };
-        blocks.arrive();
+    pub fn of(mut points: impl Iterator<Item = (BlockKey, Packed<R>)>) -> Self {
+        let mut blocks = Self::default();
+        // Not all at once, which would be one more copy of them; their order is the same.
+        loop {
+            blocks.travelling.extend(points.by_ref().take(ARRIVING));
+            if blocks.travelling.is_empty() {
+                break;
+            }
+            blocks.arrive();
+        }
         blocks.travelling = Vec::new();
         for block in &mut blocks.occupied {
             block.runs = u32::MAX;

@@ -1,7 +1,7 @@
 //! Records of runs, as they are written and read.
 
 use super::StoredState;
-use crate::results::chunk::Block;
+use crate::results::chunk::{Block, CHUNK_SAMPLES};
 use crate::results::columns::TrajectoryColumns;
 use crate::results::flow::StoredSnapshot;
 use crate::runs::Progress;
@@ -34,6 +34,19 @@ pub struct NewResults {
     pub progress: Progress,
     /// State of the run after these results.
     pub state: Option<StoredState>,
+}
+
+impl NewResults {
+    /// Size of the results that are new, without the state [bytes]. A chunk counts once it is full:
+    /// until then it is written anew each time.
+    pub fn bytes(&self) -> u64 {
+        let chunks = self.chunks.iter();
+        let full = chunks.filter(|chunk| chunk.samples >= CHUNK_SAMPLES);
+        let chunks = full.map(|chunk| chunk.block.data.len());
+        let snapshots = self.snapshots.iter();
+        let snapshots = snapshots.map(|snapshot| snapshot.block.data.len());
+        chunks.chain(snapshots).sum::<usize>() as u64
+    }
 }
 
 /// A chunk read from the store.

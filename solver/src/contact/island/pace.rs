@@ -127,6 +127,14 @@ fn substeps_of_pair(both: [&Body; 2], law: &ContactLaw, deepest: f64, gained: f6
     }
 }
 
+/// Sub-steps of its own that a body takes within a duration [s] if it lies on a wall all the
+/// time, under this acceleration [m/s²].
+pub fn substeps_at_rest(body: &Body, acceleration: f64, duration: f64) -> f64 {
+    let law = &body.wall_law;
+    let overlap = (body.mass * acceleration / law.stiffness).powf(2.0 / 3.0);
+    duration / longest(law, overlap, body.least_effective_mass())
+}
+
 /// Largest speed of any two places of two bodies relative to each other [m/s].
 pub(super) fn relative_speed(both: [&Body; 2]) -> f64 {
     let turning = |body: &Body| match body.freedom {

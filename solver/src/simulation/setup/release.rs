@@ -54,10 +54,11 @@ impl Columns {
             normal: bed.normal(release.back_m, 0.0),
         };
         let mass = flow.material.bulk_density * self.volume;
-        let mut points = Vec::new();
         let mut left_out = 0.0;
         let [along, across, up] = self.count;
         let rows = share.rows_across(self, given.walls.vertical_walls.halves_across);
+        // A list that grows would take twice its memory, and the set-up is when most is needed.
+        let mut points = Vec::with_capacity(along as usize * rows as usize * up as usize);
         let images = f64::from(across) / f64::from(rows);
         for i in 0..along {
             for j in 0..rows {
