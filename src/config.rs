@@ -13,6 +13,7 @@ use thiserror::Error;
 mod admission;
 mod browser;
 mod limits;
+mod origin;
 mod queue;
 #[cfg(test)]
 mod tests;
@@ -22,8 +23,9 @@ mod upkeep;
 pub use admission::Admission;
 pub use browser::Browser;
 pub use limits::Limits;
+pub use origin::{Authority, Host, Origin};
 pub use queue::Queue;
-pub use tokens::{Scope, Token};
+pub use tokens::{Scope, Token, check_name as check_token_name};
 pub use upkeep::{Log, LogFormat, Retention};
 
 /// Configuration of the service.

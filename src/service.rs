@@ -193,11 +193,13 @@ async fn left_running(
 ) -> Result<Option<usize>, StoreError> {
     match store.reclaim_own(&config.queue.name).await {
         Ok(count) => Ok(Some(count)),
-        Err(error) if error.kind() == StoreErrorKind::Defect => Err(error),
-        Err(error) => {
-            tracing::error!(%error, "no job is run until the database can be written");
-            Ok(None)
-        }
+        Err(error) => match error.kind() {
+            StoreErrorKind::Damaged | StoreErrorKind::Defect => Err(error),
+            StoreErrorKind::Full | StoreErrorKind::Unavailable => {
+                tracing::error!(%error, "no job is run until the database can be written");
+                Ok(None)
+            }
+        },
     }
 }
 

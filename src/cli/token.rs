@@ -3,7 +3,7 @@
 use super::arguments::{ScopeWord, TokenOptions};
 use super::console;
 use super::failure::Failure;
-use scree::config::{Scope, Token};
+use scree::config::{Scope, Token, check_token_name};
 use serde::Serialize;
 use uuid::Uuid;
 
@@ -17,8 +17,9 @@ struct Section {
 /// to add to the configuration.
 ///
 /// # Errors
-/// Standard output is closed.
+/// The name is not allowed, or standard output is closed.
 pub(super) fn token(options: &TokenOptions) -> Result<(), Failure> {
+    check_token_name(&options.name).map_err(|error| Failure::Input(error.to_string()))?;
     // 244 random bits can't be guessed, so a fast hash is safe to store.
     let text = format!(
         "scree_{}{}",

@@ -1,6 +1,6 @@
 //! Names under which browsers may reach the service, and pages that may use it.
 
-use super::{ConfigError, not_allowed};
+use super::{ConfigError, Host, Origin, not_allowed};
 use serde::{Deserialize, Serialize};
 
 /// Permissions of browsers. Programs other than browsers are not concerned, but for `Host`.
@@ -18,37 +18,19 @@ pub struct Browser {
 
 impl Browser {
     pub(super) fn check(&self) -> Result<(), ConfigError> {
-        let is_name = |name: &&String| {
-            !name.is_empty()
-                && name
-                    .chars()
-                    .all(|c| c.is_ascii_alphanumeric() || ".-[]:".contains(c))
-        };
-        if let Some(name) = self.hosts.iter().find(|name| !is_name(name)) {
-            let reason = "allowed are host names or addresses, such as \"scree.lab.example\"";
+        if let Some(name) = self.hosts.iter().find(|name| Host::parse(name).is_none()) {
+            let reason = "allowed are host names or addresses without a port, such as \
+                          \"scree.lab.example\" or \"[2001:db8::7]\"";
             return Err(not_allowed("browser.hosts", format!("{name:?}"), reason));
         }
-        if let Some(origin) = self.origins.iter().find(|origin| !is_origin(origin)) {
+        let mut origins = self.origins.iter();
+        if let Some(origin) = origins.find(|origin| Origin::parse(origin).is_none()) {
             let reason = "allowed are origins without a path, such as \"https://lab.example:8443\"";
-            return Err(not_allowed(
-                "browser.origins",
-                format!("{origin:?}"),
-                reason,
-            ));
+            let origin = format!("{origin:?}");
+            return Err(not_allowed("browser.origins", origin, reason));
         }
         Ok(())
     }
-}
-
-/// True for `http` or `https`, a host, and perhaps a port, in lower case as browsers send it.
-fn is_origin(text: &str) -> bool {
-    let rest = text
-        .strip_prefix("https://")
-        .or_else(|| text.strip_prefix("http://"));
-    rest.is_some_and(|host| {
-        let legal = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || ".-[]:".contains(c);
-        !host.is_empty() && host.chars().all(legal)
-    })
 }
 
 #[cfg(test)]
@@ -64,7 +46,7 @@ mod tests {
         let good = browser("scree.lab.example", "https://lab.example:8443");
         assert!(good.check().is_ok());
         assert!(browser("[::1]", "http://localhost:3000").check().is_ok());
-        for host in ["", "http://lab", "a b"] {
+        for host in ["", "http://lab", "a b", "lab:8080", "::1"] {
             assert!(browser(host, "https://a").check().is_err(), "{host}");
         }
         for origin in ["", "*", "null", "lab.example", "https://", "https://a/b"] {

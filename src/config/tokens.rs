@@ -56,13 +56,30 @@ impl Token {
     }
 }
 
+/// Checks the name of a token, under which its jobs are stored and shown.
+///
+/// # Errors
+/// It is empty, longer than 100 characters, or has others than letters, digits and `. _ -`.
+pub fn check_name(name: &str) -> Result<(), ConfigError> {
+    let legal = |byte: u8| byte.is_ascii_alphanumeric() || b"._-".contains(&byte);
+    if (1..=100).contains(&name.len()) && name.bytes().all(legal) {
+        return Ok(());
+    }
+    let reason = "allowed are 1 to 100 letters, digits or any of . _ -";
+    Err(not_allowed("tokens.name", format!("{name:?}"), reason))
+}
+
 /// Checks names, hashes and scopes.
 pub(super) fn check(tokens: &[Token]) -> Result<(), ConfigError> {
     for (place, token) in tokens.iter().enumerate() {
         let repeated = tokens[..place].iter().any(|other| other.name == token.name);
-        if token.name.is_empty() || token.name.len() > 100 || repeated {
-            let reason = "allowed are 1 to 100 bytes, and each name once";
-            return Err(not_allowed("tokens.name", &token.name, reason));
+        check_name(&token.name)?;
+        if repeated {
+            return Err(not_allowed(
+                "tokens.name",
+                &token.name,
+                "each name is allowed once",
+            ));
         }
         if blake3::Hash::from_hex(&token.blake3).is_err() {
             let reason = "allowed is a BLAKE3 hash, 64 hexadecimal digits";

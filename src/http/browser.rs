@@ -2,12 +2,11 @@
 //! speak to the service in their name, and what the service answers must not be run as a page.
 
 use super::problem::Problem;
-use crate::config::ServiceConfig;
+use crate::config::{Authority, Host, Origin, ServiceConfig};
 use axum::extract::{Request, State};
-use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
+use axum::http::{HeaderName, HeaderValue, Method, StatusCode, Version, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
-use std::net::IpAddr;
 use std::sync::Arc;
 use tower_http::cors::CorsLayer;
 
@@ -24,8 +23,8 @@ const NOSNIFF: HeaderValue = HeaderValue::from_static("nosniff");
 #[derive(Debug, Clone)]
 pub(super) struct Doors {
     /// Names it may be addressed by besides addresses of the loopback interface; `None`: any.
-    hosts: Option<Arc<[String]>>,
-    origins: Arc<[String]>,
+    hosts: Option<Arc<[Host]>>,
+    origins: Arc<[Origin]>,
 }
 
 impl Doors {
@@ -33,65 +32,89 @@ impl Doors {
         let listed = &config.browser.hosts;
         // With tokens a foreign page has nothing to show, whatever name it uses.
         let any = !config.tokens.is_empty() && listed.is_empty();
-        let own = std::iter::once(config.listen.ip().to_string());
-        let hosts = own.chain(listed.iter().map(|host| host.to_ascii_lowercase()));
+        let own = std::iter::once(Host::of_address(config.listen.ip()));
+        let hosts = own.chain(listed.iter().filter_map(|host| Host::parse(host)));
         Self {
             hosts: (!any).then(|| hosts.collect()),
-            origins: config.browser.origins.iter().cloned().collect(),
+            origins: origins(config).collect(),
         }
     }
 
     /// Reason for refusing a request.
-    fn refusal(&self, headers: &HeaderMap) -> Option<Problem> {
-        let text = |name: HeaderName| headers.get(name).map(|value| value.to_str().unwrap_or(""));
-        let host = text(header::HOST);
-        if let (Some(hosts), Some(host)) = (&self.hosts, host)
-            && !is_own(name_of(host), hosts)
-        {
-            return Some(foreign(
-                "foreign-host",
-                "Not a name of this service",
-                format!(
-                    "the request is for {host:?}, which is no name of this service: \
-                     browser.hosts in its configuration lists further ones"
-                ),
-            ));
-        }
-        let origin = text(header::ORIGIN)?;
-        let same = |host: &str| {
-            let of_scheme = |scheme: &str| origin.strip_prefix(scheme) == Some(host);
-            of_scheme("http://") || of_scheme("https://")
+    fn refusal(&self, request: &Request) -> Option<Problem> {
+        let hosts = match hosts(request) {
+            Ok(hosts) => hosts,
+            Err(problem) => return Some(problem),
         };
-        if host.is_some_and(same) || self.origins.iter().any(|allowed| allowed == origin) {
-            return None;
+        if let Some(own) = &self.hosts
+            && let Some(foreign) = hosts.iter().find(|host| !is_own(&host.host, own))
+        {
+            return Some(foreign_host(&foreign.host));
         }
-        Some(foreign(
-            "foreign-origin",
-            "Not a page that may use this service",
-            format!(
-                "the request comes from a page of {origin:?}: browser.origins in the \
+        let mut origins = request.headers().get_all(header::ORIGIN).iter();
+        let all_own = origins.all(|origin| {
+            let origin = origin.to_str().ok().and_then(Origin::parse);
+            origin.is_some_and(|origin| {
+                hosts.iter().any(|host| origin.is_of(host)) || self.origins.contains(&origin)
+            })
+        });
+        (!all_own).then(|| {
+            foreign(
+                "foreign-origin",
+                "Not a page that may use this service",
+                "the request comes from a page of another origin: browser.origins in the \
                  configuration lists the pages that may use the service"
-            ),
-        ))
+                    .to_owned(),
+            )
+        })
     }
+}
+
+/// All hosts that a request names: its target, if that is absolute, and its header `Host`, which
+/// from HTTP/1.1 on it must have once.
+fn hosts(request: &Request) -> Result<Vec<Authority>, Problem> {
+    let malformed = |detail: &str| {
+        let status = StatusCode::BAD_REQUEST;
+        Problem::new(status, "malformed-host", "Malformed Host", detail)
+    };
+    let headers: Vec<_> = request.headers().get_all(header::HOST).iter().collect();
+    let needed = request.version() != Version::HTTP_10;
+    if headers.len() > 1 || (headers.is_empty() && needed) {
+        return Err(malformed("the request needs the header Host once"));
+    }
+    let target = request.uri().authority().map(|target| target.as_str());
+    let named = headers.iter().map(|host| host.to_str().unwrap_or_default());
+    target
+        .into_iter()
+        .chain(named)
+        .map(|host| {
+            let detail = "the header Host is a name or an address, and perhaps a port";
+            Authority::parse(host).ok_or_else(|| malformed(detail))
+        })
+        .collect()
 }
 
 /// True for a name or address of the loopback interface, or one that is listed.
-fn is_own(name: &str, listed: &[String]) -> bool {
-    let name = name.trim_end_matches('.').to_ascii_lowercase();
-    let address: Option<IpAddr> = name.trim_matches(['[', ']']).parse().ok();
-    name == "localhost"
-        || address.is_some_and(|address| address.is_loopback())
-        || address.is_some_and(|address| listed.contains(&address.to_string()))
-        || listed.contains(&name)
+fn is_own(host: &Host, listed: &[Host]) -> bool {
+    host.is_loopback() || listed.contains(host)
 }
 
-/// A host without its port.
-fn name_of(host: &str) -> &str {
-    match host.rsplit_once(':') {
-        Some((name, port)) if port.bytes().all(|byte| byte.is_ascii_digit()) => name,
-        _ => host,
-    }
+/// The listed pages elsewhere.
+fn origins(config: &ServiceConfig) -> impl Iterator<Item = Origin> {
+    let listed = config.browser.origins.iter();
+    listed.filter_map(|origin| Origin::parse(origin))
+}
+
+fn foreign_host(host: &Host) -> Problem {
+    foreign(
+        "foreign-host",
+        "Not a name of this service",
+        format!(
+            "the request is for {:?}, which is no name of this service: browser.hosts in its \
+             configuration lists further ones",
+            host.to_string()
+        ),
+    )
 }
 
 fn foreign(kind: &str, title: &'static str, detail: String) -> Problem {
@@ -100,7 +123,7 @@ fn foreign(kind: &str, title: &'static str, detail: String) -> Problem {
 
 /// Refuses requests for other names and from foreign pages.
 pub(super) async fn check(State(doors): State<Doors>, request: Request, next: Next) -> Response {
-    match doors.refusal(request.headers()) {
+    match doors.refusal(&request) {
         Some(problem) => problem.into_response(),
         None => next.run(request).await,
     }
@@ -119,8 +142,8 @@ pub(super) async fn harden(request: Request, next: Next) -> Response {
 
 /// Permissions of pages of the listed origins (CORS); `None` if there are none.
 pub(super) fn cors(config: &ServiceConfig) -> Option<CorsLayer> {
-    let origins = config.browser.origins.iter();
-    let origins: Vec<HeaderValue> = origins.filter_map(|origin| origin.parse().ok()).collect();
+    let origins = origins(config).filter_map(|origin| origin.to_string().parse().ok());
+    let origins: Vec<HeaderValue> = origins.collect();
     (!origins.is_empty()).then(|| allowing(origins))
 }
 
@@ -148,34 +171,54 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_host_is_told_from_its_port() {
-        for (host, name) in [
-            ("localhost:8080", "localhost"),
-            ("[::1]:8080", "[::1]"),
-            ("[::1]", "[::1]"),
-            ("scree.lab", "scree.lab"),
-        ] {
-            assert_eq!(name_of(host), name);
-        }
-    }
-
-    #[test]
     fn the_loopback_interface_and_what_is_listed_are_own() {
-        let listed = ["scree.lab".to_owned(), "192.0.2.7".to_owned()];
-        for own in ["127.0.0.1", "127.8.0.1", "[::1]", "LocalHost", "localhost."] {
-            assert!(is_own(own, &[]), "{own}");
+        let host = |text: &str| Host::parse(text).unwrap();
+        let listed = ["scree.lab", "192.0.2.7"].map(host);
+        for own in [
+            "127.0.0.1",
+            "127.8.0.1",
+            "[::1]",
+            "[::ffff:127.0.0.1]",
+            "localhost.",
+        ] {
+            assert!(is_own(&host(own), &[]), "{own}");
         }
         for own in ["Scree.Lab", "192.0.2.7"] {
-            assert!(is_own(own, &listed), "{own}");
+            assert!(is_own(&host(own), &listed), "{own}");
         }
         for foreign in [
             "attacker.example",
             "localhost.attacker.example",
-            "",
             "0.0.0.0",
             "x",
         ] {
-            assert!(!is_own(foreign, &listed), "{foreign}");
+            assert!(!is_own(&host(foreign), &listed), "{foreign}");
+        }
+    }
+
+    #[test]
+    fn a_request_names_one_good_host() {
+        let hosts_of = |version: Version, target: &str, headers: &[&str]| {
+            let request = Request::builder().version(version).uri(target);
+            let add = |request: axum::http::request::Builder, host: &&str| {
+                request.header(header::HOST, *host)
+            };
+            let request = headers.iter().fold(request, add);
+            hosts(&request.body(axum::body::Body::empty()).unwrap())
+        };
+        let new = Version::HTTP_11;
+        assert_eq!(hosts_of(new, "/", &["a:1"]).unwrap().len(), 1);
+        assert_eq!(hosts_of(new, "http://b/", &["a"]).unwrap().len(), 2);
+        assert!(hosts_of(Version::HTTP_10, "/", &[]).unwrap().is_empty());
+        for (target, headers) in [
+            ("/", [].as_slice()),
+            ("/", &["a", "a"]),
+            ("/", &["a:99999999"]),
+            ("/", &[""]),
+            ("http://b/", &[]),
+        ] {
+            let problem = hosts_of(new, target, headers).unwrap_err();
+            assert_eq!(problem.status, 400, "{target} {headers:?}");
         }
     }
 }

@@ -22,6 +22,7 @@ pub(super) fn add(contract: &mut OpenApi) {
                 why_forbidden = "The access token is not good for this, the request is for a name \
                                  that is not the service's, or from a page that may not use it";
             }
+            answer(operation, "400", "The header Host is missing or malformed");
             answer(operation, "403", why_forbidden);
             answer(
                 operation,

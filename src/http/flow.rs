@@ -111,15 +111,26 @@ pub(super) async fn flow_archive(
     archive.begin("flow.pvd", &mut head);
     archive.data(vtk::pvd(&times_s).as_bytes(), &mut head);
     archive.end(&mut head);
-    let packing = Packing {
+    let mut packing = Packing {
         jobs,
         job,
         times_s,
         next: 0,
         archive,
     };
+    // Before the head is sent: a damaged record is a problem then, and later a broken stream.
+    head.extend(packing.piece().await?);
     let first = stream::once(async { Ok(Bytes::from(head)) });
-    let rest = stream::unfold(Some(packing), |packing| async { packing?.piece().await });
+    let rest = stream::unfold(Some(packing), |packing| async {
+        let mut packing = packing.filter(|packing| !packing.is_done())?;
+        match packing.piece().await {
+            Ok(bytes) => Some((Ok(Bytes::from(bytes)), Some(packing))),
+            Err(error) => {
+                tracing::error!(%error, "an archive breaks off");
+                Some((Err(error), None))
+            }
+        }
+    });
     let kind = [(header::CONTENT_TYPE, "application/zip")];
     Ok((kind, Body::from_stream(first.chain(rest))).into_response())
 }
@@ -134,21 +145,27 @@ struct Packing {
 }
 
 impl Packing {
+    fn is_done(&self) -> bool {
+        self.next > self.times_s.len()
+    }
+
     /// The next file, or the archive's end.
-    async fn piece(mut self) -> Option<(Result<Bytes, StoreError>, Option<Self>)> {
+    async fn piece(&mut self) -> Result<Vec<u8>, StoreError> {
         let mut out = Vec::new();
-        let Some(&time_s) = self.times_s.get(self.next) else {
-            self.archive.finish(&mut out);
-            return Some((Ok(out.into()), None));
+        let place = self.next;
+        self.next += 1;
+        let Some(&time_s) = self.times_s.get(place) else {
+            std::mem::take(&mut self.archive).finish(&mut out);
+            return Ok(out);
         };
-        let snapshot = match self.jobs.snapshot(self.job, Some(time_s)).await {
-            Ok(snapshot) => snapshot?,
-            Err(error) => return Some((Err(error), None)),
-        };
-        self.archive.begin(&vtk::file_name(self.next), &mut out);
+        let snapshot = self.jobs.snapshot(self.job, Some(time_s)).await?;
+        let snapshot = snapshot.ok_or_else(|| StoreError::Row {
+            job: self.job.to_string(),
+            what: "a snapshot that was there before",
+        })?;
+        self.archive.begin(&vtk::file_name(place), &mut out);
         self.archive.data(vtk::vtp(&snapshot).as_bytes(), &mut out);
         self.archive.end(&mut out);
-        self.next += 1;
-        Some((Ok(out.into()), Some(self)))
+        Ok(out)
     }
 }

@@ -1,32 +1,53 @@
-//! Metrics of the service, in the text format of Prometheus.
+//! Metrics of the service, in the text format of Prometheus (OpenMetrics).
 
 use super::problem::Problem;
 use crate::jobs::JobService;
+use crate::jobs::store::JobCounts;
 use axum::Extension;
 use axum::extract::{Request, State};
 use axum::http::header;
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
-use std::fmt::Write as _;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use prometheus_client::encoding::text::encode;
+use prometheus_client::metrics::counter::Counter;
+use prometheus_client::metrics::family::Family;
+use prometheus_client::metrics::gauge::Gauge;
+use prometheus_client::metrics::histogram::Histogram;
+use prometheus_client::registry::{Registry, Unit};
+use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
 /// Upper bounds of the response-time classes [s].
-const CLASSES_S: [f64; 6] = [0.001, 0.01, 0.1, 1.0, 10.0, f64::INFINITY];
+const CLASSES_S: [f64; 6] = [0.001, 0.01, 0.05, 0.2, 1.0, 10.0];
+
+/// Media type of the answer.
+const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
+
+/// One label of a metric: its name and value.
+type Label = [(&'static str, String); 1];
+
+/// Gauge of a real number.
+type RealGauge = Gauge<f64, AtomicU64>;
 
 /// Counts of requests since the start.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct RequestCounts {
-    /// By the first digit of the status, 1 to 5.
-    by_status: [AtomicU64; 5],
-    by_time: [AtomicU64; CLASSES_S.len()],
-    microseconds: AtomicU64,
+    by_status: Family<Label, Counter>,
+    seconds: Histogram,
+}
+
+impl Default for RequestCounts {
+    fn default() -> Self {
+        Self {
+            by_status: Family::default(),
+            seconds: Histogram::new(CLASSES_S),
+        }
+    }
 }
 
 /// Counts a request and the time until the head of its answer.
 pub(super) async fn count(
-    Extension(counts): Extension<Arc<RequestCounts>>,
+    Extension(counts): Extension<RequestCounts>,
     request: Request,
     next: Next,
 ) -> Response {
@@ -44,108 +65,60 @@ pub(super) async fn count(
     path = "/metrics",
     tag = "service",
     responses(
-        (status = 200, description = "The metrics", body = String, content_type = "text/plain"),
+        (status = 200, description = "The metrics", body = String, content_type = "application/openmetrics-text"),
         (status = 503, description = "The database does not answer", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn metrics(
     State(jobs): State<JobService>,
-    Extension(counts): Extension<Arc<RequestCounts>>,
+    Extension(counts): Extension<RequestCounts>,
 ) -> Result<Response, Problem> {
-    let count_jobs = jobs.count_jobs().await?;
+    let mut registry = Registry::with_prefix("scree");
+    register_jobs(&mut registry, &jobs.count_jobs().await?);
+    counts.register(&mut registry);
     let mut text = String::new();
-    let mut family = |name: &str, kind: &str, help: &str, rows: &[(String, f64)]| {
-        // Writing into a string can't fail.
-        let _ = writeln!(
-            text,
-            "# HELP scree_{name} {help}\n# TYPE scree_{name} {kind}"
-        );
-        for (labels, value) in rows {
-            let _ = writeln!(text, "scree_{name}{labels} {value}");
-        }
-    };
-    let plain = |value: f64| [(String::new(), value)];
-    let jobs_rows = count_jobs
-        .jobs
-        .map(|(status, count)| (format!("{{status=\"{}\"}}", status.word()), count as f64));
-    family("jobs", "gauge", "Jobs by state.", &jobs_rows);
-    let attempts: Vec<_> = count_jobs
-        .attempts
-        .iter()
-        .map(|(ending, count)| (format!("{{ending=\"{ending}\"}}"), *count as f64))
-        .collect();
-    family(
-        "attempts_ended_total",
-        "counter",
-        "Ended attempts at jobs that are kept, by how they ended.",
-        &attempts,
-    );
-    family(
-        "oldest_waiting_seconds",
-        "gauge",
-        "Age of the oldest waiting job.",
-        &plain(count_jobs.oldest_waiting_s),
-    );
-    family(
-        "database_bytes",
-        "gauge",
-        "Length of the database.",
-        &plain(count_jobs.database_bytes as f64),
-    );
-    family(
-        "requests_total",
-        "counter",
-        "Answered requests by class of status.",
-        &counts.statuses(),
-    );
-    family(
-        "request_seconds",
-        "histogram",
-        "Time to the head of an answer.",
-        &[],
-    );
-    text.push_str(&counts.histogram());
-    Ok(([(header::CONTENT_TYPE, "text/plain; version=0.0.4")], text).into_response())
+    encode(&mut text, &registry).map_err(|error| Problem::internal(&error))?;
+    Ok(([(header::CONTENT_TYPE, MEDIA_TYPE)], text).into_response())
+}
+
+/// Registers what the database counts.
+fn register_jobs(registry: &mut Registry, counts: &JobCounts) {
+    let jobs = Family::<Label, Gauge>::default();
+    for (status, count) in &counts.jobs {
+        let label = [("status", status.word().to_owned())];
+        jobs.get_or_create(&label).set(*count as i64);
+    }
+    registry.register("jobs", "Jobs by state", jobs);
+    let attempts = Family::<Label, Counter>::default();
+    for (ending, count) in &counts.attempts {
+        attempts
+            .get_or_create(&[("ending", ending.clone())])
+            .inc_by(*count);
+    }
+    let help = "Ended attempts at jobs, by how they ended";
+    registry.register("attempts_ended", help, attempts);
+    let waiting = RealGauge::default();
+    waiting.set(counts.oldest_waiting_s);
+    let help = "Age of the oldest waiting job";
+    registry.register_with_unit("oldest_waiting", help, Unit::Seconds, waiting);
+    let database: Gauge = Gauge::default();
+    database.set(counts.database_bytes as i64);
+    let help = "Length of the database";
+    registry.register_with_unit("database", help, Unit::Bytes, database);
 }
 
 impl RequestCounts {
     fn take_in(&self, status: u16, time_s: f64) {
-        let class = usize::from(status / 100).clamp(1, 5) - 1;
-        self.by_status[class].fetch_add(1, Ordering::Relaxed);
-        let place = CLASSES_S.iter().position(|end| time_s <= *end);
-        self.by_time[place.unwrap_or(CLASSES_S.len() - 1)].fetch_add(1, Ordering::Relaxed);
-        self.microseconds
-            .fetch_add((time_s * 1e6) as u64, Ordering::Relaxed);
+        let class = format!("{}xx", (status / 100).clamp(1, 5));
+        self.by_status.get_or_create(&[("status", class)]).inc();
+        self.seconds.observe(time_s);
     }
 
-    fn statuses(&self) -> Vec<(String, f64)> {
-        let classes = self.by_status.iter().enumerate();
-        classes
-            .map(|(place, count)| {
-                let count = count.load(Ordering::Relaxed) as f64;
-                (format!("{{status=\"{}xx\"}}", place + 1), count)
-            })
-            .collect()
-    }
-
-    fn histogram(&self) -> String {
-        let mut text = String::new();
-        let mut sum = 0;
-        for (end, count) in CLASSES_S.iter().zip(&self.by_time) {
-            sum += count.load(Ordering::Relaxed);
-            let end = if end.is_finite() {
-                end.to_string()
-            } else {
-                "+Inf".to_owned()
-            };
-            let _ = writeln!(text, "scree_request_seconds_bucket{{le=\"{end}\"}} {sum}");
-        }
-        let seconds = self.microseconds.load(Ordering::Relaxed) as f64 * 1e-6;
-        let _ = writeln!(
-            text,
-            "scree_request_seconds_sum {seconds}\nscree_request_seconds_count {sum}"
-        );
-        text
+    fn register(self, registry: &mut Registry) {
+        let help = "Answered requests by class of status";
+        registry.register("requests", help, self.by_status);
+        let help = "Time to the head of an answer";
+        registry.register_with_unit("request", help, Unit::Seconds, self.seconds);
     }
 }
 
@@ -159,13 +132,16 @@ mod tests {
         counts.take_in(200, 0.005);
         counts.take_in(202, 0.5);
         counts.take_in(503, 100.0);
-        let statuses: Vec<f64> = counts.statuses().into_iter().map(|row| row.1).collect();
-        assert_eq!(statuses, [0.0, 2.0, 0.0, 0.0, 1.0]);
-        let text = counts.histogram();
+        let mut registry = Registry::with_prefix("scree");
+        counts.register(&mut registry);
+        let mut text = String::new();
+        encode(&mut text, &registry).unwrap();
         for line in [
+            "scree_requests_total{status=\"2xx\"} 2",
+            "scree_requests_total{status=\"5xx\"} 1",
             "scree_request_seconds_bucket{le=\"0.001\"} 0",
             "scree_request_seconds_bucket{le=\"0.01\"} 1",
-            "scree_request_seconds_bucket{le=\"1\"} 2",
+            "scree_request_seconds_bucket{le=\"1.0\"} 2",
             "scree_request_seconds_bucket{le=\"+Inf\"} 3",
             "scree_request_seconds_sum 100.505",
             "scree_request_seconds_count 3",

@@ -130,6 +130,12 @@ impl From<crate::jobs::store::StoreError> for Problem {
     fn from(error: crate::jobs::store::StoreError) -> Self {
         match error.kind() {
             StoreErrorKind::Defect => Self::internal(&error),
+            StoreErrorKind::Damaged => Self {
+                kind: "urn:scree:problem:damaged-record".to_owned(),
+                title: "Damaged record",
+                detail: format!("{error}; a backup may still have it"),
+                ..Self::internal(&error)
+            },
             StoreErrorKind::Full => {
                 tracing::error!(%error, "no room");
                 let detail = "there is no room for it on the disk; what is stored is safe";
@@ -138,7 +144,8 @@ impl From<crate::jobs::store::StoreError> for Problem {
             }
             StoreErrorKind::Unavailable => {
                 tracing::error!(%error, "the database can't be used");
-                let detail = "the database can't be used now; what was acknowledged is safe";
+                let detail =
+                    "the database can't be used now; /readyz and the service's log say why";
                 let status = StatusCode::SERVICE_UNAVAILABLE;
                 Self {
                     retry_after_s: Some(RETRY_AFTER_S),

@@ -17,7 +17,6 @@ use axum::response::{Html, IntoResponse, Response};
 use axum::routing::get;
 use axum::{Extension, Router};
 use std::any::Any;
-use std::sync::Arc;
 use std::time::Duration;
 use tokio::time::Instant;
 use tower_http::catch_panic::CatchPanicLayer;
@@ -63,7 +62,7 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
         .layer(CatchPanicLayer::custom(after_panic))
         .layer(from_fn(browser::harden))
         .layer(from_fn(metrics::count))
-        .layer(Extension(Arc::new(RequestCounts::default())))
+        .layer(Extension(RequestCounts::default()))
         .layer(
             TraceLayer::new_for_http()
                 .make_span_with(span)

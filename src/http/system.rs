@@ -54,8 +54,11 @@ pub(super) async fn ready(State(jobs): State<JobService>) -> Result<Json<HealthD
 }
 
 fn unavailable(error: StoreError) -> Problem {
+    let reason = error.to_string();
     Problem {
         status: StatusCode::SERVICE_UNAVAILABLE.as_u16(),
+        // The operator asks here what is wrong.
+        detail: reason,
         ..error.into()
     }
 }

@@ -12,7 +12,7 @@ use axum::body::{Body, Bytes};
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
-use futures_util::stream;
+use futures_util::{StreamExt, stream};
 use std::collections::BTreeSet;
 use utoipa::ToSchema;
 
@@ -100,8 +100,10 @@ pub(super) async fn trajectory(
         rows,
     };
     let kind = [(header::CONTENT_TYPE, query.format.media_type())];
-    let reading = Reading::new(jobs, range, query.format.writer(&heading, query.fields));
-    Ok((kind, reading.into_body()).into_response())
+    let mut reading = Reading::new(jobs, range, query.format.writer(&heading, query.fields));
+    // Before the head is sent: a damaged record is a problem then, and later a broken stream.
+    let first = reading.piece().await?;
+    Ok((kind, reading.into_body(first)).into_response())
 }
 
 /// Stream of a trajectory to a client: it holds one chunk at a time.
@@ -125,8 +127,10 @@ impl Reading {
         }
     }
 
-    fn into_body(self) -> Body {
-        let pieces = stream::unfold(Some(self), |reading| async {
+    /// The pieces after the first, behind it.
+    fn into_body(self, first: Option<Vec<u8>>) -> Body {
+        let first = stream::iter(first.map(|bytes| Ok(Bytes::from(bytes))));
+        let rest = stream::unfold(Some(self), |reading| async {
             let mut reading = reading?;
             match reading.piece().await {
                 Ok(None) => None,
@@ -137,7 +141,7 @@ impl Reading {
                 }
             }
         });
-        Body::from_stream(pieces)
+        Body::from_stream(first.chain(rest))
     }
 
     /// The next bytes; none after the last.
@@ -158,6 +162,7 @@ impl Reading {
                     self.place = Some((chunk.next_sample, selector));
                 }
                 None => {
+                    self.jobs.check_whole(&self.range).await?;
                     self.writer.end(self.pass, &mut out);
                     self.pass += 1;
                 }

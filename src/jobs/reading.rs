@@ -66,6 +66,22 @@ impl JobService {
         }))
     }
 
+    /// Checks that the range is still there: a job that is removed while its trajectory is read
+    /// must not leave a part that looks like the whole.
+    ///
+    /// # Errors
+    /// Samples of the range are gone, or the store's own.
+    pub async fn check_whole(&self, range: &TrajectoryRange) -> Result<(), StoreError> {
+        let samples = self.store.samples(range.job, range.body).await?;
+        if samples < range.end {
+            return Err(StoreError::Row {
+                job: range.job.to_string(),
+                what: "a sample that was there before",
+            });
+        }
+        Ok(())
+    }
+
     /// Number of samples of the range.
     ///
     /// # Errors

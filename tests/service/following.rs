@@ -188,13 +188,17 @@ async fn the_service_tells_of_itself() {
     app.wait_for_success(&job).await;
     assert_eq!(app.get("/readyz").await.body["status"], "ok");
     let metrics = app.get("/metrics").await;
-    assert!(metrics.content_type.starts_with("text/plain"));
+    assert!(
+        metrics
+            .content_type
+            .starts_with("application/openmetrics-text")
+    );
     let text = metrics.body.as_str().unwrap();
     for line in [
         "scree_jobs{status=\"successful\"} 1",
         "scree_jobs{status=\"running\"} 0",
         "scree_attempts_ended_total{ending=\"successful\"} 1",
-        "scree_oldest_waiting_seconds 0",
+        "scree_oldest_waiting_seconds 0.0",
     ] {
         assert!(text.lines().any(|found| found == line), "{line}\n{text}");
     }

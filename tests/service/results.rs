@@ -3,6 +3,7 @@
 use crate::app::{TestApp, endless_scene, is_running, tiny_scene};
 use reqwest::StatusCode;
 use serde_json::{Value, json};
+use sqlx::Connection;
 
 const COLUMNS: [&str; 14] = [
     "angular_velocity_rad_s",
@@ -335,5 +336,45 @@ async fn arrays_and_snapshots_come_as_archives() {
     app.get("/v1/jobs/x/flow.zip")
         .await
         .assert_problem(StatusCode::NOT_FOUND, "unknown-job");
+    app.stop().await;
+}
+
+/// Damages what is stored of all jobs' trajectories and snapshots.
+async fn damage(database: &std::path::Path) {
+    let options = sqlx::sqlite::SqliteConnectOptions::new().filename(database);
+    let mut connection = sqlx::SqliteConnection::connect_with(&options)
+        .await
+        .unwrap();
+    for damage in [
+        "UPDATE trajectory_chunks SET data = zeroblob(length(data))",
+        "UPDATE flow_snapshots SET data = zeroblob(length(data))",
+    ] {
+        sqlx::query(damage).execute(&mut connection).await.unwrap();
+    }
+    connection.close().await.unwrap();
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_damaged_record_is_a_problem_in_every_format() {
+    let app = TestApp::start().await;
+    let job = app.submit(&tiny_scene()).await;
+    app.wait_for_success(&job).await;
+    let directory = app.stop().await;
+    damage(&crate::app::database(&directory)).await;
+    let app = TestApp::start_in(directory, |_| {}).await;
+    for path in [
+        "trajectory",
+        "trajectory?format=ndjson",
+        "trajectory?format=csv",
+        "trajectory?format=npz",
+        "flow",
+        "flow.zip",
+    ] {
+        let answer = app.get(&format!("{job}/{path}")).await;
+        answer.assert_problem(StatusCode::INTERNAL_SERVER_ERROR, "damaged-record");
+        let detail = answer.body["detail"].as_str().unwrap();
+        assert!(detail.contains("checksum"), "{path}: {detail}");
+    }
+    assert_eq!(app.get(&job).await.body["status"], "successful");
     app.stop().await;
 }

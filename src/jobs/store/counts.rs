@@ -7,7 +7,7 @@ use crate::jobs::job::JobStatus;
 pub struct JobCounts {
     /// Jobs of each state, in the order of [`JobStatus::ALL`].
     pub jobs: [(JobStatus, u64); 5],
-    /// Number of ended attempts, by kind of end.
+    /// Number of ended attempts, those at removed jobs included, by kind of end.
     pub attempts: Vec<(String, u64)>,
     /// Length of the database [bytes].
     pub database_bytes: u64,

@@ -16,6 +16,8 @@ pub enum StoreErrorKind {
     Full,
     /// The database can't be read or written now.
     Unavailable,
+    /// What is stored of one job can't be read; other jobs are not concerned.
+    Damaged,
     /// A defect.
     Defect,
 }
@@ -70,9 +72,8 @@ impl StoreError {
             Self::InUse { .. } | Self::Unavailable(_) | Self::Refused => {
                 StoreErrorKind::Unavailable
             }
-            Self::Schema(_) | Self::Row { .. } | Self::Block { .. } | Self::Defect(_) => {
-                StoreErrorKind::Defect
-            }
+            Self::Row { .. } | Self::Block { .. } => StoreErrorKind::Damaged,
+            Self::Schema(_) | Self::Defect(_) => StoreErrorKind::Defect,
         }
     }
 }

@@ -57,7 +57,7 @@ pub(super) fn of_migration(error: MigrateError) -> StoreError {
         _ => StoreErrorKind::Defect,
     };
     match kind {
-        StoreErrorKind::Defect => StoreError::Schema(error.into()),
+        StoreErrorKind::Damaged | StoreErrorKind::Defect => StoreError::Schema(error.into()),
         StoreErrorKind::Full | StoreErrorKind::Unavailable => of_kind(kind, error.into()),
     }
 }
@@ -66,7 +66,7 @@ fn of_kind(kind: StoreErrorKind, cause: Cause) -> StoreError {
     match kind {
         StoreErrorKind::Full => StoreError::Full(cause),
         StoreErrorKind::Unavailable => StoreError::Unavailable(cause),
-        StoreErrorKind::Defect => StoreError::Defect(cause),
+        StoreErrorKind::Damaged | StoreErrorKind::Defect => StoreError::Defect(cause),
     }
 }
 

@@ -39,11 +39,10 @@ impl SqliteStore {
             let found = counts.iter().find(|(word, _)| word == status.word());
             found.map_or(0, |(_, count)| count.unsigned_abs())
         };
-        let attempts: Vec<(String, i64)> = sqlx::query_as(
-            "SELECT ending, count(*) FROM attempts WHERE ending IS NOT NULL GROUP BY ending",
-        )
-        .fetch_all(self.readers.pool())
-        .await?;
+        let attempts: Vec<(String, i64)> =
+            sqlx::query_as("SELECT ending, total FROM attempt_totals ORDER BY ending")
+                .fetch_all(self.readers.pool())
+                .await?;
         let oldest_waiting_ms: Option<i64> = sqlx::query_scalar(
             "SELECT created_operating_ms FROM jobs WHERE status = 'accepted' ORDER BY sequence LIMIT 1",
         )

@@ -132,7 +132,7 @@ impl SqliteStore {
                 tracing::error!(%error, "the database can't be written now, only read");
                 Ok(())
             }
-            StoreErrorKind::Defect => Err(error),
+            StoreErrorKind::Damaged | StoreErrorKind::Defect => Err(error),
         }
     }
 

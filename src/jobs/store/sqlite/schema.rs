@@ -56,7 +56,7 @@ fn pending(error: StoreError) -> StoreError {
     match error.kind() {
         StoreErrorKind::Full => StoreError::Full(text.into()),
         StoreErrorKind::Unavailable => StoreError::Unavailable(text.into()),
-        StoreErrorKind::Defect => error,
+        StoreErrorKind::Damaged | StoreErrorKind::Defect => error,
     }
 }
 
