@@ -23,7 +23,7 @@ pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
         LogFormat::Json => log_as_json(),
     }
     let runtime = tokio::runtime::Runtime::new()?;
-    runtime.block_on(async {
+    let ended = runtime.block_on(async {
         // Before the address is announced: signals sent before the handlers exist would be lost.
         let asked_to_stop = StopRequests::listen()?;
         let mut running = service::start(config)
@@ -36,7 +36,10 @@ pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
         };
         running.stop().await;
         broken.map_or(Ok(()), |why| Err(Failure::Other(why)))
-    })
+    });
+    // A scenario that is still being read, for a request that was cut off, leaves nothing behind.
+    runtime.shutdown_background();
+    ended
 }
 
 fn configuration(options: &ServeOptions) -> Result<ServiceConfig, Failure> {

@@ -58,7 +58,7 @@ impl Default for Limits {
             request_timeout_s: 30.0,
             connections: 256,
             connections_per_address: 128,
-            operator_connections: 16,
+            operator_connections: 32,
             streams: 128,
             streams_per_caller: 64,
             drain_timeout_s: 5.0,

@@ -140,11 +140,15 @@ impl Table {
     /// Closes an idle connection with such a place, of this address if one is given: one of the
     /// address that has most, and of these the one that was idle longest. `false` if there is none.
     fn close_idle(&mut self, place: Place, address: Option<IpAddr>) -> bool {
+        let mut counts: BTreeMap<IpAddr, usize> = BTreeMap::new();
+        for entry in self.open.values().filter(|entry| entry.is(place, address)) {
+            *counts.entry(entry.address).or_default() += 1;
+        }
         let idle = self.open.iter().filter_map(|(number, entry)| {
             let Activity::Idle(since) = entry.activity else {
                 return None;
             };
-            let most_first = Reverse(self.count(place, Some(entry.address)));
+            let most_first = Reverse(counts.get(&entry.address)?);
             let is_one = entry.is(place, address);
             is_one.then_some((most_first, since, *number))
         });

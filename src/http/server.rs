@@ -17,16 +17,22 @@ use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::server::graceful::GracefulShutdown;
 use std::convert::Infallible;
 use std::io;
+use std::pin::pin;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::watch;
 use tokio::task::JoinSet;
+use tokio::time::timeout;
 use tower::ServiceExt;
 
 /// Pause after the system refused a connection (mostly for lack of file handles):
 /// an immediate retry would only burn a core.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+
+/// Time for which a connection that made room is still served: its request may have arrived
+/// already, and would otherwise be answered with a reset.
+const LAST_REQUEST: Duration = Duration::from_millis(200);
 
 /// Refusals in a row after which the listener counts as dead: a minute of them.
 const MOST_REFUSALS: u32 = 600;
@@ -50,7 +56,7 @@ pub async fn serve(
         _ = stop.changed() => Ok(()),
     };
     drop(listener);
-    if tokio::time::timeout(limits.drain_timeout(), graceful.shutdown())
+    if timeout(limits.drain_timeout(), graceful.shutdown())
         .await
         .is_err()
     {
@@ -115,11 +121,17 @@ fn connection(
         );
     let connection = graceful.watch(connection);
     async move {
-        tokio::select! {
-            ended = connection => if let Err(error) = ended {
-                tracing::debug!(%error, "a connection ended early");
-            },
-            () = open.closed() => tracing::debug!("an idle connection made room for another"),
+        let mut connection = pin!(connection);
+        let ended = tokio::select! {
+            ended = &mut connection => ended,
+            () = open.closed() => {
+                tracing::debug!("an idle connection made room for another");
+                let last = timeout(LAST_REQUEST, connection).await;
+                last.unwrap_or(Ok(()))
+            }
+        };
+        if let Err(error) = ended {
+            tracing::debug!(%error, "a connection ended early");
         }
     }
 }

@@ -14,12 +14,27 @@ pub(crate) struct Answer {
 
 /// Sends one request; an error if the service closes the connection.
 pub(crate) fn ask(address: &str, method: &str, path: &str, body: &str) -> io::Result<Answer> {
+    ask_with(address, method, path, &[], body)
+}
+
+/// The same with further headers.
+pub(crate) fn ask_with(
+    address: &str,
+    method: &str,
+    path: &str,
+    headers: &[(&str, &str)],
+    body: &str,
+) -> io::Result<Answer> {
     let mut stream = TcpStream::connect(address)?;
     stream.set_read_timeout(Some(Duration::from_secs(60)))?;
+    let headers = headers
+        .iter()
+        .map(|(name, value)| format!("{name}: {value}\r\n"));
     write!(
         stream,
         "{method} {path} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\
-         Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{body}",
+         Content-Type: application/json\r\n{}Content-Length: {}\r\n\r\n{body}",
+        headers.collect::<String>(),
         body.len()
     )?;
     let mut bytes = Vec::new();

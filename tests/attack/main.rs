@@ -6,11 +6,14 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+mod chaos;
 mod client;
 mod clients;
 mod disk;
 mod kills;
 mod load;
+#[cfg(target_os = "linux")]
+mod saturation;
 mod served;
 
 /// One attack at a time, since concurrent ones would change each other's figures.
