@@ -9,9 +9,6 @@ use std::time::{Duration, Instant};
 /// Positions of the bar.
 const TICKS: u64 = 1_000;
 
-/// Share of the run between two lines if there is no terminal.
-const LINE_STEP: f64 = 0.1;
-
 /// Least time between two lines, so that quick runs fill no log.
 const LEAST_PAUSE: Duration = Duration::from_secs(5);
 
@@ -30,26 +27,24 @@ pub(super) enum Meter {
 /// Schedule of lines: at every tenth of the run, but neither too often nor too seldom.
 #[derive(Debug)]
 pub(super) struct LineSchedule {
-    /// Share of the run at which the next line is due.
-    next: f64,
+    /// Tenths of the run at which the next line is due.
+    next: u32,
     /// Time of the last line.
     last: Instant,
 }
 
 impl LineSchedule {
     fn new(now: Instant) -> Self {
-        Self {
-            next: LINE_STEP,
-            last: now,
-        }
+        Self { next: 1, last: now }
     }
 
     /// True if a line is due; the next one is then due later.
     fn is_due(&mut self, fraction: f64, now: Instant) -> bool {
+        let tenths = (fraction * 10.0) as u32;
         let pause = now - self.last;
-        let due = (fraction >= self.next && pause >= LEAST_PAUSE) || pause >= LONGEST_PAUSE;
+        let due = (tenths >= self.next && pause >= LEAST_PAUSE) || pause >= LONGEST_PAUSE;
         if due {
-            self.next = ((fraction / LINE_STEP).floor() + 1.0) * LINE_STEP;
+            self.next = tenths + 1;
             self.last = now;
         }
         due

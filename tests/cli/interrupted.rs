@@ -1,11 +1,15 @@
 //! `scree run` that is interrupted, and resumed.
 
-use crate::command::{Scene, ask, json_file, long, scree};
+use crate::command::{Answer, Scene, ask, json_file, long, scree};
 use serde_json::{Value, json};
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
+
+/// Limit on the size of files [512 bytes].
+const LIMIT_BLOCKS: u32 = 4000;
 
 /// A run that is killed if the test fails before it has ended.
 struct Running(Option<Child>);
@@ -163,6 +167,34 @@ fn a_run_that_is_killed_at_its_start_begins_anew() {
     assert_eq!(resume(&out), uninterrupted(&scene));
 }
 
+/// A disk that has space for the state, but not for the results: the last words tell how to
+/// continue from the state. A limit on the size of files stands for the disk.
+#[test]
+fn a_disk_that_is_full_at_the_end_loses_only_the_end() {
+    let mut scenario = long();
+    scenario["sample_interval_s"] = json!(1e-4);
+    let scene = Scene::new(&scenario);
+    let out = scene.path("results");
+    let script = format!(
+        "trap '' XFSZ; ulimit -f {LIMIT_BLOCKS}; exec {} run {} --out {}",
+        env!("CARGO_BIN_EXE_scree"),
+        scene.file().display(),
+        out.display()
+    );
+    let output = Command::new("sh").args(["-c", &script]).output().unwrap();
+    let answer = Answer::from(output);
+    assert_eq!(answer.code, Some(1), "{}", answer.stderr);
+    for words in [
+        "its state is not saved",
+        "cannot write",
+        "--resume",
+        "too large",
+    ] {
+        assert!(answer.stderr.contains(words), "{words}: {}", answer.stderr);
+    }
+    assert_eq!(resume(&out), uninterrupted(&scene));
+}
+
 #[test]
 fn without_a_folder_ctrl_c_just_stops() {
     let mut scenario = long();
@@ -176,6 +208,24 @@ fn without_a_folder_ctrl_c_just_stops() {
     assert_eq!(ended.status.code(), Some(130), "{stderr}");
     assert!(ended.stdout.is_empty());
     assert!(stderr.contains("no --out was given"), "{stderr}");
+}
+
+/// Where there is no terminal, progress is plain lines.
+#[test]
+fn progress_into_a_pipe_is_lines_with_share_time_and_remaining_time() {
+    let mut scenario = long();
+    scenario["duration_s"] = json!(2);
+    let scene = Scene::new(&scenario);
+    let mut running = Running::start(&scene, None);
+    let stderr = running.0.as_mut().unwrap().stderr.take().unwrap();
+    let mut line = String::new();
+    BufReader::new(stderr).read_line(&mut line).unwrap();
+    running.signal("-INT");
+    assert_eq!(running.end().status.code(), Some(130));
+    for words in [" %  t = ", " s, ", "min to go\n"] {
+        assert!(line.contains(words), "{words}: {line}");
+    }
+    assert!(line.chars().all(|c| c == '\n' || !c.is_control()), "{line}");
 }
 
 /// While a run goes on, nobody else may use its folder; a second Ctrl-C ends it at once.

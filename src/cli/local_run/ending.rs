@@ -9,12 +9,16 @@ use scree_solver::record::Outcome;
 
 impl Job {
     /// Writes the results of the completed run, and returns their paths; none without a folder.
-    /// If it fails, the saved state stays, so that only the end has to be computed again.
-    pub(super) fn deliver(
+    pub(super) fn completed(
         &self,
         recorded: &Recorded,
         outcome: &Outcome,
     ) -> Result<Option<String>, Failure> {
+        self.deliver(recorded, outcome)
+            .map_err(|failure| self.broken_off(&failure))
+    }
+
+    fn deliver(&self, recorded: &Recorded, outcome: &Outcome) -> Result<Option<String>, Failure> {
         let Some(folder) = &self.folder else {
             return Ok(None);
         };
@@ -76,6 +80,19 @@ impl Job {
             interrupts.first(),
             format!(" at {percent} % of the run; {kept}"),
         )
+    }
+
+    /// Failure of the machine to keep results or state. The last state that was saved stays.
+    pub(super) fn broken_off(&self, failure: &Failure) -> Failure {
+        let folder = self.folder.as_ref();
+        let how = match folder.filter(|folder| folder.has_saved_state()) {
+            Some(folder) => format!(
+                "\n`scree run --resume {}` continues from the state saved before",
+                folder.path().display()
+            ),
+            None => String::new(),
+        };
+        Failure::Other(format!("{failure}{how}"))
     }
 
     /// Removes the saved state of a run that can't be set up, as it never will be.

@@ -57,13 +57,13 @@ fn compute(mut job: Job, options: &RunOptions) -> Result<(), Failure> {
     let recorded = recording.into_parts();
     match ended {
         Ok(RunEnd::Completed(outcome)) => {
-            let written = job.deliver(&recorded, &outcome)?;
+            let written = job.completed(&recorded, &outcome)?;
             answer(&outcome, written.as_deref(), options.json)
         }
         Ok(RunEnd::Stopped) => Err(job.stopped(&interrupts, fraction)),
         Err(error @ RunError::Step(_)) => Err(job.failed(&recorded, &failure(&error))),
         Err(error @ RunError::Setup(_)) => Err(job.given_up(failure(&error))),
-        Err(error @ RunError::Sink(_)) => Err(failure(&error)),
+        Err(error @ RunError::Sink(_)) => Err(job.broken_off(&failure(&error))),
     }
 }
 

@@ -40,7 +40,7 @@ impl ResultsFolder {
         fs::create_dir_all(path).map_err(|error| Failure::path("make", path, &error))?;
         let folder = Self::locked(path)?;
         folder.complete_delivery()?;
-        if SavedRun::has_state(&folder.partial) {
+        if folder.has_saved_state() {
             let partial = folder.partial.display();
             return Err(Failure::Input(format!(
                 "{path} holds an interrupted run: `scree run --resume {path}` continues it; \
@@ -111,6 +111,11 @@ impl ResultsFolder {
     /// True if the folder holds whole results.
     pub(super) fn has_results(&self) -> bool {
         self.path.join(OUTCOME).exists()
+    }
+
+    /// True if the folder holds the saved state of a run.
+    pub(super) fn has_saved_state(&self) -> bool {
+        SavedRun::has_state(&self.partial)
     }
 
     /// Path of the folder.
