@@ -84,11 +84,11 @@ pub(super) fn sync_folder(folder: &Path) -> Result<(), FileError> {
     Ok(())
 }
 
-/// Removes a file or an empty folder's contents by `remove`; one that is not there is no error.
+/// Result of a removal or a move; a path that is not there is no error.
 ///
 /// # Errors
-/// The system's.
-pub(super) fn removed(result: io::Result<()>) -> io::Result<()> {
+/// The system's others.
+pub(super) fn unless_missing(result: io::Result<()>) -> io::Result<()> {
     match result {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
         result => result,

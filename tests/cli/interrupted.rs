@@ -1,6 +1,6 @@
 //! `scree run` that is interrupted, and resumed.
 
-use crate::command::{Answer, Scene, ask, json_file, long, scree};
+use crate::command::{Answer, Scene, ask, json_file, long, scree, tiny};
 use serde_json::{Value, json};
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -9,7 +9,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 /// Limit on the size of files [512 bytes].
-const LIMIT_BLOCKS: u32 = 4000;
+const LIMIT_BLOCKS: u32 = 3600;
 
 /// A run that is killed if the test fails before it has ended.
 struct Running(Option<Child>);
@@ -184,12 +184,7 @@ fn a_disk_that_is_full_at_the_end_loses_only_the_end() {
     let output = Command::new("sh").args(["-c", &script]).output().unwrap();
     let answer = Answer::from(output);
     assert_eq!(answer.code, Some(1), "{}", answer.stderr);
-    for words in [
-        "its state is not saved",
-        "cannot write",
-        "--resume",
-        "too large",
-    ] {
+    for words in ["cannot write", "trajectory-0.json", "--resume", "too large"] {
         assert!(answer.stderr.contains(words), "{words}: {}", answer.stderr);
     }
     assert_eq!(resume(&out), uninterrupted(&scene));
@@ -305,4 +300,32 @@ fn what_cannot_be_resumed_is_refused_with_the_reason() {
     records.extend(b"cut off");
     fs::write(partial.join("records"), records).unwrap();
     assert_eq!(resume(&out), uninterrupted(&scene));
+}
+
+/// A run that was killed while its files were moved: they are whole, and are moved now.
+#[test]
+fn a_run_that_was_killed_at_its_very_end_is_delivered() {
+    let scene = Scene::new(&tiny());
+    let out = scene.path("results");
+    let whole = ask(&[&"run", &scene.file(), &"--out", &out]);
+    assert_eq!(whole.code, Some(0), "{}", whole.stderr);
+    let new = out.join(".scree-partial/new");
+    fs::create_dir_all(&new).unwrap();
+    for name in ["aerial.svg", "outcome.json"] {
+        fs::rename(out.join(name), new.join(name)).unwrap();
+    }
+    let names = [
+        "trajectory-0.json",
+        "motion.svg",
+        "aerial.svg",
+        "outcome.json",
+    ];
+    let list = json!({"place": "Whole", "files": names}).to_string();
+    fs::write(out.join(".scree-partial/new.json"), list).unwrap();
+    let answer = ask(&[&"run", &"--resume", &out, &"--json"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.stderr);
+    let outcome: Value = serde_json::from_str(&answer.stdout).unwrap();
+    assert_eq!(outcome, json_file(&out.join("outcome.json")));
+    assert!(names.iter().all(|name| out.join(name).exists()));
+    assert!(!out.join(".scree-partial").exists());
 }

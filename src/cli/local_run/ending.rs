@@ -70,6 +70,8 @@ impl Job {
     pub(super) fn stopped(&self, interrupts: &Interrupts, fraction: f64) -> Failure {
         let percent = (100.0 * fraction).floor();
         let kept = match &self.folder {
+            // Only a computation about to fail has a state that can't be saved.
+            Some(folder) if !folder.has_saved_state() => "its state can't be saved".to_owned(),
             Some(folder) => format!(
                 "its state is saved, and `scree run --resume {}` continues it",
                 folder.path().display()

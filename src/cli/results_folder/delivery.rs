@@ -38,7 +38,7 @@ pub(in crate::cli) struct Delivery<'a> {
 impl<'a> Delivery<'a> {
     pub(super) fn begin(folder: &'a ResultsFolder, place: Place) -> Result<Self, FileError> {
         let new = folder.new_files();
-        files::removed(fs::remove_dir_all(&new)).map_err(files::failed("clear", &new))?;
+        files::unless_missing(fs::remove_dir_all(&new)).map_err(files::failed("clear", &new))?;
         fs::create_dir_all(&new).map_err(files::failed("make", &new))?;
         let files = Vec::new();
         Ok(Self {
@@ -144,7 +144,7 @@ impl ResultsFolder {
         for name in first.iter().chain(&last) {
             let (from, to) = (self.new_files().join(name), place.join(name));
             // One that is not there has been moved already.
-            files::removed(fs::rename(&from, &to)).map_err(files::failed("write", &to))?;
+            files::unless_missing(fs::rename(&from, &to)).map_err(files::failed("write", &to))?;
         }
         remove_results(&place, &list.files)?;
         if list.place == Place::Whole {
@@ -169,7 +169,7 @@ fn remove_results(folder: &Path, keep: &[String]) -> Result<(), FileError> {
 }
 
 fn remove(path: &Path) -> Result<(), FileError> {
-    files::removed(fs::remove_file(path)).map_err(files::failed("remove", path))
+    files::unless_missing(fs::remove_file(path)).map_err(files::failed("remove", path))
 }
 
 #[cfg(test)]

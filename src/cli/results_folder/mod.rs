@@ -138,9 +138,10 @@ impl ResultsFolder {
     pub(super) fn discard_partial(&self) -> Result<(), FileError> {
         let scenario = SavedRun::scenario_file(&self.partial);
         // First, so that what is left after a crash is no interrupted run.
-        files::removed(fs::remove_file(&scenario)).map_err(files::failed("remove", &scenario))?;
+        files::unless_missing(fs::remove_file(&scenario))
+            .map_err(files::failed("remove", &scenario))?;
         let partial = &self.partial;
-        files::removed(fs::remove_dir_all(partial)).map_err(files::failed("remove", partial))
+        files::unless_missing(fs::remove_dir_all(partial)).map_err(files::failed("remove", partial))
     }
 }
 
