@@ -13,8 +13,8 @@ pub(super) struct Arguments {
     pub(super) command: Command,
 }
 
-const EXIT_CODES: &str =
-    "Exit codes: 0 fine, 2 invalid input, 3 numerical failure, 4 a case failed, 1 other.";
+const EXIT_CODES: &str = "Exit codes: 0 fine, 2 invalid input, 3 numerical failure, 4 a case failed, 130 Ctrl-C, \
+     143 SIGTERM, 1 other.";
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
@@ -93,11 +93,16 @@ pub(super) enum ScopeWord {
 #[derive(Debug, Args)]
 pub(super) struct RunOptions {
     /// Scenario, a JSON file; - reads standard input
-    #[arg(value_name = "SCENARIO.json")]
-    pub(super) scenario: PathBuf,
-    /// Write outcome, trajectories and pictures into this directory
+    #[arg(value_name = "SCENARIO.json", required_unless_present = "resume")]
+    pub(super) scenario: Option<PathBuf>,
+    /// Write outcome, trajectories and pictures into this directory; an earlier run's results
+    /// stay there until the new ones are whole
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Continue the run with results in this directory where Ctrl-C, SIGTERM or a crash
+    /// interrupted it; results are the same bits as without the interruption
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scenario", "out"])]
+    pub(super) resume: Option<PathBuf>,
     /// Print only the outcome, as JSON, on standard output
     #[arg(long)]
     pub(super) json: bool,

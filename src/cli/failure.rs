@@ -1,6 +1,8 @@
 //! Reasons for the failure of a command.
 
-use super::console;
+use super::console::{self, OutputError};
+use super::files::FileError;
+use super::signals::Signal;
 use scree::jobs::forecast::ForecastError;
 use scree::pictures::PictureError;
 use scree_solver::SetupError;
@@ -22,6 +24,9 @@ pub(super) enum Failure {
     /// Number of cases that failed their tolerance: an expert of the method.
     #[error("{0} failed")]
     Missed(usize),
+    /// A run stopped by a signal, and what became of it: whoever sent the signal.
+    #[error("stopped by {0}{1}")]
+    Stopped(Signal, String),
     /// Any other failure: the operator of the machine.
     #[error("{0}")]
     Other(String),
@@ -33,24 +38,35 @@ impl Failure {
         Self::Other(format!("{what}: {why}"))
     }
 
-    /// A file or directory named on the command line that can't be used.
+    /// A file or directory named on the command line that can't be used. A full disk is none
+    /// of the command line's faults.
     pub(super) fn path(doing: &str, path: &Path, why: &io::Error) -> Self {
-        Self::Input(format!("cannot {doing} {}: {why}", path.display()))
+        let text = format!("cannot {doing} {}: {why}", path.display());
+        match why.kind() {
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => Self::Other(text),
+            _ => Self::Input(text),
+        }
     }
 
     /// Reports the failure on standard error and returns the exit code of the process.
     pub(super) fn report(&self) -> ExitCode {
-        console::note(&format!("error: {self}"));
+        match self {
+            // What was asked for is no error.
+            Self::Stopped(..) => console::note(&self.to_string()),
+            error => console::note(&format!("error: {error}")),
+        }
         ExitCode::from(self.exit_code())
     }
 
-    /// Exit code: 2 invalid input, 3 numerical failure, 4 a failed case, 1 other.
+    /// Exit code: 2 invalid input, 3 numerical failure, 4 a failed case, 130 Ctrl-C,
+    /// 143 SIGTERM, 1 other.
     pub(super) fn exit_code(&self) -> u8 {
         match self {
             Self::Other(_) => 1,
             Self::Input(_) => 2,
             Self::Numerical(_) => 3,
             Self::Missed(_) => 4,
+            Self::Stopped(signal, _) => signal.exit_code(),
         }
     }
 }
@@ -62,6 +78,18 @@ impl From<ForecastError> for Failure {
             ForecastError::Step(error) => Self::Numerical(error.to_string()),
             error @ ForecastError::Cancelled => Self::Other(error.to_string()),
         }
+    }
+}
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        Self::Other(error.to_string())
+    }
+}
+
+impl From<OutputError> for Failure {
+    fn from(error: OutputError) -> Self {
+        Self::Other(error.to_string())
     }
 }
 

@@ -4,36 +4,57 @@ use super::console;
 use indicatif::{ProgressBar, ProgressStyle};
 use scree::runs::Progress;
 use std::io::IsTerminal;
+use std::time::{Duration, Instant};
 
 /// Positions of the bar.
 const TICKS: u64 = 1_000;
 
-/// Share of the run between two lines if there is no terminal.
-const LINE_STEP: f64 = 0.1;
+/// Least time between two lines, so that quick runs fill no log.
+const LEAST_PAUSE: Duration = Duration::from_secs(5);
 
-/// A progress bar on a terminal; otherwise silence or a line at every tenth.
+/// Longest time between two lines, so that slow runs are seen to go on.
+const LONGEST_PAUSE: Duration = Duration::from_secs(60);
+
+/// A progress bar on a terminal, otherwise lines.
 #[derive(Debug)]
 pub(super) enum Meter {
     /// A bar on standard error.
     Bar(ProgressBar),
-    /// A line each time the next tenth is reached.
-    Lines {
-        /// Share of the run at which the next line is due.
-        next: f64,
-    },
-    /// No output.
-    Silent,
+    /// Lines on standard error, without control codes.
+    Lines(LineSchedule),
+}
+
+/// Schedule of lines: at every tenth of the run, but neither too often nor too seldom.
+#[derive(Debug)]
+pub(super) struct LineSchedule {
+    /// Tenths of the run at which the next line is due.
+    next: u32,
+    /// Time of the last line.
+    last: Instant,
+}
+
+impl LineSchedule {
+    fn new(now: Instant) -> Self {
+        Self { next: 1, last: now }
+    }
+
+    /// True if a line is due; the next one is then due later.
+    fn is_due(&mut self, fraction: f64, now: Instant) -> bool {
+        let tenths = (fraction * 10.0) as u32;
+        let pause = now - self.last;
+        let due = (tenths >= self.next && pause >= LEAST_PAUSE) || pause >= LONGEST_PAUSE;
+        if due {
+            self.next = tenths + 1;
+            self.last = now;
+        }
+        due
+    }
 }
 
 impl Meter {
-    /// A bar if standard error is a terminal, else no output.
-    pub(super) fn bar_or_silence() -> Self {
-        Self::bar().unwrap_or(Self::Silent)
-    }
-
     /// A bar if standard error is a terminal, else lines.
     pub(super) fn bar_or_lines() -> Self {
-        Self::bar().unwrap_or(Self::Lines { next: LINE_STEP })
+        Self::bar().unwrap_or_else(|| Self::Lines(LineSchedule::new(Instant::now())))
     }
 
     fn bar() -> Option<Self> {
@@ -50,14 +71,12 @@ impl Meter {
                 bar.set_position((progress.fraction * TICKS as f64) as u64);
                 bar.set_message(in_words(progress));
             }
-            Self::Lines { next } => {
-                if progress.fraction >= *next {
+            Self::Lines(schedule) => {
+                if schedule.is_due(progress.fraction, Instant::now()) {
                     let percent = (progress.fraction * 100.0).floor();
                     console::note(&format!("{percent:>3} %  {}", in_words(progress)));
-                    *next = ((progress.fraction / LINE_STEP).floor() + 1.0) * LINE_STEP;
                 }
             }
-            Self::Silent => {}
         }
     }
 
@@ -100,21 +119,26 @@ mod tests {
         assert_eq!(in_words(&progress), expected);
     }
 
-    /// Lines are printed once per tenth however often progress is reported, and a jump over
-    /// several tenths is one line.
+    /// A line per tenth if tenths take a while, one for several if they are quick, and one
+    /// a minute if they are slow.
     #[test]
-    fn lines_are_due_once_a_tenth() {
-        let mut meter = Meter::Lines { next: LINE_STEP };
-        let mut due = Vec::new();
-        for fraction in [0.05, 0.1, 0.15, 0.55, 0.58, 0.61] {
-            meter.show(&Progress {
-                fraction,
-                ..Progress::default()
+    fn lines_are_neither_too_many_nor_too_few() {
+        let percents_told = |seconds_per_percent: f64| {
+            let began = Instant::now();
+            let mut schedule = LineSchedule::new(began);
+            let told = (1..=100).filter(|percent| {
+                let percent = f64::from(*percent);
+                let now = began + Duration::from_secs_f64(percent * seconds_per_percent);
+                schedule.is_due(percent / 100.0, now)
             });
-            if let Meter::Lines { next } = meter {
-                due.push((next * 10.0).round() as i32);
-            }
-        }
-        assert_eq!(due, [1, 2, 2, 6, 6, 7]);
+            told.collect::<Vec<i32>>()
+        };
+        assert_eq!(percents_told(0.04), [0; 0]);
+        assert_eq!(percents_told(0.25), [20, 40, 60, 80, 100]);
+        assert_eq!(
+            percents_told(1.0),
+            [10, 20, 30, 40, 50, 60, 70, 80, 90, 100]
+        );
+        assert_eq!(percents_told(30.0)[..5], [2, 4, 6, 8, 10]);
     }
 }

@@ -1,8 +1,8 @@
 //! The command line: commands and exit codes.
 //!
 //! Exit codes: 0 success; 2 invalid input (arguments, files, scenario); 3 failure of the
-//! computation; 4 a case of known answer failed; 1 any other failure (a full disk, a port
-//! in use).
+//! computation; 4 a case of known answer failed; 130 and 143 Ctrl-C and SIGTERM; 1 any other
+//! failure (a full disk, a port in use).
 
 mod arguments;
 mod backup;
@@ -12,14 +12,16 @@ mod columns;
 mod console;
 mod demo;
 mod failure;
+mod files;
 mod intervals;
 mod local_run;
 mod machine;
 mod meter;
-mod output;
 mod plan;
+mod results_folder;
 mod scenario_file;
 mod serve;
+mod signals;
 mod table;
 mod token;
 mod validate;

@@ -41,7 +41,8 @@ pub(super) fn parse(text: &str, name: &str) -> Result<Scenario, Failure> {
     Scenario::from_json(text).map_err(|error| Failure::Input(explain(&error, name)))
 }
 
-fn name(path: &Path) -> String {
+/// Name of the file in messages.
+pub(super) fn name(path: &Path) -> String {
     if path == Path::new("-") {
         return "standard input".to_owned();
     }

@@ -3,6 +3,7 @@
 use super::arguments::ServeOptions;
 use super::console;
 use super::failure::Failure;
+use super::signals::Signals;
 use scree::config::{LogFormat, ServiceConfig};
 use scree::service::{self, StartError};
 use std::io::IsTerminal;
@@ -25,13 +26,13 @@ pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
     let runtime = tokio::runtime::Runtime::new()?;
     let ended = runtime.block_on(async {
         // Before the address is announced: signals sent before the handlers exist would be lost.
-        let asked_to_stop = StopRequests::listen()?;
+        let mut signals = Signals::listen()?;
         let mut running = service::start(config)
             .await
             .map_err(|error| not_started(&error))?;
         console::answer(&format!("listening on http://{}", running.address()))?;
         let broken = tokio::select! {
-            () = asked_to_stop.first() => None,
+            _ = signals.next() => None,
             why = running.broken() => Some(why),
         };
         running.stop().await;
@@ -81,45 +82,4 @@ fn log_as_json() {
         .with_writer(std::io::stderr)
         .with_max_level(LevelFilter::INFO)
         .init();
-}
-
-/// Ctrl-C and SIGTERM, received from the moment this is created.
-struct StopRequests {
-    #[cfg(unix)]
-    signals: [tokio::signal::unix::Signal; 2],
-    #[cfg(windows)]
-    ctrl_c: tokio::signal::windows::CtrlC,
-}
-
-impl StopRequests {
-    #[cfg(unix)]
-    fn listen() -> std::io::Result<Self> {
-        use tokio::signal::unix::{SignalKind, signal};
-        let signals = [
-            signal(SignalKind::interrupt())?,
-            signal(SignalKind::terminate())?,
-        ];
-        Ok(Self { signals })
-    }
-
-    #[cfg(windows)]
-    fn listen() -> std::io::Result<Self> {
-        let ctrl_c = tokio::signal::windows::ctrl_c()?;
-        Ok(Self { ctrl_c })
-    }
-
-    /// Returns on the first of the two signals.
-    #[cfg(unix)]
-    async fn first(self) {
-        let [mut interrupt, mut terminate] = self.signals;
-        tokio::select! {
-            _ = interrupt.recv() => {}
-            _ = terminate.recv() => {}
-        }
-    }
-
-    #[cfg(windows)]
-    async fn first(mut self) {
-        self.ctrl_c.recv().await;
-    }
 }

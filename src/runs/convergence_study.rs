@@ -96,7 +96,7 @@ impl Runs {
         stop: &StopFlag,
         sink: &mut S,
     ) -> Result<RunEnd, RunError<S::Error>> {
-        let mut whole = Whole::new(sink, self.kept);
+        let mut whole = Whole::new(sink, self.kept, self.begun.is_some());
         while let Some(study_run) = self.convergence_study.next() {
             let (run, kept) = match self.begun.take() {
                 Some(begun) => begun,
@@ -170,16 +170,19 @@ struct Whole<'a, S> {
     sink: &'a mut S,
     kept: Vec<Record>,
     began: Instant,
+    /// Fraction that was done when this began; none until it is known, in a restored study.
+    from: Option<f64>,
     /// Fraction reported last: it never decreases, though a target may require more runs.
     told: f64,
 }
 
 impl<'a, S: Sink> Whole<'a, S> {
-    fn new(sink: &'a mut S, kept: Vec<Record>) -> Self {
+    fn new(sink: &'a mut S, kept: Vec<Record>, restored: bool) -> Self {
         Self {
             sink,
             kept,
             began: Instant::now(),
+            from: (!restored).then_some(0.0),
             told: 0.0,
         }
     }
@@ -188,11 +191,12 @@ impl<'a, S: Sink> Whole<'a, S> {
     fn tell(&mut self, run: &Progress, fraction: f64) -> Result<(), S::Error> {
         let fraction = fraction.clamp(self.told, 1.0);
         self.told = fraction;
-        let going = fraction > 0.0 && fraction < 1.0;
+        let from = *self.from.get_or_insert(fraction);
+        let going = fraction > from && fraction < 1.0;
         let elapsed = self.began.elapsed().as_secs_f64();
         self.sink.progress(&Progress {
             fraction,
-            eta_s: going.then(|| elapsed * (1.0 - fraction) / fraction),
+            eta_s: going.then(|| elapsed * (1.0 - fraction) / (fraction - from)),
             ..*run
         })
     }
@@ -244,5 +248,46 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
         };
         let state = saved_study::write(&saved, run);
         self.whole.sink.state(time_s, &state)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    /// Keeps the last progress.
+    struct Last(Progress);
+
+    impl Sink for Last {
+        type Error = std::convert::Infallible;
+
+        fn record(&mut self, _: Record) -> Result<(), Self::Error> {
+            Ok(())
+        }
+
+        fn progress(&mut self, progress: &Progress) -> Result<(), Self::Error> {
+            self.0 = *progress;
+            Ok(())
+        }
+    }
+
+    /// A quarter of the runs takes ten seconds, in a restored study, too.
+    #[test]
+    fn remaining_time_follows_from_the_pace_since_the_start_or_the_restart() {
+        for restored in [false, true] {
+            let mut sink = Last(Progress::default());
+            let mut whole = Whole::new(&mut sink, Vec::new(), restored);
+            if restored {
+                whole.tell(&Progress::default(), 0.5).unwrap();
+                assert_eq!(whole.sink.0.eta_s, None, "no pace is known");
+            }
+            whole.began = Instant::now() - Duration::from_secs(10);
+            let fraction = if restored { 0.75 } else { 0.25 };
+            whole.tell(&Progress::default(), fraction).unwrap();
+            let eta_s = whole.sink.0.eta_s.unwrap();
+            let expected = if restored { 10.0 } else { 30.0 };
+            assert!((eta_s - expected).abs() < 0.3 * expected, "{eta_s}");
+        }
     }
 }

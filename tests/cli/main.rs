@@ -5,6 +5,8 @@ mod backup;
 mod bench;
 mod command;
 mod demo;
+#[cfg(unix)]
+mod interrupted;
 mod plan;
 mod run;
 mod serve;

@@ -82,7 +82,7 @@ pub(super) fn bench(options: &BenchOptions) -> Result<(), Failure> {
     } else {
         report.tables()
     };
-    Ok(console::answer(&answer)?)
+    Ok(console::only_answer(&answer)?)
 }
 
 /// Runs a measurement if it is among those asked for, and announces it to the user.

@@ -8,7 +8,8 @@ mod documents;
 use super::arguments::DemoOptions;
 use super::failure::Failure;
 use super::meter::Meter;
-use super::output::OutputDirectory;
+use super::results_folder::{Delivery, Place, ResultsFolder};
+use super::signals::Signals;
 use super::{console, scenario_file, serve, table};
 use client::Client;
 use documents::{Job, Recorded};
@@ -36,13 +37,14 @@ pub(super) fn demo(options: &DemoOptions) -> Result<(), Failure> {
         None => SOURCE_PAPER.to_owned(),
     };
     let scenario = scenario_file::parse(&text, "the demo's scenario")?;
-    let directory = OutputDirectory::create(&options.out)?;
+    let folder = ResultsFolder::for_new_run(&options.out)?;
     serve::log_to_standard_error(LevelFilter::WARN);
     let runtime = tokio::runtime::Runtime::new()?;
     runtime.block_on(async {
+        let mut signals = Signals::listen()?;
         tokio::select! {
-            result = with_own_service(text, &scenario, directory) => result,
-            _ = tokio::signal::ctrl_c() => Err(Failure::Other("interrupted".to_owned())),
+            result = with_own_service(text, &scenario, &folder) => result,
+            signal = signals.next() => Err(Failure::Stopped(signal, String::new())),
         }
     })
 }
@@ -52,7 +54,7 @@ pub(super) fn demo(options: &DemoOptions) -> Result<(), Failure> {
 async fn with_own_service(
     text: String,
     scenario: &Scenario,
-    directory: OutputDirectory,
+    folder: &ResultsFolder,
 ) -> Result<(), Failure> {
     let throw_away = tempfile::tempdir()?;
     let config = ServiceConfig {
@@ -65,7 +67,7 @@ async fn with_own_service(
         .map_err(|error| serve::not_started(&error))?;
     console::note(&format!("service on http://{}", running.address()));
     let client = Client::new(running.address());
-    let result = send_and_fetch(client, text, scenario, directory).await;
+    let result = send_and_fetch(client, text, scenario, folder).await;
     running.stop().await;
     console::answer(&result?)?;
     Ok(())
@@ -77,7 +79,7 @@ async fn send_and_fetch(
     client: Client,
     text: String,
     scenario: &Scenario,
-    mut directory: OutputDirectory,
+    folder: &ResultsFolder,
 ) -> Result<String, Failure> {
     let job: Job = client.post("/v1/jobs", text).await?.json()?;
     console::note(&format!(
@@ -85,13 +87,14 @@ async fn send_and_fetch(
         job.id, scenario.title
     ));
     let outcome = wait(client, &job.id).await?;
-    let recorded = fetch(client, &job.id, scenario, &mut directory).await?;
-    directory.outcome(&outcome)?;
-    directory.pictures(scenario, &recorded.samples, &recorded.snapshots, &outcome)?;
+    let mut delivery = folder.deliver(Place::Whole)?;
+    let recorded = fetch(client, &job.id, scenario, &mut delivery).await?;
+    delivery.pictures(scenario, &recorded.samples, &recorded.snapshots, &outcome)?;
+    delivery.outcome(&outcome)?;
+    let written = delivery.finish()?;
     Ok(format!(
-        "{}\n\n{}",
-        table::outcome(&outcome),
-        directory.summary()
+        "{}\n\nwritten to {written}",
+        table::outcome(&outcome)
     ))
 }
 
@@ -114,13 +117,13 @@ async fn fetch(
     client: Client,
     id: &str,
     scenario: &Scenario,
-    directory: &mut OutputDirectory,
+    delivery: &mut Delivery<'_>,
 ) -> Result<Recorded, Failure> {
     let mut recorded = Recorded::default();
     for body in 0..scenario.bodies.len() {
         let path = format!("/v1/jobs/{id}/trajectory?body={body}");
         let document = client.get(&path).await?.accepted()?;
-        directory.trajectory(body, &document)?;
+        delivery.trajectory(body, &document)?;
         recorded.add_trajectory(&document)?;
     }
     for time_s in documents::snapshot_times(scenario) {

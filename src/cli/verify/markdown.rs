@@ -2,6 +2,7 @@
 
 use super::{NOTHING, Report, limit_in_words, order_in_words, row};
 use crate::cli::failure::Failure;
+use crate::cli::files;
 use scree::verify::{How, Verified};
 use std::fmt::Write as _;
 use std::fs;
@@ -35,7 +36,10 @@ impl<'a> Page<'a> {
 
     /// Rewrites the file with these tables between the marks.
     pub(super) fn write(&self, report: &Report) -> Result<(), Failure> {
-        fs::write(self.file, self.with(&tables(report))).map_err(|error| failed(self.file, &error))
+        Ok(files::replace(
+            self.file,
+            self.with(&tables(report)).as_bytes(),
+        )?)
     }
 
     fn with(&self, tables: &str) -> String {

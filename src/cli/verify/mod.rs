@@ -82,10 +82,10 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
         figures::write_slide(&way, folder)?;
         figures::write(&work::diagrams(effort), &machine, folder)?;
     }
-    console::answer(&answer)?;
     if let Some(page) = &page {
         page.write(&report)?;
     }
+    console::only_answer(&answer)?;
     match report.failed() {
         0 => Ok(()),
         failed => Err(Failure::Missed(failed)),

@@ -1,0 +1,112 @@
+//! What `scree run` is asked to compute, and from where.
+
+use crate::cli::arguments::RunOptions;
+use crate::cli::failure::{Failure, not_set_up};
+use crate::cli::results_folder::{Interrupted, Place, ResultsFolder, SavedRun, SavedState};
+use crate::cli::{console, scenario_file};
+use scree::runs::convergence_study::Runs;
+use scree_solver::record::Record;
+use scree_solver::scenario::Scenario;
+use std::path::Path;
+
+/// A scenario, and the folder for its results.
+pub(super) struct Job {
+    pub(super) scenario: Scenario,
+    pub(super) folder: Option<ResultsFolder>,
+    saved: Option<SavedRun>,
+    state: Option<SavedState>,
+}
+
+/// Runs of a job, with the records that were made before and the saved run to be continued.
+pub(super) struct Start {
+    pub(super) runs: Runs,
+    pub(super) records: Vec<Record>,
+    pub(super) saved: Option<SavedRun>,
+}
+
+/// Answer to the command line.
+pub(super) enum Asked {
+    /// A run is to be computed.
+    Compute(Box<Job>),
+    /// The run was over before: its results are in the folder.
+    Delivered(ResultsFolder, Place),
+}
+
+impl Asked {
+    /// The job asked for.
+    ///
+    /// # Errors
+    /// The scenario or the folder can't be used.
+    pub(super) fn of(options: &RunOptions) -> Result<Self, Failure> {
+        match (&options.resume, &options.scenario) {
+            (Some(folder), _) => Self::resumed(folder),
+            (None, Some(file)) => Job::new(file, options.out.as_deref()).map(Self::compute),
+            (None, None) => Err(Failure::Input("no scenario is given".to_owned())),
+        }
+    }
+
+    fn compute(job: Job) -> Self {
+        Self::Compute(Box::new(job))
+    }
+
+    fn resumed(path: &Path) -> Result<Self, Failure> {
+        let (folder, interrupted) = ResultsFolder::of_interrupted_run(path)?;
+        let (text, saved, state) = match interrupted {
+            Interrupted::Delivered(place) => return Ok(Self::Delivered(folder, place)),
+            Interrupted::Run {
+                scenario,
+                saved,
+                state,
+            } => (scenario, saved, state),
+        };
+        if state.is_none() {
+            console::note("the run was interrupted before its first saved state: it begins anew");
+        }
+        Ok(Self::compute(Job {
+            scenario: scenario_file::parse(&text, "the interrupted run's scenario")?,
+            folder: Some(folder),
+            saved: Some(saved),
+            state,
+        }))
+    }
+}
+
+impl Job {
+    fn new(file: &Path, out: Option<&Path>) -> Result<Self, Failure> {
+        let text = scenario_file::read_text(file)?;
+        let scenario = scenario_file::parse(&text, &scenario_file::name(file))?;
+        let folder = out.map(ResultsFolder::for_new_run).transpose()?;
+        let saved = folder.as_ref().map(|folder| folder.save_run(&text));
+        Ok(Self {
+            scenario,
+            saved: saved.transpose()?,
+            folder,
+            state: None,
+        })
+    }
+
+    /// The runs, from their start or from the saved state.
+    ///
+    /// # Errors
+    /// The scenario can't be set up, or the state is not of this scenario and build.
+    pub(super) fn start(&mut self, threads: usize) -> Result<Start, Failure> {
+        let saved = self.saved.take();
+        let (runs, records) = match (self.state.take(), &saved) {
+            (Some(SavedState { state, records }), Some(saved)) => {
+                let runs = Runs::restored(&self.scenario, threads, &state);
+                let refused = |error| saved.not_resumable(&format!("{error}"));
+                (runs.map_err(refused)?, records)
+            }
+            _ => {
+                let runs = Runs::afresh(&self.scenario, threads);
+                let runs = runs.map_err(|error| self.given_up(not_set_up(&error)))?;
+                (runs, Vec::new())
+            }
+        };
+        Ok(Start {
+            runs,
+            records,
+            saved,
+        })
+    }
+}

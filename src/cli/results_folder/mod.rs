@@ -1,0 +1,163 @@
+//! The folder of a run's results. Everything is written into a folder of its own in it, and moved
+//! to its place once it is whole; until then, an earlier run's results stay as they are.
+
+mod delivery;
+mod frame;
+mod lock;
+mod saved;
+
+use super::failure::Failure;
+use super::files::{self, FileError};
+pub(super) use delivery::{Delivery, Place};
+pub(super) use saved::{Interrupted, SavedRun, SavedState};
+use scree_solver::record::Outcome;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Name of the folder for all that is not whole yet.
+const PARTIAL: &str = ".scree-partial";
+
+/// Name of the file of the outcome.
+const OUTCOME: &str = "outcome.json";
+
+/// A folder for results that no other run uses meanwhile.
+#[derive(Debug)]
+pub(super) struct ResultsFolder {
+    path: PathBuf,
+    partial: PathBuf,
+    /// Held until the folder is dropped, or the process ends, however it does.
+    _lock: File,
+}
+
+impl ResultsFolder {
+    /// Opens a folder for a new run; it is created if it does not exist. Done before any
+    /// computation, so that a bad name costs no time.
+    ///
+    /// # Errors
+    /// The folder can't be used, another run uses it, or it holds an interrupted run.
+    pub(super) fn for_new_run(path: &Path) -> Result<Self, Failure> {
+        fs::create_dir_all(path).map_err(|error| Failure::path("make", path, &error))?;
+        let folder = Self::locked(path)?;
+        folder.complete_delivery()?;
+        if folder.has_saved_state() {
+            let partial = folder.partial.display();
+            return Err(Failure::Input(format!(
+                "{path} holds an interrupted run: `scree run --resume {path}` continues it; \
+                 to begin anew, remove {partial}",
+                path = path.display()
+            )));
+        }
+        Ok(folder)
+    }
+
+    /// Opens the folder of an interrupted run.
+    ///
+    /// # Errors
+    /// The folder can't be used, another run uses it, or it holds no interrupted run.
+    pub(super) fn of_interrupted_run(path: &Path) -> Result<(Self, Interrupted), Failure> {
+        let partial = path.join(PARTIAL);
+        if !partial.is_dir() {
+            let partial = partial.display();
+            return Err(Failure::Input(format!(
+                "{} holds no interrupted run: there is no {partial}",
+                path.display()
+            )));
+        }
+        let folder = Self::locked(path)?;
+        let interrupted = match folder.complete_delivery()? {
+            Some(place) => Interrupted::Delivered(place),
+            None => SavedRun::read(&folder.partial)?,
+        };
+        Ok((folder, interrupted))
+    }
+
+    fn locked(path: &Path) -> Result<Self, Failure> {
+        Ok(Self {
+            path: path.to_path_buf(),
+            partial: path.join(PARTIAL),
+            _lock: lock::take(path)?,
+        })
+    }
+
+    /// Begins to save the run of the scenario with this text.
+    ///
+    /// # Errors
+    /// A file can't be written.
+    pub(super) fn save_run(&self, scenario: &str) -> Result<SavedRun, FileError> {
+        self.discard_partial()?;
+        SavedRun::begin(&self.partial, scenario)
+    }
+
+    /// Begins to write results.
+    ///
+    /// # Errors
+    /// A folder can't be made.
+    pub(super) fn deliver(&self, place: Place) -> Result<Delivery<'_>, FileError> {
+        Delivery::begin(self, place)
+    }
+
+    /// The outcome in the folder.
+    ///
+    /// # Errors
+    /// There is none, or it can't be read.
+    pub(super) fn outcome(&self) -> Result<Outcome, Failure> {
+        let path = self.path.join(OUTCOME);
+        let text = fs::read(&path).map_err(files::failed("read", &path))?;
+        serde_json::from_slice(&text)
+            .map_err(|error| Failure::other(&format!("cannot read {}", path.display()), error))
+    }
+
+    /// True if the folder holds whole results.
+    pub(super) fn has_results(&self) -> bool {
+        self.path.join(OUTCOME).exists()
+    }
+
+    /// True if the folder holds the saved state of a run.
+    pub(super) fn has_saved_state(&self) -> bool {
+        SavedRun::has_state(&self.partial)
+    }
+
+    /// Path of the folder.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Folder for this place.
+    pub(super) fn of(&self, place: Place) -> PathBuf {
+        match place {
+            Place::Whole => self.path.clone(),
+            Place::Failed => self.path.join("failed"),
+        }
+    }
+
+    /// Removes all that is not whole.
+    ///
+    /// # Errors
+    /// The system's.
+    pub(super) fn discard_partial(&self) -> Result<(), FileError> {
+        let scenario = SavedRun::scenario_file(&self.partial);
+        // First, so that what is left after a crash is no interrupted run.
+        files::unless_missing(fs::remove_file(&scenario))
+            .map_err(files::failed("remove", &scenario))?;
+        let partial = &self.partial;
+        files::unless_missing(fs::remove_dir_all(partial)).map_err(files::failed("remove", partial))
+    }
+}
+
+/// Names of the results in a folder.
+fn results_in(folder: &Path) -> io::Result<Vec<String>> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let name = entry?.file_name();
+        let Some(name) = name.to_str() else { continue };
+        let is_trajectory = name
+            .strip_prefix("trajectory-")
+            .and_then(|rest| rest.strip_suffix(".json"))
+            .is_some_and(|body| body.parse::<usize>().is_ok());
+        if is_trajectory || [OUTCOME, "motion.svg", "aerial.svg"].contains(&name) {
+            names.push(name.to_owned());
+        }
+    }
+    Ok(names)
+}
