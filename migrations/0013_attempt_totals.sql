@@ -1,7 +1,7 @@
 -- Ended attempts by kind of end, those of removed jobs included: a counter never falls.
 CREATE TABLE attempt_totals (
     ending TEXT    NOT NULL PRIMARY KEY,
-    total  INTEGER NOT NULL CHECK (total > 0)
+    total  INTEGER NOT NULL CHECK (total >= 0)
 ) STRICT;
 
 INSERT INTO attempt_totals (ending, total)
@@ -11,6 +11,6 @@ CREATE TRIGGER ended_attempts_are_counted
 AFTER UPDATE OF ending ON attempts
 WHEN OLD.ending IS NULL AND NEW.ending IS NOT NULL
 BEGIN
-    INSERT INTO attempt_totals (ending, total) VALUES (NEW.ending, 1)
-    ON CONFLICT (ending) DO UPDATE SET total = total + 1;
+    INSERT OR IGNORE INTO attempt_totals (ending, total) VALUES (NEW.ending, 0);
+    UPDATE attempt_totals SET total = total + 1 WHERE ending = NEW.ending;
 END;
