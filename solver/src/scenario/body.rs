@@ -219,6 +219,13 @@ fn rounding_fits(
                 &why,
             );
         }
+        ShapeError::NoCore { allowed_m, .. } => {
+            let allowed = format!("0 < x <= {allowed_m}");
+            let why = format!("makes no solid: {error}");
+            object
+                .report
+                .refuse(&pointer, &allowed, SPHERO_RADIUS.unit, &why);
+        }
         other => {
             let allowed = "a radius that leaves a core";
             object.report.refuse(

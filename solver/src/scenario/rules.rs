@@ -15,8 +15,8 @@ pub(super) const LONGEST: f64 = 3600.0;
 pub(super) const BODIES: usize = 256;
 /// Most samples of all bodies together: about 100 MB of trajectory.
 pub(super) const BODY_SAMPLES: f64 = 500_000.0;
-/// Most JSON values in one document, about twice the need of the most bodies.
-pub(super) const VALUES: usize = 20_000;
+/// Most JSON values in one document, about twice the need of the most bodies of the most points.
+pub(super) const VALUES: usize = 80_000;
 /// Most violations listed in one answer.
 pub(super) const VIOLATIONS: usize = 500;
 /// Tolerance of a quaternion's length, within which it is normalised.

@@ -22,15 +22,29 @@ pub enum ShapeError {
         /// Radius of the largest sphere inside the shape [m].
         inradius_m: f64,
     },
-    /// The core that remains after rounding is too small or too thin to tell its faces apart.
+    /// The core that remains after rounding is so thin that rounding errors blur its faces.
     #[error(
-        "the sphero radius {radius_m} m leaves no core worth the name of a shape with the inradius {inradius_m} m"
+        "the sphero radius {radius_m} m leaves a core {thickness_m} m thick, too thin to tell its faces apart in a solid of {size_m} m; up to {allowed_m} m can be used"
     )]
     NoCore {
         /// Radius of the rounding sphere [m].
         radius_m: f64,
-        /// Radius of the largest sphere inside the shape [m].
-        inradius_m: f64,
+        /// Thickness of the core [m].
+        thickness_m: f64,
+        /// Diameter of the solid [m].
+        size_m: f64,
+        /// Largest radius that surely leaves a core [m].
+        allowed_m: f64,
+    },
+    /// Faces nearly in one plane contradict each other after rounding.
+    #[error(
+        "with the sphero radius {radius_m} m faces can't be told apart that are nearly in one plane, the closest {least_angle_rad} rad from each other; faces within 1e-5 rad are one, those more than 1e-3 rad apart are told apart"
+    )]
+    BlurredFaces {
+        /// Radius of the rounding sphere [m].
+        radius_m: f64,
+        /// Least angle of two faces \[rad\].
+        least_angle_rad: f64,
     },
     /// A vertex has a non-finite coordinate.
     #[error("vertex {vertex} is not finite")]

@@ -2,36 +2,37 @@
 //! every plane moved in.
 
 use super::error::ShapeError;
-use super::pairs::Pairs;
+use super::inscribed::{Ball, Plane, largest_ball};
 use super::polyhedron::ConvexPolyhedron;
+use super::triangulation::{is_in_front, triangulated};
 use super::{check, hull};
-use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
+use nalgebra::{Matrix3, Vector3};
 
 /// Angle below which two planes are one face \[rad\]: coordinates typed with six digits turn
 /// parts of a face by less.
 const ONE_FACE: f64 = 1e-5;
 /// Triple product of three normals below which their planes have no well-defined point in
 /// common; other planes meet there too.
-const NO_CROSSING: f64 = 1e-7;
+const NO_CROSSING: f64 = 1e-11;
 /// Distance in front of a plane that still counts as behind, over the size.
 const BEHIND: f64 = 1e-9;
-/// Sine of the angle of two planes below which their line is not sought: it would be anywhere.
-const NO_LINE: f64 = 1e-3;
-/// Tolerance of a line's place, over the size, and of its slope against a plane: well above the
-/// rounding of the line and [`BEHIND`].
-const NEAR_LINE: f64 = 1e-7;
-/// Rounding of lengths, over the size.
-const ROUNDING: f64 = 1e-12;
-/// More exchanges than any set of planes needs; a limit for cycles caused by rounding.
-const MOST_EXCHANGES: usize = 10_000;
 
 /// All places x with n·x ≤ offset for every plane.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct HalfSpaces {
-    /// Outward unit normal n and offset [m].
-    planes: Vec<(Vector3<f64>, f64)>,
+    planes: Vec<Plane>,
     /// Upper bound of the distance of two places in it, almost sharp [m].
     size: f64,
+    ball: Ball,
+}
+
+/// The point in which three planes meet.
+#[derive(Debug, Clone, Copy)]
+struct Crossing {
+    planes: [usize; 3],
+    /// Triple product of the normals, positive.
+    spanned: f64,
+    place: Vector3<f64>,
 }
 
 impl HalfSpaces {
@@ -60,56 +61,26 @@ impl HalfSpaces {
             let reach = points.iter().map(|point| normal.dot(point));
             (normal, reach.fold(f64::NEG_INFINITY, f64::max))
         };
+        let planes: Vec<Plane> = faces.into_iter().map(plane).collect();
+        let size = 2.0 * check::extent(points);
         Ok(Self {
-            planes: faces.into_iter().map(plane).collect(),
-            size: 2.0 * check::extent(points),
+            ball: largest_ball(&planes, size),
+            planes,
+            size,
         })
     }
 
-    /// Radius ρ of the largest ball inside [m], by linear programming: with centre c it is the
-    /// largest ρ with n·c + ρ ≤ offset for all planes. The dual is solved (Chvátal 1983, Linear
-    /// Programming, chapter 7): weights λ ≥ 0 on the planes with Σ λ n = 0, Σ λ = 1 and least Σ λ
-    /// offset, at most four of them positive. It terminates by Bland's rule.
+    /// Radius of the largest ball inside [m].
     pub(super) fn inradius(&self) -> f64 {
-        // A column per plane, after four that only serve to start: their cost exceeds any
-        // coordinate of the ball, so that none is in the solution.
-        let dear = 10.0 * self.size;
-        let column = |place: usize| match place.checked_sub(4) {
-            None => (Vector4::ith(place, 1.0), dear),
-            Some(plane) => {
-                let (normal, offset) = self.planes[plane];
-                (normal.push(1.0), offset)
-            }
-        };
-        let mut basis = [0, 1, 2, 3];
-        let mut radius = f64::INFINITY;
-        for _ in 0..MOST_EXCHANGES {
-            let columns = basis.map(|place| column(place).0);
-            let prices = Vector4::from(basis.map(|place| column(place).1));
-            let Some(inverse) = Matrix4::from_columns(&columns).try_inverse() else {
-                break;
-            };
-            let weights = inverse.column(3).into_owned();
-            radius = weights.dot(&prices);
-            let ball = inverse.transpose() * prices;
-            let cut = |place: &usize| {
-                let (plane, offset) = column(*place);
-                !basis.contains(place) && offset - ball.dot(&plane) < -ROUNDING * self.size
-            };
-            let Some(entering) = (4..4 + self.planes.len()).find(cut) else {
-                break;
-            };
-            let rates = inverse * column(entering).0;
-            let leaving = (0..4)
-                .filter(|&k| rates[k] > ROUNDING)
-                .map(|k| (weights[k].max(0.0) / rates[k], basis[k], k))
-                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            let Some((_, _, leaving)) = leaving else {
-                break;
-            };
-            basis[leaving] = entering;
-        }
-        radius
+        self.ball.radius
+    }
+
+    /// Least angle of two faces \[rad\].
+    pub(super) fn least_angle(&self) -> f64 {
+        let normals = || self.planes.iter().map(|(normal, _)| normal).enumerate();
+        let angles =
+            normals().flat_map(|(k, a)| normals().skip(k + 1).map(move |(_, b)| a.angle(b)));
+        angles.fold(f64::INFINITY, f64::min)
     }
 
     /// Solid that remains when every plane moves in by `depth` [m]. Faces, edges and vertices may
@@ -118,105 +89,111 @@ impl HalfSpaces {
     /// # Errors
     /// No solid remains, or one too small to tell its features apart.
     pub(super) fn eroded(&self, depth: f64) -> Result<ConvexPolyhedron, ShapeError> {
-        let edges = self.edges(depth);
-        let crossings = edges.triples();
-        let crossings = crossings.filter_map(|triple| self.crossing(triple, depth));
-        let mut crossings: Vec<_> = crossings.collect();
-        // Of several crossings at one place the sharpest is first, and is kept.
-        crossings.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let places: Vec<_> = crossings.into_iter().map(|(_, place)| place).collect();
-        hull::hull_of(&places)
-    }
-
-    /// Planes that may have an edge in common when all are moved in by `depth` [m].
-    fn edges(&self, depth: f64) -> Pairs {
-        Pairs::among(self.planes.len(), |a, b| {
-            self.may_share_an_edge(a, b, depth)
-        })
-    }
-
-    /// True unless the planes' line is nowhere behind all others.
-    fn may_share_an_edge(&self, a: usize, b: usize, depth: f64) -> bool {
-        let [(a, of_a), (b, of_b)] = [a, b].map(|plane| self.planes[plane]);
-        let Some(along) = a.cross(&b).try_normalize(NO_LINE) else {
-            return true;
-        };
-        let (of_a, of_b, cosine) = (of_a - depth, of_b - depth, a.dot(&b));
-        let of_line = a * (of_a - of_b * cosine) + b * (of_b - of_a * cosine);
-        let near = of_line / (1.0 - cosine * cosine);
-        let (mut start, mut end) = (f64::NEG_INFINITY, f64::INFINITY);
-        for (normal, offset) in &self.planes {
-            let room = offset - depth - normal.dot(&near) + NEAR_LINE * self.size;
-            let slope = normal.dot(&along);
-            if slope > NEAR_LINE {
-                end = end.min(room / slope);
-            } else if slope < -NEAR_LINE {
-                start = start.max(room / slope);
-            } else if room < -NEAR_LINE * self.size {
-                return false;
-            }
-            if start > end {
-                return false;
+        let mut crossings: Vec<Crossing> = Vec::new();
+        let mut shared: Vec<Vec<usize>> = Vec::new();
+        for planes in self.vertices(depth)? {
+            let known = |others: &Vec<usize>| planes.iter().all(|plane| others.contains(plane));
+            let crossing = match shared.iter().any(known) {
+                true => None,
+                false => self.crossing(planes, depth),
+            };
+            let Some(crossing) = crossing else {
+                continue;
+            };
+            let through = self.planes_through(&crossing.place, depth);
+            crossings.push(self.sharpest(crossing, &through, depth));
+            if through.len() > 3 {
+                shared.push(through);
             }
         }
-        true
+        // Of several crossings at one place the sharpest is first, and is kept.
+        crossings.sort_by(|a, b| {
+            b.spanned
+                .total_cmp(&a.spanned)
+                .then(a.planes.cmp(&b.planes))
+        });
+        let places: Vec<_> = crossings.iter().map(|crossing| crossing.place).collect();
+        hull::hull_at_least(&places, 2.0 * (self.ball.radius - depth))
     }
 
-    /// Intersection of three planes moved in by `depth` [m], and its triple product, if it is
-    /// behind all others.
-    fn crossing(&self, triple: [usize; 3], depth: f64) -> Option<(f64, Vector3<f64>)> {
-        let [a, b, c] = triple.map(|plane| self.planes[plane].0);
+    /// Three planes for every vertex of the solid that remains: a triangle of the hull of the
+    /// points dual to the planes about the largest ball's centre, each in the direction of its
+    /// plane and at the inverse of its distance. The hull is exact, for planes that differ from
+    /// these by rounding; so planes nearly parallel, or nearly through one point, give short
+    /// edges, but no contradiction.
+    fn vertices(&self, depth: f64) -> Result<Vec<[usize; 3]>, ShapeError> {
+        let nothing = ShapeError::TooFew {
+            vertices: 0,
+            faces: self.planes.len(),
+        };
+        let distance = |(normal, offset): &Plane| offset - depth - normal.dot(&self.ball.centre);
+        if self.planes.iter().any(|plane| distance(plane) <= 0.0) {
+            return Err(nothing);
+        }
+        let dual = |plane: &Plane| plane.0 / distance(plane);
+        let dual: Vec<Vector3<f64>> = self.planes.iter().map(dual).collect();
+        let triangles = triangulated(&dual);
+        let is_open = |corners: [usize; 3]| {
+            is_in_front(&Vector3::zeros(), corners.map(|corner| &dual[corner]))
+        };
+        let mut vertices: Vec<[usize; 3]> = triangles.iter().map(|t| t.corners).collect();
+        if vertices.is_empty() || vertices.iter().any(|&corners| is_open(corners)) {
+            return Err(nothing);
+        }
+        for planes in &mut vertices {
+            planes.sort_unstable();
+        }
+        Ok(vertices)
+    }
+
+    /// All planes through a place when moved in by `depth` [m].
+    fn planes_through(&self, place: &Vector3<f64>, depth: f64) -> Vec<usize> {
+        let near = BEHIND * self.size;
+        let is_through = |&plane: &usize| {
+            let (normal, offset) = &self.planes[plane];
+            (normal.dot(place) - (offset - depth)).abs() <= near
+        };
+        (0..self.planes.len()).filter(is_through).collect()
+    }
+
+    /// The crossing of those of some planes through one point that cross most sharply.
+    fn sharpest(&self, crossing: Crossing, through: &[usize], depth: f64) -> Crossing {
+        if through.len() <= 3 {
+            return crossing;
+        }
+        let normals: Vec<_> = through.iter().map(|&plane| self.planes[plane].0).collect();
+        let spanned = |[a, b, c]: [usize; 3]| normals[a].dot(&normals[b].cross(&normals[c])).abs();
+        let order: Vec<usize> = (0..through.len()).collect();
+        let mut triples: Vec<(f64, [usize; 3])> = hull::triples(&order)
+            .map(|triple| (spanned(triple), triple))
+            .collect();
+        triples.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let of_triple = |(_, triple): &(f64, [usize; 3])| {
+            self.crossing(triple.map(|place| through[place]), depth)
+        };
+        triples.iter().find_map(of_triple).unwrap_or(crossing)
+    }
+
+    /// Intersection of three planes moved in by `depth` [m], if it is behind all others.
+    fn crossing(&self, planes: [usize; 3], depth: f64) -> Option<Crossing> {
+        let [a, b, c] = planes.map(|plane| self.planes[plane].0);
         let (b_by_c, c_by_a, a_by_b) = (b.cross(&c), c.cross(&a), a.cross(&b));
         let spanned = a.dot(&b_by_c);
         if spanned.abs() < NO_CROSSING {
             return None;
         }
-        let offsets = Vector3::from(triple.map(|plane| self.planes[plane].1 - depth));
+        let offsets = Vector3::from(planes.map(|plane| self.planes[plane].1 - depth));
         let cofactors = Matrix3::from_columns(&[b_by_c, c_by_a, a_by_b]) / spanned;
         let rough = cofactors * offsets;
         // A second iteration removes the rounding error of the first.
         let reached = Vector3::new(a.dot(&rough), b.dot(&rough), c.dot(&rough));
         let place = rough + cofactors * (offsets - reached);
         let near = BEHIND * self.size;
-        let behind =
-            |(normal, offset): &(Vector3<f64>, f64)| normal.dot(&place) - (offset - depth) <= near;
-        let meet = self.planes.iter().all(behind);
-        meet.then_some((spanned.abs(), place))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::shape::pairs::all_triples;
-    use proptest::prelude::*;
-
-    fn place() -> impl Strategy<Value = Vector3<f64>> {
-        prop::array::uniform3(-1.0..1.0_f64).prop_map(|place| {
-            // Half of the places on a coarse grid, for planes that meet in more than three.
-            let place = if place[0] > 0.0 {
-                place.map(|c| (c * 4.0).round() / 4.0)
-            } else {
-                place
-            };
-            Vector3::from(place)
+        let behind = |(normal, offset): &Plane| normal.dot(&place) - (offset - depth) <= near;
+        self.planes.iter().all(behind).then_some(Crossing {
+            planes,
+            spanned: spanned.abs(),
+            place,
         })
-    }
-
-    proptest! {
-        // The search for vertices leaves out no three planes that have one.
-        #[test]
-        fn planes_of_a_vertex_share_edges(
-            points in prop::collection::vec(place(), 8..20),
-            share in 0.02..0.95_f64,
-        ) {
-            let Ok(within) = HalfSpaces::round(&points) else { return Ok(()) };
-            let depth = share * within.inradius();
-            let edges = within.edges(depth);
-            for triple in all_triples(within.planes.len()) {
-                let is_vertex = within.crossing(triple, depth).is_some();
-                prop_assert!(!is_vertex || edges.hold(triple), "{triple:?}");
-            }
-        }
     }
 }

@@ -1,43 +1,85 @@
-//! Convex hulls of a few points.
+//! Convex hulls of a few points, without features too small to matter.
 //!
-//! A face is a plane through three of the points with none in front. Every triple is tried whose
-//! three lines each have all points on one side, seen along the line: that leaves few, and needs no
-//! assumption on the order or position of points, where faster methods fail on rounded
-//! coordinates. Two faces of a convex solid
-//! share at most two vertices, so planes that share three are one face: coplanar triangles are
-//! merged, and points with ambiguous coordinates can't tear the surface.
+//! Which triangles enclose the points is found exactly (`triangulation.rs`). Triangles in one plane
+//! are one face, and points that hardly protrude from a face are left out. After each omission the
+//! triangles of the rest are found anew, so that the surface is closed and convex however many
+//! points are nearly in a plane, on a line or at a place.
 
 use super::check::extent;
 use super::error::ShapeError;
 use super::polyhedron::ConvexPolyhedron;
-use super::rim::on_rim;
+use super::triangulation::{Triangle, triangulated};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 
-/// Distance from a plane that still counts as in it, over the solid's size: a hundredth
-/// of the allowed bend of a face, and far above rounding.
-const COPLANAR: f64 = 1e-10;
-/// Smallest feature kept, over the solid's size. The normal of a triangle narrower than this is
-/// not accurate to [`COPLANAR`].
-const SMALLEST: f64 = 1e-5;
-/// Smallest features tried in turn. A feature about as large as the limit can be one point for one
-/// face and two for its neighbour, whose loops then don't close; with another limit it is the same
-/// for both.
-const LIMITS: [f64; 3] = [SMALLEST, 2e-6, 5e-5];
+/// What is told apart, over the size of the solid.
+#[derive(Debug, Clone, Copy)]
+struct Resolution {
+    /// Smallest feature kept. The normal of a triangle narrower than this is not accurate to
+    /// `flat`.
+    smallest: f64,
+    /// Distance from a plane that still counts as in it.
+    flat: f64,
+    /// Smallest feature kept where faces contradict each other.
+    disputed: f64,
+}
+
+/// Resolutions tried in turn. Only the first matters but to one solid in a thousand: a face bent by
+/// about as much as counts as flat may be one for one neighbour and two for the other; with another
+/// resolution it is the same for both. The last leaves out what stands between.
+const RESOLUTIONS: [Resolution; 5] = [
+    Resolution::flat_within(1e-10),
+    Resolution::flat_within(1e-11),
+    Resolution::flat_within(1e-9),
+    Resolution::flat_within(1e-12),
+    Resolution {
+        disputed: 2e-4,
+        ..Resolution::flat_within(1e-10)
+    },
+];
+
+impl Resolution {
+    const fn flat_within(flat: f64) -> Self {
+        Self {
+            smallest: 1e-5,
+            flat,
+            disputed: 0.0,
+        }
+    }
+}
+
+/// Smallest feature kept, over the least thickness of a solid that is very thin.
+const OF_THICKNESS: f64 = 1e-2;
 
 /// The convex hull of some points, without points inside it, in a face or on an edge.
 ///
 /// # Errors
 /// Points that enclose no volume.
 pub(super) fn hull_of(points: &[Vector3<f64>]) -> Result<ConvexPolyhedron, ShapeError> {
+    hull_at_least(points, f64::INFINITY)
+}
+
+/// As [`hull_of`], of points known to enclose a solid at least so thick [m]: of a very thin one
+/// smaller features are kept.
+///
+/// # Errors
+/// Points that enclose no volume, or one whose features can't be told apart.
+pub(super) fn hull_at_least(
+    points: &[Vector3<f64>],
+    thickness: f64,
+) -> Result<ConvexPolyhedron, ShapeError> {
     let size = extent(points);
-    let first = Candidates::of(points, size, SMALLEST).hull();
-    LIMITS[1..].iter().fold(first, |found, &limit| {
-        found.or_else(|error| {
-            Candidates::of(points, size, limit)
-                .hull()
-                .map_err(|_| error)
-        })
+    let hull = |resolution: &Resolution| {
+        let smallest = resolution.smallest.min(OF_THICKNESS * thickness / size);
+        let resolution = Resolution {
+            smallest,
+            ..*resolution
+        };
+        Candidates::of(points, size, resolution).hull()
+    };
+    let first = hull(&RESOLUTIONS[0]);
+    RESOLUTIONS[1..].iter().fold(first, |found, resolution| {
+        found.or_else(|error| hull(resolution).map_err(|_| error))
     })
 }
 
@@ -45,32 +87,32 @@ pub(super) fn hull_of(points: &[Vector3<f64>]) -> Result<ConvexPolyhedron, Shape
 /// though faces that are nearly flat may consist of several pieces.
 pub(super) fn normals(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let size = extent(points);
-    let faces = Candidates::of(points, size, SMALLEST).faces(size);
-    faces.iter().map(|face| face.normal).collect()
+    let faces = Candidates::of(points, size, RESOLUTIONS[0]).faces(size);
+    let wide = faces.iter().filter(|face| face.is_wide);
+    wide.map(|face| face.normal).collect()
 }
 
 /// Distinct points from which the hull is taken.
 #[derive(Debug, Clone)]
-pub(super) struct Candidates {
+struct Candidates {
     points: Vec<Vector3<f64>>,
-    /// Smallest feature kept, over the size.
-    smallest: f64,
+    resolution: Resolution,
 }
 
 impl Candidates {
     /// Points of a solid of this size [m]; those nearer to an earlier one than the smallest feature,
     /// a fraction of the size, are the same.
-    pub(super) fn of(points: &[Vector3<f64>], size: f64, smallest: f64) -> Self {
+    fn of(points: &[Vector3<f64>], size: f64, resolution: Resolution) -> Self {
         let mut different: Vec<Vector3<f64>> = Vec::new();
         for point in points {
-            let near = |other: &Vector3<f64>| (other - point).norm() <= smallest * size;
+            let near = |other: &Vector3<f64>| (other - point).norm() <= resolution.smallest * size;
             if !different.iter().any(near) {
                 different.push(*point);
             }
         }
         Self {
             points: different,
-            smallest,
+            resolution,
         }
     }
 
@@ -78,117 +120,129 @@ impl Candidates {
     ///
     /// # Errors
     /// Points that enclose no volume.
-    pub(super) fn hull(mut self) -> Result<ConvexPolyhedron, ShapeError> {
+    fn hull(mut self) -> Result<ConvexPolyhedron, ShapeError> {
         loop {
             let size = extent(&self.points);
             let faces = self.faces(size);
-            let loops: Vec<Vec<usize>> = faces
-                .iter()
-                .map(|face| face.corners(&self.points, self.smallest * size))
-                .collect();
-            let is_vertex = |point: &usize| {
-                let of_point = || {
-                    let both = faces.iter().zip(&loops);
-                    both.filter(|(face, _)| face.points.contains(point))
-                };
-                of_point().count() > 0 && of_point().all(|(_, corners)| corners.contains(point))
-            };
-            let kept: Vec<usize> = (0..self.points.len()).filter(is_vertex).collect();
-            if kept.len() == self.points.len() || faces.len() < 4 {
-                return ConvexPolyhedron::new(self.points, loops);
+            let corners = |face: &Flat| face.corners(&self.points, self.resolution.smallest * size);
+            let (loops, dull): (Vec<_>, Vec<_>) = faces.iter().map(corners).unzip();
+            let kept = self.kept(&faces, &dull);
+            if kept.len() < self.points.len() && faces.len() >= 4 {
+                self.points = kept.iter().map(|&point| self.points[point]).collect();
+                continue;
             }
-            self.points = kept.iter().map(|&point| self.points[point]).collect();
-        }
-    }
-
-    /// The faces, each with all points that lie in it.
-    fn faces(&self, size: f64) -> Vec<Flat> {
-        let mut faces: Vec<Flat> = Vec::new();
-        let mut split = [0, 0];
-        for triple in on_rim(&self.points, size).triples() {
-            let known = |face: &Flat| triple.iter().all(|p| face.points.contains(p));
-            if let Some(normal) = self.outward(triple, size, &mut split)
-                && !faces.iter().any(known)
+            let solid = ConvexPolyhedron::new(self.points.clone(), loops.clone());
+            match solid
+                .as_ref()
+                .err()
+                .and_then(|error| self.disputed(&loops, error))
             {
-                faces.push(self.flat(triple[0], normal, size));
-            }
+                Some(point) => self.points.remove(point),
+                None => return solid,
+            };
         }
-        self.merged(faces, self.smallest * size)
     }
 
-    /// Merges faces that share more than an edge.
-    fn merged(&self, faces: Vec<Flat>, near: f64) -> Vec<Flat> {
-        let are_one = |a: &Flat, b: &Flat| {
-            let shared = a.points.intersection(&b.points).map(|&p| self.points[p]);
-            !in_line(&shared.collect::<Vec<_>>(), near)
+    /// Of the points of faces that contradict each other the one that protrudes least, if by so
+    /// little that it can be left out.
+    fn disputed(&self, loops: &[Vec<usize>], error: &ShapeError) -> Option<usize> {
+        let (face, stranger) = match *error {
+            ShapeError::NotConvex { face, vertex } => (face, Some(vertex)),
+            ShapeError::BadFace { face } => (face, None),
+            _ => return None,
         };
-        let mut apart: Vec<Flat> = Vec::new();
-        for mut face in faces {
-            while let Some(same) = apart.iter().position(|other| are_one(&face, other)) {
-                face.points.extend(apart.remove(same).points);
-            }
-            apart.push(face);
-        }
-        apart
+        let points = loops[face].iter().copied().chain(stranger);
+        let prominences = points.map(|point| (point, self.prominence(point, loops)));
+        let (point, prominence) = prominences.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let disputed = self.resolution.disputed * extent(&self.points);
+        (prominence <= disputed).then_some(point)
     }
 
-    /// Outward unit normal of the plane through three points, if all others are behind it. Two
-    /// points that `split`, lying to either side, are kept for the next triple, which they often
-    /// split, too.
-    fn outward(
-        &self,
-        triple: [usize; 3],
-        size: f64,
-        split: &mut [usize; 2],
-    ) -> Option<Vector3<f64>> {
+    /// Bound of a point's distance from the hull of the others [m]: that from the line between its
+    /// neighbours in a face.
+    fn prominence(&self, point: usize, loops: &[Vec<usize>]) -> f64 {
+        let in_loop = |vertex_loop: &Vec<usize>| {
+            let count = vertex_loop.len();
+            let place = vertex_loop.iter().position(|&other| other == point)?;
+            let [before, after] = [place + count - 1, place + 1]
+                .map(|k| self.points[vertex_loop[k % count]] - self.points[point]);
+            let chord = after - before;
+            let along = (-before.dot(&chord) / chord.norm_squared()).clamp(0.0, 1.0);
+            Some((before + chord * along).norm())
+        };
+        loops
+            .iter()
+            .filter_map(in_loop)
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Points that are corners of every face they are in. Of the others only so many are left out
+    /// that those between which they are dull are kept: of a short edge across a tip, each end may
+    /// be dull in one face, and without either the tip would be gone.
+    fn kept(&self, faces: &[Flat], dull: &[Vec<Dull>]) -> Vec<usize> {
+        let mut role = vec![Role::Inside; self.points.len()];
+        for &point in faces.iter().flat_map(|face| &face.points) {
+            role[point] = Role::Corner;
+        }
+        for Dull { point, between } in dull.iter().flatten() {
+            let stay = between.iter().all(|&other| role[other] != Role::Inside);
+            if role[*point] == Role::Corner && stay {
+                role[*point] = Role::Inside;
+                between.iter().for_each(|&other| role[other] = Role::Held);
+            }
+        }
+        let stays = |point: &usize| role[*point] != Role::Inside;
+        (0..self.points.len()).filter(stays).collect()
+    }
+
+    /// The faces, each with all points that lie in it, in the order of their first three corners.
+    fn faces(&self, size: f64) -> Vec<Flat> {
+        let triangles = triangulated(&self.points);
+        let regions = regions(&self.points, &triangles, self.resolution.flat * size);
+        let mut faces: Vec<([usize; 3], Flat)> = (regions.iter())
+            .map(|region| self.flat(&triangles, region, size))
+            .collect();
+        faces.sort_by_key(|(first, _)| *first);
+        faces.into_iter().map(|(_, face)| face).collect()
+    }
+
+    /// The face of some triangles in one plane, the first of them the largest, and its first three
+    /// points that span it.
+    fn flat(&self, triangles: &[Triangle], region: &[usize], size: f64) -> ([usize; 3], Flat) {
+        let corners = region.iter().flat_map(|&place| triangles[place].corners);
+        let points: BTreeSet<usize> = corners.collect();
+        let in_order: Vec<usize> = points.iter().copied().collect();
+        let largest = triangles[region[0]].corners;
+        let area = self.across(largest);
+        let spanning = triples(&in_order).find(|triple| self.is_wide(*triple, size));
+        let across = spanning.map(|triple| self.across(triple));
+        let normal = across.unwrap_or(area).try_normalize(0.0);
+        let normal = normal.unwrap_or_else(Vector3::zeros);
+        let flat = Flat {
+            normal: if normal.dot(&area) < 0.0 {
+                -normal
+            } else {
+                normal
+            },
+            is_wide: spanning.is_some(),
+            points,
+        };
+        (spanning.unwrap_or(largest), flat)
+    }
+
+    fn across(&self, triple: [usize; 3]) -> Vector3<f64> {
         let [a, b, c] = triple.map(|point| self.points[point]);
-        // Most triples fail: roots and quotients are computed later.
+        (b - a).cross(&(c - a))
+    }
+
+    /// True if a triangle is nowhere narrower than the smallest feature.
+    fn is_wide(&self, triple: [usize; 3], size: f64) -> bool {
+        let [a, b, c] = triple.map(|point| self.points[point]);
         let (to_b, to_c) = (b - a, c - a);
-        let across = to_b.cross(&to_c);
         let longest = to_b.norm_squared().max(to_c.norm_squared());
         let longest = longest.max((c - b).norm_squared());
-        if across.norm_squared() <= (self.smallest * size).powi(2) * longest {
-            return None;
-        }
-        let near = COPLANAR * size * across.norm();
-        let height = |point: usize| across.dot(&(self.points[point] - a));
-        if height(split[0]) > near && height(split[1]) < -near {
-            return None;
-        }
-        let (mut front, mut back) = (None, None);
-        for point in 0..self.points.len() {
-            let height = height(point);
-            front = front.or((height > near).then_some(point));
-            back = back.or((height < -near).then_some(point));
-            if let (Some(front), Some(back)) = (front, back) {
-                *split = [front, back];
-                return None;
-            }
-        }
-        let normal = across.normalize();
-        Some(if front.is_some() { -normal } else { normal })
+        to_b.cross(&to_c).norm_squared() > (self.resolution.smallest * size).powi(2) * longest
     }
-
-    /// All points in the plane through one of them.
-    fn flat(&self, through: usize, normal: Vector3<f64>, size: f64) -> Flat {
-        let height = |point: usize| normal.dot(&(self.points[point] - self.points[through]));
-        let in_it = |point: &usize| height(*point).abs() <= COPLANAR * size;
-        Flat {
-            normal,
-            points: (0..self.points.len()).filter(in_it).collect(),
-        }
-    }
-}
-
-/// True if some points lie along one line, within `near` [m].
-fn in_line(points: &[Vector3<f64>], near: f64) -> bool {
-    let Some(first) = points.first() else {
-        return true;
-    };
-    let arms = || points.iter().map(|point| point - first);
-    let longest = arms().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
-    let along = longest.and_then(|arm| arm.try_normalize(0.0));
-    along.is_none_or(|along| arms().all(|arm| arm.cross(&along).norm() <= near))
 }
 
 /// Points in one plane with all others behind it.
@@ -196,13 +250,31 @@ fn in_line(points: &[Vector3<f64>], near: f64) -> bool {
 struct Flat {
     /// Outward unit normal.
     normal: Vector3<f64>,
+    /// Whether it is wider than the smallest feature, so that its normal is accurate.
+    is_wide: bool,
     points: BTreeSet<usize>,
+}
+
+/// A point of a face that hardly protrudes between two others.
+#[derive(Debug)]
+struct Dull {
+    point: usize,
+    between: [usize; 2],
+}
+
+/// What becomes of a point when dull ones are left out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Role {
+    Inside,
+    Corner,
+    /// A corner that must stay, since a point next to it is left out.
+    Held,
 }
 
 impl Flat {
     /// The points on its rim that protrude by more than `least` [m], counter-clockwise seen from
-    /// outside.
-    fn corners(&self, points: &[Vector3<f64>], least: f64) -> Vec<usize> {
+    /// outside, and the others.
+    fn corners(&self, points: &[Vector3<f64>], least: f64) -> (Vec<usize>, Vec<Dull>) {
         let count = self.points.len() as f64;
         let centre = self.points.iter().map(|&p| points[p]).sum::<Vector3<f64>>() / count;
         let ahead = (self.points.iter())
@@ -217,10 +289,13 @@ impl Flat {
         let mut rim: Vec<usize> = self.points.iter().copied().collect();
         rim.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
         // One at a time: the state of a point depends on its neighbours.
-        while let Some(dull) = (0..rim.len()).find(|&k| self.is_dull(points, &rim, k, least)) {
-            rim.remove(dull);
+        let mut dull = Vec::new();
+        while let Some(k) = (0..rim.len()).find(|&k| self.is_dull(points, &rim, k, least)) {
+            let between = [k + rim.len() - 1, k + 1].map(|k| rim[k % rim.len()]);
+            let point = rim.remove(k);
+            dull.push(Dull { point, between });
         }
-        rim
+        (rim, dull)
     }
 
     /// True if a point of the rim lies inside the line between its neighbours, or is between them
@@ -234,36 +309,49 @@ impl Flat {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::shape::pairs::all_triples;
-    use proptest::prelude::*;
-
-    /// Clouds with many points in common planes, and in common lines, as typed ones have.
-    fn cloud() -> impl Strategy<Value = Vec<Vector3<f64>>> {
-        let grid = prop::array::uniform3(-3..=3_i32).prop_map(|p| p.map(|c| f64::from(c) * 0.1));
-        let free = prop::array::uniform3(-0.3..0.3_f64);
-        let typed = free
-            .clone()
-            .prop_map(|p| p.map(|c| (c * 1e5).round() / 1e5));
-        let of = |place: BoxedStrategy<[f64; 3]>| {
-            prop::collection::vec(place.prop_map(Vector3::from), 4..24)
-        };
-        prop_oneof![of(grid.boxed()), of(free.boxed()), of(typed.boxed())]
-    }
-
-    proptest! {
-        // The search for faces leaves out no triple that would be one.
-        #[test]
-        fn three_points_of_a_face_are_on_the_rim(points in cloud()) {
-            let size = extent(&points);
-            let candidates = Candidates::of(&points, size, SMALLEST);
-            let rim = on_rim(&candidates.points, size);
-            for triple in all_triples(candidates.points.len()) {
-                let is_face = candidates.outward(triple, size, &mut [0, 0]).is_some();
-                prop_assert!(!is_face || rim.hold(triple), "{triple:?}");
+/// Triangles in groups, each in one plane within `near` [m]: those that border on each other, round
+/// the largest of them.
+fn regions(points: &[Vector3<f64>], triangles: &[Triangle], near: f64) -> Vec<Vec<usize>> {
+    let across: Vec<Vector3<f64>> = (triangles.iter())
+        .map(|triangle| {
+            let [a, b, c] = triangle.corners.map(|corner| points[corner]);
+            (b - a).cross(&(c - a))
+        })
+        .collect();
+    let mut largest_first: Vec<usize> = (0..triangles.len()).collect();
+    let area = |place: usize| across[place].norm_squared();
+    largest_first.sort_by(|&a, &b| area(b).total_cmp(&area(a)));
+    let mut taken = vec![false; triangles.len()];
+    let mut regions = Vec::new();
+    for seed in largest_first {
+        if taken[seed] {
+            continue;
+        }
+        taken[seed] = true;
+        let mut region = vec![seed];
+        let normal = across[seed].try_normalize(0.0);
+        let normal = normal.unwrap_or_else(Vector3::zeros);
+        let height = normal.dot(&points[triangles[seed].corners[0]]);
+        let in_plane = |&corner: &usize| (normal.dot(&points[corner]) - height).abs() <= near;
+        let mut next = 0;
+        while let Some(&place) = region.get(next) {
+            next += 1;
+            for beyond in triangles[place].neighbours {
+                if !taken[beyond] && triangles[beyond].corners.iter().all(in_plane) {
+                    taken[beyond] = true;
+                    region.push(beyond);
+                }
             }
         }
+        regions.push(region);
     }
+    regions
+}
+
+/// All triples of some things, in their order.
+pub(super) fn triples(things: &[usize]) -> impl Iterator<Item = [usize; 3]> + '_ {
+    let from = |k: usize| things.iter().enumerate().skip(k);
+    from(0).flat_map(move |(i, &a)| {
+        from(i + 1).flat_map(move |(j, &b)| from(j + 1).map(move |(_, &c)| [a, b, c]))
+    })
 }

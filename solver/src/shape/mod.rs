@@ -15,18 +15,18 @@ mod error;
 mod face;
 mod half_spaces;
 mod hull;
+mod inscribed;
 mod moments;
-mod pairs;
 mod polyhedron;
 mod principal;
 mod regular;
-mod rim;
 mod segment;
 mod separation;
 mod sharp;
 mod steiner;
 #[cfg(test)]
 mod tests;
+mod triangulation;
 mod walk;
 
 pub use self::core::CoreEdge;

@@ -6,6 +6,9 @@ use super::regular::RegularSolid;
 use super::{SpheroPolyhedron, positive};
 use nalgebra::Vector3;
 
+/// Thickness over the diameter from which on rounding errors do not matter to a core.
+pub(super) const THINNEST: f64 = 1e-6;
+
 /// A convex polyhedron with sharp edges, to be rounded: the core is the region at least the
 /// sphero radius behind every face, so the rounded solid's flats are where the faces were.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,10 +76,24 @@ impl SharpPolyhedron {
             });
         }
         let core = self.within.eroded(sphero_radius_m);
-        let core = core.map_err(|_| ShapeError::NoCore {
-            radius_m: sphero_radius_m,
-            inradius_m: self.inradius,
-        })?;
+        let core = core.map_err(|_| self.without_core(sphero_radius_m))?;
         SpheroPolyhedron::from_core(core, sphero_radius_m)
+    }
+
+    /// Why no core is left: it is too thin, or else faces contradict each other.
+    fn without_core(&self, radius_m: f64) -> ShapeError {
+        let thickness_m = 2.0 * (self.inradius - radius_m);
+        if thickness_m < THINNEST * self.diameter {
+            return ShapeError::NoCore {
+                radius_m,
+                thickness_m,
+                size_m: self.diameter,
+                allowed_m: self.inradius - THINNEST / 2.0 * self.diameter,
+            };
+        }
+        ShapeError::BlurredFaces {
+            radius_m,
+            least_angle_rad: self.within.least_angle(),
+        }
     }
 }

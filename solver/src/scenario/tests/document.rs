@@ -161,7 +161,7 @@ fn counts_are_those_of_the_code() {
     assert!(row("title")[4].contains(&TITLE_LENGTH.to_string()));
     assert!(row("bodies")[4].contains(&BODIES.to_string()));
     assert!(row("sample_interval_s")[4].contains("500,000") && BODY_SAMPLES == 500_000.0);
-    assert!(DOCUMENT.contains("more than 20,000 JSON values") && VALUES == 20_000);
+    assert!(DOCUMENT.contains("more than 80,000 JSON values") && VALUES == 80_000);
     assert!(DOCUMENT.contains("Of more than 500,") && VIOLATIONS == 500);
     assert!(row("bodies[].orientation")[4].contains(&format!("within {QUATERNION_SLACK}")));
     assert!(DOCUMENT.contains("a thousandth of the sphero radius") && TOUCHING == 1e-3);

@@ -1,12 +1,15 @@
 //! Tests of the geometry, and shared solids.
 
 mod closest;
+mod drawn;
 mod hull;
 mod mass;
 mod principal;
 mod round;
 mod search;
 mod separation;
+mod sound;
+mod steiner;
 mod validity;
 
 use super::{ConvexPolyhedron, SpheroPolyhedron};
