@@ -1,6 +1,7 @@
 //! The stream of events: every change of a job's state, as it happens or replayed
 //! for a client that was disconnected.
 
+use super::pieces::Pieces;
 use super::problem::Problem;
 use super::query::Query;
 use super::shares::StreamRight;
@@ -8,11 +9,10 @@ use crate::jobs::job::JobId;
 use crate::jobs::store::{Event, StoreError};
 use crate::jobs::{JobService, News};
 use crate::quota::InUse;
-use axum::body::{Body, Bytes};
+use axum::body::Bytes;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use futures_util::stream;
 use std::ops::RangeInclusive;
 use std::time::Duration;
 use tokio::sync::broadcast::Receiver;
@@ -91,22 +91,11 @@ pub(super) async fn events(
         has_ended: false,
         _place: place,
     };
-    let pieces = stream::unfold(Some(follower), |follower| async {
-        let mut follower = follower?;
-        match follower.piece().await {
-            Ok(None) => None,
-            Ok(Some(text)) => Some((Ok(Bytes::from(text)), Some(follower))),
-            Err(error) => {
-                tracing::error!(%error, "a stream of events breaks off");
-                Some((Err(error), None))
-            }
-        }
-    });
     let kind = [
         (header::CONTENT_TYPE, "text/event-stream"),
         (header::CACHE_CONTROL, "no-store"),
     ];
-    Ok((kind, Body::from_stream(pieces)).into_response())
+    Ok((kind, follower.into_body()).into_response())
 }
 
 /// Start of a stream.
@@ -145,11 +134,13 @@ struct Follower {
     _place: InUse,
 }
 
-impl Follower {
+impl Pieces for Follower {
+    const NAME: &'static str = "events";
+
     /// The next piece of text; none at the end of the stream.
-    async fn piece(&mut self) -> Result<Option<String>, StoreError> {
+    async fn piece(&mut self) -> Result<Option<Bytes>, StoreError> {
         if let Some(reset) = self.reset.take() {
-            return Ok(Some(reset));
+            return Ok(Some(reset.into()));
         }
         loop {
             if let Some(last) = self.ready.last() {
@@ -157,9 +148,8 @@ impl Follower {
                 let final_of =
                     |event: &Event| Some(event.job) == self.job && event.status.is_final();
                 self.has_ended |= self.ready.iter().any(final_of);
-                return Ok(Some(
-                    self.ready.drain(..).map(|event| text(&event)).collect(),
-                ));
+                let text: String = self.ready.drain(..).map(|event| text(&event)).collect();
+                return Ok(Some(text.into()));
             }
             if self.has_ended {
                 return Ok(None);
@@ -180,12 +170,14 @@ impl Follower {
                 Ok(Err(RecvError::Lagged(_))) => self.is_behind = true,
                 Err(_) => {
                     self.has_ended = self.is_removed().await?;
-                    return Ok(Some(":\n\n".to_owned()));
+                    return Ok(Some(Bytes::from_static(b":\n\n")));
                 }
             }
         }
     }
+}
 
+impl Follower {
     /// True if the followed job was removed, with its events.
     async fn is_removed(&self) -> Result<bool, StoreError> {
         match self.job {

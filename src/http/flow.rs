@@ -3,6 +3,7 @@
 use super::access::Caller;
 use super::etag;
 use super::named_job::{NamedJob, find};
+use super::pieces::Pieces;
 use super::problem::Problem;
 use super::query::Query;
 use crate::jobs::JobService;
@@ -11,11 +12,10 @@ use crate::jobs::store::StoreError;
 use crate::results::flow::FlowDocument;
 use crate::results::vtk;
 use crate::results::zip::ZipWriter;
-use axum::body::{Body, Bytes};
+use axum::body::Bytes;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
-use futures_util::{StreamExt, stream};
 use utoipa::ToSchema;
 
 /// The flow at one instant.
@@ -111,28 +111,16 @@ pub(super) async fn flow_archive(
     archive.begin("flow.pvd", &mut head);
     archive.data(vtk::pvd(&times_s).as_bytes(), &mut head);
     archive.end(&mut head);
-    let mut packing = Packing {
+    let packing = Packing {
         jobs,
         job,
         times_s,
         next: 0,
         archive,
+        head,
     };
-    // Before the head is sent: a damaged record is a problem then, and later a broken stream.
-    head.extend(packing.piece().await?);
-    let first = stream::once(async { Ok(Bytes::from(head)) });
-    let rest = stream::unfold(Some(packing), |packing| async {
-        let mut packing = packing.filter(|packing| !packing.is_done())?;
-        match packing.piece().await {
-            Ok(bytes) => Some((Ok(Bytes::from(bytes)), Some(packing))),
-            Err(error) => {
-                tracing::error!(%error, "an archive breaks off");
-                Some((Err(error), None))
-            }
-        }
-    });
     let kind = [(header::CONTENT_TYPE, "application/zip")];
-    Ok((kind, Body::from_stream(first.chain(rest))).into_response())
+    Ok((kind, packing.into_begun_body().await?).into_response())
 }
 
 /// Stream of snapshots to a client: it holds one of them at a time.
@@ -142,21 +130,24 @@ struct Packing {
     times_s: Vec<f64>,
     next: usize,
     archive: ZipWriter,
+    /// The file that names the others, until it is sent.
+    head: Vec<u8>,
 }
 
-impl Packing {
-    fn is_done(&self) -> bool {
-        self.next > self.times_s.len()
-    }
+impl Pieces for Packing {
+    const NAME: &'static str = "archive";
 
     /// The next file, or the archive's end.
-    async fn piece(&mut self) -> Result<Vec<u8>, StoreError> {
-        let mut out = Vec::new();
+    async fn piece(&mut self) -> Result<Option<Bytes>, StoreError> {
+        let mut out = std::mem::take(&mut self.head);
         let place = self.next;
         self.next += 1;
+        if place > self.times_s.len() {
+            return Ok(None);
+        }
         let Some(&time_s) = self.times_s.get(place) else {
             std::mem::take(&mut self.archive).finish(&mut out);
-            return Ok(out);
+            return Ok(Some(out.into()));
         };
         let snapshot = self.jobs.snapshot(self.job, Some(time_s)).await?;
         let snapshot = snapshot.ok_or_else(|| StoreError::Row {
@@ -166,6 +157,6 @@ impl Packing {
         self.archive.begin(&vtk::file_name(place), &mut out);
         self.archive.data(vtk::vtp(&snapshot).as_bytes(), &mut out);
         self.archive.end(&mut out);
-        Ok(out)
+        Ok(Some(out.into()))
     }
 }

@@ -16,6 +16,7 @@ mod jobs;
 mod metrics;
 mod named_job;
 mod operator;
+mod pieces;
 mod plans;
 mod problem;
 mod query;

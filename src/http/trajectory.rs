@@ -2,17 +2,17 @@
 
 use super::access::Caller;
 use super::named_job::{NamedJob, find};
+use super::pieces::Pieces;
 use super::problem::Problem;
 use super::query::Query;
 use crate::jobs::store::StoreError;
 use crate::jobs::{JobService, TrajectoryRange};
 use crate::results::columns::{Selection, Selector, TrajectoryColumns};
 use crate::results::table::{Field, Format, Heading, Writer};
-use axum::body::{Body, Bytes};
+use axum::body::Bytes;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
-use futures_util::{StreamExt, stream};
 use std::collections::BTreeSet;
 use utoipa::ToSchema;
 
@@ -100,10 +100,8 @@ pub(super) async fn trajectory(
         rows,
     };
     let kind = [(header::CONTENT_TYPE, query.format.media_type())];
-    let mut reading = Reading::new(jobs, range, query.format.writer(&heading, query.fields));
-    // Before the head is sent: a damaged record is a problem then, and later a broken stream.
-    let first = reading.piece().await?;
-    Ok((kind, reading.into_body(first)).into_response())
+    let reading = Reading::new(jobs, range, query.format.writer(&heading, query.fields));
+    Ok((kind, reading.into_begun_body().await?).into_response())
 }
 
 /// Stream of a trajectory to a client: it holds one chunk at a time.
@@ -126,26 +124,12 @@ impl Reading {
             place: None,
         }
     }
+}
 
-    /// The pieces after the first, behind it.
-    fn into_body(self, first: Option<Vec<u8>>) -> Body {
-        let first = stream::iter(first.map(|bytes| Ok(Bytes::from(bytes))));
-        let rest = stream::unfold(Some(self), |reading| async {
-            let mut reading = reading?;
-            match reading.piece().await {
-                Ok(None) => None,
-                Ok(Some(bytes)) => Some((Ok(Bytes::from(bytes)), Some(reading))),
-                Err(error) => {
-                    tracing::error!(%error, "a trajectory breaks off");
-                    Some((Err(error), None))
-                }
-            }
-        });
-        Body::from_stream(first.chain(rest))
-    }
+impl Pieces for Reading {
+    const NAME: &'static str = "trajectory";
 
-    /// The next bytes; none after the last.
-    async fn piece(&mut self) -> Result<Option<Vec<u8>>, StoreError> {
+    async fn piece(&mut self) -> Result<Option<Bytes>, StoreError> {
         let mut out = Vec::new();
         while out.is_empty() && self.pass < self.writer.passes() {
             let (from_sample, mut selector) = match self.place.take() {
@@ -168,7 +152,7 @@ impl Reading {
                 }
             }
         }
-        Ok((!out.is_empty()).then_some(out))
+        Ok((!out.is_empty()).then_some(out.into()))
     }
 }
 
