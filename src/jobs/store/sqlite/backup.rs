@@ -1,8 +1,9 @@
 //! Consistent copy of a database that a service may be using.
 
 use super::error::SqliteError;
-use super::file::Location;
+use super::file::{Location, beside};
 use super::inspection::{connect_to_read, immutable, inspect};
+use super::lock::Lock;
 use crate::jobs::store::StoreError;
 use crate::results::chunk::Block;
 use futures_util::TryStreamExt;
@@ -43,6 +44,12 @@ pub enum BackupError {
         /// Error of the system.
         source: io::Error,
     },
+    /// A service uses the database, whose write-ahead log is gone.
+    #[error(
+        "a service uses {}, and its write-ahead log (-wal) is gone: stop the service in order, \
+         which writes it into the file, and try again", .0.display()
+    )]
+    LogMissing(PathBuf),
     /// The copy is not sound, which the database itself may not be.
     #[error("the copy is not sound, and was removed: {0}")]
     Unsound(String),
@@ -71,6 +78,7 @@ pub async fn back_up(
         return Err(BackupError::Missing(database.to_owned()));
     }
     check_destination(&location.path, destination, replace)?;
+    check_log(&location.path)?;
     inspect(&location.path).await?;
     let failed = |source| BackupError::Destination {
         path: destination.to_owned(),
@@ -95,6 +103,19 @@ pub async fn back_up(
         .and_then(|directory| directory.sync_all())
         .map_err(failed)?;
     Ok(Backup { bytes, jobs })
+}
+
+/// Checks that a database that a service uses has its write-ahead log: without it jobs are missing
+/// in the file, and a new log would take the place of the service's.
+fn check_log(database: &Path) -> Result<(), BackupError> {
+    if beside(database, "-wal").exists() || !beside(database, ".lock").exists() {
+        return Ok(());
+    }
+    match Lock::of(database).take() {
+        Err(StoreError::InUse { .. }) => Err(BackupError::LogMissing(database.to_owned())),
+        // The lock is released at once.
+        _ => Ok(()),
+    }
 }
 
 fn check_destination(

@@ -4,6 +4,7 @@ use crate::jobs::store::StoreError;
 use std::fs::{self, Metadata, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use thiserror::Error;
 
 /// Reason why a path can't be used as a database, or no longer.
@@ -32,8 +33,8 @@ pub(super) enum FileFault {
     )]
     Replaced,
     #[error(
-        "its write-ahead log (-wal) was removed while the service uses it: nothing is accepted \
-         until the service has been stopped in order and started again"
+        "its write-ahead log (-wal) was removed or replaced while the service uses it: nothing is \
+         accepted until the log is back, or the service has been stopped in order and started again"
     )]
     LogRemoved,
     #[error(transparent)]
@@ -61,11 +62,14 @@ pub(super) struct Location {
 pub(super) struct DatabaseFile {
     path: PathBuf,
     identity: Identity,
+    /// Identity of the write-ahead log, from the first write on: connections that stay open keep
+    /// SQLite from making another one.
+    log: OnceLock<Identity>,
 }
 
 /// Identity of a file under whatever name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Identity {
+pub(super) struct Identity {
     #[cfg(unix)]
     device_and_inode: (u64, u64),
 }
@@ -117,6 +121,7 @@ impl Location {
         Ok(DatabaseFile {
             identity: Identity::of(&metadata),
             path: self.path,
+            log: OnceLock::new(),
         })
     }
 
@@ -157,24 +162,31 @@ impl DatabaseFile {
         Err(error(&self.path, fault))
     }
 
-    /// The same, and that the write-ahead log is there, which it is while a connection has a
-    /// transaction open.
+    /// The same, and that the write-ahead log, which is there while a connection has a transaction
+    /// open, is the one of the first write: what is written to another one is lost.
     ///
     /// # Errors
-    /// One of the files is no longer there.
+    /// One of the files is no longer there, or another one.
     pub(super) fn check_with_log(&self) -> Result<(), StoreError> {
         self.check()?;
-        match beside(&self.path, "-wal").try_exists() {
-            Ok(true) => Ok(()),
-            Ok(false) => Err(error(&self.path, FileFault::LogRemoved)),
-            Err(failed) => Err(error(&self.path, failed.into())),
-        }
+        let fault = match fs::metadata(beside(&self.path, "-wal")) {
+            Ok(metadata) => {
+                let identity = Identity::of(&metadata);
+                if *self.log.get_or_init(|| identity) == identity {
+                    return Ok(());
+                }
+                FileFault::LogRemoved
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => FileFault::LogRemoved,
+            Err(error) => error.into(),
+        };
+        Err(error(&self.path, fault))
     }
 }
 
 impl Identity {
     #[cfg(unix)]
-    fn of(metadata: &Metadata) -> Self {
+    pub(super) fn of(metadata: &Metadata) -> Self {
         use std::os::unix::fs::MetadataExt;
         Self {
             device_and_inode: (metadata.dev(), metadata.ino()),
@@ -182,7 +194,7 @@ impl Identity {
     }
 
     #[cfg(not(unix))]
-    fn of(_: &Metadata) -> Self {
+    pub(super) fn of(_: &Metadata) -> Self {
         Self {}
     }
 }

@@ -1,8 +1,8 @@
 //! Lock file beside the database, which keeps a second service from using it.
 
-use super::file::{beside, private};
+use super::file::{Identity, beside, private};
 use crate::jobs::store::StoreError;
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{self, File, Metadata, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -33,13 +33,14 @@ impl Lock {
         }
     }
 
-    /// Takes the lock, unless it is held already.
+    /// Takes the lock, unless it is held already. A lock whose file was removed holds nobody off,
+    /// and is taken anew.
     ///
     /// # Errors
     /// Another service holds it, or the file can't be created.
     pub(super) fn take(&self) -> Result<(), StoreError> {
         let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
-        if held.is_none() {
+        if !held.as_ref().is_some_and(|file| self.leads_to(file)) {
             *held = Some(self.lock_file()?);
         }
         Ok(())
@@ -54,6 +55,13 @@ impl Lock {
     /// Releases the lock.
     pub(super) fn release(&self) {
         *self.held.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+
+    /// True if the path still leads to this file.
+    fn leads_to(&self, file: &File) -> bool {
+        let identity = |metadata: io::Result<Metadata>| metadata.ok().as_ref().map(Identity::of);
+        let found = identity(fs::metadata(&self.path));
+        found.is_some() && found == identity(file.metadata())
     }
 
     fn lock_file(&self) -> Result<File, StoreError> {

@@ -75,7 +75,15 @@ impl Readers {
 }
 
 fn pool() -> SqlitePoolOptions {
-    SqlitePoolOptions::new().max_connections(READERS)
+    lasting().max_connections(READERS)
+}
+
+/// Connections that stay open: the write-ahead log goes with the last one, and another one could
+/// not be told from one that was put in its place.
+fn lasting() -> SqlitePoolOptions {
+    SqlitePoolOptions::new()
+        .idle_timeout(None)
+        .max_lifetime(None)
 }
 
 /// Connections of which one has read.
@@ -89,7 +97,7 @@ async fn connect(options: SqliteConnectOptions) -> Result<SqlitePool, sqlx::Erro
 
 /// The connection that writes, opened at its first use.
 pub(super) fn writer(options: SqliteConnectOptions) -> SqlitePool {
-    SqlitePoolOptions::new()
+    lasting()
         .max_connections(1)
         // On a full disk SQLite ends a transaction itself, which the
         // connection does not notice; it could never begin another one.

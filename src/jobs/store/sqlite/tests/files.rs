@@ -3,6 +3,8 @@
 
 use super::*;
 use crate::jobs::job::JobId;
+use crate::jobs::store::sqlite::backup::back_up;
+use crate::jobs::store::sqlite::file::beside;
 use crate::jobs::store::{Room, Submission};
 use std::collections::BTreeMap;
 use std::fs;
@@ -163,8 +165,30 @@ async fn a_file_that_goes_while_it_is_used_is_noticed() {
     fixture.store.probe().await.unwrap();
     fixture.submit().await;
 
-    fs::remove_file(fixture.directory.path().join("test.db-wal")).unwrap();
+    // Regression: with any log in its place jobs were acknowledged, and lost.
+    let log = fixture.directory.path().join("test.db-wal");
+    let away = fixture.directory.path().join("away.db-wal");
+    fs::rename(&log, &away).unwrap();
     only_reads(&fixture, id, "write-ahead log").await;
+    let copy = fixture.directory.path().join("copy.db");
+    let refused = back_up(&path, &copy, false).await.unwrap_err();
+    assert!(refused.to_string().contains("(-wal) is gone"), "{refused}");
+    fs::write(&log, "").unwrap();
+    only_reads(&fixture, id, "write-ahead log").await;
+    fs::rename(&away, &log).unwrap();
+    fixture.submit().await;
+}
+
+// Regression: without the file nothing kept a second service off.
+#[cfg(unix)]
+#[tokio::test]
+async fn a_lock_whose_file_was_removed_is_taken_anew() {
+    let fixture = Fixture::new(open).await;
+    let path = fixture.directory.path().join("test.db");
+    fs::remove_file(beside(&path, ".lock")).unwrap();
+    fixture.submit().await;
+    let second = SqliteStore::open(&path).await.unwrap_err();
+    assert!(matches!(second, StoreError::InUse { .. }), "{second}");
 }
 
 #[cfg(unix)]
