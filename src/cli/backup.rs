@@ -34,6 +34,8 @@ fn not_made(error: &BackupError) -> Failure {
         | BackupError::Exists(_)
         | BackupError::Itself(_)
         | BackupError::Destination { .. } => Failure::Input(error.to_string()),
-        BackupError::Unsound(_) | BackupError::Store(_) => Failure::Other(error.to_string()),
+        BackupError::LogMissing(_) | BackupError::Unsound(_) | BackupError::Store(_) => {
+            Failure::Other(error.to_string())
+        }
     }
 }
