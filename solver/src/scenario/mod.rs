@@ -15,6 +15,7 @@ mod motion;
 mod node;
 mod parse;
 mod placement;
+mod places;
 mod range;
 mod reader;
 mod reduction;

@@ -71,36 +71,6 @@ impl Node {
             _ => 1,
         }
     }
-
-    /// Node at a JSON pointer, and its place: the index of the child at every level, the end of its
-    /// parent for a missing one. Comparing places sorts pointers into document order.
-    pub(super) fn find(&self, pointer: &str) -> (Vec<usize>, Option<&Self>) {
-        let mut place = Vec::new();
-        let mut here = Some(self);
-        for token in pointer.split('/').skip(1) {
-            let token = unescaped(token);
-            let (index, child) = here.map_or((usize::MAX, None), |node| node.child(&token));
-            place.push(index);
-            here = child;
-        }
-        (place, here)
-    }
-
-    fn child(&self, token: &str) -> (usize, Option<&Self>) {
-        let found = match self {
-            Self::Object(members) => members
-                .iter()
-                .enumerate()
-                .find(|(_, (key, _))| key == token)
-                .map(|(index, (_, node))| (index, node)),
-            Self::List(items) => token
-                .parse::<usize>()
-                .ok()
-                .and_then(|index| Some((index, items.get(index)?))),
-            _ => None,
-        };
-        found.map_or((usize::MAX, None), |(index, node)| (index, Some(node)))
-    }
 }
 
 /// A text as shown in an error: of a long one the beginning and the length, so that an answer

@@ -2,6 +2,7 @@
 
 use super::Violation;
 use super::node::{Node, excerpt, unescaped};
+use super::places::Places;
 use super::rules::VIOLATIONS;
 use serde_json::Value;
 use std::cell::RefCell;
@@ -28,11 +29,12 @@ impl Report {
     /// long to be of use is cut, and says so.
     pub(super) fn into_violations(self, document: &Node) -> Vec<Violation> {
         let mut violations = self.violations.into_inner();
-        violations.sort_by_cached_key(|violation| document.find(&violation.pointer).0);
+        let mut places = Places::of(document);
+        violations.sort_by_cached_key(|violation| places.find(&violation.pointer).0);
         let further = violations.len().saturating_sub(VIOLATIONS);
         violations.truncate(VIOLATIONS);
         for violation in &mut violations {
-            let found = document.find(&violation.pointer).1;
+            let found = places.find(&violation.pointer).1;
             violation.value = found.map_or(Value::Null, Node::excerpt);
         }
         if further > 0 {

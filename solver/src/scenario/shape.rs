@@ -366,7 +366,9 @@ fn read_polyhedron(object: &Object<'_>) -> Option<Shape> {
             "enclose no more than a ball of {} m in diameter",
             short(rounded_up(size.thickness_m))
         ),
-        Err(_) => "enclose nothing: they lie in one plane, or nearly so".to_owned(),
+        Err(_) => {
+            "enclose nothing: they lie in one plane or line, within 1e-5 of their size".to_owned()
+        }
     };
     let pointer = object.pointer_to(VERTICES.key);
     let allowed = format!(

@@ -5,7 +5,7 @@ use super::closest::Closest;
 use super::cuboid::Cuboid;
 use super::face::Face;
 use super::moments::Moments;
-use super::polyhedron::ConvexPolyhedron;
+use super::polyhedron::{ConvexPolyhedron, Edge};
 use super::segment::Segment;
 use super::steiner;
 use super::walk::Walk;
@@ -14,6 +14,9 @@ use nalgebra::{Matrix3, Vector3};
 /// Sine of the angle of two edges below which they have no common normal: they are parallel,
 /// and face normals separate instead.
 pub(super) const PARALLEL: f64 = 1e-12;
+
+/// Sine of the angle of an edge and a face below which they may be parallel.
+const SLIGHT: f64 = 1e-9;
 
 /// A convex set whose nearest feature can be found. Only one with a volume has faces.
 #[derive(Debug, Clone, PartialEq)]
@@ -154,10 +157,22 @@ impl Core {
             return vec![Vector3::y()];
         };
         let edges = solid.edges();
-        let crosses = edges
-            .iter()
-            .flat_map(|a| edges.iter().map(|b| a.direction.cross(&b.direction)));
-        let directions = crosses.filter_map(|cross| cross.try_normalize(PARALLEL));
+        // Slopes of every edge against every face.
+        let slope = |edge: &Edge, face: &Face| edge.direction.dot(&face.normal);
+        let slopes: Vec<Vec<f64>> = (edges.iter())
+            .map(|edge| solid.faces().iter().map(|face| slope(edge, face)).collect())
+            .collect();
+        // Normal to both edges, a plane touches the solid along one only if the faces there turn
+        // to either side of the other.
+        let turns = |along: usize, at: &Edge| {
+            let [one, other] = at.faces.map(|face| slopes[along][face]);
+            one.min(other) <= SLIGHT && one.max(other) >= -SLIGHT
+        };
+        let pairs = (0..edges.len()).flat_map(|a| (a + 1..edges.len()).map(move |b| (a, b)));
+        let directions = pairs
+            .filter(|&(a, b)| turns(a, &edges[b]) && turns(b, &edges[a]))
+            .map(|(a, b)| edges[a].direction.cross(&edges[b].direction))
+            .filter_map(|cross| cross.try_normalize(PARALLEL));
         let normals = solid.faces().iter().map(|face| face.normal);
         normals.chain(directions).collect()
     }

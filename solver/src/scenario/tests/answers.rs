@@ -1,6 +1,6 @@
 //! Wording of refusals.
 
-use super::{minimal, refused, set, violations, with};
+use super::{accepted, minimal, refused, set, violations, with};
 use crate::scenario::{Scenario, ScenarioError};
 use serde_json::{Value, json};
 
@@ -150,4 +150,44 @@ fn answers_stay_small() {
 
     let found = refused(&with("/title", json!(vec![1; 80_001])));
     assert_eq!((found.len(), found[0].pointer.as_str()), (1, ""));
+}
+
+#[test]
+fn a_document_of_unknown_keys_is_answered_at_once() {
+    let mut scenario = minimal();
+    for key in 0..79_000 {
+        scenario[format!("key{key}")] = json!(1);
+    }
+    let start = std::time::Instant::now();
+    let found = refused(&scenario);
+    assert!(found[500].detail.contains("78500 further"));
+    // Pairs of keys compared would take 5 s.
+    assert!(start.elapsed().as_secs_f64() < 2.0);
+}
+
+#[test]
+fn the_most_bodies_of_the_most_points_are_legal() {
+    // Points on a unit ball, along a spiral that every body begins elsewhere.
+    let place = |body: usize, k: usize| {
+        let z = (2 * k + 1) as f64 / 32.0 - 1.0;
+        let angle = 2.4 * k as f64 + body as f64;
+        let radius = (1.0 - z * z).sqrt();
+        [radius * angle.cos(), radius * angle.sin(), z].map(|c| (c * 1e4).round() / 1e4)
+    };
+    let body = |body: usize| {
+        let points: Vec<_> = (0..32).map(|k| place(body, k)).collect();
+        json!({
+            "shape": {"polyhedron": {"vertices_m": points}},
+            "position": {"downstream_m": 11 + 3 * (body / 16), "lateral_m": 3 * (body % 16)},
+        })
+    };
+    let scenario = json!({
+        "channel": {
+            "inclination_deg": 40, "incline_length_m": 10, "runout_length_m": 200, "width_m": 110,
+        },
+        "flow": null,
+        "bodies": (0..256).map(body).collect::<Vec<_>>(),
+        "duration_s": 0.01,
+    });
+    assert_eq!(accepted(&scenario).bodies.len(), 256);
 }

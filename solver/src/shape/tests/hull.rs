@@ -345,6 +345,20 @@ proptest! {
         }
     }
 
+    // No plane normal to any two edges, or parallel to a face, is closer to its opposite.
+    #[test]
+    fn the_least_width_is_the_least_of_all(points in boulder(14), share in 0.02..0.95_f64) {
+        let sharp = SharpPolyhedron::hull_of(&points).unwrap();
+        let body = sharp.rounded(share * sharp.inradius()).unwrap();
+        let edges: Vec<_> = body.edges().map(|edge| edge.direction).collect();
+        let crosses = edges.iter().flat_map(|a| edges.iter().map(move |b| a.cross(b)));
+        let least = (crosses.filter_map(|cross| cross.try_normalize(1e-9)))
+            .chain(body.faces().iter().map(|face| face.normal))
+            .map(|along| body.extent_along(&along) + body.extent_along(&-along))
+            .fold(f64::INFINITY, f64::min);
+        prop_assert!((body.least_width() / least - 1.0).abs() < 1e-12);
+    }
+
     // Moved in by a little less than the inradius the faces leave a solid, by a little more they
     // don't.
     #[test]

@@ -6,6 +6,10 @@ use crate::shape::check::extent;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
+/// Difference of two planes that are one, in direction \[rad\] and in place over the size: the
+/// border between two that hardly differ would be anywhere.
+const SAME: f64 = 1e-6;
+
 type Plane = (Vector3<f64>, f64);
 
 /// The volume of the hull of some points, rounded with a radius [m³].
@@ -41,7 +45,8 @@ pub(super) fn planes(points: &[Vector3<f64>]) -> Vec<Plane> {
                 for normal in [across.normalize(), -across.normalize()] {
                     let near = 1e-11 * size;
                     let same = |plane: &Plane| {
-                        (plane.0 - normal).norm() < 1e-7 && (plane.1 - normal.dot(a)).abs() < near
+                        (plane.0 - normal).norm() < SAME
+                            && (plane.1 - normal.dot(a)).abs() < SAME * size
                     };
                     if points.iter().all(|p| normal.dot(&(p - a)) < near)
                         && !planes.iter().any(same)
