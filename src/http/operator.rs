@@ -13,16 +13,14 @@ pub(super) fn refusal<B>(place: Place, request: &Request<B>) -> Option<Response>
     if place == Place::Client || is_operators(request.method(), request.uri().path()) {
         return None;
     }
-    let problem = Problem {
-        retry_after_s: Some(RETRY_AFTER_S),
-        ..Problem::new(
-            StatusCode::SERVICE_UNAVAILABLE,
-            "connections-full",
-            "Too many connections",
-            "all connections of this service (limits.connections), or of this address \
-             (limits.connections_per_address), are busy; try again later",
-        )
-    };
+    let problem = Problem::new(
+        StatusCode::SERVICE_UNAVAILABLE,
+        "connections-full",
+        "Too many connections",
+        "all connections of this service (limits.connections), or of this address \
+         (limits.connections_per_address), are busy; try again later",
+    )
+    .retry_after(RETRY_AFTER_S);
     let mut response = problem.into_response();
     let close = HeaderValue::from_static("close");
     response.headers_mut().insert(header::CONNECTION, close);

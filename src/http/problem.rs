@@ -17,6 +17,9 @@ const MEDIA_TYPE: HeaderValue = HeaderValue::from_static(MEDIA_TYPE_TEXT);
 /// Seconds after which a client may retry if the database is unavailable.
 const RETRY_AFTER_S: u8 = 5;
 
+/// Seconds after which a client may retry if there is too much of something.
+const RETRY_BUSY_AFTER_S: u8 = 10;
+
 /// Problem document: reason why a request failed (RFC 9457).
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub(super) struct Problem {
@@ -77,6 +80,21 @@ impl Problem {
             errors: Vec::new(),
             retry_after_s: None,
             error_id: None,
+        }
+    }
+
+    /// There is too much of something, of the caller's or in all.
+    pub(super) fn busy(kind: &str, title: &'static str, detail: &str) -> Self {
+        let detail = format!("{detail}; try again later");
+        Self::new(StatusCode::TOO_MANY_REQUESTS, kind, title, detail)
+            .retry_after(RETRY_BUSY_AFTER_S)
+    }
+
+    /// The same problem, with the seconds after which a retry may succeed.
+    pub(super) fn retry_after(self, seconds: u8) -> Self {
+        Self {
+            retry_after_s: Some(seconds),
+            ..self
         }
     }
 
@@ -147,10 +165,8 @@ impl From<crate::jobs::store::StoreError> for Problem {
                 let detail =
                     "the database can't be used now; /readyz and the service's log say why";
                 let status = StatusCode::SERVICE_UNAVAILABLE;
-                Self {
-                    retry_after_s: Some(RETRY_AFTER_S),
-                    ..Self::new(status, "storage-unavailable", "No database", detail)
-                }
+                Self::new(status, "storage-unavailable", "No database", detail)
+                    .retry_after(RETRY_AFTER_S)
             }
         }
     }

@@ -8,13 +8,9 @@ use crate::config::Limits;
 use crate::quota::{InUse, Quota, UsedUp};
 use axum::body::Body;
 use axum::extract::{FromRequestParts, Request, State};
-use axum::http::StatusCode;
 use axum::http::request::Parts;
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
-
-/// Seconds after which a client may retry if its share is spent.
-const RETRY_AFTER_S: u8 = 10;
 
 /// Quotas of requests in progress and of streams.
 #[derive(Debug, Clone)]
@@ -105,15 +101,6 @@ pub(super) async fn limit(
 }
 
 fn spent(kind: &str, number: usize, what: &str, limit: &str) -> Problem {
-    let detail =
-        format!("{number} {what}, as many as {limit} of this service allows; try again later");
-    Problem {
-        retry_after_s: Some(RETRY_AFTER_S),
-        ..Problem::new(
-            StatusCode::TOO_MANY_REQUESTS,
-            kind,
-            "Too many at a time",
-            detail,
-        )
-    }
+    let detail = format!("{number} {what}, as many as {limit} of this service allows");
+    Problem::busy(kind, "Too many at a time", &detail)
 }

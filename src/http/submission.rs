@@ -15,7 +15,7 @@ use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, Uri};
 use axum::response::Response;
 
-/// Seconds after which a client may retry if the queue is full.
+/// Seconds after which a client may retry if its request was not read in time.
 const RETRY_AFTER_S: u8 = 10;
 
 /// Submit a scenario
@@ -169,15 +169,13 @@ impl From<AdmissionError> for Problem {
             AdmissionError::Full { .. } | AdmissionError::ShareSpent { .. } => {
                 Self::busy("admission-full", "Too many requests", &detail)
             }
-            AdmissionError::TimedOut { .. } => Self {
-                retry_after_s: Some(RETRY_AFTER_S),
-                ..Self::new(
-                    StatusCode::SERVICE_UNAVAILABLE,
-                    "timed-out",
-                    "Timed out",
-                    detail,
-                )
-            },
+            AdmissionError::TimedOut { .. } => Self::new(
+                StatusCode::SERVICE_UNAVAILABLE,
+                "timed-out",
+                "Timed out",
+                detail,
+            )
+            .retry_after(RETRY_AFTER_S),
             AdmissionError::BrokenOff(_) => Self::internal(&detail),
         }
     }
@@ -190,16 +188,6 @@ impl From<ScenarioError> for Problem {
                 Self::invalid_scenario(violations.into_iter().map(FieldError::from).collect())
             }
             error @ ScenarioError::Malformed { .. } => malformed(&error.to_string()),
-        }
-    }
-}
-
-impl Problem {
-    fn busy(kind: &str, title: &'static str, detail: &str) -> Self {
-        let detail = format!("{detail}; try again later");
-        Self {
-            retry_after_s: Some(RETRY_AFTER_S),
-            ..Self::new(StatusCode::TOO_MANY_REQUESTS, kind, title, detail)
         }
     }
 }
