@@ -8,7 +8,7 @@ use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
 use scree_solver::{Cancellation, Ending, SetupError, Simulation, StepError};
 use std::convert::Infallible;
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
 /// Sink of a run's records and progress.
@@ -78,7 +78,6 @@ impl Sink for NoSink {
 
 /// Point at which a run is to stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u8)]
 pub enum Stop {
     /// At the end of the scenario.
     AtTheEnd,
@@ -91,8 +90,9 @@ pub enum Stop {
 /// Request to a run to stop. A request is never withdrawn.
 #[derive(Debug, Default)]
 pub struct StopFlag {
-    asked: AtomicU8,
-    cancellation: Cancellation,
+    once_saved: AtomicBool,
+    /// Asked for a stop at once: the solver looks for it within a sub-step.
+    at_once: Cancellation,
 }
 
 impl StopFlag {
@@ -103,21 +103,27 @@ impl StopFlag {
 
     /// Asks for a stop; the earlier of two requests counts.
     pub fn ask(&self, stop: Stop) {
-        self.asked.fetch_max(stop as u8, Ordering::Relaxed);
-        if stop == Stop::AtOnce {
-            self.cancellation.ask();
+        match stop {
+            Stop::AtTheEnd => {}
+            Stop::OnceSaved => self.once_saved.store(true, Ordering::Relaxed),
+            Stop::AtOnce => self.at_once.ask(),
         }
     }
 
-    /// The same request, as the solver looks for it within a sub-step.
+    /// The request for a stop at once, for the solver.
     pub(super) fn cancellation(&self) -> Cancellation {
-        self.cancellation.clone()
+        self.at_once.clone()
     }
 
     /// The stop asked for.
     pub fn asked(&self) -> Stop {
-        [Stop::AtTheEnd, Stop::OnceSaved, Stop::AtOnce]
-            [usize::from(self.asked.load(Ordering::Relaxed))]
+        if self.at_once.is_asked() {
+            Stop::AtOnce
+        } else if self.once_saved.load(Ordering::Relaxed) {
+            Stop::OnceSaved
+        } else {
+            Stop::AtTheEnd
+        }
     }
 
     /// True if a stop was asked for.
