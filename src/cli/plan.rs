@@ -5,10 +5,10 @@ use super::failure::{Failure, not_set_up};
 use super::machine::cores;
 use super::{console, scenario_file};
 use scree::jobs::forecast::{Planned, PlannedRefinementRun, WallTime, forecast};
-use scree_solver::Cancellation;
 use scree_solver::plan::{Choice, Cost, Hint, Stage};
 use scree_solver::record::Role;
 use scree_solver::simulation::PreparedScene;
+use scree_solver::{Cancellation, Plan};
 
 /// Prints the plan of a scenario's run.
 ///
@@ -19,7 +19,12 @@ pub(super) fn plan(options: &PlanOptions) -> Result<(), Failure> {
     let asked = options.threads.map(usize::from);
     let threads = asked.or(scenario.numerics.threads).unwrap_or_else(cores);
     let prepared = PreparedScene::of(&scenario).map_err(|error| not_set_up(&error))?;
-    let planned = forecast(&prepared, threads, &Cancellation::default())?;
+    let planned = forecast(
+        &prepared.scenario,
+        Plan::of(&prepared),
+        threads,
+        &Cancellation::default(),
+    )?;
     let answer = if options.json {
         serde_json::to_string_pretty(&planned)?
     } else {

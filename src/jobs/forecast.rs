@@ -82,18 +82,17 @@ pub enum ForecastError {
     Cancelled,
 }
 
-/// Plans the run of a prepared scene and times its first steps on this number of threads; takes about
-/// a second.
+/// Times the first steps of a prepared scene's run, of which this is the plan, on this number of
+/// threads; takes about a second.
 ///
 /// # Errors
 /// A refinement run can't be set up, the first steps of a run fail, or the forecast is cancelled.
 pub fn forecast(
-    prepared: &PreparedScene,
+    scenario: &Scenario,
+    plan: Plan,
     threads: usize,
     cancellation: &Cancellation,
 ) -> Result<Planned, ForecastError> {
-    let plan = Plan::of(prepared);
-    let scenario = &prepared.scenario;
     let refinement_runs = refinement_runs(scenario, (threads, cancellation))?;
     let first: f64 = refinement_runs.iter().map(|run| run.expected_s).sum();
     let answer = Span::of(scenario, &plan.cost, (threads, cancellation), TIMED_FOR)?;

@@ -100,13 +100,14 @@ impl JobService {
     pub async fn plan(&self, caller: &str, scenario: String) -> Result<Planned, PlanError> {
         let place = self.enter(caller)?;
         let means = self.means;
-        let prepared = place
+        let (prepared, plan) = place
             .work(move |_| submit::read_affordable(&scenario, &means))
             .await??;
-        let threads = prepared.scenario.numerics.threads;
+        let scenario = prepared.scenario;
+        let threads = scenario.numerics.threads;
         let threads = threads.unwrap_or(means.threads_per_worker);
         let planned = place
-            .time(move |cancellation| forecast(&prepared, threads, cancellation))
+            .time(move |cancellation| forecast(&scenario, plan, threads, cancellation))
             .await?;
         Ok(planned?)
     }

@@ -61,8 +61,7 @@ pub fn validate(
     means: &Means,
     mut labels: Vec<String>,
 ) -> Result<NewJob, ScenarioError> {
-    let prepared = read_affordable(text, means)?;
-    let plan = Plan::of(&prepared);
+    let (prepared, plan) = read_affordable(text, means)?;
     let scenario = prepared.scenario;
     let json = serde_json::to_string(&scenario).map_err(|error| unwritable(&error))?;
     labels.sort();
@@ -79,57 +78,57 @@ pub fn validate(
     })
 }
 
-/// Reads a scenario whose run these resources allow.
+/// Reads a scenario whose run these resources allow, and plans it.
 ///
 /// # Errors
 /// All rules that the scenario breaks.
-pub fn read_affordable(text: &str, means: &Means) -> Result<PreparedScene, ScenarioError> {
+pub fn read_affordable(text: &str, means: &Means) -> Result<(PreparedScene, Plan), ScenarioError> {
     let prepared = read(text, means.threads_per_worker)?;
-    let planned = Planned::of(&prepared)?;
+    let plan = Plan::of(&prepared);
+    let job = JobCost::of(&prepared.scenario, &plan.cost)?;
     let excesses = [
-        too_costly(planned.point_steps, means.point_steps),
-        too_large(planned.memory_bytes, means.memory_bytes),
+        too_costly(job.point_steps, means.point_steps),
+        too_large(job.memory_bytes, means.memory_bytes),
     ];
     let excesses: Vec<Violation> = excesses.into_iter().flatten().collect();
     if excesses.is_empty() {
-        Ok(prepared)
+        Ok((prepared, plan))
     } else {
         Err(ScenarioError::Invalid(excesses))
     }
 }
 
 /// Cost of all runs of a job: that of the answer and those behind its uncertainty intervals.
-struct Planned {
+struct JobCost {
     /// Sum over the runs, bodies' sub-steps included.
     point_steps: u64,
     /// Largest of a run [bytes].
     memory_bytes: u64,
 }
 
-impl Planned {
-    fn of(prepared: &PreparedScene) -> Result<Self, ScenarioError> {
-        let answer = Cost::of(prepared);
-        let mut planned = Self {
+impl JobCost {
+    fn of(scenario: &Scenario, answer: &Cost) -> Result<Self, ScenarioError> {
+        let mut job = Self {
             point_steps: answer.work(),
             memory_bytes: answer.memory_bytes,
         };
-        let accuracy = &prepared.scenario.accuracy;
+        let accuracy = &scenario.accuracy;
         if !accuracy.takes_several_runs() {
-            return Ok(planned);
+            return Ok(job);
         }
-        let study = ConvergenceStudy::of(&prepared.scenario).map_err(|error| refused(&error))?;
+        let study = ConvergenceStudy::of(scenario).map_err(|error| refused(&error))?;
         for study_run in study.to_do().filter(|run| run.role != Role::Answer) {
             let scenario = study.scenario_of(study_run);
             let prepared = PreparedScene::of(&scenario).map_err(|error| refused(&error))?;
             let cost = Cost::of(&prepared);
-            planned.point_steps = planned.point_steps.saturating_add(cost.work());
-            planned.memory_bytes = planned.memory_bytes.max(cost.memory_bytes);
+            job.point_steps = job.point_steps.saturating_add(cost.work());
+            job.memory_bytes = job.memory_bytes.max(cost.memory_bytes);
         }
         if accuracy.target.is_some() {
             // The cells are not known yet; the budget is.
-            planned.point_steps = planned.point_steps.max(accuracy.budget_point_steps as u64);
+            job.point_steps = job.point_steps.max(accuracy.budget_point_steps as u64);
         }
-        Ok(planned)
+        Ok(job)
     }
 }
 

@@ -7,9 +7,9 @@ use crate::cli::columns::table;
 use crate::cli::failure::{Failure, not_set_up};
 use crate::cli::machine::cores;
 use scree::jobs::forecast::forecast;
-use scree_solver::Cancellation;
 use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
+use scree_solver::{Cancellation, Plan};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -99,7 +99,12 @@ impl Foretold {
         let (mut points, mut expected_end_s, mut ended_s) = (0, 0.0, 0.0);
         for _ in 0..repeats {
             let prepared = PreparedScene::of(&scenario).map_err(|error| not_set_up(&error))?;
-            let planned = forecast(&prepared, cores(), &Cancellation::default())?;
+            let planned = forecast(
+                &prepared.scenario,
+                Plan::of(&prepared),
+                cores(),
+                &Cancellation::default(),
+            )?;
             points = planned.plan.cost.points;
             expected_end_s = planned.plan.cost.expected_end_s;
             expected.extend(planned.wall_time.expected_s);
