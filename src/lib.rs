@@ -10,7 +10,7 @@
 pub mod config;
 pub mod http;
 pub mod jobs;
-mod machine;
+pub mod machine;
 pub mod pictures;
 mod quota;
 pub mod results;

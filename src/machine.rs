@@ -1,6 +1,11 @@
-//! Memory of the machine, as far as this process may have it.
+//! Cores and memory of the machine, as far as this process may have them.
 
 use sysinfo::System;
+
+/// Number of hardware threads.
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
+}
 
 /// Memory of the machine, or of the control group that this process is in [bytes]; without end if
 /// the system does not tell.

@@ -8,6 +8,7 @@ use crate::jobs::store::sqlite::{SqliteStore, backup};
 use crate::jobs::store::{JobStore, StoreError, StoreErrorKind};
 use crate::jobs::submit::Means;
 use crate::jobs::{AdmissionPool, Followers, JobLimits, JobService};
+use crate::machine::cores;
 use std::io;
 use std::net::SocketAddr;
 use std::path::Path;
@@ -111,8 +112,7 @@ impl RunningService {
 /// # Errors
 /// [`StartError`]; nothing is left running then.
 pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> {
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let size = config.check(cores)?;
+    let size = config.check(cores())?;
     let (listener, address) = listen(config.listen).await?;
     let store = open_store(&config).await?;
     match serve(&config, size, &store, listener).await {
@@ -158,20 +158,20 @@ async fn serve(
     listener: TcpListener,
 ) -> Result<Tasks, StartError> {
     let left_running = left_running(config, store).await?;
-    let pool = Pool::start(Arc::clone(store), size, config, left_running);
-    let pool = pool.map_err(StartError::Workers)?;
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let job_limits = JobLimits::new(&config.limits, size);
     let means = Means {
         threads_per_worker: size.threads_per_worker,
         point_steps: config.limits.job_point_steps,
-        memory_bytes: JobLimits::new(&config.limits, size).memory_bytes,
+        memory_bytes: job_limits.memory_bytes,
     };
+    let pool = Pool::start(Arc::clone(store), size, config, job_limits, left_running);
+    let pool = pool.map_err(StartError::Workers)?;
     let (followers, news) = Followers::start(Arc::clone(store), pool.registry());
     let jobs = JobService::new(
         Arc::clone(store),
         pool.registry(),
         config.limits.clone(),
-        (AdmissionPool::new(&config.admission, cores), means),
+        (AdmissionPool::new(&config.admission, cores()), means),
         followers,
     );
     let router = http::router(jobs, config);

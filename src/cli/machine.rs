@@ -1,5 +1,6 @@
 //! Machine on which a measurement was made.
 
+pub(super) use scree::machine::cores;
 use scree_solver::Instructions;
 use serde::Serialize;
 use std::fs;
@@ -42,11 +43,6 @@ impl Machine {
             self.cores, self.instructions
         )
     }
-}
-
-/// Number of hardware threads.
-pub(super) fn cores() -> usize {
-    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
 /// One thread and all; one number if both are the same.

@@ -97,6 +97,7 @@ impl Pool {
         store: Arc<dyn JobStore>,
         size: PoolSize,
         config: &ServiceConfig,
+        job_limits: JobLimits,
         left_running: Option<usize>,
     ) -> io::Result<Self> {
         let equipment = Equipment {
@@ -107,7 +108,7 @@ impl Pool {
             started: Instant::now(),
             queue: config.queue.clone(),
             recording: config.recording.clone(),
-            job_limits: JobLimits::new(&config.limits, size),
+            job_limits,
             retention: config.retention.clone(),
         };
         if let Some(count) = left_running {

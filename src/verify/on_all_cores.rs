@@ -1,15 +1,15 @@
 //! Independent runs on all cores.
 
+use crate::machine::cores;
 use std::sync::Mutex;
 use std::thread;
 
 /// Applies a function to all elements, on all cores, in any order.
 pub(super) fn side_by_side<T: Sync, R: Send>(all: &[T], each: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let cores = thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let to_do = Mutex::new(all.iter().enumerate());
     let done = Mutex::new(Vec::new());
     thread::scope(|scope| {
-        for _ in 0..cores {
+        for _ in 0..cores() {
             scope.spawn(|| {
                 while let Some((place, one)) = to_do.lock().ok().and_then(|mut all| all.next()) {
                     let result = each(one);

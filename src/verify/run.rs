@@ -1,5 +1,6 @@
 //! A timed run of a case.
 
+use crate::machine::cores;
 use scree_solver::scenario::{Scenario, ScenarioError};
 use scree_solver::simulation::Scene;
 use scree_solver::{SetupError, Simulation, StepError, SubstepReport};
@@ -60,11 +61,10 @@ impl Run {
     /// # Errors
     /// The scene can't be set up.
     pub fn start(scene: Scene) -> Result<Self, CaseError> {
-        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let threads = if scene.points.len() < MANY_POINTS {
             1
         } else {
-            cores
+            cores()
         };
         let simulation = Simulation::of_scene(scene, threads)?;
         let started = Instant::now();

@@ -1,6 +1,7 @@
 //! Answers with uncertainty intervals, computed in this process.
 
 use super::run::{CaseError, scenario_of};
+use crate::machine::cores;
 use crate::runs::{NoSink, RunEnd, RunError, StopFlag, convergence_study};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Ending;
@@ -13,8 +14,7 @@ use serde_json::Value;
 pub(super) fn answer(document: &Value) -> Result<Outcome, CaseError> {
     let mut scenario = scenario_of(document)?;
     scenario.numerics.ending = Ending::Full;
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    match convergence_study::run(&scenario, cores, &StopFlag::default(), &mut NoSink) {
+    match convergence_study::run(&scenario, cores(), &StopFlag::default(), &mut NoSink) {
         Ok(RunEnd::Completed(outcome)) => Ok(*outcome),
         Ok(RunEnd::Stopped) => Err(CaseError::Never("none of the runs could be computed")),
         Err(RunError::Setup(error)) => Err(error.into()),

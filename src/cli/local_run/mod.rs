@@ -10,6 +10,7 @@ use super::arguments::RunOptions;
 use super::console;
 use super::failure::{Failure, not_set_up};
 use super::files::FileError;
+use super::machine::cores;
 use super::meter::Meter;
 use super::results_folder::Place;
 use super::{intervals, table};
@@ -94,7 +95,6 @@ fn in_words(outcome: &Outcome, written: Option<&str>) -> String {
 
 /// The flag's number of threads, else the scenario's, else one per core.
 fn threads(options: &RunOptions, scenario: &Scenario) -> usize {
-    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let asked = options
         .threads
         .map(usize::from)
