@@ -1,7 +1,7 @@
 //! A database that is full, corrupt, truncated, or that can't be written.
 
 use crate::client::{ask, get};
-use crate::served::{Place, scene, trifle};
+use crate::served::{Place, Served, has_ended, scene, trifle};
 use std::fs::{self, OpenOptions};
 use std::io::{Seek, SeekFrom, Write};
 
@@ -137,20 +137,42 @@ fn a_log_cut_off_anywhere_leaves_a_whole_past() {
     }
 }
 
+/// A service with a job that has ended and one that runs; their paths.
+fn with_two_jobs(place: &Place) -> (Served, [String; 2]) {
+    let served = place.serve();
+    let done = served.submit(&trifle());
+    served.wait_for_success(&done);
+    let running = served.submit(&scene(3_600.0));
+    served.wait(&running, |job| job["status"] == "running");
+    (served, [done, running])
+}
+
+/// Checks that a service reads its jobs, of which the first has ended, says that it can't write,
+/// and refuses another job with this status.
+fn can_only_read(served: &Served, [done, other]: [&String; 2], refusal: u16) {
+    let address = served.address.as_str();
+    assert_eq!(get(address, done)["status"], "successful");
+    assert!(!has_ended(&get(address, other)));
+    let ready = ask(address, "GET", "/readyz", "").expect("an answer");
+    assert_eq!(ready.status, 503, "{}", ready.body);
+    let refused = ask(address, "POST", "/v1/jobs", &trifle().to_string()).expect("an answer");
+    assert_eq!(refused.status, refusal, "{}", refused.body);
+}
+
 /// A limit or a disk that is full before the start: what is there is served, and jobs are
 /// accepted once there is room.
 #[test]
 fn a_database_that_is_full_at_the_start_is_served() {
     let _turn = crate::turn();
     let place = Place::new(&[]);
-    let served = place.serve();
-    let done = served.submit(&trifle());
-    served.wait_for_success(&done);
-    let waiting = served.submit(&scene(3_600.0));
-    served.wait(&waiting, |job| job["status"] == "running");
+    let (served, [done, waiting]) = with_two_jobs(&place);
     served.kill();
 
     let limited = place.with(("SCREE_LIMITS__DATABASE_BYTES", "4096"));
+    let served = limited.serve();
+    can_only_read(&served, [&done, &waiting], 507);
+    served.kill();
+
     let roomy = limited.with(("SCREE_LIMITS__DATABASE_BYTES", "100000000"));
     let served = roomy.serve();
     served.wait(&waiting, |job| job["status"] == "running");
@@ -163,25 +185,16 @@ fn a_database_that_is_full_at_the_start_is_served() {
 fn a_database_that_can_not_be_written_is_read_and_goes_on_later() {
     let _turn = crate::turn();
     let place = Place::new(&[]);
-    let served = place.serve();
-    let done = served.submit(&trifle());
-    served.wait_for_success(&done);
-    let waiting = served.submit(&scene(3_600.0));
-    served.wait(&waiting, |job| job["status"] == "running");
+    let (served, [done, waiting]) = with_two_jobs(&place);
     served.stop();
 
     let user = place.hand_over_read_only();
     let served = place.serve_as(user);
-    let address = served.address.as_str();
-    assert_eq!(get(address, &done)["status"], "successful");
-    assert_eq!(get(address, &waiting)["status"], "accepted");
-    let ready = ask(address, "GET", "/readyz", "").expect("an answer");
-    assert_eq!(ready.status, 503, "{}", ready.body);
-    let refused = ask(address, "POST", "/v1/jobs", &trifle().to_string()).expect("an answer");
-    assert_eq!(refused.status, 503, "{}", refused.body);
+    can_only_read(&served, [&done, &waiting], 503);
+    assert_eq!(get(&served.address, &waiting)["status"], "accepted");
 
     place.make_writable();
     served.wait(&waiting, |job| job["status"] == "running");
-    assert_eq!(get(address, "/readyz")["status"], "ok");
+    assert_eq!(get(&served.address, "/readyz")["status"], "ok");
     served.submit(&trifle());
 }

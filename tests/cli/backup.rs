@@ -1,36 +1,14 @@
 //! `scree backup`.
 
-use crate::command::{Scene, ask, scree, tiny};
+use crate::command::{Scene, Served, ask, tiny};
 use std::fs;
-use std::io::{BufRead, BufReader};
-use std::process::{Child, Stdio};
-
-/// A service that is killed at the end of the test.
-struct Served(Child);
-
-impl Drop for Served {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
+use std::process::Stdio;
 
 #[test]
 fn it_copies_the_database_of_a_running_service_and_says_what_is_in_it() {
     let scene = Scene::new(&tiny());
     let database = scene.path("test.db");
-    let child = scree()
-        .args(["serve", "--listen", "127.0.0.1:0", "--database"])
-        .arg(&database)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let mut served = Served(child);
-    let mut line = String::new();
-    let stdout = served.0.stdout.take().unwrap();
-    BufReader::new(stdout).read_line(&mut line).unwrap();
-    assert!(line.contains("listening"), "{line}");
+    let _served = Served::start(&database, Stdio::null());
 
     let copy = scene.path("copy.db");
     let answer = ask(&[&"backup", &"--database", &database, &copy]);

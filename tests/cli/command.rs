@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 use std::ffi::OsStr;
-use std::io::Write;
+use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 
 /// Result of a command.
 #[derive(Debug)]
@@ -53,6 +53,41 @@ pub(crate) fn ask_with_input(arguments: &[&str], input: &str) -> Answer {
     stdin.write_all(input.as_bytes()).expect("the binary reads");
     drop(stdin);
     child.wait_with_output().expect("the binary ends").into()
+}
+
+/// A service, killed when this is dropped.
+pub(crate) struct Served {
+    pub(crate) child: Child,
+    /// Its address, with the port.
+    pub(crate) address: String,
+}
+
+impl Served {
+    /// Starts a service on this database and waits until it listens.
+    pub(crate) fn start(database: &Path, stderr: Stdio) -> Self {
+        let mut child = scree()
+            .args(["serve", "--listen", "127.0.0.1:0", "--database"])
+            .arg(database)
+            .stdout(Stdio::piped())
+            .stderr(stderr)
+            .spawn()
+            .expect("the binary starts");
+        let mut line = String::new();
+        let stdout = child.stdout.take().expect("piped");
+        BufReader::new(stdout).read_line(&mut line).expect("a line");
+        let address = line.trim().strip_prefix("listening on http://");
+        Self {
+            address: address.expect("the address").to_owned(),
+            child,
+        }
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
 }
 
 /// A directory with a scenario file in it.

@@ -205,7 +205,7 @@ fn without_a_folder_ctrl_c_just_stops() {
     assert!(stderr.contains("no --out was given"), "{stderr}");
 }
 
-/// Where there is no terminal, progress is plain lines.
+/// Progress is plain lines where there is no terminal.
 #[test]
 fn progress_into_a_pipe_is_lines_with_share_time_and_remaining_time() {
     let mut scenario = long();

@@ -1,52 +1,32 @@
 //! `scree serve`.
 
-use crate::command::{Scene, ask, scree, tiny};
-use std::io::{BufRead, BufReader, Read, Write};
-use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
-
-/// A service that is killed if the test fails before it has stopped it.
-struct Served(Child);
-
-impl Drop for Served {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
+use crate::command::{Scene, ask, tiny};
+#[cfg(unix)]
+use {
+    crate::command::Served,
+    std::io::{Read, Write},
+    std::net::TcpStream,
+    std::process::{Command, Stdio},
+};
 
 #[cfg(unix)]
 #[test]
 fn it_tells_its_address_answers_and_stops_when_asked() {
     let scene = Scene::new(&tiny());
-    let child = scree()
-        .args(["serve", "--listen", "127.0.0.1:0", "--database"])
-        .arg(scene.path("test.db"))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut served = Served(child);
-    let mut line = String::new();
-    let stdout = served.0.stdout.take().unwrap();
-    BufReader::new(stdout).read_line(&mut line).unwrap();
-    let address = line
-        .trim()
-        .strip_prefix("listening on http://")
-        .expect("the address")
-        .to_owned();
+    let mut served = Served::start(&scene.path("test.db"), Stdio::piped());
 
-    let mut stream = TcpStream::connect(&address).unwrap();
+    let mut stream = TcpStream::connect(&served.address).unwrap();
     write!(
         stream,
-        "GET /healthz HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n"
+        "GET /healthz HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
+        served.address
     )
     .unwrap();
     let mut answer = String::new();
     stream.read_to_string(&mut answer).unwrap();
     assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
 
-    let id = served.0.id().to_string();
+    let id = served.child.id().to_string();
     assert!(
         Command::new("kill")
             .args(["-TERM", &id])
@@ -54,9 +34,9 @@ fn it_tells_its_address_answers_and_stops_when_asked() {
             .unwrap()
             .success()
     );
-    assert_eq!(served.0.wait().unwrap().code(), Some(0));
+    assert_eq!(served.child.wait().unwrap().code(), Some(0));
     let mut log = String::new();
-    let stderr = served.0.stderr.as_mut().unwrap();
+    let stderr = served.child.stderr.as_mut().unwrap();
     stderr.read_to_string(&mut log).unwrap();
     assert!(log.contains("/healthz"), "{log}");
     assert!(
