@@ -1,8 +1,8 @@
 //! Open connections: who has how many, and which one makes room for another.
 //!
-//! Whoever sends nothing holds nothing: a connection without a request in progress is closed as
-//! soon as another one needs its place, the one that was idle longest first. Where all are busy,
-//! a few places more are kept for the operator.
+//! A connection without a request in progress is closed as soon as another one needs its place,
+//! the one that was idle longest first. Where all are busy, a few places more are kept for the
+//! operator.
 
 use super::access::PeerAddress;
 use crate::config::Limits;

@@ -13,7 +13,7 @@ use std::net::TcpStream;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
-/// What clients were told.
+/// Answers that clients got.
 #[derive(Default)]
 struct Told {
     /// Titles of acknowledged jobs, by identifier.

@@ -1,4 +1,4 @@
-//! What one client asks for does not take the service away from the others.
+//! Overload by one client, which does not take the service away from the others.
 
 use crate::app::{DEADLINE, TestApp, endless_scene, is_running, tiny_scene};
 use reqwest::StatusCode;

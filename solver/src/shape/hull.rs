@@ -12,7 +12,7 @@ use super::triangulation::{Triangle, triangulated};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 
-/// What is told apart, over the size of the solid.
+/// Smallest features that are told apart, over the size of the solid.
 #[derive(Debug, Clone, Copy)]
 struct Resolution {
     /// Smallest feature kept. The normal of a triangle narrower than this is not accurate to
@@ -143,7 +143,7 @@ impl Candidates {
         }
     }
 
-    /// Of the points of faces that contradict each other the one that protrudes least, if by so
+    /// The point that protrudes least among those of faces that contradict each other, if by so
     /// little that it can be left out.
     fn disputed(&self, loops: &[Vec<usize>], error: &ShapeError) -> Option<usize> {
         let (face, stranger) = match *error {
@@ -250,7 +250,7 @@ impl Candidates {
 struct Flat {
     /// Outward unit normal.
     normal: Vector3<f64>,
-    /// Whether it is wider than the smallest feature, so that its normal is accurate.
+    /// True if it is wider than the smallest feature, so that its normal is accurate.
     is_wide: bool,
     points: BTreeSet<usize>,
 }
@@ -262,7 +262,7 @@ struct Dull {
     between: [usize; 2],
 }
 
-/// What becomes of a point when dull ones are left out.
+/// Fate of a point when dull ones are left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Role {
     Inside,

@@ -79,7 +79,7 @@ fn tetrahedron(points: &[Vector3<f64>]) -> Option<[usize; 4]> {
 struct Surface<'a> {
     points: &'a [Vector3<f64>],
     triangles: Vec<Triangle>,
-    /// Whether a triangle is seen from the point that is reached for; one that was is replaced.
+    /// True for each triangle that is seen from the point being added; it is replaced.
     seen: Vec<bool>,
     /// Places of replaced triangles.
     free: Vec<usize>,

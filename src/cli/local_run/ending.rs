@@ -1,4 +1,4 @@
-//! What is left of a run in its folder, by the way it ended.
+//! Files that a run leaves in its folder, by the way it ended.
 
 use super::interrupts::Interrupts;
 use super::job::Job;

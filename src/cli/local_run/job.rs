@@ -1,4 +1,4 @@
-//! What `scree run` is asked to compute, and from where.
+//! The job of `scree run`: its scenario, its folder, and its start or saved state.
 
 use crate::cli::arguments::RunOptions;
 use crate::cli::failure::{Failure, not_set_up};

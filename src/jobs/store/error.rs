@@ -16,7 +16,7 @@ pub enum StoreErrorKind {
     Full,
     /// The database can't be read or written now.
     Unavailable,
-    /// What is stored of one job can't be read; other jobs are not concerned.
+    /// Stored data of one job can't be read; other jobs are not concerned.
     Damaged,
     /// A defect.
     Defect,
