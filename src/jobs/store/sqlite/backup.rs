@@ -1,7 +1,7 @@
 //! Consistent copy of a database that a service may be using.
 
 use super::error::SqliteError;
-use super::file::{Location, beside};
+use super::file::{Location, beside, directory_of};
 use super::inspection::{connect_to_read, immutable, inspect};
 use super::lock::Lock;
 use crate::jobs::store::StoreError;
@@ -127,13 +127,6 @@ fn check_destination(
         Ok(real) if real == database => Err(BackupError::Itself(destination.to_owned())),
         Ok(_) if !replace => Err(BackupError::Exists(destination.to_owned())),
         _ => Ok(()),
-    }
-}
-
-fn directory_of(destination: &Path) -> &Path {
-    match destination.parent() {
-        Some(directory) if directory != Path::new("") => directory,
-        _ => Path::new("."),
     }
 }
 

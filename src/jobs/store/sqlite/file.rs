@@ -216,14 +216,18 @@ fn check_kind(metadata: &Metadata) -> Result<(), FileFault> {
 /// Canonical path of a file that does not exist.
 fn new_path(path: &Path) -> Result<PathBuf, FileFault> {
     let name = path.file_name().ok_or(FileFault::NotAFile)?;
-    let directory = match path.parent() {
-        Some(directory) if directory != Path::new("") => directory,
-        _ => Path::new("."),
-    };
-    match directory.canonicalize() {
+    match directory_of(path).canonicalize() {
         Ok(directory) => Ok(directory.join(name)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Err(FileFault::NoDirectory),
         Err(error) => Err(error.into()),
+    }
+}
+
+/// Directory of a file.
+pub(super) fn directory_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(directory) if directory != Path::new("") => directory,
+        _ => Path::new("."),
     }
 }
 
