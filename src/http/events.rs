@@ -6,7 +6,7 @@ use super::problem::Problem;
 use super::query::Query;
 use super::shares::StreamRight;
 use crate::jobs::job::JobId;
-use crate::jobs::store::{Event, StoreError};
+use crate::jobs::store::{Change, Event, StoreError};
 use crate::jobs::{JobService, News};
 use crate::quota::InUse;
 use axum::body::Bytes;
@@ -28,7 +28,8 @@ const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
 /// Follow jobs
 ///
 /// Server-sent events, one for each change of a job's state: `event: status`,
-/// `id:` its number, `data:` an object with `id`, `status` and `attempt`. With
+/// `id:` its number, `data:` an object with `id`, `status` and `attempt`. When a job is removed,
+/// its events are replaced by one: `event: removed`, `data:` an object with `id` and `attempt`. With
 /// `Last-Event-ID` (or `after`) the stream begins after that event; without it, the
 /// stream of one job begins with the job's first event and that of all jobs with the next one.
 /// The stream of one job ends with the job.
@@ -146,7 +147,7 @@ impl Pieces for Follower {
             if let Some(last) = self.ready.last() {
                 self.after = last.sequence;
                 let final_of =
-                    |event: &Event| Some(event.job) == self.job && event.status.is_final();
+                    |event: &Event| Some(event.job) == self.job && event.change.is_final();
                 self.has_ended |= self.ready.iter().any(final_of);
                 let text: String = self.ready.drain(..).map(|event| text(&event)).collect();
                 return Ok(Some(text.into()));
@@ -168,21 +169,8 @@ impl Pieces for Follower {
                 }
                 Ok(Ok(News::Closing) | Err(RecvError::Closed)) => return Ok(None),
                 Ok(Err(RecvError::Lagged(_))) => self.is_behind = true,
-                Err(_) => {
-                    self.has_ended = self.is_removed().await?;
-                    return Ok(Some(Bytes::from_static(b":\n\n")));
-                }
+                Err(_) => return Ok(Some(Bytes::from_static(b":\n\n"))),
             }
-        }
-    }
-}
-
-impl Follower {
-    /// True if the followed job was removed, with its events.
-    async fn is_removed(&self) -> Result<bool, StoreError> {
-        match self.job {
-            None => Ok(false),
-            Some(job) => Ok(self.jobs.status(job).await?.is_none()),
         }
     }
 }
@@ -193,11 +181,17 @@ fn reset(after: i64, last: i64) -> String {
 }
 
 fn text(event: &Event) -> String {
+    let (kind, status) = match event.change {
+        Change::Status(status) => ("status", format!(r#","status":"{}""#, status.word())),
+        Change::Removed => ("removed", String::new()),
+    };
+    let Event {
+        sequence,
+        job,
+        attempt,
+        ..
+    } = event;
     format!(
-        "id: {}\nevent: status\ndata: {{\"id\":\"{}\",\"status\":\"{}\",\"attempt\":{}}}\n\n",
-        event.sequence,
-        event.job,
-        event.status.word(),
-        event.attempt
+        "id: {sequence}\nevent: {kind}\ndata: {{\"id\":\"{job}\"{status},\"attempt\":{attempt}}}\n\n"
     )
 }

@@ -2,7 +2,7 @@
 
 use crate::app::{Answer, TestApp, endless_scene, is_running, tiny_scene};
 use reqwest::{Response, StatusCode};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 async fn ask_with_tag(app: &TestApp, path: &str, tag: &str) -> Response {
     let request = app.client.get(app.url(path)).header("if-none-match", tag);
@@ -117,15 +117,32 @@ async fn a_client_of_another_past_is_told_so_and_hears_everything_again() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_removed_job_s_events_count_as_seen() {
+async fn of_a_removed_job_only_the_removal_is_told() {
     let app = TestApp::start().await;
     let job = app.submit(&tiny_scene()).await;
     app.wait_for_success(&job).await;
     app.delete(&format!("{job}?remove=ended")).await;
-    let url = app.url("/v1/events?after=3");
+    let url = app.url("/v1/events?after=0");
     let response = app.client.get(url).send().await.unwrap();
     let (text, _directory) = tokio::join!(response.text(), app.stop());
-    assert_eq!(text.unwrap(), "", "nothing came after the third");
+    let id = job.rsplit('/').next().unwrap();
+    let removed = format!("id: 4\nevent: removed\ndata: {{\"id\":\"{id}\",\"attempt\":1}}\n\n");
+    assert_eq!(text.unwrap(), removed);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_follower_of_a_job_that_is_dismissed_and_removed_at_once_learns_of_its_end() {
+    let app = TestApp::start().await;
+    let job = app.submit(&endless_scene()).await;
+    app.wait(&job, is_running).await;
+    let query = format!("?job={}", job.rsplit('/').next().unwrap());
+    let (stream, ()) = tokio::join!(events(&app, &query, None), async {
+        tokio::time::sleep(Duration::from_millis(200)).await;
+        app.delete(&job).await;
+        app.delete(&format!("{job}?remove=ended")).await;
+    });
+    assert!(stream.1.contains("event: removed\n"), "{}", stream.1);
+    app.stop().await;
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -26,7 +26,7 @@ pub use claim::{Claim, Claimant, Dismissal, Lease, Renewal, Solver};
 pub use counts::JobCounts;
 pub use ending::{FailedAttempt, Returned, TOLERATED_SETBACKS};
 pub use error::{Cause, StoreError, StoreErrorKind};
-pub use event::Event;
+pub use event::{Change, Event};
 pub use keyed_request::{FormerRequest, KeptAnswer, Key};
 pub use page::{Page, Removal};
 pub use port::JobStore;

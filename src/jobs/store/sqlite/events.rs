@@ -2,8 +2,8 @@
 
 use super::SqliteStore;
 use super::error::Answer;
-use crate::jobs::job::{JobId, JobStatus};
-use crate::jobs::store::event::EVENTS_AT_ONCE;
+use crate::jobs::job::JobId;
+use crate::jobs::store::event::{Change, EVENTS_AT_ONCE};
 use crate::jobs::store::{Event, StoreError};
 use sqlx::FromRow;
 
@@ -51,7 +51,7 @@ impl EventRow {
         Ok(Event {
             sequence: self.sequence,
             job: self.job_id.parse().map_err(|_| broken("id"))?,
-            status: JobStatus::from_word(&self.status).ok_or_else(|| broken("status"))?,
+            change: Change::from_word(&self.status).ok_or_else(|| broken("status"))?,
             attempt: self.attempt,
         })
     }

@@ -21,6 +21,28 @@ conformance! {
     a_saved_state_comes_back_and_ends_the_row_of_failed_attempts
     an_attempt_begins_at_its_saved_state_or_afresh
     a_job_handed_back_keeps_its_state_and_has_no_failed_attempt
+    a_removal_is_the_last_event_of_a_job_and_the_only_one_left
+}
+
+async fn a_removal_is_the_last_event_of_a_job_and_the_only_one_left(fixture: &Fixture) {
+    let removed = fixture.submit().await;
+    let other = fixture.submit().await;
+    fixture.store.dismiss(removed).await.unwrap();
+    let last = fixture.store.last_event().await.unwrap();
+    fixture.store.remove(removed).await.unwrap();
+    let removal = Event {
+        sequence: last + 1,
+        job: removed,
+        change: Change::Removed,
+        attempt: 0,
+    };
+    let of_one = fixture.store.events(0, Some(removed)).await.unwrap();
+    assert_eq!(of_one, [removal]);
+    let of_all = fixture.store.events(0, None).await.unwrap();
+    assert_eq!(of_all.len(), 2, "{of_all:?}");
+    assert_eq!(of_all[0].job, other);
+    assert_eq!(of_all[1], removal);
+    assert_eq!(fixture.store.last_event().await.unwrap(), last + 1);
 }
 
 async fn jobs_are_claimed_in_the_order_of_submission_and_once(fixture: &Fixture) {
