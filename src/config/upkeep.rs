@@ -5,11 +5,26 @@ use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 /// Retention times.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Retention {
     /// Days of running service after which a job that has ended is removed; `None`: never.
     pub ended_jobs_d: Option<f64>,
+    /// Days of running service for which an Idempotency-Key outlives its last job.
+    pub keys_d: f64,
+    /// Space of the keys and answers that outlive their jobs, of one caller [bytes]; beyond it
+    /// the oldest are forgotten sooner.
+    pub keys_bytes: u64,
+}
+
+impl Default for Retention {
+    fn default() -> Self {
+        Self {
+            ended_jobs_d: None,
+            keys_d: 30.0,
+            keys_bytes: 64 << 20,
+        }
+    }
 }
 
 /// Log settings.
@@ -33,19 +48,32 @@ pub enum LogFormat {
 
 impl Retention {
     pub(super) fn check(&self) -> Result<(), ConfigError> {
-        match self.ended_jobs_d {
+        let keys = [
+            ("retention.ended_jobs_d", self.ended_jobs_d),
+            ("retention.keys_d", Some(self.keys_d)),
+        ];
+        for (key, days) in keys {
             // A comparison is false for NaN, so NaN is refused too.
-            Some(days) if !(days > 0.0 && days <= 36_500.0) => {
-                let reason = "allowed is 0 < x <= 36500 d";
-                Err(not_allowed("retention.ended_jobs_d", days, reason))
+            if let Some(days) = days
+                && !(days > 0.0 && days <= 36_500.0)
+            {
+                return Err(not_allowed(key, days, "allowed is 0 < x <= 36500 d"));
             }
-            _ => Ok(()),
         }
+        Ok(())
     }
 
     /// Time for which a job that has ended is kept.
     pub fn ended_jobs(&self) -> Option<Duration> {
-        self.ended_jobs_d
-            .map(|days| Duration::from_secs_f64(days * 86_400.0))
+        self.ended_jobs_d.map(days)
     }
+
+    /// Time for which a key outlives its last job.
+    pub fn keys(&self) -> Duration {
+        days(self.keys_d)
+    }
+}
+
+fn days(number: f64) -> Duration {
+    Duration::from_secs_f64(number * 86_400.0)
 }

@@ -4,10 +4,11 @@
 //! upkeep of the store.
 
 use super::pool::Equipment;
-use super::store::{Renewal, StoreError};
+use super::store::{KeyRetention, Renewal, StoreError};
 use std::io;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
+use std::time::Duration;
 use tracing::{error, info, warn};
 
 /// Thread of the heartbeat; it ends once this is dropped.
@@ -87,7 +88,7 @@ fn remove_old(equipment: &Equipment) {
     let Some(age) = equipment.retention.ended_jobs() else {
         return;
     };
-    let age_ms = i64::try_from(age.as_millis()).unwrap_or(i64::MAX);
+    let age_ms = milliseconds(age);
     match equipment
         .runtime
         .block_on(equipment.store.remove_ended(age_ms))
@@ -98,6 +99,20 @@ fn remove_old(equipment: &Equipment) {
     }
 }
 
+/// Forgets the keys that have outlived their jobs for long, or in too large a number.
+async fn forget_keys(equipment: &Equipment) -> Result<(), StoreError> {
+    let kept = KeyRetention {
+        age_ms: milliseconds(equipment.retention.keys()),
+        bytes: equipment.retention.keys_bytes,
+    };
+    while equipment.store.forget_keys(kept).await? > 0 {}
+    Ok(())
+}
+
+fn milliseconds(time: Duration) -> i64 {
+    i64::try_from(time.as_millis()).unwrap_or(i64::MAX)
+}
+
 /// Upkeep of the store; the log has the beginning and the end of a time without it.
 #[derive(Debug, Default)]
 struct Upkeep {
@@ -106,7 +121,10 @@ struct Upkeep {
 
 impl Upkeep {
     fn perform(&mut self, equipment: &Equipment) {
-        let maintained = equipment.runtime.block_on(equipment.store.maintain());
+        let maintained = equipment.runtime.block_on(async {
+            forget_keys(equipment).await?;
+            equipment.store.maintain().await
+        });
         match &maintained {
             Ok(()) if self.failing => info!("the database can be written again"),
             Err(error) if !self.failing => error!(%error, "the database can't be written"),

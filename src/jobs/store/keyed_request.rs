@@ -35,3 +35,12 @@ pub struct KeptAnswer {
     /// JSON of the answer.
     pub body: String,
 }
+
+/// Retention of keys whose jobs have all been removed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct KeyRetention {
+    /// Operating time since the removal [ms].
+    pub age_ms: i64,
+    /// Space of those of one submitter; beyond it the oldest are forgotten sooner.
+    pub bytes: u64,
+}

@@ -27,7 +27,7 @@ pub use counts::JobCounts;
 pub use ending::{FailedAttempt, Returned, TOLERATED_SETBACKS};
 pub use error::{Cause, StoreError, StoreErrorKind};
 pub use event::{Change, Event};
-pub use keyed_request::{FormerRequest, KeptAnswer, Key};
+pub use keyed_request::{FormerRequest, KeptAnswer, Key, KeyRetention};
 pub use page::{Page, Removal};
 pub use port::JobStore;
 pub use records::{NewChunk, NewResults, StoredChunk};

@@ -3,8 +3,8 @@
 
 use super::{
     AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, FormerRequest, JobCounts,
-    KeptAnswer, Key, Lease, NewResults, Page, Removal, Renewal, Returned, StoreError, StoredChunk,
-    StoredState, Submission, Submitted,
+    KeptAnswer, Key, KeyRetention, Lease, NewResults, Page, Removal, Renewal, Returned, StoreError,
+    StoredChunk, StoredState, Submission, Submitted,
 };
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
@@ -74,6 +74,10 @@ pub trait JobStore: Debug + Send + Sync {
     /// Counted is time for which a service had the database open: no jump of the time of day
     /// changes it, and time between a stop and the next start is not in it.
     async fn remove_ended(&self, age_ms: i64) -> Answer<u64>;
+
+    /// Forgets some of the keys that are kept no longer and returns their number. To be called
+    /// until it returns 0. A key with a job is kept.
+    async fn forget_keys(&self, kept: KeyRetention) -> Answer<u64>;
 
     // Leases. Every write of a worker names its lease.
 

@@ -2,9 +2,10 @@
 
 use super::SqliteStore;
 use super::error::Answer;
+use super::rows::integer;
 use super::submission::parse;
 use crate::jobs::job::JobId;
-use crate::jobs::store::{FormerRequest, KeptAnswer, Key, StoreError};
+use crate::jobs::store::{FormerRequest, KeptAnswer, Key, KeyRetention, StoreError};
 use sqlx::FromRow;
 use sqlx::sqlite::SqliteConnection;
 
@@ -14,6 +15,12 @@ const LEVEL: i32 = 3;
 /// Largest answer read back [bytes]: a batch's identifiers, or a job with a scenario of any size
 /// that a request may have.
 const LARGEST_ANSWER: usize = 1 << 30;
+
+/// Space of a request beside its lists and its answer [bytes], about.
+const ROW_BYTES: usize = 256;
+
+/// Largest number of keys forgotten in one transaction, so that submissions don't wait long.
+const FORGOTTEN_AT_ONCE: u32 = 50;
 
 #[derive(Debug, FromRow)]
 struct KeyedRequestRow {
@@ -45,7 +52,8 @@ impl SqliteStore {
         let mut transaction = self.begin_write().await?;
         sqlx::query(
             "UPDATE keyed_requests
-             SET answer_status = ?3, answer_location = ?4, answer_body = ?5
+             SET answer_status = ?3, answer_location = ?4, answer_body = ?5,
+                 stored_bytes = stored_bytes + length(?5)
              WHERE submitter = ?1 AND key = ?2 AND answer_status IS NULL",
         )
         .bind(submitter.unwrap_or_default())
@@ -57,6 +65,29 @@ impl SqliteStore {
         .await?;
         transaction.commit().await?;
         Ok(())
+    }
+
+    pub(super) async fn forget_keys(&self, kept: KeyRetention) -> Answer<u64> {
+        let mut transaction = self.begin_write().await?;
+        // By the sum over a submitter's released keys, from the newest on.
+        let done = sqlx::query(
+            "DELETE FROM keyed_requests WHERE sequence IN (
+                 SELECT sequence FROM keyed_requests WHERE released_operating_ms <= ?1
+                 UNION
+                 SELECT sequence FROM (
+                     SELECT sequence, sum(stored_bytes)
+                         OVER (PARTITION BY submitter ORDER BY sequence DESC) AS bytes
+                     FROM keyed_requests WHERE released_operating_ms IS NOT NULL)
+                 WHERE bytes > ?2
+                 ORDER BY sequence LIMIT ?3)",
+        )
+        .bind(self.operating_ms().saturating_sub(kept.age_ms))
+        .bind(integer(kept.bytes))
+        .bind(FORGOTTEN_AT_ONCE)
+        .execute(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        Ok(done.rows_affected())
     }
 }
 
@@ -76,22 +107,29 @@ pub(super) async fn former_request(
     row.map(|row| row.read(key)).transpose()
 }
 
-/// Records a request with a key and its jobs; returns its number.
+/// Records a request with a key and its jobs; returns its number. One without jobs is released
+/// at once.
 pub(super) async fn keep_key(
     connection: &mut SqliteConnection,
     submitter: Option<&str>,
-    key: &Key,
+    (key, operating_ms): (&Key, i64),
     jobs: impl Iterator<Item = JobId>,
 ) -> Answer<i64> {
     let ids: Vec<String> = jobs.map(|id| id.to_string()).collect();
+    let released_ms = ids.is_empty().then_some(operating_ms);
+    let ids = serde_json::Value::from(ids).to_string();
     let sequence = sqlx::query_scalar(
-        "INSERT INTO keyed_requests (submitter, key, body_hash, job_ids) VALUES (?1, ?2, ?3, ?4)
+        "INSERT INTO keyed_requests (submitter, key, body_hash, released_operating_ms,
+                                     stored_bytes, job_ids)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6)
          RETURNING sequence",
     )
     .bind(submitter.unwrap_or_default())
     .bind(&key.text)
     .bind(&key.request_hash[..])
-    .bind(serde_json::Value::from(ids).to_string())
+    .bind(released_ms)
+    .bind(integer((ROW_BYTES + ids.len()) as u64))
+    .bind(ids)
     .fetch_one(connection)
     .await?;
     Ok(sequence)

@@ -6,8 +6,8 @@ use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
 use crate::jobs::store::{
     AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, FormerRequest, JobCounts,
-    JobStore, KeptAnswer, Key, Lease, NewResults, Page, Removal, Renewal, Returned, StoreError,
-    StoredChunk, StoredState, Submission, Submitted,
+    JobStore, KeptAnswer, Key, KeyRetention, Lease, NewResults, Page, Removal, Renewal, Returned,
+    StoreError, StoredChunk, StoredState, Submission, Submitted,
 };
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
@@ -60,6 +60,10 @@ impl JobStore for SqliteStore {
 
     async fn remove_ended(&self, age_ms: i64) -> Result<u64, StoreError> {
         Ok(Self::remove_ended(self, age_ms).await?)
+    }
+
+    async fn forget_keys(&self, kept: KeyRetention) -> Result<u64, StoreError> {
+        Ok(Self::forget_keys(self, kept).await?)
     }
 
     async fn renew(

@@ -25,7 +25,7 @@ impl SqliteStore {
         let request = match submission.key {
             Some(key) => {
                 let ids = submission.jobs.iter().map(|job| job.id);
-                Some(keep_key(&mut transaction, submitter, key, ids).await?)
+                Some(keep_key(&mut transaction, submitter, (key, now.operating_ms), ids).await?)
             }
             None => None,
         };

@@ -8,6 +8,8 @@ conformance! {
     a_clock_set_forward_costs_nothing
     the_longest_wait_is_one_that_has_passed
     retention_counts_from_the_end
+    a_key_outlives_its_last_job_for_its_retention_time
+    keys_of_one_submitter_are_bounded_by_their_space
     what_ended_by_a_wrong_clock_is_kept_as_long_as_anything
     what_ended_is_kept_as_long_while_the_clock_jumps_back_and_forth
     the_time_between_stop_and_start_does_not_count
@@ -89,6 +91,93 @@ impl Fixture {
         assert_eq!(self.remove_older_than_a_day().await, 1, "too late");
         assert!(self.store.job(id).await.unwrap().is_none());
     }
+}
+
+/// A job submitted with this key.
+async fn submit_with_key(fixture: &Fixture, submitter: &str, text: &str) -> JobId {
+    let job = new_job();
+    let key = key(text);
+    let jobs = [job];
+    let submission = Submission {
+        submitter: Some(submitter),
+        key: Some(&key),
+        ..submission(&jobs)
+    };
+    let submitted = fixture.store.submit(&submission).await.unwrap();
+    assert_eq!(submitted, Submitted::Accepted);
+    let answer = KeptAnswer {
+        status: 202,
+        location: None,
+        body: "{}".to_owned(),
+    };
+    let kept = fixture.store.keep_answer(Some(submitter), &key, &answer);
+    kept.await.unwrap();
+    jobs[0].id
+}
+
+fn key(text: &str) -> Key {
+    Key {
+        text: text.to_owned(),
+        request_hash: [7; 32],
+    }
+}
+
+async fn is_known(fixture: &Fixture, submitter: &str, text: &str) -> bool {
+    let key = key(text);
+    let former = fixture.store.former_request(Some(submitter), &key);
+    former.await.unwrap().is_some()
+}
+
+async fn remove(fixture: &Fixture, id: JobId) {
+    fixture.store.dismiss(id).await.unwrap();
+    assert_eq!(fixture.store.remove(id).await.unwrap(), Removal::Removed);
+}
+
+async fn a_key_outlives_its_last_job_for_its_retention_time(fixture: &Fixture) {
+    let kept = KeyRetention {
+        age_ms: DAY_MS,
+        bytes: u64::MAX >> 1,
+    };
+    let day = Duration::from_millis(DAY_MS as u64);
+    let id = submit_with_key(fixture, "lab", "k").await;
+    fixture.pass(2 * day);
+    fixture.store.maintain().await.unwrap();
+    assert_eq!(fixture.store.forget_keys(kept).await.unwrap(), 0);
+    remove(fixture, id).await;
+    fixture.pass(day / 2);
+    assert_eq!(fixture.store.forget_keys(kept).await.unwrap(), 0);
+    assert!(is_known(fixture, "lab", "k").await);
+    fixture.pass(day / 2);
+    assert_eq!(fixture.store.forget_keys(kept).await.unwrap(), 1);
+    assert!(!is_known(fixture, "lab", "k").await);
+}
+
+async fn keys_of_one_submitter_are_bounded_by_their_space(fixture: &Fixture) {
+    let few = KeyRetention {
+        age_ms: DAY_MS,
+        bytes: 4_000,
+    };
+    let other = submit_with_key(fixture, "other", "first").await;
+    remove(fixture, other).await;
+    let alive = submit_with_key(fixture, "lab", "alive").await;
+    for number in 0..200 {
+        let id = submit_with_key(fixture, "lab", &number.to_string()).await;
+        remove(fixture, id).await;
+    }
+    let mut forgotten = 0;
+    loop {
+        let more = fixture.store.forget_keys(few).await.unwrap();
+        forgotten += more;
+        if more == 0 {
+            break;
+        }
+    }
+    assert!((185..200).contains(&forgotten), "{forgotten}");
+    assert!(!is_known(fixture, "lab", "0").await);
+    for (submitter, key) in [("lab", "199"), ("lab", "alive"), ("other", "first")] {
+        assert!(is_known(fixture, submitter, key).await, "{key}");
+    }
+    assert_eq!(fixture.status(alive).await, JobStatus::Accepted);
 }
 
 async fn retention_counts_from_the_end(fixture: &Fixture) {

@@ -137,17 +137,7 @@ impl Fixture {
     }
 
     pub(super) async fn submit(&self) -> JobId {
-        let job = NewJob {
-            id: JobId::new(),
-            title: "a title".to_owned(),
-            bodies: 1,
-            scenario: "{}".to_owned(),
-            scenario_hash: "0".repeat(64),
-            plan: "{}".to_owned(),
-            labels: Vec::new(),
-            solver_version: "1",
-        };
-        let jobs = [job];
+        let jobs = [new_job()];
         let submitted = self.store.submit(&submission(&jobs)).await.unwrap();
         assert_eq!(submitted, Submitted::Accepted);
         jobs[0].id
@@ -186,6 +176,19 @@ impl Fixture {
 
     pub(super) fn pass(&self, time: Duration) {
         self.clock.pass(time);
+    }
+}
+
+fn new_job() -> NewJob {
+    NewJob {
+        id: JobId::new(),
+        title: "a title".to_owned(),
+        bodies: 1,
+        scenario: "{}".to_owned(),
+        scenario_hash: "0".repeat(64),
+        plan: "{}".to_owned(),
+        labels: Vec::new(),
+        solver_version: "1",
     }
 }
 
