@@ -1,17 +1,21 @@
 //! Open connections: who has how many, and which one makes room for another.
 //!
 //! A connection without a request in progress is closed as soon as another one needs its place,
-//! the one that was idle longest first. Where all are busy, a few places more are kept for the
-//! operator.
+//! the one that was idle longest first; then one whose client neither sends the rest of its request
+//! nor takes its answer. Where all are busy, a few places more are kept for the operator.
 
 use super::access::PeerAddress;
 use crate::config::Limits;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
-use std::net::IpAddr;
+use std::net::{IpAddr, Ipv6Addr};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 use tokio::sync::Notify;
 use tokio::time::Instant;
+
+/// Time for which a client may keep its connection waiting before it makes room for another.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// The open connections of a service.
 #[derive(Debug, Clone)]
@@ -47,6 +51,8 @@ enum Activity {
     Idle(Instant),
     /// With a request in progress.
     Busy,
+    /// With a request in progress, of which the client has not sent or taken anything since then.
+    Stalled(Instant),
 }
 
 /// An open connection, in the table until this is dropped.
@@ -77,6 +83,7 @@ impl Connections {
 
     /// A place for a new connection; `None` if all are busy, the operator's too.
     pub(super) fn open(&self, address: IpAddr) -> Option<OpenConnection> {
+        let address = network(address);
         let mut table = self.table();
         let place = table.make_room(address)?;
         let number = table.next;
@@ -106,6 +113,17 @@ impl Connections {
         }
     }
 
+    /// Notes whether the client of a request in progress keeps the service waiting.
+    fn stall(&self, number: u64, waits: bool) {
+        if let Some(entry) = self.table().open.get_mut(&number) {
+            entry.activity = match (entry.activity, waits) {
+                (Activity::Busy, true) => Activity::Stalled(Instant::now()),
+                (Activity::Stalled(_), false) => Activity::Busy,
+                (activity, _) => activity,
+            };
+        }
+    }
+
     fn table(&self) -> MutexGuard<'_, Table> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -117,9 +135,9 @@ impl Table {
     fn make_room(&mut self, address: IpAddr) -> Option<Place> {
         let own = self.count(Place::Client, Some(address));
         let room = if own >= self.limits.connections_per_address {
-            self.close_idle(Place::Client, Some(address))
+            self.close_one(Place::Client, Some(address))
         } else if self.count(Place::Client, None) >= self.limits.connections {
-            self.close_idle(Place::Client, None)
+            self.close_one(Place::Client, None)
         } else {
             true
         };
@@ -127,7 +145,7 @@ impl Table {
             return Some(Place::Client);
         }
         let room = self.count(Place::Operator, None) < self.limits.operator_connections
-            || self.close_idle(Place::Operator, None);
+            || self.close_one(Place::Operator, None);
         room.then_some(Place::Operator)
     }
 
@@ -137,22 +155,25 @@ impl Table {
         open.filter(|entry| entry.is(place, address)).count()
     }
 
-    /// Closes an idle connection with such a place, of this address if one is given: one of the
-    /// address that has most, and of these the one that was idle longest. `false` if there is none.
-    fn close_idle(&mut self, place: Place, address: Option<IpAddr>) -> bool {
+    /// Closes a connection with such a place, of this address if one is given, that is idle or
+    /// whose client keeps it waiting: one of the address that has most, of these an idle one
+    /// first, and the one that waits longest. `false` if there is none.
+    fn close_one(&mut self, place: Place, address: Option<IpAddr>) -> bool {
         let mut counts: BTreeMap<IpAddr, usize> = BTreeMap::new();
         for entry in self.open.values().filter(|entry| entry.is(place, address)) {
             *counts.entry(entry.address).or_default() += 1;
         }
-        let idle = self.open.iter().filter_map(|(number, entry)| {
-            let Activity::Idle(since) = entry.activity else {
-                return None;
+        let waiting = self.open.iter().filter_map(|(number, entry)| {
+            let (has_request, since) = match entry.activity {
+                Activity::Idle(since) => (false, since),
+                Activity::Stalled(since) if since.elapsed() >= PATIENCE => (true, since),
+                Activity::Stalled(_) | Activity::Busy => return None,
             };
             let most_first = Reverse(counts.get(&entry.address)?);
             let is_one = entry.is(place, address);
-            is_one.then_some((most_first, since, *number))
+            is_one.then_some((most_first, has_request, since, *number))
         });
-        let Some((_, _, number)) = idle.min() else {
+        let Some((_, _, _, number)) = waiting.min() else {
             return false;
         };
         if let Some(entry) = self.open.remove(&number) {
@@ -184,6 +205,12 @@ impl OpenConnection {
         self.closed.notified().await;
     }
 
+    /// Notes whether the client of a request in progress keeps the service waiting, with the rest
+    /// of its request or by taking nothing of its answer.
+    pub(super) fn stall(&self, waits: bool) {
+        self.connections.stall(self.number, waits);
+    }
+
     /// Marks that a request has come.
     pub(super) fn begin_request(&self) -> Busy {
         self.connections.set(self.number, Activity::Busy);
@@ -204,6 +231,17 @@ impl Drop for Busy {
     fn drop(&mut self) {
         let idle = Activity::Idle(Instant::now());
         self.connections.set(self.number, idle);
+    }
+}
+
+/// What counts as one address: of IPv6 a network of 64 bits, which is what one client has.
+fn network(address: IpAddr) -> IpAddr {
+    match address {
+        IpAddr::V4(_) => address,
+        IpAddr::V6(v6) => {
+            let [a, b, c, d, ..] = v6.segments();
+            Ipv6Addr::new(a, b, c, d, 0, 0, 0, 0).into()
+        }
     }
 }
 
@@ -241,6 +279,37 @@ mod tests {
         let last = connections.open(address(4)).unwrap();
         assert_eq!(last.place, Place::Client);
         other.closed().await;
+    }
+
+    #[tokio::test]
+    async fn a_client_that_keeps_its_connection_waiting_makes_room_after_the_idle_ones() {
+        let connections = connections();
+        let open = [1, 1, 2].map(|last| connections.open(address(last)).unwrap());
+        let busy: Vec<_> = open.iter().map(OpenConnection::begin_request).collect();
+        open[1].stall(true);
+        let early = connections.open(address(3)).unwrap();
+        assert_eq!(early.place, Place::Operator, "it may still go on");
+        drop(early);
+        tokio::time::sleep(PATIENCE).await;
+        let next = connections.open(address(3)).unwrap();
+        assert_eq!(next.place, Place::Client);
+        open[1].closed().await;
+        open[2].stall(true);
+        tokio::time::sleep(PATIENCE).await;
+        open[2].stall(false);
+        let _busy = next.begin_request();
+        let last = connections.open(address(4)).unwrap();
+        assert_eq!(last.place, Place::Operator, "its client takes its answer");
+        drop(busy);
+    }
+
+    #[test]
+    fn an_address_is_a_network_of_64_bits() {
+        let connections = connections();
+        let of_one = ["2001:db8::1", "2001:db8::2", "2001:db8::3"];
+        let open = of_one.map(|text| connections.open(text.parse().unwrap()).unwrap());
+        assert_eq!(connections.table().open.len(), 2);
+        assert_eq!(open[0].peer().0, open[2].peer().0);
     }
 
     #[test]

@@ -10,17 +10,18 @@ use serde::Serialize;
 
 /// Idempotency-Key of the request, if it has one.
 pub(super) fn key(headers: &HeaderMap, request: &str) -> Result<Option<Key>, Problem> {
-    let Some(value) = headers.get("idempotency-key") else {
+    let mut values = headers.get_all("idempotency-key").iter();
+    let Some(value) = values.next() else {
         return Ok(None);
     };
+    if values.next().is_some() {
+        return Err(invalid("a request has one Idempotency-Key"));
+    }
     let text = value.to_str().unwrap_or_default();
     let is_legal =
         (1..=255).contains(&text.len()) && text.bytes().all(|byte| byte.is_ascii_graphic());
     if !is_legal {
-        return Err(Problem::new(
-            StatusCode::UNPROCESSABLE_ENTITY,
-            "invalid-key",
-            "Invalid Idempotency-Key",
+        return Err(invalid(
             "an Idempotency-Key has 1 to 255 visible ASCII characters",
         ));
     }
@@ -28,6 +29,15 @@ pub(super) fn key(headers: &HeaderMap, request: &str) -> Result<Option<Key>, Pro
         text: text.to_owned(),
         request_hash: *blake3::hash(request.as_bytes()).as_bytes(),
     }))
+}
+
+fn invalid(rule: &str) -> Problem {
+    Problem::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "invalid-key",
+        "Invalid Idempotency-Key",
+        rule,
+    )
 }
 
 /// The answer in the form in which it is sent and kept.

@@ -3,6 +3,7 @@
 //! problem document.
 
 mod access;
+mod arriving_body;
 mod batch;
 mod browser;
 mod common_answers;

@@ -2,7 +2,7 @@
 
 use super::connections::Place;
 use super::problem::Problem;
-use axum::http::{HeaderValue, Method, Request, StatusCode, header};
+use axum::http::{Method, Request, StatusCode};
 use axum::response::{IntoResponse, Response};
 
 /// Seconds after which a client may retry if all connections are busy.
@@ -21,10 +21,7 @@ pub(super) fn refusal<B>(place: Place, request: &Request<B>) -> Option<Response>
          (limits.connections_per_address), are busy; try again later",
     )
     .retry_after(RETRY_AFTER_S);
-    let mut response = problem.into_response();
-    let close = HeaderValue::from_static("close");
-    response.headers_mut().insert(header::CONNECTION, close);
-    Some(response)
+    Some(problem.into_response())
 }
 
 /// True for health, readiness, metrics and dismissals.

@@ -4,7 +4,7 @@ use super::access::{self, Gate};
 use super::browser::{self, Doors};
 use super::metrics::{self, RequestCounts};
 use super::problem::Problem;
-use super::scenario_body::BodyDeadline;
+use super::scenario_body::BodyLimits;
 use super::shares::{self, Shares};
 use super::{batch, common_answers, events, flow, jobs, plans, submission, system, trajectory};
 use crate::config::ServiceConfig;
@@ -33,6 +33,7 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
     let (router, contract) = documented(limits.request_timeout()).split_for_parts();
     let contract = contract_text(&contract);
     let body_timeout = limits.body_read_timeout();
+    let body_bytes = limits.request_body_bytes;
     let router = router
         .route("/openapi.json", get(|| serve_contract(contract)))
         .route("/", get(|| async { Html(include_str!("page.html")) }))
@@ -47,9 +48,9 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
         .fallback(system::no_such_route)
         .method_not_allowed_fallback(system::wrong_method)
         .with_state(jobs)
-        .layer(DefaultBodyLimit::max(limits.request_body_bytes))
+        .layer(DefaultBodyLimit::max(body_bytes))
         .layer(from_fn(move |request, next| {
-            set_deadline(body_timeout, request, next)
+            limit_body(body_timeout, body_bytes, request, next)
         }))
         .layer(from_fn_with_state(Shares::new(limits), shares::limit))
         .layer(from_fn_with_state(Gate::new(&config.tokens), access::check))
@@ -125,9 +126,11 @@ fn span<B>(request: &axum::http::Request<B>) -> Span {
     tracing::info_span!("request", id, method = %request.method(), uri = %request.uri())
 }
 
-async fn set_deadline(limit: Duration, mut request: Request, next: Next) -> Response {
-    let deadline = BodyDeadline(Instant::now() + limit);
-    request.extensions_mut().insert(deadline);
+async fn limit_body(time: Duration, bytes: usize, mut request: Request, next: Next) -> Response {
+    let deadline = Instant::now() + time;
+    request
+        .extensions_mut()
+        .insert(BodyLimits { deadline, bytes });
     next.run(request).await
 }
 

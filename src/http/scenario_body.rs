@@ -4,11 +4,17 @@ use super::problem::Problem;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Request};
 use axum::http::{HeaderMap, StatusCode, header};
+use hyper::body::Body as _;
 use tokio::time::{Instant, timeout_at};
 
-/// Deadline for the body of a request.
+/// Limits of the body of a request.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct BodyDeadline(pub(super) Instant);
+pub(super) struct BodyLimits {
+    /// Time by which it must be there.
+    pub deadline: Instant,
+    /// Largest length [bytes].
+    pub bytes: usize,
+}
 
 /// The text of a JSON body.
 pub(super) struct ScenarioText(pub(super) String);
@@ -17,35 +23,33 @@ impl<S: Send + Sync> FromRequest<S> for ScenarioText {
     type Rejection = Problem;
 
     async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
-        if !is_json(request.headers()) {
-            return Err(Problem::new(
-                StatusCode::UNSUPPORTED_MEDIA_TYPE,
-                "unsupported-media-type",
-                "Unsupported media type",
-                "a scenario is sent as Content-Type: application/json",
-            ));
+        check_media_type(request.headers())?;
+        // Inserted by a layer that every request passes.
+        let limits = request.extensions().get::<BodyLimits>().copied();
+        let limits = limits.ok_or_else(|| Problem::internal("a body without limits"))?;
+        // A length that is announced is refused before the body is asked for (100 Continue).
+        if request.body().size_hint().lower() > limits.bytes as u64 {
+            return Err(too_large(limits.bytes));
         }
-        let deadline = request.extensions().get().copied();
-        let body = Bytes::from_request(request, state);
-        let body = match deadline {
-            Some(BodyDeadline(deadline)) => {
-                timeout_at(deadline, body).await.map_err(|_| too_slow())?
-            }
-            None => body.await,
-        };
+        let body = timeout_at(limits.deadline, Bytes::from_request(request, state)).await;
+        let body = body.map_err(|_| too_slow())?;
         let bytes = body.map_err(|rejection| match rejection.status() {
-            StatusCode::PAYLOAD_TOO_LARGE => Problem::new(
-                StatusCode::PAYLOAD_TOO_LARGE,
-                "too-large",
-                "Body too large",
-                "the body is larger than limits.request_body_bytes of this service",
-            ),
+            StatusCode::PAYLOAD_TOO_LARGE => too_large(limits.bytes),
             _ => malformed(&rejection.body_text()),
         })?;
         let text = String::from_utf8(bytes.into());
         text.map(Self)
             .map_err(|error| malformed(&format!("the body is not UTF-8: {error}")))
     }
+}
+
+fn too_large(limit: usize) -> Problem {
+    Problem::new(
+        StatusCode::PAYLOAD_TOO_LARGE,
+        "too-large",
+        "Body too large",
+        format!("the body is larger than limits.request_body_bytes of this service, {limit} bytes"),
+    )
 }
 
 fn too_slow() -> Problem {
@@ -67,14 +71,39 @@ pub(super) fn malformed(detail: &str) -> Problem {
     )
 }
 
-fn is_json(headers: &HeaderMap) -> bool {
-    let content_type = headers
-        .get(header::CONTENT_TYPE)
-        .and_then(|value| value.to_str().ok());
-    let essence = content_type
-        .and_then(|text| text.split(';').next())
-        .unwrap_or_default();
-    let essence = essence.trim().to_ascii_lowercase();
-    essence == "application/json"
-        || (essence.starts_with("application/") && essence.ends_with("+json"))
+/// Checks that the body is declared as JSON in UTF-8, uncompressed.
+fn check_media_type(headers: &HeaderMap) -> Result<(), Problem> {
+    let text = |name| {
+        let value = headers.get(name)?.to_str().ok()?;
+        Some(value.trim().to_ascii_lowercase())
+    };
+    let content_type = text(header::CONTENT_TYPE).unwrap_or_default();
+    let mut parts = content_type.split(';').map(str::trim);
+    let essence = parts.next().unwrap_or_default();
+    let is_json = essence == "application/json"
+        || (essence.starts_with("application/") && essence.ends_with("+json"));
+    if !is_json {
+        return Err(unsupported(
+            "a scenario is sent as Content-Type: application/json",
+        ));
+    }
+    let charset = parts.find_map(|part| part.strip_prefix("charset="));
+    if charset.is_some_and(|charset| charset.trim_matches('"') != "utf-8") {
+        return Err(unsupported("JSON is sent in UTF-8"));
+    }
+    match text(header::CONTENT_ENCODING).as_deref() {
+        None | Some("identity") => Ok(()),
+        Some(_) => Err(unsupported(
+            "a body is sent as it is, without Content-Encoding",
+        )),
+    }
+}
+
+fn unsupported(rule: &str) -> Problem {
+    Problem::new(
+        StatusCode::UNSUPPORTED_MEDIA_TYPE,
+        "unsupported-media-type",
+        "Unsupported media type",
+        rule,
+    )
 }

@@ -2,14 +2,15 @@
 //! head of a request: clients that send half of one would be kept for ever, and
 //! would keep the service from stopping.
 
-use super::connections::{Connections, OpenConnection};
+use super::arriving_body::ArrivingBody;
+use super::connections::{Connections, OpenConnection, Place};
 use super::operator;
 use super::slow_client::SlowClientTimeout;
 use super::tracked_body::TrackedBody;
 use crate::config::Limits;
 use axum::Router;
 use axum::body::Body;
-use axum::http::{Request, Response};
+use axum::http::{HeaderValue, Request, Response, header};
 use hyper::body::Incoming;
 use hyper::server::conn::http1;
 use hyper::service::service_fn;
@@ -110,15 +111,16 @@ fn connection(
     graceful: &GracefulShutdown,
 ) -> impl Future<Output = ()> + Send + use<> {
     let open = Arc::new(open);
+    let written = Arc::clone(&open);
+    let stream = SlowClientTimeout::new(stream, limits.write_timeout(), move |waits| {
+        written.stall(waits);
+    });
     let served = Arc::clone(&open);
     let service = service_fn(move |request| answer(router.clone(), Arc::clone(&served), request));
     let connection = http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(limits.header_read_timeout())
-        .serve_connection(
-            TokioIo::new(SlowClientTimeout::new(stream, limits.write_timeout())),
-            service,
-        );
+        .serve_connection(TokioIo::new(stream), service);
     let connection = graceful.watch(connection);
     async move {
         let mut connection = pin!(connection);
@@ -143,11 +145,17 @@ async fn answer(
     request: Request<Incoming>,
 ) -> Result<Response<TrackedBody>, Infallible> {
     let busy = open.begin_request();
-    let mut request = request.map(Body::new);
+    let arriving = |body| Body::new(ArrivingBody::new(body, Arc::clone(&open)));
+    let mut request = request.map(arriving);
     request.extensions_mut().insert(open.peer());
-    let response = match operator::refusal(open.place(), &request) {
+    let mut response = match operator::refusal(open.place(), &request) {
         Some(refused) => refused,
         None => router.oneshot(request).await?,
     };
+    if open.place() == Place::Operator {
+        // One short answer fits the system's buffer; many that nobody reads would keep the place.
+        let close = HeaderValue::from_static("close");
+        response.headers_mut().insert(header::CONNECTION, close);
+    }
     Ok(response.map(|body| TrackedBody::new(body, busy)))
 }

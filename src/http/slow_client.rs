@@ -1,5 +1,5 @@
 //! A connection that is closed if the client stops reading: hyper itself would
-//! wait for ever.
+//! wait for ever. Until then the table of connections learns that it waits.
 
 use std::io;
 use std::pin::Pin;
@@ -9,21 +9,24 @@ use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::time::{Instant, Sleep, sleep};
 
 /// Closes a connection once a write has made no progress for too long.
-#[derive(Debug)]
-pub(super) struct SlowClientTimeout<T> {
+pub(super) struct SlowClientTimeout<T, F> {
     stream: T,
     limit: Duration,
     stalled: Pin<Box<Sleep>>,
     is_stalled: bool,
+    on_stall: F,
 }
 
-impl<T> SlowClientTimeout<T> {
-    pub(super) fn new(stream: T, limit: Duration) -> Self {
+impl<T, F: Fn(bool)> SlowClientTimeout<T, F> {
+    /// The connection; `on_stall` is called when a write begins to wait for the client, and when
+    /// it goes on.
+    pub(super) fn new(stream: T, limit: Duration, on_stall: F) -> Self {
         Self {
             stream,
             limit,
             stalled: Box::pin(sleep(limit)),
             is_stalled: false,
+            on_stall,
         }
     }
 
@@ -34,11 +37,15 @@ impl<T> SlowClientTimeout<T> {
         written: Poll<io::Result<R>>,
     ) -> Poll<io::Result<R>> {
         if written.is_ready() {
-            self.is_stalled = false;
+            if self.is_stalled {
+                self.is_stalled = false;
+                (self.on_stall)(false);
+            }
             return written;
         }
         if !self.is_stalled {
             self.is_stalled = true;
+            (self.on_stall)(true);
             self.stalled.as_mut().reset(Instant::now() + self.limit);
         }
         ready!(self.stalled.as_mut().poll(context));
@@ -49,7 +56,7 @@ impl<T> SlowClientTimeout<T> {
     }
 }
 
-impl<T: AsyncRead + Unpin> AsyncRead for SlowClientTimeout<T> {
+impl<T: AsyncRead + Unpin, F: Unpin> AsyncRead for SlowClientTimeout<T, F> {
     fn poll_read(
         mut self: Pin<&mut Self>,
         context: &mut Context<'_>,
@@ -59,7 +66,7 @@ impl<T: AsyncRead + Unpin> AsyncRead for SlowClientTimeout<T> {
     }
 }
 
-impl<T: AsyncWrite + Unpin> AsyncWrite for SlowClientTimeout<T> {
+impl<T: AsyncWrite + Unpin, F: Fn(bool) + Unpin> AsyncWrite for SlowClientTimeout<T, F> {
     fn poll_write(
         mut self: Pin<&mut Self>,
         context: &mut Context<'_>,
@@ -95,18 +102,22 @@ impl<T: AsyncWrite + Unpin> AsyncWrite for SlowClientTimeout<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::Mutex;
     use tokio::io::{AsyncReadExt, AsyncWriteExt, duplex};
 
     #[tokio::test]
     async fn a_client_that_never_reads_is_given_up_and_a_slow_one_is_not() {
         let limit = Duration::from_millis(100);
         let (ours, _theirs) = duplex(8);
-        let mut ours = SlowClientTimeout::new(ours, limit);
+        let stalls = Mutex::new(Vec::new());
+        let mut ours =
+            SlowClientTimeout::new(ours, limit, |waits| stalls.lock().unwrap().push(waits));
         let error = ours.write_all(&[0; 64]).await.unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::TimedOut);
+        assert_eq!(*stalls.lock().unwrap(), [true]);
 
         let (ours, mut theirs) = duplex(8);
-        let mut ours = SlowClientTimeout::new(ours, limit);
+        let mut ours = SlowClientTimeout::new(ours, limit, |_| ());
         let reader = tokio::spawn(async move {
             let mut taken = 0;
             while taken < 64 {

@@ -1,6 +1,6 @@
 //! Behaviour common to all requests: routes, methods, limits.
 
-use crate::app::{DEADLINE, TestApp};
+use crate::app::{Answer, DEADLINE, TestApp};
 use reqwest::{Method, StatusCode};
 use serde_json::json;
 use std::time::Instant;
@@ -118,4 +118,52 @@ async fn a_stop_does_not_wait_for_idle_or_half_open_clients() {
     app.stop().await;
     // Far below the ten seconds that a request's head may take.
     assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_body_is_json_in_utf_8_uncompressed() {
+    let app = TestApp::start().await;
+    let json = "application/json";
+    for (headers, status) in [
+        (
+            &[("content-type", "Application/JSON; charset=UTF-8")][..],
+            400,
+        ),
+        (&[("content-type", "application/scenario+json")], 400),
+        (
+            &[("content-type", json), ("content-encoding", "identity")],
+            400,
+        ),
+        (&[("content-type", json), ("content-encoding", "gzip")], 415),
+        (&[("content-type", "application/json; charset=latin1")], 415),
+        (&[("content-type", "text/plain")], 415),
+        (&[], 415),
+    ] {
+        let mut request = app.client.post(app.url("/v1/jobs")).body("?");
+        for (name, value) in headers {
+            request = request.header(*name, *value);
+        }
+        let answer = Answer::read(request.send().await.unwrap()).await;
+        assert_eq!(answer.status, status, "{headers:?}");
+    }
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_body_announced_as_too_large_is_refused_before_it_is_sent() {
+    let app = TestApp::start().await;
+    let mut stream = TcpStream::connect(app.address()).await.unwrap();
+    let head = format!(
+        "POST /v1/jobs HTTP/1.1\r\nHost: {}\r\nContent-Type: application/json\r\n\
+         Expect: 100-continue\r\nContent-Length: 1048577\r\n\r\n",
+        app.address()
+    );
+    stream.write_all(head.as_bytes()).await.unwrap();
+    let mut answer = Vec::new();
+    let read = timeout(DEADLINE, stream.read_to_end(&mut answer)).await;
+    read.expect("the connection ends").unwrap();
+    let text = String::from_utf8(answer).unwrap();
+    assert!(text.starts_with("HTTP/1.1 413 "), "{text}");
+    assert!(text.contains("1048576 bytes"), "{text}");
+    app.stop().await;
 }

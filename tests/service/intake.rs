@@ -32,6 +32,14 @@ async fn the_same_request_with_the_same_key_gets_the_same_job() {
         let refused = post_with_key(&app, "/v1/jobs", key, &tiny_scene()).await;
         refused.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-key");
     }
+    let twice = app.client.post(app.url("/v1/jobs"));
+    let twice = twice
+        .header("content-type", "application/json")
+        .header("idempotency-key", "night-3")
+        .header("idempotency-key", "night-4")
+        .body(tiny_scene().to_string());
+    let refused = Answer::read(twice.send().await.unwrap()).await;
+    refused.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-key");
     let jobs = app.get("/v1/jobs").await.body["jobs"].take();
     assert_eq!(jobs.as_array().unwrap().len(), 2);
     app.stop().await;

@@ -170,3 +170,53 @@ async fn whoever_holds_connections_and_streams_leaves_room_for_the_operator() {
     assert!(status_line(&mut dismissal).await.contains(" 200 "));
     app.stop().await;
 }
+
+/// Requests in a row on one connection that reads none of their answers.
+async fn send_many(app: &TestApp, path: &str) -> TcpStream {
+    let mut stream = TcpStream::connect(app.address()).await.unwrap();
+    let head = format!("GET {path} HTTP/1.1\r\nHost: {}\r\n\r\n", app.address());
+    // Some megabytes of answers: more than the system's buffers take.
+    let requests = head.repeat(4_000);
+    let written = stream.write_all(requests.as_bytes());
+    let _is_blocked = timeout(Duration::from_millis(100), written).await;
+    stream
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn whoever_takes_no_answer_or_sends_half_a_body_makes_room_for_others() {
+    let app = TestApp::start_with(|config| {
+        config.limits.connections = 6;
+        config.limits.connections_per_address = 6;
+        config.limits.operator_connections = 2;
+        config.limits.write_timeout_s = 600.0;
+        config.limits.body_read_timeout_s = 600.0;
+    })
+    .await;
+    let mut held = Vec::new();
+    for _ in 0..3 {
+        held.push(send_many(&app, "/openapi.json").await);
+        let mut half = send(&app, "POST", "/v1/jobs", "").await;
+        let head = format!(
+            "POST /v1/jobs HTTP/1.1\r\nHost: {}\r\nContent-Type: application/json\r\n\
+             Content-Length: 100\r\n\r\n{{",
+            app.address()
+        );
+        assert!(status_line(&mut half).await.contains(" 400 "));
+        half.write_all(head.as_bytes()).await.unwrap();
+        held.push(half);
+    }
+    // Those that come now have the operator's places, and don't hold them.
+    for _ in 0..6 {
+        held.push(send_many(&app, "/metrics").await);
+    }
+    for path in ["/healthz", "/readyz", "/metrics"] {
+        let mut stream = send(&app, "GET", path, "").await;
+        assert!(status_line(&mut stream).await.contains(" 200 "), "{path}");
+    }
+    sleep(Duration::from_millis(1_200)).await;
+    for _ in 0..6 {
+        let mut stream = send(&app, "GET", "/v1/jobs", "").await;
+        assert!(status_line(&mut stream).await.contains(" 200 "));
+    }
+    app.stop().await;
+}
