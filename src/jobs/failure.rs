@@ -93,12 +93,12 @@ impl Failure {
                 json!({"spent_s": spent_s, "limit_s": limit_s}),
             ),
             Excess::Results {
-                written_bytes,
+                needed_bytes,
                 limit_bytes,
             } => (
                 "results-size",
                 "Too large results",
-                json!({"written_bytes": written_bytes, "limit_bytes": limit_bytes}),
+                json!({"needed_bytes": needed_bytes, "limit_bytes": limit_bytes}),
             ),
         };
         Self::new(kind, title, excess.to_string(), numbers)

@@ -56,11 +56,11 @@ pub enum Excess {
     },
     /// More results than a job may have.
     #[error(
-        "the results take {written_bytes} bytes, and limits.job_results_bytes of this service is {limit_bytes}: fewer samples (sample_interval_s) or snapshots (flow_snapshots) take less"
+        "the results would take {needed_bytes} bytes, and limits.job_results_bytes of this service is {limit_bytes}: fewer samples (sample_interval_s) or snapshots (flow_snapshots) take less"
     )]
     Results {
-        /// Size of the results so far [bytes].
-        written_bytes: u64,
+        /// Size of the results with those to be stored next [bytes].
+        needed_bytes: u64,
         /// The limit [bytes].
         limit_bytes: u64,
     },
@@ -107,11 +107,11 @@ impl JobLimits {
         Ok(())
     }
 
-    /// Checks the size of the results written so far.
-    pub(super) fn check_results(&self, written_bytes: u64) -> Result<(), Excess> {
+    /// Checks the size of a job's results before more of them are stored.
+    pub(super) fn check_results(&self, needed_bytes: u64) -> Result<(), Excess> {
         match self.results_bytes {
-            Some(limit_bytes) if written_bytes > limit_bytes => Err(Excess::Results {
-                written_bytes,
+            Some(limit_bytes) if needed_bytes > limit_bytes => Err(Excess::Results {
+                needed_bytes,
                 limit_bytes,
             }),
             _ => Ok(()),

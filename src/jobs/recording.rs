@@ -56,8 +56,8 @@ pub struct StoreSink {
     lease: Lease,
     recording: Recording,
     limits: JobLimits,
-    /// Size of the results written in this attempt [bytes].
-    written_bytes: u64,
+    /// Size of the job's stored results, without chunks that still grow [bytes].
+    complete_bytes: u64,
     begun: Instant,
     /// Time after the start at which the first state is due.
     first_state: Duration,
@@ -111,7 +111,7 @@ impl StoreSink {
             first_state: recording.state_interval(),
             recording,
             limits,
-            written_bytes: 0,
+            complete_bytes: 0,
             begun: now,
         }
     }
@@ -155,6 +155,8 @@ impl StoreSink {
             let open = OpenChunk::reopened(last, resume_point.samples).ok_or(KeepError::Missing)?;
             self.open_chunks.push(open);
         }
+        let stored = self.store.results_bytes(self.lease.job);
+        self.complete_bytes = self.runtime.block_on(stored)?;
         self.samples = resume_point.samples;
         self.fingerprint = Fingerprint::of_bytes(resume_point.fingerprint);
         Ok(())
@@ -194,15 +196,16 @@ impl StoreSink {
             results.chunks.extend(open.sealed(body)?);
         }
         self.times.flushed = Instant::now();
-        let bytes = results.bytes();
+        self.limits
+            .check_results(self.complete_bytes + results.bytes())?;
         match self.runtime.block_on(self.store.keep(self.lease, &results)) {
             Ok(true) => {
                 self.times.refused_since = None;
-                self.written_bytes += bytes;
+                self.complete_bytes += results.complete_bytes();
                 self.open_chunks
                     .iter_mut()
                     .for_each(OpenChunk::mark_written);
-                Ok(self.limits.check_results(self.written_bytes)?)
+                Ok(())
             }
             Ok(false) => Err(KeepError::Lost),
             Err(error) => {

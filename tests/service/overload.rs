@@ -135,7 +135,12 @@ async fn memory_and_results_have_limits() {
     chatty["sample_interval_s"] = json!(1e-5);
     let job = app.submit(&chatty).await;
     let failed = app.wait(&job, |job| job["status"] == "failed").await;
-    assert_eq!(failed["problem"]["type"], "urn:scree:failure:results-size");
+    let problem = &failed["problem"];
+    assert_eq!(problem["type"], "urn:scree:failure:results-size");
+    assert!(
+        problem["needed_bytes"].as_u64().unwrap() > 20_000,
+        "{problem}"
+    );
     app.stop().await;
 }
 

@@ -150,6 +150,9 @@ pub trait JobStore: Debug + Send + Sync {
 
     // Reading of records.
 
+    /// Size of a job's results, without the chunks that still grow [bytes].
+    async fn results_bytes(&self, job: JobId) -> Answer<u64>;
+
     /// The saved state of a job, if there is one.
     async fn state(&self, job: JobId) -> Answer<Option<StoredState>>;
 

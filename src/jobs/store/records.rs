@@ -37,12 +37,19 @@ pub struct NewResults {
 }
 
 impl NewResults {
-    /// Size of the results that are new, without the state [bytes]. A chunk counts once it is full:
-    /// until then it is written anew each time.
+    /// Size of the results, without the state [bytes].
     pub fn bytes(&self) -> u64 {
-        let chunks = self.chunks.iter();
-        let full = chunks.filter(|chunk| chunk.samples >= CHUNK_SAMPLES);
-        let chunks = full.map(|chunk| chunk.block.data.len());
+        self.bytes_of(|_| true)
+    }
+
+    /// Size of those that are never written again [bytes]: without the chunks that still grow.
+    pub fn complete_bytes(&self) -> u64 {
+        self.bytes_of(|chunk| chunk.samples >= CHUNK_SAMPLES)
+    }
+
+    fn bytes_of(&self, counts: impl Fn(&NewChunk) -> bool) -> u64 {
+        let chunks = self.chunks.iter().filter(|chunk| counts(chunk));
+        let chunks = chunks.map(|chunk| chunk.block.data.len());
         let snapshots = self.snapshots.iter();
         let snapshots = snapshots.map(|snapshot| snapshot.block.data.len());
         chunks.chain(snapshots).sum::<usize>() as u64

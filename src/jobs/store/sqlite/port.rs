@@ -145,6 +145,10 @@ impl JobStore for SqliteStore {
         Ok(Self::count_jobs(self).await?)
     }
 
+    async fn results_bytes(&self, job: JobId) -> Result<u64, StoreError> {
+        Ok(Self::results_bytes(self, job).await?)
+    }
+
     async fn state(&self, job: JobId) -> Result<Option<StoredState>, StoreError> {
         Ok(Self::state(self, job).await?)
     }

@@ -7,7 +7,7 @@ use super::states::write_state;
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::{Lease, NewChunk, NewResults, StoreError, StoredChunk};
 use crate::results::FlowSnapshot;
-use crate::results::chunk::{self, Block, BlockError};
+use crate::results::chunk::{self, Block, BlockError, CHUNK_SAMPLES};
 use crate::results::columns::{Selection, TrajectoryColumns};
 use crate::results::flow::StoredSnapshot;
 use crate::runs::Progress;
@@ -75,6 +75,19 @@ impl SqliteStore {
         row.map(ChunkRow::read)
             .transpose()
             .map_err(|source| StoreError::Block { job, source }.into())
+    }
+
+    pub(super) async fn results_bytes(&self, job: JobId) -> Answer<u64> {
+        let bytes: i64 = sqlx::query_scalar(
+            "SELECT (SELECT coalesce(sum(length(data)), 0) FROM trajectory_chunks
+                     WHERE job_id = ?1 AND samples >= ?2)
+                  + (SELECT coalesce(sum(length(data)), 0) FROM flow_snapshots WHERE job_id = ?1)",
+        )
+        .bind(job.to_string())
+        .bind(integer(CHUNK_SAMPLES as u64))
+        .fetch_one(self.readers.pool())
+        .await?;
+        Ok(u64::try_from(bytes).unwrap_or(0))
     }
 
     pub(super) async fn samples(&self, job: JobId, body: usize) -> Answer<usize> {

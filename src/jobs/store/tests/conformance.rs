@@ -8,6 +8,7 @@ conformance! {
     jobs_are_claimed_in_the_order_of_submission_and_once
     a_job_ends_once_and_says_how
     a_growing_chunk_replaces_itself_and_reads_back
+    the_size_of_results_is_that_of_what_grows_no_more
     the_nearest_snapshot_is_found_the_earlier_of_two
     a_worker_that_lost_its_job_can_not_write
     a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed
@@ -109,6 +110,21 @@ async fn a_growing_chunk_replaces_itself_and_reads_back(fixture: &Fixture) {
     assert_eq!(fixture.store.chunk(id, 0, 0, &late).await.unwrap(), None);
     let progress = fixture.job(id).await.summary.progress;
     assert_eq!((progress.steps, progress.eta_s), (7, Some(3.0)));
+}
+
+async fn the_size_of_results_is_that_of_what_grows_no_more(fixture: &Fixture) {
+    let id = fixture.submit().await;
+    let lease = fixture.claim("a").await;
+    let bytes = async || fixture.store.results_bytes(id).await.unwrap();
+    assert_eq!(bytes().await, 0);
+    let few = results(8);
+    assert!(fixture.store.keep(lease, &few).await.unwrap());
+    let of_snapshot = few.snapshots[0].block.data.len() as u64;
+    assert_eq!(bytes().await, of_snapshot, "the chunk still grows");
+    let full = results(chunk::CHUNK_SAMPLES as u32);
+    assert!(fixture.store.keep(lease, &full).await.unwrap());
+    assert_eq!(bytes().await, of_snapshot + full.complete_bytes());
+    assert_eq!(full.complete_bytes(), full.bytes());
 }
 
 async fn the_nearest_snapshot_is_found_the_earlier_of_two(fixture: &Fixture) {
