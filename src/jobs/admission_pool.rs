@@ -21,7 +21,7 @@ pub struct AdmissionPool {
 }
 
 /// Reason why a request is not admitted.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, PartialEq, Error)]
 pub enum AdmissionError {
     /// Too many requests wait.
     #[error(
@@ -43,7 +43,7 @@ pub enum AdmissionError {
     #[error("the request was not read within {limit_s} s (admission.time_limit_s of this service)")]
     TimedOut {
         /// The limit [s].
-        limit_s: u64,
+        limit_s: f64,
     },
     /// The work panicked.
     #[error("the work broke off: {0}")]
@@ -138,7 +138,7 @@ impl Admitted {
     }
 
     fn timed_out(&self) -> AdmissionError {
-        let limit_s = self.pool.time_limit.as_secs();
+        let limit_s = self.pool.time_limit.as_secs_f64();
         AdmissionError::TimedOut { limit_s }
     }
 }
