@@ -37,6 +37,11 @@ impl From<SqliteError> for StoreError {
 }
 
 impl SqliteError {
+    /// True if the file is no database at all, by its first bytes.
+    pub(super) fn is_no_database(&self) -> bool {
+        matches!(self, Self::Database(error) if code(error) == Some(SQLITE_NOTADB))
+    }
+
     /// True if the connection's file could not be opened for writing.
     pub(super) fn is_read_only(&self) -> bool {
         matches!(self, Self::Database(error) if code(error) == Some(SQLITE_READONLY))
@@ -45,6 +50,7 @@ impl SqliteError {
 
 const SQLITE_READONLY: i32 = 8;
 const SQLITE_FULL: i32 = 13;
+const SQLITE_NOTADB: i32 = 26;
 
 /// BUSY, LOCKED, READONLY, IOERR, CORRUPT, CANTOPEN, NOTADB.
 const UNAVAILABLE: [i32; 7] = [5, 6, 8, 10, 11, 14, 26];

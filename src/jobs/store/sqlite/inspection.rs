@@ -55,6 +55,8 @@ struct ForeignDatabase {
 
 #[derive(Debug, Error)]
 enum Fault {
+    #[error("not a database: name another file, or restore a backup; this one was left as it is")]
+    NoDatabase,
     #[error(
         "a database of another program (its tables are not those of scree): name another file; \
          this one was left as it is"
@@ -80,10 +82,19 @@ pub(super) async fn inspect(path: &Path) -> Result<Inspected, StoreError> {
     } else {
         immutable(path).connect().await
     };
-    let mut connection = connected.map_err(SqliteError::from)?;
-    let looked = look(&mut connection).await;
-    connection.close().await.map_err(SqliteError::from)?;
-    looked?.map_err(|fault| {
+    let looked = match connected {
+        Ok(mut connection) => {
+            let looked = look(&mut connection).await;
+            connection.close().await.map_err(SqliteError::from)?;
+            looked
+        }
+        Err(error) => Err(error.into()),
+    };
+    let looked = match looked {
+        Err(error) if error.is_no_database() => Err(Fault::NoDatabase),
+        looked => looked?,
+    };
+    looked.map_err(|fault| {
         let path = path.to_owned();
         StoreError::Schema(ForeignDatabase { path, fault }.into())
     })

@@ -65,6 +65,17 @@ async fn a_database_of_another_program_is_left_as_it_is() {
 }
 
 #[tokio::test]
+async fn a_file_that_is_no_database_is_left_as_it_is() {
+    let directory = TempDir::new().unwrap();
+    let path = directory.path().canonicalize().unwrap().join("letter.txt");
+    for text in ["Dear Sir or Madam\n", &"x".repeat(10_000)] {
+        fs::write(&path, text).unwrap();
+        let refused = refused(&path).await;
+        assert!(refused.contains("not a database"), "{refused}");
+    }
+}
+
+#[tokio::test]
 async fn a_database_of_a_newer_version_is_left_as_it_is() {
     let fixture = Fixture::new(open).await;
     fixture.store.close().await;

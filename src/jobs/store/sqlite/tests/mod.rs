@@ -252,12 +252,3 @@ async fn a_closed_database_is_unavailable() {
         assert_eq!(refused.kind(), StoreErrorKind::Unavailable, "{refused}");
     }
 }
-
-#[tokio::test]
-async fn a_file_that_is_no_database_is_unavailable() {
-    let directory = TempDir::new().unwrap();
-    let path = directory.path().join("test.db");
-    std::fs::write(&path, "not a database. ".repeat(512)).unwrap();
-    let refused = SqliteStore::open(&path).await.unwrap_err();
-    assert_eq!(refused.kind(), StoreErrorKind::Unavailable, "{refused}");
-}
