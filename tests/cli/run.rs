@@ -222,3 +222,21 @@ fn an_outcome_that_nobody_reads_is_an_error_unless_it_is_in_a_file() {
     assert_eq!(unread(&[&"--out", &out]).code, Some(0));
     assert!(out.join("outcome.json").exists());
 }
+
+#[cfg(unix)]
+#[test]
+fn results_go_into_no_file_and_no_link_to_nowhere() {
+    let scene = Scene::new(&tiny());
+    let link = scene.path("link");
+    std::os::unix::fs::symlink("nowhere", &link).unwrap();
+    let refused = ask(&[&"run", &scene.file(), &"--out", &link]);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains("link is a link to nowhere"),
+        "{}",
+        refused.stderr
+    );
+    let refused = ask(&[&"run", &scene.file(), &"--out", &scene.file()]);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(refused.stderr.contains("is a file"), "{}", refused.stderr);
+}

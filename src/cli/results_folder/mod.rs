@@ -37,7 +37,7 @@ impl ResultsFolder {
     /// # Errors
     /// The folder can't be used, another run uses it, or it holds an interrupted run.
     pub(super) fn for_new_run(path: &Path) -> Result<Self, Failure> {
-        fs::create_dir_all(path).map_err(|error| Failure::path("make", path, &error))?;
+        make_folder(path)?;
         let folder = Self::locked(path)?;
         folder.complete_delivery()?;
         if folder.has_saved_state() {
@@ -142,6 +142,26 @@ impl ResultsFolder {
             .map_err(files::failed("remove", &scenario))?;
         let partial = &self.partial;
         files::unless_missing(fs::remove_dir_all(partial)).map_err(files::failed("remove", partial))
+    }
+}
+
+/// Makes a folder for results, unless it is there.
+fn make_folder(path: &Path) -> Result<(), Failure> {
+    let Err(error) = fs::create_dir_all(path) else {
+        return Ok(());
+    };
+    // A name that is taken, but by no folder.
+    match (fs::read_link(path), path.symlink_metadata()) {
+        (Ok(target), _) => Err(Failure::Input(format!(
+            "{} is a link to {}, which is no folder",
+            path.display(),
+            target.display()
+        ))),
+        (Err(_), Ok(_)) => Err(Failure::Input(format!(
+            "{} is a file: results go into a folder",
+            path.display()
+        ))),
+        (Err(_), Err(_)) => Err(Failure::path("make", path, &error)),
     }
 }
 
