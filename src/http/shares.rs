@@ -90,7 +90,14 @@ pub(super) async fn limit(
             let response = next.run(request).await;
             response.map(|body| Body::new(TrackedBody::new(body, in_use)))
         }
-        Err(UsedUp::ByAll(requests) | UsedUp::ByCaller(requests)) => spent(
+        Err(UsedUp::ByAll(requests)) => spent(
+            "requests-full",
+            requests,
+            "requests are in progress",
+            "limits.connections",
+        )
+        .into_response(),
+        Err(UsedUp::ByCaller(requests)) => spent(
             "requests-spent",
             requests,
             "requests of this caller are in progress",
