@@ -202,3 +202,48 @@ fn health_and_lists_are_answered_while_clients_ask_for_all_they_can() {
         );
     }
 }
+
+/// Plans that a client could ask for and leave in an hour, one after another: each takes 0.3 s or
+/// more before it is left.
+const PLANS_OF_AN_HOUR: usize = 12_000;
+
+/// Most memory meanwhile [bytes]: that of the largest flow that is timed, of 200,000 points, and of
+/// as many requests as may wait.
+const MOST_BYTES: usize = 320_000_000;
+
+#[test]
+fn memory_is_bounded_while_plans_are_left() {
+    let _turn = crate::turn();
+    let place = Place::new(&[]);
+    let served = place.serve();
+    let address = served.address.as_str();
+    let text = narrow().to_string();
+    let clients = 8;
+    let each = at_length(160, PLANS_OF_AN_HOUR) / clients;
+    let leave = |_| {
+        if let Ok(mut stream) = TcpStream::connect(address) {
+            let head = head(address, "POST", "/v1/plans", text.len());
+            let _ = stream.write_all(format!("{head}{text}").as_bytes());
+            std::thread::sleep(Duration::from_millis(40));
+        }
+    };
+    let round = |plans: usize| {
+        std::thread::scope(|scope| {
+            for _ in 0..clients {
+                scope.spawn(|| (0..plans).for_each(leave));
+            }
+        });
+        served.peak_resident_bytes()
+    };
+    let first = round(each / 4);
+    let last = round(each - each / 4);
+    crate::tell(&format!(
+        "{} plans left by {clients} clients: memory at most {:.0} MB after a quarter, {:.0} MB \
+         after all",
+        each * clients,
+        first as f64 * 1e-6,
+        last as f64 * 1e-6,
+    ));
+    assert!(last < MOST_BYTES, "{last} bytes");
+    served.stop();
+}

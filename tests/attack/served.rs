@@ -183,9 +183,20 @@ impl Served {
     /// Memory of the process.
     #[cfg(target_os = "linux")]
     pub(crate) fn resident_bytes(&self) -> usize {
+        self.memory("VmRSS:")
+    }
+
+    /// Largest memory of the process so far.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn peak_resident_bytes(&self) -> usize {
+        self.memory("VmHWM:")
+    }
+
+    #[cfg(target_os = "linux")]
+    fn memory(&self, name: &str) -> usize {
         let path = format!("/proc/{}/status", self.child.id());
         let text = fs::read_to_string(path).expect("it runs");
-        let line = text.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+        let line = text.lines().find_map(|line| line.strip_prefix(name));
         let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<usize>().ok());
         1024 * kilobytes.expect("a number")
     }
