@@ -6,7 +6,8 @@ use super::range::short;
 use super::reader::Object;
 use super::report::Report;
 use super::rules::*;
-use super::shape::{Size, read_shape};
+use super::shape::read_shape;
+use super::sharp_shape::{SharpShape, Size};
 use super::{Body, BuiltSolid, Position, Shape};
 use crate::shape::ShapeError;
 
@@ -32,10 +33,10 @@ pub(super) fn read_bodies(parent: &Object<'_>) -> Option<Vec<Option<Body>>> {
 
 fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
     let object = Object::open(node, pointer, report)?;
-    let shape = read_shape(&object);
-    // A shape without a size has been refused already.
-    let size = shape.as_ref().and_then(|shape| shape.size().ok());
-    let sphero_radius_m = read_sphero_radius(&object, shape.as_ref(), size);
+    let sharp = read_shape(&object);
+    let size = sharp.as_ref().map(SharpShape::size);
+    let shape = sharp.as_ref().map(SharpShape::shape);
+    let sphero_radius_m = read_sphero_radius(&object, shape, size);
     let density_kg_m3 = object.number(&BODY_DENSITY);
     let position = object
         .defaulted("position")
@@ -51,11 +52,10 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
     let fixed = object.flag("fixed", false);
     let motion = read_motion(&object);
     object.refuse_unknown();
-    let solid = BuiltSolid::default();
-    let fits = rounding_fits(&object, &solid, shape.as_ref(), sphero_radius_m);
+    let solid = read_solid(&object, sharp.as_ref(), sphero_radius_m);
     let ((yaw_deg, orientation), (velocity_m_s, angular_velocity_rad_s)) = (turn?, velocities?);
     let body = Body {
-        shape: shape?,
+        shape: shape?.clone(),
         sphero_radius_m: sphero_radius_m?,
         density_kg_m3: density_kg_m3?,
         position: position?,
@@ -71,10 +71,11 @@ fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
         contact_modulus_pa: contact_modulus_pa?,
         fixed: fixed?,
         motion: motion?,
-        solid,
+        // One that can't be rounded has been refused; what else is wrong with it is told, too.
+        solid: solid.clone().unwrap_or_default(),
     };
     moves_one_way(&object, &body);
-    fits.then_some(body)
+    solid.map(|_| body)
 }
 
 /// The sphero radius; a shape with one of its own takes no other.
@@ -191,18 +192,16 @@ fn moves_one_way(object: &Object<'_>, body: &Body) {
     }
 }
 
-/// True if the shape can be rounded with this radius; otherwise it is refused.
-fn rounding_fits(
+/// The shape rounded with this radius, if it can be.
+fn read_solid(
     object: &Object<'_>,
-    solid: &BuiltSolid,
-    shape: Option<&Shape>,
+    sharp: Option<&SharpShape>,
     radius: Option<f64>,
-) -> bool {
-    let (Some(shape), Some(radius)) = (shape, radius) else {
-        return false;
-    };
-    let Err(error) = solid.of(shape, radius) else {
-        return true;
+) -> Option<BuiltSolid> {
+    let radius = radius?;
+    let error = match BuiltSolid::new(sharp?, radius) {
+        Ok(solid) => return Some(solid),
+        Err(error) => error,
     };
     let pointer = object.pointer_to(SPHERO_RADIUS.key);
     match error {
@@ -236,5 +235,5 @@ fn rounding_fits(
             );
         }
     }
-    false
+    None
 }

@@ -25,6 +25,7 @@ mod rules;
 pub(crate) mod schema;
 mod sections;
 mod shape;
+mod sharp_shape;
 mod solid;
 #[cfg(test)]
 mod tests;

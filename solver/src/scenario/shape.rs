@@ -1,12 +1,13 @@
 //! Shapes of bodies. All that a scenario says of a shape stands here: its variant of [`Shape`],
-//! its entry in [`SHAPES`] (name, fields, reader, texts of the contract), its size and its solid.
+//! its entry in [`SHAPES`] (name, fields, reader, texts of the contract), and in `sharp_shape.rs` its
+//! size and solid.
 
 use super::node::Node;
 use super::range::{Rule, rounded_up, short};
 use super::reader::{Object, Several};
 use super::rules::metres;
-use crate::shape::{RegularSolid, ShapeError, SharpPolyhedron, SpheroPolyhedron};
-use nalgebra::Vector3;
+use super::sharp_shape::SharpShape;
+use crate::shape::RegularSolid;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -62,7 +63,7 @@ pub struct ShapeKind {
     pub about: &'static str,
     /// Fields of the value under its key.
     pub fields: &'static [ShapeField],
-    read: fn(&Object<'_>) -> Option<Shape>,
+    read: fn(&Object<'_>) -> Option<SharpShape>,
 }
 
 /// A field of a shape.
@@ -122,7 +123,7 @@ pub const SHAPES: [ShapeKind; 6] = [
         }],
         read: |object| {
             let side_m = object.number(&CUBE_SIDE)?;
-            Some(Shape::Cube { side_m })
+            sound(Shape::Cube { side_m })
         },
     },
     ShapeKind {
@@ -135,7 +136,7 @@ pub const SHAPES: [ShapeKind; 6] = [
         }],
         read: |object| {
             let sides_m = object.vector(&BOX_SIDES)?;
-            Some(Shape::Box { sides_m })
+            sound(Shape::Box { sides_m })
         },
     },
     ShapeKind {
@@ -175,7 +176,7 @@ pub const SHAPES: [ShapeKind; 6] = [
         }],
         read: |object| {
             let radius_m = object.number(&RADIUS)?;
-            Some(Shape::Ball { radius_m })
+            sound(Shape::Ball { radius_m })
         },
     },
     ShapeKind {
@@ -237,43 +238,6 @@ impl Shape {
             | Self::Polyhedron { .. } => None,
         }
     }
-
-    /// Size.
-    pub(super) fn size(&self) -> Result<Size, ShapeError> {
-        let sharp = match self {
-            Self::Cube { side_m } => return Ok(Size::of_box([*side_m; 3])),
-            Self::Box { sides_m } => return Ok(Size::of_box(*sides_m)),
-            Self::Regular { solid, size_m } => SharpPolyhedron::regular(*solid, *size_m)?,
-            Self::Polyhedron { vertices_m } => sharp_hull(vertices_m)?,
-            Self::Ball { radius_m } => return Ok(Size::of_box([2.0 * radius_m; 3])),
-            Self::Capsule { radius_m, length_m } => {
-                let thickness_m = 2.0 * radius_m;
-                return Ok(Size::of_box([*length_m, thickness_m, thickness_m]));
-            }
-        };
-        Ok(Size {
-            thickness_m: 2.0 * sharp.inradius(),
-            length_m: sharp.diameter(),
-        })
-    }
-
-    /// The solid described, rounded with a radius [m]; with its own if it has one.
-    pub(super) fn build(&self, sphero_radius_m: f64) -> Result<SpheroPolyhedron, ShapeError> {
-        match self {
-            Self::Cube { side_m } => SpheroPolyhedron::cube(*side_m, sphero_radius_m),
-            Self::Box { sides_m } => SpheroPolyhedron::cuboid(*sides_m, sphero_radius_m),
-            Self::Regular {
-                solid: RegularSolid::Cube,
-                size_m,
-            } => SpheroPolyhedron::cube(*size_m, sphero_radius_m),
-            Self::Regular { solid, size_m } => {
-                SharpPolyhedron::regular(*solid, *size_m)?.rounded(sphero_radius_m)
-            }
-            Self::Polyhedron { vertices_m } => sharp_hull(vertices_m)?.rounded(sphero_radius_m),
-            Self::Ball { radius_m } => SpheroPolyhedron::ball(*radius_m),
-            Self::Capsule { radius_m, length_m } => SpheroPolyhedron::capsule(*radius_m, *length_m),
-        }
-    }
 }
 
 /// The shape in words, for people.
@@ -297,32 +261,8 @@ impl fmt::Display for Shape {
     }
 }
 
-/// Size of a shape; of a cube both are its side.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Size {
-    /// Diameter of the largest ball inside [m].
-    pub(super) thickness_m: f64,
-    /// Longest side of a box, or of the box round a ball or capsule; of other shapes the largest
-    /// distance of two places [m]. A body whose centre is this far from a plane is clear of it.
-    pub(super) length_m: f64,
-}
-
-impl Size {
-    fn of_box(sides_m: [f64; 3]) -> Self {
-        Self {
-            thickness_m: sides_m.into_iter().fold(f64::INFINITY, f64::min),
-            length_m: sides_m.into_iter().fold(0.0, f64::max),
-        }
-    }
-}
-
-fn sharp_hull(vertices_m: &[[f64; 3]]) -> Result<SharpPolyhedron, ShapeError> {
-    let vertices: Vec<_> = vertices_m.iter().copied().map(Vector3::from).collect();
-    SharpPolyhedron::hull_of(&vertices)
-}
-
 /// The shape of a body: an object with the name of one kind.
-pub(super) fn read_shape(parent: &Object<'_>) -> Option<Shape> {
+pub(super) fn read_shape(parent: &Object<'_>) -> Option<SharpShape> {
     let allowed = format!(
         "exactly one of: {}",
         SHAPES.map(|kind| kind.name).join(", ")
@@ -346,25 +286,29 @@ pub(super) fn read_shape(parent: &Object<'_>) -> Option<Shape> {
     shape
 }
 
-fn read_regular(object: &Object<'_>) -> Option<Shape> {
+/// A shape that encloses a volume whatever its numbers are, as long as they are in range.
+fn sound(shape: Shape) -> Option<SharpShape> {
+    SharpShape::of(shape).ok()
+}
+
+fn read_regular(object: &Object<'_>) -> Option<SharpShape> {
     let solid = object.choice(SOLID, &REGULAR_SOLIDS, None);
     let size_m = object.number(&REGULAR_SIZE);
-    Some(Shape::Regular {
+    sound(Shape::Regular {
         solid: solid?,
         size_m: size_m?,
     })
 }
 
 /// A polyhedron that encloses something.
-fn read_polyhedron(object: &Object<'_>) -> Option<Shape> {
+fn read_polyhedron(object: &Object<'_>) -> Option<SharpShape> {
     let points = Several::new(POLYHEDRON_VERTICES, ["point", "points"]);
     let vertices_m = object.vectors(&VERTICES, &points)?;
-    let shape = Shape::Polyhedron { vertices_m };
-    let why = match shape.size() {
-        Ok(size) if size.thickness_m >= LEAST_THICKNESS => return Some(shape),
-        Ok(size) => format!(
+    let why = match SharpShape::of(Shape::Polyhedron { vertices_m }) {
+        Ok(sharp) if sharp.size().thickness_m >= LEAST_THICKNESS => return Some(sharp),
+        Ok(sharp) => format!(
             "enclose no more than a ball of {} m in diameter",
-            short(rounded_up(size.thickness_m))
+            short(rounded_up(sharp.size().thickness_m))
         ),
         Err(_) => {
             "enclose nothing: they lie in one plane or line, within 1e-5 of their size".to_owned()
@@ -382,12 +326,12 @@ fn read_polyhedron(object: &Object<'_>) -> Option<Shape> {
 }
 
 /// A capsule longer than a ball of its radius.
-fn read_capsule(object: &Object<'_>) -> Option<Shape> {
+fn read_capsule(object: &Object<'_>) -> Option<SharpShape> {
     let (radius_m, length_m) = (object.number(&RADIUS), object.number(&LENGTH));
     let (radius_m, length_m) = (radius_m?, length_m?);
     let diameter = 2.0 * radius_m;
     if length_m > diameter {
-        return Some(Shape::Capsule { radius_m, length_m });
+        return sound(Shape::Capsule { radius_m, length_m });
     }
     let why = format!(
         "is {}, not above twice the radius ({}): it includes the round ends",

@@ -2,6 +2,7 @@
 //! polyhedron take milliseconds.
 
 use super::Shape;
+use super::sharp_shape::SharpShape;
 use crate::shape::{ShapeError, SpheroPolyhedron};
 use std::sync::{Arc, OnceLock};
 
@@ -17,7 +18,23 @@ struct Built {
     solid: SpheroPolyhedron,
 }
 
+impl Built {
+    fn new(sharp: &SharpShape, sphero_radius_m: f64) -> Result<Self, ShapeError> {
+        Ok(Self {
+            shape: sharp.shape().clone(),
+            sphero_radius_m,
+            solid: sharp.rounded(sphero_radius_m)?,
+        })
+    }
+}
+
 impl BuiltSolid {
+    /// The solid of a shape, rounded with a radius [m], built now.
+    pub(super) fn new(sharp: &SharpShape, sphero_radius_m: f64) -> Result<Self, ShapeError> {
+        let built = Built::new(sharp, sphero_radius_m)?;
+        Ok(Self(OnceLock::from(Arc::new(built))))
+    }
+
     /// The solid of a shape, built anew if the one kept has other dimensions.
     pub(super) fn of(
         &self,
@@ -29,14 +46,9 @@ impl BuiltSolid {
         if let Some(built) = self.0.get().filter(of_these) {
             return Ok(built.solid.clone());
         }
-        let solid = shape.build(sphero_radius_m)?;
-        self.0.get_or_init(|| {
-            Arc::new(Built {
-                shape: shape.clone(),
-                sphero_radius_m,
-                solid: solid.clone(),
-            })
-        });
+        let built = Built::new(&SharpShape::of(shape.clone())?, sphero_radius_m)?;
+        let solid = built.solid.clone();
+        self.0.get_or_init(|| Arc::new(built));
         Ok(solid)
     }
 }
