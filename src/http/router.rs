@@ -10,6 +10,7 @@ use super::{batch, common_answers, events, flow, jobs, plans, submission, system
 use crate::config::ServiceConfig;
 use crate::jobs::JobService;
 use crate::jobs::documents::complete;
+use axum::body::Bytes;
 use axum::extract::{DefaultBodyLimit, Request};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
@@ -147,16 +148,16 @@ fn description() -> OpenApi {
     OpenApiBuilder::new().info(info).build()
 }
 
-fn contract_text(contract: &OpenApi) -> String {
+fn contract_text(contract: &OpenApi) -> Bytes {
     // A document of strings and maps can always be serialised.
-    contract.to_pretty_json().unwrap_or_default()
+    contract.to_pretty_json().unwrap_or_default().into()
 }
 
 async fn asset(media_type: &'static str, text: &'static str) -> Response {
     ([(header::CONTENT_TYPE, media_type)], text).into_response()
 }
 
-async fn serve_contract(contract: String) -> Response {
+async fn serve_contract(contract: Bytes) -> Response {
     ([(header::CONTENT_TYPE, "application/json")], contract).into_response()
 }
 
