@@ -26,10 +26,10 @@ const GRACE: f64 = 0.7;
 /// The workers of a service.
 #[derive(Debug)]
 pub struct Pool {
-    registry: Arc<RunningJobRegistry>,
     threads: Vec<JoinHandle<()>>,
-    /// Time for which running jobs may go on to save their state once the pool stops.
-    grace: Duration,
+    equipment: Equipment,
+    /// Time that running jobs have once the pool stops.
+    drain: Duration,
     /// Dropped last: leases are renewed until every worker has ended.
     _keeper: LeaseHeartbeat,
 }
@@ -115,9 +115,9 @@ impl Pool {
             equipment.registry.open(count);
         }
         let mut pool = Self {
-            registry: Arc::clone(&equipment.registry),
             threads: Vec::new(),
-            grace: config.limits.drain_timeout().mul_f64(GRACE),
+            equipment: equipment.clone(),
+            drain: config.limits.drain_timeout(),
             _keeper: LeaseHeartbeat::start(equipment.clone())?,
         };
         for index in 0..size.workers {
@@ -132,17 +132,26 @@ impl Pool {
 
     /// Registry of the running jobs.
     pub fn registry(&self) -> Arc<RunningJobRegistry> {
-        Arc::clone(&self.registry)
+        Arc::clone(&self.equipment.registry)
     }
 
     /// Makes running jobs save their state and return to the queue, and waits
     /// until every worker has ended. A job whose current step takes too long returns with the
-    /// state saved last. Blocks.
+    /// state saved last; a worker that can't be stopped by then, since it sets up a very large run,
+    /// is left behind without its job. Blocks.
     pub fn stop(mut self) {
-        self.registry.close();
-        self.registry.cancel_after(self.grace);
+        let registry = self.registry();
+        let end = Instant::now() + self.drain;
+        registry.close();
+        registry.wait_until_idle(self.drain.mul_f64(GRACE));
+        registry.cancel();
+        registry.wait_until_idle(end.saturating_duration_since(Instant::now()));
+        let left = registry.runs();
+        for run in &left {
+            self.equipment.take_from_worker(run.lease);
+        }
         for thread in self.threads.drain(..) {
-            if thread.join().is_err() {
+            if left.is_empty() && thread.join().is_err() {
                 tracing::error!("a worker thread had panicked");
             }
         }
@@ -153,11 +162,20 @@ impl Pool {
 /// stopped, still ends its workers.
 impl Drop for Pool {
     fn drop(&mut self) {
-        self.registry.close();
+        self.equipment.registry.close();
     }
 }
 
 impl Equipment {
+    /// Releases a job whose worker does not do so in time. Whatever that still writes is refused.
+    fn take_from_worker(&self, lease: Lease) {
+        tracing::warn!(id = %lease.job, "its worker can't be stopped in time and is left behind");
+        if let Err(error) = self.runtime.block_on(self.store.release(lease)) {
+            // The row stays as it is, and the next start reclaims the job.
+            tracing::warn!(id = %lease.job, %error, "it can't be released");
+        }
+    }
+
     /// Reclaims the jobs that a former process of this name left running, once the store can
     /// be written. Until then no worker claims a job, so that none of its own is taken back.
     pub(super) fn reclaim_former_jobs(&self) {
@@ -219,13 +237,18 @@ impl RunningJobRegistry {
         self.changed.notify_all();
     }
 
-    /// Waits until no job runs any more, and cancels those that still run after this time.
-    fn cancel_after(&self, grace: Duration) {
+    /// Waits until no job runs any more, at most for this time.
+    fn wait_until_idle(&self, longest: Duration) {
+        let is_busy = |state: &mut State| !state.running.is_empty();
         let waited = self
             .changed
-            .wait_timeout_while(self.state(), grace, |state| !state.running.is_empty());
-        let (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
-        for registered in state.running.values() {
+            .wait_timeout_while(self.state(), longest, is_busy);
+        drop(waited);
+    }
+
+    /// Cancels all running jobs.
+    fn cancel(&self) {
+        for registered in self.state().running.values() {
             tracing::warn!(id = %registered.run.lease.job, "its state can't be saved in time: it goes back as it was saved last");
             registered.run.stop.raise();
         }
