@@ -33,8 +33,8 @@ pub enum BackupError {
     /// The destination exists, and must not be replaced.
     #[error("{0} exists: name another file, or pass --replace to replace it")]
     Exists(PathBuf),
-    /// The destination is the database.
-    #[error("{0} is the database itself: name another file")]
+    /// The destination is the database, or one of the files beside it.
+    #[error("{0} belongs to the database itself: name another file")]
     Itself(PathBuf),
     /// The copy can't be written.
     #[error("{path}: {source}")]
@@ -63,6 +63,9 @@ impl From<sqlx::Error> for BackupError {
         Self::Store(SqliteError::from(error).into())
     }
 }
+
+/// Ends of the names of a database's own files: itself, its logs, and its lock.
+const OWN_FILES: [&str; 5] = ["", "-wal", "-shm", "-journal", ".lock"];
 
 /// Writes a copy of a database, as it is at one moment, to a file that nobody else can read.
 ///
@@ -123,11 +126,19 @@ fn check_destination(
     destination: &Path,
     replace: bool,
 ) -> Result<(), BackupError> {
-    match destination.canonicalize() {
-        Ok(real) if real == database => Err(BackupError::Itself(destination.to_owned())),
-        Ok(_) if !replace => Err(BackupError::Exists(destination.to_owned())),
-        _ => Ok(()),
+    let real = destination.canonicalize();
+    let exists = real.is_ok();
+    let place = real.unwrap_or_else(|_| {
+        let folder = directory_of(destination).canonicalize().unwrap_or_default();
+        folder.join(destination.file_name().unwrap_or_default())
+    });
+    if OWN_FILES.iter().any(|end| beside(database, end) == place) {
+        return Err(BackupError::Itself(destination.to_owned()));
     }
+    if exists && !replace {
+        return Err(BackupError::Exists(destination.to_owned()));
+    }
+    Ok(())
 }
 
 async fn copy_to(database: &Path, copy: &str) -> Result<(), BackupError> {

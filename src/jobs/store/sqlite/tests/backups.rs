@@ -1,6 +1,7 @@
 //! Backups of a database in use.
 
 use super::super::backup::{BackupError, back_up};
+use super::super::file::beside;
 use super::upgrade::former;
 use super::*;
 use std::fs;
@@ -53,8 +54,13 @@ async fn a_backup_is_its_owner_s_alone_and_replaces_nothing_unasked() {
         "{refused:?}"
     );
     assert_eq!(fs::read(&destination).unwrap(), b"precious");
-    let itself = back_up(&database, &database, true).await;
-    assert!(matches!(itself, Err(BackupError::Itself(_))), "{itself:?}");
+    for end in ["", "-wal", "-shm", "-journal", ".lock"] {
+        let own = beside(&database, end);
+        let before = fs::read(&own).ok();
+        let itself = back_up(&database, &own, true).await;
+        assert!(matches!(itself, Err(BackupError::Itself(_))), "{itself:?}");
+        assert!(fs::read(&own).ok() == before, "{end}");
+    }
     let nothing = back_up(&fixture.directory.path().join("no.db"), &destination, true).await;
     assert!(
         matches!(nothing, Err(BackupError::Missing(_))),
