@@ -10,6 +10,7 @@ use super::{batch, common_answers, events, flow, jobs, plans, submission, system
 use crate::config::ServiceConfig;
 use crate::jobs::JobService;
 use crate::jobs::documents::complete;
+use crate::jobs::submit::excerpt;
 use axum::body::Bytes;
 use axum::extract::{DefaultBodyLimit, Request};
 use axum::http::{HeaderValue, StatusCode, header};
@@ -124,7 +125,9 @@ async fn with_id(mut request: Request, next: Next) -> Response {
 fn span<B>(request: &axum::http::Request<B>) -> Span {
     let id = request.extensions().get::<RequestId>();
     let id = id.map_or("", |id| id.0.as_str());
-    tracing::info_span!("request", id, method = %request.method(), uri = %request.uri())
+    // A client must not fill the log with one request.
+    let uri = excerpt(&request.uri().to_string());
+    tracing::info_span!("request", id, method = %request.method(), uri)
 }
 
 async fn limit_body(time: Duration, bytes: usize, mut request: Request, next: Next) -> Response {
