@@ -1,11 +1,12 @@
 //! The stream of events: every change of a job's state, as it happens or replayed
 //! for a client that was disconnected.
 
+use super::named_job::unknown_job;
 use super::pieces::Pieces;
 use super::problem::Problem;
 use super::query::Query;
 use super::shares::StreamRight;
-use crate::jobs::job::JobId;
+use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::{Change, Event, StoreError};
 use crate::jobs::{JobService, News};
 use crate::quota::InUse;
@@ -50,7 +51,7 @@ const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
     responses(
         (status = 200, description = "The events", body = String, content_type = "text/event-stream"),
         (status = 204, description = "The job has ended, and nothing is to be told any more"),
-        (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "There is no such job, or nothing is left to be told of a removed one", body = Problem, content_type = "application/problem+json"),
         (status = 429, description = "Too many streams are open; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "A parameter or `Last-Event-ID` is not allowed", body = Problem, content_type = "application/problem+json"),
     )
@@ -76,8 +77,11 @@ pub(super) async fn events(
     let first = jobs.events(start.after, job).await?;
     if let Some(id) = job {
         let status = jobs.status(id).await?;
-        let status = status.ok_or_else(|| super::named_job::unknown_job(&id.to_string()))?;
-        if first.is_empty() && start.reset.is_none() && status.is_final() {
+        if status.is_none() && first.is_empty() {
+            return Err(unknown_job(&id.to_string()));
+        }
+        let has_ended = status.is_some_and(JobStatus::is_final);
+        if first.is_empty() && start.reset.is_none() && has_ended {
             return Ok(StatusCode::NO_CONTENT.into_response());
         }
     }

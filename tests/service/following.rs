@@ -142,6 +142,10 @@ async fn a_follower_of_a_job_that_is_dismissed_and_removed_at_once_learns_of_its
         app.delete(&format!("{job}?remove=ended")).await;
     });
     assert!(stream.1.contains("event: removed\n"), "{}", stream.1);
+    let (_, again) = events(&app, &query, Some("1")).await;
+    assert!(again.contains("event: removed\n"), "{again}");
+    let (status, _) = events(&app, &query, Some("4")).await;
+    assert_eq!(status, StatusCode::NOT_FOUND);
     app.stop().await;
 }
 
