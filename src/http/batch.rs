@@ -132,7 +132,7 @@ async fn send(
     }
     let ids = submission.jobs.iter().map(JobId::to_string).collect();
     let answer = idempotency::answer(StatusCode::ACCEPTED, None, &BatchAnswer { ids })?;
-    idempotency::send(jobs, submitter, key, answer).await
+    Ok(idempotency::send(jobs, submitter, key, answer).await)
 }
 
 fn read_batch(text: &str) -> Result<BatchDocument, Problem> {

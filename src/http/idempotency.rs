@@ -60,11 +60,11 @@ pub(super) async fn send(
     submitter: Option<&str>,
     key: Option<&Key>,
     answer: KeptAnswer,
-) -> Result<Response, Problem> {
-    if let Some(key) = key {
-        jobs.keep_answer(submitter, key, &answer).await?;
-    }
-    Ok(response(answer))
+) -> Response {
+    response(match key {
+        Some(key) => jobs.keep_answer(submitter, key, answer).await,
+        None => answer,
+    })
 }
 
 /// A kept answer as a response.

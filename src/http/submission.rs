@@ -96,7 +96,7 @@ pub(super) async fn submit(
         (None, None) => return Err(Problem::internal("a request without jobs")),
     };
     let answer = answer(status, job)?;
-    idempotency::send(&jobs, caller.name(), key.as_ref(), answer).await
+    Ok(idempotency::send(&jobs, caller.name(), key.as_ref(), answer).await)
 }
 
 /// A finished job like this one that the caller may read.
@@ -127,7 +127,7 @@ async fn answer_again(
     let id = former.jobs.first();
     let id = id.ok_or_else(|| Problem::internal("a kept key without a job or an answer"))?;
     let answer = answer(StatusCode::ACCEPTED, named(jobs, &id.to_string()).await?)?;
-    idempotency::send(jobs, caller.name(), Some(key), answer).await
+    Ok(idempotency::send(jobs, caller.name(), Some(key), answer).await)
 }
 
 /// Rule for a label, for people.

@@ -175,17 +175,22 @@ impl JobService {
         former.map(Submission::of_former).transpose()
     }
 
-    /// Keeps the answer to a request with a key, for its repetitions.
-    ///
-    /// # Errors
-    /// The store's own.
+    /// Keeps the answer to a request with a key for its repetitions, and returns the one to be
+    /// sent: that of a repetition may have been kept sooner.
     pub async fn keep_answer(
         &self,
         submitter: Option<&str>,
         key: &Key,
-        answer: &KeptAnswer,
-    ) -> Result<(), StoreError> {
-        self.store.keep_answer(submitter, key, answer).await
+        answer: KeptAnswer,
+    ) -> KeptAnswer {
+        match self.store.keep_answer(submitter, key, &answer).await {
+            Ok(kept) => kept.unwrap_or(answer),
+            Err(error) => {
+                // The jobs are stored: a refusal would be wrong. A repetition makes its answer anew.
+                tracing::warn!(%error, key = key.text, "an answer can't be kept");
+                answer
+            }
+        }
     }
 
     /// A successful job with the same scenario, run by this same program.

@@ -11,6 +11,10 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 use tracing::{error, info, warn};
 
+/// Most transactions at a heartbeat in which keys are forgotten: leases and the end of the service
+/// don't wait for a long list.
+const ROUNDS_OF_FORGETTING: usize = 20;
+
 /// Thread of the heartbeat; it ends once this is dropped.
 #[derive(Debug)]
 pub(super) struct LeaseHeartbeat {
@@ -105,7 +109,11 @@ async fn forget_keys(equipment: &Equipment) -> Result<(), StoreError> {
         age_ms: milliseconds(equipment.retention.keys()),
         bytes: equipment.retention.keys_bytes,
     };
-    while equipment.store.forget_keys(kept).await? > 0 {}
+    for _ in 0..ROUNDS_OF_FORGETTING {
+        if equipment.store.forget_keys(kept).await? == 0 {
+            break;
+        }
+    }
     Ok(())
 }
 

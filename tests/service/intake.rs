@@ -117,7 +117,7 @@ async fn many_at_once_with_one_key_make_one_job() {
     let mut locations = Vec::new();
     for answer in &answers {
         match answer.status {
-            StatusCode::ACCEPTED => locations.push(answer.location.clone()),
+            StatusCode::ACCEPTED => locations.push((&answer.location, &answer.body)),
             _ => answer.assert_problem(StatusCode::CONFLICT, "key-in-use"),
         }
     }

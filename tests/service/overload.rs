@@ -100,6 +100,36 @@ async fn a_service_stops_in_time_whatever_its_jobs_do() {
     app.stop().await;
 }
 
+/// A flow whose points take seconds to be set up.
+fn large() -> Value {
+    json!({
+        "channel": {"inclination_deg": 30, "incline_length_m": 4, "runout_length_m": 2,
+                    "width_m": 2},
+        "flow": {"volume_m3": 0.4, "release": {"height_m": 0.2, "toe_distance_m": 0.05}},
+        "bodies": [], "duration_s": 1,
+        "numerics": {"cell_size_m": 0.014, "approach": "full", "symmetry": "full"},
+    })
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_service_stops_in_time_while_a_large_run_is_set_up() {
+    let app = TestApp::start_with(|config| config.limits.drain_timeout_s = 0.3).await;
+    let job = app.submit(&large()).await;
+    app.wait(&job, is_running).await;
+    let began = Instant::now();
+    let directory = app.stop().await;
+    let took = began.elapsed();
+    assert!(took < Duration::from_millis(1_300), "{took:?}");
+    let app = TestApp::start_in(directory, |config| config.workers.count = 1).await;
+    let waiting = app.get(&job).await.body;
+    assert_eq!(
+        waiting["attempts"][0]["ending"], "handed-back",
+        "{waiting:#}"
+    );
+    app.delete(&job).await;
+    app.stop().await;
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn what_takes_too_much_is_refused_before_or_fails_alone() {
     let limit = Some(1_000_000_000);

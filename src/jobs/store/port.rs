@@ -40,13 +40,14 @@ pub trait JobStore: Debug + Send + Sync {
         key: &Key,
     ) -> Answer<Option<FormerRequest>>;
 
-    /// Keeps the answer to a submitted request with a key, unless one is kept.
+    /// Keeps the answer to a submitted request with a key, unless one is kept, and returns the
+    /// one that is kept: of two that are made at the same time only the first counts.
     async fn keep_answer(
         &self,
         submitter: Option<&str>,
         key: &Key,
         answer: &KeptAnswer,
-    ) -> Answer<()>;
+    ) -> Answer<Option<KeptAnswer>>;
 
     /// The newest successful job with a scenario of this hash, run by this solver (version
     /// and commit).

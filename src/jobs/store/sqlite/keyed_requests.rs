@@ -46,7 +46,7 @@ impl SqliteStore {
         submitter: Option<&str>,
         key: &Key,
         answer: &KeptAnswer,
-    ) -> Answer<()> {
+    ) -> Answer<Option<KeptAnswer>> {
         let body = zstd::bulk::compress(answer.body.as_bytes(), LEVEL)
             .map_err(|error| StoreError::Defect(error.into()))?;
         let mut transaction = self.begin_write().await?;
@@ -63,31 +63,77 @@ impl SqliteStore {
         .bind(body)
         .execute(&mut *transaction)
         .await?;
+        let former = former_request(&mut transaction, submitter, key).await?;
         transaction.commit().await?;
-        Ok(())
+        Ok(match former {
+            Some(FormerRequest::Same { answer, .. }) => answer,
+            Some(FormerRequest::Other) | None => None,
+        })
     }
 
     pub(super) async fn forget_keys(&self, kept: KeyRetention) -> Answer<u64> {
+        let mut keys = self.keys_released_long_ago(kept.age_ms).await?;
+        if keys.is_empty() {
+            keys = self.keys_beyond(kept.bytes).await?;
+        }
+        if keys.is_empty() {
+            return Ok(0);
+        }
         let mut transaction = self.begin_write().await?;
-        // By the sum over a submitter's released keys, from the newest on.
-        let done = sqlx::query(
-            "DELETE FROM keyed_requests WHERE sequence IN (
-                 SELECT sequence FROM keyed_requests WHERE released_operating_ms <= ?1
-                 UNION
-                 SELECT sequence FROM (
-                     SELECT sequence, sum(stored_bytes)
-                         OVER (PARTITION BY submitter ORDER BY sequence DESC) AS bytes
-                     FROM keyed_requests WHERE released_operating_ms IS NOT NULL)
-                 WHERE bytes > ?2
-                 ORDER BY sequence LIMIT ?3)",
-        )
-        .bind(self.operating_ms().saturating_sub(kept.age_ms))
-        .bind(integer(kept.bytes))
-        .bind(FORGOTTEN_AT_ONCE)
-        .execute(&mut *transaction)
-        .await?;
+        for key in &keys {
+            sqlx::query("DELETE FROM keyed_requests WHERE sequence = ?1")
+                .bind(key)
+                .execute(&mut *transaction)
+                .await?;
+        }
         transaction.commit().await?;
-        Ok(done.rows_affected())
+        Ok(keys.len() as u64)
+    }
+
+    async fn keys_released_long_ago(&self, age_ms: i64) -> Answer<Vec<i64>> {
+        let keys = sqlx::query_scalar(
+            "SELECT sequence FROM keyed_requests WHERE released_operating_ms <= ?1
+             ORDER BY released_operating_ms LIMIT ?2",
+        );
+        Ok(keys
+            .bind(self.operating_ms().saturating_sub(age_ms))
+            .bind(FORGOTTEN_AT_ONCE)
+            .fetch_all(self.readers.pool())
+            .await?)
+    }
+
+    /// The oldest released keys of a submitter whose keys take more space than this.
+    async fn keys_beyond(&self, bytes: u64) -> Answer<Vec<i64>> {
+        let spender: Option<(String, i64)> = sqlx::query_as(
+            "SELECT submitter, sum(stored_bytes) AS bytes FROM keyed_requests
+             WHERE released_operating_ms IS NOT NULL
+             GROUP BY submitter HAVING bytes > ?1 LIMIT 1",
+        )
+        .bind(integer(bytes))
+        .fetch_optional(self.readers.pool())
+        .await?;
+        let Some((submitter, spent)) = spender else {
+            return Ok(Vec::new());
+        };
+        let oldest: Vec<(i64, i64)> = sqlx::query_as(
+            "SELECT sequence, stored_bytes FROM keyed_requests
+             WHERE submitter = ?1 AND released_operating_ms IS NOT NULL
+             ORDER BY sequence LIMIT ?2",
+        )
+        .bind(submitter)
+        .bind(FORGOTTEN_AT_ONCE)
+        .fetch_all(self.readers.pool())
+        .await?;
+        let mut excess = spent - integer(bytes);
+        let mut keys = Vec::new();
+        for (key, stored) in oldest {
+            if excess <= 0 {
+                break;
+            }
+            excess -= stored;
+            keys.push(key);
+        }
+        Ok(keys)
     }
 }
 

@@ -34,7 +34,7 @@ impl JobStore for SqliteStore {
         submitter: Option<&str>,
         key: &Key,
         answer: &KeptAnswer,
-    ) -> Result<(), StoreError> {
+    ) -> Result<Option<KeptAnswer>, StoreError> {
         Ok(Self::keep_answer(self, submitter, key, answer).await?)
     }
 
