@@ -1,8 +1,9 @@
 //! Submission of many scenarios at once.
 
 use super::access::Caller;
+use super::field_errors::{FieldError, FieldErrors};
 use super::idempotency;
-use super::problem::{FieldError, Problem};
+use super::problem::Problem;
 use super::query::Query;
 use super::scenario_body::{ScenarioText, malformed};
 use super::submission::LABEL_RULE;
@@ -15,6 +16,7 @@ use axum::http::{HeaderMap, StatusCode, Uri};
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
+use serde_json::{Value, json};
 use std::iter::Enumerate;
 use std::time::{Duration, Instant};
 use std::vec;
@@ -148,8 +150,8 @@ fn read_batch(text: &str) -> Result<BatchDocument, Problem> {
         )
     })?;
     if batch.jobs.is_empty() {
-        let none = FieldError::of_body("/jobs", "at least one job");
-        return Err(Problem::invalid_scenario(vec![none]));
+        let none = FieldError::of_body("/jobs", json!([]), "at least one job");
+        return Err(Problem::invalid_scenario([none].into_iter().collect()));
     }
     Ok(batch)
 }
@@ -170,12 +172,12 @@ struct BatchReading {
     common: Vec<String>,
     left: Enumerate<vec::IntoIter<BatchJob>>,
     admitted: Vec<NewJob>,
-    wrong: Vec<FieldError>,
+    wrong: FieldErrors,
 }
 
 impl BatchReading {
     fn new(jobs: JobService, batch: BatchDocument) -> Self {
-        let mut wrong = Vec::new();
+        let mut wrong = FieldErrors::default();
         Self {
             jobs,
             common: read_labels(&batch.labels, "/labels", &mut wrong),
@@ -209,12 +211,14 @@ impl BatchReading {
         match self.jobs.validate(job.scenario.get(), labels) {
             Ok(new) => self.admitted.push(new),
             Err(ScenarioError::Invalid(violations)) => {
-                let named = violations.into_iter().map(FieldError::from);
-                wrong.extend(named.map(|error| error.under(&format!("{at}/scenario"))));
+                let at = format!("{at}/scenario");
+                for violation in violations {
+                    wrong.add(|| FieldError::from(violation).under(&at));
+                }
             }
             Err(error @ ScenarioError::Malformed { .. }) => {
                 let at = format!("{at}/scenario");
-                wrong.push(FieldError::of_body(&at, &error.to_string()));
+                wrong.add(|| FieldError::of_body(&at, Value::Null, &error.to_string()));
             }
         }
     }
@@ -228,16 +232,22 @@ impl BatchReading {
     }
 }
 
-fn read_labels(texts: &[String], at: &str, wrong: &mut Vec<FieldError>) -> Vec<String> {
+/// The labels; of a list that is too long none is read.
+fn read_labels(texts: &[String], at: &str, wrong: &mut FieldErrors) -> Vec<String> {
     if texts.len() > LABELS_AT_MOST {
         let rule = format!("at most {LABELS_AT_MOST} labels");
-        wrong.push(FieldError::of_body(at, &rule));
+        let value = json!(format!("{} labels", texts.len()));
+        wrong.add(|| FieldError::of_body(at, value, &rule));
+        return Vec::new();
     }
     let mut labels = Vec::new();
     for (place, text) in texts.iter().enumerate() {
         match label(text) {
             Some(label) => labels.push(label),
-            None => wrong.push(FieldError::of_body(&format!("{at}/{place}"), LABEL_RULE)),
+            None => wrong.add(|| {
+                let value = Value::from(excerpt(text));
+                FieldError::of_body(&format!("{at}/{place}"), value, LABEL_RULE)
+            }),
         }
     }
     labels

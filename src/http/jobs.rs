@@ -7,6 +7,7 @@ use super::named_job::{NamedJob, find, named, unknown_job};
 use super::problem::Problem;
 use super::query::Query;
 use super::shares::StreamRight;
+use super::submission::LABEL_RULE;
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::{Page, Removal};
 use crate::jobs::submit::label;
@@ -187,7 +188,7 @@ fn read_page(query: Option<&str>) -> Result<Page, Problem> {
     let words = JobStatus::ALL.map(JobStatus::word).join(", ");
     let page = Page {
         status: query.word("status", &format!("one of {words}"), JobStatus::from_word),
-        label: query.word("label", "a label", label),
+        label: query.word("label", LABEL_RULE, label),
         limit: query
             .whole("limit", 1..=LARGEST_LIMIT)
             .unwrap_or(DEFAULT_LIMIT),

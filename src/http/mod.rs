@@ -11,6 +11,7 @@ mod connections;
 mod documents;
 mod etag;
 mod events;
+mod field_errors;
 mod flow;
 mod idempotency;
 mod jobs;

@@ -1,11 +1,10 @@
 //! Problem documents (RFC 9457).
 
+use super::field_errors::{FieldError, FieldErrors};
 use crate::jobs::store::StoreErrorKind;
-use crate::jobs::submit::Violation;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
-use serde_json::Value;
 use std::fmt::Display;
 use utoipa::ToSchema;
 use uuid::Uuid;
@@ -42,26 +41,6 @@ pub(super) struct Problem {
     /// Identifier of the details of an internal error in the service's log.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_id: Option<String>,
-}
-
-/// Fault of one field of the body or one parameter of the query.
-#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
-pub(super) struct FieldError {
-    /// JSON pointer (RFC 6901) into the body, "" for the whole document.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pointer: Option<String>,
-    /// Name of the query parameter, or of the header.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub parameter: Option<String>,
-    /// Value received, shortened if it is a long text; null if it is missing.
-    pub value: Value,
-    /// Allowed values, in words or as a range.
-    pub allowed: String,
-    /// Unit of value and range; null if there is none.
-    #[schema(required = true)]
-    pub unit: Option<String>,
-    /// One sentence for people.
-    pub detail: String,
 }
 
 impl Problem {
@@ -104,28 +83,21 @@ impl Problem {
     }
 
     /// A body that is JSON, but not a legal scenario.
-    pub(super) fn invalid_scenario(errors: Vec<FieldError>) -> Self {
-        let detail = match errors.as_slice() {
-            [only] => only.detail.clone(),
-            errors => format!("{} fields break the rules; see errors", errors.len()),
-        };
+    pub(super) fn invalid_scenario(faults: FieldErrors) -> Self {
         let status = StatusCode::UNPROCESSABLE_ENTITY;
+        let detail = faults.summary();
         Self {
-            errors,
+            errors: faults.into_list(),
             ..Self::new(status, "invalid-scenario", "Invalid scenario", detail)
         }
     }
 
     /// A query with parameters that are unknown or not allowed.
-    pub(super) fn invalid_query(errors: Vec<FieldError>) -> Self {
-        let detail = errors
-            .iter()
-            .map(|error| error.detail.as_str())
-            .collect::<Vec<_>>()
-            .join("; ");
+    pub(super) fn invalid_query(faults: FieldErrors) -> Self {
         let status = StatusCode::UNPROCESSABLE_ENTITY;
+        let detail = faults.summary();
         Self {
-            errors,
+            errors: faults.into_list(),
             ..Self::new(status, "invalid-query", "Invalid query", detail)
         }
     }
@@ -168,42 +140,6 @@ impl From<crate::jobs::store::StoreError> for Problem {
                 Self::new(status, "storage-unavailable", "No database", detail)
                     .retry_after(RETRY_AFTER_S)
             }
-        }
-    }
-}
-
-impl FieldError {
-    /// Fault of a value in the body; the value is not repeated.
-    pub(super) fn of_body(pointer: &str, allowed: &str) -> Self {
-        Self {
-            pointer: Some(pointer.to_owned()),
-            parameter: None,
-            value: Value::Null,
-            allowed: allowed.to_owned(),
-            unit: None,
-            detail: format!("{pointer} is not allowed: {allowed}"),
-        }
-    }
-
-    /// The same fault in a document that contains this one at `pointer`.
-    pub(super) fn under(self, pointer: &str) -> Self {
-        let own = self.pointer.unwrap_or_default();
-        Self {
-            pointer: Some(format!("{pointer}{own}")),
-            ..self
-        }
-    }
-}
-
-impl From<Violation> for FieldError {
-    fn from(violation: Violation) -> Self {
-        Self {
-            pointer: Some(violation.pointer),
-            parameter: None,
-            value: violation.value,
-            allowed: violation.allowed,
-            unit: violation.unit,
-            detail: violation.detail,
         }
     }
 }

@@ -1,29 +1,40 @@
 //! Strict reading of a query string: unknown, repeated and illegal parameters are
 //! all reported at once.
 
-use super::problem::{FieldError, Problem};
+use super::field_errors::{FieldError, FieldErrors};
+use super::problem::Problem;
 use crate::jobs::submit::excerpt;
 use serde_json::Value;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
+/// Largest number of parameters in a query.
+const MOST_PARAMETERS: usize = 100;
+
 /// A query string being read, parameter by parameter.
 #[derive(Debug)]
 pub(super) struct Query {
     /// Parameters not read yet.
     pairs: Vec<(String, String)>,
-    errors: Vec<FieldError>,
+    errors: FieldErrors,
 }
 
 impl Query {
     /// Parses a query string.
     pub(super) fn new(query: Option<&str>) -> Self {
-        let pairs = form_urlencoded::parse(query.unwrap_or_default().as_bytes());
-        Self {
-            pairs: pairs.into_owned().collect(),
-            errors: Vec::new(),
+        let query = query.unwrap_or_default();
+        let pairs = form_urlencoded::parse(query.as_bytes());
+        let mut read = Self {
+            pairs: pairs.into_owned().take(MOST_PARAMETERS + 1).collect(),
+            errors: FieldErrors::default(),
+        };
+        if read.pairs.len() > MOST_PARAMETERS {
+            read.pairs.clear();
+            let allowed = format!("at most {MOST_PARAMETERS} parameters");
+            read.refuse("query", query, &allowed, None);
         }
+        read
     }
 
     /// A finite number.
@@ -102,7 +113,7 @@ impl Query {
     /// Refuses a parameter for a reason of the caller.
     pub(super) fn refuse(&mut self, name: &str, value: &str, allowed: &str, unit: Option<&str>) {
         let (name, value) = (excerpt(name), excerpt(value));
-        self.errors.push(FieldError {
+        self.errors.add(|| FieldError {
             pointer: None,
             parameter: Some(name.clone()),
             value: Value::from(value.as_str()),

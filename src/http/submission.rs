@@ -2,9 +2,10 @@
 
 use super::access::Caller;
 use super::documents::JobDocument;
+use super::field_errors::FieldError;
 use super::idempotency;
 use super::named_job::named;
-use super::problem::{FieldError, Problem};
+use super::problem::Problem;
 use super::query::Query;
 use super::scenario_body::{ScenarioText, malformed};
 use crate::jobs::job::Job;

@@ -124,3 +124,25 @@ fn broken(pointer: &str, value: Value) -> Value {
     place[key] = value;
     scene
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_answer_does_not_grow_far_beyond_its_request() {
+    let app = TestApp::start().await;
+    let labels = vec![""; 300_000];
+    let nothing = vec![serde_json::json!({"scenario": 1, "labels": ["?"]}); 30_000];
+    for batch in [
+        serde_json::json!({"jobs": [{"scenario": 1, "labels": labels}]}),
+        serde_json::json!({"jobs": [{"scenario": 1}], "labels": labels}),
+        serde_json::json!({"jobs": nothing}),
+    ] {
+        let json = "application/json";
+        let answer = app.post_to("/v1/batches", json, batch.to_string()).await;
+        answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-scenario");
+        let bytes = answer.body.to_string().len();
+        assert!(bytes < 200_000, "{bytes}");
+    }
+    let answer = app.get(&format!("/v1/jobs?{}", "a&".repeat(30_000))).await;
+    answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
+    assert!(answer.body.to_string().len() < 1_000, "{}", answer.body);
+    app.stop().await;
+}
