@@ -52,6 +52,9 @@ impl Resting {
     }
 }
 
+/// Bytes per point, all of them moving, of [`Remaining`].
+pub(crate) const REMAINING_BYTES: usize = size_of::<(f64, f64)>() + size_of::<Sliding>();
+
 /// Energies and reaches of the moving part of a flow.
 pub(super) struct Remaining {
     /// Farthest place at which each point comes to rest [m], with its mass [kg].
@@ -83,7 +86,8 @@ impl Remaining {
         let gravity = simulation.gravity().norm();
         let mut remaining = Self {
             reaches: Vec::with_capacity(simulation.point_count()),
-            moving: Vec::new(),
+            // A list that grows would take up to three times its memory.
+            moving: Vec::with_capacity(simulation.point_count()),
         };
         simulation.visit_points(None, |point| {
             let (x, y) = (point.position.x, point.position.y);

@@ -31,6 +31,9 @@ use stages::StageEnds;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+/// Bytes of a point that may touch a body, and of its contact.
+pub(crate) const CANDIDATE_BYTES: usize = flow::CANDIDATE_BYTES;
+
 pub use clock::Timing;
 pub use guards::Guards;
 pub use setup::{
