@@ -39,11 +39,11 @@ pub(super) fn memory(prepared: &PreparedScene, points: u64, computed: u64) -> u6
         Precision::Single => [flow.set_up::<f32>(), flow.steps::<f32>()],
         Precision::Double => [flow.set_up::<f64>(), flow.steps::<f64>()],
     };
-    (BASE + set_up.max(steps + points as f64 * looked_at(prepared))) as u64
+    (BASE + set_up.max(steps + computed as f64 * looked_at(prepared))) as u64
 }
 
-/// Bytes per point, images included, while the front is found: at the end and, with all that still
-/// moves, whenever an early end is looked for.
+/// Bytes per computed point while the front is found: at the end and, with all that still moves,
+/// whenever an early end is looked for.
 fn looked_at(prepared: &PreparedScene) -> f64 {
     let scenario = &prepared.scenario;
     let mut prescribed = prepared.bodies.iter().filter_map(Body::prescribed);

@@ -263,6 +263,14 @@ impl Simulation {
         self.state.flow.visit(within, &mut visit);
     }
 
+    /// Visits the computed points, each with the mass of itself and its images [kg]: enough for what
+    /// does not depend on y.
+    pub fn visit_computed_points(&self, mut visit: impl FnMut(&Point, f64)) {
+        let flow = &self.state.flow;
+        let images = flow.count() as f64 / flow.computed().max(1) as f64;
+        flow.visit_computed(&mut |point| visit(point, point.mass * images));
+    }
+
     /// Share of the flow that is computed now.
     pub fn share(&self) -> Share {
         self.state.flow.share()

@@ -37,7 +37,7 @@ fn points_and_steps_are_as_many_as_foretold() {
 
 /// Memory that a plan counts for all but the flow [bytes].
 const BASE: f64 = 4e6;
-/// Bytes per point, images included, when the front and all that moves are looked at: a place with
+/// Bytes per computed point when the front and all that moves are looked at: a place with
 /// its mass, two ends of it, a reach with its mass, and the place, way and energy of what moves.
 const LOOKED_AT: usize = 16 + 2 * 16 + 16 + 24;
 
@@ -49,7 +49,7 @@ fn held(simulation: &Simulation, precision: &str) -> usize {
         _ => size_of::<(BlockKey, Packed<f64>)>(),
     };
     let set_up = points + simulation.computed_points() * (size_of::<Point>() + arriving);
-    set_up.max(points + grid + simulation.point_count() * LOOKED_AT)
+    set_up.max(points + grid + simulation.computed_points() * LOOKED_AT)
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn memory_is_about_as_much_as_foretold() {
     for precision in PRECISIONS {
         let scenes = [
             Scene::impact().lasting(0.5),
-            // A slab, whose images take more than itself.
+            // A slab, whose many images take nothing.
             Scene::impact()
                 .without_bodies()
                 .set("channel", "width_m", 1.2)
