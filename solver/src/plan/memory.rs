@@ -7,8 +7,6 @@ use crate::mpm::lanes::Real;
 use crate::mpm::nodes::NodeBlock;
 use crate::mpm::rows::Tile;
 use crate::points::Point;
-use crate::record::{FRONT_BYTES, REMAINING_BYTES, first_look};
-use crate::rigid::Body;
 use crate::scenario::{Ending, Precision};
 use crate::simulation::{CANDIDATE_BYTES, PreparedScene};
 use crate::walls::BoundaryCounts;
@@ -23,6 +21,13 @@ const SPREADING: f64 = 2.0;
 /// Nodes of a column on which the bed acts: two in the channel, and two behind the bed in reach of
 /// kernels. Likewise across, of both sides: one on the wall and one next to it.
 const DEEP: f64 = 4.0;
+
+/// Bytes per computed point while the recorder finds the front: a place and two ends, each with a
+/// mass.
+const FRONT_BYTES: usize = 3 * size_of::<(f64, f64)>();
+/// Bytes per computed point of what the recorder looks at for an early end: the reach of each with
+/// its mass and, while it moves, its place, way and energy.
+const REMAINING_BYTES: usize = size_of::<(f64, f64)>() + size_of::<[f64; 3]>();
 
 /// Memory of a run of so many points, of which so many are computed [bytes].
 pub(super) fn memory(prepared: &PreparedScene, points: u64, computed: u64) -> u64 {
@@ -45,15 +50,9 @@ pub(super) fn memory(prepared: &PreparedScene, points: u64, computed: u64) -> u6
 /// Bytes per computed point while the front is found: at the end and, with all that still moves,
 /// whenever an early end is looked for.
 fn looked_at(prepared: &PreparedScene) -> f64 {
-    let scenario = &prepared.scenario;
-    let mut prescribed = prepared.bodies.iter().filter_map(Body::prescribed);
-    let may_end_early = scenario.numerics.ending == Ending::Auto
-        && first_look(scenario) < scenario.duration_s
-        && prescribed.all(|body| body.motion.rests_from(scenario.duration_s));
-    let bytes = if may_end_early {
-        FRONT_BYTES + REMAINING_BYTES
-    } else {
-        FRONT_BYTES
+    let bytes = match prepared.scenario.numerics.ending {
+        Ending::Auto => FRONT_BYTES + REMAINING_BYTES,
+        Ending::Full => FRONT_BYTES,
     };
     bytes as f64
 }

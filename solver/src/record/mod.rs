@@ -22,14 +22,11 @@ pub use error_bars::{
     AccuracyReport, Basis, BodyErrorBars, FlowErrorBars, Role, RunCost, TargetReport,
     UncertaintyInterval,
 };
-pub(crate) use outcome::FRONT_BYTES;
 pub use quantities::{
     BODY_QUANTITIES, BodyQuantity, FLOW_QUANTITIES, FlowQuantity, OutcomeQuantity, QuantityKind,
 };
 pub use recorder::Recorder;
-pub(crate) use recorder::first_look;
 pub use rest::EndedEarly;
-pub(crate) use rest::REMAINING_BYTES;
 use serde::{Deserialize, Serialize};
 
 /// Mode of motion of a body.

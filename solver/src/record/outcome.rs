@@ -14,9 +14,6 @@ use serde::{Deserialize, Serialize};
 /// Share of the mass beyond the front.
 const FRONT_SHARE: f64 = 1e-3;
 
-/// Bytes per computed point while the front is found: its place, and both ends of its mass.
-pub(crate) const FRONT_BYTES: usize = 3 * size_of::<(f64, f64)>();
-
 /// History of one body so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct BodyHistory {

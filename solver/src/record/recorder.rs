@@ -54,7 +54,7 @@ impl Recorder {
             resting: Resting::of(scenario),
             duration: scenario.duration_s,
             ending: scenario.numerics.ending,
-            scale: scale(scenario),
+            scale: Scale::of(size(scenario), scenario.gravity_m_s2),
             next_look: 0.0,
             plan: Plan::of(prepared),
             ended_early: None,
@@ -195,15 +195,6 @@ impl Recorder {
             accuracy: None,
         }
     }
-}
-
-/// Time before which an early end is not looked for [s].
-pub(crate) fn first_look(scenario: &Scenario) -> f64 {
-    scale(scenario).rest_time()
-}
-
-fn scale(scenario: &Scenario) -> Scale {
-    Scale::of(size(scenario), scenario.gravity_m_s2)
 }
 
 /// Characteristic size of a scene [m].

@@ -52,9 +52,6 @@ impl Resting {
     }
 }
 
-/// Bytes per computed point, all of them moving, of [`Remaining`].
-pub(crate) const REMAINING_BYTES: usize = size_of::<(f64, f64)>() + size_of::<Sliding>();
-
 /// Energies and reaches of the moving part of a flow.
 pub(super) struct Remaining {
     /// Farthest place at which each computed point comes to rest [m], with the mass of itself and
