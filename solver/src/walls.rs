@@ -17,7 +17,7 @@ mod nodes;
 mod vertical_walls;
 
 pub use crate::bed::Plane;
-pub use boundary::{Boundary, filled};
+pub use boundary::{Boundary, BoundaryCounts, filled};
 pub use constraint::WallPace;
 pub use nodes::NodeAccess;
 pub use vertical_walls::{Ends, VerticalBoundary, VerticalWalls};

@@ -255,7 +255,7 @@ pub(super) enum Measurement {
     /// The source paper's scene with and without each reduction (full: also on finer
     /// grids)
     Plan,
-    /// Ten scenes, with their predicted and measured wall times
+    /// Ten scenes, with their predicted and measured wall times and memory
     Forecast,
 }
 

@@ -130,6 +130,22 @@ pub struct FlowLoad {
     pub energy: f64,
 }
 
+impl<P> Loads<P> {
+    /// Bytes of a candidate and its contact.
+    pub const CANDIDATE_BYTES: usize =
+        size_of::<P>() + size_of::<Candidate<P>>() + size_of::<Option<PointContact>>();
+
+    /// Bytes allocated for candidates, their contacts and the compliance of nodes.
+    pub fn bytes(&self) -> usize {
+        let candidates: usize = self.candidates.iter().map(Vec::capacity).sum();
+        let contacts: usize = self.contacts.iter().map(Vec::capacity).sum();
+        self.near.capacity() * size_of::<P>()
+            + candidates * size_of::<Candidate<P>>()
+            + contacts * size_of::<Option<PointContact>>()
+            + self.compliance.bytes()
+    }
+}
+
 impl<P: Copy + Send + Sync> Loads<P> {
     /// Prepares a step: finds the points within reach of each body.
     pub fn find_candidates(

@@ -1,22 +1,13 @@
 //! Points, steps and memory of a run.
 
 use super::course::Course;
+use super::memory::memory;
 use crate::contact::island::substeps_at_rest;
-use crate::grid::BLOCK;
 use crate::method::METHOD;
-use crate::mpm::chunk::Chunk;
-use crate::mpm::lanes::Real;
-use crate::mpm::nodes::NodeBlock;
-use crate::mpm::rows::Tile;
-use crate::points::Point;
-use crate::scenario::{Ending, Precision};
+use crate::scenario::Ending;
 use crate::simulation::{Columns, PreparedScene, Share};
 use crate::stability::Limits;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-
-/// Largest number of blocks occupied as the flow spreads, over those of its release.
-const SPREADING: f64 = 2.0;
 
 /// Cost of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -37,8 +28,8 @@ pub struct Cost {
     /// which all of them stay in contact.
     #[serde(default)]
     pub body_substeps: u64,
-    /// Memory for points and grid while the release is set up or once the flow has spread, whichever
-    /// is more [bytes].
+    /// Memory of the run while the release is set up or once the flow has spread, whichever is more
+    /// [bytes]. Records that the caller keeps are not part of it.
     pub memory_bytes: u64,
     /// Time at which the run is expected to end [s].
     pub expected_end_s: f64,
@@ -162,77 +153,4 @@ pub(super) fn longest_substep(limits: &Limits) -> f64 {
 fn over(duration: f64, longest: f64, per_step: f64) -> (u64, u64) {
     let substeps = (duration / longest - 1e-9).ceil().max(0.0);
     (substeps as u64, (substeps / per_step).ceil() as u64)
-}
-
-/// Memory of so many points, of which so many are computed [bytes].
-fn memory(prepared: &PreparedScene, points: u64, computed: u64) -> u64 {
-    let scenario = &prepared.scenario;
-    let cells = 0.5 * f64::from(prepared.given.walls.vertical_walls.halves_across);
-    let share = computed as f64 / points.max(1) as f64;
-    let blocks = Blocks::of_release(prepared, share * cells);
-    let of_precision = match scenario.numerics.precision {
-        Precision::Single => memory_of::<f32>,
-        Precision::Double => memory_of::<f64>,
-    };
-    of_precision(computed, &blocks) as u64
-}
-
-/// Memory of a run beside its points and nodes: threads, bodies and records [bytes].
-const BASE: f64 = 4e6;
-
-/// Bytes for so many points that spread from these blocks; or, if that is more, for setting them
-/// up, when there are points of the release beside the packed ones.
-fn memory_of<R: Real>(points: u64, blocks: &Blocks) -> f64 {
-    let of_chunks = |chunks: f64| chunks * size_of::<Chunk<R>>() as f64;
-    let packed = of_chunks(points as f64 / R::LANES as f64 + 0.5 * blocks.of_points);
-    let set_up = packed + points as f64 * size_of::<Point>() as f64;
-    let spread = |blocks: f64| SPREADING * blocks;
-    // Every block's last chunk is half full, on average.
-    let chunks = points as f64 / R::LANES as f64 + 0.5 * spread(blocks.of_points);
-    let tiles = 2.0 * spread(blocks.of_points) * size_of::<Tile<R>>() as f64;
-    let nodes = 5.0 * spread(blocks.of_nodes) * size_of::<NodeBlock<R>>() as f64;
-    BASE + set_up.max(of_chunks(chunks) + tiles + nodes)
-}
-
-/// Numbers of blocks at the start.
-struct Blocks {
-    of_points: f64,
-    of_nodes: f64,
-}
-
-impl Blocks {
-    /// Blocks occupied by so many cells across of the release, and blocks in reach of its kernels.
-    fn of_release(prepared: &PreparedScene, cells_across: f64) -> Self {
-        let scenario = &prepared.scenario;
-        let (Some(release), Some(columns)) = (scenario.release(), prepared.columns) else {
-            return Self {
-                of_points: 0.0,
-                of_nodes: 0.0,
-            };
-        };
-        let lattice = &prepared.given.lattice;
-        // A block's points lie from half a cell on to half a cell beyond it.
-        let block = |place: f64, axis: usize| {
-            let cells = (place - lattice.origin[axis]) / lattice.spacing[axis];
-            ((cells - 0.5) / BLOCK as f64).floor() as i64
-        };
-        let mut heights: BTreeMap<i64, (i64, i64)> = BTreeMap::new();
-        for i in 0..columns.count[0] {
-            let x = release.back_m + (f64::from(i) + 0.5) * columns.spacing.x;
-            let bed = prepared.given.walls.bed.elevation(x, 0.0);
-            let (low, high) = (block(bed, 2), block(bed + release.vertical_thickness_m, 2));
-            let known = heights.entry(block(x, 0)).or_insert((low, high));
-            *known = (known.0.min(low), known.1.max(high));
-        }
-        let across = ((cells_across - 0.5) / BLOCK as f64).ceil() + 1.0;
-        let rows = |more: i64| {
-            let of_column = |(low, high): &(i64, i64)| (high - low + 1 + more) as f64;
-            heights.values().map(of_column).sum::<f64>()
-        };
-        let longer = (heights.len() + 1) as f64 / heights.len().max(1) as f64;
-        Self {
-            of_points: rows(0) * across,
-            of_nodes: rows(1) * longer * (across + 1.0),
-        }
-    }
 }

@@ -5,6 +5,7 @@ mod choices;
 mod cost;
 mod course;
 mod hints;
+mod memory;
 
 pub use choices::Choice;
 pub use cost::{Cost, Stage};

@@ -162,12 +162,12 @@ pub(super) fn flow_outcome(
 /// The x beyond which [`FRONT_SHARE`] of the released mass lies; the open end
 /// once that much has left.
 pub(super) fn front(simulation: &Simulation, open_end: f64) -> Option<f64> {
-    let mut places = Vec::with_capacity(simulation.point_count());
-    simulation.visit_points(None, |point| places.push((point.position.x, point.mass)));
+    let mut places = Vec::with_capacity(simulation.computed_points());
+    simulation.visit_computed_points(|point, mass| places.push((point.position.x, mass)));
     front_of(simulation, &places, open_end)
 }
 
-/// The front if each point (mass in kg) were at another x [m].
+/// The front if each point (with its images' mass, in kg) were at another x [m].
 pub(super) fn front_of(
     simulation: &Simulation,
     places: &[(f64, f64)],

@@ -54,12 +54,13 @@ impl Resting {
 
 /// Energies and reaches of the moving part of a flow.
 pub(super) struct Remaining {
-    /// Farthest place at which each point comes to rest [m], with its mass [kg].
+    /// Farthest place at which each computed point comes to rest [m], with the mass of itself and
+    /// its images [kg].
     pub(super) reaches: Vec<(f64, f64)>,
     moving: Vec<Sliding>,
 }
 
-/// A moving point.
+/// A moving point and its images.
 struct Sliding {
     /// Place along the channel [m].
     x: f64,
@@ -82,22 +83,23 @@ impl Remaining {
     pub(super) fn of(simulation: &Simulation, resting: &Resting, left: f64) -> Self {
         let gravity = simulation.gravity().norm();
         let mut remaining = Self {
-            reaches: Vec::with_capacity(simulation.point_count()),
-            moving: Vec::new(),
+            reaches: Vec::with_capacity(simulation.computed_points()),
+            // A list that grows would take up to three times its memory.
+            moving: Vec::with_capacity(simulation.computed_points()),
         };
-        simulation.visit_points(None, |point| {
+        simulation.visit_computed_points(|point, mass| {
             let (x, y) = (point.position.x, point.position.y);
             let on = simulation.bed().tangent(x, y);
             let specific = specific_energy(point, simulation, (&on, resting));
             let mut way = 0.0;
             if specific > 0.0 {
                 way = specific / (on.flow_friction * gravity);
-                let energy = point.mass * specific;
+                let energy = mass * specific;
                 remaining.moving.push(Sliding { x, way, energy });
             }
             // A point that creeps, pushed by others, need not slow down.
             let reach = x + way.max(point.velocity.norm() * left);
-            remaining.reaches.push((reach, point.mass));
+            remaining.reaches.push((reach, mass));
         });
         remaining
     }

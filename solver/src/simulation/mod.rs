@@ -31,6 +31,9 @@ use stages::StageEnds;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+/// Bytes of a point that may touch a body, and of its contact.
+pub(crate) const CANDIDATE_BYTES: usize = flow::CANDIDATE_BYTES;
+
 pub use clock::Timing;
 pub use guards::Guards;
 pub use setup::{
@@ -258,6 +261,14 @@ impl Simulation {
     /// fields that [`Simulation::points`] defines.
     pub fn visit_points(&self, within: Option<&Around>, mut visit: impl FnMut(&Point)) {
         self.state.flow.visit(within, &mut visit);
+    }
+
+    /// Visits the computed points, each with the mass of itself and its images [kg]: enough for what
+    /// does not depend on y.
+    pub fn visit_computed_points(&self, mut visit: impl FnMut(&Point, f64)) {
+        let flow = &self.state.flow;
+        let images = flow.count() as f64 / flow.computed().max(1) as f64;
+        flow.visit_computed(&mut |point| visit(point, point.mass * images));
     }
 
     /// Share of the flow that is computed now.

@@ -141,7 +141,7 @@ impl Setup {
 
     /// Largest distance from a body [m] at which a point at a transfer may touch it before the next
     /// one.
-    pub(super) fn contact_reach(&self, bodies: &[Body], pace: &Pace) -> Reach {
+    pub(crate) fn contact_reach(&self, bodies: &[Body], pace: &Pace) -> Reach {
         let Some(flow) = &self.flow else {
             return Reach {
                 sphere: 0.0,

@@ -69,7 +69,44 @@ pub struct Boundary {
     pub(super) constrained: Vec<ConstrainedVelocity>,
 }
 
+/// Numbers of nodes on which walls act, by what is held for them.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BoundaryCounts {
+    /// Nodes, without images.
+    pub nodes: f64,
+    /// Images of nodes.
+    pub images: f64,
+    /// Columns through the bed.
+    pub columns: f64,
+    /// Nodes in those columns.
+    pub column_nodes: f64,
+}
+
+impl BoundaryCounts {
+    /// Bytes held for so many.
+    pub fn bytes(&self) -> f64 {
+        let of_node =
+            size_of::<ConstraintSet>() + size_of::<ConstrainedVelocity>() + size_of::<Member>();
+        let of_column = size_of::<BoundaryColumn>() + size_of::<[Vec3; 2]>();
+        self.nodes * of_node as f64
+            + self.images * size_of::<Member>() as f64
+            + self.columns * of_column as f64
+            + self.column_nodes * size_of::<ColumnNode>() as f64
+    }
+}
+
 impl Boundary {
+    /// Bytes allocated.
+    pub fn bytes(&self) -> usize {
+        self.members.capacity() * size_of::<Member>()
+            + self.sets.capacity() * size_of::<ConstraintSet>()
+            + self.cut.capacity() * size_of::<(u32, f64)>()
+            + self.column_nodes.capacity() * size_of::<ColumnNode>()
+            + self.columns.capacity() * size_of::<BoundaryColumn>()
+            + self.ends.capacity() * size_of::<[Vec3; 2]>()
+            + self.constrained.capacity() * size_of::<ConstrainedVelocity>()
+    }
+
     /// Raises the volume fraction of nodes with less available volume at walls: the same volume of
     /// points fills more of it. A node and its images share it, and the mean compressive strain.
     pub fn exclude_volume(&self, nodes: &mut impl NodeAccess) {

@@ -5,6 +5,7 @@ mod collapse;
 mod figures;
 mod forecasts;
 mod heaps;
+mod own_process;
 mod plan;
 mod roofline;
 mod scenes;

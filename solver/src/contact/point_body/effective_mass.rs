@@ -16,6 +16,11 @@ pub(super) struct GridCompliance {
 }
 
 impl GridCompliance {
+    /// Bytes allocated.
+    pub(super) fn bytes(&self) -> usize {
+        self.per_node.capacity() * size_of::<f64>() + self.loaded.capacity() * size_of::<u32>()
+    }
+
     /// Adds the stencils of the points in contact.
     pub(super) fn gather<'a>(
         &mut self,

@@ -36,6 +36,9 @@ use access::{Access, Place};
 use corrections::{correct_penetration, take_outflow, wrap_periodic};
 use inspection::{find_offending_point, sum_up};
 
+/// Bytes of a point that may touch a body, and of its contact.
+pub(in crate::simulation) const CANDIDATE_BYTES: usize = Loads::<Place>::CANDIDATE_BYTES;
+
 /// A flow of points in blocks.
 #[derive(Debug)]
 pub(in crate::simulation) struct BlockFlow<R: Real> {
@@ -398,7 +401,10 @@ impl<R: Saved> Flow for BlockFlow<R> {
 
     fn bytes(&self) -> (usize, usize) {
         let tiles = self.momentum.capacity() + self.forces.capacity();
-        let grid = self.nodes.bytes() + tiles * size_of::<Tile<R>>();
+        let grid = self.nodes.bytes()
+            + tiles * size_of::<Tile<R>>()
+            + self.boundary.bytes()
+            + self.loads.bytes();
         (self.blocks.bytes(), grid)
     }
 }

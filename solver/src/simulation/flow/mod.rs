@@ -13,6 +13,7 @@ use super::setup::{Setup, Shares};
 use crate::points::Point;
 use crate::scenario::Precision;
 
+pub(super) use block_flow::CANDIDATE_BYTES;
 pub(super) use offending_point::{Bounds, OffendingPoint};
 pub(super) use saved_flow::SavedFlow;
 use shared::SharedFlow;

@@ -212,6 +212,10 @@ impl Flow for SharedFlow {
         }
     }
 
+    fn visit_computed(&self, visit: &mut dyn FnMut(&Point)) {
+        self.flow.visit_computed(visit);
+    }
+
     fn saved(&self) -> SavedFlow {
         SavedFlow::Share(self.share, Box::new(self.flow.saved()))
     }

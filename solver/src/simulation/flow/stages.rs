@@ -78,6 +78,11 @@ pub(in crate::simulation) trait Flow: Debug + Send + Sync {
     /// Visits the points, those within a box if one is given, in any order.
     fn visit(&self, within: Option<&Around>, visit: &mut dyn FnMut(&Point));
 
+    /// Visits the computed points in any order.
+    fn visit_computed(&self, visit: &mut dyn FnMut(&Point)) {
+        self.visit(None, visit);
+    }
+
     /// The part of it in a checkpoint.
     fn saved(&self) -> SavedFlow;
 
