@@ -10,7 +10,9 @@ const PROBED_ROOM: u32 = 65_536;
 
 impl SqliteStore {
     pub(super) async fn ping(&self) -> Answer<()> {
-        sqlx::query("SELECT 1").execute(self.readers.pool()).await?;
+        sqlx::query("SELECT 1")
+            .execute(self.readers.operator())
+            .await?;
         Ok(())
     }
 
@@ -33,7 +35,7 @@ impl SqliteStore {
     pub(super) async fn count_jobs(&self) -> Answer<JobCounts> {
         let counts: Vec<(String, i64)> =
             sqlx::query_as("SELECT status, count(*) FROM jobs GROUP BY status")
-                .fetch_all(self.readers.pool())
+                .fetch_all(self.readers.operator())
                 .await?;
         let count = |status: JobStatus| {
             let found = counts.iter().find(|(word, _)| word == status.word());
@@ -41,17 +43,17 @@ impl SqliteStore {
         };
         let attempts: Vec<(String, i64)> =
             sqlx::query_as("SELECT ending, total FROM attempt_totals ORDER BY ending")
-                .fetch_all(self.readers.pool())
+                .fetch_all(self.readers.operator())
                 .await?;
         let oldest_waiting_ms: Option<i64> = sqlx::query_scalar(
             "SELECT created_operating_ms FROM jobs WHERE status = 'accepted' ORDER BY sequence LIMIT 1",
         )
-        .fetch_optional(self.readers.pool())
+        .fetch_optional(self.readers.operator())
         .await?;
         let pages: i64 = sqlx::query_scalar(
             "SELECT page_count * page_size FROM pragma_page_count, pragma_page_size",
         )
-        .fetch_one(self.readers.pool())
+        .fetch_one(self.readers.operator())
         .await?;
         Ok(JobCounts {
             jobs: JobStatus::ALL.map(|status| (status, count(status))),

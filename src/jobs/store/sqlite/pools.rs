@@ -27,22 +27,55 @@ pub(super) const PAGE_BYTES: u64 = 4096;
 /// Connections that read.
 #[derive(Debug)]
 pub(super) struct Readers {
-    /// Connections beside one that writes.
-    shared: SqlitePool,
-    /// Connections to a file that nobody can write, nor its log beside it.
-    immutable: Option<SqlitePool>,
+    /// Beside one that writes.
+    shared: Reading,
+    /// To a file that nobody can write, nor its log beside it.
+    immutable: Option<Reading>,
     written: AtomicBool,
+}
+
+/// Connections that read in one way.
+#[derive(Debug)]
+struct Reading {
+    clients: SqlitePool,
+    /// The one for the operator's questions, which don't wait for the clients'.
+    operator: SqlitePool,
+}
+
+impl Reading {
+    fn new(options: SqliteConnectOptions) -> Self {
+        Self {
+            clients: lasting()
+                .max_connections(READERS)
+                .connect_lazy_with(options.clone()),
+            operator: lasting().max_connections(1).connect_lazy_with(options),
+        }
+    }
+
+    /// Connections of which one has read.
+    async fn tried(options: SqliteConnectOptions) -> Result<Self, sqlx::Error> {
+        let reading = Self::new(options);
+        sqlx::query("SELECT count(*) FROM sqlite_schema")
+            .execute(&reading.clients)
+            .await?;
+        Ok(reading)
+    }
+
+    async fn close(&self) {
+        self.clients.close().await;
+        self.operator.close().await;
+    }
 }
 
 impl Readers {
     pub(super) async fn open(path: &Path) -> Result<Self, StoreError> {
         let options = common(path).read_only(true);
-        let (shared, immutable) = match connect(options.clone()).await {
+        let (shared, immutable) = match Reading::tried(options.clone()).await {
             Ok(shared) => (shared, None),
             Err(_) if is_complete(path) => {
-                let alone = connect(immutable(path)).await;
+                let alone = Reading::tried(immutable(path)).await;
                 let alone = alone.map_err(SqliteError::from)?;
-                (pool().connect_lazy_with(options), Some(alone))
+                (Reading::new(options), Some(alone))
             }
             Err(error) => return Err(SqliteError::from(error).into()),
         };
@@ -55,6 +88,15 @@ impl Readers {
 
     /// The connections to read by now.
     pub(super) fn pool(&self) -> &SqlitePool {
+        &self.current().clients
+    }
+
+    /// The connection to read by now for the operator.
+    pub(super) fn operator(&self) -> &SqlitePool {
+        &self.current().operator
+    }
+
+    fn current(&self) -> &Reading {
         match &self.immutable {
             Some(alone) if !self.written.load(Ordering::Acquire) => alone,
             _ => &self.shared,
@@ -74,25 +116,12 @@ impl Readers {
     }
 }
 
-fn pool() -> SqlitePoolOptions {
-    lasting().max_connections(READERS)
-}
-
 /// Connections that stay open: the write-ahead log goes with the last one, and another one could
 /// not be told from one that was put in its place.
 fn lasting() -> SqlitePoolOptions {
     SqlitePoolOptions::new()
         .idle_timeout(None)
         .max_lifetime(None)
-}
-
-/// Connections of which one has read.
-async fn connect(options: SqliteConnectOptions) -> Result<SqlitePool, sqlx::Error> {
-    let readers = pool().connect_with(options).await?;
-    sqlx::query("SELECT count(*) FROM sqlite_schema")
-        .execute(&readers)
-        .await?;
-    Ok(readers)
 }
 
 /// The connection that writes, opened at its first use.

@@ -58,11 +58,14 @@ impl SqliteStore {
             (None, None) => sqlx::query_as(listed!("WHERE sequence < ?1")),
             (Some(_), None) => sqlx::query_as(listed!("WHERE sequence < ?1 AND status = ?3")),
             (None, Some(_)) => sqlx::query_as(listed!(
-                "WHERE sequence < ?1 AND id IN (SELECT job_id FROM labels WHERE label = ?4)"
+                "WHERE sequence IN (SELECT sequence FROM labels
+                     WHERE label = ?4 AND sequence < ?1
+                     ORDER BY sequence DESC LIMIT ?2)"
             )),
             (Some(_), Some(_)) => sqlx::query_as(listed!(
-                "WHERE sequence < ?1 AND status = ?3
-                   AND id IN (SELECT job_id FROM labels WHERE label = ?4)"
+                "WHERE sequence IN (SELECT sequence FROM labels
+                     WHERE label = ?4 AND status = ?3 AND sequence < ?1
+                     ORDER BY sequence DESC LIMIT ?2)"
             )),
         };
         let rows: Vec<SummaryRow> = query

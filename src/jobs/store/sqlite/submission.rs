@@ -106,11 +106,14 @@ async fn insert(
     .execute(&mut *connection)
     .await?;
     for label in &job.labels {
-        sqlx::query("INSERT INTO labels (label, job_id) VALUES (?1, ?2)")
-            .bind(label)
-            .bind(&id)
-            .execute(&mut *connection)
-            .await?;
+        sqlx::query(
+            "INSERT INTO labels (label, job_id, sequence, status)
+             SELECT ?1, id, sequence, status FROM jobs WHERE id = ?2",
+        )
+        .bind(label)
+        .bind(&id)
+        .execute(&mut *connection)
+        .await?;
     }
     Ok(())
 }
