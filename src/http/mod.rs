@@ -31,5 +31,6 @@ mod submission;
 mod system;
 mod tracked_body;
 mod trajectory;
+mod turns;
 
 pub use router::{openapi, router};

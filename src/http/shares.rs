@@ -1,29 +1,35 @@
-//! Shares of a caller (token or address) in what is scarce: requests in progress, and streams.
+//! Shares of a caller (token or address) in what is scarce: requests in progress, turns of reading
+//! requests, and streams.
 
 use super::access::Caller;
 use super::operator::is_operators;
 use super::problem::Problem;
 use super::tracked_body::TrackedBody;
+use super::turns::{Turn, Turns};
 use crate::config::Limits;
 use crate::quota::{InUse, Quota, UsedUp};
 use axum::body::Body;
 use axum::extract::{FromRequestParts, Request, State};
+use axum::http::Method;
 use axum::http::request::Parts;
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use std::sync::{Arc, Mutex, PoisonError};
 
-/// Quotas of requests in progress and of streams.
+/// Quotas of requests in progress and of streams, and turns of reading requests.
 #[derive(Debug, Clone)]
 pub(super) struct Shares {
     requests: Quota,
     streams: Quota,
+    turns: Turns,
 }
 
-/// Right of a request to become a stream.
+/// Right of a request to become a stream, with which its turn ends.
 #[derive(Debug, Clone)]
 pub(super) struct StreamRight {
     streams: Quota,
     caller: String,
+    turn: Arc<Mutex<Option<Turn>>>,
 }
 
 impl Shares {
@@ -31,6 +37,7 @@ impl Shares {
         Self {
             requests: Quota::new(limits.connections, limits.connections_per_address),
             streams: Quota::new(limits.streams, limits.streams_per_caller),
+            turns: Turns::default(),
         }
     }
 }
@@ -41,6 +48,7 @@ impl StreamRight {
     /// # Errors
     /// There are as many streams as the service, or the caller, may have.
     pub(super) fn enter(&self) -> Result<InUse, Problem> {
+        self.end_turn();
         self.streams
             .enter(&self.caller)
             .map_err(|used_up| match used_up {
@@ -57,6 +65,13 @@ impl StreamRight {
                     "limits.streams_per_caller",
                 ),
             })
+    }
+}
+
+impl StreamRight {
+    fn end_turn(&self) {
+        let mut turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
+        drop(turn.take());
     }
 }
 
@@ -78,16 +93,24 @@ pub(super) async fn limit(
     next: Next,
 ) -> Response {
     let caller = caller.share();
-    request.extensions_mut().insert(StreamRight {
-        streams: shares.streams,
-        caller: caller.clone(),
-    });
     if is_operators(request.method(), request.uri().path()) {
         return next.run(request).await;
     }
     match shares.requests.enter(&caller) {
         Ok(in_use) => {
+            let turn = match *request.method() {
+                // What is submitted takes turns in the admission pool.
+                Method::POST => None,
+                _ => Some(shares.turns.take(&caller).await),
+            };
+            let right = StreamRight {
+                streams: shares.streams,
+                caller,
+                turn: Arc::new(Mutex::new(turn)),
+            };
+            request.extensions_mut().insert(right.clone());
             let response = next.run(request).await;
+            right.end_turn();
             response.map(|body| Body::new(TrackedBody::new(body, in_use)))
         }
         Err(UsedUp::ByAll(requests)) => spent(
