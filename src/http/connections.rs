@@ -14,7 +14,8 @@ use std::time::Duration;
 use tokio::sync::Notify;
 use tokio::time::Instant;
 
-/// Time for which a client may keep its connection waiting before it makes room for another.
+/// Time for which a client may keep a request waiting, in all, before its connection makes room for
+/// another.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// The open connections of a service.
@@ -49,10 +50,10 @@ pub(super) enum Place {
 enum Activity {
     /// Without a request in progress since then.
     Idle(Instant),
-    /// With a request in progress.
-    Busy,
-    /// With a request in progress, of which the client has not sent or taken anything since then.
-    Stalled(Instant),
+    /// With a request in progress, whose client has kept it waiting for so long in all.
+    Busy(Duration),
+    /// The same, and its client has sent and taken nothing since then.
+    Stalled(Duration, Instant),
 }
 
 /// An open connection, in the table until this is dropped.
@@ -117,8 +118,10 @@ impl Connections {
     fn stall(&self, number: u64, waits: bool) {
         if let Some(entry) = self.table().open.get_mut(&number) {
             entry.activity = match (entry.activity, waits) {
-                (Activity::Busy, true) => Activity::Stalled(Instant::now()),
-                (Activity::Stalled(_), false) => Activity::Busy,
+                (Activity::Busy(waited), true) => Activity::Stalled(waited, Instant::now()),
+                (Activity::Stalled(waited, since), false) => {
+                    Activity::Busy(waited + since.elapsed())
+                }
                 (activity, _) => activity,
             };
         }
@@ -164,14 +167,18 @@ impl Table {
             *counts.entry(entry.address).or_default() += 1;
         }
         let waiting = self.open.iter().filter_map(|(number, entry)| {
-            let (has_request, since) = match entry.activity {
-                Activity::Idle(since) => (false, since),
-                Activity::Stalled(since) if since.elapsed() >= PATIENCE => (true, since),
-                Activity::Stalled(_) | Activity::Busy => return None,
+            let (has_request, waited) = match entry.activity {
+                Activity::Idle(since) => (false, since.elapsed()),
+                // A byte now and then makes no difference.
+                Activity::Stalled(waited, since) => (true, waited + since.elapsed()),
+                Activity::Busy(_) => return None,
             };
+            if has_request && waited < PATIENCE {
+                return None;
+            }
             let most_first = Reverse(counts.get(&entry.address)?);
             let is_one = entry.is(place, address);
-            is_one.then_some((most_first, has_request, since, *number))
+            is_one.then_some((most_first, has_request, Reverse(waited), *number))
         });
         let Some((_, _, _, number)) = waiting.min() else {
             return false;
@@ -213,7 +220,8 @@ impl OpenConnection {
 
     /// Marks that a request has come.
     pub(super) fn begin_request(&self) -> Busy {
-        self.connections.set(self.number, Activity::Busy);
+        self.connections
+            .set(self.number, Activity::Busy(Duration::ZERO));
         Busy {
             connections: self.connections.clone(),
             number: self.number,
@@ -295,11 +303,20 @@ mod tests {
         assert_eq!(next.place, Place::Client);
         open[1].closed().await;
         open[2].stall(true);
-        tokio::time::sleep(PATIENCE).await;
+        tokio::time::sleep(PATIENCE / 2).await;
         open[2].stall(false);
         let _busy = next.begin_request();
         let last = connections.open(address(4)).unwrap();
         assert_eq!(last.place, Place::Operator, "its client takes its answer");
+        drop(last);
+        open[2].stall(true);
+        tokio::time::sleep(PATIENCE / 2).await;
+        let last = connections.open(address(4)).unwrap();
+        assert_eq!(
+            last.place,
+            Place::Client,
+            "it has waited for as long in all"
+        );
         drop(busy);
     }
 
