@@ -74,7 +74,10 @@ pub(super) async fn metrics(
     Extension(counts): Extension<RequestCounts>,
 ) -> Result<Response, Problem> {
     let mut registry = Registry::with_prefix("scree");
-    register_jobs(&mut registry, &jobs.count_jobs().await?);
+    match &*jobs.count_jobs().await {
+        Ok(counts) => register_jobs(&mut registry, counts),
+        Err(error) => return Err(error.into()),
+    }
     counts.register(&mut registry);
     let mut text = String::new();
     encode(&mut text, &registry).map_err(|error| Problem::internal(&error))?;

@@ -1,7 +1,7 @@
 //! Problem documents (RFC 9457).
 
 use super::field_errors::{FieldError, FieldErrors};
-use crate::jobs::store::StoreErrorKind;
+use crate::jobs::store::{StoreError, StoreErrorKind};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
@@ -116,15 +116,21 @@ impl Problem {
     }
 }
 
-impl From<crate::jobs::store::StoreError> for Problem {
-    fn from(error: crate::jobs::store::StoreError) -> Self {
+impl From<StoreError> for Problem {
+    fn from(error: StoreError) -> Self {
+        Self::from(&error)
+    }
+}
+
+impl From<&StoreError> for Problem {
+    fn from(error: &StoreError) -> Self {
         match error.kind() {
-            StoreErrorKind::Defect => Self::internal(&error),
+            StoreErrorKind::Defect => Self::internal(error),
             StoreErrorKind::Damaged => Self {
                 kind: "urn:scree:problem:damaged-record".to_owned(),
                 title: "Damaged record",
                 detail: format!("{error}; a backup may still have it"),
-                ..Self::internal(&error)
+                ..Self::internal(error)
             },
             StoreErrorKind::Full => {
                 tracing::error!(%error, "no room");

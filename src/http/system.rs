@@ -27,7 +27,7 @@ pub(super) async fn health(
             status: "ok",
             version: env!("CARGO_PKG_VERSION"),
         })),
-        Err(error) => Err(unavailable(error)),
+        Err(error) => Err(unavailable(&error)),
     }
 }
 
@@ -44,7 +44,7 @@ pub(super) async fn health(
     )
 )]
 pub(super) async fn ready(State(jobs): State<JobService>) -> Result<Json<HealthDocument>, Problem> {
-    match jobs.probe().await {
+    match &*jobs.probe().await {
         Ok(()) => Ok(Json(HealthDocument {
             status: "ok",
             version: env!("CARGO_PKG_VERSION"),
@@ -53,7 +53,7 @@ pub(super) async fn ready(State(jobs): State<JobService>) -> Result<Json<HealthD
     }
 }
 
-fn unavailable(error: StoreError) -> Problem {
+fn unavailable(error: &StoreError) -> Problem {
     let reason = error.to_string();
     Problem {
         status: StatusCode::SERVICE_UNAVAILABLE.as_u16(),

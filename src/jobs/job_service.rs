@@ -6,6 +6,7 @@ use super::forecast::{ForecastError, Planned, forecast};
 use super::job::{Job, JobId, JobStatus, JobSummary};
 use super::news::{Followers, News};
 use super::pool::RunningJobRegistry;
+use super::recent::Recent;
 use super::store::{Dismissal, Event, JobCounts, JobStore, Page, Removal, StoreError};
 use super::submit::{self, Means, NewJob, ScenarioError};
 use crate::config::Limits;
@@ -30,6 +31,8 @@ pub struct JobService {
     pool: AdmissionPool,
     means: Means,
     followers: Followers,
+    counts: Arc<Recent<Result<JobCounts, StoreError>>>,
+    probed: Arc<Recent<Result<(), StoreError>>>,
 }
 
 /// Reason why there is no plan.
@@ -74,6 +77,8 @@ impl JobService {
             in_flight: InFlight::default(),
             pool,
             means,
+            counts: Arc::default(),
+            probed: Arc::default(),
         }
     }
 
@@ -205,20 +210,14 @@ impl JobService {
         self.store.last_event().await
     }
 
-    /// Counts jobs.
-    ///
-    /// # Errors
-    /// The store's own.
-    pub async fn count_jobs(&self) -> Result<JobCounts, StoreError> {
-        self.store.count_jobs().await
+    /// Counts jobs, or has counted them just now.
+    pub async fn count_jobs(&self) -> Arc<Result<JobCounts, StoreError>> {
+        self.counts.get(self.store.count_jobs()).await
     }
 
-    /// Checks with a real write that a job could be stored now.
-    ///
-    /// # Errors
-    /// A job could not be stored.
-    pub async fn probe(&self) -> Result<(), StoreError> {
-        self.store.probe().await
+    /// Checks with a real write that a job can be stored now, or has done so just now.
+    pub async fn probe(&self) -> Arc<Result<(), StoreError>> {
+        self.probed.get(self.store.probe()).await
     }
 
     /// Checks that the database answers.

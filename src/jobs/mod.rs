@@ -17,6 +17,7 @@ mod news;
 mod open_chunk;
 pub mod pool;
 mod reading;
+mod recent;
 pub mod recording;
 pub mod store;
 pub mod submit;
