@@ -2,6 +2,7 @@
 
 use super::error::Answer;
 use super::history::end_attempt;
+use super::size_limit::Purpose;
 use super::{Now, SqliteStore};
 use crate::jobs::failure::Failure;
 use crate::jobs::store::ending::Consequence;
@@ -16,7 +17,7 @@ impl SqliteStore {
         fingerprint: &str,
     ) -> Answer<bool> {
         let now = self.now();
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let done = sqlx::query(
             "UPDATE jobs
              SET status = 'successful', finished_ms = ?3, ended_operating_ms = ?6, outcome = ?4,
@@ -42,7 +43,7 @@ impl SqliteStore {
 
     pub(super) async fn fail(&self, lease: Lease, failure: &Failure) -> Answer<bool> {
         let now = self.now();
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let done = fail_row(&mut transaction, lease, failure, now).await?;
         if done {
             let ending = ("failed", Some(failure.detail.as_str()));
@@ -54,7 +55,7 @@ impl SqliteStore {
 
     pub(super) async fn release(&self, lease: Lease) -> Answer<bool> {
         let now_ms = self.now_ms();
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let done = put_back_row(&mut transaction, lease, 0, 0).await?;
         if done {
             end_attempt(&mut transaction, lease, now_ms, ("handed-back", None)).await?;
@@ -68,7 +69,7 @@ impl SqliteStore {
         lease: Lease,
         failed_attempt: &FailedAttempt,
     ) -> Answer<Returned> {
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let returned = set_back_row(&mut transaction, lease, failed_attempt, self.now()).await?;
         transaction.commit().await?;
         Ok(returned)

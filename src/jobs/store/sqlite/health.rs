@@ -2,6 +2,7 @@
 
 use super::SqliteStore;
 use super::error::Answer;
+use super::size_limit::Purpose;
 use crate::jobs::job::JobStatus;
 use crate::jobs::store::JobCounts;
 
@@ -17,7 +18,7 @@ impl SqliteStore {
     }
 
     pub(super) async fn probe(&self) -> Answer<()> {
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Growth).await?;
         sqlx::query(
             "INSERT OR REPLACE INTO probes (id, written_ms, room) VALUES (1, ?1, zeroblob(?2))",
         )

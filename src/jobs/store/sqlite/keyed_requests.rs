@@ -3,6 +3,7 @@
 use super::SqliteStore;
 use super::error::Answer;
 use super::rows::integer;
+use super::size_limit::Purpose;
 use super::submission::parse;
 use crate::jobs::job::JobId;
 use crate::jobs::store::{FormerRequest, KeptAnswer, Key, KeyRetention, StoreError};
@@ -49,7 +50,7 @@ impl SqliteStore {
     ) -> Answer<Option<KeptAnswer>> {
         let body = zstd::bulk::compress(answer.body.as_bytes(), LEVEL)
             .map_err(|error| StoreError::Defect(error.into()))?;
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Growth).await?;
         sqlx::query(
             "UPDATE keyed_requests
              SET answer_status = ?3, answer_location = ?4, answer_body = ?5,
@@ -79,7 +80,7 @@ impl SqliteStore {
         if keys.is_empty() {
             return Ok(0);
         }
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         for key in &keys {
             sqlx::query("DELETE FROM keyed_requests WHERE sequence = ?1")
                 .bind(key)

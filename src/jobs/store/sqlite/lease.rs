@@ -5,6 +5,7 @@ use super::ending::set_back_row;
 use super::error::Answer;
 use super::queue::lease;
 use super::results::keep_progress;
+use super::size_limit::Purpose;
 use crate::jobs::job::JobStatus;
 use crate::jobs::store::{FailedAttempt, Lease, Renewal};
 use crate::runs::Progress;
@@ -17,7 +18,7 @@ impl SqliteStore {
         lease_duration: Duration,
         progress: &Progress,
     ) -> Answer<Renewal> {
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let kept = keep_progress(&mut transaction, lease, progress).await?;
         let renewal = match kept {
             Some(JobStatus::Running) => Renewal::Held,
@@ -36,7 +37,7 @@ impl SqliteStore {
     }
 
     pub(super) async fn reclaim_own(&self, owner: &str) -> Answer<usize> {
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let left: Vec<(String, i64, i64)> = sqlx::query_as(
             "SELECT id, attempt, lease_token FROM jobs
              WHERE status = 'running' AND lease_owner = ?1 ORDER BY sequence",
@@ -54,7 +55,7 @@ impl SqliteStore {
 
     pub(super) async fn reclaim_expired(&self, owner: &str) -> Answer<usize> {
         let now = self.now();
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let left: Vec<(String, i64, i64)> = sqlx::query_as(
             "SELECT id, attempt, lease_token FROM jobs
              WHERE status = 'running' AND lease_owner <> ?1

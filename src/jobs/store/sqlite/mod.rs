@@ -32,6 +32,7 @@ mod removal;
 mod results;
 mod rows;
 mod schema;
+mod size_limit;
 mod space;
 mod states;
 mod submission;
@@ -46,6 +47,7 @@ use inspection::{Inspected, Version, inspect};
 use lock::Lock;
 use operating_time::OperatingTime;
 use pools::{Readers, writer, writing};
+use size_limit::{Purpose, SizeLimit};
 use sqlx::sqlite::SqlitePool;
 use sqlx::{Sqlite, Transaction};
 use std::path::Path;
@@ -64,6 +66,7 @@ struct Now {
 #[derive(Debug)]
 pub struct SqliteStore {
     writer: SqlitePool,
+    size_limit: SizeLimit,
     readers: Readers,
     clock: Arc<dyn Clock>,
     operating_time: OperatingTime,
@@ -104,7 +107,7 @@ impl SqliteStore {
         }
         location.warn_of_readers();
         let file = location.create_if_missing()?;
-        let options = writing(file.path(), largest_bytes);
+        let options = writing(file.path());
         if lock.is_held() {
             schema::prepare(&options, inspected).await?;
         }
@@ -112,6 +115,7 @@ impl SqliteStore {
         let operating_time = OperatingTime::resume(readers.pool(), Arc::clone(&clock)).await?;
         let store = Self {
             writer: writer(options),
+            size_limit: SizeLimit(largest_bytes),
             readers,
             clock,
             operating_time,
@@ -152,9 +156,10 @@ impl SqliteStore {
     /// A transaction that has the write lock from its beginning, so that it
     /// can't fail half-way for lack of it. It is refused if what it writes would not be found
     /// under the database's name.
-    async fn begin_write(&self) -> Answer<Transaction<'static, Sqlite>> {
+    async fn begin_write(&self, purpose: Purpose) -> Answer<Transaction<'static, Sqlite>> {
         self.file.check()?;
         let mut transaction = self.writer.begin_with("BEGIN IMMEDIATE").await?;
+        self.size_limit.set(purpose, &mut *transaction).await?;
         self.lock.take()?;
         if let Err(error) = self.operating_time.note(&mut *transaction).await {
             drop(transaction);
@@ -177,7 +182,7 @@ impl SqliteStore {
     }
 
     async fn note_operating_time(&self) -> Answer<()> {
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         self.operating_time.note_last(&mut *transaction).await?;
         transaction.commit().await?;
         Ok(())

@@ -137,15 +137,9 @@ pub(super) fn writer(options: SqliteConnectOptions) -> SqlitePool {
         .connect_lazy_with(options)
 }
 
-/// Options of a connection that writes, with a largest size of the database [bytes].
-pub(super) fn writing(path: &Path, largest_bytes: Option<u64>) -> SqliteConnectOptions {
-    let options = common(path);
-    match largest_bytes {
-        None => options,
-        Some(bytes) => options
-            .page_size(PAGE_BYTES as u32)
-            .pragma("max_page_count", (bytes / PAGE_BYTES).max(1).to_string()),
-    }
+/// Options of a connection that writes.
+pub(super) fn writing(path: &Path) -> SqliteConnectOptions {
+    common(path).page_size(PAGE_BYTES as u32)
 }
 
 fn common(path: &Path) -> SqliteConnectOptions {

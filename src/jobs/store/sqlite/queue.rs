@@ -4,6 +4,7 @@ use super::SqliteStore;
 use super::error::Answer;
 use super::history::{begin_attempt, end_attempt};
 use super::lease::milliseconds;
+use super::size_limit::Purpose;
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::ending::BACK_OFF_MS;
 use crate::jobs::store::{Claim, Claimant, Dismissal, Lease, StoreError};
@@ -21,7 +22,7 @@ struct ClaimedRow {
 impl SqliteStore {
     pub(super) async fn claim(&self, claimant: &Claimant) -> Answer<Option<Claim>> {
         let now = self.now();
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let row: Option<ClaimedRow> = sqlx::query_as(
             "UPDATE jobs
              SET status = 'running', started_ms = ?1, solver_version = ?2, attempt = attempt + 1,
@@ -54,7 +55,7 @@ impl SqliteStore {
 
     pub(super) async fn dismiss(&self, id: JobId) -> Answer<Dismissal> {
         let now = self.now();
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let row: Option<(String, i64, i64)> =
             sqlx::query_as("SELECT status, attempt, lease_token FROM jobs WHERE id = ?1")
                 .bind(id.to_string())

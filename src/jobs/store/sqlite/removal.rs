@@ -2,13 +2,14 @@
 
 use super::SqliteStore;
 use super::error::Answer;
+use super::size_limit::Purpose;
 use crate::jobs::job::JobId;
 use crate::jobs::store::Removal;
 use crate::jobs::store::page::REMOVED_AT_ONCE;
 
 impl SqliteStore {
     pub(super) async fn remove(&self, id: JobId) -> Answer<Removal> {
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let ended: Option<bool> =
             sqlx::query_scalar("SELECT finished_ms IS NOT NULL FROM jobs WHERE id = ?1")
                 .bind(id.to_string())
@@ -28,7 +29,7 @@ impl SqliteStore {
     }
 
     pub(super) async fn remove_ended(&self, age_ms: i64) -> Answer<u64> {
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let done = sqlx::query(
             "DELETE FROM jobs WHERE id IN (
                  SELECT id FROM jobs WHERE ended_operating_ms <= ?1

@@ -3,6 +3,7 @@
 use super::SqliteStore;
 use super::error::Answer;
 use super::rows::integer;
+use super::size_limit::Purpose;
 use super::states::write_state;
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::{Lease, NewChunk, NewResults, StoreError, StoredChunk};
@@ -34,7 +35,7 @@ struct SnapshotRow {
 
 impl SqliteStore {
     pub(super) async fn keep(&self, lease: Lease, results: &NewResults) -> Answer<bool> {
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Growth).await?;
         let status = keep_progress(&mut transaction, lease, &results.progress).await?;
         let Some(status) = status else {
             return Ok(false);

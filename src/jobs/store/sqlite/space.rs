@@ -2,6 +2,7 @@
 
 use super::SqliteStore;
 use super::error::Answer;
+use super::size_limit::Purpose;
 use std::time::{Duration, Instant};
 
 /// Pages that are kept free for the next jobs: 4 MiB.
@@ -12,7 +13,7 @@ const TIME_AT_ONCE: Duration = Duration::from_millis(400);
 
 impl SqliteStore {
     pub(super) async fn maintain(&self) -> Answer<()> {
-        self.begin_write().await?.commit().await?;
+        self.begin_write(Purpose::Upkeep).await?.commit().await?;
         self.give_back_space().await
     }
 

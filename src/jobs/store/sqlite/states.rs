@@ -4,6 +4,7 @@
 use super::SqliteStore;
 use super::error::Answer;
 use super::rows::integer;
+use super::size_limit::Purpose;
 use crate::jobs::job::JobId;
 use crate::jobs::store::{AttemptStart, Lease, ResumePoint, StoreError, StoredState};
 use crate::results::chunk::{Block, BlockError};
@@ -51,7 +52,7 @@ impl SqliteStore {
         beginning: &AttemptStart,
         threads: usize,
     ) -> Answer<bool> {
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let done = sqlx::query(
             "UPDATE jobs SET threads = ?3
              WHERE id = ?1 AND lease_token = ?2 AND status = 'running'",

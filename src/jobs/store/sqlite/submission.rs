@@ -3,6 +3,7 @@
 use super::error::Answer;
 use super::keyed_requests::{former_request, keep_key};
 use super::rows::integer;
+use super::size_limit::Purpose;
 use super::{Now, SqliteStore};
 use crate::jobs::job::JobId;
 use crate::jobs::store::{StoreError, Submission, Submitted};
@@ -12,7 +13,7 @@ use sqlx::sqlite::SqliteConnection;
 impl SqliteStore {
     pub(super) async fn submit(&self, submission: &Submission<'_>) -> Answer<Submitted> {
         let now = self.now();
-        let mut transaction = self.begin_write().await?;
+        let mut transaction = self.begin_write(Purpose::Growth).await?;
         let submitter = submission.submitter;
         if let Some(key) = submission.key
             && let Some(former) = former_request(&mut transaction, submitter, key).await?

@@ -179,7 +179,7 @@ impl Fixture {
     }
 }
 
-fn new_job() -> NewJob {
+pub(super) fn new_job() -> NewJob {
     NewJob {
         id: JobId::new(),
         title: "a title".to_owned(),
@@ -192,7 +192,7 @@ fn new_job() -> NewJob {
     }
 }
 
-fn submission(jobs: &[NewJob]) -> Submission<'_> {
+pub(super) fn submission(jobs: &[NewJob]) -> Submission<'_> {
     Submission {
         jobs,
         submitter: None,
@@ -204,7 +204,7 @@ fn submission(jobs: &[NewJob]) -> Submission<'_> {
     }
 }
 
-fn claimant(owner: &str) -> Claimant {
+pub(super) fn claimant(owner: &str) -> Claimant {
     Claimant {
         owner: owner.to_owned(),
         lease_duration: LEASE,

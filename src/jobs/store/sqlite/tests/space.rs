@@ -1,7 +1,9 @@
 //! Space of removed jobs.
 
 use super::*;
-use crate::jobs::store::NewChunk;
+use crate::jobs::job::JobId;
+use crate::jobs::store::tests::{claimant, new_job, submission};
+use crate::jobs::store::{NewChunk, Removal, Submitted};
 use crate::results::chunk::Block;
 use std::fs;
 
@@ -55,4 +57,42 @@ async fn a_file_shrinks_once_its_jobs_are_removed() {
     assert!(left < 8 << 20, "{left} of {full}");
     let chunk = fixture.store.samples(kept, 0).await.unwrap();
     assert_eq!(chunk, 8);
+}
+
+#[tokio::test]
+async fn in_a_full_database_jobs_are_still_dismissed_ended_and_removed() {
+    let directory = TempDir::new().unwrap();
+    let path = directory.path().join("test.db");
+    let clock = Arc::new(SystemClock::default());
+    let store = SqliteStore::open_with(&path, Some(1 << 20), clock).await;
+    let store = store.unwrap();
+    let mut job = new_job();
+    job.scenario = "x".repeat(50_000);
+    let mut ids = Vec::new();
+    let refused = loop {
+        job.id = JobId::new();
+        let jobs = [job.clone()];
+        match JobStore::submit(&store, &submission(&jobs)).await {
+            Ok(_) => ids.push(job.id),
+            Err(error) => break error,
+        }
+    };
+    assert_eq!(refused.kind(), StoreErrorKind::Full, "{refused}");
+    assert!((10..25).contains(&ids.len()), "{}", ids.len());
+    let claim = JobStore::claim(&store, &claimant("a")).await.unwrap();
+    let lease = claim.unwrap().lease;
+    let kept = JobStore::keep(&store, lease, &large_results()).await;
+    assert_eq!(kept.unwrap_err().kind(), StoreErrorKind::Full);
+    let failure = Failure::internal("x");
+    assert!(JobStore::fail(&store, lease, &failure).await.unwrap());
+    for id in &ids {
+        JobStore::dismiss(&store, *id).await.unwrap();
+        let removed = JobStore::remove(&store, *id).await.unwrap();
+        assert_eq!(removed, Removal::Removed);
+    }
+    job.id = JobId::new();
+    let jobs = [job];
+    let submitted = JobStore::submit(&store, &submission(&jobs)).await.unwrap();
+    assert_eq!(submitted, Submitted::Accepted);
+    JobStore::close(&store).await;
 }
