@@ -13,6 +13,9 @@ use std::net::TcpStream;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
+/// Time between two requests: the jobs of all kills must come to an end in the end.
+const PAUSE: Duration = Duration::from_millis(10);
+
 /// Answers that clients got.
 #[derive(Default)]
 struct Told {
@@ -67,6 +70,7 @@ fn meddle(address: &str, stop: &AtomicBool, told: &mut Told, choices: &mut Choic
         if done.is_none() {
             return;
         }
+        std::thread::sleep(PAUSE);
     }
 }
 
