@@ -58,6 +58,7 @@ pub struct BodyErrorBars {
     /// Interval of `path_length_m`.
     pub path_length_m: UncertaintyInterval,
     /// Interval of each component of `final_position_m`.
+    #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
     pub final_position_m: [UncertaintyInterval; 3],
 }
 

@@ -135,8 +135,10 @@ pub struct BodyOutcome {
     /// Length of the centre's path [m].
     pub path_length_m: f64,
     /// Centre at the end [m].
+    #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
     pub final_position_m: [f64; 3],
     /// Orientation at the end [w, x, y, z].
+    #[cfg_attr(feature = "schema", schema(min_items = 4, max_items = 4))]
     pub final_orientation: [f64; 4],
     /// Uncertainty intervals of all but the orientation; null unless asked for.
     pub error_bars: Option<BodyErrorBars>,
@@ -184,9 +186,11 @@ pub struct MassProperties {
     /// Volume [m³].
     pub volume_m3: f64,
     /// Principal moments of inertia, the smallest first [kg m²].
+    #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
     pub principal_moments_kg_m2: [f64; 3],
     /// Unit vectors of the principal axes in body axes, right-handed; for about equal moments,
     /// those nearest to the body axes.
+    #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
     pub principal_axes: [[f64; 3]; 3],
 }
 

@@ -1,12 +1,12 @@
 //! The shape of a body, from the table of all kinds of shapes.
 
-use super::limit_number;
+use super::{capitalised, limit_number};
 use crate::scenario::{FieldValue, REGULAR_SOLIDS, SHAPES, Shape, ShapeField, ShapeKind};
 use std::borrow::Cow;
 use utoipa::openapi::schema::{
     AdditionalProperties, ArrayBuilder, KnownFormat, ObjectBuilder, OneOfBuilder, RefBuilder, Type,
 };
-use utoipa::openapi::{RefOr, Schema, SchemaFormat};
+use utoipa::openapi::{Ref, RefOr, Schema, SchemaFormat};
 use utoipa::{PartialSchema, ToSchema};
 
 /// Name of the schema of regular solids.
@@ -18,7 +18,7 @@ impl PartialSchema for Shape {
         let kinds = OneOfBuilder::new().description(Some(about));
         SHAPES
             .iter()
-            .map(kind)
+            .map(|kind| Ref::from_schema_name(shape_name(kind)))
             .fold(kinds, OneOfBuilder::item)
             .into()
     }
@@ -36,22 +36,36 @@ impl ToSchema for Shape {
             .description(Some("A solid with equal regular faces."))
             .enum_values(Some(names));
         schemas.push((REGULAR_SOLID.to_owned(), solids.into()));
+        for kind in &SHAPES {
+            schemas.push((capitalised(kind.name), dimensions(kind).into()));
+            schemas.push((shape_name(kind), shape(kind).into()));
+        }
     }
 }
 
-/// An object with the name of one kind.
-fn kind(kind: &ShapeKind) -> Schema {
+/// Name of the schema of a shape of this kind. Each has one of its own, so that clients made from
+/// the contract have a type for it.
+fn shape_name(kind: &ShapeKind) -> String {
+    capitalised(kind.name) + "Shape"
+}
+
+/// An object with the name of this kind alone.
+fn shape(kind: &ShapeKind) -> Schema {
+    closed()
+        .description(Some(kind.about))
+        .property(kind.name, Ref::from_schema_name(capitalised(kind.name)))
+        .required(kind.name)
+        .into()
+}
+
+fn dimensions(kind: &ShapeKind) -> Schema {
     let fields = closed().description(Some(kind.about));
     let fields = kind.fields.iter().fold(fields, |object, field| {
         object
             .property(field.key(), value(field))
             .required(field.key())
     });
-    closed()
-        .description(Some(kind.about))
-        .property(kind.name, fields)
-        .required(kind.name)
-        .into()
+    fields.into()
 }
 
 /// An object without further keys.
