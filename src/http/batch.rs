@@ -52,7 +52,7 @@ pub(super) struct BatchJob {
 #[schema(as = BatchAnswer)]
 pub(super) struct BatchAnswer {
     /// Identifiers of the jobs.
-    #[schema(value_type = Vec<String>)]
+    #[schema(value_type = Vec<uuid::Uuid>)]
     ids: Vec<String>,
 }
 

@@ -44,7 +44,7 @@ const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
     path = "/v1/events",
     tag = "jobs",
     params(
-        ("job" = Option<String>, Query, description = "Only events of this job"),
+        ("job" = Option<String>, Query, format = Uuid, description = "Only events of this job"),
         ("after" = Option<i64>, Query, minimum = 0, description = "Only events after this number"),
         ("Last-Event-ID" = Option<i64>, Header, minimum = 0, description = "The same; wins over `after`"),
     ),

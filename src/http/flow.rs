@@ -1,6 +1,7 @@
 //! Snapshots of the flow.
 
 use super::access::Caller;
+use super::archive::Archive;
 use super::etag;
 use super::named_job::{NamedJob, find};
 use super::pieces::Pieces;
@@ -50,8 +51,9 @@ struct FlowSchema {
     path = "/v1/jobs/{id}/flow",
     tag = "results",
     params(
-        ("id" = String, Path, description = "Identity of the job"),
+        ("id" = String, Path, format = Uuid, description = "Identifier of the job"),
         ("time_s" = Option<f64>, Query, description = "Simulated time [s]; the latest snapshot unless given"),
+        ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
     ),
     responses(
         (status = 200, description = "The snapshot", body = FlowSchema),
@@ -93,9 +95,9 @@ pub(super) async fn flow(
     get,
     path = "/v1/jobs/{id}/flow.zip",
     tag = "results",
-    params(("id" = String, Path, description = "Identity of the job")),
+    params(("id" = String, Path, format = Uuid, description = "Identifier of the job")),
     responses(
-        (status = 200, description = "The archive", body = Vec<u8>, content_type = "application/zip"),
+        (status = 200, description = "The archive", body = Archive, content_type = "application/zip"),
         (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
     )
 )]

@@ -1,6 +1,7 @@
 //! Jobs: list, get, dismiss, remove.
 
 use super::access::Caller;
+use super::choice::Remove;
 use super::documents::{JobDocument, JobPageDocument};
 use super::etag;
 use super::named_job::{NamedJob, find, named, unknown_job};
@@ -28,6 +29,8 @@ const LARGEST_LIMIT: u32 = 100;
 const LONGEST_WAIT_S: u32 = 60;
 
 /// List jobs, newest first
+///
+/// A page at a time: `next_cursor` of one is the `cursor` of the next.
 #[utoipa::path(
     get,
     path = "/v1/jobs",
@@ -37,6 +40,7 @@ const LONGEST_WAIT_S: u32 = 60;
         ("label" = Option<String>, Query, description = "Only jobs with this label"),
         ("limit" = Option<u32>, Query, minimum = 1, maximum = 100, description = "Most jobs of the page; 20 unless given"),
         ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
+        ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
     ),
     responses(
         (status = 200, description = "A page of jobs", body = JobPageDocument),
@@ -76,7 +80,7 @@ pub(super) async fn list(
     path = "/v1/jobs/{id}",
     tag = "jobs",
     params(
-        ("id" = String, Path, description = "Identity of the job"),
+        ("id" = String, Path, format = Uuid, description = "Identifier of the job"),
         ("wait" = Option<String>, Query, description = "Seconds to wait for the job's end, as `30s`; at most `60s`"),
         ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
     ),
@@ -127,8 +131,8 @@ pub(super) async fn show(
     path = "/v1/jobs/{id}",
     tag = "jobs",
     params(
-        ("id" = String, Path, description = "Identity of the job"),
-        ("remove" = Option<String>, Query, description = "\"ended\": remove the job, which must have ended"),
+        ("id" = String, Path, format = Uuid, description = "Identifier of the job"),
+        ("remove" = inline(Option<Remove>), Query, description = "Remove the job, which must have ended"),
     ),
     responses(
         (status = 200, description = "The job, dismissed", body = JobDocument),
@@ -146,7 +150,7 @@ pub(super) async fn dismiss(
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let mut query = Query::new(query.as_deref());
-    let remove = query.word("remove", "ended", |word| (word == "ended").then_some(()));
+    let remove: Option<Remove> = query.choice("remove");
     query.finish()?;
     let job = named(&jobs, &id).await?;
     caller.may_change(job.submitter.as_deref())?;
@@ -185,9 +189,8 @@ async fn removed(jobs: &JobService, job: JobId, id: &str) -> Result<Response, Pr
 /// The job with this identifier, or a "not found" problem.
 fn read_page(query: Option<&str>) -> Result<Page, Problem> {
     let mut query = Query::new(query);
-    let words = JobStatus::ALL.map(JobStatus::word).join(", ");
     let page = Page {
-        status: query.word("status", &format!("one of {words}"), JobStatus::from_word),
+        status: query.choice("status"),
         label: query.word("label", LABEL_RULE, label),
         limit: query
             .whole("limit", 1..=LARGEST_LIMIT)

@@ -3,14 +3,18 @@
 //! problem document.
 
 mod access;
+mod archive;
 mod arriving_body;
 mod batch;
 mod browser;
+mod choice;
 mod common_answers;
 mod connections;
+mod contract;
 mod documents;
 mod etag;
 mod events;
+mod examples;
 mod field_errors;
 mod flow;
 mod idempotency;
@@ -32,5 +36,6 @@ mod system;
 mod tracked_body;
 mod trajectory;
 mod turns;
+mod vector_lengths;
 
 pub use router::{openapi, router};

@@ -6,10 +6,9 @@ use super::metrics::{self, RequestCounts};
 use super::problem::Problem;
 use super::scenario_body::BodyLimits;
 use super::shares::{self, Shares};
-use super::{batch, common_answers, events, flow, jobs, plans, submission, system, trajectory};
+use super::{batch, contract, events, flow, jobs, plans, submission, system, trajectory};
 use crate::config::ServiceConfig;
 use crate::jobs::JobService;
-use crate::jobs::documents::complete;
 use crate::jobs::submit::excerpt;
 use axum::body::Bytes;
 use axum::extract::{DefaultBodyLimit, Request};
@@ -24,7 +23,7 @@ use tokio::time::Instant;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::trace::{DefaultOnResponse, TraceLayer};
 use tracing::{Level, Span};
-use utoipa::openapi::{InfoBuilder, OpenApi, OpenApiBuilder};
+use utoipa::openapi::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 use uuid::Uuid;
@@ -33,7 +32,7 @@ use uuid::Uuid;
 pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
     let limits = &config.limits;
     let (router, contract) = documented(limits.request_timeout()).split_for_parts();
-    let contract = contract_text(&contract);
+    let contract = contract::text_of(&contract);
     let body_timeout = limits.body_read_timeout();
     let body_bytes = limits.request_body_bytes;
     let router = router
@@ -84,13 +83,16 @@ fn documented(limit: Duration) -> OpenApiRouter<JobService> {
     let quick = OpenApiRouter::new()
         .routes(routes!(jobs::list))
         .routes(routes!(trajectory::trajectory))
+        .routes(routes!(trajectory::trajectory_csv))
+        .routes(routes!(trajectory::trajectory_ndjson))
+        .routes(routes!(trajectory::trajectory_npz))
         .routes(routes!(flow::flow))
         .routes(routes!(flow::flow_archive))
         .routes(routes!(system::health))
         .routes(routes!(system::ready))
         .routes(routes!(metrics::metrics))
         .layer(from_fn(move |request, next| in_time(limit, request, next)));
-    let mut all = OpenApiRouter::with_openapi(description())
+    let mut all = OpenApiRouter::with_openapi(contract::begin())
         .routes(routes!(jobs::show, jobs::dismiss))
         .routes(routes!(events::events))
         // The admission pool limits their time: what is being stored is carried through.
@@ -98,11 +100,7 @@ fn documented(limit: Duration) -> OpenApiRouter<JobService> {
         .routes(routes!(batch::submit_batch))
         .routes(routes!(plans::plan))
         .merge(quick);
-    let contract = all.get_openapi_mut();
-    common_answers::add(contract);
-    if let Some(components) = &mut contract.components {
-        complete(&mut components.schemas);
-    }
+    contract::finish(all.get_openapi_mut());
     all
 }
 
@@ -136,24 +134,6 @@ async fn limit_body(time: Duration, bytes: usize, mut request: Request, next: Ne
         .extensions_mut()
         .insert(BodyLimits { deadline, bytes });
     next.run(request).await
-}
-
-fn description() -> OpenApi {
-    let info = InfoBuilder::new()
-        .title("Scree")
-        .version(env!("CARGO_PKG_VERSION"))
-        .description(Some(
-            "Where does an object hit by a granular flow end up? Send a scenario as a job, \
-             then read the body's trajectory. SI units; x downstream, y across, z up. Every \
-             error is a problem document (RFC 9457).",
-        ))
-        .build();
-    OpenApiBuilder::new().info(info).build()
-}
-
-fn contract_text(contract: &OpenApi) -> Bytes {
-    // A document of strings and maps can always be serialised.
-    contract.to_pretty_json().unwrap_or_default().into()
 }
 
 async fn asset(media_type: &'static str, text: &'static str) -> Response {

@@ -1,6 +1,7 @@
 //! Submission of a scenario.
 
 use super::access::Caller;
+use super::choice::Reuse;
 use super::documents::JobDocument;
 use super::field_errors::FieldError;
 use super::idempotency;
@@ -29,7 +30,7 @@ const RETRY_AFTER_S: u8 = 10;
     tag = "jobs",
     params(
         ("label" = Option<Vec<String>>, Query, explode = true, description = "Labels of the job; may be given several times"),
-        ("reuse" = Option<String>, Query, description = "\"finished\": a successful job with the same scenario, run by this very program, is as good as a new one"),
+        ("reuse" = inline(Option<Reuse>), Query, description = "`finished`: a successful job with the same scenario, run by this very program, is as good as a new one"),
         ("Idempotency-Key" = Option<String>, Header, description = "A name for this request, 1 to 255 visible ASCII characters"),
     ),
     request_body = crate::jobs::documents::Scenario,
@@ -58,9 +59,7 @@ pub(super) async fn submit(
 ) -> Result<Response, Problem> {
     let mut query = Query::new(query.as_deref());
     let labels = query.all("label", LABEL_RULE, label);
-    let reuse = query.word("reuse", "finished", |word| {
-        (word == "finished").then_some(())
-    });
+    let reuse: Option<Reuse> = query.choice("reuse");
     query.finish()?;
     let key = idempotency::key(&headers, &format!("{uri}\n{text}"))?;
     if let Some(key) = &key
@@ -76,7 +75,7 @@ pub(super) async fn submit(
         .map_err(SubmitError::from)??;
     drop(place);
     let finished = match reuse {
-        Some(()) => readable_like(&jobs, &caller, &new).await?,
+        Some(Reuse::Finished) => readable_like(&jobs, &caller, &new).await?,
         None => None,
     };
     let submission = jobs

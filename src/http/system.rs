@@ -10,6 +10,8 @@ use axum::extract::State;
 use axum::http::{Method, StatusCode, Uri};
 
 /// Check that the service is healthy
+///
+/// It is if the database answers.
 #[utoipa::path(
     get,
     path = "/healthz",

@@ -1,6 +1,7 @@
 //! Trajectories, written to the client while they are read chunk by chunk.
 
 use super::access::Caller;
+use super::archive::Archive;
 use super::named_job::{NamedJob, find};
 use super::pieces::Pieces;
 use super::problem::Problem;
@@ -13,7 +14,6 @@ use axum::body::Bytes;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
-use std::collections::BTreeSet;
 use utoipa::ToSchema;
 
 /// The trajectory of one body.
@@ -37,11 +37,33 @@ struct TrajectorySchema {
 const LARGEST_ARCHIVE: usize = 15_000_000;
 
 /// Requested part of a trajectory.
-struct TrajectoryQuery {
+struct Part {
     body: usize,
     selection: Selection,
-    format: Format,
     fields: Vec<Field>,
+}
+
+/// Part of a trajectory that is asked for.
+#[derive(utoipa::IntoParams)]
+#[into_params(parameter_in = Query)]
+#[expect(
+    dead_code,
+    reason = "a type of the contract: the query has a reader of its own"
+)]
+struct PartParameters {
+    /// Index of the body in the scenario.
+    #[param(default = 0)]
+    body: Option<u32>,
+    /// First simulated time [s].
+    from_s: Option<f64>,
+    /// Last simulated time [s].
+    to_s: Option<f64>,
+    /// One sample in how many, counted from the first in the range.
+    #[param(minimum = 1, default = 1)]
+    stride: Option<u32>,
+    /// Columns, in this order; all unless given.
+    #[param(inline, explode = false)]
+    fields: Option<Vec<Field>>,
 }
 
 /// Read a body's trajectory
@@ -54,20 +76,16 @@ struct TrajectoryQuery {
     path = "/v1/jobs/{id}/trajectory",
     tag = "results",
     params(
-        ("id" = String, Path, description = "Identity of the job"),
-        ("body" = Option<u32>, Query, description = "Index of the body in the scenario; 0 unless given"),
-        ("from_s" = Option<f64>, Query, description = "First simulated time [s]"),
-        ("to_s" = Option<f64>, Query, description = "Last simulated time [s]"),
-        ("stride" = Option<u32>, Query, minimum = 1, description = "One sample in how many, counted from the first in the range; 1 unless given"),
-        ("format" = Option<String>, Query, description = "json, ndjson, csv or npz; wins over `Accept`"),
-        ("fields" = Option<String>, Query, description = "Names of columns, with commas between them; all unless given"),
+        ("id" = String, Path, format = Uuid, description = "Identifier of the job"),
+        PartParameters,
+        ("format" = inline(Option<Format>), Query, description = "Format of the answer; wins over `Accept`"),
     ),
     responses(
         (status = 200, description = "The trajectory", content(
             (TrajectorySchema = "application/json"),
             (String = "application/x-ndjson"),
             (String = "text/csv"),
-            (Vec<u8> = "application/zip"),
+            (Archive = "application/zip"),
         )),
         (status = 404, description = "There is no such job or body", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
@@ -80,14 +98,108 @@ pub(super) async fn trajectory(
     headers: HeaderMap,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
-    let query = read_query(query.as_deref(), &headers)?;
-    let job = find(&jobs, &caller, &id).await?;
-    if query.body >= job.bodies {
-        return Err(unknown_body(query.body, job.bodies));
+    let mut query = Query::new(query.as_deref());
+    let format = query.choice("format");
+    let format = format.unwrap_or_else(|| accepted(&headers));
+    answer(jobs, &caller, &id, (query, format)).await
+}
+
+/// Read a body's trajectory as CSV
+///
+/// A line per sample; the components of a vector have columns of their own.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/trajectory.csv",
+    tag = "results",
+    params(
+        ("id" = String, Path, format = Uuid, description = "Identifier of the job"),
+        PartParameters,
+    ),
+    responses(
+        (status = 200, description = "The trajectory", body = String, content_type = "text/csv"),
+        (status = 404, description = "There is no such job or body", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn trajectory_csv(
+    State(jobs): State<JobService>,
+    caller: Caller,
+    NamedJob(id): NamedJob,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let query = Query::new(query.as_deref());
+    answer(jobs, &caller, &id, (query, Format::Csv)).await
+}
+
+/// Read a body's trajectory as NDJSON
+///
+/// An object per sample, each on a line of its own.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/trajectory.ndjson",
+    tag = "results",
+    params(
+        ("id" = String, Path, format = Uuid, description = "Identifier of the job"),
+        PartParameters,
+    ),
+    responses(
+        (status = 200, description = "The trajectory", body = String, content_type = "application/x-ndjson"),
+        (status = 404, description = "There is no such job or body", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn trajectory_ndjson(
+    State(jobs): State<JobService>,
+    caller: Caller,
+    NamedJob(id): NamedJob,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let query = Query::new(query.as_deref());
+    answer(jobs, &caller, &id, (query, Format::Ndjson)).await
+}
+
+/// Read a body's trajectory as NumPy arrays
+///
+/// A ZIP archive of one array per column, for `numpy.load`.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/trajectory.npz",
+    tag = "results",
+    params(
+        ("id" = String, Path, format = Uuid, description = "Identifier of the job"),
+        PartParameters,
+    ),
+    responses(
+        (status = 200, description = "The trajectory", body = Archive, content_type = "application/zip"),
+        (status = 404, description = "There is no such job or body", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn trajectory_npz(
+    State(jobs): State<JobService>,
+    caller: Caller,
+    NamedJob(id): NamedJob,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let query = Query::new(query.as_deref());
+    answer(jobs, &caller, &id, (query, Format::Npz)).await
+}
+
+/// The part of a trajectory that a query asks for, in this format.
+async fn answer(
+    jobs: JobService,
+    caller: &Caller,
+    id: &str,
+    (query, format): (Query, Format),
+) -> Result<Response, Problem> {
+    let part = read_part(query)?;
+    let job = find(&jobs, caller, id).await?;
+    if part.body >= job.bodies {
+        return Err(unknown_body(part.body, job.bodies));
     }
     let id = job.summary.id;
-    let range = jobs.range(id, query.body, query.selection).await?;
-    let rows = match query.format {
+    let range = jobs.range(id, part.body, part.selection).await?;
+    let rows = match format {
         Format::Npz => jobs.count_samples(&range).await?,
         Format::Json | Format::Ndjson | Format::Csv => 0,
     };
@@ -96,11 +208,11 @@ pub(super) async fn trajectory(
     }
     let heading = Heading {
         job_id: Some(id.to_string()),
-        body: query.body,
+        body: part.body,
         rows,
     };
-    let kind = [(header::CONTENT_TYPE, query.format.media_type())];
-    let reading = Reading::new(jobs, range, query.format.writer(&heading, query.fields));
+    let kind = [(header::CONTENT_TYPE, format.media_type())];
+    let reading = Reading::new(jobs, range, format.writer(&heading, part.fields));
     Ok((kind, reading.into_begun_body().await?).into_response())
 }
 
@@ -156,8 +268,7 @@ impl Pieces for Reading {
     }
 }
 
-fn read_query(query: Option<&str>, headers: &HeaderMap) -> Result<TrajectoryQuery, Problem> {
-    let mut query = Query::new(query);
+fn read_part(mut query: Query) -> Result<Part, Problem> {
     let body = query.whole("body", 0..=u32::MAX).unwrap_or(0);
     let from_s = query.number("from_s", "s");
     let to_s = query.number("to_s", "s");
@@ -168,29 +279,15 @@ fn read_query(query: Option<&str>, headers: &HeaderMap) -> Result<TrajectoryQuer
         let rule = format!("x >= from_s = {from_s}");
         query.refuse("to_s", &to_s.to_string(), &rule, Some("s"));
     }
-    let format = query.word("format", "json, ndjson, csv or npz", |word| {
-        Format::ALL.into_iter().find(|format| format.word() == word)
-    });
-    let names: Vec<&str> = Field::all().iter().map(|field| field.name()).collect();
-    let rule = format!(
-        "names with commas between them, each once, of {}",
-        names.join(", ")
-    );
-    let fields = query.word("fields", &rule, |text| {
-        let names: Vec<&str> = text.split(',').collect();
-        let once = names.iter().collect::<BTreeSet<_>>().len() == names.len();
-        let fields = names.into_iter().map(Field::from_name);
-        fields.collect::<Option<Vec<_>>>().filter(|_| once)
-    });
+    let fields = query.choices("fields");
     query.finish()?;
-    Ok(TrajectoryQuery {
+    Ok(Part {
         body: body as usize,
         selection: Selection {
             from_s,
             to_s,
             stride: stride as usize,
         },
-        format: format.unwrap_or_else(|| accepted(headers)),
         fields: fields.unwrap_or_else(Field::all),
     })
 }

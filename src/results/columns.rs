@@ -4,37 +4,51 @@ use scree_solver::record::{BodySample, Mode, Sample};
 use serde::Deserialize;
 use utoipa::ToSchema;
 
-/// Columns of a trajectory, all of equal length, in the order of the trajectory document. Forces
-/// and torques are means since the sample before.
+/// Columns of a trajectory, all of equal length, in the order of the trajectory document; with
+/// `fields` only those. Forces and torques are means since the sample before.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, ToSchema)]
 pub struct TrajectoryColumns {
     /// Simulated time [s].
+    #[schema(required = false)]
     pub time_s: Vec<f64>,
     /// Centre [x, y, z] [m].
+    #[schema(required = false)]
     pub position_m: Vec<[f64; 3]>,
     /// Unit quaternion [w, x, y, z].
+    #[schema(required = false)]
     pub orientation: Vec<[f64; 4]>,
     /// Velocity of the centre [m/s].
+    #[schema(required = false)]
     pub velocity_m_s: Vec<[f64; 3]>,
     /// Angular velocity, world axes [rad/s].
+    #[schema(required = false)]
     pub angular_velocity_rad_s: Vec<[f64; 3]>,
     /// Force of the flow [N].
+    #[schema(required = false)]
     pub flow_force_n: Vec<[f64; 3]>,
     /// Torque of the flow about the centre [N m].
+    #[schema(required = false)]
     pub flow_torque_nm: Vec<[f64; 3]>,
     /// Force of the walls [N].
+    #[schema(required = false)]
     pub wall_force_n: Vec<[f64; 3]>,
     /// Torque of the walls about the centre [N m].
+    #[schema(required = false)]
     pub wall_torque_nm: Vec<[f64; 3]>,
     /// Force of other bodies, fixed ones included [N].
+    #[schema(required = false)]
     pub body_force_n: Vec<[f64; 3]>,
     /// Torque of other bodies about the centre [N m].
+    #[schema(required = false)]
     pub body_torque_nm: Vec<[f64; 3]>,
     /// Material points in contact.
+    #[schema(required = false)]
     pub touching_points: Vec<u32>,
     /// Share of the body's height below the surface of the flow, 0..1.
+    #[schema(required = false)]
     pub submerged_fraction: Vec<f64>,
     /// Mode of motion.
+    #[schema(required = false)]
     pub mode: Vec<Mode>,
 }
 

@@ -6,6 +6,8 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+mod record;
+
 /// To update the file after an intended change:
 /// `UPDATE_OPENAPI=1 cargo test --test service contract`
 #[test]
@@ -50,6 +52,54 @@ async fn the_service_serves_its_contract_and_keeps_to_it() {
     );
     contract.assert_matches("FlowSnapshot", &app.get(&format!("{path}/flow")).await.body);
     contract.assert_matches("Health", &app.get("/healthz").await.body);
+    app.stop().await;
+}
+
+/// Documents of `api/examples` and their schemas.
+const EXAMPLES: [(&str, &str); 7] = [
+    ("batch-answer.json", "BatchAnswer"),
+    ("flow-snapshot.json", "FlowSnapshot"),
+    ("health.json", "Health"),
+    ("job.json", "Job"),
+    ("job-page.json", "JobPage"),
+    ("planned.json", "Planned"),
+    ("trajectory.json", "Trajectory"),
+];
+
+/// The examples of the contract are answers of a service. To record them anew after an intended
+/// change: `UPDATE_EXAMPLES=1 cargo test --test service contract`, then as above.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_examples_are_documents_as_the_service_answers_them() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("api/examples");
+    if std::env::var_os("UPDATE_EXAMPLES").is_some() {
+        record::all(&folder).await;
+    }
+    let contract = serde_json::from_str(&scree::http::openapi().to_json().unwrap()).unwrap();
+    let contract = Contract(contract);
+    let read = |name: &str| -> Value {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        serde_json::from_str(&text).unwrap()
+    };
+    for (name, schema) in EXAMPLES {
+        let mut document = read(name);
+        if schema == "Job" {
+            // Only a failed job has a problem.
+            document["problem"] = serde_json::json!({"type": "", "title": "", "detail": ""});
+            document["outcome"].as_object().expect("an outcome");
+        }
+        contract.assert_matches(schema, &document);
+    }
+    for (status, problem) in read("problems.json").as_object().unwrap() {
+        assert!(
+            status.starts_with(&problem["status"].to_string()),
+            "{status}"
+        );
+    }
+    // The service takes the example of a batch.
+    let app = TestApp::start().await;
+    let batch = read("batch.json").to_string();
+    let answer = app.post_to("/v1/batches", "application/json", batch).await;
+    assert_eq!(answer.status, 202, "{}", answer.body);
     app.stop().await;
 }
 

@@ -265,6 +265,17 @@ async fn a_trajectory_comes_in_every_form_with_the_same_numbers() {
         .get(app.url(&path))
         .header("accept", "text/html, text/csv;q=0.9");
     assert_eq!(request.send().await.unwrap().text().await.unwrap(), csv);
+
+    // Each format has a place of its own, too.
+    let part = "fields=time_s&fields=position_m,mode&stride=3";
+    for (format, expected) in [("csv", &csv), ("ndjson", &lines)] {
+        let found = text(&app, &format!("{job}/trajectory.{format}?{part}")).await;
+        assert_eq!(found.1, *expected, "{format}");
+    }
+    let npz = app.get(&format!("{job}/trajectory.npz?{part}")).await;
+    assert_eq!(npz.content_type, "application/zip");
+    let refused = app.get(&format!("{job}/trajectory.npz?format=csv")).await;
+    refused.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
     app.stop().await;
 }
 

@@ -2,7 +2,11 @@
 
 use crate::results::columns::TrajectoryColumns;
 use scree_solver::record::Mode;
+use std::borrow::Cow;
 use std::fmt::Write as _;
+use utoipa::openapi::RefOr;
+use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
+use utoipa::{PartialSchema, ToSchema};
 
 /// A column of a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,6 +42,21 @@ pub(super) enum Cells<'a> {
     Modes(&'a [Mode]),
 }
 
+impl PartialSchema for Field {
+    fn schema() -> RefOr<Schema> {
+        ObjectBuilder::new()
+            .schema_type(Type::String)
+            .enum_values(Some(NAMES))
+            .into()
+    }
+}
+
+impl ToSchema for Field {
+    fn name() -> Cow<'static, str> {
+        Cow::Borrowed("TrajectoryField")
+    }
+}
+
 impl Field {
     /// All columns.
     pub fn all() -> Vec<Self> {
@@ -52,6 +71,11 @@ impl Field {
     /// Name of the column.
     pub fn name(self) -> &'static str {
         NAMES[self.0]
+    }
+
+    /// Number of components of a cell.
+    pub fn components(self) -> usize {
+        self.parts().len().max(1)
     }
 
     /// Names of the components of a cell: x, y, z of a vector, w, x, y, z of an

@@ -15,9 +15,11 @@ pub use cells::Field;
 pub use json::trajectory_json;
 
 use super::columns::TrajectoryColumns;
+use utoipa::ToSchema;
 
 /// Format of a trajectory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ToSchema)]
+#[schema(rename_all = "lowercase")]
 pub enum Format {
     /// One JSON document, column by column.
     Json,

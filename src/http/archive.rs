@@ -1,0 +1,25 @@
+//! Archives, which the contract describes as bytes.
+
+use std::borrow::Cow;
+use utoipa::openapi::schema::{KnownFormat, ObjectBuilder, Schema, Type};
+use utoipa::openapi::{RefOr, SchemaFormat};
+use utoipa::{PartialSchema, ToSchema};
+
+/// A ZIP archive.
+pub(super) struct Archive;
+
+impl PartialSchema for Archive {
+    fn schema() -> RefOr<Schema> {
+        ObjectBuilder::new()
+            .schema_type(Type::String)
+            .format(Some(SchemaFormat::KnownFormat(KnownFormat::Binary)))
+            .description(Some("A ZIP archive."))
+            .into()
+    }
+}
+
+impl ToSchema for Archive {
+    fn name() -> Cow<'static, str> {
+        Cow::Borrowed("Archive")
+    }
+}

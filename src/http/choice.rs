@@ -1,0 +1,164 @@
+//! Parameters whose value is one of a few words.
+
+use super::query::Query;
+use crate::jobs::job::JobStatus;
+use crate::results::table::{Field, Format};
+use utoipa::ToSchema;
+
+/// A value that is one of a few words.
+pub(super) trait Choice: Copy + PartialEq {
+    /// All values.
+    fn all() -> Vec<Self>;
+
+    /// The word for it.
+    fn word(self) -> &'static str;
+
+    /// The value with this word.
+    fn from_word(word: &str) -> Option<Self> {
+        Self::all().into_iter().find(|value| value.word() == word)
+    }
+}
+
+/// Value of `reuse`: which job is as good as a new one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ToSchema)]
+#[schema(rename_all = "lowercase")]
+pub(super) enum Reuse {
+    /// A successful one with the same scenario, run by this very program.
+    Finished,
+}
+
+/// Value of `remove`: which job may be removed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ToSchema)]
+#[schema(rename_all = "lowercase")]
+pub(super) enum Remove {
+    /// One that has ended.
+    Ended,
+}
+
+impl Choice for Reuse {
+    fn all() -> Vec<Self> {
+        vec![Self::Finished]
+    }
+
+    fn word(self) -> &'static str {
+        "finished"
+    }
+}
+
+impl Choice for Remove {
+    fn all() -> Vec<Self> {
+        vec![Self::Ended]
+    }
+
+    fn word(self) -> &'static str {
+        "ended"
+    }
+}
+
+impl Choice for JobStatus {
+    fn all() -> Vec<Self> {
+        Self::ALL.to_vec()
+    }
+
+    fn word(self) -> &'static str {
+        Self::word(self)
+    }
+}
+
+impl Choice for Format {
+    fn all() -> Vec<Self> {
+        Self::ALL.to_vec()
+    }
+
+    fn word(self) -> &'static str {
+        Self::word(self)
+    }
+}
+
+impl Choice for Field {
+    fn all() -> Vec<Self> {
+        Self::all()
+    }
+
+    fn word(self) -> &'static str {
+        self.name()
+    }
+}
+
+impl Query {
+    /// One of a few words.
+    pub(super) fn choice<T: Choice>(&mut self, name: &str) -> Option<T> {
+        self.word(name, &one_of::<T>(), T::from_word)
+    }
+
+    /// Several words, each once: with commas between them, or the parameter repeated.
+    pub(super) fn choices<T: Choice>(&mut self, name: &str) -> Option<Vec<T>> {
+        let allowed = format!("each once, of {}", words::<T>());
+        let lists = self.all(name, &allowed, |list| {
+            list.split(',')
+                .map(T::from_word)
+                .collect::<Option<Vec<_>>>()
+        });
+        if lists.is_empty() {
+            return None;
+        }
+        let mut chosen = Vec::new();
+        for value in lists.into_iter().flatten() {
+            if chosen.contains(&value) {
+                self.refuse(name, value.word(), &allowed, None);
+            } else {
+                chosen.push(value);
+            }
+        }
+        Some(chosen)
+    }
+}
+
+fn words<T: Choice>() -> String {
+    let words: Vec<&str> = T::all().into_iter().map(T::word).collect();
+    words.join(", ")
+}
+
+fn one_of<T: Choice>() -> String {
+    match T::all().as_slice() {
+        [only] => only.word().to_owned(),
+        _ => format!("one of {}", words::<T>()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fields(query: &str) -> Result<Vec<&'static str>, Vec<String>> {
+        let mut query = Query::new(Some(query));
+        let fields = query.choices::<Field>("fields").unwrap_or_default();
+        match query.finish() {
+            Ok(()) => Ok(fields.into_iter().map(Field::name).collect()),
+            Err(problem) => Err(problem
+                .errors
+                .into_iter()
+                .map(|error| error.value.to_string())
+                .collect()),
+        }
+    }
+
+    #[test]
+    fn several_words_come_with_commas_or_one_by_one() {
+        assert_eq!(fields(""), Ok(vec![]));
+        assert_eq!(fields("fields=mode,time_s"), Ok(vec!["mode", "time_s"]));
+        assert_eq!(
+            fields("fields=mode&fields=time_s"),
+            Ok(vec!["mode", "time_s"])
+        );
+        assert_eq!(
+            fields("fields=mode,spam"),
+            Err(vec!["\"mode,spam\"".to_owned()])
+        );
+        assert_eq!(
+            fields("fields=mode&fields=mode"),
+            Err(vec!["\"mode\"".to_owned()])
+        );
+        assert_eq!(fields("fields="), Err(vec!["\"\"".to_owned()]));
+    }
+}
