@@ -1,6 +1,6 @@
 //! Parameters whose value is one of a few words.
 
-use super::query::Query;
+use super::query::{Query, with_nearest};
 use crate::jobs::job::JobStatus;
 use crate::results::table::{Field, Format};
 use utoipa::ToSchema;
@@ -88,7 +88,14 @@ impl Choice for Field {
 impl Query {
     /// One of a few words.
     pub(super) fn choice<T: Choice>(&mut self, name: &str) -> Option<T> {
-        self.word(name, &one_of::<T>(), T::from_word)
+        let text = self.take(name)?;
+        let value = T::from_word(&text);
+        if value.is_none() {
+            let words = T::all().into_iter().map(T::word);
+            let allowed = with_nearest(&one_of::<T>(), &text.to_lowercase(), words);
+            self.refuse(name, &text, &allowed, None);
+        }
+        value
     }
 
     /// Several words, each once: with commas between them, or the parameter repeated.

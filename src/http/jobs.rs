@@ -101,11 +101,7 @@ pub(super) async fn show(
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let mut query = Query::new(query.as_deref());
-    let rule = format!("0s <= x <= {LONGEST_WAIT_S}s");
-    let wait_s = query.word("wait", &rule, |text| {
-        let seconds: u32 = text.strip_suffix('s')?.parse().ok()?;
-        (seconds <= LONGEST_WAIT_S).then_some(seconds)
-    });
+    let wait_s = read_wait(&mut query);
     query.finish()?;
     let job = find(&jobs, &caller, &id).await?;
     let Some(seconds) = wait_s else {
@@ -186,7 +182,23 @@ async fn removed(jobs: &JobService, job: JobId, id: &str) -> Result<Response, Pr
     }
 }
 
-/// The job with this identifier, or a "not found" problem.
+/// Value of `wait` [s].
+fn read_wait(query: &mut Query) -> Option<u32> {
+    let text = query.take("wait")?;
+    let seconds = |number: &str| number.parse().ok().filter(|&s: &u32| s <= LONGEST_WAIT_S);
+    if let Some(seconds) = text.strip_suffix('s').and_then(seconds) {
+        return Some(seconds);
+    }
+    let rule = format!("0s <= x <= {LONGEST_WAIT_S}s");
+    let rule = match seconds(&text) {
+        Some(number) => format!("{rule}; did you mean {number}s?"),
+        None => rule,
+    };
+    query.refuse("wait", &text, &rule, Some("s"));
+    None
+}
+
+/// The page that a query asks for.
 fn read_page(query: Option<&str>) -> Result<Page, Problem> {
     let mut query = Query::new(query);
     let page = Page {

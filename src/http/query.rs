@@ -8,6 +8,7 @@ use serde_json::Value;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
+use strsim::jaro_winkler;
 
 /// Largest number of parameters in a query.
 const MOST_PARAMETERS: usize = 100;
@@ -17,6 +18,8 @@ const MOST_PARAMETERS: usize = 100;
 pub(super) struct Query {
     /// Parameters not read yet.
     pairs: Vec<(String, String)>,
+    /// Names of the parameters asked for so far.
+    known: Vec<String>,
     errors: FieldErrors,
 }
 
@@ -27,6 +30,7 @@ impl Query {
         let pairs = form_urlencoded::parse(query.as_bytes());
         let mut read = Self {
             pairs: pairs.into_owned().take(MOST_PARAMETERS + 1).collect(),
+            known: Vec::new(),
             errors: FieldErrors::default(),
         };
         if read.pairs.len() > MOST_PARAMETERS {
@@ -95,13 +99,8 @@ impl Query {
         allowed: &str,
         read: impl Fn(&str) -> Option<T>,
     ) -> Vec<T> {
-        let texts: Vec<String> = self
-            .pairs
-            .extract_if(.., |pair| pair.0 == name)
-            .map(|pair| pair.1)
-            .collect();
         let mut words = Vec::new();
-        for text in texts {
+        for text in self.values(name) {
             match read(&text) {
                 Some(word) => words.push(word),
                 None => self.refuse(name, &text, allowed, None),
@@ -130,7 +129,9 @@ impl Query {
     /// parameters.
     pub(super) fn finish(mut self) -> Result<(), Problem> {
         for (name, value) in std::mem::take(&mut self.pairs) {
-            self.refuse(&name, &value, "no such parameter", None);
+            let known = self.known.iter().map(String::as_str);
+            let allowed = with_nearest("no such parameter", &name, known);
+            self.refuse(&name, &value, &allowed, None);
         }
         if self.errors.is_empty() {
             Ok(())
@@ -139,17 +140,41 @@ impl Query {
         }
     }
 
-    fn take(&mut self, name: &str) -> Option<String> {
-        let mut values: Vec<String> = self
-            .pairs
-            .extract_if(.., |pair| pair.0 == name)
-            .map(|pair| pair.1)
-            .collect();
+    /// The value of a parameter that may be given once.
+    pub(super) fn take(&mut self, name: &str) -> Option<String> {
+        let mut values = self.values(name);
         if values.len() > 1 {
             self.refuse(name, &values.join(", "), "given once", None);
             return None;
         }
         values.pop()
+    }
+
+    /// All values of a parameter, which is known from now on.
+    fn values(&mut self, name: &str) -> Vec<String> {
+        self.known.push(name.to_owned());
+        let of_name = self.pairs.extract_if(.., |pair| pair.0 == name);
+        of_name.map(|pair| pair.1).collect()
+    }
+}
+
+/// Similarity from which on a word may have been meant for another, by Jaro and Winkler.
+const SIMILAR: f64 = 0.8;
+
+/// A rule, with the word that was probably meant.
+pub(super) fn with_nearest<'a>(
+    rule: &str,
+    word: &str,
+    allowed: impl Iterator<Item = &'a str>,
+) -> String {
+    let word = excerpt(word);
+    let similarity = |other: &&str| jaro_winkler(&word, other);
+    let nearest = allowed.max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
+    match nearest {
+        Some(nearest) if similarity(&nearest) >= SIMILAR => {
+            format!("{rule}; did you mean {nearest}?")
+        }
+        _ => rule.to_owned(),
     }
 }
 
@@ -184,6 +209,18 @@ mod tests {
         assert_eq!(problem.errors[0].value, start.as_str());
         let text = serde_json::to_string(&problem).unwrap();
         assert!(text.len() < 2_000, "{} bytes: {text}", text.len());
+    }
+
+    #[test]
+    fn a_slip_of_the_pen_is_recognised() {
+        let mut query = Query::new(Some("stat=1&strid=2&x=3"));
+        assert_eq!(query.word("status", "a word", |_| Some(())), None);
+        assert_eq!(query.whole("stride", 1..=9), None);
+        let errors = query.finish().unwrap_err().errors;
+        let allowed: Vec<_> = errors.iter().map(|error| error.allowed.as_str()).collect();
+        let rule = "no such parameter";
+        let meant = ["status", "stride"].map(|word| format!("{rule}; did you mean {word}?"));
+        assert_eq!(allowed, [&meant[0], &meant[1], rule]);
     }
 
     #[test]

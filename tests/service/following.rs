@@ -41,6 +41,12 @@ async fn a_look_can_wait_for_the_end() {
     for wait in ["30", "61s", "-1s", "1.5s", "s", "1m"] {
         let answer = app.get(&format!("{job}?wait={wait}")).await;
         answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
+        let allowed = answer.body["errors"][0]["allowed"].as_str().unwrap();
+        assert_eq!(
+            allowed.ends_with("did you mean 30s?"),
+            wait == "30",
+            "{wait}: {allowed}"
+        );
     }
     app.delete(&job).await;
     app.stop().await;
