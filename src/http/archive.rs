@@ -1,5 +1,6 @@
-//! Archives, which the contract describes as bytes.
+//! Archives, which the contract describes as bytes, and the names under which answers are kept.
 
+use axum::http::{HeaderName, header};
 use std::borrow::Cow;
 use utoipa::openapi::schema::{KnownFormat, ObjectBuilder, Schema, Type};
 use utoipa::openapi::{RefOr, SchemaFormat};
@@ -22,4 +23,10 @@ impl ToSchema for Archive {
     fn name() -> Cow<'static, str> {
         Cow::Borrowed("Archive")
     }
+}
+
+/// Header that names the file in which an answer is kept.
+pub(super) fn attachment(name: &str) -> [(HeaderName, String); 1] {
+    let value = format!("attachment; filename=\"{name}\"");
+    [(header::CONTENT_DISPOSITION, value)]
 }

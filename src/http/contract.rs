@@ -116,6 +116,10 @@ fn add_headers(operation: &mut Operation) {
         let uuid = SchemaFormat::KnownFormat(KnownFormat::Uuid);
         let id = value(Type::String).format(Some(uuid));
         add_header(response, "X-Request-Id", id, about);
+        if is_kept(response) {
+            let about = "Name of the file in which the answer is kept";
+            add_header(response, "Content-Disposition", value(Type::String), about);
+        }
         if status == "200" && revalidates {
             let about = "Name of exactly this answer, for `If-None-Match`";
             add_header(response, "ETag", value(Type::String), about);
@@ -125,6 +129,13 @@ fn add_headers(operation: &mut Operation) {
             add_header(response, "Retry-After", value(Type::Integer), about);
         }
     }
+}
+
+/// True if an answer is a file to keep in each of its formats.
+fn is_kept(response: &Response) -> bool {
+    let kept = ["application/zip", "application/x-ndjson", "text/csv"];
+    let mut media_types = response.content.keys();
+    !response.content.is_empty() && media_types.all(|kind| kept.contains(&kind.as_str()))
 }
 
 fn value(kind: Type) -> ObjectBuilder {

@@ -1,7 +1,7 @@
 //! Snapshots of the flow.
 
 use super::access::Caller;
-use super::archive::Archive;
+use super::archive::{Archive, attachment};
 use super::etag;
 use super::named_job::{NamedJob, find};
 use super::pieces::Pieces;
@@ -122,7 +122,9 @@ pub(super) async fn flow_archive(
         head,
     };
     let kind = [(header::CONTENT_TYPE, "application/zip")];
-    Ok((kind, packing.into_begun_body().await?).into_response())
+    let name = attachment(&format!("{job}-flow.zip"));
+    let body = packing.into_begun_body().await?;
+    Ok((kind, name, body).into_response())
 }
 
 /// Stream of snapshots to a client: it holds one of them at a time.

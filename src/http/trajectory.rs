@@ -1,7 +1,7 @@
 //! Trajectories, written to the client while they are read chunk by chunk.
 
 use super::access::Caller;
-use super::archive::Archive;
+use super::archive::{Archive, attachment};
 use super::named_job::{NamedJob, find};
 use super::pieces::Pieces;
 use super::problem::Problem;
@@ -211,9 +211,15 @@ async fn answer(
         body: part.body,
         rows,
     };
+    let name = match format {
+        // A document is looked at, the others are kept.
+        Format::Json => None,
+        _ => Some(format!("{id}-trajectory-{}.{}", part.body, format.word())),
+    };
     let kind = [(header::CONTENT_TYPE, format.media_type())];
     let reading = Reading::new(jobs, range, format.writer(&heading, part.fields));
-    Ok((kind, reading.into_begun_body().await?).into_response())
+    let body = reading.into_begun_body().await?;
+    Ok((kind, name.as_deref().map(attachment), body).into_response())
 }
 
 /// Stream of a trajectory to a client: it holds one chunk at a time.

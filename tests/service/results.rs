@@ -274,6 +274,12 @@ async fn a_trajectory_comes_in_every_form_with_the_same_numbers() {
     }
     let npz = app.get(&format!("{job}/trajectory.npz?{part}")).await;
     assert_eq!(npz.content_type, "application/zip");
+    let url = app.url(&format!("{job}/trajectory.npz"));
+    let answer = app.client.get(url).send().await.unwrap();
+    let id = job.rsplit('/').next().unwrap();
+    let name = format!("attachment; filename=\"{id}-trajectory-0.npz\"");
+    assert_eq!(answer.headers()["content-disposition"], name.as_str());
+    assert_eq!(answer.headers()["cache-control"], "no-cache");
     let refused = app.get(&format!("{job}/trajectory.npz?format=csv")).await;
     refused.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
     app.stop().await;
