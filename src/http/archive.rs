@@ -1,4 +1,4 @@
-//! Archives, which the contract describes as bytes, and the names under which answers are kept.
+//! Archives and pictures as the contract describes them, and the names under which answers are kept.
 
 use axum::http::{HeaderName, header};
 use std::borrow::Cow;
@@ -22,6 +22,24 @@ impl PartialSchema for Archive {
 impl ToSchema for Archive {
     fn name() -> Cow<'static, str> {
         Cow::Borrowed("Archive")
+    }
+}
+
+/// A picture.
+pub(super) struct Svg;
+
+impl PartialSchema for Svg {
+    fn schema() -> RefOr<Schema> {
+        ObjectBuilder::new()
+            .schema_type(Type::String)
+            .description(Some("An SVG document."))
+            .into()
+    }
+}
+
+impl ToSchema for Svg {
+    fn name() -> Cow<'static, str> {
+        Cow::Borrowed("Svg")
     }
 }
 

@@ -12,6 +12,7 @@ mod common_answers;
 mod connections;
 mod contract;
 mod documents;
+mod drawings;
 mod etag;
 mod events;
 mod examples;

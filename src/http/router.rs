@@ -6,7 +6,7 @@ use super::metrics::{self, RequestCounts};
 use super::problem::Problem;
 use super::scenario_body::BodyLimits;
 use super::shares::{self, Shares};
-use super::{batch, contract, events, flow, jobs, plans, submission, system, trajectory};
+use super::{batch, contract, drawings, events, flow, jobs, plans, submission, system, trajectory};
 use crate::config::ServiceConfig;
 use crate::jobs::JobService;
 use crate::jobs::submit::excerpt;
@@ -88,6 +88,8 @@ fn documented(limit: Duration) -> OpenApiRouter<JobService> {
         .routes(routes!(trajectory::trajectory_npz))
         .routes(routes!(flow::flow))
         .routes(routes!(flow::flow_archive))
+        .routes(routes!(drawings::aerial))
+        .routes(routes!(drawings::motion))
         .routes(routes!(system::health))
         .routes(routes!(system::ready))
         .routes(routes!(metrics::metrics))

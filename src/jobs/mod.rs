@@ -6,6 +6,7 @@ mod admission;
 mod admission_pool;
 pub mod clock;
 pub mod documents;
+mod drawing;
 pub mod failure;
 mod fair_queue;
 pub mod forecast;
@@ -25,6 +26,7 @@ mod worker;
 
 pub use admission::{Submission, SubmissionRequest, SubmitError};
 pub use admission_pool::{AdmissionError, AdmissionPool, Admitted};
+pub use drawing::{DrawError, Picture};
 pub use job_limits::{Excess, JobLimits};
 pub use job_service::{Dismissed, JobService, PlanError};
 pub use news::{Followers, News};

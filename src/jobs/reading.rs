@@ -5,6 +5,7 @@ use super::job::JobId;
 use super::store::{StoreError, StoredChunk};
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, Selector};
+use scree_solver::record::Sample;
 
 /// Range of one body's trajectory: fixed to the samples that existed at the time of the
 /// request, however far the run gets meanwhile.
@@ -64,6 +65,45 @@ impl JobService {
             chunk.columns.truncate(end.saturating_sub(first));
             (!chunk.columns.is_empty()).then_some(chunk)
         }))
+    }
+
+    /// Samples of all bodies, evenly thinned to at most so many states of bodies.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn samples(
+        &self,
+        job: JobId,
+        bodies: usize,
+        most_states: usize,
+    ) -> Result<Vec<Sample>, StoreError> {
+        let mut samples: Vec<Sample> = Vec::new();
+        for body in 0..bodies {
+            let mut range = self.range(job, body, Selection::default()).await?;
+            range.selection.stride = (range.end * bodies).div_ceil(most_states).max(1);
+            let mut selector = Selector::new(range.selection);
+            let (mut from_sample, mut place) = (0, 0);
+            while let Some(chunk) = self.next_chunk(&range, from_sample).await? {
+                from_sample = chunk.next_sample;
+                let chosen = selector.choose(&chunk.columns);
+                for index in 0..chosen.len() {
+                    let (time_s, state) = chosen.sample(index);
+                    if body == 0 {
+                        samples.push(Sample {
+                            time_s,
+                            bodies: Vec::with_capacity(bodies),
+                        });
+                    }
+                    if let Some(sample) = samples.get_mut(place) {
+                        sample.bodies.push(state);
+                    }
+                    place += 1;
+                }
+            }
+        }
+        // A running job may have recorded more of the later bodies.
+        samples.retain(|sample| sample.bodies.len() == bodies);
+        Ok(samples)
     }
 
     /// Checks that the range is still there: a job that is removed while its trajectory is read

@@ -46,7 +46,8 @@ fn named_files(text: &str) -> Vec<&str> {
     let names = words.filter(|word| ENDINGS.iter().any(|ending| word.ends_with(ending)));
     names
         .map(|name| name.trim_start_matches("../").trim_start_matches("./"))
-        .filter(|name| !name.starts_with('.'))
+        // What begins with a slash is a place of the service.
+        .filter(|name| !name.starts_with(['.', '/']))
         .collect()
 }
 

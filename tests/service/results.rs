@@ -395,3 +395,31 @@ async fn a_damaged_record_is_a_problem_in_every_format() {
     assert_eq!(app.get(&job).await.body["status"], "successful");
     app.stop().await;
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn pictures_are_drawn_of_a_job_that_has_an_outcome() {
+    let app = TestApp::start().await;
+    let mut scene = tiny_scene();
+    scene["title"] = json!("two cubes");
+    let second = json!({"shape": {"cube": {"side_m": 0.02}}, "position": {"downstream_m": 0.3}});
+    scene["bodies"].as_array_mut().unwrap().push(second);
+    let job = app.submit(&scene).await;
+    app.wait_for_success(&job).await;
+    for name in ["motion", "aerial"] {
+        let (kind, picture) = text(&app, &format!("{job}/{name}.svg")).await;
+        assert_eq!(kind, "image/svg+xml");
+        let document = roxmltree::Document::parse(&picture).unwrap();
+        let texts = document.descendants().filter_map(|node| node.text());
+        assert!(
+            texts.into_iter().any(|text| text.contains("two cubes")),
+            "{name}"
+        );
+        let refused = app.get(&format!("{job}/{name}.svg?body=0")).await;
+        refused.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
+    }
+    let endless = app.submit(&endless_scene()).await;
+    let none = app.get(&format!("{endless}/motion.svg")).await;
+    none.assert_problem(StatusCode::NOT_FOUND, "no-picture");
+    app.delete(&endless).await;
+    app.stop().await;
+}
