@@ -7,11 +7,14 @@ use std::path::PathBuf;
 
 /// Simulates objects that are hit and carried by granular flows, and reports where they end up.
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 100, after_help = EXIT_CODES)]
+#[command(version = VERSION, max_term_width = 100, after_help = EXIT_CODES)]
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Command,
 }
+
+/// Version, and the commit it was built from.
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("BUILD_COMMIT"), ")");
 
 const EXIT_CODES: &str = "Exit codes: 0 fine, 2 invalid input, 3 numerical failure, 4 a case failed, 130 Ctrl-C, \
      143 SIGTERM, 1 other.";
@@ -36,6 +39,10 @@ pub(super) enum Command {
     Bench(BenchOptions),
     /// Compare the solver with cases of known answer
     Verify(VerifyOptions),
+    /// Print completions for a shell
+    Completions(CompletionsOptions),
+    /// Write manual pages into a folder
+    Man(ManOptions),
 }
 
 #[derive(Debug, Args)]
@@ -52,6 +59,20 @@ pub(super) struct ServeOptions {
     /// [default: configs/service.toml, if it exists]
     #[arg(long, value_name = "FILE")]
     pub(super) config: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CompletionsOptions {
+    /// The shell
+    #[arg(value_name = "SHELL")]
+    pub(super) shell: clap_complete::Shell,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ManOptions {
+    /// Folder of the pages; made if it does not exist
+    #[arg(value_name = "FOLDER")]
+    pub(super) folder: PathBuf,
 }
 
 #[derive(Debug, Args)]

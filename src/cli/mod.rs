@@ -16,6 +16,7 @@ mod files;
 mod intervals;
 mod local_run;
 mod machine;
+mod manual;
 mod meter;
 mod plan;
 mod results_folder;
@@ -48,6 +49,8 @@ pub(crate) fn run() -> ExitCode {
         Command::Demo(options) => demo::demo(options),
         Command::Bench(options) => bench::bench(options),
         Command::Verify(options) => verify::verify(options),
+        Command::Completions(options) => manual::completions(options),
+        Command::Man(options) => manual::man(options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -21,10 +21,28 @@ fn help_and_version_are_answers() {
         assert!(help.stdout.contains(command), "{command}: {}", help.stdout);
     }
     let version = ask(&[&"--version"]);
-    assert_eq!(
-        version.stdout.trim(),
-        concat!("scree ", env!("CARGO_PKG_VERSION"))
-    );
+    let start = concat!("scree ", env!("CARGO_PKG_VERSION"), " (");
+    assert!(version.stdout.starts_with(start), "{}", version.stdout);
+    assert!(version.stdout.len() > start.len() + 6, "{}", version.stdout);
+}
+
+#[test]
+fn shells_and_manuals_learn_the_command_line() {
+    for shell in ["bash", "zsh", "fish"] {
+        let script = ask(&[&"completions", &shell]);
+        assert_eq!((script.code, script.stderr.as_str()), (Some(0), ""));
+        for word in ["validate", "resume", "completions"] {
+            assert!(script.stdout.contains(word), "{shell}: {word}");
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let pages = folder.path().join("man");
+    let answer = ask(&[&"man", &pages]);
+    assert_eq!((answer.code, answer.stderr.as_str()), (Some(0), ""));
+    for name in ["scree.1", "scree-run.1", "scree-serve.1"] {
+        let page = std::fs::read_to_string(pages.join(name)).unwrap();
+        assert!(page.contains(".SH SYNOPSIS"), "{name}");
+    }
 }
 
 #[test]
