@@ -4,6 +4,7 @@ use crate::client::{ask, get};
 use crate::served::{Place, Served, has_ended, scene, trifle};
 use std::fs::{self, OpenOptions};
 use std::io::{Seek, SeekFrom, Write};
+use std::time::Duration;
 
 /// Full disk: a clear 507, `/readyz` fails, `/healthz` and reading work; once there
 /// is space again the service accepts jobs again by itself.
@@ -32,6 +33,8 @@ fn a_full_database_says_so_and_recovers_by_itself() {
     };
     assert_eq!(refused.status, 507, "{}", refused.body);
     assert_eq!(refused.body["type"], "urn:scree:problem:storage-full");
+    // Those who ask for readiness within 0.2 s share one answer.
+    std::thread::sleep(Duration::from_millis(250));
     let ready = ask(address, "GET", "/readyz", "").expect("an answer");
     assert_eq!(ready.status, 503, "{}", ready.body);
     assert_eq!(get(address, "/healthz")["status"], "ok");
