@@ -6,6 +6,9 @@ use std::fs::{self, OpenOptions};
 use std::io::{Seek, SeekFrom, Write};
 use std::time::Duration;
 
+/// Time for which an answer about readiness is given again, and a little more.
+const SHARED: Duration = Duration::from_millis(250);
+
 /// Full disk: a clear 507, `/readyz` fails, `/healthz` and reading work; once there
 /// is space again the service accepts jobs again by itself.
 #[test]
@@ -33,8 +36,7 @@ fn a_full_database_says_so_and_recovers_by_itself() {
     };
     assert_eq!(refused.status, 507, "{}", refused.body);
     assert_eq!(refused.body["type"], "urn:scree:problem:storage-full");
-    // Those who ask for readiness within 0.2 s share one answer.
-    std::thread::sleep(Duration::from_millis(250));
+    std::thread::sleep(SHARED);
     let ready = ask(address, "GET", "/readyz", "").expect("an answer");
     assert_eq!(ready.status, 503, "{}", ready.body);
     assert_eq!(get(address, "/healthz")["status"], "ok");
@@ -198,6 +200,7 @@ fn a_database_that_can_not_be_written_is_read_and_goes_on_later() {
 
     place.make_writable();
     served.wait(&waiting, |job| job["status"] == "running");
+    std::thread::sleep(SHARED);
     assert_eq!(get(&served.address, "/readyz")["status"], "ok");
     served.submit(&trifle());
 }
