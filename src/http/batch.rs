@@ -151,7 +151,7 @@ fn read_batch(text: &str) -> Result<BatchDocument, Problem> {
     })?;
     if batch.jobs.is_empty() {
         let none = FieldError::of_body("/jobs", json!([]), "at least one job");
-        return Err(Problem::invalid_scenario([none].into_iter().collect()));
+        return Err(Problem::invalid_scenario(none.into()));
     }
     Ok(batch)
 }

@@ -75,13 +75,22 @@ impl FieldErrors {
     }
 }
 
-impl FromIterator<FieldError> for FieldErrors {
-    fn from_iter<I: IntoIterator<Item = FieldError>>(faults: I) -> Self {
-        let mut all = Self::default();
-        for fault in faults {
-            all.add(|| fault);
+/// Faults of one scenario, whose list is cut already, and says so.
+impl From<Vec<Violation>> for FieldErrors {
+    fn from(violations: Vec<Violation>) -> Self {
+        Self {
+            listed: violations.into_iter().map(FieldError::from).collect(),
+            further: 0,
         }
-        all
+    }
+}
+
+impl From<FieldError> for FieldErrors {
+    fn from(only: FieldError) -> Self {
+        Self {
+            listed: vec![only],
+            further: 0,
+        }
     }
 }
 
@@ -128,12 +137,13 @@ mod tests {
     #[test]
     fn a_long_list_is_cut_and_says_so() {
         let fault = |n: usize| FieldError::of_body(&format!("/{n}"), Value::from(n), "none");
-        let all: FieldErrors = (0..LISTED + 7).map(fault).collect();
+        let mut all = FieldErrors::default();
+        (0..LISTED + 7).for_each(|n| all.add(|| fault(n)));
         assert!(all.summary().starts_with("507 fields"));
         let list = all.into_list();
         assert_eq!(list.len(), LISTED + 1);
         assert_eq!(list[LISTED].detail, "7 further faults, not listed");
-        let one: FieldErrors = (0..1).map(fault).collect();
+        let one = FieldErrors::from(fault(0));
         assert_eq!(one.summary(), "/0 is not allowed: none");
         assert_eq!(one.into_list().len(), 1);
     }

@@ -3,7 +3,6 @@
 use super::access::Caller;
 use super::choice::Reuse;
 use super::documents::JobDocument;
-use super::field_errors::FieldError;
 use super::idempotency;
 use super::named_job::named;
 use super::problem::Problem;
@@ -184,9 +183,7 @@ impl From<AdmissionError> for Problem {
 impl From<ScenarioError> for Problem {
     fn from(error: ScenarioError) -> Self {
         match error {
-            ScenarioError::Invalid(violations) => {
-                Self::invalid_scenario(violations.into_iter().map(FieldError::from).collect())
-            }
+            ScenarioError::Invalid(violations) => Self::invalid_scenario(violations.into()),
             error @ ScenarioError::Malformed { .. } => malformed(&error.to_string()),
         }
     }

@@ -146,3 +146,19 @@ async fn an_answer_does_not_grow_far_beyond_its_request() {
     assert!(answer.body.to_string().len() < 1_000, "{}", answer.body);
     app.stop().await;
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_long_list_of_violations_says_how_many_it_leaves_out() {
+    let app = TestApp::start().await;
+    let mut scene = tiny_scene();
+    for number in 0..600 {
+        scene[format!("unknown{number}")] = json!(0);
+    }
+    let answer = app.post("application/json", scene.to_string()).await;
+    answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-scenario");
+    let errors = answer.body["errors"].as_array().unwrap();
+    let last = errors.last().unwrap()["detail"].as_str().unwrap();
+    assert_eq!(errors.len(), 501);
+    assert!(last.contains("100 further violations"), "{last}");
+    app.stop().await;
+}
