@@ -184,7 +184,7 @@ impl JobService {
         answer: KeptAnswer,
     ) -> KeptAnswer {
         match self.store.keep_answer(submitter, key, &answer).await {
-            Ok(kept) => kept.unwrap_or(answer),
+            Ok(former) => former.unwrap_or(answer),
             Err(error) => {
                 // The jobs are stored: a refusal would be wrong. A repetition makes its answer anew.
                 tracing::warn!(%error, key = key.text, "an answer can't be kept");

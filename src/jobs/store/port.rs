@@ -40,8 +40,8 @@ pub trait JobStore: Debug + Send + Sync {
         key: &Key,
     ) -> Answer<Option<FormerRequest>>;
 
-    /// Keeps the answer to a submitted request with a key, unless one is kept, and returns the
-    /// one that is kept: of two that are made at the same time only the first counts.
+    /// Keeps the answer to a submitted request with a key, unless one is kept, which is returned
+    /// then: of two that are made at the same time only the first counts.
     async fn keep_answer(
         &self,
         submitter: Option<&str>,

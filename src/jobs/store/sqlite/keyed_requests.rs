@@ -51,7 +51,7 @@ impl SqliteStore {
         let body = zstd::bulk::compress(answer.body.as_bytes(), LEVEL)
             .map_err(|error| StoreError::Defect(error.into()))?;
         let mut transaction = self.begin_write(Purpose::Growth).await?;
-        sqlx::query(
+        let done = sqlx::query(
             "UPDATE keyed_requests
              SET answer_status = ?3, answer_location = ?4, answer_body = ?5,
                  stored_bytes = stored_bytes + length(?5)
@@ -64,12 +64,16 @@ impl SqliteStore {
         .bind(body)
         .execute(&mut *transaction)
         .await?;
-        let former = former_request(&mut transaction, submitter, key).await?;
-        transaction.commit().await?;
-        Ok(match former {
-            Some(FormerRequest::Same { answer, .. }) => answer,
-            Some(FormerRequest::Other) | None => None,
-        })
+        if done.rows_affected() > 0 {
+            transaction.commit().await?;
+            return Ok(None);
+        }
+        Ok(
+            match former_request(&mut transaction, submitter, key).await? {
+                Some(FormerRequest::Same { answer, .. }) => answer,
+                Some(FormerRequest::Other) | None => None,
+            },
+        )
     }
 
     pub(super) async fn forget_keys(&self, kept: KeyRetention) -> Answer<u64> {
