@@ -5,6 +5,7 @@ use super::archive::Svg;
 use super::named_job::{NamedJob, find};
 use super::problem::Problem;
 use super::query::Query;
+use super::shares::StreamRight;
 use crate::jobs::{DrawError, JobService, Picture};
 use axum::extract::{RawQuery, State};
 use axum::http::header;
@@ -30,10 +31,11 @@ pub(super) async fn motion(
     State(jobs): State<JobService>,
     caller: Caller,
     NamedJob(id): NamedJob,
+    right: StreamRight,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::new(query.as_deref()).finish()?;
-    draw(&jobs, &caller, &id, Picture::Motion).await
+    draw(&jobs, &caller, (&id, Picture::Motion), &right).await
 }
 
 /// Draw flow and bodies from above
@@ -56,20 +58,26 @@ pub(super) async fn aerial(
     State(jobs): State<JobService>,
     caller: Caller,
     NamedJob(id): NamedJob,
+    right: StreamRight,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::new(query.as_deref()).finish()?;
-    draw(&jobs, &caller, &id, Picture::Aerial).await
+    draw(&jobs, &caller, (&id, Picture::Aerial), &right).await
 }
 
+/// Reads the records in the request's turn, and draws them in the admission pool.
 async fn draw(
     jobs: &JobService,
     caller: &Caller,
-    id: &str,
-    picture: Picture,
+    (id, picture): (&str, Picture),
+    right: &StreamRight,
 ) -> Result<Response, Problem> {
     let job = find(jobs, caller, id).await?;
-    let drawn = jobs.draw(&caller.share(), &job, picture).await?;
+    // Taken before: no more records are in memory than there are places.
+    let place = jobs.enter(&caller.share())?;
+    let drawing = jobs.drawing(job, picture).await?;
+    right.end_turn();
+    let drawn = place.work(move |_| drawing.draw()).await??;
     Ok(([(header::CONTENT_TYPE, "image/svg+xml")], drawn).into_response())
 }
 
@@ -77,7 +85,6 @@ impl From<DrawError> for Problem {
     fn from(error: DrawError) -> Self {
         match error {
             DrawError::NoOutcome => Self::not_found("no-picture", error.to_string()),
-            DrawError::Admission(error) => error.into(),
             DrawError::Store(error) => error.into(),
             DrawError::Document(_) | DrawError::Picture(_) => Self::internal(&error),
         }

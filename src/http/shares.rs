@@ -24,7 +24,7 @@ pub(super) struct Shares {
     turns: Turns,
 }
 
-/// Right of a request to become a stream, with which its turn ends.
+/// Right of a request to wait or to become a stream, with which its turn ends.
 #[derive(Debug, Clone)]
 pub(super) struct StreamRight {
     streams: Quota,
@@ -66,10 +66,9 @@ impl StreamRight {
                 ),
             })
     }
-}
 
-impl StreamRight {
-    fn end_turn(&self) {
+    /// Ends the turn of a request that is about to wait, so that others of its caller have theirs.
+    pub(super) fn end_turn(&self) {
         let mut turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
         drop(turn.take());
     }

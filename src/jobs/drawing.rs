@@ -1,14 +1,12 @@
-//! Pictures of a job's answer, drawn from its records in the admission pool.
+//! Pictures of a job's answer, drawn from its records.
 
 use super::JobService;
-use super::admission_pool::AdmissionError;
 use super::job::{Job, JobId};
 use super::store::StoreError;
 use crate::pictures::{self, PictureError};
 use crate::results::FlowSnapshot;
-use scree_solver::record::Outcome;
+use scree_solver::record::{Outcome, Sample};
 use scree_solver::scenario::Scenario;
-use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 use thiserror::Error;
 
@@ -30,9 +28,6 @@ pub enum DrawError {
     /// The job has no outcome.
     #[error("the job has no outcome: a picture is drawn of a successful one")]
     NoOutcome,
-    /// The pool is full, or the drawing took too long.
-    #[error(transparent)]
-    Admission(#[from] AdmissionError),
     /// The store's own error.
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -44,32 +39,34 @@ pub enum DrawError {
     Picture(#[from] PictureError),
 }
 
+/// Records of a job that a picture is drawn from.
+#[derive(Debug)]
+pub struct Drawing {
+    picture: Picture,
+    scenario: Box<RawValue>,
+    outcome: Box<RawValue>,
+    samples: Vec<Sample>,
+    snapshots: Vec<FlowSnapshot>,
+}
+
 impl JobService {
-    /// A picture of a job's answer as an SVG document, drawn for this caller.
+    /// Reads what a picture of a job's answer is drawn from.
     ///
     /// # Errors
-    /// [`DrawError`].
-    pub async fn draw(
-        &self,
-        caller: &str,
-        job: &Job,
-        picture: Picture,
-    ) -> Result<String, DrawError> {
-        let outcome: Outcome = read(job.outcome.as_deref().ok_or(DrawError::NoOutcome)?)?;
-        let scenario: Scenario = read(&job.scenario)?;
-        // Before the records are read, so that no more of them are in memory than requests.
-        let place = self.enter(caller)?;
+    /// The job has no outcome, or the store's own.
+    pub async fn drawing(&self, job: Job, picture: Picture) -> Result<Drawing, DrawError> {
+        let outcome = job.outcome.ok_or(DrawError::NoOutcome)?;
         let id = job.summary.id;
-        let samples = self.samples(id, job.bodies, MOST_STATES).await?;
-        let snapshots = match picture {
-            Picture::Motion => Vec::new(),
-            Picture::Aerial => self.all_snapshots(id).await?,
-        };
-        let drawn = place.work(move |_| match picture {
-            Picture::Motion => pictures::motion(&scenario, &samples, &outcome),
-            Picture::Aerial => pictures::aerial_view(&scenario, &samples, &snapshots),
-        });
-        Ok(drawn.await??)
+        Ok(Drawing {
+            picture,
+            scenario: job.scenario,
+            outcome,
+            samples: self.samples(id, job.bodies, MOST_STATES).await?,
+            snapshots: match picture {
+                Picture::Motion => Vec::new(),
+                Picture::Aerial => self.all_snapshots(id).await?,
+            },
+        })
     }
 
     async fn all_snapshots(&self, job: JobId) -> Result<Vec<FlowSnapshot>, StoreError> {
@@ -81,6 +78,17 @@ impl JobService {
     }
 }
 
-fn read<T: DeserializeOwned>(document: &RawValue) -> Result<T, serde_json::Error> {
-    serde_json::from_str(document.get())
+impl Drawing {
+    /// The picture as an SVG document; work for the admission pool.
+    ///
+    /// # Errors
+    /// A document can't be read, or the drawing library fails.
+    pub fn draw(self) -> Result<String, DrawError> {
+        let scenario: Scenario = serde_json::from_str(self.scenario.get())?;
+        let outcome: Outcome = serde_json::from_str(self.outcome.get())?;
+        Ok(match self.picture {
+            Picture::Motion => pictures::motion(&scenario, &self.samples, &outcome)?,
+            Picture::Aerial => pictures::aerial_view(&scenario, &self.samples, &self.snapshots)?,
+        })
+    }
 }

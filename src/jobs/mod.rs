@@ -26,7 +26,7 @@ mod worker;
 
 pub use admission::{Submission, SubmissionRequest, SubmitError};
 pub use admission_pool::{AdmissionError, AdmissionPool, Admitted};
-pub use drawing::{DrawError, Picture};
+pub use drawing::{DrawError, Drawing, Picture};
 pub use job_limits::{Excess, JobLimits};
 pub use job_service::{Dismissed, JobService, PlanError};
 pub use news::{Followers, News};

@@ -5,7 +5,7 @@ use super::job::JobId;
 use super::store::{StoreError, StoredChunk};
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, Selector};
-use scree_solver::record::Sample;
+use scree_solver::record::{BodySample, Sample};
 
 /// Range of one body's trajectory: fixed to the samples that existed at the time of the
 /// request, however far the run gets meanwhile.
@@ -81,29 +81,33 @@ impl JobService {
         for body in 0..bodies {
             let mut range = self.range(job, body, Selection::default()).await?;
             range.selection.stride = (range.end * bodies).div_ceil(most_states).max(1);
-            let mut selector = Selector::new(range.selection);
-            let (mut from_sample, mut place) = (0, 0);
-            while let Some(chunk) = self.next_chunk(&range, from_sample).await? {
-                from_sample = chunk.next_sample;
-                let chosen = selector.choose(&chunk.columns);
-                for index in 0..chosen.len() {
-                    let (time_s, state) = chosen.sample(index);
-                    if body == 0 {
-                        samples.push(Sample {
-                            time_s,
-                            bodies: Vec::with_capacity(bodies),
-                        });
-                    }
-                    if let Some(sample) = samples.get_mut(place) {
-                        sample.bodies.push(state);
-                    }
-                    place += 1;
-                }
+            let states = self.states(&range).await?;
+            if body == 0 {
+                let empty = |&(time_s, _): &(f64, _)| Sample {
+                    time_s,
+                    bodies: Vec::with_capacity(bodies),
+                };
+                samples = states.iter().map(empty).collect();
+            }
+            for (sample, (_, state)) in samples.iter_mut().zip(states) {
+                sample.bodies.push(state);
             }
         }
-        // A running job may have recorded more of the later bodies.
+        // A running job may have recorded more of some bodies.
         samples.retain(|sample| sample.bodies.len() == bodies);
         Ok(samples)
+    }
+
+    /// Times and states of the range.
+    async fn states(&self, range: &TrajectoryRange) -> Result<Vec<(f64, BodySample)>, StoreError> {
+        let mut selector = Selector::new(range.selection);
+        let (mut states, mut from_sample) = (Vec::new(), 0);
+        while let Some(chunk) = self.next_chunk(range, from_sample).await? {
+            let chosen = selector.choose(&chunk.columns);
+            states.extend((0..chosen.len()).map(|index| chosen.sample(index)));
+            from_sample = chunk.next_sample;
+        }
+        Ok(states)
     }
 
     /// Checks that the range is still there: a job that is removed while its trajectory is read
