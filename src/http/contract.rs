@@ -80,15 +80,16 @@ fn requirement() -> SecurityRequirement {
 
 /// Adds what all requests have in common.
 pub(super) fn finish(contract: &mut OpenApi) {
-    common_answers::add(contract);
+    let problems = examples::problems();
     for (path, item) in &mut contract.paths.paths {
         for operation in [&mut item.get, &mut item.post, &mut item.delete] {
             let Some(operation) = operation else { continue };
+            common_answers::add(path, operation);
             if is_open(path) {
                 operation.security = Some(Vec::new());
             }
             add_headers(operation);
-            examples::refer(operation);
+            examples::refer(operation, &problems);
         }
     }
     if let Some(components) = &mut contract.components {
@@ -101,7 +102,7 @@ pub(super) fn finish(contract: &mut OpenApi) {
         components.add_security_scheme(TOKEN, SecurityScheme::Http(token));
         complete(&mut components.schemas);
         vector_lengths::add(&mut components.schemas);
-        examples::add_to(components);
+        examples::add_to(components, problems);
     }
 }
 

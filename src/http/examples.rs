@@ -49,10 +49,13 @@ const TEXTS: [(&str, &str); 4] = [
     ),
 ];
 
+/// Examples of problems by their status; those of a query end in `-query`.
+type Problems = Map<String, Value>;
+
 /// Adds the examples to the components of the contract; the requests refer to them.
-pub(super) fn add_to(components: &mut Components) {
+pub(super) fn add_to(components: &mut Components, problems: Problems) {
     let documents = DOCUMENTS.map(|(name, text)| (name.to_owned(), json(text)));
-    let problems = problems()
+    let problems = problems
         .into_iter()
         .map(|(name, problem)| (of_problem(&name), Some(problem)));
     let texts = TEXTS.map(|(media_type, text)| (of_text(media_type), Some(Value::from(text))));
@@ -63,21 +66,20 @@ pub(super) fn add_to(components: &mut Components) {
 }
 
 /// Refers to an example for the body of a request and for its answers.
-pub(super) fn refer(operation: &mut Operation) {
+pub(super) fn refer(operation: &mut Operation, problems: &Problems) {
     let has_body = operation.request_body.is_some();
     if let Some(RefOr::T(body)) = &mut operation.request_body {
         for (media_type, content) in &mut body.content {
             refer_content(content, |schema| example(media_type, schema));
         }
     }
-    let problems = problems();
     for (status, response) in &mut operation.responses.responses {
         let RefOr::T(response) = response else {
             continue;
         };
         for (media_type, content) in &mut response.content {
             refer_content(content, |schema| match schema {
-                Some("Problem") => problem(&problems, status, has_body),
+                Some("Problem") => problem(problems, status, has_body),
                 schema => example(media_type, schema),
             });
         }
@@ -108,7 +110,7 @@ fn example(media_type: &str, schema: Option<&str>) -> Option<String> {
 }
 
 /// Name of the example of a problem, of a request with a body or else of one by its query.
-fn problem(problems: &Map<String, Value>, status: &str, has_body: bool) -> Option<String> {
+fn problem(problems: &Problems, status: &str, has_body: bool) -> Option<String> {
     let of_query = format!("{status}-query");
     if !has_body && problems.contains_key(&of_query) {
         return Some(of_problem(&of_query));
@@ -124,7 +126,8 @@ fn of_text(media_type: &str) -> String {
     media_type.replace('/', "-")
 }
 
-fn problems() -> Map<String, Value> {
+/// The examples of problems.
+pub(super) fn problems() -> Problems {
     match json(PROBLEMS) {
         Some(Value::Object(problems)) => problems,
         _ => Map::new(),

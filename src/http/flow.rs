@@ -59,7 +59,6 @@ struct FlowSchema {
         (status = 200, description = "The snapshot", body = FlowSchema),
         (status = 304, description = "It is what `If-None-Match` names"),
         (status = 404, description = "There is no such job, or no snapshot yet", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn flow(
@@ -98,7 +97,6 @@ pub(super) async fn flow(
     params(("id" = String, Path, format = Uuid, description = "Identifier of the job")),
     responses(
         (status = 200, description = "The archive", body = Archive, content_type = "application/zip"),
-        (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn flow_archive(

@@ -45,7 +45,6 @@ const LONGEST_WAIT_S: u32 = 60;
     responses(
         (status = 200, description = "A page of jobs", body = JobPageDocument),
         (status = 304, description = "It is what `If-None-Match` names"),
-        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn list(
@@ -88,8 +87,6 @@ pub(super) async fn list(
         (status = 200, description = "The job", body = JobDocument,
          headers(("ETag" = String, description = "Name of exactly this answer"))),
         (status = 304, description = "It is what `If-None-Match` names"),
-        (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn show(
@@ -134,9 +131,7 @@ pub(super) async fn show(
         (status = 200, description = "The job, dismissed", body = JobDocument),
         (status = 204, description = "The job is removed"),
         (status = 403, description = "The job is another's", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "The job had ended otherwise; or is to be removed and has not ended", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn dismiss(

@@ -88,7 +88,6 @@ struct PartParameters {
             (Archive = "application/zip"),
         )),
         (status = 404, description = "There is no such job or body", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn trajectory(
@@ -118,7 +117,6 @@ pub(super) async fn trajectory(
     responses(
         (status = 200, description = "The trajectory", body = String, content_type = "text/csv"),
         (status = 404, description = "There is no such job or body", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn trajectory_csv(
@@ -145,7 +143,6 @@ pub(super) async fn trajectory_csv(
     responses(
         (status = 200, description = "The trajectory", body = String, content_type = "application/x-ndjson"),
         (status = 404, description = "There is no such job or body", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn trajectory_ndjson(
@@ -172,7 +169,6 @@ pub(super) async fn trajectory_ndjson(
     responses(
         (status = 200, description = "The trajectory", body = Archive, content_type = "application/zip"),
         (status = 404, description = "There is no such job or body", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A parameter is not allowed", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn trajectory_npz(
