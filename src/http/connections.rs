@@ -242,7 +242,7 @@ impl Drop for Busy {
     }
 }
 
-/// What counts as one address: of IPv6 a network of 64 bits, which is what one client has.
+/// Address by which connections are counted: of IPv6 its network of 64 bits, which one client has.
 fn network(address: IpAddr) -> IpAddr {
     match address {
         IpAddr::V4(_) => address,

@@ -21,7 +21,7 @@ pub struct Event {
     pub sequence: i64,
     /// The job.
     pub job: JobId,
-    /// What has changed.
+    /// Change of the job.
     pub change: Change,
     /// Number of attempts by then.
     pub attempt: u32,

@@ -64,6 +64,7 @@ impl Field {
     }
 
     /// The column with this name.
+    #[cfg(test)]
     pub fn from_name(name: &str) -> Option<Self> {
         NAMES.iter().position(|other| *other == name).map(Self)
     }
