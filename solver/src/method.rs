@@ -178,12 +178,20 @@ pub struct Sleep {
 /// Early stop of a run (equations 62 and 63).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EarlyStop {
-    /// Speed below which points are assumed to stay [√(g h), h the height of the release].
-    pub still: f64,
+    /// Time of uninterrupted rest after which a body or a flow has come to rest [√(size/g)].
+    pub rest_time: f64,
+    /// Speed below which points creep [√(g h), h the height of the release]: one that slides
+    /// freely is slower only for its first milliseconds.
+    pub creep: f64,
     /// Largest possible further advance of the front [cells].
     pub front_bound: f64,
+    /// Least bound on it [cells].
+    pub front_resolution: f64,
     /// Largest share of the tipping energy of a body that may reach it.
     pub tipping_share: f64,
+    /// Largest height by which the energy that may reach a body without a footing could lift it
+    /// [sizes of the body].
+    pub lift: f64,
 }
 
 /// Guards that end a run (docs/method.md, section 10).
@@ -261,9 +269,12 @@ pub const METHOD: Method = Method {
         after: 0.1,
     },
     early_stop: EarlyStop {
-        still: 1e-3,
+        rest_time: 1.5,
+        creep: 1e-2,
         front_bound: 0.1,
+        front_resolution: 0.01,
         tipping_share: 0.5,
+        lift: 1e-3,
     },
     guards: Guards {
         largest_mach_number: 20.0,

@@ -229,6 +229,7 @@ pub(super) fn outcome(bodies: Vec<BodyOutcome>) -> Outcome {
             cell_size_m: 0.01,
             sound_speed_m_s: None,
         },
+        remarks: Vec::new(),
         ended_early: None,
         plan: None,
         accuracy: None,

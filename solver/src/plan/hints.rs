@@ -1,6 +1,7 @@
 //! Hints: legal values of a scenario that are probably not meant, or costly.
 
 use super::cost::longest_substep;
+use super::names::names;
 use crate::scenario::Scenario;
 use crate::simulation::PreparedScene;
 use serde::{Deserialize, Serialize};
@@ -9,8 +10,6 @@ use serde::{Deserialize, Serialize};
 const MEANT_IN_RADIANS_DEG: f64 = 2.0;
 /// Sub-steps because of a light body, over those of the flow, above which there is a hint.
 const MANY_TIMES: f64 = 1.5;
-/// Largest number of bodies named in a hint.
-const NAMED_BODIES: usize = 3;
 
 /// Warning about a scenario: something that is allowed, but probably not intended or unexpectedly
 /// costly.
@@ -142,22 +141,6 @@ fn cells_by_target(prepared: &PreparedScene) -> Option<Hint> {
 
 fn bodies(scenario: &Scenario) -> std::ops::Range<usize> {
     0..scenario.bodies.len()
-}
-
-/// "body 0", "bodies 0 and 2", "bodies 0, 1, 2 and 5 more".
-fn names(bodies: &[usize]) -> String {
-    let named = bodies.iter().take(NAMED_BODIES).map(usize::to_string);
-    let mut named: Vec<String> = named.collect();
-    let last = match bodies.len().checked_sub(NAMED_BODIES) {
-        Some(more) if more > 0 => Some(format!("{more} more")),
-        _ => named.pop(),
-    };
-    let last = last.unwrap_or_default();
-    if named.is_empty() {
-        format!("body {last}")
-    } else {
-        format!("bodies {} and {last}", named.join(", "))
-    }
 }
 
 fn subject(bodies: &[usize]) -> String {

@@ -6,10 +6,12 @@ mod cost;
 mod course;
 mod hints;
 mod memory;
+mod names;
 
 pub use choices::Choice;
 pub use cost::{Cost, Stage};
 pub use hints::Hint;
+pub(crate) use names::names;
 
 use crate::error::SetupError;
 use crate::scenario::Scenario;

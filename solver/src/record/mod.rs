@@ -1,14 +1,17 @@
 //! Records of a run: samples of every body, snapshots of the flow, and the outcome.
 //! Serialised, these are the JSON of the service. Definitions: docs/method.md, section 9.
 
+mod creep;
 mod energy;
 mod error_bars;
 mod means;
 mod mode;
 mod motion;
 mod outcome;
+mod outlook;
 mod quantities;
 mod recorder;
+mod remarks;
 mod rest;
 mod sampling;
 mod scale;
@@ -275,6 +278,9 @@ pub struct Outcome {
     pub conservation: Conservation,
     /// Cost of the run, without the runs behind intervals.
     pub cost: Cost,
+    /// Sentences for people: what happened to the bodies and the flow, and how the run ended.
+    #[serde(default)]
+    pub remarks: Vec<String>,
     /// Early stop of the run; null if it ran for its whole duration.
     pub ended_early: Option<EndedEarly>,
     /// Plan of the run: computation and reductions, as decided before the run.

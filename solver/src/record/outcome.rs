@@ -97,6 +97,12 @@ impl BodyHistory {
         self.turning.rolls()
     }
 
+    /// Distance of `body`, to which this history belongs, between two of its motions, turning
+    /// included [m].
+    pub(super) fn distance(&self, body: &Body, before: &Motion, now: &Motion) -> f64 {
+        measure(self.scale, body).distance(before, now)
+    }
+
     /// True if it has been at rest for the rest time until now [s].
     pub(super) fn rests_long(&self, body: &Body, time_s: f64) -> bool {
         self.settling.rests_long(&measure(self.scale, body), time_s)

@@ -1,13 +1,16 @@
 //! Recorder: turns the states of a run into records and an outcome.
 
+use super::creep::{Creep, Places};
 use super::energy::body_energy;
 use super::motion::Motion;
 use super::outcome::{BodyHistory, flow_outcome, front, front_of};
-use super::rest::{EndedEarly, Remaining, Resting, body_bound, front_rests};
+use super::remarks::Seen;
+use super::rest::{EndedEarly, Remaining, body_bound, front_resolution, front_rests};
 use super::sampling::Sampling;
 use super::scale::Scale;
 use super::snapshots::Snapshots;
 use super::{BodyOutcome, Conservation, Cost, FlowSnapshot, Outcome, Record, Sample};
+use crate::method::METHOD;
 use crate::plan::Plan;
 use crate::rigid::Body;
 use crate::scenario::{Ending, Scenario};
@@ -29,7 +32,9 @@ pub struct Recorder {
     snapshots: Snapshots,
     initial_toe: Option<f64>,
     open_end: f64,
-    resting: Resting,
+    /// Speed below which points creep [m/s].
+    creep_speed: f64,
+    creep: Creep,
     /// Duration of the run, unless it ends early [s].
     duration: f64,
     ending: Ending,
@@ -45,20 +50,49 @@ impl Recorder {
     /// A recorder for the run of a prepared scene.
     pub fn of(prepared: &PreparedScene) -> Self {
         let scenario = &prepared.scenario;
+        let scale = Scale::of(size(scenario), scenario.gravity_m_s2);
         Self {
             histories: Vec::new(),
             sampling: Sampling::of(scenario),
             snapshots: Snapshots::of(scenario),
             initial_toe: scenario.release().map(|release| release.front_m),
             open_end: scenario.channel.runout_length_m,
-            resting: Resting::of(scenario),
+            creep_speed: METHOD.early_stop.creep * scale.speed(),
+            creep: Creep::default(),
             duration: scenario.duration_s,
             ending: scenario.numerics.ending,
-            scale: Scale::of(size(scenario), scenario.gravity_m_s2),
+            scale,
             next_look: 0.0,
             plan: Plan::of(prepared),
             ended_early: None,
         }
+    }
+
+    /// Plan of the run.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Duration of the run, unless it ends early [s].
+    pub fn duration_s(&self) -> f64 {
+        self.duration
+    }
+
+    pub(super) fn ending(&self) -> Ending {
+        self.ending
+    }
+
+    pub(super) fn scale(&self) -> &Scale {
+        &self.scale
+    }
+
+    pub(super) fn creep_speed(&self) -> f64 {
+        self.creep_speed
+    }
+
+    /// True if this body is at rest.
+    pub(super) fn rests(&self, place: usize, body: &Body) -> bool {
+        self.histories[place].is_at_rest(body, &Motion::of(body))
     }
 
     /// The records of time 0.
@@ -113,54 +147,99 @@ impl Recorder {
         }
         let interval = LOOK_INTERVAL * self.scale.rest_time();
         self.next_look = interval * ((time_s / interval).floor() + 1.0);
-        self.ended_early = Some(self.nothing_moves(simulation)?);
+        self.ended_early = self.check(simulation);
+        self.ended_early.as_ref()?;
         let samples = self.sampling.end(simulation, &self.histories);
         Some(in_order(samples, self.snapshots.end(simulation)))
     }
 
-    fn nothing_moves(&self, simulation: &Simulation) -> Option<EndedEarly> {
+    /// Checks for an early stop; what has been seen of the deposit's creep is forgotten if more
+    /// than that moves.
+    fn check(&mut self, simulation: &Simulation) -> Option<EndedEarly> {
+        let bounded = self.bounded_energy(simulation);
+        let Some((remaining, front, ballistic)) = bounded else {
+            self.creep.forget();
+            return None;
+        };
+        let time_s = simulation.time_s();
+        let left = (self.duration - time_s).max(0.0);
+        let motions = simulation.bodies().iter().map(Motion::of);
+        let now = Places {
+            time_s,
+            deposit: front.map(|front| [front, remaining.mass_centre]),
+            bodies: motions.collect(),
+        };
+        let rest_time = self.scale.rest_time();
+        let before = self.creep.since(now.clone(), rest_time)?;
+        let rate = left / (time_s - before.time_s);
+        let creeps_on = |place: usize, body: &Body| {
+            let history = &self.histories[place];
+            let way = history.distance(body, &before.bodies[place], &now.bodies[place]);
+            way * rate + Scale::of_body(body, simulation.gravity().norm()).rest_distance()
+        };
+        let body_bound_m = body_bound(simulation, &remaining, creeps_on)?;
+        let front_bound_m = now
+            .deposit_goes_on(before, left)
+            .map(|creep| creep + ballistic + front_resolution(simulation));
+        if front_bound_m.is_some_and(|bound| !front_rests(simulation, bound)) {
+            return None;
+        }
+        Some(EndedEarly {
+            time_s,
+            reason: "nothing that still moves can move a body or the front any more".to_owned(),
+            body_bound_m,
+            front_bound_m,
+        })
+    }
+
+    /// Energies that remain, the front, and how far it can still be moved by what is faster than
+    /// creep [m], if bodies and deposit are at rest but for that.
+    fn bounded_energy(&self, simulation: &Simulation) -> Option<(Remaining, Option<f64>, f64)> {
         let time_s = simulation.time_s();
         let rests = |(body, history): (&Body, &BodyHistory)| match body.prescribed() {
             Some(prescribed) => prescribed.motion.rests_from(time_s),
             None => !body.is_free() || history.rests_long(body, time_s),
         };
         let mut bodies = simulation.bodies().iter().zip(&self.histories);
-        let early = time_s < self.scale.rest_time();
-        if self.ending == Ending::Full || early || !bodies.all(rests) {
+        if self.ending == Ending::Full || !bodies.all(rests) {
             return None;
         }
-        let left = (self.duration - time_s).max(0.0);
-        let remaining = Remaining::of(simulation, &self.resting, left);
-        let body_bound_m = body_bound(simulation, &remaining, left)?;
+        let remaining = Remaining::of(simulation, self.creep_speed);
+        body_bound(simulation, &remaining, |_, _| 0.0)?;
         let front = front(simulation, self.open_end);
         let farthest = front_of(simulation, &remaining.reaches, self.open_end);
-        let front_bound_m = front
-            .zip(farthest)
-            .map(|(front, farthest)| farthest - front);
-        if front_bound_m.is_some_and(|bound| !front_rests(simulation, bound)) {
-            return None;
-        }
-        Some(EndedEarly {
-            time_s,
-            reason: "nothing can move a body or the front any more".to_owned(),
-            body_bound_m,
-            front_bound_m,
-        })
+        let ballistic = front.zip(farthest).map_or(0.0, |(now, then)| then - now);
+        front_rests(simulation, ballistic).then_some((remaining, front, ballistic))
+    }
+
+    fn body_outcomes(&self, simulation: &Simulation) -> Vec<BodyOutcome> {
+        let bodies = self.histories.iter().zip(simulation.bodies()).enumerate();
+        bodies
+            .map(|(place, (history, body))| BodyOutcome {
+                energy: body_energy(simulation, place),
+                ..history.outcome(body)
+            })
+            .collect()
     }
 
     /// The outcome so far, with the wall time the caller measured [s].
     pub fn outcome(&self, simulation: &Simulation, wall_s: f64) -> Outcome {
         let audit = simulation.audit();
         let (steps, substeps, point_steps) = simulation.counts();
-        let bodies = self.histories.iter().zip(simulation.bodies()).enumerate();
+        let bodies = self.body_outcomes(simulation);
+        let flow = flow_outcome(simulation, self.initial_toe, self.open_end);
+        let released = simulation.audit().released_mass;
+        let seen = Seen {
+            bodies: &bodies,
+            free: simulation.bodies().iter().map(Body::is_free).collect(),
+            flow: (released > 0.0).then_some((&flow, released)),
+            ended_s: simulation.time_s(),
+            at_rest: (self.ending == Ending::Auto).then_some(self.ended_early.is_some()),
+        };
         Outcome {
-            bodies: bodies
-                .map(|(place, (history, body))| BodyOutcome {
-                    energy: body_energy(simulation, place),
-                    ..history.outcome(body)
-                })
-                .collect(),
-            flow: flow_outcome(simulation, self.initial_toe, self.open_end),
+            remarks: seen.remarks(),
+            bodies,
+            flow,
             conservation: Conservation {
                 mass_error: audit.mass_error,
                 momentum_residual: audit.momentum_residual,

@@ -1,12 +1,10 @@
-//! Early-stop criterion: nothing can move a body or the front any more (docs/method.md,
-//! equations 61–63).
+//! Early-stop criterion: nothing that still moves can move a body or the front any more
+//! (docs/method.md, equations 61–63).
 
 use super::scale::Scale;
 use crate::math::Vec3;
 use crate::method::METHOD;
-use crate::points::Point;
 use crate::rigid::Body;
-use crate::scenario::Scenario;
 use crate::simulation::Simulation;
 use crate::walls::Plane;
 use serde::{Deserialize, Serialize};
@@ -25,38 +23,13 @@ pub struct EndedEarly {
     pub front_bound_m: Option<f64>,
 }
 
-/// Material of a flow that comes to rest on the bed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Resting {
-    /// Static friction within it; `None` without a flow.
-    friction: Option<f64>,
-    /// Speed below which points are assumed to stay [m/s].
-    still: f64,
-}
-
-impl Resting {
-    pub(super) fn of(scenario: &Scenario) -> Self {
-        let flow = scenario.flow.as_ref();
-        let height = flow.map_or(0.0, |flow| flow.release.height_m);
-        Self {
-            friction: flow.map(|flow| flow.material.static_friction),
-            still: METHOD.early_stop.still * (scenario.gravity_m_s2 * height).sqrt(),
-        }
-    }
-
-    /// True if friction at rest, within the flow and on the bed, holds a point here.
-    fn is_held(&self, on: &Plane) -> bool {
-        let steepness = on.normal.xy().norm() / on.normal.z;
-        let within = self.friction.unwrap_or(on.flow_friction);
-        steepness == 0.0 || steepness < on.flow_friction.min(within)
-    }
-}
-
 /// Energies and reaches of the moving part of a flow.
 pub(super) struct Remaining {
     /// Farthest place at which each computed point comes to rest [m], with the mass of itself and
     /// its images [kg].
     pub(super) reaches: Vec<(f64, f64)>,
+    /// Mass centre along the channel [m].
+    pub(super) mass_centre: f64,
     moving: Vec<Sliding>,
 }
 
@@ -79,28 +52,33 @@ impl Sliding {
 }
 
 impl Remaining {
-    /// Remaining energies for so much of the duration left [s].
-    pub(super) fn of(simulation: &Simulation, resting: &Resting, left: f64) -> Self {
+    /// Remaining energies of the points faster than `creep_speed` [m/s].
+    pub(super) fn of(simulation: &Simulation, creep_speed: f64) -> Self {
         let gravity = simulation.gravity().norm();
         let mut remaining = Self {
             reaches: Vec::with_capacity(simulation.computed_points()),
+            mass_centre: 0.0,
             // A list that grows would take up to three times its memory.
             moving: Vec::with_capacity(simulation.computed_points()),
         };
+        let (mut moment, mut whole) = (0.0, 0.0);
         simulation.visit_computed_points(|point, mass| {
             let (x, y) = (point.position.x, point.position.y);
-            let on = simulation.bed().tangent(x, y);
-            let specific = specific_energy(point, simulation, (&on, resting));
             let mut way = 0.0;
-            if specific > 0.0 {
-                way = specific / (on.flow_friction * gravity);
+            let speed = point.velocity.norm();
+            if speed > creep_speed {
+                // Equation 61.
+                let height = simulation.bed().elevation(x, y);
+                let specific = 0.5 * speed * speed + gravity * height;
+                way = specific / (simulation.bed().tangent(x, y).flow_friction * gravity);
                 let energy = mass * specific;
                 remaining.moving.push(Sliding { x, way, energy });
             }
-            // A point that creeps, pushed by others, need not slow down.
-            let reach = x + way.max(point.velocity.norm() * left);
-            remaining.reaches.push((reach, mass));
+            moment += mass * x;
+            whole += mass;
+            remaining.reaches.push((x + way, mass));
         });
+        remaining.mass_centre = if whole > 0.0 { moment / whole } else { 0.0 };
         remaining
     }
 
@@ -110,43 +88,25 @@ impl Remaining {
     }
 }
 
-/// Energy that a moving point can still spend [J/kg]: its kinetic energy, and the height of the
-/// bed under it (equation 61).
-fn specific_energy(
-    point: &Point,
+/// Largest distance that any of the bodies, which are at rest, can still move [m]: what each creeps
+/// on by, and what the part of a flow that reaches it pushes it (equation 62); `None` if too large
+/// or unbounded.
+pub(super) fn body_bound(
     simulation: &Simulation,
-    (on, resting): (&Plane, &Resting),
-) -> f64 {
-    let speed = point.velocity.norm();
-    if speed < resting.still && resting.is_held(on) {
-        return 0.0;
-    }
-    let (x, y) = (point.position.x, point.position.y);
-    0.5 * speed * speed + simulation.gravity().norm() * simulation.bed().elevation(x, y)
-}
-
-/// Largest distance that any of these bodies, which are at rest, can still move in `left` [s],
-/// by itself and pushed by the part of a flow that reaches it [m] (equation 62); `None` if too
-/// large or unbounded.
-pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f64) -> Option<f64> {
-    let free = simulation.bodies().iter().filter(|body| body.is_free());
+    remaining: &Remaining,
+    creeps_on: impl Fn(usize, &Body) -> f64,
+) -> Option<f64> {
     let gravity = simulation.gravity().norm();
     let mut largest = 0.0f64;
-    for body in free {
-        let scale = Scale::of_body(body, gravity);
-        // A body at rest that trembles faster than that goes nowhere.
-        let mut way = body.largest_speed().min(scale.rest_speed()) * left;
+    for (place, body) in simulation.bodies().iter().enumerate() {
+        if !body.is_free() {
+            continue;
+        }
         // Material that comes to rest more than a cell before the body does not touch it.
         let behind = body.shape.bounding_radius() + simulation.cell_size_m();
         let energy = remaining.energy_at(body.state.position.x - behind);
-        if energy > 0.0 {
-            let footing = Footing::of(body, simulation)?;
-            if energy >= METHOD.early_stop.tipping_share * footing.tipping {
-                return None;
-            }
-            way += energy / footing.holding;
-        }
-        if way > scale.onset_distance() {
+        let way = creeps_on(place, body) + pushed(body, simulation, energy)?;
+        if way > Scale::of_body(body, gravity).onset_distance() {
             return None;
         }
         largest = largest.max(way);
@@ -154,9 +114,35 @@ pub(super) fn body_bound(simulation: &Simulation, remaining: &Remaining, left: f
     Some(largest)
 }
 
+/// Distance that this energy [J] pushes a body [m] (equation 62).
+fn pushed(body: &Body, simulation: &Simulation, energy: f64) -> Option<f64> {
+    if energy <= 0.0 {
+        return Some(0.0);
+    }
+    match Footing::of(body, simulation) {
+        Some(footing) if energy < METHOD.early_stop.tipping_share * footing.tipping => {
+            Some(energy / footing.holding)
+        }
+        Some(_) => None,
+        // What lies on others or in a deposit is held by more than one wall; its weight alone is a
+        // bound on what such a push does only while that hardly lifts it.
+        None => {
+            let weight = body.mass * simulation.gravity().norm();
+            let lifted = energy / weight;
+            let size = body.shape.volume().cbrt();
+            (lifted < METHOD.early_stop.lift * size).then_some(lifted)
+        }
+    }
+}
+
 /// True if a front that could still advance this far [m] counts as at rest.
 pub(super) fn front_rests(simulation: &Simulation, bound: f64) -> bool {
     bound <= METHOD.early_stop.front_bound * simulation.cell_size_m()
+}
+
+/// Least bound on a front's advance [m]: a deposit at rest shifts a little within its cells.
+pub(super) fn front_resolution(simulation: &Simulation) -> f64 {
+    METHOD.early_stop.front_resolution * simulation.cell_size_m()
 }
 
 /// Support of a body on a wall.

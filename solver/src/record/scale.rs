@@ -1,6 +1,7 @@
 //! Thresholds of motion, by the size of the moving body or flow: a scene L times as large that
 //! runs √L times as long has the same answer (Froude's law).
 
+use crate::method::METHOD;
 use crate::rigid::Body;
 use serde::{Deserialize, Serialize};
 
@@ -8,8 +9,6 @@ use serde::{Deserialize, Serialize};
 const ONSET_DISTANCE: f64 = 1.0 / 40.0;
 /// Speed below which a body is at rest [√(g size)].
 const REST_SPEED: f64 = 1.6e-3;
-/// Time of uninterrupted rest after which a body has come to rest [√(size/g)].
-const REST_TIME: f64 = 1.5;
 
 /// Size of a body or a flow, and its speed scale.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -34,6 +33,11 @@ impl Scale {
         Self::of(body.shape.volume().cbrt(), gravity)
     }
 
+    /// √(g size) [m/s].
+    pub(super) fn speed(&self) -> f64 {
+        self.speed
+    }
+
     /// Distance of a body from its start at onset [m].
     pub(super) fn onset_distance(&self) -> f64 {
         ONSET_DISTANCE * self.size
@@ -46,7 +50,7 @@ impl Scale {
 
     /// Time of rest after which a body has come to rest [s].
     pub(super) fn rest_time(&self) -> f64 {
-        REST_TIME * self.size / self.speed
+        METHOD.early_stop.rest_time * self.size / self.speed
     }
 
     /// Distance at the rest speed in the rest time [m].

@@ -37,7 +37,7 @@ impl Measure {
     }
 
     /// Distance of a body from its place, turning included [m].
-    fn distance(&self, place: &Motion, motion: &Motion) -> f64 {
+    pub(super) fn distance(&self, place: &Motion, motion: &Motion) -> f64 {
         let turned = place.orientation.angle_to(&motion.orientation) * self.radius;
         (motion.position - place.position).norm() + turned
     }

@@ -1,34 +1,56 @@
 //! Default duration of a run.
 
-use super::{Channel, Flow};
-use crate::bed::Bed;
+use super::motion::Motion;
+use super::rules::LONGEST;
+use super::sliding_block::SlidingBlock;
+use super::{Body, Channel, Flow};
 
-/// Shortest duration by default [s].
-pub(super) const LEAST: f64 = 3.0;
-/// Time in which material that has slid spreads and settles, over √(h/g) of the release.
-const SETTLES_FOR: f64 = 4.5;
+/// Default duration without a flow [s].
+pub(super) const WITHOUT_FLOW: f64 = 3.0;
+/// Default duration over the expected end of a flow: a run that is at rest ends early, and one that
+/// is not is cut off.
+const MARGIN: f64 = 2.0;
 
-/// Default duration [s]: the time in which the back of the release slides to the foot, is
-/// stopped by friction on the floor or leaves through the open end, and settles; whole seconds,
-/// and at least [`LEAST`].
-pub(super) fn default_duration(channel: &Channel, flow: Option<&Flow>, gravity_m_s2: f64) -> f64 {
-    let Some(flow) = flow.filter(|flow| flow.volume_m3 > 0.0) else {
-        return LEAST;
-    };
-    let back = channel.release_box(flow).back_m;
-    let bed = channel.bed().tangent(back, 0.0);
-    let (sin, cos) = (bed.normal.x, bed.normal.z);
-    let along_slope = -back / cos;
-    let pull = gravity_m_s2 * (sin - bed.flow_friction * cos).max(0.0);
-    let sliding = if pull > 0.0 {
-        (2.0 * along_slope / pull).sqrt()
-    } else {
-        0.0
-    };
-    let speed = channel.fastest_flow(flow, gravity_m_s2);
-    let stopping = speed / (channel.base_friction * gravity_m_s2);
-    let leaving = channel.runout_length_m / speed;
-    let settling = SETTLES_FOR * (flow.release.height_m / gravity_m_s2).sqrt();
-    let expected = sliding + stopping.min(leaving) + settling;
-    expected.ceil().clamp(LEAST, super::rules::LONGEST)
+/// Default duration [s]: twice the time at which the flow is expected to have come to rest, and at
+/// least as long as every prescribed motion, rounded up to two digits.
+pub(super) fn default_duration(
+    (channel, flow): (&Channel, Option<&Flow>),
+    bodies: &[Option<Body>],
+    gravity_m_s2: f64,
+) -> f64 {
+    let block = flow.and_then(|flow| SlidingBlock::of(channel, flow, gravity_m_s2));
+    let expected = block.map_or(WITHOUT_FLOW, |block| MARGIN * block.rests_at());
+    let motions = bodies.iter().flatten().filter_map(|of| of.motion.as_ref());
+    let ends = motions.filter_map(|motion| match motion {
+        Motion::Table { times_s, .. } => times_s.last().copied(),
+        Motion::Constant { .. } => None,
+    });
+    up_to_two_digits(ends.fold(expected, f64::max)).min(LONGEST)
+}
+
+/// The next number of two digits that is not less.
+fn up_to_two_digits(value: f64) -> f64 {
+    let digits = 1 - value.log10().floor() as i32;
+    let unit = 10f64.powi(digits);
+    // Division keeps 2.1 from becoming 2.1000000000000001.
+    (value * unit - 1e-9).ceil() / unit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_duration_has_two_digits() {
+        let cases = [
+            (2.0001, 2.1),
+            (3.0, 3.0),
+            (0.0341, 0.035),
+            (99.5, 100.0),
+            (1234.0, 1300.0),
+        ];
+        for (value, rounded) in cases {
+            assert_eq!(up_to_two_digits(value), rounded);
+        }
+    }
 }

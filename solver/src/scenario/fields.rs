@@ -220,7 +220,7 @@ pub(super) const SECTIONS: [Section; 10] = [
             object_or_null("flow").required(),
             items("bodies", BODIES).required(),
             number(&GRAVITY),
-            number(&DURATION).otherwise("3, or as many seconds as the flow is expected to take to slide to the foot, stop on the floor or leave, and settle, if they are more"),
+            number(&DURATION).otherwise("twice the time at which the flow is expected to have come to rest, at least as long as every table of a prescribed motion; 3 without a flow"),
             number(&SAMPLE_INTERVAL).also(", and at most 500,000 samples of all bodies together"),
             whole(&FLOW_SNAPSHOTS),
             object("numerics").otherwise("all defaults"),

@@ -26,6 +26,7 @@ pub(crate) mod schema;
 mod sections;
 mod shape;
 mod sharp_shape;
+mod sliding_block;
 mod solid;
 #[cfg(test)]
 mod tests;
@@ -38,6 +39,7 @@ pub use node::excerpt;
 pub use placement::{Pose, ReleaseBox, Support};
 pub use reduction::{Approach, Ending, Symmetry};
 pub use shape::{FieldValue, REGULAR_SOLIDS, SHAPES, Shape, ShapeField, ShapeKind};
+pub(crate) use sliding_block::SlidingBlock;
 pub use solid::BuiltSolid;
 
 use crate::shape::{ShapeError, SpheroPolyhedron};

@@ -84,7 +84,8 @@ impl Draft {
         let gravity_m_s2 = object.number(&GRAVITY);
         let lasts = match (&channel, &flow, gravity_m_s2) {
             (Some(channel), Some(flow), Some(gravity)) => {
-                Some(default_duration(channel, flow.as_ref(), gravity))
+                let bodies = bodies.as_deref().unwrap_or(&[]);
+                Some(default_duration((channel, flow.as_ref()), bodies, gravity))
             }
             _ => None,
         };

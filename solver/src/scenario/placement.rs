@@ -1,5 +1,6 @@
 //! Initial placement of bodies and release according to the scenario.
 
+use super::sliding_block::SlidingBlock;
 use super::{Body, Channel, Flow, Position, Scenario};
 use crate::bed::{Bed, PlanarBed};
 use crate::shape::SpheroPolyhedron;
@@ -68,15 +69,9 @@ impl Channel {
     /// to the foot against base friction, and the release collapsing, as energies (docs/method.md,
     /// equation 31).
     pub fn fastest_flow(&self, flow: &Flow, gravity_m_s2: f64) -> f64 {
-        let sliding = if flow.volume_m3 > 0.0 {
-            let back = self.release_box(flow).back_m;
-            let bed = self.bed().tangent(back, 0.0);
-            let (sin, cos) = (bed.normal.x, bed.normal.z);
-            2.0 * gravity_m_s2 * (-back / cos) * (sin - bed.flow_friction * cos).max(0.0)
-        } else {
-            0.0
-        };
-        (sliding + gravity_m_s2 * flow.release.height_m).sqrt()
+        let block = SlidingBlock::of(self, flow, gravity_m_s2);
+        let collapsing = || (gravity_m_s2 * flow.release.height_m).sqrt();
+        block.map_or_else(collapsing, |block| block.fastest())
     }
 
     /// Box of a flow's release.

@@ -9,6 +9,7 @@ mod cubes_and_column;
 mod dam_break;
 mod dragged_plate;
 mod dust_stream;
+mod early_stop;
 mod elastic_bar;
 mod error_bars;
 mod feature_contacts;
@@ -65,4 +66,5 @@ pub const ALL: &[Case] = &[
     cubes_and_column::CASE,
     error_bars::CASE,
     coarse_cells::CASE,
+    early_stop::CASE,
 ];

@@ -1,7 +1,7 @@
 //! Agreement of `docs/scenario.md` and of the table of fields with the readers.
 
 use super::{accepted, minimal, with};
-use crate::scenario::duration::LEAST;
+use crate::scenario::duration::WITHOUT_FLOW;
 use crate::scenario::fields::{Default, Field, Kind, SECTIONS};
 use crate::scenario::rules::*;
 use crate::scenario::schema::{SHORTEST, default};
@@ -139,7 +139,7 @@ fn fields_left_out_have_their_defaults() {
         }
     }
     assert!(constants > 25, "{constants}");
-    assert!(DOCUMENT.contains(&format!("| {LEAST}, or as many seconds")));
+    assert!(DOCUMENT.contains(&format!("; {WITHOUT_FLOW} without a flow |")));
 }
 
 /// Cells of the document's row about a field.
