@@ -278,6 +278,8 @@ pub(super) enum Measurement {
     Plan,
     /// Ten scenes, with their predicted and measured wall times and memory
     Forecast,
+    /// The same scenes, with the remaining wall time that each run told as it went on
+    Progress,
 }
 
 impl Measurement {

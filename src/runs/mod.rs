@@ -5,6 +5,7 @@
 
 pub mod convergence_study;
 mod headed;
+mod pace;
 mod progress;
 pub mod run;
 mod saved_run;

@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 /// Progress of a run. All zero before the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, ToSchema)]
 pub struct Progress {
-    /// Fraction of the simulated time that is done, 0..1.
+    /// Fraction of the expected wall time that is over, 0..1; never decreases.
     pub fraction: f64,
     /// Simulated time [s].
     pub simulated_time_s: f64,
@@ -17,8 +17,8 @@ pub struct Progress {
     pub substeps: u64,
     /// Point-steps (sub-steps of one point) per second of wall time so far [1/s].
     pub point_steps_per_s: f64,
-    /// Remaining wall time at the pace so far [s]; null before the first
-    /// step and once the run has ended.
+    /// Expected remaining wall time [s], from the present speeds of flow and bodies and the pace of
+    /// the computation; null before the first steps and once the run has ended.
     #[schema(required = true)]
     pub eta_s: Option<f64>,
 }

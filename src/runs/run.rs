@@ -230,7 +230,7 @@ impl Run {
             duration_s,
         } = self;
         simulation.cancel_with(stop.cancellation());
-        let mut watch = Watch::new(recorder, duration_s, spent, (stop, sink));
+        let mut watch = Watch::new(recorder, spent, (stop, sink));
         let (_, substeps, _) = simulation.counts();
         if substeps == 0 {
             watch.start(&simulation).map_err(RunError::Sink)?;

@@ -1,17 +1,13 @@
 //! Watches a run between two sub-steps: handles records, progress, states and requests to
 //! stop.
 
-use super::progress::{Progress, Resources};
+use super::pace::Pace;
+use super::progress::Resources;
 use super::run::{Sink, Stop, StopFlag};
 use super::saved_run::{self, Spent};
 use scree_solver::record::{Outcome, Record, Recorder};
 use scree_solver::{Simulation, SubstepReport};
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
-
-/// Least time between two reports of progress to a sink: often enough for a progress bar,
-/// rarely enough to cost nothing.
-const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Watch between a running simulation and the sink.
 pub(super) struct Watch<'a, S: Sink> {
@@ -22,22 +18,24 @@ pub(super) struct Watch<'a, S: Sink> {
     refused: Option<S::Error>,
     /// True if the run ended because nothing can move any more.
     ended_early: bool,
+    /// True once the run is over, not only stopped.
+    is_over: bool,
 }
 
 impl<'a, S: Sink> Watch<'a, S> {
     pub(super) fn new(
         recorder: Recorder,
-        duration_s: f64,
         spent: Spent,
         (stop, sink): (&'a StopFlag, &'a mut S),
     ) -> Self {
         Self {
+            pace: Pace::new(&recorder, spent),
             recorder,
-            pace: Pace::new(duration_s, spent),
             stop,
             sink,
             refused: None,
             ended_early: false,
+            is_over: false,
         }
     }
 
@@ -67,7 +65,9 @@ impl<'a, S: Sink> Watch<'a, S> {
         let (records, flow) = self.recorder.watch(simulation, report);
         if flow.is_break() {
             self.ended_early = true;
-            self.pace.duration_s = simulation.time_s();
+        }
+        if self.ended_early || simulation.time_s() >= self.recorder.duration_s() {
+            self.is_over = true;
         }
         // Read once: a request that arrives in between is handled next time.
         let stop = self.stop.asked();
@@ -118,7 +118,7 @@ impl<'a, S: Sink> Watch<'a, S> {
     }
 
     fn tell_progress(&mut self, simulation: &Simulation) -> Result<(), S::Error> {
-        let Some(progress) = self.pace.due() else {
+        let Some(progress) = self.pace.due(simulation, &self.recorder) else {
             return Ok(());
         };
         let (points, grid) = simulation.bytes();
@@ -133,81 +133,7 @@ impl<'a, S: Sink> Watch<'a, S> {
     pub(super) fn end(&mut self) -> Result<(), S::Error> {
         match self.refused.take() {
             Some(error) => Err(error),
-            None => self.sink.progress(&self.pace.progress()),
-        }
-    }
-}
-
-/// Counters and timers of a run.
-struct Pace {
-    /// Cost of the attempts before this one.
-    before: Spent,
-    began: Instant,
-    told: Instant,
-    duration_s: f64,
-    simulated_time_s: f64,
-    steps: u64,
-    substeps: u64,
-    point_steps: u64,
-}
-
-impl Pace {
-    fn new(duration_s: f64, before: Spent) -> Self {
-        let now = Instant::now();
-        Self {
-            before,
-            began: now,
-            told: now,
-            duration_s,
-            simulated_time_s: 0.0,
-            steps: 0,
-            substeps: 0,
-            point_steps: before.point_steps,
-        }
-    }
-
-    fn count(&mut self, report: &SubstepReport) {
-        self.simulated_time_s = report.time_s;
-        self.steps = report.steps;
-        self.substeps = report.substeps;
-        self.point_steps += report.points;
-    }
-
-    fn wall_s(&self) -> f64 {
-        self.before.wall_s + self.began.elapsed().as_secs_f64()
-    }
-
-    fn spent(&self) -> Spent {
-        Spent {
-            wall_s: self.wall_s(),
-            point_steps: self.point_steps,
-        }
-    }
-
-    /// Progress, if a report is due.
-    fn due(&mut self) -> Option<Progress> {
-        if self.told.elapsed() < PROGRESS_INTERVAL {
-            return None;
-        }
-        self.told = Instant::now();
-        Some(self.progress())
-    }
-
-    fn progress(&self) -> Progress {
-        let wall_s = self.wall_s();
-        let fraction = (self.simulated_time_s / self.duration_s).clamp(0.0, 1.0);
-        let going = fraction > 0.0 && fraction < 1.0;
-        Progress {
-            fraction,
-            simulated_time_s: self.simulated_time_s,
-            steps: self.steps,
-            substeps: self.substeps,
-            point_steps_per_s: if wall_s > 0.0 {
-                self.point_steps as f64 / wall_s
-            } else {
-                0.0
-            },
-            eta_s: going.then(|| wall_s * (1.0 - fraction) / fraction),
+            None => self.sink.progress(&self.pace.last(self.is_over)),
         }
     }
 }

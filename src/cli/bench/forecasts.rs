@@ -38,9 +38,9 @@ struct Foretold {
 
 /// A scene: its name, inclination [°], volume [m³], height [m], width [m], cell size [m],
 /// duration [s], and all else.
-type Given = (&'static str, [f64; 6], fn(&mut Value));
+pub(super) type Given = (&'static str, [f64; 6], fn(&mut Value));
 
-const SCENES: [Given; 10] = [
+pub(super) const SCENES: [Given; 10] = [
     ("bare", [35.0, 0.016, 0.12, 0.28, 0.01, 0.8], |_| {}),
     (
         "bare, wide, fine",
@@ -131,7 +131,7 @@ pub(super) fn measure(effort: &Effort) -> Result<Forecasts, Failure> {
     })
 }
 
-fn scenario((scene, numbers, change): &Given) -> Result<Scenario, Failure> {
+pub(super) fn scenario((scene, numbers, change): &Given) -> Result<Scenario, Failure> {
     let [inclination, volume, height, width, cell, duration] = *numbers;
     let mut document = json!({
         "channel": {"inclination_deg": inclination, "incline_length_m": 1.2,

@@ -7,6 +7,7 @@ mod forecasts;
 mod heaps;
 mod own_process;
 mod plan;
+mod progress;
 mod roofline;
 mod scenes;
 mod size;
@@ -62,6 +63,8 @@ struct Report {
     plan: Option<plan::Savings>,
     #[serde(skip_serializing_if = "Option::is_none")]
     forecast: Option<forecasts::Forecasts>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    progress: Option<progress::Tracks>,
 }
 
 /// Runs the measurements asked for and prints them.
@@ -104,7 +107,8 @@ fn if_asked<T>(
 impl Report {
     fn measured(effort: Effort, only: &[Measurement]) -> Result<Self, Failure> {
         use Measurement::{
-            Bodies, Channel, Forecast, Heaps, Plan, Roofline, S200k, Size, Stages, Threads,
+            Bodies, Channel, Forecast, Heaps, Plan, Progress, Roofline, S200k, Size, Stages,
+            Threads,
         };
         Ok(Self {
             solver_version: VERSION,
@@ -119,6 +123,7 @@ impl Report {
             roofline: if_asked(only, Roofline, || roofline::measure(&effort))?,
             plan: if_asked(only, Plan, || plan::measure(&effort))?,
             forecast: if_asked(only, Forecast, || forecasts::measure(&effort))?,
+            progress: if_asked(only, Progress, progress::measure)?,
             effort,
         })
     }
@@ -139,6 +144,7 @@ impl Report {
             self.roofline.as_ref().map(roofline::Rooflines::table),
             self.plan.as_ref().map(plan::Savings::table),
             self.forecast.as_ref().map(forecasts::Forecasts::table),
+            self.progress.as_ref().map(progress::Tracks::table),
         ];
         let how = format!(
             "Scree {}; {}\n{}\n",
