@@ -19,6 +19,7 @@ mod queue;
 mod tests;
 mod tokens;
 mod upkeep;
+mod webhooks;
 
 pub use admission::Admission;
 pub use browser::Browser;
@@ -27,6 +28,7 @@ pub use origin::{Authority, Host, Origin};
 pub use queue::Queue;
 pub use tokens::{Scope, Token, check_name as check_token_name};
 pub use upkeep::{Log, LogFormat, Retention};
+pub use webhooks::{Secret, Webhook};
 
 /// Configuration of the service.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -55,6 +57,8 @@ pub struct ServiceConfig {
     pub browser: Browser,
     /// Access tokens; without any, no request needs one.
     pub tokens: Vec<Token>,
+    /// Receivers that are told how jobs end.
+    pub webhooks: Vec<Webhook>,
 }
 
 /// The worker pool.
@@ -132,6 +136,7 @@ impl Default for ServiceConfig {
             log: Log::default(),
             browser: Browser::default(),
             tokens: Vec::new(),
+            webhooks: Vec::new(),
         }
     }
 }
@@ -164,6 +169,7 @@ impl ServiceConfig {
     /// The first key that is not allowed.
     pub fn check(&self, cores: usize) -> Result<PoolSize, ConfigError> {
         tokens::check(&self.tokens)?;
+        webhooks::check(&self.webhooks)?;
         self.check_listen()?;
         self.check_database()?;
         self.browser.check()?;

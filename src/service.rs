@@ -7,7 +7,7 @@ use crate::jobs::pool::Pool;
 use crate::jobs::store::sqlite::{SqliteStore, backup};
 use crate::jobs::store::{JobStore, StoreError, StoreErrorKind};
 use crate::jobs::submit::Means;
-use crate::jobs::{AdmissionPool, Followers, JobLimits, JobService};
+use crate::jobs::{AdmissionPool, Followers, JobLimits, JobService, webhooks};
 use crate::machine::cores;
 use std::io;
 use std::net::SocketAddr;
@@ -55,6 +55,7 @@ pub struct RunningService {
 struct Tasks {
     pool: Pool,
     news: JoinHandle<()>,
+    webhooks: Vec<JoinHandle<()>>,
     /// It only ends by itself if its listener is dead; `None` once that has been told.
     server: Option<JoinHandle<io::Result<()>>>,
     stop: watch::Sender<bool>,
@@ -86,6 +87,7 @@ impl RunningService {
         let Tasks {
             pool,
             news,
+            webhooks,
             server,
             stop,
         } = self.tasks;
@@ -95,6 +97,11 @@ impl RunningService {
             && let Err(error) = server.await
         {
             tracing::error!(%error, "the server did not stop as it should");
+        }
+        for webhook in webhooks {
+            if let Err(error) = webhook.await {
+                tracing::error!(%error, "a webhook did not stop as it should");
+            }
         }
         for (what, ended) in [("workers", workers.await), ("news", news.await)] {
             if let Err(error) = ended {
@@ -167,6 +174,8 @@ async fn serve(
     let pool = Pool::start(Arc::clone(store), size, config, job_limits, left_running);
     let pool = pool.map_err(StartError::Workers)?;
     let (followers, news) = Followers::start(Arc::clone(store), pool.registry());
+    let (stop, stopped) = watch::channel(false);
+    let webhooks = webhooks::start(&config.webhooks, store, &followers, &stopped);
     let jobs = JobService::new(
         Arc::clone(store),
         pool.registry(),
@@ -175,11 +184,11 @@ async fn serve(
         followers,
     );
     let router = http::router(jobs, config);
-    let (stop, stopped) = watch::channel(false);
     let server = http::server::serve(listener, router, config.limits.clone(), stopped);
     Ok(Tasks {
         pool,
         news,
+        webhooks,
         server: Some(tokio::spawn(server)),
         stop,
     })

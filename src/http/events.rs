@@ -10,6 +10,7 @@ use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::{Change, Event, StoreError};
 use crate::jobs::{JobService, News};
 use crate::quota::InUse;
+use crate::runs::Progress;
 use axum::body::Bytes;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, header};
@@ -18,10 +19,13 @@ use std::ops::RangeInclusive;
 use std::time::Duration;
 use tokio::sync::broadcast::Receiver;
 use tokio::sync::broadcast::error::RecvError;
-use tokio::time::timeout;
+use tokio::time::{Instant, timeout_at};
 
 /// Time without an event after which a comment is sent, so that both ends notice a lost connection.
 const LONGEST_SILENCE: Duration = Duration::from_secs(10);
+
+/// Time between two reports of the progress of a followed job.
+const PROGRESS_PAUSE: Duration = Duration::from_secs(1);
 
 /// Valid event numbers, and 0 for "before the first".
 const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
@@ -33,7 +37,9 @@ const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
 /// its events are replaced by one: `event: removed`, `data:` an object with `id` and `attempt`. With
 /// `Last-Event-ID` (or `after`) the stream begins after that event; without it, the
 /// stream of one job begins with the job's first event and that of all jobs with the next one.
-/// The stream of one job ends with the job.
+/// The stream of one job ends with the job. While the job runs, its progress is told about once a
+/// second: `event: progress`, without an `id`, `data:` an object with `id` and the job's `progress`.
+/// No progress is replayed.
 ///
 /// After a number that no event has had (the database was restored from a backup) the
 /// stream begins with `event: reset`, `id: 0`, `data:` an object with `after`, the number
@@ -94,6 +100,8 @@ pub(super) async fn events(
         ready: first,
         news,
         has_ended: false,
+        progress: ToldProgress::new(),
+        told: Instant::now(),
         _place: place,
     };
     let kind = [
@@ -136,14 +144,25 @@ struct Follower {
     news: Receiver<News>,
     /// True once the end of the followed job is sent.
     has_ended: bool,
+    progress: ToldProgress,
+    /// Time of the last piece.
+    told: Instant,
     _place: InUse,
 }
 
 impl Pieces for Follower {
     const NAME: &'static str = "events";
 
-    /// The next piece of text; none at the end of the stream.
     async fn piece(&mut self) -> Result<Option<Bytes>, StoreError> {
+        let piece = self.next().await;
+        self.told = Instant::now();
+        piece
+    }
+}
+
+impl Follower {
+    /// The next piece of text; none at the end of the stream.
+    async fn next(&mut self) -> Result<Option<Bytes>, StoreError> {
         if let Some(reset) = self.reset.take() {
             return Ok(Some(reset.into()));
         }
@@ -164,7 +183,12 @@ impl Pieces for Follower {
                 self.is_behind = !self.ready.is_empty();
                 continue;
             }
-            match timeout(LONGEST_SILENCE, self.news.recv()).await {
+            let silent = self.told + LONGEST_SILENCE;
+            let next = match self.job {
+                Some(_) => silent.min(self.progress.due),
+                None => silent,
+            };
+            match timeout_at(next, self.news.recv()).await {
                 Ok(Ok(News::Events(events))) => {
                     let wanted = |event: &&Event| {
                         event.sequence > self.after && self.job.is_none_or(|job| event.job == job)
@@ -173,9 +197,46 @@ impl Pieces for Follower {
                 }
                 Ok(Ok(News::Closing) | Err(RecvError::Closed)) => return Ok(None),
                 Ok(Err(RecvError::Lagged(_))) => self.is_behind = true,
-                Err(_) => return Ok(Some(Bytes::from_static(b":\n\n"))),
+                Err(_) => {
+                    if let Some(text) = self.progress.next(&self.jobs, self.job) {
+                        return Ok(Some(text.into()));
+                    }
+                    if Instant::now() >= silent {
+                        return Ok(Some(Bytes::from_static(b":\n\n")));
+                    }
+                }
             }
         }
+    }
+}
+
+/// Progress of the followed job, as told last.
+struct ToldProgress {
+    last: Option<Progress>,
+    due: Instant,
+}
+
+impl ToldProgress {
+    fn new() -> Self {
+        Self {
+            last: None,
+            due: Instant::now() + PROGRESS_PAUSE,
+        }
+    }
+
+    /// The progress, if it is due and has changed.
+    fn next(&mut self, jobs: &JobService, job: Option<JobId>) -> Option<String> {
+        let job = job.filter(|_| Instant::now() >= self.due)?;
+        self.due = Instant::now() + PROGRESS_PAUSE;
+        let now = jobs.progress(job)?;
+        if self.last.replace(now) == Some(now) {
+            return None;
+        }
+        let progress = serde_json::to_string(&now).ok()?;
+        // Without an id: the client goes on after the last change of state.
+        Some(format!(
+            "event: progress\ndata: {{\"id\":\"{job}\",\"progress\":{progress}}}\n\n"
+        ))
     }
 }
 

@@ -10,6 +10,7 @@ use super::recent::Recent;
 use super::store::{Dismissal, Event, JobCounts, JobStore, Page, Removal, StoreError};
 use super::submit::{self, Means, NewJob, ScenarioError};
 use crate::config::Limits;
+use crate::runs::Progress;
 use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
@@ -158,6 +159,11 @@ impl JobService {
     /// The store's own.
     pub async fn status(&self, id: JobId) -> Result<Option<JobStatus>, StoreError> {
         self.store.status(id).await
+    }
+
+    /// Progress of a job that this service runs now.
+    pub fn progress(&self, id: JobId) -> Option<Progress> {
+        self.registry.progress(id)
     }
 
     /// Waits until a job has ended or been removed, or until the time is over.

@@ -7,7 +7,7 @@ use super::lease_heartbeat::LeaseHeartbeat;
 use super::store::{JobStore, Lease};
 use super::worker;
 use crate::config::{PoolSize, Queue, Recording, Retention, ServiceConfig};
-use crate::runs::{ProgressBoard, Stop, StopFlag};
+use crate::runs::{Progress, ProgressBoard, Stop, StopFlag};
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -252,6 +252,15 @@ impl RunningJobRegistry {
             tracing::warn!(id = %registered.run.lease.job, "its state can't be saved in time: it goes back as it was saved last");
             registered.run.stop.raise();
         }
+    }
+
+    /// Progress of a running job; `None` if no worker of this service runs it.
+    pub(super) fn progress(&self, job: JobId) -> Option<Progress> {
+        let state = self.state();
+        state
+            .running
+            .get(&job)
+            .map(|running| running.run.board.read())
     }
 
     /// The running jobs.

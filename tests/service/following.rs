@@ -2,6 +2,7 @@
 
 use crate::app::{Answer, TestApp, endless_scene, is_running, tiny_scene};
 use reqwest::{Response, StatusCode};
+use serde_json::Value;
 use std::time::{Duration, Instant};
 
 async fn ask_with_tag(app: &TestApp, path: &str, tag: &str) -> Response {
@@ -155,6 +156,34 @@ async fn a_follower_of_a_job_that_is_dismissed_and_removed_at_once_learns_of_its
     assert!(again.contains("event: removed\n"), "{again}");
     let (status, _) = events(&app, &query, Some("4")).await;
     assert_eq!(status, StatusCode::NOT_FOUND);
+    app.stop().await;
+}
+
+// The fraction grows, and no number is used up by it.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_progress_of_a_running_job_is_told_every_second() {
+    let app = TestApp::start().await;
+    let job = app.submit(&endless_scene()).await;
+    let query = format!("?job={}", job.rsplit('/').next().unwrap());
+    let (stream, ()) = tokio::join!(events(&app, &query, None), async {
+        tokio::time::sleep(Duration::from_millis(3500)).await;
+        app.delete(&job).await;
+    });
+    let told: Vec<&str> = stream.1.split("\n\n").collect();
+    let progress = told
+        .iter()
+        .filter(|event| event.contains("event: progress"));
+    let fractions = progress.map(|event| {
+        assert!(!event.contains("id: "), "{event}");
+        let data = event.lines().find_map(|line| line.strip_prefix("data: "));
+        let data: Value = serde_json::from_str(data.unwrap()).unwrap();
+        assert!(job.ends_with(data["id"].as_str().unwrap()));
+        data["progress"]["fraction"].as_f64().unwrap()
+    });
+    let fractions: Vec<f64> = fractions.collect();
+    assert!(fractions.len() >= 2, "{}", stream.1);
+    assert!(fractions.is_sorted() && fractions[0] < 1.0, "{fractions:?}");
+    assert_eq!(statuses(&stream.1), ["accepted", "running", "dismissed"]);
     app.stop().await;
 }
 

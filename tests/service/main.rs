@@ -22,3 +22,4 @@ mod restart;
 mod results;
 mod runs;
 mod scenarios;
+mod webhooks;

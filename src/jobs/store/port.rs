@@ -146,6 +146,13 @@ pub trait JobStore: Debug + Send + Sync {
     /// before the first.
     async fn last_event(&self) -> Answer<i64>;
 
+    /// Number of the last event that this webhook's receiver has been told; `None` if it has never
+    /// been told any.
+    async fn webhook_position(&self, name: &str) -> Answer<Option<i64>>;
+
+    /// Notes the number of the last event that this webhook's receiver has been told.
+    async fn note_webhook_position(&self, name: &str, position: i64) -> Answer<()>;
+
     /// Counts jobs.
     async fn count_jobs(&self) -> Answer<JobCounts>;
 

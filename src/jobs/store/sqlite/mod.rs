@@ -38,6 +38,7 @@ mod states;
 mod submission;
 #[cfg(test)]
 pub(super) mod tests;
+mod webhooks;
 
 use super::{StoreError, StoreErrorKind};
 use crate::jobs::clock::{Clock, SystemClock};

@@ -141,6 +141,14 @@ impl JobStore for SqliteStore {
         Ok(Self::last_event(self).await?)
     }
 
+    async fn webhook_position(&self, name: &str) -> Result<Option<i64>, StoreError> {
+        Ok(Self::webhook_position(self, name).await?)
+    }
+
+    async fn note_webhook_position(&self, name: &str, position: i64) -> Result<(), StoreError> {
+        Ok(Self::note_webhook_position(self, name, position).await?)
+    }
+
     async fn count_jobs(&self) -> Result<JobCounts, StoreError> {
         Ok(Self::count_jobs(self).await?)
     }

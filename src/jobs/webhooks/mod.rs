@@ -1,0 +1,147 @@
+//! Webhooks: tells receivers, which the operator names, of changes of jobs, in order and at least
+//! once each (Standard Webhooks, version 1).
+
+mod message;
+mod post;
+
+use super::news::{Followers, News};
+use super::store::{Change, Event, JobStore, StoreError};
+use crate::config::Webhook;
+use message::Message;
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::broadcast::Receiver;
+use tokio::sync::broadcast::error::RecvError;
+use tokio::sync::watch;
+use tokio::task::JoinHandle;
+use tokio::time::{Instant, sleep};
+use tracing::{info, warn};
+
+/// Pauses before a message is sent again; the last one is repeated.
+const PAUSES_S: [u64; 6] = [1, 4, 16, 60, 300, 900];
+/// Time after which a message that nobody takes is given up.
+const GIVEN_UP_AFTER: Duration = Duration::from_secs(24 * 3600);
+
+/// Starts to tell the receivers, each by a task of its own that ends with the service.
+pub fn start(
+    webhooks: &[Webhook],
+    store: &Arc<dyn JobStore>,
+    followers: &Followers,
+    stopped: &watch::Receiver<bool>,
+) -> Vec<JoinHandle<()>> {
+    let tasks = webhooks.iter().map(|webhook| {
+        let teller = Teller {
+            webhook: webhook.clone(),
+            store: Arc::clone(store),
+            news: followers.join(),
+            stopped: stopped.clone(),
+        };
+        tokio::spawn(teller.tell())
+    });
+    tasks.collect()
+}
+
+/// Tells one receiver.
+struct Teller {
+    webhook: Webhook,
+    store: Arc<dyn JobStore>,
+    news: Receiver<News>,
+    stopped: watch::Receiver<bool>,
+}
+
+/// What has become of a message.
+#[derive(PartialEq)]
+enum Sent {
+    Taken,
+    GivenUp,
+    /// The service stops; it is sent after the next start.
+    Stopping,
+}
+
+impl Teller {
+    async fn tell(mut self) {
+        let mut stopped = self.stopped.clone();
+        loop {
+            let told = self.all_there_is().await;
+            if let Err(error) = &told {
+                warn!(name = self.webhook.name, %error, "a webhook's place can't be read or noted now");
+            }
+            let pause = async {
+                if told.is_err() {
+                    sleep(Duration::from_secs(PAUSES_S[0])).await;
+                } else if matches!(
+                    self.news.recv().await,
+                    Ok(News::Closing) | Err(RecvError::Closed)
+                ) {
+                    std::future::pending::<()>().await;
+                }
+            };
+            tokio::select! {
+                () = pause => {}
+                _ = stopped.wait_for(|stopped| *stopped) => return,
+            }
+        }
+    }
+
+    /// Tells all events after the last that was taken; a new receiver is told from now on.
+    async fn all_there_is(&self) -> Result<(), StoreError> {
+        let last = self.store.last_event().await?;
+        let noted = self.store.webhook_position(&self.webhook.name).await?;
+        // A number that no event has had is from before the database was restored.
+        let mut position = noted.filter(|noted| *noted <= last).unwrap_or(last);
+        if noted != Some(position) {
+            self.note(position).await?;
+        }
+        loop {
+            let events = self.store.events(position, None).await?;
+            let Some(newest) = events.last().map(|event| event.sequence) else {
+                return Ok(());
+            };
+            for event in events.iter().filter(|event| self.is_told(event)) {
+                if self.send(event).await == Sent::Stopping {
+                    return Ok(());
+                }
+                self.note(event.sequence).await?;
+            }
+            self.note(newest).await?;
+            position = newest;
+        }
+    }
+
+    fn is_told(&self, event: &Event) -> bool {
+        matches!(event.change, Change::Status(status) if self.webhook.states.contains(&status))
+    }
+
+    async fn note(&self, position: i64) -> Result<(), StoreError> {
+        let name = &self.webhook.name;
+        self.store.note_webhook_position(name, position).await
+    }
+
+    /// Sends the message of an event until it is taken.
+    async fn send(&self, event: &Event) -> Sent {
+        let name = &self.webhook.name;
+        let Some(message) = Message::of(event) else {
+            return Sent::Taken;
+        };
+        let mut stopped = self.stopped.clone();
+        let began = Instant::now();
+        for attempt in 0.. {
+            match post::post(&self.webhook, &message).await {
+                Ok(()) => return Sent::Taken,
+                Err(error) if began.elapsed() >= GIVEN_UP_AFTER => {
+                    warn!(name, id = %event.job, %error, "a webhook's message is given up");
+                    return Sent::GivenUp;
+                }
+                Err(error) => {
+                    info!(name, id = %event.job, %error, "a webhook's message is sent again later");
+                }
+            }
+            let pause = PAUSES_S[PAUSES_S.len().min(attempt + 1) - 1];
+            tokio::select! {
+                () = sleep(Duration::from_secs(pause)) => {}
+                _ = stopped.wait_for(|stopped| *stopped) => return Sent::Stopping,
+            }
+        }
+        Sent::GivenUp
+    }
+}
