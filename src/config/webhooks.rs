@@ -2,7 +2,7 @@
 
 use super::{ConfigError, not_allowed};
 use crate::jobs::job::JobStatus;
-use axum::http::Uri;
+use hyper::Uri;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 

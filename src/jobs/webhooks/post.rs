@@ -2,9 +2,9 @@
 
 use super::message::Message;
 use crate::config::Webhook;
-use axum::http::{Request, StatusCode, Uri, header};
 use http_body_util::Full;
 use hyper::body::Bytes;
+use hyper::{Request, StatusCode, Uri, header};
 use hyper_util::rt::TokioIo;
 use std::io;
 use std::time::Duration;
