@@ -83,6 +83,8 @@ fn with_cursor(query: &str, cursor: &str) -> String {
 }
 
 /// Get the state of a job
+///
+/// `progress` is in percent; an ended job links to its results.
 #[utoipa::path(
     get,
     path = "/ogc/jobs/{id}",

@@ -38,6 +38,8 @@ pub(super) struct ConformanceDocument {
 }
 
 /// Get the landing page
+///
+/// It links to everything else.
 #[utoipa::path(
     get,
     path = "/ogc",
@@ -70,6 +72,8 @@ pub(super) async fn landing_page(base: Base) -> Json<LandingPageDocument> {
 }
 
 /// Get the conformance classes
+///
+/// Those of OGC API – Processes, Part 1: Core, version 1.0.
 #[utoipa::path(
     get,
     path = "/ogc/conformance",

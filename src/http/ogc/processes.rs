@@ -26,6 +26,8 @@ pub(super) struct ProcessListDocument {
 }
 
 /// List the processes
+///
+/// There is one.
 #[utoipa::path(
     get,
     path = "/ogc/processes",
