@@ -26,6 +26,10 @@ def show(call, answer):
     print(f"{call:<34} {answer}")
 
 
+def last_words(names):
+    return ", ".join(name.rsplit("/", 1)[-1] for name in names)
+
+
 def ended(job):
     while (state := http_get(job).json())["status"] in ("accepted", "running"):
         time.sleep(0.1)
@@ -34,9 +38,9 @@ def ended(job):
 
 print(f"OWSLib {__version__}")
 service = Processes(sys.argv[1])
-show("Processes(url).links", ", ".join(link["rel"].rsplit("/", 1)[1] if "/" in link["rel"] else link["rel"] for link in service.links))
+show("Processes(url).links", last_words(link["rel"] for link in service.links))
 classes = service.conformance()["conformsTo"]
-show("conformance()", ", ".join(name.rsplit("/", 1)[1] for name in classes))
+show("conformance()", last_words(classes))
 listed = service.processes()
 show("processes()", ", ".join(f"{process['id']} {process['version']}" for process in listed))
 described = service.process(listed[0]["id"])
@@ -74,7 +78,7 @@ for output in ("flow", "motion", "aerial"):
 service.execute("simulation", inputs(ENDLESS), async_=True)
 job = service.response_headers["Location"]
 early = http_get(f"{job}/results")
-show("http_get(Location + '/results')", f"{early.status_code} {early.json()['type'].rsplit('/', 1)[1]}")
+show("http_get(Location + '/results')", f"{early.status_code} {last_words([early.json()['type']])}")
 state = http_delete(job).json()
 assert state["status"] == "dismissed"
 show("http_delete(Location)", state["status"])

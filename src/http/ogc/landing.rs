@@ -73,7 +73,8 @@ pub(super) async fn landing_page(base: Base) -> Json<LandingPageDocument> {
 
 /// Get the conformance classes
 ///
-/// Those of OGC API – Processes, Part 1: Core, version 1.0.
+/// Those of OGC API – Processes, Part 1: Core, version 1.0. The class core is met but for inputs by
+/// reference, `multipart/related`, and a choice of outputs in asynchronous results.
 #[utoipa::path(
     get,
     path = "/ogc/conformance",
