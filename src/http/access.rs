@@ -1,6 +1,7 @@
 //! Access control: access tokens, their scopes, and the caller of a
 //! request.
 
+use super::ogc;
 use super::problem::Problem;
 use crate::config::{Scope, Token};
 use axum::extract::{FromRequestParts, Request, State};
@@ -168,11 +169,13 @@ pub(super) async fn check(State(gate): State<Gate>, mut request: Request, next: 
 
 /// True if the path is open without a token.
 pub(super) fn is_open(path: &str) -> bool {
-    OPEN.contains(&path)
+    OPEN.contains(&path) || ogc::is_description(path)
 }
 
 fn names_a_job(path: &str) -> bool {
-    path.starts_with("/v1/jobs/")
+    ["/v1/jobs/", "/ogc/jobs/"]
+        .iter()
+        .any(|jobs| path.starts_with(jobs))
 }
 
 fn needed(method: &Method) -> Scope {

@@ -5,7 +5,7 @@ use super::field_errors::{FieldError, FieldErrors};
 use super::idempotency;
 use super::problem::Problem;
 use super::query::Query;
-use super::scenario_body::{ScenarioText, malformed};
+use super::scenario_body::{ScenarioText, read_envelope};
 use super::submission::LABEL_RULE;
 use crate::jobs::job::JobId;
 use crate::jobs::store::Key;
@@ -138,29 +138,12 @@ async fn send(
 }
 
 fn read_batch(text: &str) -> Result<BatchDocument, Problem> {
-    let batch: BatchDocument = serde_json::from_str(text).map_err(|error| {
-        if !error.is_data() {
-            return malformed(&error.to_string());
-        }
-        Problem::new(
-            StatusCode::UNPROCESSABLE_ENTITY,
-            "invalid-batch",
-            "Invalid batch",
-            without_long_texts(&error),
-        )
-    })?;
+    let batch: BatchDocument = read_envelope(text, ("invalid-batch", "Invalid batch"))?;
     if batch.jobs.is_empty() {
         let none = FieldError::of_body("/jobs", json!([]), "at least one job");
         return Err(Problem::invalid_scenario(none.into()));
     }
     Ok(batch)
-}
-
-/// The parser's message, which repeats a wrong key or text in full.
-fn without_long_texts(error: &serde_json::Error) -> String {
-    let position = format!(" at line {} column {}", error.line(), error.column());
-    let message = error.to_string().replace(&position, "");
-    format!("{}{position}", excerpt(&message))
 }
 
 /// Longest time for which scenarios are checked before others have their turn.

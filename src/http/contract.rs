@@ -1,7 +1,7 @@
 //! The contract: what holds for all requests, beside what each handler says of itself.
 
 use super::access::is_open;
-use super::{common_answers, examples, vector_lengths};
+use super::{common_answers, examples, ogc, vector_lengths};
 use crate::jobs::documents::complete;
 use axum::body::Bytes;
 use utoipa::openapi::header::Header;
@@ -15,7 +15,7 @@ use utoipa::openapi::{
 };
 
 /// Groups of requests, in reading order.
-const TAGS: [(&str, &str); 4] = [
+const TAGS: [(&str, &str); 5] = [
     (
         "plans",
         "What a job would compute and cost, before it is submitted.",
@@ -31,6 +31,10 @@ const TAGS: [(&str, &str); 4] = [
     (
         "service",
         "Health and figures of the service, for its operator.",
+    ),
+    (
+        ogc::TAG,
+        "The same jobs as OGC API – Processes, Part 1, has them.",
     ),
 ];
 

@@ -183,6 +183,6 @@ impl From<JobSummary> for JobSummaryDocument {
 }
 
 /// RFC 3339 in UTC, always to the millisecond, so that times sort as text.
-fn rfc3339(time: Timestamp) -> String {
+pub(super) fn rfc3339(time: Timestamp) -> String {
     format!("{time:.3}")
 }

@@ -6,7 +6,7 @@ use utoipa::openapi::path::Operation;
 use utoipa::openapi::{Components, Content, Ref, RefOr};
 
 /// JSON documents, by the names of their schemas.
-const DOCUMENTS: [(&str, &str); 8] = [
+const DOCUMENTS: [(&str, &str); 16] = [
     ("Batch", include_str!("../../api/examples/batch.json")),
     (
         "BatchAnswer",
@@ -23,6 +23,38 @@ const DOCUMENTS: [(&str, &str); 8] = [
     (
         "Trajectory",
         include_str!("../../api/examples/trajectory.json"),
+    ),
+    (
+        "LandingPage",
+        include_str!("../../api/examples/ogc/landing-page.json"),
+    ),
+    (
+        "Conformance",
+        include_str!("../../api/examples/ogc/conformance.json"),
+    ),
+    (
+        "ProcessList",
+        include_str!("../../api/examples/ogc/process-list.json"),
+    ),
+    (
+        "ProcessDescription",
+        include_str!("../../api/examples/ogc/process-description.json"),
+    ),
+    (
+        "Execute",
+        include_str!("../../api/examples/ogc/execute.json"),
+    ),
+    (
+        "StatusInfo",
+        include_str!("../../api/examples/ogc/status-info.json"),
+    ),
+    (
+        "JobList",
+        include_str!("../../api/examples/ogc/job-list.json"),
+    ),
+    (
+        "Results",
+        include_str!("../../api/examples/ogc/results.json"),
     ),
 ];
 

@@ -9,7 +9,7 @@ use super::problem::Problem;
 use super::query::Query;
 use super::shares::StreamRight;
 use super::submission::LABEL_RULE;
-use crate::jobs::job::{JobId, JobStatus};
+use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
 use crate::jobs::store::{Page, Removal};
 use crate::jobs::submit::label;
 use crate::jobs::{Dismissed, JobService};
@@ -26,7 +26,7 @@ const DEFAULT_LIMIT: u32 = 20;
 const LARGEST_LIMIT: u32 = 100;
 
 /// Longest time for which a request may wait for the end of a job [s].
-const LONGEST_WAIT_S: u32 = 60;
+pub(super) const LONGEST_WAIT_S: u32 = 60;
 
 /// List jobs, newest first
 ///
@@ -52,7 +52,22 @@ pub(super) async fn list(
     headers: HeaderMap,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
-    let page = read_page(query.as_deref())?;
+    let mut query = Query::new(query.as_deref());
+    let page = read_page(&mut query);
+    query.finish()?;
+    let (found, next_cursor) = page_of(&jobs, &page).await?;
+    let document = JobPageDocument {
+        jobs: found.into_iter().map(Into::into).collect(),
+        next_cursor,
+    };
+    etag::json(&headers, &document)
+}
+
+/// The jobs of a page, and the cursor of the next one if there is one.
+pub(super) async fn page_of(
+    jobs: &JobService,
+    page: &Page,
+) -> Result<(Vec<JobSummary>, Option<String>), Problem> {
     // One job more than asked for tells whether there is a next page.
     let mut found = jobs
         .page(&Page {
@@ -64,11 +79,7 @@ pub(super) async fn list(
     found.truncate(page.limit as usize);
     let last = found.last().filter(|_| more);
     let next_cursor = last.map(|job| cursor::write(job.sequence));
-    let document = JobPageDocument {
-        jobs: found.into_iter().map(Into::into).collect(),
-        next_cursor,
-    };
-    etag::json(&headers, &document)
+    Ok((found, next_cursor))
 }
 
 /// Get a job
@@ -143,15 +154,31 @@ pub(super) async fn dismiss(
     let mut query = Query::new(query.as_deref());
     let remove: Option<Remove> = query.choice("remove");
     query.finish()?;
-    let job = named(&jobs, &id).await?;
-    caller.may_change(job.submitter.as_deref())?;
-    let job = job.summary.id;
     if remove.is_some() {
+        let job = changeable(&jobs, &caller, &id).await?;
         return removed(&jobs, job, &id).await;
     }
+    let job = dismissed(&jobs, &caller, &id).await?;
+    Ok(Json(JobDocument::from(job)).into_response())
+}
+
+/// The job of this name, if the caller may change it.
+async fn changeable(jobs: &JobService, caller: &Caller, id: &str) -> Result<JobId, Problem> {
+    let job = named(jobs, id).await?;
+    caller.may_change(job.submitter.as_deref())?;
+    Ok(job.summary.id)
+}
+
+/// Dismisses the job of this name.
+pub(super) async fn dismissed(
+    jobs: &JobService,
+    caller: &Caller,
+    id: &str,
+) -> Result<Job, Problem> {
+    let job = changeable(jobs, caller, id).await?;
     match jobs.dismiss(job).await? {
-        Dismissed::Done(job) => Ok(Json(JobDocument::from(*job)).into_response()),
-        Dismissed::Unknown => Err(unknown_job(&id)),
+        Dismissed::Done(job) => Ok(*job),
+        Dismissed::Unknown => Err(unknown_job(id)),
         Dismissed::TooLate(status) => Err(Problem::new(
             StatusCode::CONFLICT,
             "job-ended",
@@ -194,18 +221,15 @@ fn read_wait(query: &mut Query) -> Option<u32> {
 }
 
 /// The page that a query asks for.
-fn read_page(query: Option<&str>) -> Result<Page, Problem> {
-    let mut query = Query::new(query);
-    let page = Page {
+pub(super) fn read_page(query: &mut Query) -> Page {
+    Page {
         status: query.choice("status"),
         label: query.word("label", LABEL_RULE, label),
         limit: query
             .whole("limit", 1..=LARGEST_LIMIT)
             .unwrap_or(DEFAULT_LIMIT),
         before: query.word("cursor", "the next_cursor of another page", cursor::read),
-    };
-    query.finish()?;
-    Ok(page)
+    }
 }
 
 /// Position in the list after which a page begins; opaque to clients.

@@ -22,6 +22,7 @@ mod idempotency;
 mod jobs;
 mod metrics;
 mod named_job;
+mod ogc;
 mod operator;
 mod pieces;
 mod plans;

@@ -77,6 +77,15 @@ impl Problem {
         }
     }
 
+    /// The same problem of a document that has the refused one at `pointer`.
+    pub(super) fn under(self, pointer: &str) -> Self {
+        let errors = self.errors.into_iter();
+        Self {
+            errors: errors.map(|error| error.under(pointer)).collect(),
+            ..self
+        }
+    }
+
     /// The thing asked for does not exist.
     pub(super) fn not_found(what: &str, detail: impl Into<String>) -> Self {
         Self::new(StatusCode::NOT_FOUND, what, "Not found", detail)

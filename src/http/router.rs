@@ -6,7 +6,9 @@ use super::metrics::{self, RequestCounts};
 use super::problem::Problem;
 use super::scenario_body::BodyLimits;
 use super::shares::{self, Shares};
-use super::{batch, contract, drawings, events, flow, jobs, plans, submission, system, trajectory};
+use super::{
+    batch, contract, drawings, events, flow, jobs, ogc, plans, submission, system, trajectory,
+};
 use crate::config::ServiceConfig;
 use crate::jobs::JobService;
 use crate::jobs::submit::excerpt;
@@ -32,11 +34,13 @@ use uuid::Uuid;
 pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
     let limits = &config.limits;
     let (router, contract) = documented(limits.request_timeout()).split_for_parts();
+    let process = ogc::Process::of(&contract);
     let contract = contract::text_of(&contract);
     let body_timeout = limits.body_read_timeout();
     let body_bytes = limits.request_body_bytes;
     let router = router
         .route("/openapi.json", get(|| serve_contract(contract)))
+        .merge(ogc::beside_the_contract())
         .route("/", get(|| async { Html(include_str!("page.html")) }))
         .route(
             "/page.js",
@@ -49,6 +53,7 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
         .fallback(system::no_such_route)
         .method_not_allowed_fallback(system::wrong_method)
         .with_state(jobs)
+        .layer(Extension(process))
         .layer(DefaultBodyLimit::max(body_bytes))
         .layer(from_fn(move |request, next| {
             limit_body(body_timeout, body_bytes, request, next)
@@ -93,6 +98,7 @@ fn documented(limit: Duration) -> OpenApiRouter<JobService> {
         .routes(routes!(system::health))
         .routes(routes!(system::ready))
         .routes(routes!(metrics::metrics))
+        .merge(ogc::quick())
         .layer(from_fn(move |request, next| in_time(limit, request, next)));
     let mut all = OpenApiRouter::with_openapi(contract::begin())
         .routes(routes!(jobs::show, jobs::dismiss))
@@ -101,6 +107,7 @@ fn documented(limit: Duration) -> OpenApiRouter<JobService> {
         .routes(routes!(submission::submit))
         .routes(routes!(batch::submit_batch))
         .routes(routes!(plans::plan))
+        .merge(ogc::waiting())
         .merge(quick);
     contract::finish(all.get_openapi_mut());
     all

@@ -1,10 +1,12 @@
 //! Body of a request that contains a scenario.
 
 use super::problem::Problem;
+use crate::jobs::submit::excerpt;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Request};
 use axum::http::{HeaderMap, StatusCode, header};
 use hyper::body::Body as _;
+use serde::de::DeserializeOwned;
 use tokio::time::{Instant, timeout_at};
 
 /// Limits of the body of a request.
@@ -69,6 +71,28 @@ pub(super) fn malformed(detail: &str) -> Problem {
         "Malformed JSON",
         detail,
     )
+}
+
+/// A document around scenarios, which are read later; `kind` is that of the problem if the
+/// document has other members than it may have.
+pub(super) fn read_envelope<T: DeserializeOwned>(
+    text: &str,
+    (kind, title): (&str, &'static str),
+) -> Result<T, Problem> {
+    serde_json::from_str(text).map_err(|error| {
+        if !error.is_data() {
+            return malformed(&error.to_string());
+        }
+        let status = StatusCode::UNPROCESSABLE_ENTITY;
+        Problem::new(status, kind, title, without_long_texts(&error))
+    })
+}
+
+/// The parser's message, which repeats a wrong key or text in full.
+fn without_long_texts(error: &serde_json::Error) -> String {
+    let position = format!(" at line {} column {}", error.line(), error.column());
+    let message = error.to_string().replace(&position, "");
+    format!("{}{position}", excerpt(&message))
 }
 
 /// Checks that the body is declared as JSON in UTF-8, uncompressed.

@@ -66,26 +66,14 @@ pub(super) async fn submit(
     {
         return answer_again(&jobs, &caller, key, former).await;
     }
-    let place = jobs.enter(&caller.share())?;
-    let reader = jobs.clone();
-    let new = place
-        .work(move |_| reader.validate(&text, labels))
-        .await
-        .map_err(SubmitError::from)??;
-    drop(place);
+    let new = validated(&jobs, &caller, (text, labels)).await?;
     let finished = match reuse {
         Some(Reuse::Finished) => readable_like(&jobs, &caller, &new).await?,
         None => None,
     };
-    let submission = jobs
-        .submit(SubmissionRequest {
-            // A finished job is as good: only the key is new.
-            jobs: finished.is_none().then_some(new).into_iter().collect(),
-            submitter: caller.name().map(str::to_owned),
-            quota: caller.quota(),
-            key: key.clone(),
-        })
-        .await?;
+    // A finished job is as good: only the key is new.
+    let new = finished.is_none().then_some(new);
+    let submission = queued(&jobs, &caller, (new, key.clone())).await?;
     if let Some(answer) = submission.answer {
         return Ok(idempotency::response(answer));
     }
@@ -96,6 +84,35 @@ pub(super) async fn submit(
     };
     let answer = answer(status, job)?;
     Ok(idempotency::send(&jobs, caller.name(), key.as_ref(), answer).await)
+}
+
+/// The job of a scenario, checked in the caller's place in the admission pool.
+pub(super) async fn validated(
+    jobs: &JobService,
+    caller: &Caller,
+    (text, labels): (String, Vec<String>),
+) -> Result<NewJob, SubmitError> {
+    let place = jobs.enter(&caller.share())?;
+    let reader = jobs.clone();
+    let new = place
+        .work(move |_| reader.validate(&text, labels))
+        .await??;
+    Ok(new)
+}
+
+/// Puts the job of a caller's request into the queue, with the request's key.
+pub(super) async fn queued(
+    jobs: &JobService,
+    caller: &Caller,
+    (new, key): (Option<NewJob>, Option<Key>),
+) -> Result<Submission, SubmitError> {
+    jobs.submit(SubmissionRequest {
+        jobs: new.into_iter().collect(),
+        submitter: caller.name().map(str::to_owned),
+        quota: caller.quota(),
+        key,
+    })
+    .await
 }
 
 /// A finished job like this one that the caller may read.

@@ -40,6 +40,8 @@ async fn without_a_good_token_nothing_is_told() {
         "/v1/jobs",
         "/v1/jobs/1",
         "/v1/events",
+        "/ogc/jobs",
+        "/ogc/jobs/1/results",
         "/metrics",
         "/nowhere",
     ] {
@@ -53,7 +55,13 @@ async fn without_a_good_token_nothing_is_told() {
     }
     let answer = app.post("application/json", tiny_scene().to_string()).await;
     answer.assert_problem(StatusCode::UNAUTHORIZED, "no-token");
-    for path in ["/healthz", "/readyz", "/openapi.json", "/"] {
+    for path in [
+        "/healthz",
+        "/readyz",
+        "/openapi.json",
+        "/",
+        "/ogc/processes/simulation",
+    ] {
         assert_eq!(app.get(path).await.status, StatusCode::OK, "{path}");
     }
     app.stop().await;
@@ -152,6 +160,13 @@ async fn a_token_that_may_submit_reads_what_it_submitted() {
     let own = own.location.unwrap();
     let others = ask(&app, "ann", Method::POST, "/v1/jobs").await;
     let others = others.location.unwrap();
+    let in_ogc = [&own, &others].map(|job| job.replace("/v1", "/ogc"));
+    let state = ask(&app, "sue", Method::GET, &in_ogc[0]).await;
+    assert_eq!(state.status, StatusCode::OK, "{:#}", state.body);
+    for method in [Method::GET, Method::DELETE] {
+        let refused = ask(&app, "sue", method, &in_ogc[1]).await;
+        refused.assert_problem(StatusCode::FORBIDDEN, "not-allowed");
+    }
     for part in ["", "/trajectory", "/flow.zip"] {
         let path = format!("{own}{part}");
         let read = app.client.get(app.url(&path));
@@ -161,7 +176,7 @@ async fn a_token_that_may_submit_reads_what_it_submitted() {
         let refused = ask(&app, "sue", Method::GET, &format!("{others}{part}")).await;
         refused.assert_problem(StatusCode::FORBIDDEN, "not-allowed");
     }
-    for path in ["/v1/jobs", "/v1/events", "/metrics"] {
+    for path in ["/v1/jobs", "/v1/events", "/metrics", "/ogc/jobs"] {
         let refused = ask(&app, "sue", Method::GET, path).await;
         refused.assert_problem(StatusCode::FORBIDDEN, "not-allowed");
     }

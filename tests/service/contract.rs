@@ -56,7 +56,7 @@ async fn the_service_serves_its_contract_and_keeps_to_it() {
 }
 
 /// Documents of `api/examples` and their schemas.
-const EXAMPLES: [(&str, &str); 7] = [
+const EXAMPLES: [(&str, &str); 13] = [
     ("batch-answer.json", "BatchAnswer"),
     ("flow-snapshot.json", "FlowSnapshot"),
     ("health.json", "Health"),
@@ -64,6 +64,12 @@ const EXAMPLES: [(&str, &str); 7] = [
     ("job-page.json", "JobPage"),
     ("planned.json", "Planned"),
     ("trajectory.json", "Trajectory"),
+    ("ogc/landing-page.json", "LandingPage"),
+    ("ogc/conformance.json", "Conformance"),
+    ("ogc/process-list.json", "ProcessList"),
+    ("ogc/status-info.json", "StatusInfo"),
+    ("ogc/job-list.json", "JobList"),
+    ("ogc/results.json", "Results"),
 ];
 
 /// The examples of the contract are answers of a service. To record them anew after an intended
@@ -95,8 +101,12 @@ async fn the_examples_are_documents_as_the_service_answers_them() {
             "{status}"
         );
     }
-    // The service takes the example of a batch.
+    // The service takes the examples of requests.
     let app = TestApp::start().await;
+    let execution = "/ogc/processes/simulation/execution";
+    let execute = read("ogc/execute.json").to_string();
+    let answer = app.post_to(execution, "application/json", execute).await;
+    assert_eq!(answer.status, 200, "{}", answer.body);
     let batch = read("batch.json").to_string();
     let answer = app.post_to("/v1/batches", "application/json", batch).await;
     assert_eq!(answer.status, 202, "{}", answer.body);

@@ -16,6 +16,7 @@ mod http_basics;
 mod intake;
 mod jobs;
 mod layers;
+mod ogc;
 mod overload;
 mod plans;
 mod restart;

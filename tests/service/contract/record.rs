@@ -1,6 +1,6 @@
 //! Records the examples of the contract.
 
-use crate::app::{TestApp, endless_scene, is_running};
+use crate::app::{Answer, TestApp, endless_scene, is_running};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -68,8 +68,46 @@ pub(super) async fn all(folder: &Path) {
     );
     let metrics = app.get("/metrics").await;
     write("metrics.txt", metrics.body.as_str().unwrap());
+    for (name, answer) in ogc(&app, id).await {
+        document(&format!("ogc/{name}.json"), &answer);
+    }
     document("problems.json", &problems(&app, &path).await);
     app.stop().await;
+}
+
+/// Documents of OGC API – Processes, of this job and under a name instead of a passing port.
+async fn ogc(app: &TestApp, id: &str) -> Vec<(&'static str, Value)> {
+    let execute = json!({
+        "inputs": {"scenario": {"value": scene()}},
+        "outputs": {"outcome": {"transmissionMode": "value"}, "flow": {}},
+        "response": "document",
+    });
+    let mut documents = vec![("execute", execute)];
+    for (name, path) in [
+        ("landing-page", "/ogc"),
+        ("conformance", "/ogc/conformance"),
+        ("process-list", "/ogc/processes"),
+        ("process-description", "/ogc/processes/simulation"),
+        ("job-list", "/ogc/jobs?status=successful&limit=1"),
+        ("status-info", &format!("/ogc/jobs/{id}")),
+        ("results", &format!("/ogc/jobs/{id}/results")),
+    ] {
+        let request = app.client.get(app.url(path));
+        let answer = request.header("host", "localhost").send().await.unwrap();
+        documents.push((name, shortened(Answer::read(answer).await.body)));
+    }
+    documents
+}
+
+/// A description of a process without what the contract has of its documents; any other document
+/// as it is.
+fn shortened(mut document: Value) -> Value {
+    for schema in ["/inputs/scenario/schema", "/outputs/outcome/schema"] {
+        if let Some(Value::Object(schema)) = document.pointer_mut(schema) {
+            schema.retain(|member, _| ["type", "description"].contains(&member.as_str()));
+        }
+    }
+    document
 }
 
 /// Problems that a client can bring about, by their status.
