@@ -17,3 +17,4 @@ pub mod results;
 pub mod runs;
 pub mod service;
 pub mod verify;
+mod webhooks;

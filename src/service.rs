@@ -7,8 +7,9 @@ use crate::jobs::pool::Pool;
 use crate::jobs::store::sqlite::{SqliteStore, backup};
 use crate::jobs::store::{JobStore, StoreError, StoreErrorKind};
 use crate::jobs::submit::Means;
-use crate::jobs::{AdmissionPool, Followers, JobLimits, JobService, webhooks};
+use crate::jobs::{AdmissionPool, Followers, JobLimits, JobService};
 use crate::machine::cores;
+use crate::webhooks;
 use std::io;
 use std::net::SocketAddr;
 use std::path::Path;
@@ -174,8 +175,6 @@ async fn serve(
     let pool = Pool::start(Arc::clone(store), size, config, job_limits, left_running);
     let pool = pool.map_err(StartError::Workers)?;
     let (followers, news) = Followers::start(Arc::clone(store), pool.registry());
-    let (stop, stopped) = watch::channel(false);
-    let webhooks = webhooks::start(&config.webhooks, store, &followers, &stopped);
     let jobs = JobService::new(
         Arc::clone(store),
         pool.registry(),
@@ -183,6 +182,8 @@ async fn serve(
         (AdmissionPool::new(&config.admission, cores()), means),
         followers,
     );
+    let (stop, stopped) = watch::channel(false);
+    let webhooks = webhooks::start(&config.webhooks, store, &jobs, &stopped);
     let router = http::router(jobs, config);
     let server = http::server::serve(listener, router, config.limits.clone(), stopped);
     Ok(Tasks {

@@ -22,7 +22,6 @@ mod recent;
 pub mod recording;
 pub mod store;
 pub mod submit;
-pub mod webhooks;
 mod worker;
 
 pub use admission::{Submission, SubmissionRequest, SubmitError};

@@ -4,9 +4,9 @@
 mod message;
 mod post;
 
-use super::news::{Followers, News};
-use super::store::{Change, Event, JobStore, StoreError};
 use crate::config::Webhook;
+use crate::jobs::store::{Change, Event, JobStore, StoreError};
+use crate::jobs::{JobService, News};
 use message::Message;
 use std::sync::Arc;
 use std::time::Duration;
@@ -26,14 +26,14 @@ const GIVEN_UP_AFTER: Duration = Duration::from_secs(24 * 3600);
 pub fn start(
     webhooks: &[Webhook],
     store: &Arc<dyn JobStore>,
-    followers: &Followers,
+    jobs: &JobService,
     stopped: &watch::Receiver<bool>,
 ) -> Vec<JoinHandle<()>> {
     let tasks = webhooks.iter().map(|webhook| {
         let teller = Teller {
             webhook: webhook.clone(),
             store: Arc::clone(store),
-            news: followers.join(),
+            news: jobs.news(),
             stopped: stopped.clone(),
         };
         tokio::spawn(teller.tell())
