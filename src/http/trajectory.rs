@@ -242,6 +242,7 @@ impl Reading {
 
 impl Pieces for Reading {
     const NAME: &'static str = "trajectory";
+    type Error = StoreError;
 
     async fn piece(&mut self) -> Result<Option<Bytes>, StoreError> {
         let mut out = Vec::new();

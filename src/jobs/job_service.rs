@@ -29,7 +29,7 @@ pub struct JobService {
     pub(super) registry: Arc<RunningJobRegistry>,
     pub(super) limits: Limits,
     pub(super) in_flight: InFlight,
-    pool: AdmissionPool,
+    pub(super) pool: AdmissionPool,
     means: Means,
     followers: Followers,
     counts: Arc<Recent<Result<JobCounts, StoreError>>>,
