@@ -20,6 +20,7 @@ mod field_errors;
 mod flow;
 mod idempotency;
 mod jobs;
+mod listing;
 mod metrics;
 mod named_job;
 mod ogc;

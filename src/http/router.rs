@@ -7,7 +7,8 @@ use super::problem::Problem;
 use super::scenario_body::BodyLimits;
 use super::shares::{self, Shares};
 use super::{
-    batch, contract, drawings, events, flow, jobs, ogc, plans, submission, system, trajectory,
+    batch, contract, drawings, events, flow, jobs, listing, ogc, plans, submission, system,
+    trajectory,
 };
 use crate::config::ServiceConfig;
 use crate::jobs::JobService;
@@ -86,7 +87,7 @@ pub fn openapi() -> OpenApi {
 /// The routes; those that wait by design have no time limit.
 fn documented(limit: Duration) -> OpenApiRouter<JobService> {
     let quick = OpenApiRouter::new()
-        .routes(routes!(jobs::list))
+        .routes(routes!(listing::list))
         .routes(routes!(trajectory::trajectory))
         .routes(routes!(trajectory::trajectory_csv))
         .routes(routes!(trajectory::trajectory_ndjson))
