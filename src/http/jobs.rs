@@ -33,8 +33,7 @@ pub(super) const LONGEST_WAIT_S: u32 = 60;
         ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
     ),
     responses(
-        (status = 200, description = "The job", body = JobDocument,
-         headers(("ETag" = String, description = "Name of exactly this answer"))),
+        (status = 200, description = "The job", body = JobDocument),
         (status = 304, description = "It is what `If-None-Match` names"),
     )
 )]

@@ -28,8 +28,9 @@ pub(super) trait Pieces: Send + Sized + 'static {
     }
 }
 
+/// The pieces; none again after the last, since what compresses a body asks once more at its end.
 fn stream_of<P: Pieces>(pieces: P) -> impl Stream<Item = Result<Bytes, P::Error>> {
-    stream::unfold(Some(pieces), |pieces| async {
+    let pieces = stream::unfold(Some(pieces), |pieces| async {
         let mut pieces = pieces?;
         match pieces.piece().await {
             Ok(None) => None,
@@ -39,5 +40,6 @@ fn stream_of<P: Pieces>(pieces: P) -> impl Stream<Item = Result<Bytes, P::Error>
                 Some((Err(error), None))
             }
         }
-    })
+    });
+    pieces.fuse()
 }
