@@ -29,7 +29,7 @@ const LARGEST_LIMIT: u32 = 100;
 )]
 pub(super) struct PageParameters {
     /// Only jobs of these states.
-    #[param(inline, explode = false)]
+    #[param(explode = false)]
     status: Option<Vec<JobStatus>>,
     /// Only jobs with this label.
     label: Option<String>,
