@@ -1,13 +1,21 @@
-//! Compression of answers: the coding that a client gets, and the answers that are compressed. What
-//! is streamed is compressed while it is read, with the fastest level, a few kilobytes at a time.
+//! Compression of answers: the coding that a client gets, and the answers that are compressed. They
+//! are compressed while they are sent, piece by piece, off the threads that answer requests
+//! ([decision 48](../../docs/decisions/0048-pieces-of-answers-on-blocking-threads.md)).
 
+use super::coding::Coding;
+use super::etag::varied;
+use super::pieces::off_the_answering_threads;
+use axum::BoxError;
+use axum::body::{Body, Bytes, HttpBody as _};
 use axum::extract::Request;
-use axum::http::{Extensions, HeaderMap, HeaderValue, StatusCode, Version, header};
+use axum::http::{HeaderMap, Method, header};
 use axum::middleware::Next;
 use axum::response::Response;
-use tower_http::CompressionLevel;
-use tower_http::compression::predicate::{And, SizeAbove};
-use tower_http::compression::{CompressionLayer, Predicate as _};
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use futures_util::future::ready;
+use futures_util::{TryStreamExt as _, stream};
+use std::io::{self, Write as _};
 
 /// Size below which an answer is sent as it is [bytes]: it fits one packet anyway.
 pub(super) const SMALLEST: u16 = 1024;
@@ -26,127 +34,119 @@ const MEDIA_TYPES: [&str; 9] = [
     "text/css",
 ];
 
-/// Coding of an answer's content, the preferred one last.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Coding {
-    Gzip,
-    Zstd,
-}
-
-impl Coding {
-    const ALL: [Self; 2] = [Self::Gzip, Self::Zstd];
-
-    /// Its name in headers.
-    pub(super) fn word(self) -> &'static str {
-        match self {
-            Self::Gzip => "gzip",
-            Self::Zstd => "zstd",
-        }
-    }
-
-    /// The coding of the answer to a request that has passed [`choose`].
-    pub(super) fn chosen(headers: &HeaderMap) -> Option<Self> {
-        let word = headers.get(header::ACCEPT_ENCODING)?;
-        Self::ALL.into_iter().find(|coding| word == coding.word())
-    }
-
-    /// The coding that `Accept-Encoding` prefers; none if it has none of these, or prefers the
-    /// content as it is. That is also the answer to a client that refuses it as it is, and
-    /// accepts none of these.
-    fn preferred(headers: &HeaderMap) -> Option<Self> {
-        let lists = headers.get_all(header::ACCEPT_ENCODING).into_iter();
-        let lists = lists.filter_map(|list| list.to_str().ok());
-        let accepted: Vec<(&str, f32)> = lists
-            .flat_map(|list| list.split(','))
-            .map(weighted)
-            .collect();
-        let weight = |name: &str| {
-            let mut named = accepted
-                .iter()
-                .filter(|(other, _)| other.eq_ignore_ascii_case(name));
-            named.next().map(|(_, weight)| *weight)
-        };
-        let rest = weight("*").unwrap_or(0.0);
-        let codings = Self::ALL.map(|coding| (weight(coding.word()).unwrap_or(rest), coding));
-        let best = codings.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        let least = weight("identity").unwrap_or(0.0);
-        let best = best.filter(|(weight, _)| *weight > 0.0 && *weight >= least);
-        best.map(|(_, coding)| coding)
-    }
-}
-
-/// One entry of `Accept-Encoding`: a name and its weight.
-fn weighted(entry: &str) -> (&str, f32) {
-    let mut parts = entry.split(';').map(str::trim);
-    let name = parts.next().unwrap_or_default();
-    let weight = parts.find_map(|part| part.strip_prefix("q=").or(part.strip_prefix("Q=")));
-    let weight = weight.map_or(Some(1.0), |weight| weight.parse().ok());
-    (name, weight.unwrap_or(0.0))
-}
-
-/// Replaces `Accept-Encoding` by the one coding that the answer may have.
-pub(super) async fn choose(mut request: Request, next: Next) -> Response {
+/// Compresses the answers of these requests, and tells the requests which coding their answers may
+/// have: `Accept-Encoding` is replaced by it.
+pub(super) async fn compress(mut request: Request, next: Next) -> Response {
+    let coding = Coding::preferred(request.headers());
     let headers = request.headers_mut();
-    match Coding::preferred(headers) {
-        Some(coding) => {
-            let word = HeaderValue::from_static(coding.word());
-            headers.insert(header::ACCEPT_ENCODING, word);
-        }
-        None => {
-            headers.remove(header::ACCEPT_ENCODING);
-        }
+    headers.remove(header::ACCEPT_ENCODING);
+    if let Some(coding) = coding {
+        headers.insert(header::ACCEPT_ENCODING, coding.value());
     }
-    next.run(request).await
+    let has_body = request.method() != Method::HEAD;
+    let response = next.run(request).await;
+    let headers = response.headers();
+    if !is_text(headers) || headers.contains_key(header::CONTENT_ENCODING) {
+        return response;
+    }
+    let mut response = varied(response);
+    let size = response.body().size_hint().exact();
+    let small = size.is_some_and(|bytes| bytes < u64::from(SMALLEST));
+    let coding = coding.filter(|_| has_body && !small);
+    // Without memory for it the answer is sent as it is.
+    match coding.and_then(|coding| Some((coding, Encoder::new(coding).ok()?))) {
+        Some((coding, encoder)) => {
+            let headers = response.headers_mut();
+            headers.remove(header::CONTENT_LENGTH);
+            headers.insert(header::CONTENT_ENCODING, coding.value());
+            response.map(|body| compressed(body, encoder))
+        }
+        None => response,
+    }
 }
 
-/// Whether an answer's media type is compressed.
-type OfMediaType = fn(StatusCode, Version, &HeaderMap, &Extensions) -> bool;
+/// True for an answer of a media type that is compressed.
+fn is_text(headers: &HeaderMap) -> bool {
+    let kind = headers.get(header::CONTENT_TYPE);
+    let kind = kind.and_then(|kind| kind.to_str().ok()).unwrap_or_default();
+    let essence = kind.split(';').next().unwrap_or_default().trim();
+    MEDIA_TYPES.contains(&essence)
+}
 
-/// Compresses answers by the coding of their requests.
-pub(super) fn layer() -> CompressionLayer<And<SizeAbove, OfMediaType>> {
-    let of_media_type: OfMediaType = |_, _, headers, _| {
-        let kind = headers.get(header::CONTENT_TYPE);
-        let kind = kind.and_then(|kind| kind.to_str().ok()).unwrap_or_default();
-        let essence = kind.split(';').next().unwrap_or_default().trim();
-        MEDIA_TYPES.contains(&essence)
-    };
-    CompressionLayer::new()
-        .quality(CompressionLevel::Fastest)
-        .compress_when(SizeAbove::new(u64::from(SMALLEST)).and(of_media_type))
+/// The body through an encoder, piece by piece. An error in it breaks the connection off.
+fn compressed(body: Body, encoder: Encoder) -> Body {
+    let state = Some((body.into_data_stream(), encoder));
+    let pieces = stream::try_unfold(state, |state| async {
+        let Some((mut body, mut encoder)) = state else {
+            return Ok(None);
+        };
+        let Some(piece) = body.try_next().await? else {
+            let rest = off_the_answering_threads(|| encoder.finish()).await??;
+            return Ok(Some((rest, None)));
+        };
+        let (bytes, encoder) = off_the_answering_threads(move || {
+            let bytes = encoder.write(&piece);
+            (bytes, encoder)
+        })
+        .await?;
+        Ok::<_, BoxError>(Some((bytes?, Some((body, encoder)))))
+    });
+    Body::from_stream(pieces.try_filter(|bytes| ready(!bytes.is_empty())))
+}
+
+/// A compressor, with the fastest level of its coding.
+enum Encoder {
+    Gzip(GzEncoder<Vec<u8>>),
+    Zstd(zstd::Encoder<'static, Vec<u8>>),
+}
+
+impl Encoder {
+    fn new(coding: Coding) -> io::Result<Self> {
+        Ok(match coding {
+            Coding::Gzip => Self::Gzip(GzEncoder::new(Vec::new(), Compression::fast())),
+            Coding::Zstd => Self::Zstd(zstd::Encoder::new(Vec::new(), 1)?),
+        })
+    }
+
+    /// Takes a piece, and returns what is compressed by now.
+    fn write(&mut self, piece: &[u8]) -> io::Result<Bytes> {
+        let out = match self {
+            Self::Gzip(encoder) => {
+                encoder.write_all(piece)?;
+                encoder.get_mut()
+            }
+            Self::Zstd(encoder) => {
+                encoder.write_all(piece)?;
+                encoder.get_mut()
+            }
+        };
+        Ok(std::mem::take(out).into())
+    }
+
+    /// The rest.
+    fn finish(self) -> io::Result<Bytes> {
+        let rest = match self {
+            Self::Gzip(encoder) => encoder.finish()?,
+            Self::Zstd(encoder) => encoder.finish()?,
+        };
+        Ok(rest.into())
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn preferred(accepted: &[&'static str]) -> Option<&'static str> {
-        let mut headers = HeaderMap::new();
-        for list in accepted {
-            headers.append(header::ACCEPT_ENCODING, HeaderValue::from_static(list));
-        }
-        Coding::preferred(&headers).map(Coding::word)
-    }
-
-    #[test]
-    fn a_client_gets_what_it_prefers_and_never_what_it_refuses() {
-        for (accepted, coding) in [
-            (&[][..], None),
-            (&[""], None),
-            (&["br, deflate"], None),
-            (&["gzip"], Some("gzip")),
-            (&["GZIP;Q=0.5"], Some("gzip")),
-            (&["gzip, deflate, br, zstd"], Some("zstd")),
-            (&["gzip", "zstd"], Some("zstd")),
-            (&["gzip;q=1.0, zstd;q=0.9"], Some("gzip")),
-            (&["gzip;q=0"], None),
-            (&["*"], Some("zstd")),
-            (&["*;q=0.5, zstd;q=0"], Some("gzip")),
-            (&["identity, gzip;q=0.5"], None),
-            (&["identity;q=0.5, gzip"], Some("gzip")),
-            (&["identity;q=0, *;q=0"], None),
-            (&["gzip;q=much"], None),
-        ] {
-            assert_eq!(preferred(accepted), coding, "{accepted:?}");
+    #[tokio::test]
+    async fn a_body_that_breaks_off_is_not_taken_for_a_whole_one() {
+        for whole in [true, false] {
+            let error = (!whole).then(|| Err(io::Error::other("no more")));
+            let pieces = [Ok(Bytes::from("a piece"))].into_iter().chain(error);
+            let body = Body::from_stream(stream::iter(pieces));
+            let encoder = Encoder::new(Coding::Gzip).unwrap();
+            let body = compressed(body, encoder);
+            let read = axum::body::to_bytes(body, 1000).await;
+            assert_eq!(read.is_ok(), whole);
         }
     }
 }

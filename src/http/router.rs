@@ -59,8 +59,7 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
         .layer(from_fn_with_state(Shares::new(limits), shares::limit))
         .layer(from_fn_with_state(Gate::new(&config.tokens), access::check))
         .layer(from_fn_with_state(Doors::new(config), browser::check))
-        .layer(compression::layer())
-        .layer(from_fn(compression::choose));
+        .layer(from_fn(compression::compress));
     let router = match browser::cors(config) {
         Some(cors) => router.layer(cors),
         None => router,

@@ -1,6 +1,7 @@
 //! Texts that are the same for every request: contract and page. They are compressed once.
 
-use super::compression::{Coding, SMALLEST};
+use super::coding::Coding;
+use super::compression::SMALLEST;
 use super::etag::{Tag, varied};
 use axum::body::Bytes;
 use axum::http::{HeaderMap, header};

@@ -6,19 +6,14 @@ use crate::results::interpolation::BodyState;
 use nalgebra::Vector3;
 use scree_solver::record::Mode;
 use scree_solver::scenario::Scenario;
+use scree_solver::shape::SpheroPolyhedron;
 use std::f64::consts::FRAC_PI_2;
 
 /// Most triangles of all bodies together, unless the coarsest surfaces have more.
 const MOST_TRIANGLES: usize = 50_000;
 
-/// Fineness of surfaces, the finest first.
-const DETAILS: [Detail; 5] = [
-    Detail::Round(FRAC_PI_2 / 6.0),
-    Detail::Round(FRAC_PI_2 / 4.0),
-    Detail::Round(FRAC_PI_2 / 2.0),
-    Detail::Round(FRAC_PI_2),
-    Detail::Faceted,
-];
+/// Steps of the rounding, the finest first [rad].
+const STEPS: [f64; 4] = [FRAC_PI_2 / 6.0, FRAC_PI_2 / 4.0, FRAC_PI_2 / 2.0, FRAC_PI_2];
 
 /// Surfaces of all bodies of a scenario, each in its body's axes.
 #[derive(Debug)]
@@ -29,18 +24,11 @@ impl Surfaces {
     pub(super) fn of(scenario: &Scenario) -> Self {
         let bodies = 0..scenario.bodies.len();
         let shapes: Vec<_> = bodies.map(|body| scenario.shape_of(body)).collect();
-        let mut surfaces = Vec::new();
-        for detail in DETAILS {
-            surfaces = shapes
-                .iter()
-                .map(|shape| Surface::new(shape, detail))
-                .collect();
-            let triangles: usize = surfaces.iter().map(|surface| surface.triangles.len()).sum();
-            if triangles <= MOST_TRIANGLES {
-                break;
-            }
-        }
-        Self(surfaces)
+        let finest = STEPS.iter().find_map(|&step| within(&shapes, step));
+        Self(finest.unwrap_or_else(|| {
+            let faceted = |shape| Surface::new(shape, Detail::Faceted);
+            shapes.iter().map(faceted).collect()
+        }))
     }
 
     /// The bodies in these states as poly data.
@@ -87,6 +75,17 @@ impl Surfaces {
             .map(|(state, place)| single(&(state.position + place)));
         data.finish(points, Cells::Polygons, &triangles)
     }
+}
+
+/// Surfaces with this step of the rounding, if they are within the number of triangles.
+fn within(shapes: &[SpheroPolyhedron], step: f64) -> Option<Vec<Surface>> {
+    let mut left = MOST_TRIANGLES;
+    let surface = |shape| {
+        let surface = Surface::new(shape, Detail::Round(step));
+        left = left.checked_sub(surface.triangles.len())?;
+        Some(surface)
+    };
+    shapes.iter().map(surface).collect()
 }
 
 fn single(vector: &Vector3<f64>) -> [f32; 3] {
