@@ -31,7 +31,7 @@ while job.status in (JobStatus.ACCEPTED, JobStatus.RUNNING):
     job = show.sync(job.id, client=client, wait="10s")
 assert job.status == JobStatus.SUCCESSFUL, job
 assert job.outcome.bodies[0].displacement_m > 0
-page = list_.sync(client=client, label="client:python", status=JobStatus.SUCCESSFUL)
+page = list_.sync(client=client, label="client:python", status=[JobStatus.SUCCESSFUL])
 assert job.id in [listed.id for listed in page.jobs]
 
 whole = trajectory.sync(job.id, client=client)

@@ -35,6 +35,24 @@ pub(super) enum Remove {
     Ended,
 }
 
+/// Value of `include`: a part of each job that a list has beside its summary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ToSchema)]
+#[schema(rename_all = "lowercase")]
+pub(super) enum Include {
+    /// The outcome; null unless the job is successful.
+    Outcome,
+}
+
+impl Choice for Include {
+    fn all() -> Vec<Self> {
+        vec![Self::Outcome]
+    }
+
+    fn word(self) -> &'static str {
+        "outcome"
+    }
+}
+
 impl Choice for Reuse {
     fn all() -> Vec<Self> {
         vec![Self::Finished]
@@ -101,20 +119,24 @@ impl Query {
     /// Several words, each once: with commas between them, or the parameter repeated.
     pub(super) fn choices<T: Choice>(&mut self, name: &str) -> Option<Vec<T>> {
         let allowed = format!("each once, of {}", words::<T>());
-        let lists = self.all(name, &allowed, |list| {
-            list.split(',')
-                .map(T::from_word)
-                .collect::<Option<Vec<_>>>()
-        });
+        let lists = self.values(name);
         if lists.is_empty() {
             return None;
         }
         let mut chosen = Vec::new();
-        for value in lists.into_iter().flatten() {
-            if chosen.contains(&value) {
-                self.refuse(name, value.word(), &allowed, None);
-            } else {
-                chosen.push(value);
+        for list in &lists {
+            for word in list.split(',') {
+                match T::from_word(word) {
+                    Some(value) if chosen.contains(&value) => {
+                        self.refuse(name, word, &allowed, None);
+                    }
+                    Some(value) => chosen.push(value),
+                    None => {
+                        let words = T::all().into_iter().map(T::word);
+                        let allowed = with_nearest(&allowed, &word.to_lowercase(), words);
+                        self.refuse(name, list, &allowed, None);
+                    }
+                }
             }
         }
         Some(chosen)

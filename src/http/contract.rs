@@ -126,7 +126,7 @@ fn add_headers(operation: &mut Operation) {
             add_header(response, "Content-Disposition", value(Type::String), about);
         }
         if status == "200" && revalidates {
-            let about = "Name of exactly this answer, for `If-None-Match`";
+            let about = "Name of this content, compressed or not, for `If-None-Match`";
             add_header(response, "ETag", value(Type::String), about);
         }
         if status == "429" || status == "503" {

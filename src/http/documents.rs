@@ -107,6 +107,10 @@ pub(super) struct JobSummaryDocument {
     pub progress: Progress,
     /// Its labels, in order.
     pub labels: Vec<String>,
+    /// The answer, null unless successful; only with `include=outcome`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(required = false, value_type = Option<Outcome>)]
+    pub outcome: Option<Option<Box<RawValue>>>,
 }
 
 /// A page of jobs, newest first.
@@ -178,6 +182,7 @@ impl From<JobSummary> for JobSummaryDocument {
             finished: job.finished.map(rfc3339),
             progress: job.progress,
             labels: job.labels,
+            outcome: None,
         }
     }
 }

@@ -152,6 +152,7 @@ struct Follower {
 
 impl Pieces for Follower {
     const NAME: &'static str = "events";
+    type Error = StoreError;
 
     async fn piece(&mut self) -> Result<Option<Bytes>, StoreError> {
         let piece = self.next().await;

@@ -7,12 +7,8 @@ use super::named_job::{NamedJob, find};
 use super::pieces::Pieces;
 use super::problem::Problem;
 use super::query::Query;
-use crate::jobs::JobService;
-use crate::jobs::job::JobId;
-use crate::jobs::store::StoreError;
+use crate::jobs::{ExportError, FlowExport, JobService};
 use crate::results::flow::FlowDocument;
-use crate::results::vtk;
-use crate::results::zip::ZipWriter;
 use axum::body::Bytes;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
@@ -86,10 +82,13 @@ pub(super) async fn flow(
     etag::json(&headers, &document)
 }
 
-/// Export the snapshots of the flow for ParaView
+/// Export flow, bodies and channel for ParaView
 ///
-/// A ZIP archive of all snapshots so far: `flow.pvd`, the file to open, and one `.vtp`
-/// file per snapshot.
+/// A ZIP archive of VTK files in binary: `flow.pvd`, the file to open, and for each snapshot so far
+/// an `.vtm` with the blocks `flow` (points with their speed), `bodies` (surfaces of triangles with
+/// index, mode, velocity and angular velocity of the body, and the speed of each point) and
+/// `channel` (bed and walls, the same at all instants). Between two samples positions are
+/// interpolated linearly, orientations by slerp.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/flow.zip",
@@ -97,6 +96,7 @@ pub(super) async fn flow(
     params(("id" = String, Path, format = Uuid, description = "Identifier of the job")),
     responses(
         (status = 200, description = "The archive", body = Archive, content_type = "application/zip"),
+        (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
     )
 )]
 pub(super) async fn flow_archive(
@@ -104,61 +104,29 @@ pub(super) async fn flow_archive(
     caller: Caller,
     NamedJob(id): NamedJob,
 ) -> Result<Response, Problem> {
-    let job = find(&jobs, &caller, &id).await?.summary.id;
-    let times_s = jobs.snapshot_times(job).await?;
-    let mut archive = ZipWriter::default();
-    let mut head = Vec::new();
-    archive.begin("flow.pvd", &mut head);
-    archive.data(vtk::pvd(&times_s).as_bytes(), &mut head);
-    archive.end(&mut head);
-    let packing = Packing {
-        jobs,
-        job,
-        times_s,
-        next: 0,
-        archive,
-        head,
-    };
+    let job = find(&jobs, &caller, &id).await?;
     let kind = [(header::CONTENT_TYPE, "application/zip")];
-    let name = attachment(&format!("{job}-flow.zip"));
-    let body = packing.into_begun_body().await?;
+    let name = attachment(&format!("{}-flow.zip", job.summary.id));
+    let export = jobs.flow_export(job, &caller.share()).await?;
+    let body = export.into_begun_body().await?;
     Ok((kind, name, body).into_response())
 }
 
-/// Stream of snapshots to a client: it holds one of them at a time.
-struct Packing {
-    jobs: JobService,
-    job: JobId,
-    times_s: Vec<f64>,
-    next: usize,
-    archive: ZipWriter,
-    /// The file that names the others, until it is sent.
-    head: Vec<u8>,
+impl Pieces for FlowExport {
+    const NAME: &'static str = "archive";
+    type Error = ExportError;
+
+    async fn piece(&mut self) -> Result<Option<Bytes>, ExportError> {
+        Ok(self.next().await?.map(Bytes::from))
+    }
 }
 
-impl Pieces for Packing {
-    const NAME: &'static str = "archive";
-
-    /// The next file, or the archive's end.
-    async fn piece(&mut self) -> Result<Option<Bytes>, StoreError> {
-        let mut out = std::mem::take(&mut self.head);
-        let place = self.next;
-        self.next += 1;
-        if place > self.times_s.len() {
-            return Ok(None);
+impl From<ExportError> for Problem {
+    fn from(error: ExportError) -> Self {
+        match error {
+            ExportError::Store(error) => error.into(),
+            ExportError::Admission(error) => error.into(),
+            ExportError::Document(_) => Self::internal(&error),
         }
-        let Some(&time_s) = self.times_s.get(place) else {
-            std::mem::take(&mut self.archive).finish(&mut out);
-            return Ok(Some(out.into()));
-        };
-        let snapshot = self.jobs.snapshot(self.job, Some(time_s)).await?;
-        let snapshot = snapshot.ok_or_else(|| StoreError::Row {
-            job: self.job.to_string(),
-            what: "a snapshot that was there before",
-        })?;
-        self.archive.begin(&vtk::file_name(place), &mut out);
-        self.archive.data(vtk::vtp(&snapshot).as_bytes(), &mut out);
-        self.archive.end(&mut out);
-        Ok(Some(out.into()))
     }
 }

@@ -1,17 +1,15 @@
-//! Jobs: list, get, dismiss, remove.
+//! Jobs: get, dismiss, remove.
 
 use super::access::Caller;
 use super::choice::Remove;
-use super::documents::{JobDocument, JobPageDocument};
+use super::documents::JobDocument;
 use super::etag;
 use super::named_job::{NamedJob, find, named, unknown_job};
 use super::problem::Problem;
 use super::query::Query;
 use super::shares::StreamRight;
-use super::submission::LABEL_RULE;
-use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
-use crate::jobs::store::{Page, Removal};
-use crate::jobs::submit::label;
+use crate::jobs::job::{Job, JobId};
+use crate::jobs::store::Removal;
 use crate::jobs::{Dismissed, JobService};
 use axum::Json;
 use axum::extract::{RawQuery, State};
@@ -19,68 +17,8 @@ use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
 use std::time::Duration;
 
-/// Default number of jobs per page.
-const DEFAULT_LIMIT: u32 = 20;
-
-/// Largest number of jobs per page.
-const LARGEST_LIMIT: u32 = 100;
-
 /// Longest time for which a request may wait for the end of a job [s].
 pub(super) const LONGEST_WAIT_S: u32 = 60;
-
-/// List jobs, newest first
-///
-/// A page at a time: `next_cursor` of one is the `cursor` of the next.
-#[utoipa::path(
-    get,
-    path = "/v1/jobs",
-    tag = "jobs",
-    params(
-        ("status" = Option<JobStatus>, Query, description = "Only jobs of this state"),
-        ("label" = Option<String>, Query, description = "Only jobs with this label"),
-        ("limit" = Option<u32>, Query, minimum = 1, maximum = 100, description = "Most jobs of the page; 20 unless given"),
-        ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
-        ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
-    ),
-    responses(
-        (status = 200, description = "A page of jobs", body = JobPageDocument),
-        (status = 304, description = "It is what `If-None-Match` names"),
-    )
-)]
-pub(super) async fn list(
-    State(jobs): State<JobService>,
-    headers: HeaderMap,
-    RawQuery(query): RawQuery,
-) -> Result<Response, Problem> {
-    let mut query = Query::new(query.as_deref());
-    let page = read_page(&mut query);
-    query.finish()?;
-    let (found, next_cursor) = page_of(&jobs, &page).await?;
-    let document = JobPageDocument {
-        jobs: found.into_iter().map(Into::into).collect(),
-        next_cursor,
-    };
-    etag::json(&headers, &document)
-}
-
-/// The jobs of a page, and the cursor of the next one if there is one.
-pub(super) async fn page_of(
-    jobs: &JobService,
-    page: &Page,
-) -> Result<(Vec<JobSummary>, Option<String>), Problem> {
-    // One job more than asked for tells whether there is a next page.
-    let mut found = jobs
-        .page(&Page {
-            limit: page.limit + 1,
-            ..page.clone()
-        })
-        .await?;
-    let more = found.len() > page.limit as usize;
-    found.truncate(page.limit as usize);
-    let last = found.last().filter(|_| more);
-    let next_cursor = last.map(|job| cursor::write(job.sequence));
-    Ok((found, next_cursor))
-}
 
 /// Get a job
 ///
@@ -95,8 +33,7 @@ pub(super) async fn page_of(
         ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
     ),
     responses(
-        (status = 200, description = "The job", body = JobDocument,
-         headers(("ETag" = String, description = "Name of exactly this answer"))),
+        (status = 200, description = "The job", body = JobDocument),
         (status = 304, description = "It is what `If-None-Match` names"),
     )
 )]
@@ -218,27 +155,4 @@ fn read_wait(query: &mut Query) -> Option<u32> {
     };
     query.refuse("wait", &text, &rule, Some("s"));
     None
-}
-
-/// The page that a query asks for.
-pub(super) fn read_page(query: &mut Query) -> Page {
-    Page {
-        status: query.choice("status"),
-        label: query.word("label", LABEL_RULE, label),
-        limit: query
-            .whole("limit", 1..=LARGEST_LIMIT)
-            .unwrap_or(DEFAULT_LIMIT),
-        before: query.word("cursor", "the next_cursor of another page", cursor::read),
-    }
-}
-
-/// Position in the list after which a page begins; opaque to clients.
-mod cursor {
-    pub(super) fn write(sequence: i64) -> String {
-        format!("j{sequence:x}")
-    }
-
-    pub(super) fn read(text: &str) -> Option<i64> {
-        i64::from_str_radix(text.strip_prefix('j')?, 16).ok()
-    }
 }

@@ -4,6 +4,7 @@
 use super::field_errors::{FieldError, FieldErrors};
 use super::problem::Problem;
 use crate::jobs::submit::excerpt;
+use jiff::Timestamp;
 use serde_json::Value;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
@@ -75,6 +76,13 @@ impl Query {
             self.refuse(name, text, &range, None);
         }
         number
+    }
+
+    /// A time of day.
+    pub(super) fn time(&mut self, name: &str) -> Option<Timestamp> {
+        let allowed = "a time of RFC 3339, as 2026-01-31T12:00:00Z; the + of an offset is \
+                       written %2B";
+        self.word(name, allowed, |text| text.parse().ok())
     }
 
     /// A text that `read` accepts.
@@ -151,7 +159,7 @@ impl Query {
     }
 
     /// All values of a parameter, which is known from now on.
-    fn values(&mut self, name: &str) -> Vec<String> {
+    pub(super) fn values(&mut self, name: &str) -> Vec<String> {
         self.known.push(name.to_owned());
         let of_name = self.pairs.extract_if(.., |pair| pair.0 == name);
         of_name.map(|pair| pair.1).collect()

@@ -6,18 +6,19 @@ use super::metrics::{self, RequestCounts};
 use super::problem::Problem;
 use super::scenario_body::BodyLimits;
 use super::shares::{self, Shares};
+use super::static_text::StaticText;
 use super::{
-    batch, contract, drawings, events, flow, jobs, ogc, plans, submission, system, trajectory,
+    batch, compression, contract, drawings, events, flow, jobs, listing, ogc, plans, submission,
+    system, trajectory,
 };
 use crate::config::ServiceConfig;
 use crate::jobs::JobService;
 use crate::jobs::submit::excerpt;
-use axum::body::Bytes;
 use axum::extract::{DefaultBodyLimit, Request};
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::http::{HeaderMap, HeaderValue, StatusCode};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
-use axum::response::{Html, IntoResponse, Response};
-use axum::routing::get;
+use axum::response::{IntoResponse, Response};
+use axum::routing::{MethodRouter, get};
 use axum::{Extension, Router};
 use std::any::Any;
 use std::time::Duration;
@@ -35,21 +36,18 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
     let limits = &config.limits;
     let (router, contract) = documented(limits.request_timeout()).split_for_parts();
     let process = ogc::Process::of(&contract);
-    let contract = contract::text_of(&contract);
+    let contract = StaticText::new("application/json", contract::text_of(&contract));
+    let page = StaticText::new("text/html; charset=utf-8", include_str!("page.html"));
+    let script = StaticText::new("text/javascript", include_str!("page.js"));
+    let style = StaticText::new("text/css", include_str!("page.css"));
     let body_timeout = limits.body_read_timeout();
     let body_bytes = limits.request_body_bytes;
     let router = router
-        .route("/openapi.json", get(|| serve_contract(contract)))
+        .route("/openapi.json", always(contract))
         .merge(ogc::beside_the_contract())
-        .route("/", get(|| async { Html(include_str!("page.html")) }))
-        .route(
-            "/page.js",
-            get(|| asset("text/javascript", include_str!("page.js"))),
-        )
-        .route(
-            "/page.css",
-            get(|| asset("text/css", include_str!("page.css"))),
-        )
+        .route("/", always(page))
+        .route("/page.js", always(script))
+        .route("/page.css", always(style))
         .fallback(system::no_such_route)
         .method_not_allowed_fallback(system::wrong_method)
         .with_state(jobs)
@@ -60,7 +58,8 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
         }))
         .layer(from_fn_with_state(Shares::new(limits), shares::limit))
         .layer(from_fn_with_state(Gate::new(&config.tokens), access::check))
-        .layer(from_fn_with_state(Doors::new(config), browser::check));
+        .layer(from_fn_with_state(Doors::new(config), browser::check))
+        .layer(from_fn(compression::compress));
     let router = match browser::cors(config) {
         Some(cors) => router.layer(cors),
         None => router,
@@ -86,7 +85,7 @@ pub fn openapi() -> OpenApi {
 /// The routes; those that wait by design have no time limit.
 fn documented(limit: Duration) -> OpenApiRouter<JobService> {
     let quick = OpenApiRouter::new()
-        .routes(routes!(jobs::list))
+        .routes(routes!(listing::list))
         .routes(routes!(trajectory::trajectory))
         .routes(routes!(trajectory::trajectory_csv))
         .routes(routes!(trajectory::trajectory_ndjson))
@@ -145,12 +144,9 @@ async fn limit_body(time: Duration, bytes: usize, mut request: Request, next: Ne
     next.run(request).await
 }
 
-async fn asset(media_type: &'static str, text: &'static str) -> Response {
-    ([(header::CONTENT_TYPE, media_type)], text).into_response()
-}
-
-async fn serve_contract(contract: Bytes) -> Response {
-    ([(header::CONTENT_TYPE, "application/json")], contract).into_response()
+/// A route that always has the same text.
+fn always(text: StaticText) -> MethodRouter<JobService> {
+    get(move |headers: HeaderMap| async move { text.answer(&headers) })
 }
 
 /// The answer, or a problem if its head is not ready in time.

@@ -6,11 +6,10 @@ use super::named_job::{NamedJob, find};
 use super::pieces::Pieces;
 use super::problem::Problem;
 use super::query::Query;
-use crate::jobs::store::StoreError;
-use crate::jobs::{JobService, TrajectoryRange};
-use crate::results::columns::{Selection, Selector, TrajectoryColumns};
-use crate::results::table::{Field, Format, Heading, Writer};
-use axum::body::Bytes;
+use super::reading::Reading;
+use crate::jobs::JobService;
+use crate::results::columns::{Selection, TrajectoryColumns};
+use crate::results::table::{Field, Format, Heading};
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
@@ -216,58 +215,6 @@ async fn answer(
     let reading = Reading::new(jobs, range, format.writer(&heading, part.fields));
     let body = reading.into_begun_body().await?;
     Ok((kind, name.as_deref().map(attachment), body).into_response())
-}
-
-/// Stream of a trajectory to a client: it holds one chunk at a time.
-struct Reading {
-    jobs: JobService,
-    range: TrajectoryRange,
-    writer: Box<dyn Writer>,
-    pass: usize,
-    /// Position in the pass; none before the first pass.
-    place: Option<(i64, Selector)>,
-}
-
-impl Reading {
-    fn new(jobs: JobService, range: TrajectoryRange, writer: Box<dyn Writer>) -> Self {
-        Self {
-            jobs,
-            range,
-            writer,
-            pass: 0,
-            place: None,
-        }
-    }
-}
-
-impl Pieces for Reading {
-    const NAME: &'static str = "trajectory";
-
-    async fn piece(&mut self) -> Result<Option<Bytes>, StoreError> {
-        let mut out = Vec::new();
-        while out.is_empty() && self.pass < self.writer.passes() {
-            let (from_sample, mut selector) = match self.place.take() {
-                Some(place) => place,
-                None => {
-                    self.writer.begin(self.pass, &mut out);
-                    (0, Selector::new(self.range.selection))
-                }
-            };
-            match self.jobs.next_chunk(&self.range, from_sample).await? {
-                Some(chunk) => {
-                    let chosen = selector.choose(&chunk.columns);
-                    self.writer.rows(self.pass, &chosen, &mut out);
-                    self.place = Some((chunk.next_sample, selector));
-                }
-                None => {
-                    self.jobs.check_whole(&self.range).await?;
-                    self.writer.end(self.pass, &mut out);
-                    self.pass += 1;
-                }
-            }
-        }
-        Ok((!out.is_empty()).then_some(out.into()))
-    }
 }
 
 fn read_part(mut query: Query) -> Result<Part, Problem> {

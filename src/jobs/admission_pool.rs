@@ -90,6 +90,26 @@ impl AdmissionPool {
             cancellation: Cancellation::default(),
         })
     }
+
+    /// Does a slice of the work of an answer that goes on as long as its client reads: on a thread
+    /// of the pool when the caller's turn has come, without a place and a time limit.
+    ///
+    /// # Errors
+    /// The work panicked.
+    pub(super) async fn slice<T: Send + 'static>(
+        &self,
+        caller: &str,
+        work: impl FnOnce() -> T + Send + 'static,
+    ) -> Result<T, AdmissionError> {
+        let turn = self.threads.turn(caller).await;
+        let done = tokio::task::spawn_blocking(move || {
+            let result = work();
+            drop(turn);
+            result
+        });
+        done.await
+            .map_err(|error| AdmissionError::BrokenOff(error.to_string()))
+    }
 }
 
 impl Admitted {

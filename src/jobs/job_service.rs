@@ -3,11 +3,11 @@
 use super::admission::InFlight;
 use super::admission_pool::{AdmissionError, AdmissionPool, Admitted};
 use super::forecast::{ForecastError, Planned, forecast};
-use super::job::{Job, JobId, JobStatus, JobSummary};
+use super::job::{Job, JobId, JobStatus};
 use super::news::{Followers, News};
 use super::pool::RunningJobRegistry;
 use super::recent::Recent;
-use super::store::{Dismissal, Event, JobCounts, JobStore, Page, Removal, StoreError};
+use super::store::{Dismissal, Event, JobCounts, JobPage, JobStore, Page, Removal, StoreError};
 use super::submit::{self, Means, NewJob, ScenarioError};
 use crate::config::Limits;
 use crate::runs::Progress;
@@ -29,7 +29,7 @@ pub struct JobService {
     pub(super) registry: Arc<RunningJobRegistry>,
     pub(super) limits: Limits,
     pub(super) in_flight: InFlight,
-    pool: AdmissionPool,
+    pub(super) pool: AdmissionPool,
     means: Means,
     followers: Followers,
     counts: Arc<Recent<Result<JobCounts, StoreError>>>,
@@ -130,7 +130,7 @@ impl JobService {
     ///
     /// # Errors
     /// The store's own.
-    pub async fn page(&self, page: &Page) -> Result<Vec<JobSummary>, StoreError> {
+    pub async fn page(&self, page: &Page) -> Result<JobPage, StoreError> {
         self.store.page(page).await
     }
 

@@ -6,6 +6,7 @@ pub mod chunk;
 pub mod columns;
 pub mod fingerprint;
 pub mod flow;
+pub mod interpolation;
 mod planes;
 pub mod table;
 pub mod vtk;

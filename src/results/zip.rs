@@ -1,19 +1,49 @@
-//! ZIP archives of uncompressed files, written as a stream: lengths and
-//! checksums come after each file. Below 4 GiB, so without ZIP64.
+//! ZIP archives written as a stream: lengths and checksums come after each file. Below 4 GiB, so
+//! without ZIP64.
+
+use flate2::write::DeflateEncoder;
+use flate2::{Compression, Crc};
+use std::io::Write as _;
+
+/// Form in which a file is stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// As it is.
+    Stored,
+    /// Compressed by DEFLATE, at its fastest level.
+    Deflated,
+}
 
 /// Writes an archive: for each file `begin`, `data`, `end`; then `finish`.
 #[derive(Debug, Default)]
 pub struct ZipWriter {
     written: u32,
     files: Vec<File>,
+    /// Checksum of the file begun last.
+    crc: Crc,
+    /// Compressor of the file begun last, if it is compressed.
+    deflater: Option<DeflateEncoder<Vec<u8>>>,
 }
 
 #[derive(Debug)]
 struct File {
     name: String,
+    method: Method,
     offset: u32,
+    /// Length, and length in the archive [bytes].
     length: u32,
+    packed: u32,
     crc: u32,
+}
+
+impl Method {
+    /// Its number in the format.
+    fn number(self) -> u16 {
+        match self {
+            Self::Stored => 0,
+            Self::Deflated => 8,
+        }
+    }
 }
 
 /// Flags: lengths come after the file (bit 3), names are UTF-8 (bit 11).
@@ -24,43 +54,75 @@ const VERSION: u16 = 20;
 
 impl ZipWriter {
     /// Begins a file.
-    pub fn begin(&mut self, name: &str, out: &mut Vec<u8>) {
+    pub fn begin(&mut self, name: &str, method: Method, out: &mut Vec<u8>) {
         let start = out.len();
         out.extend(0x0403_4b50_u32.to_le_bytes());
-        put(out, &[VERSION, FLAGS, 0]);
+        put(out, &[VERSION, FLAGS, method.number()]);
         out.extend(TIME_AND_DATE.to_le_bytes());
         out.extend([0; 12]);
         put(out, &[name.len() as u16, 0]);
         out.extend(name.bytes());
         self.files.push(File {
             name: name.to_owned(),
+            method,
             offset: self.written,
             length: 0,
-            crc: !0,
+            packed: 0,
+            crc: 0,
         });
+        self.crc.reset();
+        self.deflater = match method {
+            Method::Stored => None,
+            Method::Deflated => Some(DeflateEncoder::new(Vec::new(), Compression::fast())),
+        };
         self.written += (out.len() - start) as u32;
     }
 
     /// Writes into the file begun last.
     pub fn data(&mut self, bytes: &[u8], out: &mut Vec<u8>) {
-        if let Some(file) = self.files.last_mut() {
-            file.crc = bytes.iter().fold(file.crc, |crc, byte| {
-                TABLE[((crc ^ u32::from(*byte)) & 0xff) as usize] ^ (crc >> 8)
-            });
-            file.length += bytes.len() as u32;
-            self.written += bytes.len() as u32;
-            out.extend(bytes);
+        self.crc.update(bytes);
+        match &mut self.deflater {
+            None => self.put_packed(bytes, out),
+            Some(deflater) => {
+                // Writing into memory can't fail.
+                let _ = deflater.write_all(bytes);
+                let packed = std::mem::take(deflater.get_mut());
+                self.put_packed(&packed, out);
+            }
         }
     }
 
     /// Ends the file begun last.
     pub fn end(&mut self, out: &mut Vec<u8>) {
+        if let Some(rest) = self
+            .deflater
+            .take()
+            .and_then(|deflater| deflater.finish().ok())
+        {
+            self.put_packed(&rest, out);
+        }
         if let Some(file) = self.files.last_mut() {
-            file.crc = !file.crc;
-            for number in [0x0807_4b50, file.crc, file.length, file.length] {
+            file.crc = self.crc.sum();
+            file.length = self.crc.amount();
+            for number in [0x0807_4b50, file.crc, file.packed, file.length] {
                 out.extend(number.to_le_bytes());
             }
             self.written += 16;
+        }
+    }
+
+    /// Writes a whole file.
+    pub fn file(&mut self, name: &str, method: Method, bytes: &[u8], out: &mut Vec<u8>) {
+        self.begin(name, method, out);
+        self.data(bytes, out);
+        self.end(out);
+    }
+
+    fn put_packed(&mut self, bytes: &[u8], out: &mut Vec<u8>) {
+        if let Some(file) = self.files.last_mut() {
+            file.packed += bytes.len() as u32;
+            self.written += bytes.len() as u32;
+            out.extend(bytes);
         }
     }
 
@@ -69,8 +131,8 @@ impl ZipWriter {
         let start = out.len();
         for file in &self.files {
             out.extend(0x0201_4b50_u32.to_le_bytes());
-            put(out, &[VERSION, VERSION, FLAGS, 0]);
-            for number in [TIME_AND_DATE, file.crc, file.length, file.length] {
+            put(out, &[VERSION, VERSION, FLAGS, file.method.number()]);
+            for number in [TIME_AND_DATE, file.crc, file.packed, file.length] {
                 out.extend(number.to_le_bytes());
             }
             put(out, &[file.name.len() as u16, 0, 0, 0, 0]);
@@ -92,41 +154,34 @@ fn put(out: &mut Vec<u8>, numbers: &[u16]) {
     out.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
 }
 
-/// CRC-32 of each byte, polynomial 0xEDB88320.
-const TABLE: [u32; 256] = {
-    let mut table = [0; 256];
-    let mut byte = 0;
-    while byte < 256 {
-        let mut crc = byte as u32;
-        let mut bit = 0;
-        while bit < 8 {
-            crc = if crc & 1 == 1 {
-                0xedb8_8320 ^ (crc >> 1)
-            } else {
-                crc >> 1
-            };
-            bit += 1;
-        }
-        table[byte] = crc;
-        byte += 1;
-    }
-    table
-};
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::Read as _;
 
     #[test]
-    fn the_checksum_is_that_of_the_standard() {
-        let mut archive = ZipWriter::default();
-        let mut out = Vec::new();
-        archive.begin("a", &mut out);
-        archive.data(b"1234", &mut out);
-        archive.data(b"56789", &mut out);
-        archive.end(&mut out);
-        assert_eq!(archive.files[0].crc, 0xcbf4_3926);
-        assert_eq!(archive.files[0].length, 9);
-        assert_eq!(archive.written as usize, out.len());
+    fn lengths_and_checksum_are_those_of_the_standard() {
+        for method in [Method::Stored, Method::Deflated] {
+            let mut archive = ZipWriter::default();
+            let mut out = Vec::new();
+            archive.begin("a", method, &mut out);
+            let start = out.len();
+            archive.data(b"1234", &mut out);
+            archive.data(b"56789", &mut out);
+            archive.end(&mut out);
+            let file = &archive.files[0];
+            assert_eq!((file.crc, file.length), (0xcbf4_3926, 9));
+            assert_eq!(archive.written as usize, out.len());
+            let packed = &out[start..start + file.packed as usize];
+            let mut text = String::new();
+            match method {
+                Method::Stored => text = String::from_utf8(packed.to_vec()).unwrap(),
+                Method::Deflated => {
+                    let mut inflater = flate2::read::DeflateDecoder::new(packed);
+                    inflater.read_to_string(&mut text).unwrap();
+                }
+            }
+            assert_eq!(text, "123456789");
+        }
     }
 }

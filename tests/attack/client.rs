@@ -55,3 +55,20 @@ pub(crate) fn get(address: &str, path: &str) -> Value {
     assert_eq!(answer.status, 200, "{path}: {}", answer.body);
     answer.body
 }
+
+/// Gets what is long, in this coding, and counts its bytes.
+pub(crate) fn count_bytes(address: &str, path: &str, coding: &str) -> io::Result<usize> {
+    let mut stream = TcpStream::connect(address)?;
+    write!(
+        stream,
+        "GET {path} HTTP/1.1\r\nHost: localhost\r\nAccept-Encoding: {coding}\r\n\
+         Connection: close\r\n\r\n"
+    )?;
+    let (mut buffer, mut total) = (vec![0; 1 << 16], 0);
+    loop {
+        match stream.read(&mut buffer)? {
+            0 => return Ok(total),
+            count => total += count,
+        }
+    }
+}

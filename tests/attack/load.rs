@@ -1,12 +1,10 @@
 //! High load: thousands of jobs, requests to stop, ten clients with a large
 //! trajectory; and the overhead of the service over the computation.
 
-use crate::client::{ask, get};
+use crate::client::{ask, count_bytes, get};
 use crate::served::{Place, binary, fine_scene, finest_scene, has_ended, scene, trifle};
 use crate::{at_length, percentile};
 use serde_json::Value;
-use std::io::{Read, Write};
-use std::net::TcpStream;
 use std::process::Command;
 use std::time::Instant;
 
@@ -111,7 +109,7 @@ fn a_large_trajectory_goes_out_in_little_memory() {
         let (most, bytes) = std::thread::scope(|scope| {
             let (address, path) = (&served.address, &path);
             let clients: Vec<_> = (0..10)
-                .map(|_| scope.spawn(|| count_bytes(address, path)))
+                .map(|_| scope.spawn(|| count_bytes(address, path, "identity").expect("an answer")))
                 .collect();
             let mut most = before;
             while !clients.iter().all(|client| client.is_finished()) {
@@ -132,22 +130,6 @@ fn a_large_trajectory_goes_out_in_little_memory() {
         // All answers were complete: a resting cube takes 199 bytes per sample as JSON.
         assert!(bytes > 10 * samples * 150, "{bytes} bytes");
         assert!(grown_mib < 64.0, "{grown_mib} MiB");
-    }
-}
-
-fn count_bytes(address: &str, path: &str) -> usize {
-    let mut stream = TcpStream::connect(address).expect("a connection");
-    write!(
-        stream,
-        "GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
-    )
-    .expect("it reads");
-    let (mut buffer, mut total) = (vec![0; 1 << 16], 0);
-    loop {
-        match stream.read(&mut buffer).expect("it answers") {
-            0 => return total,
-            count => total += count,
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 //! batches of thousands, plans that nobody waits for, and connections that hold streams, read
 //! slowly or send nothing. Health and lists are answered meanwhile, and it stops in time.
 
-use crate::client::ask;
+use crate::client::{ask, count_bytes};
 use crate::served::{Place, trifle};
 use crate::{at_length, percentile};
 use serde_json::{Value, json};
@@ -245,5 +245,71 @@ fn memory_is_bounded_while_plans_are_left() {
         last as f64 * 1e-6,
     ));
     assert!(last < MOST_BYTES, "{last} bytes");
+    served.stop();
+}
+
+/// A cube that turns in the air for so many samples: hardly a digit is as in the sample before.
+fn tumbling(samples: usize) -> Value {
+    let mut scene = trifle();
+    scene["gravity_m_s2"] = 0.01.into();
+    scene["sample_interval_s"] = 1e-4.into();
+    scene["duration_s"] = (samples as f64 * 1e-4).into();
+    let body = &mut scene["bodies"][0];
+    body["position"] = json!({"downstream_m": 0.1, "elevation_m": 1});
+    body["velocity_m_s"] = json!([0.02, 0.0, 0.05]);
+    body["angular_velocity_rad_s"] = json!([3, 2, 1]);
+    scene
+}
+
+/// Ten clients that pull a large trajectory in each coding, over and over.
+#[test]
+fn health_is_answered_while_trajectories_are_compressed() {
+    let _turn = crate::turn();
+    let samples = at_length(2_000, 100_000);
+    let place = Place::new(&[]);
+    let served = place.serve();
+    let job = served.submit(&tumbling(samples));
+    served.wait_for_success(&job);
+    let address = served.address.as_str();
+    for format in ["json", "ndjson", "csv"] {
+        for coding in ["identity", "gzip", "zstd"] {
+            let path = format!("{job}/trajectory?format={format}");
+            let bytes = count_bytes(address, &path, coding).expect("an answer");
+            let stop = AtomicBool::new(false);
+            let before = served.resident_bytes();
+            let began = Instant::now();
+            let (mut health_s, pulls, most) = std::thread::scope(|scope| {
+                let _raised = Raised(&stop);
+                let pull = || {
+                    let pulled = || count_bytes(address, &path, coding).expect("an answer");
+                    let pulls = std::iter::repeat_with(pulled);
+                    pulls.take_while(|_| !stop.load(Ordering::Relaxed)).count()
+                };
+                let clients: Vec<_> = (0..10).map(|_| scope.spawn(pull)).collect();
+                std::thread::sleep(Duration::from_millis(300));
+                let health_s = probe(address, "/healthz", at_length(20, 500));
+                let most = served.resident_bytes();
+                stop.store(true, Ordering::Relaxed);
+                let pulls = clients.into_iter().map(|client| client.join());
+                let pulls: usize = pulls.map(|pulls| pulls.expect("a client")).sum();
+                (health_s, pulls, most)
+            });
+            let p99 = percentile(&mut health_s, 0.99);
+            crate::tell(&format!(
+                "ten clients pull {samples} samples as {format}, {coding}, {:.2} MB: {:.1} a \
+                 second in all; /healthz p99 {:.1}, worst {:.1} ms; memory {:+.1} MB",
+                bytes as f64 * 1e-6,
+                pulls as f64 / began.elapsed().as_secs_f64(),
+                p99 * 1e3,
+                percentile(&mut health_s, 1.0) * 1e3,
+                (most as f64 - before as f64) * 1e-6,
+            ));
+            // The short form shares its cores with whatever tests run beside it.
+            assert!(
+                p99 < if at_length(0, 1) == 1 { 0.05 } else { 0.5 },
+                "{format} {coding}: {p99} s"
+            );
+        }
+    }
     served.stop();
 }

@@ -45,7 +45,8 @@ async fn the_service_serves_its_contract_and_keeps_to_it() {
     let scene = scene.to_string();
     let planned = app.post_to("/v1/plans", "application/json", scene).await;
     contract.assert_matches("Planned", &planned.body);
-    contract.assert_matches("JobPage", &app.get("/v1/jobs").await.body);
+    let page = app.get("/v1/jobs?include=outcome").await;
+    contract.assert_matches("JobPage", &page.body);
     contract.assert_matches(
         "Trajectory",
         &app.get(&format!("{path}/trajectory")).await.body,

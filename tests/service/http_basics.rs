@@ -68,16 +68,26 @@ async fn a_bad_list_query_names_its_parameters() {
         ("cursor=here", &["cursor"]),
         ("page=2", &["page"]),
         ("limit=x&status=y", &["status", "limit"]),
+        ("status=running,running", &["status"]),
+        ("created_from=yesterday", &["created_from"]),
+        ("created_to=2026-01-31T12:00:00+01:00", &["created_to"]),
+        (
+            "created_from=2026-01-31T12:00:00Z&created_to=2026-01-30T12:00:00Z",
+            &["created_to"],
+        ),
+        ("include=scenario", &["include"]),
     ] {
         let answer = app.get(&format!("/v1/jobs?{query}")).await;
         answer.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
         assert_eq!(answer.wrong_fields(), wrong, "{query}");
     }
-    let answer = app.get("/v1/jobs?status=done").await;
+    let answer = app.get("/v1/jobs?status=runing,failed").await;
     let allowed = answer.body["errors"][0]["allowed"].clone();
     assert_eq!(
         allowed,
-        json!("one of accepted, running, successful, failed, dismissed")
+        json!(
+            "each once, of accepted, running, successful, failed, dismissed; did you mean running?"
+        )
     );
     app.stop().await;
 }

@@ -168,7 +168,45 @@ async fn lists_go_page_by_page_newest_first() {
         app.get("/v1/jobs?status=failed").await.body,
         json!({"jobs": [], "next_cursor": null})
     );
+    let both = app.get("/v1/jobs?status=accepted,running").await.body;
+    assert_eq!(paths(&both), expected);
+    let both = app.get("/v1/jobs?status=running&status=failed").await.body;
+    assert_eq!(paths(&both), std::slice::from_ref(&running));
     app.delete(&running).await;
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn lists_are_of_a_span_of_time_and_have_outcomes_on_request() {
+    let app = TestApp::start().await;
+    let (first, second) = (
+        app.submit(&tiny_scene()).await,
+        app.submit(&tiny_scene()).await,
+    );
+    let first_job = app.wait_for_success(&first).await;
+    let second_job = app.wait_for_success(&second).await;
+    let created = |job: &Value| job["created"].as_str().unwrap().to_owned();
+    let ask = async |query: String| app.get(&format!("/v1/jobs?{query}")).await.body;
+    let all = [second.clone(), first.clone()];
+    let since = created(&first_job);
+    assert_eq!(paths(&ask(format!("created_from={since}")).await), all);
+    let until = created(&second_job);
+    assert_eq!(paths(&ask(format!("created_to={until}")).await), all);
+    let until = until.replace('Z', "%2B01:00");
+    assert!(paths(&ask(format!("created_to={until}")).await).is_empty());
+
+    let page = ask("include=outcome&limit=1".to_owned()).await;
+    assert_eq!(page["jobs"][0]["outcome"], second_job["outcome"]);
+    let cursor = page["next_cursor"].as_str().unwrap();
+    let page = ask(format!("include=outcome&cursor={cursor}")).await;
+    assert_eq!(page["jobs"][0]["outcome"], first_job["outcome"]);
+    assert_eq!(page["next_cursor"], Value::Null);
+    let page = ask(String::new()).await;
+    assert_eq!(page["jobs"][0].get("outcome"), None);
+    let waiting = app.submit(&endless_scene()).await;
+    let page = ask("include=outcome&limit=1".to_owned()).await;
+    assert_eq!(page["jobs"][0].get("outcome"), Some(&Value::Null));
+    app.delete(&waiting).await;
     app.stop().await;
 }
 

@@ -7,6 +7,7 @@ mod app;
 mod bad_input;
 mod browser;
 mod citations;
+mod compression;
 mod contract;
 mod convergence_study;
 mod dismissal;

@@ -1,9 +1,11 @@
 //! Trajectories and snapshots of the flow.
 
 use crate::app::{TestApp, endless_scene, is_running, tiny_scene};
+use flate2::read::DeflateDecoder;
 use reqwest::StatusCode;
 use serde_json::{Value, json};
 use sqlx::Connection;
+use std::io::Read;
 
 const COLUMNS: [&str; 14] = [
     "angular_velocity_rad_s",
@@ -285,27 +287,34 @@ async fn a_trajectory_comes_in_every_form_with_the_same_numbers() {
     app.stop().await;
 }
 
-/// The last file of an archive, found by its directory.
-fn last_file(archive: &[u8]) -> (String, &[u8]) {
-    let number = |place: usize, bytes: usize| {
-        let digits = archive[place..place + bytes].iter().rev();
-        digits.fold(0, |number, digit| number << 8 | usize::from(*digit))
+/// Names and contents of an archive's files, in the order of its directory.
+fn files(archive: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let number = |place: usize, length: usize| -> usize {
+        let bytes = archive[place..place + length].iter().rev();
+        bytes.fold(0, |number, byte| number << 8 | usize::from(*byte))
     };
     let end = archive.len() - 22;
     assert_eq!(number(end, 4), 0x0605_4b50);
     let mut entry = number(end + 16, 4);
-    for _ in 1..number(end + 10, 2) {
-        entry += 46 + number(entry + 28, 2);
-    }
-    assert_eq!(number(entry, 4), 0x0201_4b50);
-    let (length, local) = (number(entry + 24, 4), number(entry + 42, 4));
-    let name = &archive[entry + 46..entry + 46 + number(entry + 28, 2)];
-    assert_eq!(number(local, 4), 0x0403_4b50);
-    let data = local + 30 + name.len();
-    (
-        String::from_utf8(name.to_vec()).unwrap(),
-        &archive[data..data + length],
-    )
+    let file = |_| {
+        assert_eq!(number(entry, 4), 0x0201_4b50);
+        let (packed, length) = (number(entry + 20, 4), number(entry + 24, 4));
+        let (name_length, local) = (number(entry + 28, 2), number(entry + 42, 4));
+        assert_eq!(number(local, 4), 0x0403_4b50);
+        let name = archive[entry + 46..entry + 46 + name_length].to_vec();
+        let start = local + 30 + name_length;
+        let mut bytes = archive[start..start + packed].to_vec();
+        if number(entry + 10, 2) == 8 {
+            let mut inflated = Vec::new();
+            let mut inflater = DeflateDecoder::new(bytes.as_slice());
+            inflater.read_to_end(&mut inflated).unwrap();
+            bytes = inflated;
+        }
+        assert_eq!(bytes.len(), length);
+        entry += 46 + name_length;
+        (String::from_utf8(name).unwrap(), bytes)
+    };
+    (0..number(end + 10, 2)).map(file).collect()
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -321,7 +330,8 @@ async fn arrays_and_snapshots_come_as_archives() {
     let path = format!("{job}/trajectory?fields=mode,time_s");
     let columns = app.get(&path).await.body["columns"].take();
     let archive = ask(&format!("{path}&format=npz&from_s=0.01")).await;
-    let (name, array) = last_file(&archive);
+    let files_of_npz = files(&archive);
+    let (name, array) = files_of_npz.last().unwrap();
     assert_eq!(name, "time_s.npy");
     // Magic and version, the length of the header, the header; then the numbers.
     let start = 10 + usize::from(u16::from_le_bytes([array[8], array[9]]));
@@ -335,21 +345,33 @@ async fn arrays_and_snapshots_come_as_archives() {
         json!(columns["time_s"].as_array().unwrap()[1..])
     );
 
-    let archive = ask(&format!("{job}/flow.zip")).await;
-    let (name, vtp) = last_file(&archive);
-    assert_eq!(name, "flow-0002.vtp");
-    let vtp = String::from_utf8(vtp.to_vec()).unwrap();
+    let files = files(&ask(&format!("{job}/flow.zip")).await);
+    let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names[..2], ["flow.pvd", "channel.vtp"]);
+    let last = ["instant-0002.vtm", "flow-0002.vtp", "bodies-0002.vtp"];
+    assert_eq!((names.len(), &names[8..]), (11, &last[..]));
+    for (name, text) in files.iter().filter(|(name, _)| !name.ends_with(".vtp")) {
+        let text = std::str::from_utf8(text).unwrap();
+        let document = roxmltree::Document::parse(text).unwrap();
+        let named = document
+            .descendants()
+            .filter_map(|node| node.attribute("file"));
+        let named: Vec<_> = named.collect();
+        assert_eq!(named.len(), 3, "{name}");
+        assert!(
+            named.iter().all(|file| names.contains(file)),
+            "{name}: {named:?}"
+        );
+    }
+    // .ci/read-results.py reads all of it with VTK.
     let flow = app.get(&format!("{job}/flow")).await.body;
-    let count = flow["speed_m_s"].as_array().unwrap().len();
-    assert!(vtp.contains(&format!("NumberOfPoints=\"{count}\"")));
-    let document = roxmltree::Document::parse(&vtp).unwrap();
-    let speeds = document
-        .descendants()
-        .find(|node| node.attribute("Name") == Some("speed_m_s"));
-    let speeds = speeds.unwrap().text().unwrap().split_whitespace();
-    let speeds: Vec<f32> = speeds.map(|number| number.parse().unwrap()).collect();
-    let expected: Vec<f32> = serde_json::from_value(flow["speed_m_s"].clone()).unwrap();
-    assert_eq!(speeds, expected);
+    let speeds: Vec<f32> = serde_json::from_value(flow["speed_m_s"].clone()).unwrap();
+    let speeds: Vec<u8> = speeds
+        .iter()
+        .flat_map(|speed| speed.to_le_bytes())
+        .collect();
+    let mut places = files[9].1.windows(speeds.len());
+    assert!(places.any(|bytes| bytes == speeds));
     app.get("/v1/jobs/x/flow.zip")
         .await
         .assert_problem(StatusCode::NOT_FOUND, "unknown-job");

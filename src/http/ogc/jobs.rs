@@ -1,7 +1,8 @@
 //! Jobs as the standard shows them: list, state, dismissal.
 
 use super::super::access::Caller;
-use super::super::jobs::{dismissed, page_of, read_page};
+use super::super::jobs::dismissed;
+use super::super::listing::{PageParameters, page_of, read_page};
 use super::super::named_job::{NamedJob, find};
 use super::super::problem::Problem;
 use super::super::query::Query;
@@ -10,7 +11,6 @@ use super::links::{Base, Link};
 use super::process;
 use super::status_info::StatusInfoDocument;
 use crate::jobs::JobService;
-use crate::jobs::job::JobStatus;
 use axum::Json;
 use axum::extract::{RawQuery, State};
 use form_urlencoded::Serializer;
@@ -38,10 +38,7 @@ pub(super) struct JobListDocument {
     params(
         ("type" = Option<String>, Query, description = "`process`, the only kind of job"),
         ("processID" = Option<String>, Query, description = "`simulation`, the only process"),
-        ("status" = Option<JobStatus>, Query, description = "Only jobs of this state"),
-        ("label" = Option<String>, Query, description = "Only jobs with this label"),
-        ("limit" = Option<u32>, Query, minimum = 1, maximum = 100, description = "Most jobs of the page; 20 unless given"),
-        ("cursor" = Option<String>, Query, description = "From the link to the page"),
+        PageParameters,
     ),
     responses((status = 200, description = "A page of jobs", body = JobListDocument)),
 )]
@@ -68,7 +65,7 @@ pub(super) async fn job_list(
     Ok(Json(JobListDocument {
         jobs: found
             .into_iter()
-            .map(|job| StatusInfoDocument::of(job, &base))
+            .map(|job| StatusInfoDocument::of(job.summary, &base))
             .collect(),
         links: [own].into_iter().chain(next).collect(),
     }))

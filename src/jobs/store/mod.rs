@@ -28,7 +28,7 @@ pub use ending::{FailedAttempt, Returned, TOLERATED_SETBACKS};
 pub use error::{Cause, StoreError, StoreErrorKind};
 pub use event::{Change, Event};
 pub use keyed_request::{FormerRequest, KeptAnswer, Key, KeyRetention};
-pub use page::{Page, Removal};
+pub use page::{JobPage, ListedJob, Page, Removal};
 pub use port::JobStore;
 pub use records::{NewChunk, NewResults, StoredChunk};
 pub use state::{AttemptStart, ResumePoint, StoredState};

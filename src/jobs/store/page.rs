@@ -1,19 +1,48 @@
 //! Selection and removal of jobs by clients.
 
-use crate::jobs::job::JobStatus;
+use crate::jobs::job::{JobStatus, JobSummary};
+use jiff::Timestamp;
+use serde_json::value::RawValue;
 
 /// Selection of jobs for a list, newest first.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Page {
-    /// Only jobs of this state.
-    pub status: Option<JobStatus>,
+    /// Only jobs of these states.
+    pub statuses: Vec<JobStatus>,
     /// Only jobs with this label.
     pub label: Option<String>,
+    /// Only jobs accepted at this time or later.
+    pub created_from: Option<Timestamp>,
+    /// Only jobs accepted at this time or earlier.
+    pub created_to: Option<Timestamp>,
     /// Only jobs submitted before the one with this sequence number.
     pub before: Option<i64>,
     /// At most this many.
     pub limit: u32,
+    /// True if the outcomes are wanted, too.
+    pub outcomes: bool,
 }
+
+/// A page of jobs.
+#[derive(Debug)]
+pub struct JobPage {
+    /// The jobs, newest first.
+    pub jobs: Vec<ListedJob>,
+    /// True if there are more after these.
+    pub more: bool,
+}
+
+/// A job of a page.
+#[derive(Debug)]
+pub struct ListedJob {
+    /// The job.
+    pub summary: JobSummary,
+    /// Its outcome, if that is wanted and it has one.
+    pub outcome: Option<Box<RawValue>>,
+}
+
+/// Size of the outcomes of a page after which it ends, whatever its limit [bytes].
+pub(super) const OUTCOME_BYTES: usize = 1 << 20;
 
 /// Largest number of jobs removed at once: a long list must not delay submissions.
 pub(super) const REMOVED_AT_ONCE: u32 = 20;

@@ -3,11 +3,11 @@
 
 use super::{
     AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, FormerRequest, JobCounts,
-    KeptAnswer, Key, KeyRetention, Lease, NewResults, Page, Removal, Renewal, Returned, StoreError,
-    StoredChunk, StoredState, Submission, Submitted,
+    JobPage, KeptAnswer, Key, KeyRetention, Lease, NewResults, Page, Removal, Renewal, Returned,
+    StoreError, StoredChunk, StoredState, Submission, Submitted,
 };
 use crate::jobs::failure::Failure;
-use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
+use crate::jobs::job::{Job, JobId, JobStatus};
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
 use crate::runs::Progress;
@@ -136,7 +136,7 @@ pub trait JobStore: Debug + Send + Sync {
     async fn status(&self, id: JobId) -> Answer<Option<JobStatus>>;
 
     /// A page of jobs, newest first.
-    async fn page(&self, page: &Page) -> Answer<Vec<JobSummary>>;
+    async fn page(&self, page: &Page) -> Answer<JobPage>;
 
     /// The next events after number `after`, of one job or of all, in order; at most a
     /// hundred.

@@ -2,7 +2,7 @@
 
 use super::{Field, Writer};
 use crate::results::columns::TrajectoryColumns;
-use crate::results::zip::ZipWriter;
+use crate::results::zip::{Method, ZipWriter};
 
 /// Writes one column per pass.
 pub(super) struct NpzWriter {
@@ -28,7 +28,8 @@ impl Writer for NpzWriter {
 
     fn begin(&mut self, pass: usize, out: &mut Vec<u8>) {
         let field = self.fields[pass];
-        self.archive.begin(&format!("{}.npy", field.name()), out);
+        let name = format!("{}.npy", field.name());
+        self.archive.begin(&name, Method::Stored, out);
         self.archive.data(&array_head(field, self.rows), out);
     }
 

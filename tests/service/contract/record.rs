@@ -33,7 +33,10 @@ pub(super) async fn all(folder: &Path) {
     let job = app.post_to("/v1/jobs?label=study:cubes", json_type, scene().to_string());
     let path = job.await.location.unwrap();
     document("job.json", &app.wait_for_success(&path).await);
-    document("job-page.json", &app.get("/v1/jobs").await.body);
+    document(
+        "job-page.json",
+        &app.get("/v1/jobs?include=outcome").await.body,
+    );
     let planned = app.post_to("/v1/plans", json_type, scene().to_string());
     document("planned.json", &planned.await.body);
     let batch = json!({"labels": ["study:cubes"], "jobs": [

@@ -24,6 +24,7 @@ mod keyed_requests;
 mod lease;
 mod lock;
 mod operating_time;
+mod pages;
 mod pools;
 mod port;
 mod queue;

@@ -3,11 +3,11 @@
 
 use super::SqliteStore;
 use crate::jobs::failure::Failure;
-use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
+use crate::jobs::job::{Job, JobId, JobStatus};
 use crate::jobs::store::{
     AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, FormerRequest, JobCounts,
-    JobStore, KeptAnswer, Key, KeyRetention, Lease, NewResults, Page, Removal, Renewal, Returned,
-    StoreError, StoredChunk, StoredState, Submission, Submitted,
+    JobPage, JobStore, KeptAnswer, Key, KeyRetention, Lease, NewResults, Page, Removal, Renewal,
+    Returned, StoreError, StoredChunk, StoredState, Submission, Submitted,
 };
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
@@ -129,7 +129,7 @@ impl JobStore for SqliteStore {
         Ok(Self::status(self, id).await?)
     }
 
-    async fn page(&self, page: &Page) -> Result<Vec<JobSummary>, StoreError> {
+    async fn page(&self, page: &Page) -> Result<JobPage, StoreError> {
         Ok(Self::page(self, page).await?)
     }
 

@@ -3,9 +3,9 @@
 use super::SqliteStore;
 use super::error::Answer;
 use super::history::attempts_of;
-use super::rows::{JobRow, SummaryRow};
-use crate::jobs::job::{Job, JobId, JobStatus, JobSummary};
-use crate::jobs::store::{Page, StoreError};
+use super::rows::JobRow;
+use crate::jobs::job::{Job, JobId, JobStatus};
+use crate::jobs::store::StoreError;
 
 /// A job's row and its labels.
 macro_rules! with_labels {
@@ -15,13 +15,6 @@ macro_rules! with_labels {
              FROM jobs ",
             $rest
         )
-    };
-}
-
-/// The same for a page of jobs.
-macro_rules! listed {
-    ($condition:expr) => {
-        with_labels!(concat!($condition, " ORDER BY sequence DESC LIMIT ?2"))
     };
 }
 
@@ -50,31 +43,5 @@ impl SqliteStore {
             })
         };
         Ok(word.map(read).transpose()?)
-    }
-
-    pub(super) async fn page(&self, page: &Page) -> Answer<Vec<JobSummary>> {
-        // Separate statements, so that each can use its index.
-        let query = match (page.status, &page.label) {
-            (None, None) => sqlx::query_as(listed!("WHERE sequence < ?1")),
-            (Some(_), None) => sqlx::query_as(listed!("WHERE sequence < ?1 AND status = ?3")),
-            (None, Some(_)) => sqlx::query_as(listed!(
-                "WHERE sequence IN (SELECT sequence FROM labels
-                     WHERE label = ?4 AND sequence < ?1
-                     ORDER BY sequence DESC LIMIT ?2)"
-            )),
-            (Some(_), Some(_)) => sqlx::query_as(listed!(
-                "WHERE sequence IN (SELECT sequence FROM labels
-                     WHERE label = ?4 AND status = ?3 AND sequence < ?1
-                     ORDER BY sequence DESC LIMIT ?2)"
-            )),
-        };
-        let rows: Vec<SummaryRow> = query
-            .bind(page.before.unwrap_or(i64::MAX))
-            .bind(page.limit)
-            .bind(page.status.map(JobStatus::word))
-            .bind(&page.label)
-            .fetch_all(self.readers.pool())
-            .await?;
-        rows.into_iter().map(SummaryRow::read).collect()
     }
 }

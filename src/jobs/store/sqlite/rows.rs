@@ -2,15 +2,15 @@
 
 use super::error::Answer;
 use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
-use crate::jobs::store::StoreError;
+use crate::jobs::store::{ListedJob, StoreError};
 use crate::runs::Progress;
 use jiff::Timestamp;
 use serde_json::value::RawValue;
 use sqlx::FromRow;
 
-/// The columns that a list shows.
+/// Columns of a job's summary.
 #[derive(Debug, FromRow)]
-pub(super) struct SummaryRow {
+struct SummaryRow {
     sequence: i64,
     id: String,
     status: String,
@@ -26,6 +26,14 @@ pub(super) struct SummaryRow {
     eta_s: Option<f64>,
     /// A JSON list.
     labels: String,
+}
+
+/// Columns that a list shows.
+#[derive(Debug, FromRow)]
+pub(super) struct ListedRow {
+    #[sqlx(flatten)]
+    summary: SummaryRow,
+    outcome: Option<String>,
 }
 
 /// All columns of a job.
@@ -48,8 +56,25 @@ pub(super) struct JobRow {
     problem: Option<String>,
 }
 
+impl ListedRow {
+    /// Size of the outcome [bytes].
+    pub(super) fn outcome_bytes(&self) -> usize {
+        self.outcome.as_ref().map_or(0, String::len)
+    }
+
+    pub(super) fn read(self) -> Answer<ListedJob> {
+        let summary = self.summary.read()?;
+        let outcome = self.outcome.map(RawValue::from_string).transpose();
+        let outcome = outcome.map_err(|_| StoreError::Row {
+            job: summary.id.to_string(),
+            what: "outcome",
+        })?;
+        Ok(ListedJob { summary, outcome })
+    }
+}
+
 impl SummaryRow {
-    pub(super) fn read(self) -> Answer<JobSummary> {
+    fn read(self) -> Answer<JobSummary> {
         let progress = self.progress();
         let broken = |what| StoreError::Row {
             job: self.id.clone(),

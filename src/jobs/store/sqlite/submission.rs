@@ -108,8 +108,8 @@ async fn insert(
     .await?;
     for label in &job.labels {
         sqlx::query(
-            "INSERT INTO labels (label, job_id, sequence, status)
-             SELECT ?1, id, sequence, status FROM jobs WHERE id = ?2",
+            "INSERT INTO labels (label, job_id, sequence, status, created_ms)
+             SELECT ?1, id, sequence, status, created_ms FROM jobs WHERE id = ?2",
         )
         .bind(label)
         .bind(&id)

@@ -1,5 +1,5 @@
-//! Rules for every driver of the job store ([`conformance`], [`clocks`], [`races`],
-//! [`model`]). Those of one driver alone are in its folder.
+//! Rules for every driver of the job store ([`conformance`], [`clocks`], [`pages`],
+//! [`races`], [`model`]). Those of one driver alone are in its folder.
 
 /// Makes each rule a test of every driver; a further driver is one line here.
 macro_rules! conformance {
@@ -26,6 +26,7 @@ macro_rules! rules_of {
 mod clocks;
 mod conformance;
 mod model;
+mod pages;
 mod races;
 
 use super::*;
