@@ -23,7 +23,7 @@ const PAUSES_S: [u64; 6] = [1, 4, 16, 60, 300, 900];
 const GIVEN_UP_AFTER: Duration = Duration::from_secs(24 * 3600);
 
 /// Starts to tell the receivers, each by a task of its own that ends with the service.
-pub fn start(
+pub(crate) fn start(
     webhooks: &[Webhook],
     store: &Arc<dyn JobStore>,
     jobs: &JobService,
