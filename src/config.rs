@@ -147,7 +147,9 @@ impl ServiceConfig {
     /// # Errors
     /// A named file is missing, a key is unknown, or a value has the wrong type.
     pub fn load(file: Option<&Path>) -> Result<Self, ConfigError> {
-        Self::layered(file, Env::prefixed("SCREE_").split("__"))
+        // SCREE_BINARY is the Python package's, and no key.
+        let environment = Env::prefixed("SCREE_").ignore(&["binary"]).split("__");
+        Self::layered(file, environment)
     }
 
     fn layered(file: Option<&Path>, environment: impl Provider) -> Result<Self, ConfigError> {

@@ -59,6 +59,10 @@ pub(super) struct ServeOptions {
     /// [default: configs/service.toml, if it exists]
     #[arg(long, value_name = "FILE")]
     pub(super) config: Option<PathBuf>,
+    /// Stop once standard input ends, so that the service ends with the program that
+    /// started it, however that ends
+    #[arg(long)]
+    pub(super) until_stdin_ends: bool,
 }
 
 #[derive(Debug, Args)]

@@ -13,7 +13,7 @@ use tracing::level_filters::LevelFilter;
 /// Configuration file that is read by default, if it exists.
 const USUAL_CONFIG: &str = "configs/service.toml";
 
-/// Serves until Ctrl-C or SIGTERM.
+/// Serves until Ctrl-C or SIGTERM, or the end of standard input where that is asked for.
 ///
 /// # Errors
 /// The configuration is refused, or the service can't start.
@@ -33,6 +33,7 @@ pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
         console::answer(&format!("listening on http://{}", running.address()))?;
         let broken = tokio::select! {
             _ = signals.next() => None,
+            () = end_of_stdin(), if options.until_stdin_ends => None,
             why = running.broken() => Some(why),
         };
         running.stop().await;
@@ -41,6 +42,18 @@ pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
     // A scenario that is still being read, for a request that was cut off, leaves nothing behind.
     runtime.shutdown_background();
     ended
+}
+
+/// Returns once standard input has ended.
+async fn end_of_stdin() {
+    let (ended, end) = tokio::sync::oneshot::channel();
+    // A thread of its own: a read of standard input can't be given up, and the runtime would wait.
+    std::thread::spawn(move || {
+        // Input that can't be read has ended, too.
+        let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
+        let _ = ended.send(());
+    });
+    let _ = end.await;
 }
 
 fn configuration(options: &ServeOptions) -> Result<ServiceConfig, Failure> {

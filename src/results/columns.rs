@@ -9,37 +9,37 @@ use utoipa::ToSchema;
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, ToSchema)]
 pub struct TrajectoryColumns {
     /// Simulated time [s].
-    #[schema(required = false)]
+    #[schema(required = false, extensions(("x-unit" = json!("s"))))]
     pub time_s: Vec<f64>,
     /// Centre [x, y, z] [m].
-    #[schema(required = false)]
+    #[schema(required = false, extensions(("x-unit" = json!("m"))))]
     pub position_m: Vec<[f64; 3]>,
     /// Unit quaternion [w, x, y, z].
     #[schema(required = false)]
     pub orientation: Vec<[f64; 4]>,
     /// Velocity of the centre [m/s].
-    #[schema(required = false)]
+    #[schema(required = false, extensions(("x-unit" = json!("m/s"))))]
     pub velocity_m_s: Vec<[f64; 3]>,
     /// Angular velocity, world axes [rad/s].
-    #[schema(required = false)]
+    #[schema(required = false, extensions(("x-unit" = json!("rad/s"))))]
     pub angular_velocity_rad_s: Vec<[f64; 3]>,
     /// Force of the flow [N].
-    #[schema(required = false)]
+    #[schema(required = false, extensions(("x-unit" = json!("N"))))]
     pub flow_force_n: Vec<[f64; 3]>,
     /// Torque of the flow about the centre [N m].
-    #[schema(required = false)]
+    #[schema(required = false, extensions(("x-unit" = json!("N m"))))]
     pub flow_torque_nm: Vec<[f64; 3]>,
     /// Force of the walls [N].
-    #[schema(required = false)]
+    #[schema(required = false, extensions(("x-unit" = json!("N"))))]
     pub wall_force_n: Vec<[f64; 3]>,
     /// Torque of the walls about the centre [N m].
-    #[schema(required = false)]
+    #[schema(required = false, extensions(("x-unit" = json!("N m"))))]
     pub wall_torque_nm: Vec<[f64; 3]>,
     /// Force of other bodies, fixed ones included [N].
-    #[schema(required = false)]
+    #[schema(required = false, extensions(("x-unit" = json!("N"))))]
     pub body_force_n: Vec<[f64; 3]>,
     /// Torque of other bodies about the centre [N m].
-    #[schema(required = false)]
+    #[schema(required = false, extensions(("x-unit" = json!("N m"))))]
     pub body_torque_nm: Vec<[f64; 3]>,
     /// Material points in contact.
     #[schema(required = false)]

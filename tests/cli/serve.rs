@@ -1,12 +1,14 @@
 //! `scree serve`.
 
-use crate::command::{Scene, ask, tiny};
+use crate::command::{Scene, ask, scree, tiny};
+use std::io::{BufRead, BufReader};
+use std::process::Stdio;
 #[cfg(unix)]
 use {
     crate::command::Served,
     std::io::{Read, Write},
     std::net::TcpStream,
-    std::process::{Command, Stdio},
+    std::process::Command,
 };
 
 #[cfg(unix)]
@@ -44,6 +46,30 @@ fn it_tells_its_address_answers_and_stops_when_asked() {
         "colours in a log that is no terminal"
     );
     assert!(scene.path("test.db").is_file());
+}
+
+#[test]
+fn it_ends_with_the_input_of_the_program_that_started_it() {
+    let scene = Scene::new(&tiny());
+    let mut service = scree()
+        // The Python package's, which is no key of the configuration.
+        .env("SCREE_BINARY", "scree")
+        .args(["serve", "--until-stdin-ends", "--listen", "127.0.0.1:0"])
+        .arg("--database")
+        .arg(scene.path("test.db"))
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    let mut stdout = BufReader::new(service.stdout.take().unwrap());
+    stdout.read_line(&mut line).unwrap();
+    assert!(line.starts_with("listening on http://127.0.0.1:"), "{line}");
+    assert!(service.try_wait().unwrap().is_none());
+
+    drop(service.stdin.take());
+    assert_eq!(service.wait().unwrap().code(), Some(0));
 }
 
 #[test]

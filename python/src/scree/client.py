@@ -1,0 +1,229 @@
+"""Client of a service."""
+
+from __future__ import annotations
+
+import contextlib
+import uuid
+from typing import Any, Iterable, Iterator, Mapping, Union, cast
+
+from typing_extensions import Literal, Self
+
+from scree import contract, local_service
+from scree.errors import Conflict, WaitTimeout
+from scree.events import JobEvent, follow
+from scree.job import JobHandle, ProgressFunction
+from scree.transport import Transport
+
+#: Jobs of one page of a list, the most that the service gives.
+PAGE = 100
+
+#: A scenario: typed, or any dictionary, which the service checks.
+ScenarioLike = Union[contract.Scenario, Mapping[str, Any]]
+
+
+class Client:
+    """Client of the service at an address.
+
+    Requests are repeated after broken connections, and while the service is too busy
+    (429, 503), at the pace it asks for. Submissions carry an idempotency key, so that a
+    repetition never makes a second job.
+
+    Parameters
+    ----------
+    url : str
+        Address of the service: ``"http://127.0.0.1:8080"``.
+    token : str, optional
+        Access token, where the service needs one.
+    patience_s : float
+        Longest time for which a request is repeated [s].
+
+    Examples
+    --------
+    >>> client = scree.Client("http://127.0.0.1:8080")
+    >>> job = client.submit(scenario, label="study").wait()
+    >>> job.trajectory()["position_m"][-1]
+    """
+
+    def __init__(self, url: str, *, token: str | None = None, patience_s: float = 60.0) -> None:
+        self._transport = Transport(url, token, patience_s)
+
+    @classmethod
+    def local(cls) -> Self:
+        """Client of this process's local service, which is started if need be.
+
+        Raises
+        ------
+        LocalServiceError
+            The binary is not found, or does not start.
+        """
+        return cls(local_service.shared().url)
+
+    def close(self) -> None:
+        """Closes the connections; handles of jobs need them."""
+        self._transport.close()
+
+    def __enter__(self) -> Self:
+        """The client itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Closes the connections."""
+        self.close()
+
+    def submit(
+        self,
+        scenario: ScenarioLike,
+        *,
+        key: str | None = None,
+        label: str | Iterable[str] = (),
+        reuse: Literal["finished"] | None = None,
+    ) -> JobHandle:
+        """Submits a scenario as a job.
+
+        Parameters
+        ----------
+        scenario : Scenario or mapping
+            The scenario; numbers and arrays of NumPy are welcome.
+        key : str, optional
+            Idempotency key: the same key with the same scenario gives the same job, also
+            from another process. Without it, one is made for this call.
+        label : str or iterable of str
+            Labels of the job, by which jobs can be listed.
+        reuse : {"finished"}, optional
+            Accept a successful job with the same scenario instead of a new run.
+
+        Raises
+        ------
+        InvalidRequest
+            The scenario is not allowed: the text names each field.
+        Busy
+            The queue is full, for longer than the client's patience.
+        """
+        parameters = [("label", text) for text in _labels(label)]
+        if reuse is not None:
+            parameters.append(("reuse", reuse))
+        answer = self._transport.post("/v1/jobs", scenario, parameters, key or str(uuid.uuid4()))
+        document = cast(contract.Job, answer.json())
+        return JobHandle(self._transport, document["id"], document)
+
+    def batch(
+        self,
+        scenarios: Iterable[ScenarioLike],
+        *,
+        key: str | None = None,
+        label: str | Iterable[str] = (),
+    ) -> list[JobHandle]:
+        """Submits many scenarios in one request: all are accepted, or none.
+
+        Parameters
+        ----------
+        scenarios : iterable of scenarios
+            The scenarios, each as for `submit`.
+        key, label
+            As for `submit`; every job gets the labels.
+
+        Returns
+        -------
+        list of JobHandle
+            The jobs, in the order of the scenarios.
+        """
+        jobs = [{"scenario": scenario} for scenario in scenarios]
+        batch = {"jobs": jobs, "labels": _labels(label)}
+        answer = self._transport.post("/v1/batches", batch, key=key or str(uuid.uuid4()))
+        ids = cast(contract.BatchAnswer, answer.json())["ids"]
+        return [JobHandle(self._transport, job_id) for job_id in ids]
+
+    def plan(self, scenario: ScenarioLike) -> contract.Planned:
+        """Plan of a scenario's job: what it would compute, leave out and cost."""
+        return cast(contract.Planned, self._transport.post("/v1/plans", scenario).json())
+
+    def job(self, job_id: str) -> JobHandle:
+        """Job with this identifier.
+
+        Raises
+        ------
+        NotFound
+            There is none.
+        """
+        job = JobHandle(self._transport, job_id)
+        job.refresh()
+        return job
+
+    def jobs(
+        self, *, status: contract.JobStatus | None = None, label: str | None = None
+    ) -> Iterator[contract.JobSummary]:
+        """Jobs, newest first, read page by page.
+
+        Parameters
+        ----------
+        status : str, optional
+            Only jobs in this state.
+        label : str, optional
+            Only jobs with this label.
+        """
+        chosen = {"status": status, "label": label, "limit": PAGE}
+        parameters = [(name, value) for name, value in chosen.items() if value is not None]
+        cursor: str | None = None
+        while True:
+            next_page = [] if cursor is None else [("cursor", cursor)]
+            answer = self._transport.get("/v1/jobs", [*parameters, *next_page])
+            page = cast(contract.JobPage, answer.json())
+            yield from page["jobs"]
+            cursor = page["next_cursor"]
+            if cursor is None:
+                return
+
+    def events(self, after: int | None = None) -> Iterator[JobEvent]:
+        """Changes of all jobs, without end: from the next one, or those after a number."""
+        return follow(self._transport, None, after)
+
+
+def run(
+    scenario: ScenarioLike,
+    *,
+    url: str | None = None,
+    token: str | None = None,
+    timeout_s: float | None = None,
+    progress: ProgressFunction | None = None,
+) -> JobHandle:
+    """Runs a scenario to its end.
+
+    Parameters
+    ----------
+    scenario : Scenario or mapping
+        The scenario.
+    url, token : str, optional
+        Service to run it, and access token. Without `url`, the binary ``scree``
+        (``$SCREE_BINARY``, or on the path) is started as a service of this process, and
+        stopped with it: results have to be read before.
+    timeout_s, progress
+        As for `JobHandle.wait`.
+
+    Returns
+    -------
+    JobHandle
+        The job, with outcome, trajectories, flow and pictures.
+
+    Raises
+    ------
+    InvalidRequest
+        The scenario is not allowed: the text names each field.
+    JobFailed
+        The run failed.
+    WaitTimeout
+        The time is over; the job is dismissed. So it is by Ctrl-C.
+    LocalServiceError
+        The binary is not found, or does not start.
+    """
+    client = Client.local() if url is None else Client(url, token=token)
+    job = client.submit(scenario)
+    try:
+        return job.wait(timeout_s, progress)
+    except (KeyboardInterrupt, WaitTimeout):
+        with contextlib.suppress(Conflict):  # It has just ended.
+            job.dismiss()
+        raise
+
+
+def _labels(label: str | Iterable[str]) -> list[str]:
+    return [label] if isinstance(label, str) else list(label)

@@ -1,0 +1,33 @@
+"""Scenarios of the tests."""
+
+from __future__ import annotations
+
+from typing import Any
+
+#: A second of work: 0.0003 m³ of coarse points.
+SMALL: dict[str, Any] = {
+    "title": "small",
+    "channel": {
+        "inclination_deg": 30,
+        "incline_length_m": 0.4,
+        "runout_length_m": 0.4,
+        "width_m": 0.1,
+    },
+    "flow": {"volume_m3": 0.0003, "release": {"height_m": 0.04, "toe_distance_m": 0.05}},
+    "bodies": [{"shape": {"cube": {"side_m": 0.04}}}],
+    "duration_s": 0.2,
+    "sample_interval_s": 0.01,
+    "flow_snapshots": 3,
+    "numerics": {"cell_size_m": 0.02, "points_per_cell": 4},
+}
+
+#: Nothing but the start.
+START = {**SMALL, "title": "start", "duration_s": 0}
+
+#: Minutes of work, for a run that is stopped.
+LONG = {
+    **SMALL,
+    "title": "long",
+    "duration_s": 60,
+    "numerics": {"cell_size_m": 0.005, "points_per_cell": 8, "ending": "full"},
+}
