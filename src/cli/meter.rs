@@ -15,13 +15,15 @@ const LEAST_PAUSE: Duration = Duration::from_secs(2);
 /// Longest time between two lines, so that slow runs are seen to go on.
 const LONGEST_PAUSE: Duration = Duration::from_secs(10);
 
-/// A progress bar on a terminal, otherwise lines.
+/// A progress bar on a terminal, otherwise lines; nothing if that is asked for.
 #[derive(Debug)]
 pub(super) enum Meter {
     /// A bar on standard error.
     Bar(ProgressBar),
     /// Lines on standard error, without control codes.
     Lines(LineSchedule),
+    /// Nothing.
+    Silent,
 }
 
 /// Schedule of lines: at every tenth of the run, but neither too often nor too seldom.
@@ -77,6 +79,7 @@ impl Meter {
                     console::note(&format!("{percent:>3} %  {}", in_words(progress)));
                 }
             }
+            Self::Silent => {}
         }
     }
 

@@ -43,6 +43,11 @@ pub(super) fn px(length: f64) -> i32 {
     (length * DEVICE_PER_PX).round() as i32
 }
 
+/// A length in pixels, from device units.
+pub(super) fn from_device(length: i32) -> f64 {
+    f64::from(length) / DEVICE_PER_PX
+}
+
 /// A stroke width or radius in device units, from pixels.
 pub(super) fn width(length: f64) -> u32 {
     (length * DEVICE_PER_PX).round().max(1.0) as u32

@@ -78,6 +78,32 @@ pub(super) fn sliding_samples(moving_s: f64, duration_s: f64) -> Vec<Sample> {
     (0..=100).map(at).collect()
 }
 
+/// Bodies in rows that start one after another, overtake each other and stop; a hundred samples of
+/// 3 s.
+pub(super) fn tangled_samples(bodies: usize) -> Vec<Sample> {
+    let at = |time_s: f64, body: usize| {
+        let index = body as f64;
+        let since = (time_s - 0.03 * index).clamp(0.0, 1.5);
+        let share = since / 1.5;
+        let length_m = 0.3 + 0.05 * (index * 2.4).sin();
+        let way = length_m * share * share * (3.0 - 2.0 * share);
+        let row = [0.05 * (body / 5) as f64, 0.036 * (body % 5) as f64 - 0.072];
+        let mut state = resting_at([0.05 + row[0] + way, row[1] + 0.02 * way, 0.01]);
+        state.velocity_m_s[0] = length_m * 4.0 * share * (1.0 - share)
+            + 0.05 * (1.0 - share) * (40.0 * since + index).sin().abs();
+        state.submerged_fraction = share * (0.6 + 0.4 * (9.0 * since + index).sin());
+        state
+    };
+    let sample = |k: u32| {
+        let time_s = 0.03 * f64::from(k);
+        Sample {
+            time_s,
+            bodies: (0..bodies).map(|body| at(time_s, body)).collect(),
+        }
+    };
+    (0..=100).map(sample).collect()
+}
+
 pub(super) fn empty_snapshot(time_s: f64) -> FlowSnapshot {
     FlowSnapshot {
         time_s,

@@ -22,6 +22,13 @@ pub(super) fn plain(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// A number at a tick of an axis of this length, free of rounding errors: 0, not −1e-17.
+pub(super) fn tick(value: f64, length: f64) -> String {
+    let finest = length * 1e-6;
+    // No minus sign before a zero.
+    plain((value / finest).round() * finest + 0.0).replace('-', "−")
+}
+
 /// A title that is valid in XML: control characters, which XML 1.0 can't
 /// represent, become spaces; blank titles become `fallback`.
 pub(super) fn title(text: &str, fallback: &str) -> String {
@@ -68,6 +75,13 @@ mod tests {
         assert_eq!(plain(2.50), "2.5");
         assert_eq!(plain(100.0), "100");
         assert_eq!(plain(0.0), "0");
+    }
+
+    #[test]
+    fn ticks_are_free_of_rounding_errors() {
+        assert_eq!(tick(-2.7e-17, 0.2), "0");
+        assert_eq!(tick(0.1 * 3.0, 0.5), "0.3");
+        assert_eq!(tick(-0.05, 0.2), "−0.05");
     }
 
     /// Three times 0.1 is slightly more than 0.3, and must not become 0.4.

@@ -1,7 +1,8 @@
 //! Pictures of a run, as SVG text.
 //!
 //! [`motion`] shows displacement and speed of every body against time;
-//! [`aerial_view`] shows flow and bodies from above at about six instants.
+//! [`aerial_view`] shows flow and bodies from above at about six instants. Bodies have the same
+//! colours and numbers in both, and no curve passes through a label.
 //! Both are pure functions of the records of a run. The texts use the
 //! generic sans-serif family and leave space for a wider font, so no font has to
 //! be installed where the picture is drawn or shown.
@@ -12,9 +13,11 @@ mod chart;
 #[cfg(test)]
 mod fixtures;
 mod format;
+mod labels;
 mod motion;
 mod outline;
 mod palette;
+mod style;
 mod surface;
 #[cfg(test)]
 mod tests;

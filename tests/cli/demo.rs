@@ -41,6 +41,19 @@ fn the_service_gives_what_a_local_run_gives() {
     }
 }
 
+/// Quiet or not, errors are told.
+#[test]
+fn a_quiet_demo_tells_only_of_errors() {
+    let (good, bad) = (Scene::new(&tiny()), Scene::new(&unstable()));
+    for (scene, code) in [(&good, 0), (&bad, 3)] {
+        let (file, out) = (scene.file(), scene.path("results"));
+        let answer = ask(&[&"demo", &"-q", &"--scenario", &file, &"--out", &out]);
+        assert_eq!(answer.code, Some(code), "{}", answer.stderr);
+        assert_eq!(answer.stderr.is_empty(), code == 0, "{}", answer.stderr);
+        assert!(!answer.stderr.contains("service on"), "{}", answer.stderr);
+    }
+}
+
 /// Runs the demo on another scene, with the results beside the scene's file.
 fn demo_of(scene: &Scene) -> Answer {
     let (file, out) = (scene.file(), scene.path("results"));

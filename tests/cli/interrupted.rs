@@ -28,6 +28,10 @@ impl Running {
         let mut command = scree();
         command.arg("run").arg(scene.file());
         out.map(|out| command.arg("--out").arg(out));
+        Self::of(command)
+    }
+
+    fn of(mut command: Command) -> Self {
         let child = command
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -111,11 +115,7 @@ fn a_stopped_run_is_resumed_to_the_same_bits() {
 
     let mut command = scree();
     command.arg("run").arg("--resume").arg(&out);
-    let child = command
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn();
-    let running = Running(Some(child.unwrap()));
+    let running = Running::of(command);
     std::thread::sleep(Duration::from_millis(300));
     running.signal("-TERM");
     let ended = running.end();
@@ -165,6 +165,35 @@ fn a_run_that_is_killed_at_its_start_begins_anew() {
         "a state so soon"
     );
     assert_eq!(resume(&out), uninterrupted(&scene));
+}
+
+/// Formats are those that the run was begun with, unless others are asked for.
+#[test]
+fn a_resumed_run_writes_the_formats_asked_for() {
+    let scene = Scene::new(&long());
+    for (other, expected) in [(None, "csv"), (Some("ndjson"), "ndjson")] {
+        let out = scene.path(expected);
+        let mut command = scree();
+        command.arg("run").arg(scene.file()).arg("--out").arg(&out);
+        command.args(["--format", "csv"]);
+        let running = Running::of(command);
+        wait_for(&out.join(".scree-partial/state"));
+        running.signal("-TERM");
+        assert_eq!(running.end().status.code(), Some(143));
+
+        let mut command = scree();
+        command.arg("run").arg("--resume").arg(&out);
+        command.args(other.iter().flat_map(|other| ["--format", *other]));
+        let ended = Running::of(command).end();
+        let stderr = String::from_utf8_lossy(&ended.stderr);
+        assert_eq!(ended.status.code(), Some(0), "{stderr}");
+        let names = ["json", "ndjson", "csv", "npz"].map(|format| format!("trajectory-0.{format}"));
+        let there: Vec<_> = names
+            .iter()
+            .filter(|name| out.join(name).exists())
+            .collect();
+        assert_eq!(there, [&format!("trajectory-0.{expected}")]);
+    }
 }
 
 /// A disk that has space for the state, but not for the results: the last words tell how to

@@ -5,6 +5,7 @@ mod backup;
 mod bench;
 mod command;
 mod demo;
+mod folder;
 #[cfg(unix)]
 mod interrupted;
 mod plan;

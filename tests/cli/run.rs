@@ -172,7 +172,7 @@ fn a_full_disk_names_the_file_and_spares_the_earlier_result() {
     std::fs::create_dir(&out).unwrap();
     std::fs::write(out.join("outcome.json"), "earlier").unwrap();
     let script = format!(
-        "trap '' XFSZ; ulimit -f 2; exec {} run {} --out {}",
+        "trap '' XFSZ; ulimit -f 6; exec {} run {} --out {}",
         env!("CARGO_BIN_EXE_scree"),
         scene.file().display(),
         out.display()

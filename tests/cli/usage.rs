@@ -31,7 +31,7 @@ fn shells_and_manuals_learn_the_command_line() {
     for shell in ["bash", "zsh", "fish"] {
         let script = ask(&[&"completions", &shell]);
         assert_eq!((script.code, script.stderr.as_str()), (Some(0), ""));
-        for word in ["validate", "resume", "completions"] {
+        for word in ["validate", "resume", "completions", "format", "quiet"] {
             assert!(script.stdout.contains(word), "{shell}: {word}");
         }
     }
@@ -47,11 +47,13 @@ fn shells_and_manuals_learn_the_command_line() {
 
 #[test]
 fn arguments_not_understood_are_invalid_input() {
-    let wrong: [&[&dyn AsRef<std::ffi::OsStr>]; 6] = [
+    let wrong: [&[&dyn AsRef<std::ffi::OsStr>]; 8] = [
         &[],
         &[&"simulate"],
         &[&"run"],
         &[&"run", &"a.json", &"--threads", &"0"],
+        &[&"run", &"a.json", &"--format", &"csv"],
+        &[&"run", &"a.json", &"--out", &"b", &"--format", &"xls"],
         &[&"serve", &"--listen", &"somewhere"],
         &[&"bench", &"--only", &"s300k"],
     ];

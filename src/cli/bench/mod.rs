@@ -15,7 +15,7 @@ mod stages;
 mod stopwatch;
 mod threads;
 
-use super::arguments::{BenchOptions, Measurement};
+use super::arguments::{BenchOptions, Measurement, Quiet};
 use super::console;
 use super::failure::Failure;
 use crate::cli::machine::Machine;
@@ -77,7 +77,11 @@ pub(super) fn bench(options: &BenchOptions) -> Result<(), Failure> {
         repeats: options.repeats,
         points: options.points.unwrap_or(scenes::COLLAPSE_POINTS),
     };
-    let report = Report::measured(effort, &options.only)?;
+    let asked = Asked {
+        only: &options.only,
+        quiet: options.quiet,
+    };
+    let report = Report::measured(effort, &asked)?;
     if let Some(folder) = &options.figures {
         figures::write(&report, folder)?;
     }
@@ -89,23 +93,32 @@ pub(super) fn bench(options: &BenchOptions) -> Result<(), Failure> {
     Ok(console::only_answer(&answer)?)
 }
 
-/// Runs a measurement if it is among those asked for, and announces it to the user.
-fn if_asked<T>(
-    only: &[Measurement],
-    one: Measurement,
-    measure: impl FnOnce() -> Result<T, Failure>,
-) -> Result<Option<T>, Failure> {
-    if !only.is_empty() && !only.contains(&one) {
-        return Ok(None);
+/// Measurements to be made.
+struct Asked<'a> {
+    /// All if empty.
+    only: &'a [Measurement],
+    quiet: Quiet,
+}
+
+impl Asked<'_> {
+    /// Makes a measurement if it is among those asked for, and announces it to the user.
+    fn make<T>(
+        &self,
+        one: Measurement,
+        measure: impl FnOnce() -> Result<T, Failure>,
+    ) -> Result<Option<T>, Failure> {
+        if !self.only.is_empty() && !self.only.contains(&one) {
+            return Ok(None);
+        }
+        if std::io::stderr().is_terminal() {
+            self.quiet.note(&format!("measuring: {}", one.name()));
+        }
+        measure().map(Some)
     }
-    if std::io::stderr().is_terminal() {
-        console::note(&format!("measuring: {}", one.name()));
-    }
-    measure().map(Some)
 }
 
 impl Report {
-    fn measured(effort: Effort, only: &[Measurement]) -> Result<Self, Failure> {
+    fn measured(effort: Effort, asked: &Asked<'_>) -> Result<Self, Failure> {
         use Measurement::{
             Bodies, Channel, Forecast, Heaps, Plan, Progress, Roofline, S200k, Size, Stages,
             Threads,
@@ -113,17 +126,17 @@ impl Report {
         Ok(Self {
             solver_version: VERSION,
             machine: Machine::here(),
-            s200k: if_asked(only, S200k, || collapse::measure(&effort))?,
-            size: if_asked(only, Size, || size::measure(&effort))?,
-            channel: if_asked(only, Channel, || bodies::measure_channel(&effort))?,
-            bodies: if_asked(only, Bodies, || bodies::measure_bodies(&effort))?,
-            heaps: if_asked(only, Heaps, || heaps::measure(&effort))?,
-            stages: if_asked(only, Stages, || stages::measure(&effort))?,
-            threads: if_asked(only, Threads, || threads::measure(&effort))?,
-            roofline: if_asked(only, Roofline, || roofline::measure(&effort))?,
-            plan: if_asked(only, Plan, || plan::measure(&effort))?,
-            forecast: if_asked(only, Forecast, || forecasts::measure(&effort))?,
-            progress: if_asked(only, Progress, progress::measure)?,
+            s200k: asked.make(S200k, || collapse::measure(&effort))?,
+            size: asked.make(Size, || size::measure(&effort))?,
+            channel: asked.make(Channel, || bodies::measure_channel(&effort))?,
+            bodies: asked.make(Bodies, || bodies::measure_bodies(&effort))?,
+            heaps: asked.make(Heaps, || heaps::measure(&effort))?,
+            stages: asked.make(Stages, || stages::measure(&effort))?,
+            threads: asked.make(Threads, || threads::measure(&effort))?,
+            roofline: asked.make(Roofline, || roofline::measure(&effort))?,
+            plan: asked.make(Plan, || plan::measure(&effort))?,
+            forecast: asked.make(Forecast, || forecasts::measure(&effort))?,
+            progress: asked.make(Progress, progress::measure)?,
             effort,
         })
     }

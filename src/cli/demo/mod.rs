@@ -5,7 +5,7 @@
 mod client;
 mod documents;
 
-use super::arguments::DemoOptions;
+use super::arguments::{DemoOptions, Quiet};
 use super::failure::Failure;
 use super::meter::Meter;
 use super::results_folder::{Delivery, Place, ResultsFolder};
@@ -38,12 +38,15 @@ pub(super) fn demo(options: &DemoOptions) -> Result<(), Failure> {
     };
     let scenario = scenario_file::parse(&text, "the demo's scenario")?;
     let folder = ResultsFolder::for_new_run(&options.out)?;
+    if let Some(path) = &options.scenario {
+        folder.refuse_to_replace(path, &text, &scenario)?;
+    }
     serve::log_to_standard_error(LevelFilter::WARN);
     let runtime = tokio::runtime::Runtime::new()?;
     runtime.block_on(async {
         let mut signals = Signals::listen()?;
         tokio::select! {
-            result = with_own_service(text, &scenario, &folder) => result,
+            result = with_own_service(text, &scenario, &folder, options.quiet) => result,
             signal = signals.next() => Err(Failure::Stopped(signal, String::new())),
         }
     })
@@ -55,6 +58,7 @@ async fn with_own_service(
     text: String,
     scenario: &Scenario,
     folder: &ResultsFolder,
+    quiet: Quiet,
 ) -> Result<(), Failure> {
     let throw_away = tempfile::tempdir()?;
     let config = ServiceConfig {
@@ -65,9 +69,9 @@ async fn with_own_service(
     let running = service::start(config)
         .await
         .map_err(|error| serve::not_started(&error))?;
-    console::note(&format!("service on http://{}", running.address()));
+    quiet.note(&format!("service on http://{}", running.address()));
     let client = Client::new(running.address());
-    let result = send_and_fetch(client, text, scenario, folder).await;
+    let result = send_and_fetch(client, text, scenario, folder, quiet).await;
     running.stop().await;
     console::answer(&result?)?;
     Ok(())
@@ -80,16 +84,18 @@ async fn send_and_fetch(
     text: String,
     scenario: &Scenario,
     folder: &ResultsFolder,
+    quiet: Quiet,
 ) -> Result<String, Failure> {
     let job: Job = client.post("/v1/jobs", text).await?.json()?;
-    console::note(&format!(
+    quiet.note(&format!(
         "POST /v1/jobs: job {}, \"{}\"",
         job.id, scenario.title
     ));
-    let outcome = wait(client, &job.id).await?;
+    let outcome = wait(client, &job.id, quiet.meter()).await?;
     let mut delivery = folder.deliver(Place::Whole)?;
     let recorded = fetch(client, &job.id, scenario, &mut delivery).await?;
     delivery.pictures(scenario, &recorded.samples, &recorded.snapshots, &outcome)?;
+    delivery.scenario(scenario)?;
     delivery.outcome(&outcome)?;
     let written = delivery.finish()?;
     Ok(format!(
@@ -99,8 +105,7 @@ async fn send_and_fetch(
 }
 
 /// Shows the job's progress until it ends.
-async fn wait(client: Client, id: &str) -> Result<Outcome, Failure> {
-    let mut meter = Meter::bar_or_lines();
+async fn wait(client: Client, id: &str, mut meter: Meter) -> Result<Outcome, Failure> {
     loop {
         let job: Job = client.get(&format!("/v1/jobs/{id}")).await?.json()?;
         meter.show(&job.progress);
@@ -123,7 +128,7 @@ async fn fetch(
     for body in 0..scenario.bodies.len() {
         let path = format!("/v1/jobs/{id}/trajectory?body={body}");
         let document = client.get(&path).await?.accepted()?;
-        delivery.trajectory(body, &document)?;
+        delivery.trajectory_document(body, &document)?;
         recorded.add_trajectory(&document)?;
     }
     for time_s in documents::snapshot_times(scenario) {

@@ -23,7 +23,7 @@ impl Job {
             return Ok(None);
         };
         let mut delivery = folder.deliver(Place::Whole)?;
-        self.write_trajectories(recorded, &mut delivery)?;
+        self.write_scenario_and_trajectories(recorded, &mut delivery)?;
         let Recorded { samples, snapshots } = recorded;
         delivery.pictures(&self.scenario, samples, snapshots, outcome)?;
         delivery.outcome(outcome)?;
@@ -51,17 +51,18 @@ impl Job {
 
     fn deliver_failed(&self, folder: &ResultsFolder, recorded: &Recorded) -> Result<(), Failure> {
         let mut delivery = folder.deliver(Place::Failed)?;
-        self.write_trajectories(recorded, &mut delivery)?;
+        self.write_scenario_and_trajectories(recorded, &mut delivery)?;
         delivery.finish().map(|_| ())
     }
 
-    fn write_trajectories(
+    fn write_scenario_and_trajectories(
         &self,
         recorded: &Recorded,
         delivery: &mut Delivery<'_>,
     ) -> Result<(), Failure> {
+        delivery.scenario(&self.scenario)?;
         for body in 0..self.scenario.bodies.len() {
-            delivery.trajectory(body, recorded.trajectory(body).as_bytes())?;
+            delivery.trajectory(body, &recorded.samples, &self.formats)?;
         }
         Ok(())
     }

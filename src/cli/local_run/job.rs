@@ -2,7 +2,9 @@
 
 use crate::cli::arguments::RunOptions;
 use crate::cli::failure::{Failure, not_set_up};
-use crate::cli::results_folder::{Interrupted, Place, ResultsFolder, SavedRun, SavedState};
+use crate::cli::results_folder::{
+    Formats, Interrupted, Place, ResultsFolder, SavedRun, SavedState,
+};
 use crate::cli::{console, scenario_file};
 use scree::runs::convergence_study::Runs;
 use scree_solver::record::Record;
@@ -13,6 +15,8 @@ use std::path::Path;
 pub(super) struct Job {
     pub(super) scenario: Scenario,
     pub(super) folder: Option<ResultsFolder>,
+    /// Formats of the trajectories in the folder.
+    pub(super) formats: Formats,
     saved: Option<SavedRun>,
     state: Option<SavedState>,
 }
@@ -38,9 +42,13 @@ impl Asked {
     /// # Errors
     /// The scenario or the folder can't be used.
     pub(super) fn of(options: &RunOptions) -> Result<Self, Failure> {
+        let formats = Formats::asked(&options.format);
         match (&options.resume, &options.scenario) {
-            (Some(folder), _) => Self::resumed(folder),
-            (None, Some(file)) => Job::new(file, options.out.as_deref()).map(Self::compute),
+            (Some(folder), _) => Self::resumed(folder, formats),
+            (None, Some(file)) => {
+                let formats = formats.unwrap_or_default();
+                Job::new(file, options.out.as_deref(), formats).map(Self::compute)
+            }
             (None, None) => Err(Failure::Input("no scenario is given".to_owned())),
         }
     }
@@ -49,22 +57,27 @@ impl Asked {
         Self::Compute(Box::new(job))
     }
 
-    fn resumed(path: &Path) -> Result<Self, Failure> {
+    fn resumed(path: &Path, asked: Option<Formats>) -> Result<Self, Failure> {
         let (folder, interrupted) = ResultsFolder::of_interrupted_run(path)?;
-        let (text, saved, state) = match interrupted {
+        let (text, formats, saved, state) = match interrupted {
             Interrupted::Delivered(place) => return Ok(Self::Delivered(folder, place)),
             Interrupted::Run {
                 scenario,
+                formats,
                 saved,
                 state,
-            } => (scenario, saved, state),
+            } => (scenario, formats, saved, state),
         };
+        if let Some(formats) = &asked {
+            saved.choose(formats)?;
+        }
         if state.is_none() {
             console::note("the run was interrupted before its first saved state: it begins anew");
         }
         Ok(Self::compute(Job {
             scenario: scenario_file::parse(&text, "the interrupted run's scenario")?,
             folder: Some(folder),
+            formats: asked.unwrap_or(formats),
             saved: Some(saved),
             state,
         }))
@@ -72,15 +85,20 @@ impl Asked {
 }
 
 impl Job {
-    fn new(file: &Path, out: Option<&Path>) -> Result<Self, Failure> {
+    fn new(file: &Path, out: Option<&Path>, formats: Formats) -> Result<Self, Failure> {
         let text = scenario_file::read_text(file)?;
         let scenario = scenario_file::parse(&text, &scenario_file::name(file))?;
         let folder = out.map(ResultsFolder::for_new_run).transpose()?;
-        let saved = folder.as_ref().map(|folder| folder.save_run(&text));
+        let save = |folder: &ResultsFolder| -> Result<SavedRun, Failure> {
+            folder.refuse_to_replace(file, &text, &scenario)?;
+            Ok(folder.save_run(&text, &formats)?)
+        };
+        let saved = folder.as_ref().map(save).transpose()?;
         Ok(Self {
             scenario,
-            saved: saved.transpose()?,
+            saved,
             folder,
+            formats,
             state: None,
         })
     }

@@ -11,7 +11,6 @@ use super::console;
 use super::failure::{Failure, not_set_up};
 use super::files::FileError;
 use super::machine::cores;
-use super::meter::Meter;
 use super::results_folder::Place;
 use super::{intervals, table};
 use interrupts::Interrupts;
@@ -51,7 +50,7 @@ fn compute(mut job: Job, options: &RunOptions) -> Result<(), Failure> {
         records,
         saved,
     } = job.start(threads(options, &job.scenario))?;
-    let mut recording = Recording::new(records, saved, interrupts.stop(), Meter::bar_or_lines());
+    let mut recording = Recording::new(records, saved, interrupts.stop(), options.quiet.meter());
     let ended = runs.go(interrupts.stop(), &mut recording);
     recording.meter.finish();
     let fraction = recording.fraction;

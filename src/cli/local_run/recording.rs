@@ -5,7 +5,6 @@ use crate::cli::console;
 use crate::cli::files::FileError;
 use crate::cli::meter::Meter;
 use crate::cli::results_folder::SavedRun;
-use scree::results::{TrajectoryColumns, trajectory_json};
 use scree::runs::{Progress, Sink, StopFlag};
 use scree_solver::record::{FlowSnapshot, Record, Sample};
 
@@ -96,18 +95,10 @@ pub(super) struct Recorded {
     pub(super) snapshots: Vec<FlowSnapshot>,
 }
 
-impl Recorded {
-    /// Trajectory document of a body.
-    pub(super) fn trajectory(&self, body: usize) -> String {
-        let columns = TrajectoryColumns::of_body(&self.samples, body);
-        trajectory_json(None, body, &columns)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::results_folder::{Interrupted, ResultsFolder, SavedState};
+    use crate::cli::results_folder::{Formats, Interrupted, ResultsFolder, SavedState};
     use scree::results::fingerprint::Fingerprint;
     use scree::runs::convergence_study::Runs;
     use scree::runs::{RunEnd, Stop};
@@ -150,7 +141,7 @@ mod tests {
         let scenario = Scenario::from_json(text).unwrap();
         let directory = tempfile::tempdir().unwrap();
         let folder = ResultsFolder::for_new_run(directory.path()).unwrap();
-        drop(folder.save_run(text).unwrap());
+        drop(folder.save_run(text, &Formats::default()).unwrap());
         drop(folder);
         for part in 1.. {
             let (_lock, interrupted) = ResultsFolder::of_interrupted_run(directory.path()).unwrap();
@@ -164,7 +155,7 @@ mod tests {
                 None => (Runs::afresh(&scenario, 1).unwrap(), Vec::new()),
             };
             let stop = StopFlag::default();
-            let recording = Recording::new(records, Some(saved), &stop, Meter::bar_or_lines());
+            let recording = Recording::new(records, Some(saved), &stop, Meter::Silent);
             let mut sink = Interrupter { recording, steps };
             if let RunEnd::Completed(outcome) = runs.go(&stop, &mut sink).unwrap() {
                 let mut fingerprint = Fingerprint::default();
@@ -225,10 +216,10 @@ mod tests {
     fn a_state_that_cannot_be_written_matters_once_the_run_is_to_stop() {
         let directory = tempfile::tempdir().unwrap();
         let folder = ResultsFolder::for_new_run(directory.path()).unwrap();
-        let saved = folder.save_run("{}").unwrap();
+        let saved = folder.save_run("{}", &Formats::default()).unwrap();
         folder.discard_partial().unwrap();
         let stop = StopFlag::default();
-        let mut recording = Recording::new(Vec::new(), Some(saved), &stop, Meter::bar_or_lines());
+        let mut recording = Recording::new(Vec::new(), Some(saved), &stop, Meter::Silent);
         recording.state(0.0, b"state").unwrap();
         stop.ask(Stop::OnceSaved);
         let error = recording.state(0.0, b"state").unwrap_err().to_string();

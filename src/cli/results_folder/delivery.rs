@@ -1,10 +1,12 @@
 //! Delivery of results: written into a folder of their own, then listed, then moved. From the list
 //! on, the delivery is completed by whoever opens the folder next, should this process end.
 
-use super::{OUTCOME, ResultsFolder, results_in};
+use super::formats::file_name;
+use super::{Formats, OUTCOME, PLAN, ResultsFolder, SCENARIO, results_in};
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, FileError};
 use scree::pictures;
+use scree::results::table::Format;
 use scree_solver::record::{FlowSnapshot, Outcome, Sample};
 use scree_solver::scenario::Scenario;
 use serde::{Deserialize, Serialize};
@@ -47,25 +49,49 @@ impl<'a> Delivery<'a> {
         })
     }
 
-    /// Writes the outcome.
+    /// Writes the outcome, and the plan in it.
     ///
     /// # Errors
-    /// The file can't be written.
+    /// A file can't be written.
     pub(in crate::cli) fn outcome(&mut self, outcome: &Outcome) -> Result<(), Failure> {
-        let text = serde_json::to_string_pretty(outcome)? + "\n";
-        self.write(OUTCOME, text.as_bytes())
+        if let Some(plan) = &outcome.plan {
+            self.write(PLAN, pretty(plan)?.as_bytes())?;
+        }
+        self.write(OUTCOME, pretty(outcome)?.as_bytes())
     }
 
-    /// Writes the trajectory document of a body.
+    /// Writes the scenario with its defaults.
     ///
     /// # Errors
     /// The file can't be written.
+    pub(in crate::cli) fn scenario(&mut self, scenario: &Scenario) -> Result<(), Failure> {
+        self.write(SCENARIO, scenario_text(scenario)?.as_bytes())
+    }
+
+    /// Writes the trajectory of a body in these formats.
+    ///
+    /// # Errors
+    /// A file can't be written.
     pub(in crate::cli) fn trajectory(
+        &mut self,
+        body: usize,
+        samples: &[Sample],
+        formats: &Formats,
+    ) -> Result<(), Failure> {
+        let mut files = formats.files_of(samples, body);
+        files.try_for_each(|(name, contents)| self.write(&name, &contents))
+    }
+
+    /// Writes the trajectory document of a body, as the service gives it.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub(in crate::cli) fn trajectory_document(
         &mut self,
         body: usize,
         document: &[u8],
     ) -> Result<(), Failure> {
-        self.write(&format!("trajectory-{body}.json"), document)
+        self.write(&file_name(body, Format::Json), document)
     }
 
     /// Draws and writes the pictures.
@@ -159,6 +185,15 @@ impl ResultsFolder {
         files::sync_folder(&self.path)?;
         self.discard_partial()
     }
+}
+
+/// Text of the file of a scenario.
+pub(super) fn scenario_text(scenario: &Scenario) -> Result<String, Failure> {
+    pretty(scenario)
+}
+
+fn pretty(document: &impl Serialize) -> Result<String, Failure> {
+    Ok(serde_json::to_string_pretty(document)? + "\n")
 }
 
 /// Removes the results in a folder but those to keep.

@@ -2,6 +2,7 @@
 //! to its place once it is whole; until then, an earlier run's results stay as they are.
 
 mod delivery;
+mod formats;
 mod frame;
 mod lock;
 mod saved;
@@ -9,8 +10,10 @@ mod saved;
 use super::failure::Failure;
 use super::files::{self, FileError};
 pub(super) use delivery::{Delivery, Place};
+pub(super) use formats::Formats;
 pub(super) use saved::{Interrupted, SavedRun, SavedState};
 use scree_solver::record::Outcome;
+use scree_solver::scenario::Scenario;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -20,6 +23,12 @@ const PARTIAL: &str = ".scree-partial";
 
 /// Name of the file of the outcome.
 const OUTCOME: &str = "outcome.json";
+
+/// Name of the file of the scenario.
+const SCENARIO: &str = "scenario.json";
+
+/// Name of the file of the plan.
+const PLAN: &str = "plan.json";
 
 /// A folder for results that no other run uses meanwhile.
 #[derive(Debug)]
@@ -48,7 +57,39 @@ impl ResultsFolder {
                 path = path.display()
             )));
         }
+        folder.refuse_foreign_files()?;
         Ok(folder)
+    }
+
+    /// Refuses a folder with files that have names of results but are those of no run: they are
+    /// somebody's own.
+    fn refuse_foreign_files(&self) -> Result<(), Failure> {
+        let mut foreign = [SCENARIO, PLAN]
+            .into_iter()
+            .map(|name| self.path.join(name));
+        match foreign.find(|path| path.exists()) {
+            Some(path) if !self.has_results() => Err(would_be_replaced(&path)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses to replace the file of the scenario itself by the scenario with its defaults.
+    ///
+    /// # Errors
+    /// The file is in this folder, and its text is another.
+    pub(super) fn refuse_to_replace(
+        &self,
+        file: &Path,
+        text: &str,
+        scenario: &Scenario,
+    ) -> Result<(), Failure> {
+        let real = |path: &Path| path.canonicalize().ok();
+        let is_result =
+            real(file).is_some_and(|file| real(&self.path.join(SCENARIO)) == Some(file));
+        if is_result && text != delivery::scenario_text(scenario)? {
+            return Err(would_be_replaced(file));
+        }
+        Ok(())
     }
 
     /// Opens the folder of an interrupted run.
@@ -80,13 +121,18 @@ impl ResultsFolder {
         })
     }
 
-    /// Begins to save the run of the scenario with this text.
+    /// Begins to save the run of the scenario with this text, whose trajectories are to be
+    /// written in these formats.
     ///
     /// # Errors
     /// A file can't be written.
-    pub(super) fn save_run(&self, scenario: &str) -> Result<SavedRun, FileError> {
+    pub(super) fn save_run(
+        &self,
+        scenario: &str,
+        formats: &Formats,
+    ) -> Result<SavedRun, FileError> {
         self.discard_partial()?;
-        SavedRun::begin(&self.partial, scenario)
+        SavedRun::begin(&self.partial, scenario, formats)
     }
 
     /// Begins to write results.
@@ -165,17 +211,22 @@ fn make_folder(path: &Path) -> Result<(), Failure> {
     }
 }
 
+/// Failure of a run whose results would replace a file that is not of a run.
+fn would_be_replaced(path: &Path) -> Failure {
+    Failure::Input(format!(
+        "{} would be replaced by the results' file of this name: move it, or choose another folder",
+        path.display()
+    ))
+}
+
 /// Names of the results in a folder.
 fn results_in(folder: &Path) -> io::Result<Vec<String>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder)? {
         let name = entry?.file_name();
         let Some(name) = name.to_str() else { continue };
-        let is_trajectory = name
-            .strip_prefix("trajectory-")
-            .and_then(|rest| rest.strip_suffix(".json"))
-            .is_some_and(|body| body.parse::<usize>().is_ok());
-        if is_trajectory || [OUTCOME, "motion.svg", "aerial.svg"].contains(&name) {
+        let others = [OUTCOME, SCENARIO, PLAN, "motion.svg", "aerial.svg"];
+        if formats::is_trajectory(name) || others.contains(&name) {
             names.push(name.to_owned());
         }
     }

@@ -3,7 +3,7 @@
 //! records that belong to it.
 
 use super::delivery::Place;
-use super::frame;
+use super::{Formats, frame};
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, FileError, failed};
 use scree::results::fingerprint::Fingerprint;
@@ -37,6 +37,8 @@ pub(in crate::cli) enum Interrupted {
     Run {
         /// Text of its scenario.
         scenario: String,
+        /// Formats of its trajectories.
+        formats: Formats,
         /// The saved run, to be continued.
         saved: SavedRun,
         /// Its last state and the records until then; none if it was cut off before the first.
@@ -67,6 +69,10 @@ impl SavedRun {
         folder.join("scenario.json")
     }
 
+    fn formats_file(folder: &Path) -> PathBuf {
+        folder.join("formats")
+    }
+
     fn records_file(folder: &Path) -> PathBuf {
         folder.join("records")
     }
@@ -80,9 +86,15 @@ impl SavedRun {
         Self::scenario_file(folder).exists() && Self::state_file(folder).exists()
     }
 
-    /// Begins with the scenario alone.
-    pub(super) fn begin(folder: &Path, scenario: &str) -> Result<Self, FileError> {
+    /// Begins with the scenario, and the formats to be written at the end.
+    pub(super) fn begin(
+        folder: &Path,
+        scenario: &str,
+        formats: &Formats,
+    ) -> Result<Self, FileError> {
         fs::create_dir_all(folder).map_err(failed("make", folder))?;
+        // Before the scenario, whose file makes an interrupted run of the folder.
+        files::replace(&Self::formats_file(folder), formats.words().as_bytes())?;
         files::replace(&Self::scenario_file(folder), scenario.as_bytes())?;
         Ok(Self::without_records(folder, scenario))
     }
@@ -164,10 +176,32 @@ impl SavedRun {
         let mut saved = Self::without_records(folder, &scenario);
         let state = saved.read_state(&scenario)?;
         Ok(Interrupted::Run {
+            formats: Self::read_formats(folder)?,
             scenario,
             saved,
             state,
         })
+    }
+
+    /// The formats; those without a word of the user's if another build has begun the run.
+    fn read_formats(folder: &Path) -> Result<Formats, Failure> {
+        let path = Self::formats_file(folder);
+        match fs::read_to_string(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Formats::default()),
+            words => {
+                let words = words.map_err(|error| Failure::path("read", &path, &error))?;
+                Ok(Formats::from_words(&words).unwrap_or_default())
+            }
+        }
+    }
+
+    /// Has the trajectories written in other formats.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub(in crate::cli) fn choose(&self, formats: &Formats) -> Result<(), FileError> {
+        let path = Self::formats_file(&self.folder);
+        files::replace(&path, formats.words().as_bytes())
     }
 
     fn read_state(&mut self, scenario: &str) -> Result<Option<SavedState>, Failure> {

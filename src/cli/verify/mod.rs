@@ -4,7 +4,7 @@ mod figures;
 mod markdown;
 mod robustness_tables;
 
-use super::arguments::{SuiteWord, VerifyOptions};
+use super::arguments::{Quiet, SuiteWord, VerifyOptions};
 use super::columns::{millions, table};
 use super::console;
 use super::failure::Failure;
@@ -51,12 +51,12 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
     let asked = Asked::of(options)?;
     let mut verified = Vec::new();
     for case in asked.cases {
-        tell_of(case.name);
+        tell_of(case.name, options.quiet);
         verified.push(run_case(case, effort));
     }
     let mut tried = Vec::new();
     for family in asked.families {
-        tell_of(family.name);
+        tell_of(family.name, options.quiet);
         tried.extend(try_family(family, effort, options.full));
     }
     let tell = |failing: &_| console::note(&robustness_tables::in_words(failing));
@@ -93,9 +93,9 @@ pub(super) fn verify(options: &VerifyOptions) -> Result<(), Failure> {
 }
 
 /// Announces the case that runs to the user.
-fn tell_of(name: &str) {
+fn tell_of(name: &str, quiet: Quiet) {
     if std::io::stderr().is_terminal() {
-        console::note(&format!("verifying: {name}"));
+        quiet.note(&format!("verifying: {name}"));
     }
 }
 

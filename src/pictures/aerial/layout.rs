@@ -2,6 +2,7 @@
 
 use super::instants::Instant;
 use super::panel::Scene;
+use crate::pictures::labels::{Extent, Point};
 use std::ops::Range;
 
 /// Width of the picture [px].
@@ -20,8 +21,12 @@ const ROW_GAP: f64 = 9.0;
 const COLUMN_GAP: f64 = 16.0;
 /// Numbers and title of the x axis below the last row [px].
 pub(super) const AXIS: f64 = 40.0;
-/// Most that all rows together may take [px].
+/// Most that all rows together may take [px]; the same where bodies would else be too small for
+/// their numbers.
 const ROWS_LIMIT: f64 = 800.0;
+const TALL_ROWS_LIMIT: f64 = 1300.0;
+/// Width of a body that holds its number [px].
+const NUMBERED_BODY: f64 = 12.0;
 
 /// Panels in rows and columns, all showing the same part of the channel.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +43,8 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// The smallest number of columns for which the picture is not too tall.
+    /// The smallest number of columns for which the picture is not too tall, unless fewer are
+    /// needed for legible numbers.
     pub(super) fn of(scene: &Scene<'_>, instants: &[Instant<'_>]) -> Self {
         let panels = instants.len();
         let half = 0.52 * scene.scenario.channel.width_m;
@@ -54,7 +60,14 @@ impl Layout {
             let gaps = COLUMN_GAP * (columns - 1) as f64;
             let strip = (WIDTH - LEFT - RIGHT - gaps) / columns as f64;
             layout.px_per_m = strip / length(&layout.x);
-            if layout.rows_height() <= ROWS_LIMIT {
+            let body_px = |px_per_m: f64| scene.narrowest_numbered_m().map(|m| m * px_per_m);
+            let fits = |width_px: f64| width_px >= NUMBERED_BODY;
+            let next = layout.px_per_m * columns as f64 / (columns + 1) as f64;
+            let limit = match (body_px(layout.px_per_m), body_px(next)) {
+                (Some(here), Some(next)) if fits(here) && !fits(next) => TALL_ROWS_LIMIT,
+                _ => ROWS_LIMIT,
+            };
+            if layout.rows_height() <= limit {
                 return layout;
             }
         }
@@ -77,6 +90,26 @@ impl Layout {
         let x = LEFT + (width + COLUMN_GAP) * column as f64;
         let y = HEADER + CAPTION + (CAPTION + height + ROW_GAP) * row as f64;
         (x, y)
+    }
+
+    /// Extent of a strip.
+    pub(super) fn field(&self, panel: usize) -> Extent {
+        let ((left, top), (width, height)) = (self.corner(panel), self.strip());
+        Extent {
+            left,
+            top,
+            right: left + width,
+            bottom: top + height,
+        }
+    }
+
+    /// Place on the sheet of a point (x, y) [m] of a strip.
+    pub(super) fn on_sheet(&self, panel: usize, (x, y): (f64, f64)) -> Point {
+        let field = self.field(panel);
+        (
+            field.left + (x - self.x.start) * self.px_per_m,
+            field.bottom - (y - self.y.start) * self.px_per_m,
+        )
     }
 
     /// True if the panel has the y axis' numbers on its left.

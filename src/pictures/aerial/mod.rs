@@ -1,13 +1,16 @@
 //! Flow and bodies seen from above (the source paper's figure 6).
 
+mod bodies;
 mod instants;
 mod layout;
+mod numbers;
 mod panel;
 
 use super::canvas::width as stroke;
 use super::canvas::{Area, FAINT_INK, HAIRLINE, INK, PictureError, bold, paint, px, text};
 use super::format::{plain, title};
 use super::palette::SpeedScale;
+use super::style::Styles;
 use super::surface;
 use layout::Layout;
 use panel::Scene;
@@ -53,14 +56,18 @@ pub fn aerial_view(
     let layout = Layout::of(&scene, &instants);
     let bin_m = bin_within_budget(&layout, &shown);
     paint((layout::WIDTH, layout.height()), |sheet| {
-        draw_header(sheet, scenario)?;
+        draw_header(sheet, scenario, &scene.styles)?;
         if !shown.is_empty() {
             draw_color_bar(sheet, &speeds)?;
         }
         for (index, instant) in instants.iter().enumerate() {
             scene.draw(sheet, &layout, index, instant, (&speeds, bin_m))?;
         }
-        draw_axis_titles(sheet, &layout)
+        draw_axis_titles(sheet, &layout)?;
+        match scene.styles.meaning_of_grey() {
+            Some(meaning) => draw_footnote(sheet, &layout, meaning),
+            None => Ok(()),
+        }
     })
 }
 
@@ -80,12 +87,24 @@ fn bin_within_budget(layout: &Layout, shown: &[&FlowSnapshot]) -> f64 {
     bin_px / layout.px_per_m
 }
 
-fn draw_header(sheet: &Area<'_>, scenario: &Scenario) -> Result<(), PictureError> {
+fn draw_header(sheet: &Area<'_>, scenario: &Scenario, styles: &Styles) -> Result<(), PictureError> {
     let left = px(16.0);
     let headline = title(&scenario.title, "Untitled scenario");
     sheet.draw_text(&headline, &bold(15.0, &INK), (left, px(12.0)))?;
-    let subtitle = "Seen from above: surface of the flow, bodies and their trails";
+    let subtitle = if styles.are_numbered() {
+        "Seen from above: flow, bodies with their numbers, and trails"
+    } else {
+        "Seen from above: surface of the flow, bodies and their trails"
+    };
     sheet.draw_text(subtitle, &text(12.0, &FAINT_INK), (left, px(33.0)))?;
+    Ok(())
+}
+
+/// Draws a line in the lower right corner.
+fn draw_footnote(sheet: &Area<'_>, layout: &Layout, line: &str) -> Result<(), PictureError> {
+    let style = text(11.0, &FAINT_INK).pos(Pos::new(HPos::Right, VPos::Bottom));
+    let at = (layout::WIDTH - layout::RIGHT, layout.height() - 6.0);
+    sheet.draw_text(line, &style, (px(at.0), px(at.1)))?;
     Ok(())
 }
 

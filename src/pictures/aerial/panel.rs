@@ -2,11 +2,13 @@
 
 use super::instants::Instant;
 use super::layout::{AXIS, LEFT, Layout};
-use super::{HAIRLINE, stroke};
+use super::{HAIRLINE, bodies, numbers, stroke};
 use crate::pictures::canvas::{Area, FAINT_INK, INK, PictureError, Plane, bold, px, text};
-use crate::pictures::format::{plain, significant};
-use crate::pictures::palette::{SpeedScale, body_color};
-use crate::pictures::{outline, surface};
+use crate::pictures::format::{significant, tick};
+use crate::pictures::labels::{Extent, Grid, Point};
+use crate::pictures::palette::SpeedScale;
+use crate::pictures::style::Styles;
+use crate::pictures::surface;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -26,6 +28,7 @@ pub(super) struct Scene<'a> {
     pub scenario: &'a Scenario,
     samples: &'a [Sample],
     shapes: Vec<SpheroPolyhedron>,
+    pub styles: Styles,
 }
 
 impl<'a> Scene<'a> {
@@ -35,6 +38,7 @@ impl<'a> Scene<'a> {
             scenario,
             samples,
             shapes: bodies.map(|body| scenario.shape_of(body)).collect(),
+            styles: Styles::of(scenario, samples),
         }
     }
 
@@ -62,6 +66,16 @@ impl<'a> Scene<'a> {
         (low - margin).max(whole.start - beyond)..(high + margin).min(whole.end + beyond)
     }
 
+    /// Width of the narrowest of several bodies [m]; none if none has a number.
+    pub(super) fn narrowest_numbered_m(&self) -> Option<f64> {
+        let widths = self
+            .shapes
+            .iter()
+            .map(|shape| 2.0 * shape.inscribed_radius());
+        let numbered = self.styles.are_numbered();
+        widths.filter(|_| numbered).min_by(f64::total_cmp)
+    }
+
     /// Extents of bodies at both sides of their centres.
     fn body_extents(&self, sample: &'a Sample) -> impl Iterator<Item = f64> + Clone {
         let bodies = self.shapes.iter().zip(&sample.bodies);
@@ -84,11 +98,14 @@ impl<'a> Scene<'a> {
         let plane = axes(sheet, layout, index)?;
         self.draw_ground(&plane, layout)?;
         if let Some(snapshot) = instant.snapshot {
-            draw_flow(&plane, layout, snapshot, (speeds, bin_m))?;
+            let half_width_m = self.scenario.channel.width_m / 2.0;
+            draw_flow(&plane, layout, snapshot, (speeds, bin_m), half_width_m)?;
         }
         self.draw_channel(&plane, layout)?;
         if let Some(sample) = instant.sample {
-            self.draw_bodies(&plane, sample)?;
+            let field = layout.field(index);
+            let on_sheet = |x: f64, y: f64| layout.on_sheet(index, (x, y));
+            self.draw_bodies(sheet, field, sample, on_sheet)?;
         }
         Ok(())
     }
@@ -159,43 +176,43 @@ impl<'a> Scene<'a> {
         Ok(())
     }
 
-    fn draw_bodies(&self, plane: &Plane<'_>, sample: usize) -> Result<(), PictureError> {
+    fn draw_bodies(
+        &self,
+        sheet: &Area<'_>,
+        field: Extent,
+        sample: usize,
+        on_sheet: impl Fn(f64, f64) -> Point,
+    ) -> Result<(), PictureError> {
         let states = &self.samples[sample].bodies;
-        for body in 0..self.shapes.len().min(states.len()) {
-            self.draw_trail(plane, body, sample)?;
+        let seen = bodies::from_above(&self.shapes, states, &self.styles, &on_sheet);
+        let mut grid = Grid::over(field);
+        for body in &seen {
+            let trail = self.trail(body.index, sample, &on_sheet);
+            if !body.style.is_grey() {
+                bodies::draw_trail(sheet, &trail, body.style)?;
+                grid.trace(&trail, body.index);
+            }
         }
-        for (index, (shape, state)) in self.shapes.iter().zip(states).enumerate() {
-            let mut outline: Vec<_> = outline::from_above(shape, state)
-                .into_iter()
-                .map(Into::into)
-                .collect();
-            plane.draw(&Polygon::new(outline.clone(), body_color(index).filled()))?;
-            outline.extend(outline.first().copied());
-            plane.draw(&PathElement::new(outline, INK.stroke_width(stroke(0.8))))?;
+        for body in &seen {
+            body.draw(sheet)?;
+            grid.fill(&body.outline, body.index);
+        }
+        if self.styles.are_numbered() {
+            let places = numbers::place(&seen, &mut grid);
+            places.iter().try_for_each(|number| number.draw(sheet))?;
         }
         Ok(())
     }
 
-    /// Draws the path of a body's centre so far, with a white edge to be visible on any colour.
-    fn draw_trail(&self, plane: &Plane<'_>, body: usize, last: usize) -> Result<(), PictureError> {
+    /// The path of a body's centre so far.
+    fn trail(&self, body: usize, last: usize, on_sheet: impl Fn(f64, f64) -> Point) -> Vec<Point> {
         let states = self.samples[..=last]
             .iter()
             .filter_map(|sample| sample.bodies.get(body));
         let way = states.map(|state| (state.position_m[0], state.position_m[1]));
-        let mut way: Vec<(f64, f64)> = way.filter(|p| (p.0 + p.1).is_finite()).collect();
+        let mut way: Vec<Point> = way.filter(|p| (p.0 + p.1).is_finite()).collect();
         way.dedup();
-        if way.len() < 2 {
-            return Ok(());
-        }
-        plane.draw(&PathElement::new(
-            way.clone(),
-            WHITE.stroke_width(stroke(3.0)),
-        ))?;
-        plane.draw(&PathElement::new(
-            way,
-            body_color(body).stroke_width(stroke(1.5)),
-        ))?;
-        Ok(())
+        way.into_iter().map(|(x, y)| on_sheet(x, y)).collect()
     }
 }
 
@@ -230,8 +247,8 @@ fn axes<'a>(sheet: &Area<'a>, layout: &Layout, index: usize) -> Result<Plane<'a>
         .x_labels(numbers_along)
         .y_labels(numbers_across)
         .set_all_tick_mark_size(px(3.0))
-        // No minus sign before a zero.
-        .y_label_formatter(&|y: &f64| plain((y * 1e6).round() * 1e-6 + 0.0))
+        .x_label_formatter(&|x| tick(*x, layout.x.end - layout.x.start))
+        .y_label_formatter(&|y| tick(*y, layout.y.end - layout.y.start))
         .label_style(text(10.5, &INK))
         .draw()?;
     Ok(panel.plotting_area().clone())
@@ -242,11 +259,16 @@ fn draw_flow(
     layout: &Layout,
     snapshot: &FlowSnapshot,
     (speeds, bin_m): (&SpeedScale, f64),
+    half_width_m: f64,
 ) -> Result<(), PictureError> {
-    let radius = stroke(DOT_RADIUS_BINS * bin_m * layout.px_per_m);
+    let radius_m = DOT_RADIUS_BINS * bin_m;
+    let radius = stroke(radius_m * layout.px_per_m);
+    // A dot stands for a square, which ends at the wall.
+    let half = (half_width_m - radius_m).max(0.0);
     for dot in surface::seen_from_above(snapshot, &layout.x, bin_m) {
         let color = speeds.color(dot.speed_m_s);
-        plane.draw(&Circle::new((dot.at[0], dot.at[1]), radius, color.filled()))?;
+        let at = (dot.at[0], dot.at[1].clamp(-half, half));
+        plane.draw(&Circle::new(at, radius, color.filled()))?;
     }
     Ok(())
 }

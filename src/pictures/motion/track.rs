@@ -1,8 +1,7 @@
 //! Track of one body in the motion picture.
 
 use crate::pictures::format::significant;
-use crate::pictures::palette::body_color;
-use plotters::style::RGBColor;
+use crate::pictures::style::{Style, Styles};
 use scree_solver::record::{BodyOutcome, BodySample, Outcome, Sample};
 use scree_solver::scenario::Scenario;
 
@@ -35,20 +34,9 @@ impl Quantity {
         match self {
             Self::Displacement => "displacement [m]",
             Self::Speed => "speed [m/s]",
-            Self::Submergence => "submerged share",
+            Self::Submergence => "submerged share [–]",
         }
     }
-}
-
-/// Placement of the text of a mark, clear of the curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Placement {
-    /// Above the mark, where the curve is level or falls to both sides.
-    Above,
-    /// At the top of a dashed line, where the curve rises.
-    Head,
-    /// To the right of the mark, if there is space, where the curve descends to it.
-    Beyond,
 }
 
 /// A marked point of a curve.
@@ -58,20 +46,17 @@ pub(super) struct Note {
     pub at: (f64, f64),
     /// Text of the mark.
     pub text: String,
-    /// Placement of the text.
-    pub placement: Placement,
 }
 
 /// One body's curves.
 #[derive(Debug)]
 pub(super) struct Track<'a> {
-    body: usize,
-    outcome: Option<&'a BodyOutcome>,
+    pub body: usize,
+    pub outcome: Option<&'a BodyOutcome>,
     displacement: Vec<(f64, f64)>,
     speed: Vec<(f64, f64)>,
     submergence: Vec<(f64, f64)>,
-    /// Colour of the body in all panels.
-    pub color: RGBColor,
+    pub style: Style,
 }
 
 /// The track of every body that is free to move.
@@ -79,16 +64,25 @@ pub(super) fn of_free_bodies<'a>(
     scenario: &Scenario,
     samples: &[Sample],
     outcome: &'a Outcome,
+    styles: &Styles,
 ) -> Vec<Track<'a>> {
     let free = |&body: &usize| !scenario.bodies[body].fixed;
     (0..scenario.bodies.len())
         .filter(free)
-        .map(|body| Track::new(body, samples, outcome.bodies.get(body)))
+        .map(|body| {
+            let outcome = outcome.bodies.get(body);
+            Track::new(body, samples, outcome, styles.of_body(body))
+        })
         .collect()
 }
 
 impl<'a> Track<'a> {
-    fn new(body: usize, samples: &[Sample], outcome: Option<&'a BodyOutcome>) -> Self {
+    fn new(
+        body: usize,
+        samples: &[Sample],
+        outcome: Option<&'a BodyOutcome>,
+        style: Style,
+    ) -> Self {
         let states = || {
             samples
                 .iter()
@@ -104,7 +98,7 @@ impl<'a> Track<'a> {
             displacement: thinned(displacement.collect()),
             speed: thinned(states().map(|(t, s)| (t, speed(s))).collect()),
             submergence: thinned(states().map(|(t, s)| (t, s.submerged_fraction)).collect()),
-            color: body_color(body),
+            style,
         }
     }
 
@@ -139,7 +133,6 @@ impl<'a> Track<'a> {
         let onset = outcome.onset_time_s.map(|time| Note {
             at: (time, interpolate(&self.displacement, time)),
             text: format!("onset {} s", significant(time, 3)),
-            placement: Placement::Head,
         });
         let end = self.displacement.last().filter(|_| onset.is_some());
         let end = end.map(|&(time, value)| Note {
@@ -148,7 +141,6 @@ impl<'a> Track<'a> {
                 "{} m from where it started",
                 significant(outcome.displacement_m, 3)
             ),
-            placement: Placement::Above,
         });
         onset.into_iter().chain(end).collect()
     }
@@ -161,35 +153,12 @@ impl<'a> Track<'a> {
                 significant(outcome.peak_speed_m_s, 3),
                 significant(time, 3)
             ),
-            placement: Placement::Above,
         });
         let rest = outcome.stop_time_s.map(|time| Note {
             at: (time, interpolate(&self.speed, time)),
             text: format!("at rest from {} s", significant(time, 3)),
-            placement: Placement::Beyond,
         });
         peak.into_iter().chain(rest).collect()
-    }
-
-    /// One line with all its values.
-    pub(super) fn in_words(&self) -> String {
-        let name = format!("body {}", self.body);
-        let Some(outcome) = self.outcome else {
-            return name;
-        };
-        let Some(onset) = outcome.onset_time_s else {
-            return format!("{name}: did not move");
-        };
-        let mut parts = vec![format!("onset {} s", significant(onset, 3))];
-        parts.extend(self.speed_notes(outcome).into_iter().map(|note| note.text));
-        if outcome.stop_time_s.is_none() {
-            parts.push("still moving at the end".to_owned());
-        }
-        parts.push(format!(
-            "displaced {} m",
-            significant(outcome.displacement_m, 3)
-        ));
-        format!("{name}: {}", parts.join(", "))
     }
 }
 

@@ -1,9 +1,12 @@
 //! Pictures of artificial runs: their texts, and unusual cases.
 
-use super::fixtures::{
+mod drawn;
+mod labels;
+
+use crate::pictures::fixtures::{
     cube, empty_snapshot, never_moved, outcome, resting_at, scenario, slab, slid, sliding_samples,
 };
-use super::{aerial_view, motion};
+use crate::pictures::{aerial_view, motion};
 use scree_solver::record::{FlowSnapshot, Sample};
 use scree_solver::scenario::Body;
 
@@ -63,7 +66,7 @@ fn motion_names_its_axes_and_values() {
 }
 
 #[test]
-fn motion_of_many_bodies_lists_them() {
+fn motion_of_several_bodies_has_a_table_of_them() {
     let mut samples = sliding_samples(1.0, 3.0);
     for sample in &mut samples {
         sample.bodies = vec![sample.bodies[0], resting_at([1.0, 0.0, 0.02])];
@@ -76,8 +79,11 @@ fn motion_of_many_bodies_lists_them() {
     assert_says(
         &svg.unwrap(),
         &[
-            "body 0: onset 0.0289 s, peak 0.600 m/s",
-            "body 1: did not move",
+            "onset [s]",
+            "0.0289",
+            "peak speed [m/s]",
+            "0.600",
+            "did not move",
         ],
     );
 }
