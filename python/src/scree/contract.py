@@ -1417,45 +1417,6 @@ class JobList(TypedDict):
     """
 
 
-class JobSummary(TypedDict):
-    """
-    A job, without its scenario and its answer.
-    """
-
-    created: str
-    """
-    Time of acceptance (RFC 3339).
-    """
-    finished: Optional[str]
-    """
-    Time at which the job ended; null before.
-    """
-    id: str
-    """
-    Identifier.
-    """
-    labels: List[str]
-    """
-    Its labels, in order.
-    """
-    progress: Progress
-    """
-    Progress so far.
-    """
-    started: Optional[str]
-    """
-    Time of the last claim by a worker; null before the first.
-    """
-    status: JobStatus
-    """
-    State.
-    """
-    title: str
-    """
-    The scenario's title.
-    """
-
-
 class LandingPage(TypedDict):
     """
     Landing page of OGC API – Processes.
@@ -1760,21 +1721,6 @@ class Body(TypedDict):
     """
 
 
-class JobPage(TypedDict):
-    """
-    A page of jobs, newest first.
-    """
-
-    jobs: List[JobSummary]
-    """
-    The jobs of this page.
-    """
-    next_cursor: Optional[str]
-    """
-    Value of `cursor` for the next page; null on the last page.
-    """
-
-
 class Plan(TypedDict):
     """
     Plan of a run: its computation, its reductions with their reasons, and its cost.
@@ -2059,4 +2005,59 @@ class Job(TypedDict):
     submitter: Optional[str]
     """
     Name of the access token of the submitter; null if none is required.
+    """
+
+
+class JobSummary(TypedDict):
+    """
+    A job, without its scenario and its answer.
+    """
+
+    created: str
+    """
+    Time of acceptance (RFC 3339).
+    """
+    finished: Optional[str]
+    """
+    Time at which the job ended; null before.
+    """
+    id: str
+    """
+    Identifier.
+    """
+    labels: List[str]
+    """
+    Its labels, in order.
+    """
+    outcome: NotRequired[Optional[Outcome]]
+    progress: Progress
+    """
+    Progress so far.
+    """
+    started: Optional[str]
+    """
+    Time of the last claim by a worker; null before the first.
+    """
+    status: JobStatus
+    """
+    State.
+    """
+    title: str
+    """
+    The scenario's title.
+    """
+
+
+class JobPage(TypedDict):
+    """
+    A page of jobs, newest first.
+    """
+
+    jobs: List[JobSummary]
+    """
+    The jobs of this page.
+    """
+    next_cursor: Optional[str]
+    """
+    Value of `cursor` for the next page; null on the last page.
     """
