@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import uuid
+from datetime import datetime
 
 import numpy as np
 import pytest
@@ -75,7 +76,16 @@ def test_a_batch_is_listed_by_its_label_across_pages(
     for job in jobs:
         job.wait(60)
     assert len(list(client.jobs(label=batch, status="successful"))) == 5
-    assert not list(client.jobs(label=batch, status="failed"))
+    assert not list(client.jobs(label=batch, status=["failed", "dismissed"]))
+
+
+def test_jobs_are_listed_by_time_with_their_outcomes(client: scree.Client) -> None:
+    begin = datetime.now()
+    job = client.submit(scenes.START).wait(60)
+    (listed,) = client.jobs(created_from=begin, include=["outcome"])
+    assert listed["id"] == job.id
+    assert listed.get("outcome") == job.outcome
+    assert job.id not in [other["id"] for other in client.jobs(created_to=begin)]
 
 
 def test_a_plan_tells_the_cost(client: scree.Client) -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import zipfile
+from pathlib import Path
+
 import httpx
 import numpy as np
 import pytest
@@ -74,6 +77,12 @@ def test_the_flow_at_an_instant(job: scree.JobHandle) -> None:
     assert start.points >= len(start.speed_m_s) > 0
     assert (start.speed_m_s == 0).all()
     assert end.speed_m_s.max() > 0
+
+
+def test_snapshots_for_paraview(job: scree.JobHandle, tmp_path: Path) -> None:
+    job.flow_archive(tmp_path / "flow.zip")
+    with zipfile.ZipFile(tmp_path / "flow.zip") as archive:
+        assert "flow.pvd" in archive.namelist()
 
 
 def test_pictures_are_shown_by_notebooks(job: scree.JobHandle) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import uuid
+from datetime import datetime
 from typing import Any, Iterable, Iterator, Mapping, Union, cast
 
 from typing_extensions import Literal, Self
@@ -99,7 +100,7 @@ class Client:
         Busy
             The queue is full, for longer than the client's patience.
         """
-        parameters = [("label", text) for text in _labels(label)]
+        parameters = [("label", text) for text in _texts(label)]
         if reuse is not None:
             parameters.append(("reuse", reuse))
         answer = self._transport.post("/v1/jobs", scenario, parameters, key or str(uuid.uuid4()))
@@ -128,7 +129,7 @@ class Client:
             The jobs, in the order of the scenarios.
         """
         jobs = [{"scenario": scenario} for scenario in scenarios]
-        batch = {"jobs": jobs, "labels": _labels(label)}
+        batch = {"jobs": jobs, "labels": _texts(label)}
         answer = self._transport.post("/v1/batches", batch, key=key or str(uuid.uuid4()))
         ids = cast(contract.BatchAnswer, answer.json())["ids"]
         return [JobHandle(self._transport, job_id) for job_id in ids]
@@ -150,19 +151,34 @@ class Client:
         return job
 
     def jobs(
-        self, *, status: contract.JobStatus | None = None, label: str | None = None
+        self,
+        *,
+        status: contract.JobStatus | Iterable[contract.JobStatus] = (),
+        label: str | None = None,
+        created_from: datetime | None = None,
+        created_to: datetime | None = None,
+        include: Iterable[Literal["outcome"]] = (),
     ) -> Iterator[contract.JobSummary]:
         """Jobs, newest first, read page by page.
 
         Parameters
         ----------
-        status : str, optional
-            Only jobs in this state.
+        status : str or iterable of str
+            Only jobs in one of these states; without any, in all.
         label : str, optional
             Only jobs with this label.
+        created_from, created_to : datetime, optional
+            Only jobs accepted between these times, both included; local time unless they
+            have a zone.
+        include : iterable of {"outcome"}
+            Parts of the jobs beside their summaries.
         """
-        chosen = {"status": status, "label": label, "limit": PAGE}
-        parameters = [(name, value) for name, value in chosen.items() if value is not None]
+        parameters = [("limit", str(PAGE))]
+        parameters += [("status", state) for state in _texts(status)]
+        parameters += [("label", label)] if label is not None else []
+        times = (("created_from", created_from), ("created_to", created_to))
+        parameters += [(name, time.astimezone().isoformat()) for name, time in times if time]
+        parameters += [("include", part) for part in include]
         cursor: str | None = None
         while True:
             next_page = [] if cursor is None else [("cursor", cursor)]
@@ -225,5 +241,5 @@ def run(
         raise
 
 
-def _labels(label: str | Iterable[str]) -> list[str]:
-    return [label] if isinstance(label, str) else list(label)
+def _texts(texts: str | Iterable[str]) -> list[str]:
+    return [texts] if isinstance(texts, str) else list(texts)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import os
 import time
+from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, cast
 from urllib.parse import quote
 
@@ -179,6 +181,16 @@ class JobHandle:
         """
         answer = self._transport.get(f"{self._path}/flow", _given({"time_s": time_s}))
         return FlowPoints.from_document(answer.json())
+
+    def flow_archive(self, file: str | os.PathLike[str]) -> None:
+        """All snapshots so far for ParaView, written to a ZIP file: open its ``flow.pvd``.
+
+        Raises
+        ------
+        NotFound
+            There is no such job (any more).
+        """
+        Path(file).write_bytes(self._transport.get(f"{self._path}/flow.zip").content)
 
     def picture(self, name: Literal["motion", "aerial"]) -> Picture:
         """Picture of a successful job, as SVG.
