@@ -78,11 +78,11 @@ impl Pace {
         self.speed.note(wall, time, simulation.share());
         self.ahead.look(simulation, recorder);
         let left = self.ahead.wall_s(&self.speed, time);
-        if let Some(left) = left {
-            let fraction = wall / (wall + left).max(f64::MIN_POSITIVE);
-            self.progress.fraction = fraction.max(self.progress.fraction);
-        }
-        self.progress = self.counted(self.progress.fraction, left);
+        let fraction = match left {
+            Some(left) => wall / (wall + left).max(f64::MIN_POSITIVE),
+            None => self.ahead.share_done(time),
+        };
+        self.progress = self.counted(fraction.max(self.progress.fraction), left);
         Some(self.progress)
     }
 
@@ -91,7 +91,10 @@ impl Pace {
         if is_over {
             self.counted(1.0, None)
         } else {
-            self.counted(self.progress.fraction, self.progress.eta_s)
+            let so_far = self.ahead.share_done(self.simulated_time_s);
+            let told = self.progress;
+            let is_told = told.fraction > 0.0;
+            self.counted(if is_told { told.fraction } else { so_far }, told.eta_s)
         }
     }
 
@@ -182,6 +185,20 @@ impl Ahead {
         }
     }
 
+    /// Share of the work that is done at this time of the first stage, whatever the speed.
+    fn share_done(&self, time: f64) -> f64 {
+        let (from, more) = self
+            .last
+            .map_or((self.end_s, 1.0), |(_, from, more)| (from, more));
+        let first = from.min(self.end_s);
+        let all = first + more * (self.end_s - first);
+        if all > 0.0 {
+            (time.min(first) / all).min(1.0)
+        } else {
+            0.0
+        }
+    }
+
     /// Wall time to the expected end [s], at this speed from this time on [s].
     fn wall_s(&self, speed: &Speed, time: f64) -> Option<f64> {
         let per_second = speed.per_second?;
@@ -225,6 +242,8 @@ mod tests {
         speed.note(6.0, 0.6, Share::Half);
         speed.note(9.0, 0.7, Share::Half);
         close(two.wall_s(&speed, 0.7), 1.3 * 30.0);
+        close(Some(two.share_done(0.5)), 0.5 / 4.0);
+        close(Some(ahead(None).share_done(0.5)), 0.25);
         close(two.wall_s(&speed, 2.5), 0.0);
     }
 }

@@ -202,6 +202,7 @@ fn a_resumed_run_writes_the_formats_asked_for() {
 fn a_disk_that_is_full_at_the_end_loses_only_the_end() {
     let mut scenario = long();
     scenario["sample_interval_s"] = json!(1e-4);
+    scenario["numerics"]["ending"] = json!("full");
     let scene = Scene::new(&scenario);
     let out = scene.path("results");
     let script = format!(

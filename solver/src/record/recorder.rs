@@ -175,7 +175,9 @@ impl Recorder {
         let creeps_on = |place: usize, body: &Body| {
             let history = &self.histories[place];
             let way = history.distance(body, &before.bodies[place], &now.bodies[place]);
-            way * rate + Scale::of_body(body, simulation.gravity().norm()).rest_distance()
+            // A body that has not moved at all waits without steps.
+            let shifts = Scale::of_body(body, simulation.gravity().norm()).rest_distance();
+            if way > 0.0 { way * rate + shifts } else { 0.0 }
         };
         let body_bound_m = body_bound(simulation, &remaining, creeps_on)?;
         let front_bound_m = now
