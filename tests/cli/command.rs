@@ -134,7 +134,7 @@ pub(crate) fn tiny() -> Value {
 /// The tiny scene on finer cells and with samples in quick succession: some seconds of work.
 pub(crate) fn long() -> Value {
     let mut scenario = tiny();
-    scenario["numerics"] = json!({"cell_size_m": 0.0031, "threads": 1});
+    scenario["numerics"] = json!({"cell_size_m": 0.0031, "threads": 1, "ending": "full"});
     scenario["duration_s"] = json!(0.5);
     scenario["sample_interval_s"] = json!(0.001);
     scenario["flow_snapshots"] = json!(30);

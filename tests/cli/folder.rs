@@ -93,7 +93,9 @@ fn no_file_of_the_users_is_replaced() {
         arguments.extend(command.iter().map(|word| word as &dyn AsRef<_>));
         arguments.extend([&file as &dyn AsRef<_>, &"--out", &own]);
         for outcome in [None, Some("{}")] {
-            outcome.map(|text| std::fs::write(own.join("outcome.json"), text).unwrap());
+            if let Some(text) = outcome {
+                std::fs::write(own.join("outcome.json"), text).unwrap();
+            }
             let refused = ask(&arguments);
             assert_eq!((refused.code, refused.stdout.as_str()), (Some(2), ""));
             let reason = "scenario.json would be replaced";

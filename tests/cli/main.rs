@@ -8,6 +8,7 @@ mod demo;
 mod folder;
 #[cfg(unix)]
 mod interrupted;
+mod packaging;
 mod plan;
 mod run;
 mod serve;
