@@ -78,9 +78,13 @@ impl Pace {
         self.speed.note(wall, time, simulation.share());
         self.ahead.look(simulation, recorder);
         let left = self.ahead.wall_s(&self.speed, time);
-        let fraction = match left {
-            Some(left) => wall / (wall + left).max(f64::MIN_POSITIVE),
-            None => self.ahead.share_done(time),
+        let (fraction, left) = match left {
+            Some(left) => (wall / (wall + left).max(f64::MIN_POSITIVE), Some(left)),
+            None => {
+                let done = self.ahead.share_done(time);
+                let left = (done > 0.0).then(|| wall * (1.0 - done) / done);
+                (done, left)
+            }
         };
         self.progress = self.counted(fraction.max(self.progress.fraction), left);
         Some(self.progress)
@@ -185,15 +189,15 @@ impl Ahead {
         }
     }
 
-    /// Share of the work that is done at this time of the first stage, whatever the speed.
+    /// Share of the work that is done at this time, whatever the speed.
     fn share_done(&self, time: f64) -> f64 {
         let (from, more) = self
             .last
             .map_or((self.end_s, 1.0), |(_, from, more)| (from, more));
-        let first = from.min(self.end_s);
-        let all = first + more * (self.end_s - first);
+        let work_to = |time: f64| time.min(from) + more * (time - from).max(0.0);
+        let all = work_to(self.end_s);
         if all > 0.0 {
-            (time.min(first) / all).min(1.0)
+            (work_to(time) / all).min(1.0)
         } else {
             0.0
         }

@@ -102,6 +102,9 @@ impl Recorder {
         self.histories = bodies
             .map(|body| BodyHistory::start(body, gravity))
             .collect();
+        // Only notes the places: nothing has been at rest for any time.
+        let ended = self.check(simulation);
+        debug_assert_eq!(ended, None);
         let samples = self.sampling.start(simulation, &self.histories);
         in_order(samples, self.snapshots.due(simulation))
     }
@@ -170,7 +173,9 @@ impl Recorder {
             bodies: motions.collect(),
         };
         let rest_time = self.scale.rest_time();
-        let before = self.creep.since(now.clone(), rest_time)?;
+        let rests = self.bodies_rest(simulation);
+        let before = self.creep.since(now.clone(), rest_time);
+        let before = before.filter(|_| rests)?;
         let rate = left / (time_s - before.time_s);
         let creeps_on = |place: usize, body: &Body| {
             let history = &self.histories[place];
@@ -194,16 +199,20 @@ impl Recorder {
         })
     }
 
-    /// Energies that remain, the front, and how far it can still be moved by what is faster than
-    /// creep [m], if bodies and deposit are at rest but for that.
-    fn bounded_energy(&self, simulation: &Simulation) -> Option<(Remaining, Option<f64>, f64)> {
+    /// True if every free body has been at rest for its rest time, and no prescribed motion is left.
+    fn bodies_rest(&self, simulation: &Simulation) -> bool {
         let time_s = simulation.time_s();
-        let rests = |(body, history): (&Body, &BodyHistory)| match body.prescribed() {
+        let mut bodies = simulation.bodies().iter().zip(&self.histories);
+        bodies.all(|(body, history)| match body.prescribed() {
             Some(prescribed) => prescribed.motion.rests_from(time_s),
             None => !body.is_free() || history.rests_long(body, time_s),
-        };
-        let mut bodies = simulation.bodies().iter().zip(&self.histories);
-        if self.ending == Ending::Full || !bodies.all(rests) {
+        })
+    }
+
+    /// Energies that remain, the front, and how far it can still be moved by what is faster than
+    /// creep [m], if that moves bodies and front by little.
+    fn bounded_energy(&self, simulation: &Simulation) -> Option<(Remaining, Option<f64>, f64)> {
+        if self.ending == Ending::Full {
             return None;
         }
         let remaining = Remaining::of(simulation, self.creep_speed);
