@@ -1,4 +1,4 @@
-//! How each body is drawn, the same in all pictures of a run.
+//! Styles of the bodies, the same in all pictures of a run.
 
 use super::canvas::INK;
 use super::palette::{COLORS, body_color, contrast};
@@ -21,7 +21,7 @@ enum Line {
     Grey,
 }
 
-/// How one body is drawn.
+/// Style of one body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Style {
     pub(super) color: RGBColor,
@@ -94,7 +94,7 @@ impl Styles {
         self.of_bodies[body]
     }
 
-    /// What grey bodies are; none if there are none.
+    /// Meaning of grey, for the legend; none if no body is grey.
     pub(super) fn meaning_of_grey(&self) -> Option<&'static str> {
         let any = self.of_bodies.iter().any(|style| style.is_grey());
         let meaning = if self.are_all_movers_colored {

@@ -152,7 +152,7 @@ impl Speed {
     }
 }
 
-/// What is ahead of a run.
+/// Remaining stages of a run, and its expected end.
 struct Ahead {
     /// Time at which the run is expected to end [s].
     end_s: f64,

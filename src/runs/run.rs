@@ -175,7 +175,6 @@ pub struct Run {
     simulation: Simulation,
     recorder: Recorder,
     spent: Spent,
-    duration_s: f64,
 }
 
 impl Run {
@@ -195,7 +194,6 @@ impl Run {
         Ok(Self {
             recorder: Recorder::of(&prepared),
             spent: Spent::default(),
-            duration_s: prepared.scenario.duration_s,
             simulation: Simulation::of(prepared, threads)?,
         })
     }
@@ -214,7 +212,6 @@ impl Run {
             simulation,
             recorder,
             spent,
-            duration_s: scenario.duration_s,
         })
     }
 
@@ -227,9 +224,9 @@ impl Run {
             mut simulation,
             recorder,
             spent,
-            duration_s,
         } = self;
         simulation.cancel_with(stop.cancellation());
+        let duration_s = recorder.duration_s();
         let mut watch = Watch::new(recorder, spent, (stop, sink));
         let (_, substeps, _) = simulation.counts();
         if substeps == 0 {

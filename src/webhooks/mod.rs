@@ -49,7 +49,7 @@ struct Teller {
     stopped: watch::Receiver<bool>,
 }
 
-/// What has become of a message.
+/// Fate of a message.
 #[derive(PartialEq)]
 enum Sent {
     Taken,

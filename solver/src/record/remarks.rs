@@ -3,7 +3,7 @@
 use super::{BodyOutcome, FlowOutcome};
 use crate::plan::names;
 
-/// What a run's remarks are about.
+/// Outcome and end of a run, as far as the remarks tell of them.
 pub(super) struct Seen<'a> {
     pub(super) bodies: &'a [BodyOutcome],
     /// True of each body that is free to move.

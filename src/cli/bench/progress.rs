@@ -23,7 +23,7 @@ pub(super) struct Tracks {
     scenes: Vec<Track>,
 }
 
-/// What a run has told.
+/// Progress that one run has told.
 #[derive(Debug, Serialize)]
 struct Track {
     scene: &'static str,

@@ -29,7 +29,7 @@ pub(super) struct Place {
     pub has_time_axis: bool,
 }
 
-/// Where the numbers of curves stand.
+/// Places of the numbers of curves.
 #[derive(Debug, Clone, Copy)]
 enum Numbering {
     /// Right of the ends, which differ.

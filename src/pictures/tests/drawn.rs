@@ -1,4 +1,4 @@
-//! What an SVG document draws, in the order in which it is drawn, and what meets what.
+//! Shapes and texts of an SVG document, in the order in which they are drawn, and which of them meet.
 
 use roxmltree::{Document, Node};
 

@@ -98,8 +98,8 @@ fn every_body_has_one_number_and_one_colour_in_both_pictures() {
     }
 }
 
-/// Of forty bodies six have colours, the same in both pictures, and all have numbers in the view
-/// from above.
+/// Colours and numbers of forty bodies: six have colours, the same in both pictures, and all have
+/// numbers in the view from above.
 #[test]
 fn of_too_many_bodies_those_that_went_farthest_have_colours() {
     let [motion, aerial] = pictures_of(40).map(|svg| colors(&svg));

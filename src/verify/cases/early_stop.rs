@@ -63,7 +63,7 @@ fn drawn_scene(number: u64) -> Value {
     scenario
 }
 
-/// What one early stop leaves out.
+/// Motion and work that one early stop leaves out.
 #[derive(Debug, Clone, Copy)]
 struct LeftOut {
     /// True if the run stopped early.
