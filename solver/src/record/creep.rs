@@ -25,26 +25,44 @@ impl Creep {
         self.0.clear();
     }
 
-    /// Adds the present places; returns the time [s] and the places a rest time ago, if nothing but
-    /// creep has been seen for so long.
-    pub(super) fn since(&mut self, now: Places, rest_time: f64) -> Option<&Places> {
-        let due = now.time_s - rest_time;
+    /// Adds the present places; returns the time since the first of those of the last `rest_time`
+    /// [s], if nothing but creep has been seen for so long.
+    pub(super) fn add(&mut self, now: Places, rest_time: f64) -> Option<f64> {
+        let time_s = now.time_s;
+        let due = time_s - rest_time;
         self.0.push_back(now);
         while self.0.get(1).is_some_and(|next| next.time_s <= due) {
             self.0.pop_front();
         }
-        self.0.front().filter(|first| first.time_s <= due)
+        let first = self.0.front()?.time_s;
+        (first <= due).then_some(time_s - first)
     }
-}
 
-impl Places {
-    /// Distance that the deposit creeps on in `left` [s] at the mean speed since `before` [m]: that
-    /// of its front or of its mass centre, whichever is greater; `None` without a flow.
-    pub(super) fn deposit_goes_on(&self, before: &Self, left: f64) -> Option<f64> {
-        let (now, then) = (self.deposit?, before.deposit?);
-        let way = now.iter().zip(then).map(|(now, then)| (now - then).abs());
-        let rate = way.fold(0.0, f64::max) / (self.time_s - before.time_s);
-        Some(rate * left)
+    /// Largest distance between two places of the deposit's front, or of its mass centre if that is
+    /// greater [m]; `None` without a flow. What trembles or turns back has come nowhere since the
+    /// first of its places.
+    pub(super) fn deposit_range(&self) -> Option<f64> {
+        let places = || self.0.iter().filter_map(|places| places.deposit);
+        let range = |of: usize| {
+            let least = places().map(|deposit| deposit[of]).reduce(f64::min)?;
+            let most = places().map(|deposit| deposit[of]).reduce(f64::max)?;
+            Some(most - least)
+        };
+        Some(range(0)?.max(range(1)?))
+    }
+
+    /// Largest distance between two places of a body [m].
+    pub(super) fn body_range(
+        &self,
+        body: usize,
+        distance: impl Fn(&Motion, &Motion) -> f64,
+    ) -> f64 {
+        let pairs = self.0.iter().enumerate().flat_map(|(later, one)| {
+            let earlier = self.0.iter().take(later);
+            earlier.map(|other| (&one.bodies[body], &other.bodies[body]))
+        });
+        let ways = pairs.map(|(one, other)| distance(one, other));
+        ways.fold(0.0, f64::max)
     }
 }
 
@@ -62,20 +80,29 @@ mod tests {
 
     // A front at 1 mm/s, looked at every 10 ms with a rest time of 25 ms.
     #[test]
-    fn creep_is_the_mean_since_a_rest_time_ago() {
+    fn creep_is_the_range_of_places_since_a_rest_time_ago() {
         let mut creep = Creep::default();
         for look in 0..10 {
             let time = 0.01 * f64::from(look);
-            let now = places(time, 1e-3 * time);
-            let before = creep.since(now.clone(), 0.025);
-            assert_eq!(before.is_some(), look >= 3, "{look}");
-            if let Some(before) = before {
-                let way = now.deposit_goes_on(before, 2.0).expect("a flow");
-                assert!((way - 2e-3).abs() < 1e-9, "{way}");
-                assert!((now.time_s - before.time_s - 0.03).abs() < 1e-9);
+            let lasted = creep.add(places(time, 1e-3 * time), 0.025);
+            assert_eq!(lasted.is_some(), look >= 3, "{look}");
+            if let Some(lasted) = lasted {
+                let way = creep.deposit_range().expect("a flow");
+                assert!((way - 3e-5).abs() < 1e-9, "{way}");
+                assert!((lasted - 0.03).abs() < 1e-9);
             }
         }
         creep.forget();
-        assert_eq!(creep.since(places(1.0, 0.0), 0.025), None);
+        assert_eq!(creep.add(places(1.0, 0.0), 0.025), None);
+    }
+
+    // Back at its first place after a rest time.
+    #[test]
+    fn a_front_that_turns_back_has_crept() {
+        let mut creep = Creep::default();
+        for (time, front) in [(0.0, 0.0), (0.1, -1e-4), (0.2, -2e-4), (0.3, 0.0)] {
+            creep.add(places(time, front), 0.3);
+        }
+        assert_eq!(creep.deposit_range(), Some(2e-4));
     }
 }

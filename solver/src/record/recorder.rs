@@ -172,22 +172,20 @@ impl Recorder {
             deposit: front.map(|front| [front, remaining.mass_centre]),
             bodies: motions.collect(),
         };
-        let rest_time = self.scale.rest_time();
-        let rests = self.bodies_rest(simulation);
-        let before = self.creep.since(now.clone(), rest_time);
-        let before = before.filter(|_| rests)?;
-        let rate = left / (time_s - before.time_s);
+        let lasted = self.creep.add(now, self.scale.rest_time());
+        let lasted = lasted.filter(|_| self.bodies_rest(simulation))?;
+        let rate = left / lasted;
         let creeps_on = |place: usize, body: &Body| {
             let history = &self.histories[place];
-            let way = history.distance(body, &before.bodies[place], &now.bodies[place]);
+            let distance = |one: &Motion, other: &Motion| history.distance(body, one, other);
+            let way = self.creep.body_range(place, distance);
             // A body that has not moved at all waits without steps.
             let shifts = Scale::of_body(body, simulation.gravity().norm()).rest_distance();
             if way > 0.0 { way * rate + shifts } else { 0.0 }
         };
         let body_bound_m = body_bound(simulation, &remaining, creeps_on)?;
-        let front_bound_m = now
-            .deposit_goes_on(before, left)
-            .map(|creep| creep + ballistic + front_resolution(simulation));
+        let front_bound_m = (self.creep.deposit_range())
+            .map(|way| way * rate + ballistic + front_resolution(simulation));
         if front_bound_m.is_some_and(|bound| !front_rests(simulation, bound)) {
             return None;
         }
