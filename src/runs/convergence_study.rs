@@ -5,6 +5,7 @@ use super::progress::{Progress, Resources};
 use super::run::{Run, RunEnd, RunError, Sink, StopFlag};
 use super::saved_run::SavedRunError;
 use super::saved_study::{self, SavedStudy};
+use super::study_progress::StudyProgress;
 use scree_solver::accuracy::{ConvergenceStudy, StudyRun};
 use scree_solver::plan::Cost;
 use scree_solver::record::Record;
@@ -12,7 +13,6 @@ use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
 use scree_solver::{SetupError, StepError};
 use std::borrow::Cow;
-use std::time::Instant;
 
 /// Runs `scenario` on `threads` solver threads from its start to its end or until
 /// `stop` is raised. The sink gets only the records of the answer, as they are made; if
@@ -96,8 +96,13 @@ impl Runs {
         stop: &StopFlag,
         sink: &mut S,
     ) -> Result<RunEnd, RunError<S::Error>> {
-        let mut whole = Whole::new(sink, self.kept, self.begun.is_some());
+        let mut whole = Whole {
+            sink,
+            kept: self.kept,
+            progress: StudyProgress::default(),
+        };
         while let Some(study_run) = self.convergence_study.next() {
+            whole.progress.begin_run(&self.convergence_study)?;
             let (run, kept) = match self.begun.take() {
                 Some(begun) => begun,
                 None => {
@@ -169,38 +174,10 @@ impl Fate {
 struct Whole<'a, S> {
     sink: &'a mut S,
     kept: Vec<Record>,
-    began: Instant,
-    /// Fraction that was done when this began; none until it is known, in a restored study.
-    from: Option<f64>,
-    /// Fraction reported last: it never decreases, though a target may require more runs.
-    told: f64,
+    progress: StudyProgress,
 }
 
-impl<'a, S: Sink> Whole<'a, S> {
-    fn new(sink: &'a mut S, kept: Vec<Record>, restored: bool) -> Self {
-        Self {
-            sink,
-            kept,
-            began: Instant::now(),
-            from: (!restored).then_some(0.0),
-            told: 0.0,
-        }
-    }
-
-    /// Reports the progress of a run as part of the whole.
-    fn tell(&mut self, run: &Progress, fraction: f64) -> Result<(), S::Error> {
-        let fraction = fraction.clamp(self.told, 1.0);
-        self.told = fraction;
-        let from = *self.from.get_or_insert(fraction);
-        let going = fraction > from && fraction < 1.0;
-        let elapsed = self.began.elapsed().as_secs_f64();
-        self.sink.progress(&Progress {
-            fraction,
-            eta_s: going.then(|| elapsed * (1.0 - fraction) / (fraction - from)),
-            ..*run
-        })
-    }
-
+impl<S: Sink> Whole<'_, S> {
     fn hand_on_kept(&mut self) -> Result<(), S::Error> {
         let mut kept = std::mem::take(&mut self.kept).into_iter();
         kept.try_for_each(|record| self.sink.record(record))
@@ -227,12 +204,13 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
         Ok(())
     }
 
-    fn progress(&mut self, progress: &Progress) -> Result<(), S::Error> {
-        let fraction = self.convergence_study.share_done(progress.fraction);
-        self.whole.tell(progress, fraction)
+    fn progress(&mut self, run: &Progress) -> Result<(), S::Error> {
+        let study = self.whole.progress.at(run);
+        self.whole.sink.progress(&study)
     }
 
     fn resources(&mut self, used: &Resources) -> Result<(), S::Error> {
+        self.whole.progress.spent(used.wall_s);
         self.whole.sink.resources(used)
     }
 
@@ -248,46 +226,5 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
         };
         let state = saved_study::write(&saved, run);
         self.whole.sink.state(time_s, &state)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::time::Duration;
-
-    /// Keeps the last progress.
-    struct Last(Progress);
-
-    impl Sink for Last {
-        type Error = std::convert::Infallible;
-
-        fn record(&mut self, _: Record) -> Result<(), Self::Error> {
-            Ok(())
-        }
-
-        fn progress(&mut self, progress: &Progress) -> Result<(), Self::Error> {
-            self.0 = *progress;
-            Ok(())
-        }
-    }
-
-    /// A quarter of the runs takes ten seconds, in a restored study, too.
-    #[test]
-    fn remaining_time_follows_from_the_pace_since_the_start_or_the_restart() {
-        for restored in [false, true] {
-            let mut sink = Last(Progress::default());
-            let mut whole = Whole::new(&mut sink, Vec::new(), restored);
-            if restored {
-                whole.tell(&Progress::default(), 0.5).unwrap();
-                assert_eq!(whole.sink.0.eta_s, None, "no pace is known");
-            }
-            whole.began = Instant::now() - Duration::from_secs(10);
-            let fraction = if restored { 0.75 } else { 0.25 };
-            whole.tell(&Progress::default(), fraction).unwrap();
-            let eta_s = whole.sink.0.eta_s.unwrap();
-            let expected = if restored { 10.0 } else { 30.0 };
-            assert!((eta_s - expected).abs() < 0.3 * expected, "{eta_s}");
-        }
     }
 }

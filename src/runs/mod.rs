@@ -10,6 +10,7 @@ mod progress;
 pub mod run;
 mod saved_run;
 mod saved_study;
+mod study_progress;
 mod watch;
 
 pub use progress::{Progress, ProgressBoard, Resources};

@@ -49,11 +49,14 @@ impl Pace {
         }
     }
 
-    pub(super) fn count(&mut self, report: &SubstepReport) {
+    pub(super) fn count(&mut self, report: &SubstepReport, share: Share) {
         self.simulated_time_s = report.time_s;
         self.steps = report.steps;
         self.substeps = report.substeps;
         self.point_steps += report.points;
+        if report.step_ended {
+            self.speed.note(self.wall_s(), report.time_s, share);
+        }
     }
 
     /// Wall time of all attempts [s].
@@ -75,16 +78,11 @@ impl Pace {
         }
         self.told = Instant::now();
         let (wall, time) = (self.wall_s(), self.simulated_time_s);
-        self.speed.note(wall, time, simulation.share());
         self.ahead.look(simulation, recorder);
         let left = self.ahead.wall_s(&self.speed, time);
         let (fraction, left) = match left {
             Some(left) => (wall / (wall + left).max(f64::MIN_POSITIVE), Some(left)),
-            None => {
-                let done = self.ahead.share_done(time);
-                let left = (done > 0.0).then(|| wall * (1.0 - done) / done);
-                (done, left)
-            }
+            None => (self.ahead.share_done(time), self.progress.eta_s),
         };
         self.progress = self.counted(fraction.max(self.progress.fraction), left);
         Some(self.progress)
@@ -119,11 +117,19 @@ impl Pace {
     }
 }
 
-/// Mean speed of a run while the same share of the flow is computed.
+/// Steps at the start of a share that say nothing of its speed: they touch both copies of the points
+/// for the first time.
+const WARM_UP: u32 = 2;
+
+/// Mean speed of a run while the same share of the flow is computed, from whole steps after the
+/// first ones.
 #[derive(Default)]
 struct Speed {
     share: Option<Share>,
-    /// Wall time at the start of the share, and wall and simulated time at the last note [s].
+    /// Steps of the share so far, as long as they are left out.
+    warm_up: u32,
+    /// Wall time at the end of the last step that is left out, and wall and simulated time at the end
+    /// of the last one [s].
     began: f64,
     last: (f64, f64),
     /// Wall time of a simulated second [s], if known.
@@ -131,23 +137,25 @@ struct Speed {
 }
 
 impl Speed {
+    /// Notes wall and simulated time at the end of a step [s].
     fn note(&mut self, wall: f64, time: f64, share: Share) {
         if self.share != Some(share) {
-            self.share = Some(share);
+            (self.share, self.warm_up) = (Some(share), 0);
             self.per_second = None;
+        }
+        if self.warm_up < WARM_UP {
+            self.warm_up += 1;
             (self.began, self.last) = (wall, (wall, time));
             return;
         }
         let (passed, simulated) = (wall - self.last.0, time - self.last.1);
-        if simulated <= 0.0 {
-            return;
-        }
         self.last = (wall, time);
         let lately = passed / simulated;
+        let elapsed = wall - self.began;
         let (least, share_of_all) = MEMORY;
-        let memory = least.max(share_of_all * (wall - self.began));
-        let weight = (passed / memory).min(1.0);
+        let memory = elapsed.min(least.max(share_of_all * elapsed));
         let mean = self.per_second.unwrap_or(lately);
+        let weight = (passed / memory).min(1.0);
         self.per_second = Some(mean + weight * (lately - mean));
     }
 }
@@ -234,6 +242,7 @@ mod tests {
     #[test]
     fn later_stages_take_as_many_times_longer_as_they_have_points() {
         let mut speed = Speed::default();
+        speed.note(-9.0, -0.1, Share::Slab);
         speed.note(0.0, 0.0, Share::Slab);
         let two = ahead(Some((Share::Half, 1.0, 3.0)));
         assert_eq!(two.wall_s(&speed, 0.0), None, "no speed is known");
@@ -243,6 +252,7 @@ mod tests {
         };
         close(two.wall_s(&speed, 0.5), 5.0 + 30.0);
         close(ahead(None).wall_s(&speed, 0.5), 15.0);
+        speed.note(6.0, 0.55, Share::Half);
         speed.note(6.0, 0.6, Share::Half);
         speed.note(9.0, 0.7, Share::Half);
         close(two.wall_s(&speed, 0.7), 1.3 * 30.0);

@@ -61,7 +61,7 @@ impl<'a, S: Sink> Watch<'a, S> {
         if self.refused.is_some() {
             return ControlFlow::Break(());
         }
-        self.pace.count(report);
+        self.pace.count(report, simulation.share());
         let (records, flow) = self.recorder.watch(simulation, report);
         if flow.is_break() {
             self.ended_early = true;

@@ -127,15 +127,6 @@ impl ConvergenceStudy {
         }
     }
 
-    /// Share of the work that is done, for this share of the current run.
-    pub fn share_done(&self, of_this_run: f64) -> f64 {
-        let cost = |study_run: &StudyRun| study_run.cost_over(self.lengths.cell_size_m);
-        let before: f64 = self.done.iter().map(|done| cost(&done.study_run)).sum();
-        let ahead: f64 = self.to_do.iter().map(cost).sum();
-        let now = self.to_do.front().map_or(0.0, cost);
-        (before + now * of_this_run) / (before + ahead)
-    }
-
     /// The answer with its intervals; `None` if no run was one.
     pub fn finish(self) -> Option<Outcome> {
         let mut answer = self.with_error_bars()?;

@@ -44,19 +44,6 @@ pub struct StudyRun {
     pub cell_size_m: f64,
 }
 
-impl StudyRun {
-    /// Expected point-steps over those of another cell size: points go with the
-    /// inverse cube of the cells, sub-steps with the inverse, and with the speed of
-    /// sound.
-    pub(super) fn cost_over(&self, cell_size_m: f64) -> f64 {
-        let reduced_stiffness = match self.role {
-            Role::ReducedStiffness => STIFFNESS_RATIO,
-            Role::Coarser | Role::Answer => 1.0,
-        };
-        reduced_stiffness * (cell_size_m / self.cell_size_m).powi(4)
-    }
-}
-
 /// Lengths of a scene that bound its cells, and the cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ResolvedLengths {

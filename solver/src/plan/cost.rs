@@ -90,6 +90,23 @@ impl Cost {
     }
 }
 
+/// Points whose sub-steps take as long as what a sub-step costs whatever the points: 7000 to
+/// 14,000 in coarse runs with two bodies, on two threads.
+const SUBSTEP: f64 = 7000.0;
+/// Sub-steps that take a point as long as the transfers of a step.
+const STEP: f64 = 2.0;
+
+impl Cost {
+    /// Work of the run to its expected end, in sub-steps of points: what later runs of a study
+    /// take is told from it and the pace of the current one.
+    pub fn work_to_the_end(&self) -> f64 {
+        let transfers = STEP * self.steps as f64 / self.substeps.max(1) as f64;
+        let stages = self.stages.iter();
+        let work = stages.map(|of| (of.points as f64 + SUBSTEP) * of.expected_substeps as f64);
+        work.sum::<f64>() * (1.0 + transfers)
+    }
+}
+
 /// Sub-steps of the bodies' own over the whole duration.
 fn body_substeps(prepared: &PreparedScene) -> u64 {
     let gravity = prepared.given.gravity.norm();

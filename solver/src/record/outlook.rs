@@ -7,17 +7,20 @@ use crate::rigid::Body;
 use crate::scenario::Ending;
 use crate::simulation::Simulation;
 
-/// Share of the moving mass that counts as the last of it.
+/// Share of the flow that may still move once it has come to rest.
 const LAST: f64 = 0.02;
+/// Weight of the plan's end beside that from present speeds, while all of the flow moves.
+const PLAN_COUNTS: f64 = 0.5;
 /// Largest number of points looked at.
 const MOST_POINTS: usize = 10_000;
 /// Time that a run goes on over the time by which it has exceeded its planned end.
 const GOES_ON: f64 = 0.5;
 
 impl Recorder {
-    /// Time at which the run is expected to end [s], from the present speeds: each point slides
-    /// down to the foot and is stopped by friction on the floor, and so is each body. A round body
-    /// is expected to roll to the end of the duration.
+    /// Time at which the run is expected to end [s], from the plan as long as most of the flow moves,
+    /// and from the present speeds: what moves of the flow slides down to the foot and is stopped by
+    /// friction on the floor, and so is each body. A round body is expected to roll to the end of
+    /// the duration.
     pub fn expected_end_s(&self, simulation: &Simulation) -> f64 {
         let now = simulation.time_s();
         let (duration, planned) = (self.duration_s(), self.plan().cost.expected_end_s);
@@ -31,10 +34,16 @@ impl Recorder {
         let bodies = simulation.bodies().iter().enumerate();
         let moving = bodies.filter(|(place, body)| body.is_free() && !self.rests(*place, body));
         let stopping = moving.map(|(_, body)| stops_in(body, simulation));
-        let flow = settles_in(simulation, self.creep_speed());
+        let flow = Settling::of(simulation, self.creep_speed());
         // What creeps and does not end the run is expected to go on for a part of its delay.
-        let left = stopping.fold(flow, f64::max).max(GOES_ON * (now - planned));
-        (now + rest_time + left).min(duration)
+        let left = stopping
+            .fold(flow.time, f64::max)
+            .max(GOES_ON * (now - planned));
+        let at_present = now + rest_time + left;
+        // The mean is early and the plan is late; between them is where most runs end.
+        let plan_counts = PLAN_COUNTS * flow.moving;
+        let expected = at_present + plan_counts * (planned.max(now + rest_time) - at_present);
+        expected.min(duration)
     }
 
     /// True if a body is expected to move as long as the run lasts.
@@ -62,29 +71,41 @@ fn stops_in(body: &Body, simulation: &Simulation) -> f64 {
     body.velocity().norm() / braking + rest_time
 }
 
-/// Time in which all but the last of a flow's moving mass comes to rest [s].
-fn settles_in(simulation: &Simulation, creep_speed: f64) -> f64 {
-    let every = simulation.computed_points().div_ceil(MOST_POINTS).max(1);
-    let (mut times, mut place, mut whole) = (Vec::new(), 0, 0.0);
-    simulation.visit_computed_points(|point, mass| {
-        place += 1;
-        if place % every != 0 {
-            return;
+/// Rest of a flow's motion.
+struct Settling {
+    /// Share of the mass that moves; 0 if that is no more than the last of it.
+    moving: f64,
+    /// Mean of the times in which friction alone would stop the moving mass [s]. What comes last
+    /// finds the deposit in its way.
+    time: f64,
+}
+
+impl Settling {
+    fn of(simulation: &Simulation, creep_speed: f64) -> Self {
+        let every = simulation.computed_points().div_ceil(MOST_POINTS).max(1);
+        let (mut place, mut whole, mut moving, mut moment) = (0, 0.0, 0.0, 0.0);
+        simulation.visit_computed_points(|point, mass| {
+            place += 1;
+            if place % every != 0 {
+                return;
+            }
+            whole += mass;
+            if point.velocity.norm() > creep_speed {
+                moving += mass;
+                moment += mass * slides_for(point, simulation);
+            }
+        });
+        if moving <= LAST * whole {
+            return Self {
+                moving: 0.0,
+                time: 0.0,
+            };
         }
-        whole += mass;
-        if point.velocity.norm() > creep_speed {
-            times.push((slides_for(point, simulation), mass));
-        }
-    });
-    times.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
-    let mut last = 0.0;
-    for (time, mass) in times {
-        last += mass;
-        if last > LAST * whole {
-            return time;
+        Self {
+            moving: moving / whole,
+            time: moment / moving,
         }
     }
-    0.0
 }
 
 /// Time in which a point slides to the foot and is stopped on the floor [s].

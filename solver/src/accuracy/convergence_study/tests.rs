@@ -74,7 +74,6 @@ fn a_plain_answer_is_one_run_of_the_scenario_as_it_stands() {
         convergence_study.may_be_the_answer(study_run)
             && !convergence_study.can_do_without(study_run)
     );
-    assert_eq!(convergence_study.share_done(0.3), 0.3);
     let answer = carried_out(&json!({}), linear);
     assert_eq!(answer, outcome(&given, linear(0.01)));
 }
@@ -83,7 +82,7 @@ fn a_plain_answer_is_one_run_of_the_scenario_as_it_stands() {
 fn refinement_runs_are_coarser_and_cost_a_third_at_most() {
     let given = scenario(&json!({"error_bars": true}));
     let mut convergence_study = ConvergenceStudy::of(&given).unwrap();
-    let (mut roles, mut shares) = (Vec::new(), vec![0.0]);
+    let mut roles = Vec::new();
     while let Some(study_run) = convergence_study.next() {
         let scenario = convergence_study.scenario_of(study_run);
         let sound_speed = scenario.numerics.sound_speed_m_s;
@@ -97,18 +96,10 @@ fn refinement_runs_are_coarser_and_cost_a_third_at_most() {
             }
         }
         roles.push(study_run.role);
-        shares.extend([
-            convergence_study.share_done(0.5),
-            convergence_study.share_done(1.0),
-        ]);
         convergence_study.take(Ok(outcome(&scenario, linear(study_run.cell_size_m))));
     }
     assert_eq!(roles.last(), Some(&Role::Answer));
     assert!(roles.contains(&Role::ReducedStiffness));
-    assert!(
-        shares.is_sorted() && shares.last() == Some(&1.0),
-        "{shares:?}"
-    );
     let report = convergence_study.finish().unwrap().accuracy.unwrap();
     assert!(report.extra_cost < 0.35, "{report:?}");
     assert_eq!(report.runs.len(), roles.len());
