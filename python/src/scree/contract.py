@@ -638,15 +638,18 @@ class Motion1(TypedDict):
     """
     Angular velocity about the centre at each of the times, in channel axes [rad/s];
     without times a single one.
+    Default: zeros.
     """
     times_s: List[TimesSItem]
     """
     Times of a table, each after the one before [s]; left out: constant velocities.
+    Default: left out.
     """
     velocity_m_s: NotRequired[List[List[VelocityM]]]
     """
     Velocity of the centre at each of the times, in channel axes [m/s]; without times a
     single one.
+    Default: zeros.
     """
 
 
@@ -658,10 +661,12 @@ class Motion2(TypedDict):
     angular_velocity_rad_s: NotRequired[List[AngularVelocityRad]]
     """
     Angular velocity about the centre, in channel axes [rad/s].
+    Default: zeros.
     """
     velocity_m_s: NotRequired[List[VelocityM]]
     """
     Velocity of the centre, in channel axes [m/s].
+    Default: zeros.
     """
 
 
@@ -715,6 +720,7 @@ class Position(TypedDict):
     downstream_m: NotRequired[float]
     """
     x of the centre of mass [m].
+    Default: the longest side of a cube or box, the length of a ball or capsule, else the largest distance of two vertices.
     """
     elevation_m: NotRequired[Optional[float]]
     """
@@ -1347,10 +1353,12 @@ class Flow(TypedDict):
     material: NotRequired[Material]
     """
     Material.
+    Default: all defaults.
     """
     release: NotRequired[Release]
     """
     Position and shape of the release.
+    Default: all defaults.
     """
     volume_m3: float
     """
@@ -1444,6 +1452,7 @@ class Numerics(TypedDict):
     approach: NotRequired[Approach]
     """
     Computation of a flow before it varies across the channel.
+    Default: `"auto"`.
     """
     cell_size_m: NotRequired[Optional[float]]
     """
@@ -1452,6 +1461,7 @@ class Numerics(TypedDict):
     coupling: NotRequired[Coupling]
     """
     Formulation of contacts between points and bodies.
+    Default: `"half_spacing"`.
     """
     courant: NotRequired[Optional[float]]
     """
@@ -1460,6 +1470,7 @@ class Numerics(TypedDict):
     ending: NotRequired[Ending]
     """
     End of the run.
+    Default: `"auto"`.
     """
     flow_courant: NotRequired[Optional[float]]
     """
@@ -1472,6 +1483,7 @@ class Numerics(TypedDict):
     precision: NotRequired[Precision]
     """
     Arithmetic of points and grid.
+    Default: `"single"`.
     """
     sound_speed_m_s: NotRequired[Optional[float]]
     """
@@ -1480,6 +1492,7 @@ class Numerics(TypedDict):
     symmetry: NotRequired[Symmetry]
     """
     Use of the symmetry of a scene about the centre plane: computation by halves.
+    Default: `"auto"`.
     """
     threads: NotRequired[Optional[int]]
     """
@@ -1693,6 +1706,7 @@ class Body(TypedDict):
     position: NotRequired[Position]
     """
     Initial position of its centre.
+    Default: all defaults.
     """
     restitution: NotRequired[float]
     """
@@ -1710,6 +1724,7 @@ class Body(TypedDict):
     sphero_radius_m: NotRequired[float]
     """
     Radius of the sphere that rounds edges and vertices [m].
+    Default: 1/20 of the thickness, the diameter of the largest ball inside (of a cube: the side); of a ball or capsule its radius.
     """
     velocity_m_s: NotRequired[List[VelocityM]]
     """
@@ -1768,6 +1783,7 @@ class Scenario(TypedDict):
     accuracy: NotRequired[Accuracy]
     """
     Accuracy asked of the answer.
+    Default: all defaults.
     """
     bodies: List[Body]
     """
@@ -1780,6 +1796,7 @@ class Scenario(TypedDict):
     duration_s: NotRequired[float]
     """
     Simulated time [s]; 0 gives the start alone.
+    Default: twice the time at which the flow is expected to have come to rest, at least as long as every table of a prescribed motion; 3 without a flow.
     """
     flow: Optional[Flow]
     flow_snapshots: NotRequired[int]
@@ -1794,6 +1811,7 @@ class Scenario(TypedDict):
     numerics: NotRequired[Numerics]
     """
     Numerical choices.
+    Default: all defaults.
     """
     sample_interval_s: NotRequired[float]
     """

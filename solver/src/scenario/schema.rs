@@ -68,6 +68,66 @@ fn describe(object: &mut Object, fields: &[Field]) {
         if let RefOr::T(schema) = property {
             limit(schema, field);
         }
+        if is_null(field) {
+            allow_to_leave_out(property);
+        }
+        if let Some(words) = default_in_words(field, property) {
+            explain(property, &words);
+        }
+    }
+}
+
+/// Start of the sentence on the default in a description.
+const DEFAULT_IN_WORDS: &str = "\nDefault: ";
+
+/// A description without the sentence on the default.
+pub(super) fn without_default(description: &str) -> &str {
+    let cut = description.split_once(DEFAULT_IN_WORDS);
+    cut.map_or(description, |(about, _)| about)
+}
+
+/// True if a field that is left out is null.
+fn is_null(field: &Field) -> bool {
+    matches!(field.default, Default::Automatic | Default::Json("null"))
+}
+
+/// The default, where the schema of a property can't hold it as a value: it follows from other
+/// fields, or stands in a schema of its own.
+fn default_in_words(field: &Field, property: &RefOr<Schema>) -> Option<String> {
+    match (field.default, property) {
+        (Default::Words(words), _) => Some(words.to_owned()),
+        (_, RefOr::Ref(_)) => default(field).map(|value| format!("`{value}`")),
+        _ => None,
+    }
+}
+
+/// Makes null the default of a property that may be null.
+fn allow_to_leave_out(property: &mut RefOr<Schema>) {
+    match property {
+        RefOr::T(Schema::Object(object)) => object.default = Some(Value::Null),
+        RefOr::T(Schema::Array(array)) => array.default = Some(Value::Null),
+        RefOr::T(Schema::OneOf(choice)) => choice.default = Some(Value::Null),
+        _ => {}
+    }
+}
+
+fn explain(property: &mut RefOr<Schema>, default: &str) {
+    let sentence = format!("{DEFAULT_IN_WORDS}{default}.");
+    match property {
+        RefOr::Ref(reference) => reference.description.push_str(&sentence),
+        RefOr::T(Schema::Object(object)) => {
+            object
+                .description
+                .get_or_insert_default()
+                .push_str(&sentence);
+        }
+        RefOr::T(Schema::Array(array)) => {
+            array
+                .description
+                .get_or_insert_default()
+                .push_str(&sentence);
+        }
+        RefOr::T(_) => {}
     }
 }
 

@@ -1,6 +1,6 @@
 //! The tables of `docs/scenario.md`, from the table of fields and the schemas.
 
-use super::{Schemas, default};
+use super::{Schemas, default, without_default};
 use crate::scenario::fields::{Default, Field, Kind, SECTIONS, Section};
 use crate::scenario::range::short;
 use crate::scenario::shape::{REGULAR_SOLIDS, SHAPES};
@@ -112,7 +112,8 @@ fn description(schema: &RefOr<Schema>, key: &str) -> Option<String> {
     let schema = serde_json::to_value(schema).ok()?;
     alternatives(&schema)
         .flat_map(|object| alternatives(&object["properties"][key]))
-        .find_map(|property| property["description"].as_str().map(ToOwned::to_owned))
+        .find_map(|property| property["description"].as_str().map(without_default))
+        .map(ToOwned::to_owned)
 }
 
 /// A schema and those it lets choose from.
