@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 mod record;
+mod scenario_fields;
 
 /// To update the file after an intended change:
 /// `UPDATE_OPENAPI=1 cargo test --test service contract`
