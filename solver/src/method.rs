@@ -187,6 +187,8 @@ pub struct EarlyStop {
     pub front_bound: f64,
     /// Least bound on it [cells].
     pub front_resolution: f64,
+    /// Largest possible further outflow through the open end [released mass].
+    pub outflow_bound: f64,
     /// Largest share of the tipping energy of a body that may reach it.
     pub tipping_share: f64,
     /// Largest height by which the energy that may reach a body without a footing could lift it
@@ -273,6 +275,7 @@ pub const METHOD: Method = Method {
         creep: 1e-2,
         front_bound: 0.1,
         front_resolution: 0.01,
+        outflow_bound: 1e-3,
         tipping_share: 0.5,
         lift: 1e-3,
     },

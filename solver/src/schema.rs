@@ -30,7 +30,7 @@ const ANSWERS: [&str; 19] = [
 ];
 
 /// Keys that answers of older versions, stored by a service, lack.
-const ADDED_LATER: [(&str, &str); 1] = [("Plan", "hints")];
+const ADDED_LATER: [(&str, &str); 2] = [("Plan", "hints"), ("EndedEarly", "outflow_bound_kg")];
 
 /// Completes the schemas of the solver's documents: ranges, units and defaults of a scenario's
 /// fields, and the keys that an answer always has.

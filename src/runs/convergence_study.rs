@@ -42,6 +42,8 @@ pub struct Runs {
     begun: Option<(Run, Vec<Record>)>,
     /// Error of the last run that failed.
     failure: Option<StepError>,
+    /// Fraction that was reported as done before.
+    told: f64,
 }
 
 impl Runs {
@@ -56,6 +58,7 @@ impl Runs {
             kept: Vec::new(),
             begun: None,
             failure: None,
+            told: 0.0,
         })
     }
 
@@ -69,7 +72,12 @@ impl Runs {
         state: &[u8],
     ) -> Result<Self, SavedRunError> {
         let (saved, run) = saved_study::read(state)?;
-        let SavedStudy { done, kept, of_run } = saved;
+        let SavedStudy {
+            done,
+            kept,
+            of_run,
+            fraction,
+        } = saved;
         let mut runs = Self::afresh(scenario, threads).map_err(|_| SavedRunError::Head)?;
         let any_before = !done.is_empty();
         done.into_iter()
@@ -82,6 +90,7 @@ impl Runs {
         let run = Run::restored(&runs.convergence_study.scenario_of(study_run), threads, run)?;
         Ok(Self {
             kept: kept.into_owned(),
+            told: fraction,
             begun: Some((run, of_run.into_owned())),
             ..runs
         })
@@ -99,7 +108,7 @@ impl Runs {
         let mut whole = Whole {
             sink,
             kept: self.kept,
-            progress: StudyProgress::default(),
+            progress: StudyProgress::from(self.told),
         };
         while let Some(study_run) = self.convergence_study.next() {
             whole.progress.begin_run(&self.convergence_study)?;
@@ -223,6 +232,7 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
             done: self.convergence_study.done().cloned().collect(),
             kept: Cow::Borrowed(&self.whole.kept),
             of_run: Cow::Borrowed(&self.kept),
+            fraction: self.whole.progress.told(),
         };
         let state = saved_study::write(&saved, run);
         self.whole.sink.state(time_s, &state)

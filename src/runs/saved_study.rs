@@ -15,6 +15,8 @@ pub(super) struct SavedStudy<'a> {
     pub kept: Cow<'a, [Record]>,
     /// Records of the current run, if it may be the answer.
     pub of_run: Cow<'a, [Record]>,
+    /// Fraction of the study that was reported as done.
+    pub fraction: f64,
 }
 
 /// Bytes from which [`read`] restores both.

@@ -11,6 +11,8 @@ pub(super) struct Places {
     pub(super) time_s: f64,
     /// Front and mass centre along the channel [m]; `None` without a flow.
     pub(super) deposit: Option<[f64; 2]>,
+    /// Mass that has left through the open end [kg].
+    pub(super) outflow: f64,
     pub(super) bodies: Vec<Motion>,
 }
 
@@ -51,6 +53,12 @@ impl Creep {
         Some(range(0)?.max(range(1)?))
     }
 
+    /// Mass that left through the open end [kg].
+    pub(super) fn outflow(&self) -> f64 {
+        let ends = self.0.front().zip(self.0.back());
+        ends.map_or(0.0, |(first, last)| last.outflow - first.outflow)
+    }
+
     /// Largest distance between two places of a body [m].
     pub(super) fn body_range(
         &self,
@@ -74,6 +82,7 @@ mod tests {
         Places {
             time_s,
             deposit: Some([front, 0.1]),
+            outflow: 2.0 * time_s,
             bodies: Vec::new(),
         }
     }
@@ -90,6 +99,7 @@ mod tests {
                 let way = creep.deposit_range().expect("a flow");
                 assert!((way - 3e-5).abs() < 1e-9, "{way}");
                 assert!((lasted - 0.03).abs() < 1e-9);
+                assert!((creep.outflow() - 0.06).abs() < 1e-9);
             }
         }
         creep.forget();

@@ -5,7 +5,10 @@ use super::energy::body_energy;
 use super::motion::Motion;
 use super::outcome::{BodyHistory, flow_outcome, front, front_of};
 use super::remarks::Seen;
-use super::rest::{EndedEarly, Remaining, body_bound, front_resolution, front_rests};
+use super::rest::{
+    EndedEarly, Remaining, body_bound, front_resolution, front_rests, outflow_rests,
+    reaches_open_end,
+};
 use super::sampling::Sampling;
 use super::scale::Scale;
 use super::snapshots::Snapshots;
@@ -170,6 +173,7 @@ impl Recorder {
         let now = Places {
             time_s,
             deposit: front.map(|front| [front, remaining.mass_centre]),
+            outflow: simulation.audit().outflow_mass(),
             bodies: motions.collect(),
         };
         let lasted = self.creep.add(now, self.scale.rest_time());
@@ -189,11 +193,19 @@ impl Recorder {
         if front_bound_m.is_some_and(|bound| !front_rests(simulation, bound)) {
             return None;
         }
+        let outflow_bound_kg = front.map(|_| {
+            let reaches = reaches_open_end(simulation, &remaining, self.open_end, left);
+            self.creep.outflow() * rate + reaches
+        });
+        if outflow_bound_kg.is_some_and(|bound| !outflow_rests(simulation, bound)) {
+            return None;
+        }
         Some(EndedEarly {
             time_s,
             reason: "nothing that still moves can move a body or the front any more".to_owned(),
             body_bound_m,
             front_bound_m,
+            outflow_bound_kg,
         })
     }
 

@@ -21,6 +21,9 @@ pub struct EndedEarly {
     pub body_bound_m: f64,
     /// Bound on the further advance of the front [m]; null without a flow.
     pub front_bound_m: Option<f64>,
+    /// Bound on the further outflow through the open end [kg]; null without a flow.
+    #[serde(default)]
+    pub outflow_bound_kg: Option<f64>,
 }
 
 /// Energies and reaches of the moving part of a flow.
@@ -138,6 +141,30 @@ fn pushed(body: &Body, simulation: &Simulation, energy: f64) -> Option<f64> {
 /// True if a front that could still advance this far [m] counts as at rest.
 pub(super) fn front_rests(simulation: &Simulation, bound: f64) -> bool {
     bound <= METHOD.early_stop.front_bound * simulation.cell_size_m()
+}
+
+/// Mass of the points that reach the open end in `left` [s] at their present speed, or by what
+/// friction allows those faster than creep [kg].
+pub(super) fn reaches_open_end(
+    simulation: &Simulation,
+    remaining: &Remaining,
+    open_end: f64,
+    left: f64,
+) -> f64 {
+    let (mut leaving, mut reaches) = (0.0, remaining.reaches.iter());
+    simulation.visit_computed_points(|point, mass| {
+        let farthest = reaches.next().map_or(f64::NEG_INFINITY, |(x, _)| *x);
+        let at_present = point.position.x + point.velocity.norm() * left;
+        if farthest.max(at_present) >= open_end {
+            leaving += mass;
+        }
+    });
+    leaving
+}
+
+/// True if an outflow that could still grow by this mass [kg] counts as over.
+pub(super) fn outflow_rests(simulation: &Simulation, bound: f64) -> bool {
+    bound <= METHOD.early_stop.outflow_bound * simulation.audit().released_mass
 }
 
 /// Least bound on a front's advance [m]: a deposit at rest shifts a little within its cells.

@@ -1,9 +1,9 @@
 //! Case 20: early stop.
 //!
 //! Members of a study – one slope and cube, with base friction, volume and the cube's yaw random –
-//! and scenes drawn at random (`drawn.rs`), each computed to its early stop and once for its whole
-//! duration. Reference solution: the whole duration. Tolerance: no body and no front moves on by
-//! more than the bound that the early stop came with. How many stop early, how far they would have
+//! scenes drawn at random (`drawn.rs`), and scenes with an open end nearby, each computed to its early
+//! stop and once for its whole duration. Reference solution: the whole duration. Tolerance: no body
+//! and no front moves on, and no more mass leaves, than the bound that the early stop came with. How many stop early, how far they would have
 //! moved on, and the share of the point-steps that is left are reported.
 
 use crate::verify::dice::Dice;
@@ -28,6 +28,8 @@ pub(super) const CASE: Case = Case {
 /// Members of the study, and drawn scenes, small and full version.
 const MEMBERS: [u64; 2] = [8, 100];
 const DRAWN: [usize; 2] = [4, 40];
+/// Scenes with a floor that most of the flow leaves, likewise.
+const SHORT: [u64; 2] = [2, 20];
 /// Number of the first drawn scene: those before are judged by the error bars.
 const FIRST_DRAWN: u64 = 100;
 /// Duration of all [s].
@@ -42,6 +44,8 @@ fn run(effort: Effort, findings: &mut Findings) {
     let legal = drawn.filter(|scene| scenario_of(scene).is_ok());
     let drawn: Vec<Value> = legal.take(DRAWN[size]).collect();
     judge("drawn scenes", &drawn, findings);
+    let short = (0..SHORT[size]).map(on_a_short_floor).collect::<Vec<_>>();
+    judge("scenes on a short floor", &short, findings);
 }
 
 fn member(number: u64) -> Value {
@@ -52,6 +56,17 @@ fn member(number: u64) -> Value {
         "flow": {"volume_m3": dice.decades(0.0053, 0.012)},
         "bodies": [{"shape": {"cube": {"side_m": 0.04}}, "yaw_deg": dice.within(0.0, 90.0)}],
         "numerics": {"cell_size_m": 0.02}, "duration_s": DURATION, "flow_snapshots": 0
+    })
+}
+
+fn on_a_short_floor(number: u64) -> Value {
+    let mut dice = Dice::of(number);
+    json!({
+        "channel": {"inclination_deg": dice.within(28.0, 45.0), "incline_length_m": 0.8,
+                    "runout_length_m": dice.within(0.1, 0.3), "base_friction": dice.within(0.3, 0.5)},
+        "flow": {"volume_m3": dice.decades(0.004, 0.01), "release": {"height_m": 0.1}},
+        "bodies": [],
+        "numerics": {"cell_size_m": 0.014}, "duration_s": DURATION, "flow_snapshots": 0
     })
 }
 
@@ -68,10 +83,10 @@ fn drawn_scene(number: u64) -> Value {
 struct LeftOut {
     /// True if the run stopped early.
     early: bool,
-    /// Farthest further way of a body and of the front [m].
-    ways: [f64; 2],
+    /// Farthest further way of a body and of the front [m], and further outflow [kg].
+    ways: [f64; 3],
     /// The same over their bounds.
-    over_bounds: [f64; 2],
+    over_bounds: [f64; 3],
     /// Point-steps of both runs.
     point_steps: [u64; 2],
 }
@@ -85,15 +100,20 @@ fn left_out(scene: &Value) -> Result<LeftOut, CaseError> {
     let front = early.flow.front_m.zip(full.flow.front_m);
     let mut left_out = LeftOut {
         early: early.ended_early.is_some(),
-        ways: [0.0; 2],
-        over_bounds: [0.0; 2],
+        ways: [0.0; 3],
+        over_bounds: [0.0; 3],
         point_steps: [early.cost.point_steps, full.cost.point_steps],
     };
     if let Some(ended) = early.ended_early {
         let front = front.map_or(0.0, |(early, full)| (full - early).abs());
-        left_out.ways = [body.fold(0.0, f64::max), front];
-        let bounds = [ended.body_bound_m, ended.front_bound_m.unwrap_or(0.0)];
-        left_out.over_bounds = [0, 1].map(|of| match left_out.ways[of] {
+        let outflow = full.flow.outflow_mass_kg - early.flow.outflow_mass_kg;
+        left_out.ways = [body.fold(0.0, f64::max), front, outflow.abs()];
+        let bounds = [
+            ended.body_bound_m,
+            ended.front_bound_m.unwrap_or(0.0),
+            ended.outflow_bound_kg.unwrap_or(0.0),
+        ];
+        left_out.over_bounds = [0, 1, 2].map(|of| match left_out.ways[of] {
             0.0 => 0.0,
             way => way / bounds[of],
         });
@@ -139,16 +159,20 @@ fn judge(what: &str, scenes: &[Value], findings: &mut Findings) {
         absolute("share that stops early", ""),
         absolute("farthest way of a body over its bound", "").within(1.0),
         absolute("farthest way of a front over its bound", "").within(1.0),
+        absolute("largest outflow over its bound", "").within(1.0),
         absolute("farthest way of a body", "m"),
         absolute("farthest way of a front", "m"),
+        absolute("largest outflow", "kg"),
         absolute("point-steps over those of the whole duration", ""),
     ];
     let values = [
         early as f64 / all.len() as f64,
         most(|of| of.over_bounds[0]),
         most(|of| of.over_bounds[1]),
+        most(|of| of.over_bounds[2]),
         most(|of| of.ways[0]),
         most(|of| of.ways[1]),
+        most(|of| of.ways[2]),
         steps(0) / steps(1),
     ];
     let resolution = Resolution::named(format!("{early} of {}", all.len()));
