@@ -395,6 +395,10 @@ class EndedEarly(TypedDict):
     """
     Bound on the further advance of the front [m]; null without a flow.
     """
+    outflow_bound_kg: NotRequired[Optional[float]]
+    """
+    Bound on the further outflow through the open end [kg]; null without a flow.
+    """
     reason: str
     """
     Reason for the early stop.

@@ -151,7 +151,7 @@ fn ending(scenario: &Scenario) -> Choice {
     };
     choice(
         "the run ends once nothing can move a body or the front any more",
-        "bounds of body and front are in the outcome (section 12)",
+        "bounds of body, front and outflow are in the outcome (section 12)",
         Some("ending"),
         found,
     )

@@ -193,8 +193,8 @@ impl Recorder {
         if front_bound_m.is_some_and(|bound| !front_rests(simulation, bound)) {
             return None;
         }
-        let outflow_bound_kg = front.map(|_| {
-            let reaches = reaches_open_end(simulation, &remaining, self.open_end, left);
+        let outflow_bound_kg = front_bound_m.map(|bound| {
+            let reaches = reaches_open_end(simulation, &remaining, self.open_end, (bound, left));
             self.creep.outflow() * rate + reaches
         });
         if outflow_bound_kg.is_some_and(|bound| !outflow_rests(simulation, bound)) {

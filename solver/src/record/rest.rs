@@ -143,19 +143,20 @@ pub(super) fn front_rests(simulation: &Simulation, bound: f64) -> bool {
     bound <= METHOD.early_stop.front_bound * simulation.cell_size_m()
 }
 
-/// Mass of the points that reach the open end in `left` [s] at their present speed, or by what
-/// friction allows those faster than creep [kg].
+/// Mass of the points that reach the open end [kg] if each goes on as far as the front may [m], as
+/// far as its present speed takes it in `left` [s], or as far as friction allows one faster than
+/// creep.
 pub(super) fn reaches_open_end(
     simulation: &Simulation,
     remaining: &Remaining,
     open_end: f64,
-    left: f64,
+    (front_bound, left): (f64, f64),
 ) -> f64 {
     let (mut leaving, mut reaches) = (0.0, remaining.reaches.iter());
     simulation.visit_computed_points(|point, mass| {
         let farthest = reaches.next().map_or(f64::NEG_INFINITY, |(x, _)| *x);
-        let at_present = point.position.x + point.velocity.norm() * left;
-        if farthest.max(at_present) >= open_end {
+        let way = front_bound.max(point.velocity.norm() * left);
+        if farthest.max(point.position.x + way) >= open_end {
             leaving += mass;
         }
     });

@@ -29,7 +29,7 @@ pub(super) const CASE: Case = Case {
 const MEMBERS: [u64; 2] = [8, 100];
 const DRAWN: [usize; 2] = [4, 40];
 /// Scenes with a floor that most of the flow leaves, likewise.
-const SHORT: [u64; 2] = [2, 20];
+const SHORT: [u64; 2] = [2, 60];
 /// Number of the first drawn scene: those before are judged by the error bars.
 const FIRST_DRAWN: u64 = 100;
 /// Duration of all [s].
