@@ -5,31 +5,26 @@ use scree_solver::SetupError;
 use scree_solver::accuracy::{ConvergenceStudy, StudyRun};
 use scree_solver::plan::Cost;
 use scree_solver::simulation::PreparedScene;
+use std::collections::VecDeque;
 
 /// Work of the run that a target may require after the last known one, over that one's: what cells of
 /// 0.7 times the size take.
 const FURTHER: f64 = 4.0;
 
-/// Expected work of the runs that are still to be made [point-steps].
-#[derive(Debug, Clone, Copy, Default)]
-struct Ahead {
-    current: f64,
-    /// Runs after it that are known to be needed.
-    later: f64,
-    /// The run that a target may require after them.
-    further: f64,
-}
-
 /// Progress of a study: the wall time of the current run, and that of later ones from its pace.
 #[derive(Debug, Default)]
 pub(super) struct StudyProgress {
-    ahead: Ahead,
+    /// Expected work of the runs that are still to be made, the current one first [point-steps];
+    /// empty if there is only one.
+    works: VecDeque<f64>,
+    /// Work of the run that a target may require after them [point-steps].
+    further: f64,
     /// Wall time of the runs before the current one [s].
     before_s: f64,
     /// Wall time of the current run so far [s].
     current_s: f64,
-    /// Wall time of a point-step in the run before [s].
-    pace_before: Option<f64>,
+    /// Wall time of the current run at the pace of the one before it [s].
+    expected_s: Option<f64>,
     /// Fraction reported last: it never decreases, though a target may require more runs.
     told: f64,
 }
@@ -53,33 +48,23 @@ impl StudyProgress {
     /// # Errors
     /// The solver can't set up a run that is still to be made.
     pub(super) fn begin_run(&mut self, study: &ConvergenceStudy) -> Result<(), SetupError> {
-        let runs: Vec<_> = study.to_do().collect();
+        let over = self.works.pop_front();
         // A study of one run needs no weights.
-        let needs_weights = runs.len() > 1 || study.has_a_target();
-        let ahead = match runs.split_first() {
-            Some((current, later)) if needs_weights => {
-                let later: Result<Vec<f64>, _> =
-                    later.iter().map(|run| work(study, *run)).collect();
-                let (current, later) = (work(study, *current)?, later?);
-                let last = later.last().unwrap_or(&current);
-                Ahead {
-                    current,
-                    later: later.iter().sum(),
-                    further: if study.has_a_target() {
-                        FURTHER * last
-                    } else {
-                        0.0
-                    },
-                }
+        if study.to_do().nth(1).is_some() || study.has_a_target() {
+            for run in study.to_do().skip(self.works.len()) {
+                self.works.push_back(work(study, run)?);
             }
-            _ => Ahead::default(),
+        }
+        let pace = over.filter(|work| *work > 0.0 && self.current_s > 0.0);
+        let pace = pace.map(|work| self.current_s / work);
+        self.expected_s = pace.zip(self.works.front()).map(|(pace, work)| pace * work);
+        self.further = match self.works.back() {
+            Some(last) if study.has_a_target() => FURTHER * last,
+            _ => 0.0,
         };
         let outcomes = study.done().filter_map(|done| done.as_ref().ok());
         self.before_s = outcomes.map(|outcome| outcome.cost.wall_s).sum();
-        let is_known = self.current_s > 0.0 && self.ahead.current > 0.0;
-        self.pace_before = is_known.then(|| self.current_s / self.ahead.current);
         self.current_s = 0.0;
-        self.ahead = ahead;
         Ok(())
     }
 
@@ -91,37 +76,40 @@ impl StudyProgress {
     /// Progress of the study at this progress of the current run. The time left is that of the runs
     /// known to be needed; the fraction allows for a further one for a target.
     pub(super) fn at(&mut self, run: &Progress) -> Progress {
-        let passed = self.before_s + self.current_s;
         let is_over = run.fraction >= 1.0;
-        let of_run = run.eta_s.or(is_over.then_some(0.0));
-        let pace = match of_run {
-            Some(left) => Some((self.current_s + left) / self.ahead.current),
-            None => self.pace_before,
-        };
-        let left = match (of_run, pace) {
-            (of_run, _) if self.ahead.later == 0.0 => of_run,
-            (Some(left), Some(pace)) => Some(left + pace * self.ahead.later),
-            (None, Some(pace)) => {
-                let planned = pace * (self.ahead.current + self.ahead.later);
-                Some((planned - self.current_s).max(0.0))
+        let of_run = run.eta_s.or(is_over.then_some(0.0)).or_else(|| {
+            let expected = self.expected_s?;
+            Some((expected - self.current_s).max(0.0))
+        });
+        let fraction = match of_run {
+            Some(left) => {
+                let passed = self.before_s + self.current_s;
+                let whole = passed + left + self.takes(left, self.later() + self.further);
+                if whole > 0.0 { passed / whole } else { 0.0 }
             }
-            (_, None) => None,
-        };
-        let further = match pace {
-            Some(pace) if self.ahead.further > 0.0 => pace * self.ahead.further,
-            _ => 0.0,
-        };
-        let fraction = match left {
-            Some(left) if passed + left > 0.0 => passed / (passed + left + further),
-            None if self.ahead.later + self.ahead.further == 0.0 => run.fraction,
-            _ => 0.0,
+            None if self.later() + self.further == 0.0 => run.fraction,
+            None => 0.0,
         };
         self.told = fraction.clamp(self.told, 1.0);
-        let is_over = is_over && self.ahead.later == 0.0;
+        let left = of_run.map(|left| left + self.takes(left, self.later()));
         Progress {
             fraction: self.told,
-            eta_s: left.filter(|_| !is_over),
+            eta_s: left.filter(|_| !is_over || self.later() > 0.0),
             ..*run
+        }
+    }
+
+    /// Work of the runs after the current one that are known to be needed [point-steps].
+    fn later(&self) -> f64 {
+        self.works.iter().skip(1).sum()
+    }
+
+    /// Wall time of other work [point-steps] at the pace of the current run, of which so much is
+    /// left [s].
+    fn takes(&self, left: f64, work: f64) -> f64 {
+        match self.works.front() {
+            Some(current) if work > 0.0 => (self.current_s + left) * work / current,
+            _ => 0.0,
         }
     }
 }
@@ -135,6 +123,7 @@ fn work(study: &ConvergenceStudy, run: StudyRun) -> Result<f64, SetupError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scree_solver::Scenario;
 
     fn run(fraction: f64, eta_s: Option<f64>) -> Progress {
         Progress {
@@ -144,13 +133,9 @@ mod tests {
         }
     }
 
-    fn study(current: f64, later: f64) -> StudyProgress {
+    fn study(works: &[f64]) -> StudyProgress {
         StudyProgress {
-            ahead: Ahead {
-                current,
-                later,
-                further: 0.0,
-            },
+            works: works.iter().copied().collect(),
             ..StudyProgress::default()
         }
     }
@@ -158,7 +143,7 @@ mod tests {
     // A run of 10 s, then one of thrice its work.
     #[test]
     fn later_runs_take_as_much_longer_as_they_have_work() {
-        let mut study = study(1.0, 3.0);
+        let mut study = study(&[1.0, 3.0]);
         assert_eq!(study.at(&run(0.1, None)).eta_s, None, "no pace is known");
         study.spent(5.0);
         let half = study.at(&run(0.5, Some(5.0)));
@@ -170,16 +155,16 @@ mod tests {
 
     #[test]
     fn the_pace_of_the_run_before_counts_until_there_is_another() {
-        let mut study = study(3.0, 1.0);
+        let mut study = study(&[3.0, 1.0]);
         study.before_s = 10.0;
-        study.pace_before = Some(10.0);
+        study.expected_s = Some(30.0);
         study.spent(1.0);
         assert_eq!(study.at(&run(0.0, None)).eta_s, Some(39.0));
     }
 
     #[test]
     fn the_last_run_tells_its_own_time_and_ends_with_one() {
-        let mut study = study(1.0, 0.0);
+        let mut study = study(&[1.0]);
         study.before_s = 10.0;
         study.spent(30.0);
         let told = study.at(&run(0.75, Some(10.0)));
@@ -189,11 +174,12 @@ mod tests {
         let end = study.at(&run(1.0, None));
         assert_eq!((end.fraction, end.eta_s), (1.0, None));
     }
+
     // 10 s of a run after which a target may require another, of four times its work.
     #[test]
     fn a_target_may_require_a_further_run() {
-        let mut study = study(1.0, 0.0);
-        study.ahead.further = FURTHER;
+        let mut study = study(&[1.0]);
+        study.further = FURTHER;
         study.spent(5.0);
         let half = study.at(&run(0.5, Some(5.0)));
         assert_eq!((half.fraction, half.eta_s), (5.0 / 50.0, Some(5.0)));
@@ -206,8 +192,31 @@ mod tests {
     fn a_restored_study_goes_on_from_what_was_told() {
         let mut study = StudyProgress {
             told: 0.4,
-            ..study(1.0, 3.0)
+            ..study(&[1.0, 3.0])
         };
         assert_eq!(study.at(&run(0.0, None)).fraction, 0.4);
+    }
+
+    #[test]
+    fn the_fraction_grows_over_all_runs_of_a_study_to_one() {
+        let document = r#"{"channel": {"inclination_deg": 40, "incline_length_m": 1, "runout_length_m": 2},
+            "flow": {"volume_m3": 0.01}, "bodies": [{"shape": {"cube": {"side_m": 0.04}}}],
+            "accuracy": {"error_bars": true}}"#;
+        let scenario = Scenario::from_json(document).unwrap();
+        let mut study = ConvergenceStudy::of(&scenario).unwrap();
+        let (mut progress, mut shares) = (StudyProgress::default(), vec![0.0]);
+        while study.next().is_some() {
+            progress.begin_run(&study).unwrap();
+            progress.spent(1.0);
+            shares.push(progress.at(&run(0.5, Some(1.0))).fraction);
+            progress.spent(2.0);
+            shares.push(progress.at(&run(1.0, None)).fraction);
+            study.take(Err("not computed".to_owned()));
+        }
+        assert!(shares.len() > 4, "{shares:?}");
+        assert!(
+            shares.is_sorted() && shares.last() == Some(&1.0),
+            "{shares:?}"
+        );
     }
 }

@@ -81,15 +81,6 @@ impl Cost {
 /// Time that a sub-step of a body takes, over that of a point: 0.4 to 1.5 µs in piles of cubes
 /// over 0.02 µs, on two threads.
 const BODY_SUBSTEP: u64 = 40;
-
-impl Cost {
-    /// Point-steps, and the bodies' own sub-steps as if each took as long as 40 of them.
-    pub fn work(&self) -> u64 {
-        let bodies = self.body_substeps.saturating_mul(BODY_SUBSTEP);
-        self.point_steps.saturating_add(bodies)
-    }
-}
-
 /// Points whose sub-steps take as long as what a sub-step costs whatever the points: 7000 to
 /// 14,000 in coarse runs with two bodies, on two threads.
 const SUBSTEP: f64 = 7000.0;
@@ -97,6 +88,12 @@ const SUBSTEP: f64 = 7000.0;
 const STEP: f64 = 2.0;
 
 impl Cost {
+    /// Point-steps, and the bodies' own sub-steps as if each took as long as 40 of them.
+    pub fn work(&self) -> u64 {
+        let bodies = self.body_substeps.saturating_mul(BODY_SUBSTEP);
+        self.point_steps.saturating_add(bodies)
+    }
+
     /// Work of the run to its expected end, in sub-steps of points: what later runs of a study
     /// take is told from it and the pace of the current one.
     pub fn work_to_the_end(&self) -> f64 {

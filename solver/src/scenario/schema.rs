@@ -68,11 +68,9 @@ fn describe(object: &mut Object, fields: &[Field]) {
         if let RefOr::T(schema) = property {
             limit(schema, field);
         }
-        if is_null(field) {
-            allow_to_leave_out(property);
-        }
-        if let Some(words) = default_in_words(field, property) {
-            explain(property, &words);
+        let words = default_in_words(field, property);
+        if let (Some(words), Some(about)) = (words, description(property)) {
+            about.push_str(&format!("{DEFAULT_IN_WORDS}{words}."));
         }
     }
 }
@@ -86,11 +84,6 @@ pub(super) fn without_default(description: &str) -> &str {
     cut.map_or(description, |(about, _)| about)
 }
 
-/// True if a field that is left out is null.
-fn is_null(field: &Field) -> bool {
-    matches!(field.default, Default::Automatic | Default::Json("null"))
-}
-
 /// The default, where the schema of a property can't hold it as a value: it follows from other
 /// fields, or stands in a schema of its own.
 fn default_in_words(field: &Field, property: &RefOr<Schema>) -> Option<String> {
@@ -101,33 +94,13 @@ fn default_in_words(field: &Field, property: &RefOr<Schema>) -> Option<String> {
     }
 }
 
-/// Makes null the default of a property that may be null.
-fn allow_to_leave_out(property: &mut RefOr<Schema>) {
+/// The description of a property of one kind.
+fn description(property: &mut RefOr<Schema>) -> Option<&mut String> {
     match property {
-        RefOr::T(Schema::Object(object)) => object.default = Some(Value::Null),
-        RefOr::T(Schema::Array(array)) => array.default = Some(Value::Null),
-        RefOr::T(Schema::OneOf(choice)) => choice.default = Some(Value::Null),
-        _ => {}
-    }
-}
-
-fn explain(property: &mut RefOr<Schema>, default: &str) {
-    let sentence = format!("{DEFAULT_IN_WORDS}{default}.");
-    match property {
-        RefOr::Ref(reference) => reference.description.push_str(&sentence),
-        RefOr::T(Schema::Object(object)) => {
-            object
-                .description
-                .get_or_insert_default()
-                .push_str(&sentence);
-        }
-        RefOr::T(Schema::Array(array)) => {
-            array
-                .description
-                .get_or_insert_default()
-                .push_str(&sentence);
-        }
-        RefOr::T(_) => {}
+        RefOr::Ref(reference) => Some(&mut reference.description),
+        RefOr::T(Schema::Object(object)) => Some(object.description.get_or_insert_default()),
+        RefOr::T(Schema::Array(array)) => Some(array.description.get_or_insert_default()),
+        RefOr::T(_) => None,
     }
 }
 
@@ -154,6 +127,8 @@ fn limit(schema: &mut Schema, field: &Field) {
         }
         (Kind::Items(most), Schema::Array(items)) => items.max_items = Some(*most),
         (Kind::Flag, Schema::Object(flag)) => flag.default = default(field),
+        // A choice that may be null.
+        (_, Schema::OneOf(choice)) => choice.default = default(field),
         _ => {}
     }
 }
@@ -201,22 +176,22 @@ fn limit_number(number: &mut Object, rule: &Rule, whole: bool) {
         .map(|unit| ExtensionsBuilder::new().add("x-unit", unit).build());
 }
 
-/// The default as JSON, if it is a value and not null.
+/// The default as JSON, if it is a value.
 pub(super) fn default(field: &Field) -> Option<Value> {
-    let value = match (&field.kind, field.default) {
+    Some(match (&field.kind, field.default) {
+        (_, Default::Automatic) => Value::Null,
         (_, Default::Json(text)) => serde_json::from_str(text).ok()?,
         (Kind::Whole(rule), Default::OfRule) => Value::from(rule.default? as u64),
         (Kind::Number(rule), Default::OfRule) => Value::from(rule.default?),
         (Kind::Vector(rule, length), Default::OfRule) => Value::from(vec![rule.default?; *length]),
         _ => return None,
-    };
-    (!value.is_null()).then_some(value)
+    })
 }
 
 /// Key and default of a choice, whose schema stands apart from its property.
 fn default_word(field: &Field) -> Option<(&'static str, Value)> {
     match field.kind {
-        Kind::Words(_) => Some((field.key, default(field)?)),
+        Kind::Words(_) => Some((field.key, default(field).filter(|word| !word.is_null())?)),
         _ => None,
     }
 }

@@ -1,10 +1,11 @@
 //! Case 20: early stop.
 //!
 //! Members of a study – one slope and cube, with base friction, volume and the cube's yaw random –
-//! scenes drawn at random (`drawn.rs`), and scenes with an open end nearby, each computed to its early
-//! stop and once for its whole duration. Reference solution: the whole duration. Tolerance: no body
-//! and no front moves on, and no more mass leaves, than the bound that the early stop came with. How many stop early, how far they would have
-//! moved on, and the share of the point-steps that is left are reported.
+//! scenes drawn at random (`drawn.rs`), and scenes with an open end nearby, each computed to its
+//! early stop and once for its whole duration. Reference solution: the whole duration. Tolerance:
+//! no body and no front moves on, and no more mass leaves, than the bound that the early stop came
+//! with. How many stop early, how far they would have moved on, and the share of the point-steps
+//! that is left are reported.
 
 use crate::verify::dice::Dice;
 use crate::verify::drawn;
@@ -29,7 +30,7 @@ pub(super) const CASE: Case = Case {
 const MEMBERS: [u64; 2] = [8, 100];
 const DRAWN: [usize; 2] = [4, 40];
 /// Scenes with a floor that most of the flow leaves, likewise.
-const SHORT: [u64; 2] = [2, 60];
+const SHORT_FLOORS: [u64; 2] = [2, 60];
 /// Number of the first drawn scene: those before are judged by the error bars.
 const FIRST_DRAWN: u64 = 100;
 /// Duration of all [s].
@@ -44,7 +45,7 @@ fn run(effort: Effort, findings: &mut Findings) {
     let legal = drawn.filter(|scene| scenario_of(scene).is_ok());
     let drawn: Vec<Value> = legal.take(DRAWN[size]).collect();
     judge("drawn scenes", &drawn, findings);
-    let short = (0..SHORT[size]).map(on_a_short_floor).collect::<Vec<_>>();
+    let short: Vec<Value> = (0..SHORT_FLOORS[size]).map(on_a_short_floor).collect();
     judge("scenes on a short floor", &short, findings);
 }
 
