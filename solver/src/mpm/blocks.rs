@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 mod block;
+mod memory_order;
 
 use block::Pool;
 pub use block::{Block, End, settle};
@@ -49,6 +50,7 @@ impl<R: Real> Blocks<R> {
             block.runs = u32::MAX;
             block.tidy();
         }
+        blocks.order_in_memory();
         blocks
     }
 
@@ -77,6 +79,7 @@ impl<R: Real> Blocks<R> {
         }
         self.arrive();
         self.occupied.par_iter_mut().for_each(Block::tidy);
+        self.keep_memory_order();
     }
 
     /// Removes the points for which `gone` is true, in blocks for which `search` is true.

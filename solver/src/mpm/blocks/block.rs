@@ -243,16 +243,22 @@ fn unsettled<R: Real>(chunk: &Chunk<R>) -> Option<usize> {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Pool<R: Real> {
     pub(super) chunks: Vec<Box<Chunk<R>>>,
+    /// Chunks taken since they were last put in order.
+    pub(super) taken: usize,
 }
 
 impl<R: Real> Default for Pool<R> {
     fn default() -> Self {
-        Self { chunks: Vec::new() }
+        Self {
+            chunks: Vec::new(),
+            taken: 0,
+        }
     }
 }
 
 impl<R: Real> Pool<R> {
     fn take(&mut self) -> Box<Chunk<R>> {
+        self.taken += 1;
         self.chunks
             .pop()
             .unwrap_or_else(|| Box::new(Chunk::empty()))
