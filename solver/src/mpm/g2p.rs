@@ -9,7 +9,7 @@ use super::redistribution::{
     NoShiftZone, PointState, RedistributionRates, ShiftingSums, excess_volume_fraction,
     redistribute,
 };
-use super::rows::{Moments, Quads, Tile, gather_mean};
+use super::rows::{MomentSums, Moments, Quads, Tile, gather_mean};
 use super::stencil::Stencils;
 use super::stress_update::velocity_gradient;
 use super::totals::EndSums;
@@ -89,28 +89,21 @@ pub fn gather_motion<S: Simd, R: Real>(
     } = *ending;
     let number = Splat::<S, R>::new(simd);
     let spacing = &lattice.spacing;
-    let mut moments = Moments::EMPTY;
-    let mut displacement = Quads::EMPTY;
-    let mut twist = Quads::EMPTY;
+    let (mut moment_sums, mut mean_sums) = (MomentSums::EMPTY, Quads::EMPTY);
     let mut sums = EndSums::NONE;
     let mut spread = ShiftingSums::NONE;
     let key = block.key;
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
-        moments.gather::<S, true>(simd, &stencils, count, &nodes.motion);
-        gather_mean(
-            simd,
-            &stencils,
-            count,
-            &nodes.displacement,
-            &mut displacement,
-        );
-        gather_mean(simd, &stencils, count, &nodes.twist, &mut twist);
+        let moments = moment_sums.gather(simd, &stencils, count, &nodes.motion);
+        let (displacement, twist) = (&nodes.displacement, &nodes.twist);
+        let displacement = gather_mean(simd, &stencils, count, displacement, &mut mean_sums);
+        let twist = gather_mean(simd, &stencils, count, twist, &mut mean_sums);
         let a = velocity_gradient(simd, &moments, law);
         let strained = strain(simd, chunk, &a, law, dt);
-        let [excess_volume_fraction, vx, vy, vz] = moments.zeroth.transposed(simd);
-        let [mean_compression, ux, uy, uz] = displacement.transposed(simd);
-        let [_, tx, ty, tz] = twist.transposed(simd);
+        let [excess_volume_fraction, vx, vy, vz] = moments.zeroth;
+        let [mean_compression, ux, uy, uz] = displacement;
+        let [_, tx, ty, tz] = twist;
         let on_displaced = strained.deformed.undone_at_most(simd, &a);
         // Of Σ w v_i (d_i + u_i − u_p)ᵀ only the skew part counts: the displacement of the
         // nodes adds u_p × v_p − Σ w u_i × v_i.
@@ -178,12 +171,12 @@ pub fn gather_motion<S: Simd, R: Real>(
 #[inline(always)]
 fn excess_volume_fraction_gradient<S: Simd, R: Real>(
     simd: S,
-    moments: &Moments<R>,
+    moments: &Moments<S, R>,
 ) -> [R::Vector<S>; 3] {
     let number = Splat::<S, R>::new(simd);
     let mut slope = [number.of(0.0); 3];
     for axis in 0..3 {
-        let [along, ..] = moments.first[axis].transposed(simd);
+        let [along, ..] = moments.first[axis];
         slope[axis] = along * number.of(4.0);
     }
     slope

@@ -117,8 +117,14 @@ pub trait Row<S: Simd, R: Real>: Copy {
     /// Row of which each node has one of three numbers four times, the fourth node zeros.
     fn along_z(simd: S, nodes: [R; 3]) -> Self;
 
+    /// Row of which each node has its place from the middle one of a stencil, four times.
+    fn places(simd: S) -> Self;
+
     /// Sum of two rows.
     fn plus(self, other: Self) -> Self;
+
+    /// Difference of two rows.
+    fn minus(self, other: Self) -> Self;
 
     /// The row times a factor, the same in every lane.
     fn scaled(self, factor: R::Vector<S>) -> Self;
@@ -132,8 +138,8 @@ pub trait Row<S: Simd, R: Real>: Copy {
     /// Product of two rows, number by number, plus a third.
     fn times_plus(self, factor: Self, other: Self) -> Self;
 
-    /// Sum over the four nodes.
-    fn sum_of_nodes(self) -> R::Quad<S>;
+    /// The three nodes of a stencil.
+    fn nodes(self) -> [R::Quad<S>; 3];
 }
 
 /// A 3 × 3 matrix of each point of a chunk, `[row][column]`.

@@ -5,8 +5,8 @@ use super::blocks::Block;
 use super::chunk::Chunk;
 use super::constitutive::Law;
 use super::deformation::at_transfer;
-use super::lanes::{Real, Splat, load};
-use super::rows::{LinearFields, Moments, Quads, Tile, scatter_mean};
+use super::lanes::{Real, Splat, load, load_each};
+use super::rows::{LinearFields, MomentSums, Moments, Quads, Tile, scatter_mean};
 use super::stencil::Stencils;
 use super::strain_rate_smoothing::strain_rate;
 use super::stress_update::set_force;
@@ -38,8 +38,8 @@ pub fn scatter_momentum<S: Simd, R: Real>(
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
         runs += stencils.runs(count);
-        set_momentum(simd, chunk, law, &mut fields);
-        fields.scatter::<S, true>(simd, &stencils, count, momentum);
+        set_momentum(simd, &stencils, chunk, law, &mut fields);
+        fields.scatter(simd, &stencils, count, momentum);
     }
     block.note_runs(runs);
 }
@@ -81,17 +81,17 @@ pub fn residual_transfer<S: Simd, R: Real>(
     force: &mut Tile<R>,
 ) {
     (*residual, *force) = (Tile::EMPTY, Tile::EMPTY);
-    let mut moments = Moments::EMPTY;
+    let mut sums = MomentSums::EMPTY;
     let mut fields = LinearFields::ZERO;
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
-        moments.gather::<S, true>(simd, &stencils, count, motion);
-        set_residual(simd, chunk, law, &moments, &mut fields);
-        fields.scatter::<S, true>(simd, &stencils, count, residual);
+        let moments = sums.gather(simd, &stencils, count, motion);
+        set_residual(simd, &stencils, chunk, law, &moments, &mut fields);
+        fields.scatter(simd, &stencils, count, residual);
         chunk.gradient = [[R::ZEROS; 3]; 3];
         let state = at_transfer(simd, chunk, law);
-        set_force(simd, &state, chunk, law, &mut fields);
-        fields.scatter::<S, false>(simd, &stencils, count, force);
+        set_force(simd, &stencils, &state, chunk, law, &mut fields);
+        fields.scatter(simd, &stencils, count, force);
     }
 }
 
@@ -99,55 +99,61 @@ pub fn residual_transfer<S: Simd, R: Real>(
 #[inline(always)]
 fn set_momentum<S: Simd, R: Real>(
     simd: S,
+    stencils: &Stencils<R>,
     chunk: &Chunk<R>,
     law: &Law<R>,
     fields: &mut LinearFields<R>,
 ) {
     let number = Splat::<S, R>::new(simd);
+    let none = number.of(0.0);
     let mass = load::<S, R>(simd, &chunk.mass);
     let [x, y, z] = times::<S, R>(simd, &chunk.velocity, mass);
-    fields.constant.set::<S>([mass, x, y, z]);
+    let mut slope = [[none; 4]; 3];
     for axis in 0..3 {
         let spacing = number.all(R::of(4.0) / law.gradient[axis]);
         let [x, y, z] = times::<S, R>(simd, &chunk.gradient[axis], mass * spacing);
-        fields.slope[axis].set::<S>([number.of(0.0), x, y, z]);
+        slope[axis] = [none, x, y, z];
     }
+    fields.set(simd, stencils, &[mass, x, y, z], &slope);
 }
 
 /// Sets m min(φ, 0), and the residual of v and C.
 #[inline(always)]
 fn set_residual<S: Simd, R: Real>(
     simd: S,
+    stencils: &Stencils<R>,
     chunk: &Chunk<R>,
     law: &Law<R>,
-    moments: &Moments<R>,
+    moments: &Moments<S, R>,
     fields: &mut LinearFields<R>,
 ) {
     let number = Splat::<S, R>::new(simd);
     let none = number.of(0.0);
     let mass = load::<S, R>(simd, &chunk.mass);
     let compressive = load::<S, R>(simd, &chunk.volumetric_strain).min(none);
-    let [_, vx, vy, vz] = moments.zeroth.transposed(simd);
-    let [x, y, z] = &chunk.velocity;
-    fields.constant.set::<S>([
+    let [_, vx, vy, vz] = moments.zeroth;
+    let [x, y, z] = load_each::<S, R, 3>(simd, &chunk.velocity);
+    let value = [
         mass * compressive,
-        (load::<S, R>(simd, x) - vx) * mass,
-        (load::<S, R>(simd, y) - vy) * mass,
-        (load::<S, R>(simd, z) - vz) * mass,
-    ]);
+        (x - vx) * mass,
+        (y - vy) * mass,
+        (z - vz) * mass,
+    ];
+    let mut slope = [[none; 4]; 3];
     for axis in 0..3 {
         // C h, of which the nodes show 4 Σ w v δ.
         let spacing = number.all(R::of(4.0) / law.gradient[axis]);
         let four = number.of(4.0);
-        let [_, lx, ly, lz] = moments.first[axis].transposed(simd);
-        let [x, y, z] = &chunk.gradient[axis];
-        fields.slope[axis].set::<S>([
+        let [_, lx, ly, lz] = moments.first[axis];
+        let [x, y, z] = load_each::<S, R, 3>(simd, &chunk.gradient[axis]);
+        slope[axis] = [
             none,
-            (load::<S, R>(simd, x) * spacing - lx * four) * mass,
-            (load::<S, R>(simd, y) * spacing - ly * four) * mass,
-            (load::<S, R>(simd, z) * spacing - lz * four) * mass,
-        ]);
+            (x * spacing - lx * four) * mass,
+            (y * spacing - ly * four) * mass,
+            (z * spacing - lz * four) * mass,
+        ];
     }
+    fields.set(simd, stencils, &value, &slope);
 }
 
 #[inline(always)]

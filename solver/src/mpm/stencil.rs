@@ -5,12 +5,14 @@ use crate::grid::{BLOCK, TILE};
 use crate::kernel::WIDTH;
 use fearless_simd::prelude::*;
 
-/// Stencils of the points of a chunk, axis by axis and node by node.
+/// Stencils of the points of a chunk.
 pub struct Stencils<R: Real> {
-    /// Weights w.
-    pub weight: [[R::Lanes; WIDTH]; 3],
-    /// w δ with the distance δ of node from point [cells].
-    pub lever: [[R::Lanes; WIDTH]; 3],
+    /// Products of the weights along x and y.
+    pub across: [[R::Lanes; WIDTH]; WIDTH],
+    /// Weights along z.
+    pub along: [R::Lanes; WIDTH],
+    /// Distance of the points from the middle nodes along x, y and z [cells].
+    pub offset: [R::Lanes; 3],
     /// Place in the tile of the lowest node.
     pub base: R::Ids,
 }
@@ -19,9 +21,9 @@ impl<R: Real> Stencils<R> {
     /// Stencils of points at these positions in their block [cells].
     #[inline(always)]
     pub fn of<S: Simd>(simd: S, position: &[R::Lanes; 3]) -> Self {
-        let mut weights = [[R::ZEROS; WIDTH]; 3];
-        let mut levers = [[R::ZEROS; WIDTH]; 3];
         let number = Splat::<S, R>::new(simd);
+        let mut weight = [[number.of(0.0); WIDTH]; 3];
+        let mut offsets = [R::ZEROS; 3];
         let mut place = number.of(0.0);
         for axis in 0..3 {
             let x = load::<S, R>(simd, &position[axis]);
@@ -29,20 +31,25 @@ impl<R: Real> Stencils<R> {
             place = place * number.of(TILE as f64) + base;
             let f = x - base;
             let (low, mid, high) = (number.of(1.5) - f, f - number.of(1.0), f - number.of(0.5));
-            let weight = [
+            weight[axis] = [
                 number.of(0.5) * low * low,
                 number.of(0.75) - mid * mid,
                 number.of(0.5) * high * high,
             ];
-            let offset = [number.of(0.0) - f, number.of(1.0) - f, number.of(2.0) - f];
-            for node in 0..WIDTH {
-                weights[axis][node] = weight[node].to_array();
-                levers[axis][node] = (weight[node] * offset[node]).to_array();
+            offsets[axis] = mid.to_array();
+        }
+        let mut across = [[R::ZEROS; WIDTH]; WIDTH];
+        let mut along = [R::ZEROS; WIDTH];
+        for a in 0..WIDTH {
+            for b in 0..WIDTH {
+                across[a][b] = (weight[0][a] * weight[1][b]).to_array();
             }
+            along[a] = weight[2][a].to_array();
         }
         Self {
-            weight: weights,
-            lever: levers,
+            across,
+            along,
+            offset: offsets,
             base: R::indices(place),
         }
     }

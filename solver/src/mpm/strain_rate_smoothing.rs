@@ -83,15 +83,14 @@ pub fn smooth_strain_rates<S: Simd, R: Real>(
     smoothing: &StrainRateSmoothing,
 ) {
     let number = Splat::<S, R>::new(simd);
-    let (mut first, mut second) = (Quads::EMPTY, Quads::EMPTY);
+    let mut sums = Quads::EMPTY;
     let full = smoothing.full_speed * smoothing.full_speed;
     let per_full = number.of(full.max(R::SMALLEST).recip());
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
-        gather_mean(simd, &stencils, count, &nodes.strain_rate[0], &mut first);
-        gather_mean(simd, &stencils, count, &nodes.strain_rate[1], &mut second);
-        let [xx, yy, zz, xy] = first.transposed(simd);
-        let [xz, yz, ..] = second.transposed(simd);
+        let [first, second] = &nodes.strain_rate;
+        let [xx, yy, zz, xy] = gather_mean(simd, &stencils, count, first, &mut sums);
+        let [xz, yz, ..] = gather_mean(simd, &stencils, count, second, &mut sums);
         let own = strain_rate(simd, chunk);
         let mut lacking = [xx, yy, zz, xy, xz, yz];
         for (part, own) in lacking.iter_mut().zip(own) {

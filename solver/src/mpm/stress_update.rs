@@ -6,7 +6,7 @@ use super::chunk::Chunk;
 use super::constitutive::Law;
 use super::deformation::{Strained, strain};
 use super::lanes::{Matrix, Real, Splat};
-use super::rows::{LinearFields, Moments, Tile};
+use super::rows::{LinearFields, MomentSums, Moments, Tile};
 use super::stencil::Stencils;
 use fearless_simd::prelude::*;
 
@@ -21,15 +21,15 @@ pub fn update_stress<S: Simd, R: Real>(
     force: &mut Tile<R>,
 ) {
     *force = Tile::EMPTY;
-    let mut moments = Moments::EMPTY;
+    let mut sums = MomentSums::EMPTY;
     let mut fields = LinearFields::ZERO;
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
-        moments.gather::<S, false>(simd, &stencils, count, motion);
+        let moments = sums.gather(simd, &stencils, count, motion);
         let gradient = velocity_gradient(simd, &moments, law);
         let strained = strain(simd, chunk, &gradient, law, dt);
-        set_force(simd, &strained, chunk, law, &mut fields);
-        fields.scatter::<S, false>(simd, &stencils, count, force);
+        set_force(simd, &stencils, &strained, chunk, law, &mut fields);
+        fields.scatter(simd, &stencils, count, force);
     }
 }
 
@@ -37,14 +37,14 @@ pub fn update_stress<S: Simd, R: Real>(
 #[inline(always)]
 pub fn velocity_gradient<S: Simd, R: Real>(
     simd: S,
-    moments: &Moments<R>,
+    moments: &Moments<S, R>,
     law: &Law<R>,
 ) -> Matrix<S, R> {
     let number = Splat::<S, R>::new(simd);
     let mut gradient = [[number.of(0.0); 3]; 3];
     for axis in 0..3 {
         let factor = number.all(law.gradient[axis]);
-        let [_, x, y, z] = moments.first[axis].transposed(simd);
+        let [_, x, y, z] = moments.first[axis];
         gradient[0][axis] = x * factor;
         gradient[1][axis] = y * factor;
         gradient[2][axis] = z * factor;
@@ -56,6 +56,7 @@ pub fn velocity_gradient<S: Simd, R: Real>(
 #[inline(always)]
 pub fn set_force<S: Simd, R: Real>(
     simd: S,
+    stencils: &Stencils<R>,
     strained: &Strained<S, R>,
     chunk: &Chunk<R>,
     law: &Law<R>,
@@ -63,7 +64,9 @@ pub fn set_force<S: Simd, R: Real>(
 ) {
     let none = Splat::<S, R>::new(simd).of(0.0);
     let force = strained.force(simd, chunk, law);
+    let mut slope = [[none; 4]; 3];
     for axis in 0..3 {
-        fields.slope[axis].set::<S>([none, force[0][axis], force[1][axis], force[2][axis]]);
+        slope[axis] = [none, force[0][axis], force[1][axis], force[2][axis]];
     }
+    fields.set(simd, stencils, &[none; 4], &slope);
 }

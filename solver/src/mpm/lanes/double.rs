@@ -76,6 +76,20 @@ impl<S: Simd> Row<S, f64> for DoubleRow<S> {
     }
 
     #[inline(always)]
+    fn places(simd: S) -> Self {
+        let number = |place| f64x4::splat(simd, place);
+        Self([
+            number(-1.0).combine(number(0.0)),
+            number(1.0).combine(number(2.0)),
+        ])
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        Self([self.0[0] - other.0[0], self.0[1] - other.0[1]])
+    }
+
+    #[inline(always)]
     fn plus(self, other: Self) -> Self {
         Self([self.0[0] + other.0[0], self.0[1] + other.0[1]])
     }
@@ -107,8 +121,8 @@ impl<S: Simd> Row<S, f64> for DoubleRow<S> {
     }
 
     #[inline(always)]
-    fn sum_of_nodes(self) -> f64x4<S> {
-        let (even, odd) = (self.0[0] + self.0[1]).split();
-        even + odd
+    fn nodes(self) -> [f64x4<S>; 3] {
+        let (first, second) = self.0[0].split();
+        [first, second, self.0[1].split().0]
     }
 }

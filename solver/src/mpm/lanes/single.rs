@@ -33,6 +33,11 @@ impl Real for f32 {
     scalar_functions!();
 }
 
+/// Places of the nodes of a row from the middle one of its stencil.
+const PLACES: [f32; 16] = [
+    -1.0, -1.0, -1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 2.0,
+];
+
 /// Row in single precision, one vector.
 #[derive(Clone, Copy)]
 pub struct SingleRow<S: Simd>(f32x16<S>);
@@ -72,6 +77,16 @@ impl<S: Simd> Row<S, f32> for SingleRow<S> {
     }
 
     #[inline(always)]
+    fn places(simd: S) -> Self {
+        Self(f32x16::from_slice(simd, &PLACES))
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        Self(self.0 - other.0)
+    }
+
+    #[inline(always)]
     fn plus(self, other: Self) -> Self {
         Self(self.0 + other.0)
     }
@@ -97,9 +112,9 @@ impl<S: Simd> Row<S, f32> for SingleRow<S> {
     }
 
     #[inline(always)]
-    fn sum_of_nodes(self) -> f32x4<S> {
-        let (low, high) = self.0.split();
-        let (even, odd) = (low + high).split();
-        even + odd
+    fn nodes(self) -> [f32x4<S>; 3] {
+        let (lower, upper) = self.0.split();
+        let (first, second) = lower.split();
+        [first, second, upper.split().0]
     }
 }

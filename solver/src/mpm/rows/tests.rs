@@ -1,6 +1,10 @@
 use super::*;
+use crate::grid::{TILE_NODES, in_tile};
 use crate::mpm::fixture::{Random, levels};
+use crate::mpm::lanes::NODE_NUMBERS;
+use crate::mpm::stencil::Stencils;
 use fearless_simd::dispatch;
+use fearless_simd::prelude::*;
 
 /// The four numbers of a node.
 fn four<R: Real>(tile: &Tile<R>, place: usize) -> &[R] {
@@ -47,7 +51,7 @@ fn positions<R: Real>(random: &mut Random, in_one_cell: usize) -> [R::Lanes; 3] 
     position
 }
 
-/// Visits the 27 nodes of a lane: place, weight and levers along x, y, z.
+/// Visits the 27 nodes of a lane: place, weight and weighted distances along x, y, z.
 fn for_nodes<R: Real>(
     stencils: &Stencils<R>,
     lane: usize,
@@ -56,12 +60,13 @@ fn for_nodes<R: Real>(
     for a in 0..WIDTH {
         for b in 0..WIDTH {
             for c in 0..WIDTH {
-                let w = |axis: usize, n: usize| stencils.weight[axis][n][lane].to_f64();
-                let l = |axis: usize, n: usize| stencils.lever[axis][n][lane].to_f64();
-                let (wx, wy, wz) = (w(0, a), w(1, b), w(2, c));
-                let levers = [l(0, a) * wy * wz, wx * l(1, b) * wz, wx * wy * l(2, c)];
+                let weight =
+                    stencils.across[a][b][lane].to_f64() * stencils.along[c][lane].to_f64();
+                let distances = [(0, a), (1, b), (2, c)].map(|(axis, n)| {
+                    weight * (n as f64 - 1.0 - stencils.offset[axis][lane].to_f64())
+                });
                 let place = stencils.base[lane] as usize + in_tile(a, b, c);
-                visit(place, wx * wy * wz, levers);
+                visit(place, weight, distances);
             }
         }
     }
@@ -93,44 +98,54 @@ fn gather<R: Real>() {
         let count = 1 + round % R::LANES;
         for level in levels() {
             let stencils = dispatch!(level, simd => Stencils::<R>::of(simd, &position));
-            let (mut moments, mut mean) = (Moments::EMPTY, Quads::EMPTY);
-            dispatch!(level, simd => moments.gather::<_, true>(simd, &stencils, count, &tile));
-            dispatch!(level, simd => gather_mean(simd, &stencils, count, &tile, &mut mean));
+            let [mut zeroth, mut mean] = [Quads::<R>::EMPTY; 2];
+            let mut first = [Quads::<R>::EMPTY; 3];
+            dispatch!(level, simd => {
+                let (mut moment_sums, mut mean_sums) = (MomentSums::EMPTY, Quads::EMPTY);
+                let moments = moment_sums.gather(simd, &stencils, count, &tile);
+                zeroth.set(moments.zeroth);
+                for (first, moment) in first.iter_mut().zip(moments.first) {
+                    first.set(moment);
+                }
+                let gathered = gather_mean(simd, &stencils, count, &tile, &mut mean_sums);
+                mean.set(gathered);
+            });
             for lane in 0..count {
                 let mut sums = [[0.0; 4]; 4];
-                for_nodes(&stencils, lane, |place, weight, levers| {
+                for_nodes(&stencils, lane, |place, weight, distances| {
                     for (k, q) in four(&tile, place).iter().enumerate() {
                         sums[3][k] += weight * q.to_f64();
-                        for (sum, lever) in sums.iter_mut().zip(levers) {
-                            sum[k] += lever * q.to_f64();
+                        for (sum, distance) in sums.iter_mut().zip(distances) {
+                            sum[k] += distance * q.to_f64();
                         }
                     }
                 });
-                for (first, sum) in moments.first.iter().zip(sums) {
+                for (first, sum) in first.iter().zip(sums) {
                     assert_near::<R>(quad(first, lane), sum, &mut largest);
                 }
-                assert_near::<R>(quad(&moments.zeroth, lane), sums[3], &mut largest);
+                assert_near::<R>(quad(&zeroth, lane), sums[3], &mut largest);
                 assert_near::<R>(quad(&mean, lane), sums[3], &mut largest);
             }
         }
     }
 }
 
+/// Value at the point and slopes of sixteen points.
+struct Given<R> {
+    value: Quads<R>,
+    slope: [Quads<R>; 3],
+}
+
 /// Contributions of the first `count` points of `given` to a tile, in f64.
-fn exactly_given<R: Real>(
-    given: &LinearFields<R>,
-    stencils: &Stencils<R>,
-    count: usize,
-    constant: bool,
-) -> Vec<[f64; 4]> {
+fn exactly_given<R: Real>(given: &Given<R>, stencils: &Stencils<R>, count: usize) -> Vec<[f64; 4]> {
     let mut sums = vec![[0.0; 4]; TILE_NODES];
     for lane in 0..count {
         let slopes = given.slope.each_ref().map(|slope| quad(slope, lane));
-        let fixed = quad(&given.constant, lane);
-        for_nodes(stencils, lane, |place, weight, levers| {
+        let value = quad(&given.value, lane);
+        for_nodes(stencils, lane, |place, weight, distances| {
             for k in 0..4 {
-                let sloped: f64 = (0..3).map(|axis| slopes[axis][k] * levers[axis]).sum();
-                sums[place][k] += sloped + if constant { fixed[k] * weight } else { 0.0 };
+                let sloped: f64 = (0..3).map(|axis| slopes[axis][k] * distances[axis]).sum();
+                sums[place][k] += sloped + value[k] * weight;
             }
         });
     }
@@ -149,28 +164,39 @@ fn scatter<R: Real>() {
     for round in 0..200 {
         let position = positions::<R>(&mut random, round % (R::LANES + 1));
         let before = random_tile::<R>(&mut random);
-        let given = LinearFields {
-            constant: random_quads::<R>(&mut random),
+        let given = Given {
+            value: random_quads::<R>(&mut random),
             slope: [(); 3].map(|()| random_quads::<R>(&mut random)),
         };
+        let mean = Given {
+            value: given.value,
+            slope: [Quads::EMPTY; 3],
+        };
         let count = 1 + round % R::LANES;
-        for (level, constant) in levels().into_iter().flat_map(|l| [(l, false), (l, true)]) {
+        for level in levels() {
             let stencils = dispatch!(level, simd => Stencils::<R>::of(simd, &position));
-            let mut tile = before;
-            if constant {
-                dispatch!(level, simd => given.scatter::<_, true>(simd, &stencils, count, &mut tile));
-            } else {
-                dispatch!(level, simd => given.scatter::<_, false>(simd, &stencils, count, &mut tile));
-            }
-            let sums = exactly_given(&given, &stencils, count, constant);
-            for (place, sum) in sums.iter().enumerate() {
-                let start = four(&before, place);
-                if *sum == [0.0; 4] {
-                    assert_eq!(four(&tile, place), start, "node {place} is not touched");
+            let [mut linear, mut constant] = [before; 2];
+            dispatch!(level, simd => {
+                let mut fields = LinearFields::ZERO;
+                let mut slope = [given.value.transposed(simd); 3];
+                for (slope, of) in slope.iter_mut().zip(&given.slope) {
+                    *slope = of.transposed(simd);
                 }
-                let got = four(&tile, place);
-                let added = std::array::from_fn(|k| got[k].to_f64() - start[k].to_f64());
-                assert_near::<R>(added, *sum, &mut largest);
+                fields.set(simd, &stencils, &given.value.transposed(simd), &slope);
+                fields.scatter(simd, &stencils, count, &mut linear);
+                scatter_mean(simd, &stencils, count, &given.value, &mut constant);
+            });
+            for (tile, given) in [(linear, &given), (constant, &mean)] {
+                let sums = exactly_given(given, &stencils, count);
+                for (place, sum) in sums.iter().enumerate() {
+                    let start = four(&before, place);
+                    if *sum == [0.0; 4] {
+                        assert_eq!(four(&tile, place), start, "node {place} is not touched");
+                    }
+                    let got = four(&tile, place);
+                    let added = std::array::from_fn(|k| got[k].to_f64() - start[k].to_f64());
+                    assert_near::<R>(added, *sum, &mut largest);
+                }
             }
         }
     }

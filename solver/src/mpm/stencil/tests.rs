@@ -13,7 +13,7 @@ const CELLS: Lattice = Lattice {
 };
 
 /// Positions are f32 on both sides and node distances exact except for the highest node's, so a
-/// weight has three roundings of numbers up to 1 and a lever one more of numbers up to 0.75.
+/// weight has three roundings of numbers up to 1, and the product of two one more.
 const ROUNDING: f64 = 2e-7;
 
 /// Compares the stencils of sixteen points with the plain ones.
@@ -30,18 +30,30 @@ fn compare(points: &[[f32; 3]]) {
             let plain = CELLS.stencil(&Vec3::from(point.map(f64::from)));
             let [a, b, c] = plain.base.map(|base| base as usize);
             assert_eq!(stencils.base[lane] as usize, in_tile(a, b, c), "{point:?}");
-            for axis in 0..3 {
-                let mut sum = 0.0;
-                for node in 0..WIDTH {
-                    let weight = f64::from(stencils.weight[axis][node][lane]);
-                    let lever = f64::from(stencils.lever[axis][node][lane]);
-                    let exact = plain.weight[axis][node];
-                    let levered = exact * plain.offset[axis][node];
-                    assert!((weight - exact).abs() < ROUNDING, "{point:?}");
-                    assert!((lever - levered).abs() < ROUNDING, "{point:?}");
-                    sum += weight;
+            let mut sum = 0.0;
+            for (x, across) in stencils.across.iter().enumerate() {
+                for (y, across) in across.iter().enumerate() {
+                    let exact = plain.weight[0][x] * plain.weight[1][y];
+                    assert!(
+                        (f64::from(across[lane]) - exact).abs() < ROUNDING,
+                        "{point:?}"
+                    );
+                    sum += f64::from(across[lane]);
                 }
-                assert!((sum - 1.0).abs() < ROUNDING, "{point:?}: {sum}");
+            }
+            assert!((sum - 1.0).abs() < ROUNDING, "{point:?}: {sum}");
+            for (along, exact) in stencils.along.iter().zip(plain.weight[2]) {
+                assert!(
+                    (f64::from(along[lane]) - exact).abs() < ROUNDING,
+                    "{point:?}"
+                );
+            }
+            for (offset, plain) in stencils.offset.iter().zip(plain.offset) {
+                // The middle node lies so far from the point.
+                assert!(
+                    (f64::from(offset[lane]) + plain[1]).abs() < ROUNDING,
+                    "{point:?}"
+                );
             }
         }
     }
