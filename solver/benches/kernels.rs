@@ -16,9 +16,10 @@ use scree_solver::mpm::blocks::{Block, Blocks};
 use scree_solver::mpm::constitutive::Law;
 use scree_solver::mpm::deformation::strain;
 use scree_solver::mpm::lanes::{Real, Splat};
-use scree_solver::mpm::p2g::{residual_transfer, scatter_momentum};
+use scree_solver::mpm::p2g::{TransferTiles, residual_transfer, scatter_momentum};
 use scree_solver::mpm::packing::Packing;
 use scree_solver::mpm::rows::Tile;
+use scree_solver::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use scree_solver::mpm::stress_update::update_stress;
 use scree_solver::points::Point;
 use scree_solver::rigid::{Body, BodyState, Freedom, InverseInertia, Load};
@@ -99,7 +100,9 @@ fn block_and_motion<R: Real>(law: &Law<R>) -> (Block<R>, Tile<R>) {
     assert_eq!(block.count(), points.len(), "one block holds them all");
     let mut motion = Tile::EMPTY;
     let level = Instructions::detected().level();
-    dispatch!(level, simd => scatter_momentum(simd, block, law, &mut motion));
+    let [mut first, mut second] = [Tile::EMPTY; 2];
+    let strain_rate = [&mut first, &mut second];
+    dispatch!(level, simd => scatter_momentum(simd, block, law, &mut motion, strain_rate));
     for place in 0..motion.0.len() / 4 {
         let node = motion.node_mut(place);
         if node[0] > R::ZERO {
@@ -143,12 +146,16 @@ fn block<R: Real>(criterion: &mut Criterion, precision: &str) {
             });
         });
         group.bench_function("transfer", |bencher| {
-            let (mut momentum, mut force) = (Tile::EMPTY, Tile::EMPTY);
+            let [mut momentum, mut force, mut shear] = [Tile::EMPTY; 3];
+            let mut nodes = TransferTiles::EMPTY;
+            nodes.motion = motion;
+            let smoothing = StrainRateSmoothing::at(1.0);
             on_a_copy(bencher, &block, |block| {
-                let (momentum, force) = (&mut momentum, &mut force);
+                let (momentum, force, shear) = (&mut momentum, &mut force, &mut shear);
                 dispatch!(level, simd => {
-                    scatter_momentum(simd, block, &law, momentum);
-                    residual_transfer(simd, block, &law, &motion, momentum, force);
+                    scatter_momentum(simd, block, &law, momentum, [&mut *force, shear]);
+                    let tiles = [momentum, force];
+                    residual_transfer(simd, block, &law, &nodes, &smoothing, tiles);
                 });
             });
         });

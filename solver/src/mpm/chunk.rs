@@ -1,6 +1,7 @@
 //! Points side by side, the unit that the kernels compute with.
 
-use super::lanes::Real;
+use super::lanes::{Real, Splat, load_each};
+use fearless_simd::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Points of a block side by side, number by number. Lanes beyond the block's last point hold
@@ -86,6 +87,25 @@ impl<R: Real> Chunk<R> {
             chunk.set(lane, &Packed::none());
         }
         chunk
+    }
+
+    /// D = sym C of the points between steps: xx yy zz xy xz yz.
+    #[inline(always)]
+    pub fn strain_rate<S: Simd>(&self, simd: S) -> [R::Vector<S>; 6] {
+        let half = Splat::<S, R>::new(simd).of(0.5);
+        // Column by column.
+        let [x, y, z] = &self.gradient;
+        let [xx, yx, zx] = load_each::<S, R, 3>(simd, x);
+        let [xy, yy, zy] = load_each::<S, R, 3>(simd, y);
+        let [xz, yz, zz] = load_each::<S, R, 3>(simd, z);
+        [
+            xx,
+            yy,
+            zz,
+            half * (xy + yx),
+            half * (xz + zx),
+            half * (yz + zy),
+        ]
     }
 
     /// The point in a lane.

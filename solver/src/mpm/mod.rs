@@ -32,6 +32,7 @@ pub mod lanes;
 pub mod nodes;
 pub mod p2g;
 pub mod packing;
+mod prefetch;
 pub mod redistribution;
 pub mod rows;
 pub mod stencil;

@@ -2,7 +2,7 @@
 //! equations 8–10).
 
 use super::lanes::Real;
-use super::p2g::Components;
+use super::p2g::TransferTiles;
 use super::rows::Tile;
 use super::stencil::weights;
 use crate::grid::layout::{Layout, within};
@@ -63,13 +63,33 @@ impl<R: Real> Nodes<R> {
         }
     }
 
-    /// Takes mass and momentum from the tiles of the points: v = Σ p / Σ m.
-    pub fn take_momentum(&mut self, tiles: &[Tile<R>], level: Level) {
-        self.for_each_block(|block, sources| {
-            dispatch!(level, simd => take(simd, sources, tiles, block.motion));
-            *block.remainder = NodeBlock::EMPTY;
-            *block.displacement = NodeBlock::EMPTY;
-        });
+    /// Takes mass and momentum from the tiles of the points, v = Σ p / Σ m, and the mean of their
+    /// strain rates, Σ m D / Σ m.
+    pub fn take_momentum(
+        &mut self,
+        momentum: &[Tile<R>],
+        strain_rate: [&[Tile<R>]; 2],
+        level: Level,
+    ) {
+        let [first, second] = &mut self.strain_rate;
+        self.motion
+            .par_iter_mut()
+            .zip(&mut self.remainder)
+            .zip(&mut self.displacement)
+            .zip(first.par_iter_mut().zip(second))
+            .zip(self.layout.sources())
+            .with_min_len(TASK)
+            .for_each(|((((motion, remainder), displacement), means), sources)| {
+                dispatch!(level, simd => {
+                    take(simd, sources, momentum, motion);
+                    for (mean, tiles) in [means.0, means.1].into_iter().zip(strain_rate) {
+                        add_up(simd, sources, tiles, mean);
+                        per_mass(simd, motion, mean);
+                    }
+                });
+                *remainder = NodeBlock::EMPTY;
+                *displacement = NodeBlock::EMPTY;
+            });
     }
 
     /// Takes the residual of the momentum, and the compressive strains, from the tiles;
@@ -82,21 +102,6 @@ impl<R: Real> Nodes<R> {
                 take_residual(simd, &residual, kernel_mass, block);
             });
         });
-    }
-
-    /// Takes the mean of a part of the strain rates from the tiles: Σ m D / Σ m.
-    pub fn take_strain_rates(&mut self, components: Components, tiles: &[Tile<R>], level: Level) {
-        self.strain_rate[components as usize]
-            .par_iter_mut()
-            .zip(&self.motion)
-            .zip(self.layout.sources())
-            .with_min_len(TASK)
-            .for_each(|((strain_rate, motion), sources)| {
-                dispatch!(level, simd => {
-                    add_up(simd, sources, tiles, strain_rate);
-                    per_mass(simd, motion, strain_rate);
-                });
-            });
     }
 
     /// v ← v + Δt (f/m + g) with the forces in the tiles; u ← u + Δt v.
@@ -146,17 +151,14 @@ impl<R: Real> Nodes<R> {
         fill(simd, self.layout.reach(block), &self.remainder, tile);
     }
 
-    /// Part of the mean strain rate of the nodes in the tile of a block of points.
+    /// Fills in mass, velocity and mean strain rate of the nodes in the tile of a block of points.
     #[inline(always)]
-    pub fn strain_rate_tile<S: Simd>(
-        &self,
-        simd: S,
-        block: usize,
-        components: Components,
-        tile: &mut Tile<R>,
-    ) {
-        let strain_rate = &self.strain_rate[components as usize];
-        fill(simd, self.layout.reach(block), strain_rate, tile);
+    pub fn transfer_tiles<S: Simd>(&self, simd: S, block: usize, tiles: &mut TransferTiles<R>) {
+        let reach = self.layout.reach(block);
+        fill(simd, reach, &self.motion, &mut tiles.motion);
+        for (tile, nodes) in tiles.strain_rate.iter_mut().zip(&self.strain_rate) {
+            fill(simd, reach, nodes, tile);
+        }
     }
 
     /// Mean compressive strain and displacement of the nodes in the tile of a block of points.

@@ -6,86 +6,82 @@ use super::chunk::Chunk;
 use super::constitutive::Law;
 use super::deformation::at_transfer;
 use super::lanes::{Real, Splat, load, load_each};
-use super::rows::{LinearFields, MomentSums, Moments, Quads, Tile, scatter_mean};
+use super::rows::{LinearFields, MomentSums, Moments, Quads, Tile, gather_mean, scatter_mean};
 use super::stencil::Stencils;
-use super::strain_rate_smoothing::strain_rate;
+use super::strain_rate_smoothing::{StrainRateSmoothing, smooth_strain_rates};
 use super::stress_update::set_force;
 use fearless_simd::prelude::*;
 
-/// Components of a strain rate that are scattered together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Components {
-    /// xx, yy, zz and xy.
-    First,
-    /// xz and yz.
-    Second,
-}
-
-/// All components.
-pub const COMPONENTS: [Components; 2] = [Components::First, Components::Second];
-
-/// Scatters mass and momentum to a tile (equation 8).
+/// Scatters mass and momentum to a tile (equation 8), and the strain rates of the points times
+/// their masses to two more (equation 42a): xx, yy, zz, xy, and xz, yz.
 #[inline(always)]
 pub fn scatter_momentum<S: Simd, R: Real>(
     simd: S,
     block: &mut Block<R>,
     law: &Law<R>,
     momentum: &mut Tile<R>,
+    strain_rate: [&mut Tile<R>; 2],
 ) {
-    *momentum = Tile::EMPTY;
+    let [first, second] = strain_rate;
+    (*momentum, *first, *second) = (Tile::EMPTY, Tile::EMPTY, Tile::EMPTY);
+    let none = Splat::<S, R>::new(simd).of(0.0);
     let mut fields = LinearFields::ZERO;
+    let mut quantity = Quads::EMPTY;
     let mut runs = 0;
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
         runs += stencils.runs(count);
         set_momentum(simd, &stencils, chunk, law, &mut fields);
         fields.scatter(simd, &stencils, count, momentum);
+        let mass = load::<S, R>(simd, &chunk.mass);
+        let [xx, yy, zz, xy, xz, yz] = chunk.strain_rate(simd);
+        quantity.set::<S>([mass * xx, mass * yy, mass * zz, mass * xy]);
+        scatter_mean(simd, &stencils, count, &quantity, first);
+        quantity.set::<S>([mass * xz, mass * yz, none, none]);
+        scatter_mean(simd, &stencils, count, &quantity, second);
     }
     block.note_runs(runs);
 }
 
-/// Scatters some components of the points' strain rates times their masses to a tile (equation
-/// 42a).
-#[inline(always)]
-pub fn scatter_strain_rates<S: Simd, R: Real>(
-    simd: S,
-    block: &mut Block<R>,
-    components: Components,
-    tile: &mut Tile<R>,
-) {
-    *tile = Tile::EMPTY;
-    let none = Splat::<S, R>::new(simd).of(0.0);
-    let mut quantity = Quads::EMPTY;
-    for (chunk, count) in block.chunks_mut() {
-        let stencils = Stencils::of(simd, &chunk.position);
-        let mass = load::<S, R>(simd, &chunk.mass);
-        let [xx, yy, zz, xy, xz, yz] = strain_rate(simd, chunk);
-        quantity.set::<S>(match components {
-            Components::First => [mass * xx, mass * yy, mass * zz, mass * xy],
-            Components::Second => [mass * xz, mass * yz, none, none],
-        });
-        scatter_mean(simd, &stencils, count, &quantity, tile);
-    }
+/// State of the nodes in the tile of a block of points after the first transfer.
+pub struct TransferTiles<R> {
+    /// Mass and velocity.
+    pub motion: Tile<R>,
+    /// Mean strain rate, in two sets of components.
+    pub strain_rate: [Tile<R>; 2],
 }
 
-/// Scatters the compressive strains and the part of the momentum that the nodes' `motion` does
-/// not show to a tile, and to another the force of stress (equations 9 and 39); starts the
-/// deformation anew.
+impl<R: Real> TransferTiles<R> {
+    /// All zero.
+    pub const EMPTY: Self = Self {
+        motion: Tile::EMPTY,
+        strain_rate: [Tile::EMPTY; 2],
+    };
+}
+
+/// Scatters the compressive strains and the part of the momentum that the nodes do not show to a
+/// tile, and to another the force of stress (equations 9 and 39); smooths the strain rates of the
+/// points (equation 42a) and starts their deformation anew.
 #[inline(always)]
 pub fn residual_transfer<S: Simd, R: Real>(
     simd: S,
     block: &mut Block<R>,
     law: &Law<R>,
-    motion: &Tile<R>,
-    residual: &mut Tile<R>,
-    force: &mut Tile<R>,
+    nodes: &TransferTiles<R>,
+    smoothing: &StrainRateSmoothing,
+    [residual, force]: [&mut Tile<R>; 2],
 ) {
     (*residual, *force) = (Tile::EMPTY, Tile::EMPTY);
-    let mut sums = MomentSums::EMPTY;
+    let mut moment_sums = MomentSums::EMPTY;
+    let mut mean_sums = Quads::EMPTY;
     let mut fields = LinearFields::ZERO;
+    let [first, second] = &nodes.strain_rate;
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
-        let moments = sums.gather(simd, &stencils, count, motion);
+        let first = gather_mean(simd, &stencils, count, first, &mut mean_sums);
+        let second = gather_mean(simd, &stencils, count, second, &mut mean_sums);
+        smooth_strain_rates(simd, chunk, &first, &second, smoothing);
+        let moments = moment_sums.gather(simd, &stencils, count, &nodes.motion);
         set_residual(simd, &stencils, chunk, law, &moments, &mut fields);
         fields.scatter(simd, &stencils, count, residual);
         chunk.gradient = [[R::ZEROS; 3]; 3];

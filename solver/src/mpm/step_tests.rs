@@ -8,12 +8,12 @@ use super::fixture::{beads, cloud, lattice, levels};
 use super::g2p::{EndTiles, Ending, gather_motion};
 use super::lanes::Real;
 use super::nodes::Nodes;
-use super::p2g::{COMPONENTS, residual_transfer, scatter_momentum, scatter_strain_rates};
+use super::p2g::{TransferTiles, residual_transfer, scatter_momentum};
 use super::packing::Packing;
 use super::redistribution::{NoShiftZone, RedistributionRates, Shifting};
 use super::reference::ReferenceStep;
 use super::rows::Tile;
-use super::strain_rate_smoothing::{StrainRateSmoothing, TransferTiles, smooth_strain_rates};
+use super::strain_rate_smoothing::StrainRateSmoothing;
 use super::stress_update::update_stress;
 use crate::kernel::Lattice;
 use crate::material::{Material, Yielding};
@@ -105,30 +105,22 @@ impl<'a, R: Real> KernelStep<'a, R> {
 
     fn transfer(&mut self) {
         let (law, level) = (&self.law, self.level);
-        let mut momentum = self.forces.clone();
-        for (block, momentum) in self.blocks.occupied_mut().iter_mut().zip(&mut momentum) {
-            dispatch!(level, simd => scatter_momentum(simd, block, law, momentum));
+        let (mut momentum, mut shear) = (self.forces.clone(), self.forces.clone());
+        let blocks = self.blocks.occupied_mut().iter_mut().zip(&mut momentum);
+        for ((block, momentum), strain_rate) in blocks.zip(self.forces.iter_mut().zip(&mut shear)) {
+            let strain_rate = strain_rate.into();
+            dispatch!(level, simd => scatter_momentum(simd, block, law, momentum, strain_rate));
         }
-        self.nodes.take_momentum(&momentum, level);
-        for components in COMPONENTS {
-            let blocks = self.blocks.occupied_mut().iter_mut();
-            for (block, tile) in blocks.zip(&mut self.forces) {
-                dispatch!(level, simd => scatter_strain_rates(simd, block, components, tile));
-            }
-            self.nodes
-                .take_strain_rates(components, &self.forces, level);
-        }
+        let strain_rate = [&*self.forces, &*shear];
+        self.nodes.take_momentum(&momentum, strain_rate, level);
         let nodes = &self.nodes;
         let blocks = self.blocks.occupied_mut().iter_mut().zip(&mut momentum);
         for (place, ((block, residual), force)) in blocks.zip(&mut self.forces).enumerate() {
+            let smoothing = &self.step.smoothing;
             dispatch!(level, simd => {
                 let mut tiles = TransferTiles::EMPTY;
-                nodes.motion_tile(simd, place, &mut tiles.motion);
-                for (components, tile) in COMPONENTS.into_iter().zip(&mut tiles.strain_rate) {
-                    nodes.strain_rate_tile(simd, place, components, tile);
-                }
-                smooth_strain_rates(simd, block, &tiles, &self.step.smoothing);
-                residual_transfer(simd, block, law, &tiles.motion, residual, force);
+                nodes.transfer_tiles(simd, place, &mut tiles);
+                residual_transfer(simd, block, law, &tiles, smoothing, [residual, force]);
             });
         }
         let full = self.step.material.bulk_density * self.step.lattice.cell_volume();

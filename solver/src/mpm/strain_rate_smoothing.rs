@@ -6,11 +6,8 @@
 //! of the points around is off another way: so the effective strain rate of a point is a mixture
 //! of its own and the mean.
 
-use super::blocks::Block;
 use super::chunk::Chunk;
 use super::lanes::{Real, Splat, load_each};
-use super::rows::{Quads, Tile, gather_mean};
-use super::stencil::Stencils;
 use crate::method::METHOD;
 use fearless_simd::prelude::*;
 
@@ -39,74 +36,34 @@ impl StrainRateSmoothing {
     }
 }
 
-/// Mass, velocity and mean strain rate of the nodes in reach of a block's points.
-pub struct TransferTiles<R> {
-    /// Mass and velocity.
-    pub motion: Tile<R>,
-    /// Mean strain rate, in two sets of components.
-    pub strain_rate: [Tile<R>; 2],
-}
-
-impl<R: Real> TransferTiles<R> {
-    /// All zero.
-    pub const EMPTY: Self = Self {
-        motion: Tile::EMPTY,
-        strain_rate: [Tile::EMPTY; 2],
-    };
-}
-
-/// D = sym C of the points of a chunk: xx yy zz xy xz yz.
-#[inline(always)]
-pub fn strain_rate<S: Simd, R: Real>(simd: S, chunk: &Chunk<R>) -> [R::Vector<S>; 6] {
-    let half = Splat::<S, R>::new(simd).of(0.5);
-    // Column by column.
-    let [x, y, z] = &chunk.gradient;
-    let [xx, yx, zx] = load_each::<S, R, 3>(simd, x);
-    let [xy, yy, zy] = load_each::<S, R, 3>(simd, y);
-    let [xz, yz, zz] = load_each::<S, R, 3>(simd, z);
-    [
-        xx,
-        yy,
-        zz,
-        half * (xy + yx),
-        half * (xz + zx),
-        half * (yz + zy),
-    ]
-}
-
-/// Finds the strain rates that smoothing adds to those of the points, deviators (equation 42a).
+/// Finds the strain rates that smoothing adds to those of the points of a chunk, deviators
+/// (equation 42a), from the mean ones: xx, yy, zz, xy, and xz, yz.
 #[inline(always)]
 pub fn smooth_strain_rates<S: Simd, R: Real>(
     simd: S,
-    block: &mut Block<R>,
-    nodes: &TransferTiles<R>,
+    chunk: &mut Chunk<R>,
+    [xx, yy, zz, xy]: &[R::Vector<S>; 4],
+    [xz, yz, ..]: &[R::Vector<S>; 4],
     smoothing: &StrainRateSmoothing,
 ) {
     let number = Splat::<S, R>::new(simd);
-    let mut sums = Quads::EMPTY;
     let full = smoothing.full_speed * smoothing.full_speed;
     let per_full = number.of(full.max(R::SMALLEST).recip());
-    for (chunk, count) in block.chunks_mut() {
-        let stencils = Stencils::of(simd, &chunk.position);
-        let [first, second] = &nodes.strain_rate;
-        let [xx, yy, zz, xy] = gather_mean(simd, &stencils, count, first, &mut sums);
-        let [xz, yz, ..] = gather_mean(simd, &stencils, count, second, &mut sums);
-        let own = strain_rate(simd, chunk);
-        let mut lacking = [xx, yy, zz, xy, xz, yz];
-        for (part, own) in lacking.iter_mut().zip(own) {
-            *part -= own;
-        }
-        let third = (lacking[0] + lacking[1] + lacking[2]) * number.of(1.0 / 3.0);
-        for part in &mut lacking[..3] {
-            *part -= third;
-        }
-        let [x, y, z] = load_each::<S, R, 3>(simd, &chunk.velocity);
-        let speed = x.mul_add(x, y.mul_add(y, z * z));
-        let degree = (speed * per_full).min(number.of(1.0));
-        let share = number.of(smoothing.share) * degree;
-        for (kept, part) in chunk.smoothing.iter_mut().zip(lacking) {
-            *kept = (share * part).to_array();
-        }
+    let own = chunk.strain_rate(simd);
+    let mut lacking = [*xx, *yy, *zz, *xy, *xz, *yz];
+    for (part, own) in lacking.iter_mut().zip(own) {
+        *part -= own;
+    }
+    let third = (lacking[0] + lacking[1] + lacking[2]) * number.of(1.0 / 3.0);
+    for part in &mut lacking[..3] {
+        *part -= third;
+    }
+    let [x, y, z] = load_each::<S, R, 3>(simd, &chunk.velocity);
+    let speed = x.mul_add(x, y.mul_add(y, z * z));
+    let degree = (speed * per_full).min(number.of(1.0));
+    let share = number.of(smoothing.share) * degree;
+    for (kept, part) in chunk.smoothing.iter_mut().zip(lacking) {
+        *kept = (share * part).to_array();
     }
 }
 

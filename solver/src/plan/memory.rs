@@ -85,7 +85,7 @@ impl Flow {
         // Besides its five values, a node has a compliance for contacts.
         let node_block = 5 * size_of::<NodeBlock<R>>() + BLOCK_NODES * size_of::<f64>();
         self.packed::<R>(of_points)
-            + 2.0 * of_points * size_of::<Tile<R>>() as f64
+            + 3.0 * of_points * size_of::<Tile<R>>() as f64
             + of_nodes * node_block as f64
             + SPREADING * self.boundary.bytes()
             + self.candidates * CANDIDATE_BYTES as f64

@@ -3,6 +3,7 @@
 use crate::grid::{BLOCK, BlockKey};
 use crate::mpm::chunk::{Chunk, Packed, put, take};
 use crate::mpm::lanes::{MOST_LANES, Real};
+use crate::mpm::prefetch::prefetch;
 use crate::mpm::redistribution::Shifting;
 use serde::{Deserialize, Serialize};
 
@@ -76,13 +77,27 @@ impl<R: Real> Block<R> {
     }
 
     /// Its chunks, each with the number of its points.
+    #[inline(always)]
     pub fn chunks_mut(&mut self) -> impl Iterator<Item = (&mut Chunk<R>, usize)> {
-        let len = self.len;
-        let used = len.div_ceil(R::LANES);
-        self.chunks[..used]
-            .iter_mut()
-            .enumerate()
-            .map(move |(place, chunk)| (&mut **chunk, (len - place * R::LANES).min(R::LANES)))
+        let mut left = self.len;
+        let mut chunks = self.chunks[..left.div_ceil(R::LANES)].iter_mut();
+        std::iter::from_fn(move || {
+            let chunk = chunks.next()?;
+            if let Some(next) = chunks.as_slice().first() {
+                prefetch(&**next);
+            }
+            let count = left.min(R::LANES);
+            left -= count;
+            Some((&mut **chunk, count))
+        })
+    }
+
+    /// Asks for its first chunk, which is going to be needed.
+    #[inline(always)]
+    pub fn prefetch(&self) {
+        if let Some(first) = self.chunks.first() {
+            prefetch(&**first);
+        }
     }
 
     /// One of its points.

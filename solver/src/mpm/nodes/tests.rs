@@ -29,7 +29,8 @@ fn scattered() -> Nodes<f64> {
                 .copy_from_slice(&[f64::from(number), 1.0, 0.0, 0.0]);
         }
     }
-    nodes.take_momentum(&tiles, levels()[0]);
+    let no_strain = vec![Tile::EMPTY; KEYS.len()];
+    nodes.take_momentum(&tiles, [&no_strain; 2], levels()[0]);
     nodes
 }
 

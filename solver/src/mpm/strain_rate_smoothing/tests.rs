@@ -7,7 +7,7 @@ use fearless_simd::dispatch;
 const OWN: [f64; 6] = [3.0, 0.0, 0.0, 0.0, 10.0, 1.0];
 const MEAN: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 9.0, 0.0];
 
-/// Strain rate that smoothing adds to [`OWN`] of a point of this speed [m/s] amid nodes of
+/// Strain rate that smoothing adds to [`OWN`] of a point of this speed [m/s] amid points of
 /// [`MEAN`].
 fn added(smoothing: &StrainRateSmoothing, speed: f64) -> [f64; 6] {
     let affine: Mat3 = Sym3::from_components(OWN).matrix();
@@ -17,21 +17,18 @@ fn added(smoothing: &StrainRateSmoothing, speed: f64) -> [f64; 6] {
         mass: 1.0,
         ..Packed::none()
     };
-    let mut blocks = crate::mpm::blocks::Blocks::of(std::iter::once(([0; 3], point)));
-    let mut tiles = TransferTiles::<f64>::EMPTY;
-    let [xx, yy, zz, xy, xz, yz] = MEAN;
-    for (tile, mean) in tiles
-        .strain_rate
-        .iter_mut()
-        .zip([[xx, yy, zz, xy], [xz, yz, 0.0, 0.0]])
-    {
-        for place in 0..crate::grid::TILE_NODES {
-            tile.node_mut(place).copy_from_slice(&mean);
+    let mut chunk = Chunk::<f64>::empty();
+    chunk.set(0, &point);
+    dispatch!(levels()[0], simd => {
+        let number = Splat::<_, f64>::new(simd);
+        let mut mean = [number.of(0.0); 8];
+        for (mean, part) in mean.iter_mut().zip(MEAN) {
+            *mean = number.of(part);
         }
-    }
-    let block = &mut blocks.occupied_mut()[0];
-    dispatch!(levels()[0], simd => smooth_strain_rates(simd, block, &tiles, smoothing));
-    let chunk = block.chunks().next().expect("it has a point").0;
+        let [xx, yy, zz, xy, xz, yz, ..] = mean;
+        let (first, second) = ([xx, yy, zz, xy], [xz, yz, xz, yz]);
+        smooth_strain_rates(simd, &mut chunk, &first, &second, smoothing);
+    });
     [0, 1, 2, 3, 4, 5].map(|part| chunk.smoothing[part][0])
 }
 

@@ -13,11 +13,11 @@ use crate::mpm::g2p::{EndTiles, Ending, gather_motion};
 use crate::mpm::instructions::Instructions;
 use crate::mpm::lanes::Real;
 use crate::mpm::nodes::Nodes;
-use crate::mpm::p2g::{COMPONENTS, residual_transfer, scatter_momentum, scatter_strain_rates};
+use crate::mpm::p2g::{TransferTiles, residual_transfer, scatter_momentum};
 use crate::mpm::packing::Packing;
 use crate::mpm::redistribution::{NoShiftZone, Shifting};
 use crate::mpm::rows::Tile;
-use crate::mpm::strain_rate_smoothing::{StrainRateSmoothing, TransferTiles, smooth_strain_rates};
+use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use crate::mpm::stress_update::update_stress;
 use crate::mpm::totals;
 use crate::points::Point;
@@ -47,8 +47,10 @@ pub(in crate::simulation) struct BlockFlow<R: Real> {
     /// Shares that each block gives its nodes at a transfer: mass and momentum, then the
     /// rest of it.
     momentum: Vec<Tile<R>>,
-    /// Forces of the present sub-step, for the next.
+    /// Forces of the present sub-step, for the next; until there are some, strain rates.
     forces: Vec<Tile<R>>,
+    /// Strain rates xz and yz.
+    shear: Vec<Tile<R>>,
     boundary: Boundary,
     /// Impulse of joining nodes with their images at the transfer, until it is reported.
     from_joining: Impulse,
@@ -82,6 +84,7 @@ impl<R: Saved> BlockFlow<R> {
             nodes: Nodes::new(given.lattice),
             momentum: Vec::new(),
             forces: Vec::new(),
+            shear: Vec::new(),
             boundary: Boundary::default(),
             from_joining: Impulse::default(),
             loads: Loads::default(),
@@ -144,6 +147,7 @@ impl<R: Saved> BlockFlow<R> {
             .enumerate()
             .for_each(|(place, (block, force))| {
                 dispatch!(level, simd => {
+                    block.prefetch();
                     let mut motion = Tile::EMPTY;
                     nodes.motion_tile(simd, place, &mut motion);
                     update_stress(simd, block, law, dt, &motion, force);
@@ -151,26 +155,27 @@ impl<R: Saved> BlockFlow<R> {
             });
     }
 
-    /// Scatters the points' strain rates to the nodes. The tiles of forces are free until there are
-    /// forces.
-    fn scatter_strain_rates(&mut self) {
-        for components in COMPONENTS {
-            let level = self.level;
-            self.blocks
-                .occupied_mut()
-                .par_iter_mut()
-                .zip(&mut self.forces)
-                .for_each(|(block, tile)| {
-                    dispatch!(level, simd => scatter_strain_rates(simd, block, components, tile));
-                });
-            self.nodes
-                .take_strain_rates(components, &self.forces, level);
-        }
+    /// Scatters mass, momentum and strain rates of the points to the nodes. The tiles of forces are
+    /// free until there are forces.
+    fn scatter_momentum(&mut self) {
+        let (law, level) = (&self.law, self.level);
+        self.blocks
+            .occupied_mut()
+            .par_iter_mut()
+            .zip(&mut self.momentum)
+            .zip(&mut self.forces)
+            .zip(&mut self.shear)
+            .for_each(|(((block, momentum), first), second)| {
+                let strain_rate = [first, second];
+                dispatch!(level, simd => scatter_momentum(simd, block, law, momentum, strain_rate));
+            });
+        let strain_rate = [&*self.forces, &*self.shear];
+        self.nodes.take_momentum(&self.momentum, strain_rate, level);
     }
 
     /// Computes the residual transfer, the compressive strains and the first forces, and smooths
     /// strain rates.
-    fn residual_transfer(&mut self, given: &Setup, strain_rate_smoothing: &StrainRateSmoothing) {
+    fn residual_transfer(&mut self, given: &Setup, smoothing: &StrainRateSmoothing) {
         let kernel_mass = self.packing.material.bulk_density * given.lattice.spacing.product();
         let (nodes, law, level) = (&self.nodes, &self.law, self.level);
         self.blocks
@@ -181,13 +186,10 @@ impl<R: Saved> BlockFlow<R> {
             .enumerate()
             .for_each(|(place, ((block, rest), force))| {
                 dispatch!(level, simd => {
+                    block.prefetch();
                     let mut tiles = TransferTiles::EMPTY;
-                    nodes.motion_tile(simd, place, &mut tiles.motion);
-                    for (components, tile) in COMPONENTS.into_iter().zip(&mut tiles.strain_rate) {
-                        nodes.strain_rate_tile(simd, place, components, tile);
-                    }
-                    smooth_strain_rates(simd, block, &tiles, strain_rate_smoothing);
-                    residual_transfer(simd, block, law, &tiles.motion, rest, force);
+                    nodes.transfer_tiles(simd, place, &mut tiles);
+                    residual_transfer(simd, block, law, &tiles, smoothing, [rest, force]);
                 });
             });
         self.nodes
@@ -224,16 +226,8 @@ impl<R: Saved> Flow for BlockFlow<R> {
         let count = self.blocks.occupied().len();
         self.momentum.resize(count, Tile::EMPTY);
         self.forces.resize(count, Tile::EMPTY);
-        let (law, level) = (&self.law, self.level);
-        self.blocks
-            .occupied_mut()
-            .par_iter_mut()
-            .zip(&mut self.momentum)
-            .for_each(|(block, momentum)| {
-                dispatch!(level, simd => scatter_momentum(simd, block, law, momentum));
-            });
-        self.nodes.take_momentum(&self.momentum, level);
-        self.scatter_strain_rates();
+        self.shear.resize(count, Tile::EMPTY);
+        self.scatter_momentum();
         stages.done(StepStage::P2g);
         given.walls.find_boundary(&self.nodes, &mut self.boundary);
         given.walls.reflect(&mut self.boundary, &mut self.nodes);
@@ -320,6 +314,7 @@ impl<R: Saved> Flow for BlockFlow<R> {
             .enumerate()
             .for_each(|(place, block)| {
                 dispatch!(level, simd => {
+                    block.prefetch();
                     let mut tiles = EndTiles::EMPTY;
                     nodes.motion_tile(simd, place, &mut tiles.motion);
                     nodes.displacement_tile(simd, place, &mut tiles.displacement);
@@ -400,7 +395,7 @@ impl<R: Saved> Flow for BlockFlow<R> {
     }
 
     fn bytes(&self) -> (usize, usize) {
-        let tiles = self.momentum.capacity() + self.forces.capacity();
+        let tiles = self.momentum.capacity() + self.forces.capacity() + self.shear.capacity();
         let grid = self.nodes.bytes()
             + tiles * size_of::<Tile<R>>()
             + self.boundary.bytes()
