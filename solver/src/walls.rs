@@ -14,6 +14,7 @@ mod boundary;
 mod columns;
 mod constraint;
 mod nodes;
+mod search;
 mod vertical_walls;
 
 pub use crate::bed::Plane;

@@ -179,6 +179,9 @@ impl Bed for PlanarBed {
         let x = lattice.position(index);
         // A node on the plane up to rounding belongs to it.
         let rounding = 1e-9 * (1.0 + x.norm());
+        if self.planes.iter().all(|plane| plane.height(&x) > rounding) {
+            return [None; 2];
+        }
         let on_or_below = |way: Way, plane: &Plane| {
             Way::through(&plane.normal) == way && plane.height(&x) <= rounding
         };

@@ -1,13 +1,11 @@
 //! Nodes on which walls act, and their available volumes.
 
-use super::Walls;
+use super::Impulse;
 use super::columns::{BoundaryColumn, ColumnNode};
 use super::constraint::ConstrainedVelocity;
 use super::nodes::NodeAccess;
-use super::vertical_walls::{Ends, Meets};
+use super::vertical_walls::Meets;
 use crate::bed::Surface;
-use crate::grid::{BLOCK, BLOCK_NODES};
-use crate::kernel::{Lattice, REACH};
 use crate::math::{Sym3, Vec3};
 use crate::method::METHOD;
 use std::ops::Range;
@@ -17,21 +15,27 @@ use std::ops::Range;
 pub(super) struct Member {
     pub(super) place: u32,
     /// +1, or −1 where the image is mirrored, for x and y.
-    pub(super) sign: [f64; 2],
-    /// Position at the transfer [m].
-    pub(super) resting: Vec3,
+    pub(super) sign: [i8; 2],
+}
+
+impl Member {
+    /// A velocity in the frame of the first member, in that of this one, and back.
+    pub(super) fn mirrored(&self, v: &Vec3) -> Vec3 {
+        let [x, y] = self.sign.map(f64::from);
+        Vec3::new(x * v.x, y * v.y, v.z)
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ConstraintSet {
-    pub(super) members: Range<usize>,
+    members: Range<u32>,
     pub(super) back: Meets,
     pub(super) side: Meets,
+    /// Place of the surfaces of the bed that act on it alone: where it is on or below the bed,
+    /// unless it belongs to a column.
+    surfaces: Option<u32>,
     /// Their mass together [kg].
     pub(super) mass: f64,
-    /// Surfaces of the bed that act on it alone: where it is on or below the bed, unless it belongs
-    /// to a column.
-    pub(super) surfaces: [Option<Surface>; 2],
     /// Share of the kernels above the bed.
     room: f64,
 }
@@ -45,28 +49,116 @@ impl ConstraintSet {
     pub(super) fn keep_out_of_walls(&self, velocity: &mut Vec3) {
         for (axis, meets) in [(0, self.back), (1, self.side)] {
             match meets {
-                Meets::On { inward } if velocity[axis] * inward < 0.0 => velocity[axis] = 0.0,
+                Meets::On { inward } if velocity[axis] * f64::from(inward) < 0.0 => {
+                    velocity[axis] = 0.0;
+                }
                 Meets::On { .. } | Meets::Near { .. } | Meets::Not => {}
             }
         }
     }
 }
 
+/// Nodes on which walls act.
+#[derive(Debug, Default)]
+pub(super) struct ConstraintSets {
+    pub(super) members: Vec<Member>,
+    pub(super) sets: Vec<ConstraintSet>,
+    surfaces: Vec<[Option<Surface>; 2]>,
+    /// Other nodes whose kernel the bed cuts: their places, and the share of it in the
+    /// channel.
+    pub(super) cut: Vec<(u32, f64)>,
+    /// Constraint sets near the bed, by columns.
+    pub(super) column_nodes: Vec<ColumnNode>,
+}
+
+impl ConstraintSets {
+    pub(super) fn clear(&mut self) {
+        self.members.clear();
+        self.sets.clear();
+        self.surfaces.clear();
+        self.cut.clear();
+        self.column_nodes.clear();
+    }
+
+    /// Members of a set.
+    pub(super) fn members_of(&self, set: &ConstraintSet) -> &[Member] {
+        &self.members[set.members.start as usize..set.members.end as usize]
+    }
+
+    /// Surfaces of the bed that act on a set alone.
+    pub(super) fn surfaces_of(&self, set: &ConstraintSet) -> impl Iterator<Item = &Surface> {
+        let surfaces = set.surfaces.map(|place| &self.surfaces[place as usize]);
+        surfaces.into_iter().flatten().flatten()
+    }
+
+    /// Adds a set of the members from `start` on.
+    pub(super) fn push(
+        &mut self,
+        start: usize,
+        [back, side]: [Meets; 2],
+        surfaces: [Option<Surface>; 2],
+        mass: f64,
+        room: f64,
+    ) {
+        let place = (surfaces != [None; 2]).then(|| {
+            self.surfaces.push(surfaces);
+            self.surfaces.len() as u32 - 1
+        });
+        self.sets.push(ConstraintSet {
+            members: start as u32..self.members.len() as u32,
+            back,
+            side,
+            surfaces: place,
+            mass,
+            room,
+        });
+    }
+
+    /// Leaves the bed to the column of a set.
+    pub(super) fn put_into_column(&mut self, set: u32) {
+        self.sets[set as usize].surfaces = None;
+    }
+
+    /// Adds those of other blocks of nodes.
+    pub(super) fn append(&mut self, others: &Self) {
+        let (sets, members) = (self.sets.len() as u32, self.members.len() as u32);
+        let surfaces = self.surfaces.len() as u32;
+        self.members.extend_from_slice(&others.members);
+        self.surfaces.extend_from_slice(&others.surfaces);
+        self.cut.extend_from_slice(&others.cut);
+        self.sets
+            .extend(others.sets.iter().map(|set| ConstraintSet {
+                members: set.members.start + members..set.members.end + members,
+                surfaces: set.surfaces.map(|place| place + surfaces),
+                ..set.clone()
+            }));
+        let column_nodes = others.column_nodes.iter();
+        self.column_nodes
+            .extend(column_nodes.map(|node| node.after(sets)));
+    }
+
+    fn bytes(&self) -> usize {
+        self.members.capacity() * size_of::<Member>()
+            + self.sets.capacity() * size_of::<ConstraintSet>()
+            + self.surfaces.capacity() * size_of::<[Option<Surface>; 2]>()
+            + self.cut.capacity() * size_of::<(u32, f64)>()
+            + self.column_nodes.capacity() * size_of::<ColumnNode>()
+    }
+}
+
 /// The nodes of one step on which walls act.
 #[derive(Debug, Default)]
 pub struct Boundary {
-    pub(super) members: Vec<Member>,
-    pub(super) sets: Vec<ConstraintSet>,
-    /// Other nodes whose kernel the bed cuts: their places, and the share of it in the
-    /// channel.
-    cut: Vec<(u32, f64)>,
-    /// Constraint sets near the bed, by columns.
-    pub(super) column_nodes: Vec<ColumnNode>,
+    pub(super) sets: ConstraintSets,
+    /// The same by the tasks that found them.
+    pub(super) found: Vec<ConstraintSets>,
     pub(super) columns: Vec<BoundaryColumn>,
     /// Velocities of the first two nodes of each column of a kind.
     pub(super) ends: Vec<[Vec3; 2]>,
     /// Changes of each constraint set by a sub-step.
     pub(super) constrained: Vec<ConstrainedVelocity>,
+    /// Impulses on them, task by task.
+    pub(super) impulses: Vec<Impulse>,
 }
 
 /// Numbers of nodes on which walls act, by what is held for them.
@@ -85,23 +177,23 @@ pub struct BoundaryCounts {
 impl BoundaryCounts {
     /// Bytes held for so many.
     pub fn bytes(&self) -> f64 {
-        let of_node =
-            size_of::<ConstraintSet>() + size_of::<ConstrainedVelocity>() + size_of::<Member>();
+        // All are held twice: as they were found, and in one list.
+        let of_node = 2 * (size_of::<ConstraintSet>() + size_of::<Member>())
+            + size_of::<ConstrainedVelocity>();
         let of_column = size_of::<BoundaryColumn>() + size_of::<[Vec3; 2]>();
         self.nodes * of_node as f64
-            + self.images * size_of::<Member>() as f64
+            + self.images * 2.0 * size_of::<Member>() as f64
             + self.columns * of_column as f64
-            + self.column_nodes * size_of::<ColumnNode>() as f64
+            + self.column_nodes * 2.0 * size_of::<ColumnNode>() as f64
     }
 }
 
 impl Boundary {
     /// Bytes allocated.
     pub fn bytes(&self) -> usize {
-        self.members.capacity() * size_of::<Member>()
-            + self.sets.capacity() * size_of::<ConstraintSet>()
-            + self.cut.capacity() * size_of::<(u32, f64)>()
-            + self.column_nodes.capacity() * size_of::<ColumnNode>()
+        let found: usize = self.found.iter().map(ConstraintSets::bytes).sum();
+        self.sets.bytes()
+            + found
             + self.columns.capacity() * size_of::<BoundaryColumn>()
             + self.ends.capacity() * size_of::<[Vec3; 2]>()
             + self.constrained.capacity() * size_of::<ConstrainedVelocity>()
@@ -110,12 +202,12 @@ impl Boundary {
     /// Raises the volume fraction of nodes with less available volume at walls: the same volume of
     /// points fills more of it. A node and its images share it, and the mean compressive strain.
     pub fn exclude_volume(&self, nodes: &mut impl NodeAccess) {
-        for (place, room) in &self.cut {
+        for (place, room) in &self.sets.cut {
             let place = *place as usize;
             nodes.set_volume_fraction(place, filled(nodes.volume_fraction(place), *room));
         }
-        for set in &self.sets {
-            let members = &self.members[set.members.clone()];
+        for set in &self.sets.sets {
+            let members = self.sets.members_of(set);
             let of_member = |member: &Member| nodes.volume_fraction(member.place as usize);
             let inside = set.back.room() * set.side.room();
             let sum: f64 = members.iter().map(of_member).sum();
@@ -129,23 +221,22 @@ impl Boundary {
 
     /// Places of the nodes of every constraint set that has ghost nodes.
     pub fn ghost_sets(&self) -> impl Iterator<Item = impl Iterator<Item = usize> + Clone> {
-        self.sets
-            .iter()
-            .filter(|set| set.members.len() > 1)
-            .map(|set| {
-                let members = self.members[set.members.clone()].iter();
-                members.map(|member| member.place as usize)
-            })
+        let sets = self.sets.sets.iter();
+        sets.map(|set| self.sets.members_of(set))
+            .filter(|members| members.len() > 1)
+            .map(|members| members.iter().map(|member| member.place as usize))
     }
 
     /// Adds the strain rates of a node's images to its mean; on a wall, the mirror of itself.
     pub fn smooth_strain_rates(&self, nodes: &mut impl NodeAccess) {
         let mirrors = |set: &&ConstraintSet| set.is_at_vertical_wall() || set.members.len() > 1;
-        for set in self.sets.iter().filter(mirrors) {
-            let members = &self.members[set.members.clone()];
+        for set in self.sets.sets.iter().filter(mirrors) {
+            let members = self.sets.members_of(set);
             let of_member = |member: &Member| {
                 let place = member.place as usize;
-                let seen = nodes.strain_rate(place).mirrored(member.sign);
+                let seen = nodes
+                    .strain_rate(place)
+                    .mirrored(member.sign.map(f64::from));
                 seen.times(nodes.mass(place) / set.mass)
             };
             let sum = |sum: Sym3, part: Sym3| sum.plus(&part);
@@ -157,7 +248,10 @@ impl Boundary {
                 (mean.xy, mean.yz) = (0.0, 0.0);
             }
             for member in members {
-                nodes.set_strain_rate(member.place as usize, &mean.mirrored(member.sign));
+                nodes.set_strain_rate(
+                    member.place as usize,
+                    &mean.mirrored(member.sign.map(f64::from)),
+                );
             }
         }
     }
@@ -165,8 +259,8 @@ impl Boundary {
     /// Sets the volume fraction of every image to that of its node in the channel: a difference
     /// between the two sides of a wall would shift points through it.
     pub fn fill_ghost_nodes(&self, nodes: &mut impl NodeAccess) {
-        for set in &self.sets {
-            let [master, images @ ..] = &self.members[set.members.clone()] else {
+        for set in &self.sets.sets {
+            let [master, images @ ..] = self.sets.members_of(set) else {
                 continue;
             };
             let volume_fraction = nodes.volume_fraction(master.place as usize);
@@ -204,116 +298,5 @@ pub fn filled(volume_fraction: f64, room: f64) -> f64 {
     } else {
         // The stencils of too few points contain such a node.
         0.0
-    }
-}
-
-impl Walls {
-    /// Finds the nodes on which walls act.
-    pub fn find_boundary(&self, nodes: &impl NodeAccess, boundary: &mut Boundary) {
-        boundary.members.clear();
-        boundary.sets.clear();
-        boundary.cut.clear();
-        boundary.column_nodes.clear();
-        for (block, key) in nodes.blocks().iter().enumerate() {
-            let first = key.map(|k| k * BLOCK as i32);
-            if !self.may_act_in(nodes.lattice(), first) {
-                continue;
-            }
-            for local in 0..BLOCK_NODES {
-                let along = [
-                    local / (BLOCK * BLOCK),
-                    local / BLOCK % BLOCK,
-                    local % BLOCK,
-                ];
-                let index = [0, 1, 2].map(|axis| first[axis] + along[axis] as i32);
-                let place = block * BLOCK_NODES + local;
-                // An empty node counts if its images may not be empty.
-                let counts = nodes.mass(place) > 0.0 || self.vertical_walls.has_images(index);
-                if counts && self.vertical_walls.master(index, nodes) == index {
-                    self.add_set(nodes, place, index, boundary);
-                }
-            }
-        }
-        self.make_columns(boundary, nodes.lattice());
-        boundary
-            .constrained
-            .resize(boundary.sets.len(), ConstrainedVelocity::default());
-    }
-
-    /// True if walls may act on a node of the block that starts at `first`.
-    fn may_act_in(&self, lattice: &Lattice, first: [i32; 3]) -> bool {
-        let last = first.map(|along| along + BLOCK as i32 - 1);
-        let ends = match self.vertical_walls.ends {
-            Ends::Back(_) => first[0] <= 1,
-            Ends::Seam { cells } => first[0] <= 1 || last[0] >= cells - 1,
-        };
-        let vertical_walls =
-            ends || first[1] <= 1 || 2 * last[1] >= self.vertical_walls.halves_across - 2;
-        let (low, high) = (lattice.position(first), lattice.position(last));
-        // The kernel's reach along a diagonal.
-        let margin = REACH * lattice.spacing.norm();
-        vertical_walls || self.bed.is_near(&low, &high, margin)
-    }
-
-    fn add_set(
-        &self,
-        nodes: &impl NodeAccess,
-        place: usize,
-        index: [i32; 3],
-        boundary: &mut Boundary,
-    ) {
-        let resting = nodes.lattice().position(index);
-        let start = boundary.members.len();
-        boundary.members.push(Member {
-            place: place as u32,
-            sign: [1.0, 1.0],
-            resting,
-        });
-        self.vertical_walls
-            .for_each_image(index, |image, sign| match nodes.place_of(image) {
-                Some(place) if nodes.mass(place) > 0.0 => boundary.members.push(Member {
-                    place: place as u32,
-                    sign,
-                    resting: nodes.lattice().position(image),
-                }),
-                _ => {}
-            });
-        let back = self.vertical_walls.meets_back(index);
-        let side = self.vertical_walls.meets_side(index);
-        let surfaces = self.bed.surfaces_over(index, nodes.lattice());
-        let alone = boundary.members.len() == start + 1;
-        let set = boundary.sets.len() as u32;
-        let known = boundary.column_nodes.len();
-        let column_nodes = self.column_nodes_of(index, set, nodes.lattice());
-        boundary.column_nodes.extend(column_nodes);
-        let of_column = boundary.column_nodes.len() > known;
-        let vertical_walls = back != Meets::Not || side != Meets::Not;
-        let plain = alone && surfaces == [None; 2] && !vertical_walls && !of_column;
-        let empty = alone && nodes.mass(place) <= 0.0;
-        if plain || empty {
-            boundary.members.truncate(start);
-            boundary.column_nodes.truncate(known);
-        }
-        let room = self.bed.share_above(&resting, &nodes.lattice().spacing);
-        if plain && room < 1.0 {
-            boundary.cut.push((place as u32, room));
-        }
-        if plain || empty {
-            return;
-        }
-        let members = start..boundary.members.len();
-        let of_member = |member: &Member| nodes.mass(member.place as usize);
-        let mass = boundary.members[members.clone()]
-            .iter()
-            .map(of_member)
-            .sum();
-        boundary.sets.push(ConstraintSet {
-            members,
-            mass,
-            back,
-            side,
-            surfaces,
-            room,
-        });
     }
 }

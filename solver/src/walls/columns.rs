@@ -7,7 +7,7 @@
 //! it slip.
 
 use super::Walls;
-use super::boundary::{Boundary, ConstraintSet};
+use super::boundary::{Boundary, ConstraintSet, ConstraintSets};
 use super::constraint::{ConstrainedVelocity, constrain_to};
 use super::vertical_walls::Meets;
 use crate::bed::{Surface, Way};
@@ -30,7 +30,17 @@ pub(super) struct ColumnNode {
     across: [i32; 2],
     /// Nodes behind the first in the channel; −1 for the second.
     depth: i32,
-    pub(super) set: u32,
+    set: u32,
+}
+
+impl ColumnNode {
+    /// The same where its set follows so many others.
+    pub(super) fn after(self, sets: u32) -> Self {
+        Self {
+            set: self.set + sets,
+            ..self
+        }
+    }
 }
 
 /// A boundary column and its resistance.
@@ -161,31 +171,33 @@ impl Walls {
 
     /// Makes columns of the column nodes.
     pub(super) fn make_columns(&self, boundary: &mut Boundary, lattice: &Lattice) {
-        let Boundary {
-            column_nodes,
-            columns,
-            sets,
-            ..
-        } = boundary;
+        let Boundary { sets, columns, .. } = boundary;
         columns.clear();
-        column_nodes.sort_unstable();
+        sets.column_nodes.par_sort_unstable();
         let mut start = 0;
-        for alike in column_nodes.chunk_by(|a, b| (a.way, a.across) == (b.way, b.across)) {
-            let end = start + alike.len();
-            let ColumnNode { way, across, .. } = alike[0];
+        while start < sets.column_nodes.len() {
+            let ColumnNode { way, across, .. } = sets.column_nodes[start];
+            let alike = |node: &&ColumnNode| (node.way, node.across) == (way, across);
+            let length = sets.column_nodes[start..].iter().take_while(alike).count();
+            let of_column = start..start + length;
+            start += length;
             let intersection = self.bed.intersection(way, across, lattice);
             let surface = self.bed.surface_in(way, across, lattice);
-            if let Some((intersection, surface)) = intersection.zip(surface)
-                && let gap = intersection.gap
-                && let Some(column) =
-                    BoundaryColumn::new(column_nodes, start..end, sets, surface, gap)
-            {
-                for column_node in alike {
-                    sets[column_node.set as usize].surfaces = [None; 2];
+            let Some((intersection, surface)) = intersection.zip(surface) else {
+                continue;
+            };
+            if let Some(column) = BoundaryColumn::new(
+                &sets.column_nodes,
+                of_column.clone(),
+                &sets.sets,
+                surface,
+                intersection.gap,
+            ) {
+                for place in of_column {
+                    sets.put_into_column(sets.column_nodes[place].set);
                 }
                 columns.push(column);
             }
-            start = end;
         }
     }
 
@@ -193,9 +205,10 @@ impl Walls {
     /// constraint at the bed if it `acts`.
     pub(super) fn line_up(&self, boundary: &mut Boundary, acts: bool) {
         let Boundary {
-            column_nodes,
+            sets: ConstraintSets {
+                sets, column_nodes, ..
+            },
             columns,
-            sets,
             constrained,
             ends,
             ..

@@ -40,8 +40,6 @@ pub(super) struct ConstrainedVelocity {
     leaves: [bool; 2],
     /// Momentum of the constraint set along x and y after it, unreflected, on the grid [N s].
     left: [f64; 2],
-    /// Impulse given.
-    impulse: Impulse,
     /// True if the velocity has changed.
     changed: bool,
 }
@@ -53,8 +51,8 @@ impl Walls {
     pub fn reflect(&self, boundary: &mut Boundary, nodes: &mut impl NodeAccess) {
         self.propose(boundary, nodes, None);
         self.line_up(boundary, false);
-        for (answer, set) in boundary.constrained.iter().zip(&boundary.sets) {
-            for member in &boundary.members[set.members.clone()] {
+        for (answer, set) in boundary.constrained.iter().zip(&boundary.sets.sets) {
+            for member in boundary.sets.members_of(set) {
                 nodes.set_velocity(member.place as usize, &answer.velocity_of(member), 0.0);
             }
         }
@@ -85,55 +83,54 @@ impl Walls {
     /// Sets the constraint sets to their constrained velocities.
     fn give(boundary: &mut Boundary, nodes: &mut impl NodeAccess, dt: f64) -> Impulse {
         let Boundary {
-            members,
             sets,
             constrained,
+            impulses,
             ..
         } = boundary;
         let seen: &_ = nodes;
         constrained
-            .par_iter_mut()
-            .zip(&*sets)
-            .with_min_len(TASK)
-            .for_each(|(answer, set)| {
-                answer.account_for(&members[set.members.clone()], seen, dt);
-            });
-        let mut given = Impulse::default();
-        for (answer, set) in constrained.iter().zip(sets) {
+            .par_chunks_mut(TASK)
+            .zip(sets.sets.par_chunks(TASK))
+            .map(|(answers, alike)| {
+                let mut given = Impulse::default();
+                for (answer, set) in answers.iter_mut().zip(alike) {
+                    answer.account_for(sets.members_of(set), seen, dt, &mut given);
+                }
+                given
+            })
+            .collect_into_vec(impulses);
+        for (answer, set) in constrained.iter().zip(&sets.sets) {
             if !answer.changed {
                 continue;
             }
-            given.linear += answer.impulse.linear;
-            given.angular += answer.impulse.angular;
-            for member in &members[set.members.clone()] {
+            for member in sets.members_of(set) {
                 nodes.set_velocity(member.place as usize, &answer.velocity_of(member), dt);
             }
         }
-        given
+        let sum = |sum: Impulse, part: &Impulse| sum.plus(part);
+        impulses.iter().fold(Impulse::default(), sum)
     }
 
     /// Computes for every constraint set its motion without its column; within a sub-step, which
     /// has a `pace`, with the planes of the bed that act on it alone.
     fn propose(&self, boundary: &mut Boundary, nodes: &impl NodeAccess, pace: Option<WallPace>) {
         let Boundary {
-            members,
-            sets,
-            constrained,
-            ..
+            sets, constrained, ..
         } = boundary;
         constrained
             .par_iter_mut()
-            .zip(&*sets)
+            .zip(&sets.sets)
             .with_min_len(TASK)
             .for_each(|(answer, set)| {
-                let members = &members[set.members.clone()];
+                let members = sets.members_of(set);
                 let before = pace.map(|pace| Before {
                     momentum: answer.left,
                     crossing: pace.crossing,
                 });
                 let mut motion = self.joint_motion(set, members, nodes, before);
                 if pace.is_some() {
-                    for surface in set.surfaces.iter().flatten() {
+                    for surface in sets.surfaces_of(set) {
                         constrain_to(surface, &mut motion.velocity);
                     }
                 }
@@ -174,9 +171,10 @@ impl Walls {
             let (Meets::Near { inward } | Meets::On { inward }) = meets else {
                 continue;
             };
-            let momentum = folded.unfolded[axis] * inward;
+            let sign = f64::from(inward);
+            let momentum = folded.unfolded[axis] * sign;
             let pressed = before.map_or(0.0, |before| {
-                let lost = (before.momentum[axis] * inward - momentum).max(0.0);
+                let lost = (before.momentum[axis] * sign - momentum).max(0.0);
                 lost * before.crossing * meets.share_of_pressure()
             });
             leaves[axis] = momentum > pressed && self.vertical_walls.lets_go(axis, inward);
@@ -189,7 +187,7 @@ impl Walls {
             }
             let friction = self.vertical_walls.friction(axis, inward);
             let after = velocity[axis] * folded.signed_mass[axis];
-            let pressed = (after - folded.unfolded[axis]) * inward;
+            let pressed = (after - folded.unfolded[axis]) * sign;
             if friction > 0.0 && pressed > 0.0 {
                 apply_friction(axis, friction * pressed / folded.mass, &mut velocity);
             }
@@ -209,31 +207,38 @@ struct Motion {
 impl ConstrainedVelocity {
     /// Velocity of one of the constraint set [m/s].
     fn velocity_of(&self, member: &Member) -> Vec3 {
-        let sign = |axis: usize| {
+        let mut velocity = member.mirrored(&self.velocity);
+        for axis in 0..2 {
             if self.leaves[axis] {
-                1.0
-            } else {
-                member.sign[axis]
+                velocity[axis] = self.velocity[axis];
             }
-        };
-        mirrored(&self.velocity, [sign(0), sign(1)])
+        }
+        velocity
     }
 
-    /// Computes the impulse of the change of velocity.
-    fn account_for(&mut self, members: &[Member], nodes: &impl NodeAccess, dt: f64) {
-        self.impulse = Impulse::default();
+    /// Adds the impulse of the change of velocity.
+    fn account_for(
+        &mut self,
+        members: &[Member],
+        nodes: &impl NodeAccess,
+        dt: f64,
+        given: &mut Impulse,
+    ) {
         self.changed = false;
         self.left = [0.0; 2];
         for member in members {
             let place = member.place as usize;
             let velocity = self.velocity_of(member);
+            let mass = nodes.mass(place);
             for axis in 0..2 {
-                self.left[axis] += velocity[axis] * nodes.mass(place);
+                self.left[axis] += velocity[axis] * mass;
             }
             let change = velocity - nodes.velocity(place);
-            self.changed |= change != Vec3::zeros();
-            let present = member.resting + nodes.displacement(place, dt);
-            self.impulse.add_at(&present, &(change * nodes.mass(place)));
+            if change != Vec3::zeros() {
+                self.changed = true;
+                let present = nodes.position(place) + nodes.displacement(place, dt);
+                given.add_at(&present, &(change * mass));
+            }
         }
     }
 }
@@ -261,10 +266,10 @@ impl Folded {
             let place = member.place as usize;
             let (mass, velocity) = (nodes.mass(place), nodes.velocity(place));
             folded.mass += mass;
-            folded.momentum += mirrored(&velocity, member.sign) * mass;
+            folded.momentum += member.mirrored(&velocity) * mass;
             folded.unfolded += velocity * mass;
             for axis in 0..2 {
-                folded.signed_mass[axis] += member.sign[axis] * mass;
+                folded.signed_mass[axis] += f64::from(member.sign[axis]) * mass;
             }
         }
         folded
@@ -296,8 +301,4 @@ fn kept_by_friction(largest_loss: f64, speed: f64) -> f64 {
     } else {
         0.0
     }
-}
-
-fn mirrored(v: &Vec3, sign: [f64; 2]) -> Vec3 {
-    Vec3::new(sign[0] * v.x, sign[1] * v.y, v.z)
 }

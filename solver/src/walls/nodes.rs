@@ -1,6 +1,6 @@
 //! Access of walls to the nodes of either grid.
 
-use crate::grid::BlockKey;
+use crate::grid::{BLOCK_NODES, BlockKey, index_of};
 use crate::kernel::Lattice;
 use crate::math::{Sym3, Vec3};
 
@@ -13,6 +13,11 @@ pub trait NodeAccess: Sync {
     fn blocks(&self) -> &[BlockKey];
     /// Place of node (i, j, k), if its block is there.
     fn place_of(&self, index: [i32; 3]) -> Option<usize>;
+    /// Position at the transfer [m].
+    fn position(&self, place: usize) -> Vec3 {
+        let key = self.blocks()[place / BLOCK_NODES];
+        self.lattice().position(index_of(key, place % BLOCK_NODES))
+    }
     /// Mass [kg].
     fn mass(&self, place: usize) -> f64;
     /// Velocity [m/s].

@@ -64,11 +64,11 @@ pub(super) enum Meets {
     Not,
     /// Up to one node away, so that its image is behind the wall.
     Near {
-        inward: f64,
+        inward: i8,
     },
     /// On the wall's plane.
     On {
-        inward: f64,
+        inward: i8,
     },
 }
 
@@ -136,21 +136,19 @@ impl VerticalWalls {
     pub(super) fn for_each_image(
         &self,
         [i, j, k]: [i32; 3],
-        mut visit: impl FnMut([i32; 3], [f64; 2]),
+        mut visit: impl FnMut([i32; 3], [i8; 2]),
     ) {
         let (mirror, period) = match self.ends {
-            Ends::Back(_) => ((i == 1).then_some((-i, -1.0)), None),
+            Ends::Back(_) => ((i == 1).then_some((-i, -1)), None),
             Ends::Seam { cells } => (None, Some(cells)),
         };
         let repeats = period.into_iter().flat_map(|cells| across_period(i, cells));
-        let along_x = once((i, 1.0))
-            .chain(mirror)
-            .chain(repeats.map(|i| (i, 1.0)));
+        let along_x = once((i, 1)).chain(mirror).chain(repeats.map(|i| (i, 1)));
         let along_y = [
-            Some((j, 1.0)),
-            (j == 1).then_some((-j, -1.0)),
+            Some((j, 1)),
+            (j == 1).then_some((-j, -1)),
             self.is_before_far_side(j)
-                .then_some((self.behind_far_side(j), -1.0)),
+                .then_some((self.behind_far_side(j), -1)),
         ];
         for (x, (i, sign_x)) in along_x.enumerate() {
             for (y, &(j, sign_y)) in along_y.iter().flatten().enumerate() {
@@ -163,7 +161,7 @@ impl VerticalWalls {
 
     pub(super) fn meets_back(&self, [i, ..]: [i32; 3]) -> Meets {
         match self.ends {
-            Ends::Back(_) => meets(2 * i, 1.0),
+            Ends::Back(_) => meets(2 * i, 1),
             Ends::Seam { .. } => Meets::Not,
         }
     }
@@ -171,9 +169,9 @@ impl VerticalWalls {
     pub(super) fn meets_side(&self, [_, j, _]: [i32; 3]) -> Meets {
         let from_far_side = self.halves_across - 2 * j;
         if from_far_side < 2 * j {
-            meets(from_far_side, -1.0)
+            meets(from_far_side, -1)
         } else {
-            meets(2 * j, 1.0)
+            meets(2 * j, 1)
         }
     }
 
@@ -193,7 +191,7 @@ impl VerticalWalls {
     }
 
     /// Friction of the wall across an axis whose normal has this sign.
-    pub(super) fn friction(&self, axis: usize, inward: f64) -> f64 {
+    pub(super) fn friction(&self, axis: usize, inward: i8) -> f64 {
         match (&self.ends, axis) {
             (Ends::Back(bound), 0) => bound.plane().flow_friction,
             (Ends::Seam { .. }, 0) => 0.0,
@@ -202,7 +200,7 @@ impl VerticalWalls {
     }
 
     /// True if flow can separate from the boundary across an axis whose normal has this sign.
-    pub(super) fn lets_go(&self, axis: usize, inward: f64) -> bool {
+    pub(super) fn lets_go(&self, axis: usize, inward: i8) -> bool {
         match (&self.ends, axis) {
             (Ends::Back(bound), 0) => bound.is_wall(),
             (Ends::Seam { .. }, 0) => false,
@@ -218,8 +216,8 @@ impl VerticalWalls {
         }
     }
 
-    fn side(&self, inward: f64) -> &VerticalBoundary {
-        &self.sides[usize::from(inward < 0.0)]
+    fn side(&self, inward: i8) -> &VerticalBoundary {
+        &self.sides[usize::from(inward < 0)]
     }
 }
 
@@ -232,7 +230,7 @@ fn across_period(i: i32, cells: i32) -> impl Iterator<Item = i32> {
 }
 
 /// Position at a wall of a node so many halves of a cell from it.
-fn meets(halves: i32, inward: f64) -> Meets {
+fn meets(halves: i32, inward: i8) -> Meets {
     match halves {
         0 => Meets::On { inward },
         1 | 2 => Meets::Near { inward },
