@@ -36,6 +36,7 @@ pub const fn in_block(a: usize, b: usize, c: usize) -> usize {
 }
 
 /// Node index (i, j, k) of node `local` of a block.
+#[inline]
 pub fn index_of(key: BlockKey, local: usize) -> [i32; 3] {
     let first = key.map(|along| along * BLOCK as i32);
     let along = [

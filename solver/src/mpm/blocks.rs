@@ -6,14 +6,15 @@
 use super::chunk::{Chunk, Packed};
 use super::lanes::Real;
 use crate::grid::BlockKey;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 mod block;
 mod memory_order;
+mod migration;
 
 use block::Pool;
-pub use block::{Block, End, settle};
+pub use block::{Block, End, is_settled, settle};
+use migration::Migration;
 
 /// All blocks with points, sorted by key.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -25,9 +26,7 @@ pub struct Blocks<R: Real> {
     #[serde(skip)]
     emptied: Vec<Block<R>>,
     #[serde(skip)]
-    travelling: Vec<(BlockKey, Packed<R>)>,
-    #[serde(skip)]
-    born: Vec<BlockKey>,
+    migration: Migration<R>,
 }
 
 /// Points that arrive at once when blocks are made.
@@ -38,14 +37,8 @@ impl<R: Real> Blocks<R> {
     pub fn of(mut points: impl Iterator<Item = (BlockKey, Packed<R>)>) -> Self {
         let mut blocks = Self::default();
         // Not all at once, which would be one more copy of them; their order is the same.
-        loop {
-            blocks.travelling.extend(points.by_ref().take(ARRIVING));
-            if blocks.travelling.is_empty() {
-                break;
-            }
-            blocks.arrive();
-        }
-        blocks.travelling = Vec::new();
+        while blocks.take_in(points.by_ref().take(ARRIVING)) {}
+        blocks.migration = Migration::default();
         for block in &mut blocks.occupied {
             block.runs = u32::MAX;
             block.tidy();
@@ -71,14 +64,7 @@ impl<R: Real> Blocks<R> {
 
     /// Migrates the points that left their blocks to others, and re-sorts blocks where needed.
     pub fn settle(&mut self) {
-        self.occupied
-            .par_iter_mut()
-            .for_each(Block::look_for_leaving);
-        for block in self.occupied.iter_mut().filter(|block| block.left) {
-            block.send_off(&mut self.travelling, &mut self.pool);
-        }
-        self.arrive();
-        self.occupied.par_iter_mut().for_each(Block::tidy);
+        self.migrate();
         self.keep_memory_order();
     }
 
@@ -92,47 +78,14 @@ impl<R: Real> Blocks<R> {
             let mut slot = 0;
             while slot < block.len {
                 if gone(&block.key, &block.get(slot)) {
-                    block.swap_remove(slot, &mut self.pool);
+                    block.swap_remove(slot);
                 } else {
                     slot += 1;
                 }
             }
+            block.trim(&mut self.pool);
         }
         self.drop_empty();
-    }
-
-    /// Puts the migrating points into their blocks.
-    fn arrive(&mut self) {
-        self.born.clear();
-        for (key, _) in &self.travelling {
-            if self.find(key).is_err() {
-                self.born.push(*key);
-            }
-        }
-        self.born.sort_unstable();
-        self.born.dedup();
-        for key in &self.born {
-            let mut block = self.emptied.pop().unwrap_or_default();
-            block.key = *key;
-            block.end = End::default();
-            (block.runs, block.sorted_runs) = (0, 0);
-            self.occupied.push(block);
-        }
-        if !self.born.is_empty() {
-            self.occupied.sort_unstable_by_key(|block| block.key);
-        }
-        for place in 0..self.travelling.len() {
-            let (key, point) = self.travelling[place];
-            if let Ok(block) = self.find(&key) {
-                self.occupied[block].push(&point, &mut self.pool);
-            }
-        }
-        self.travelling.clear();
-        self.drop_empty();
-    }
-
-    fn find(&self, key: &BlockKey) -> Result<usize, usize> {
-        self.occupied.binary_search_by_key(key, |block| block.key)
     }
 
     fn drop_empty(&mut self) {
@@ -155,7 +108,7 @@ impl<R: Real> Blocks<R> {
         };
         let pool = self.pool.chunks.len() * size_of::<Chunk<R>>();
         let kept = self.occupied.iter().chain(&self.emptied).map(of_block);
-        kept.sum::<usize>() + pool + self.travelling.capacity() * size_of::<(BlockKey, Packed<R>)>()
+        kept.sum::<usize>() + pool + self.migration.bytes()
     }
 }
 

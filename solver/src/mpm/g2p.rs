@@ -90,7 +90,7 @@ pub fn gather_motion<S: Simd, R: Real>(
     let number = Splat::<S, R>::new(simd);
     let spacing = &lattice.spacing;
     let (mut moment_sums, mut mean_sums) = (MomentSums::EMPTY, Quads::EMPTY);
-    let mut sums = EndSums::NONE;
+    let mut sums = EndSums::none(simd);
     let mut spread = ShiftingSums::NONE;
     let key = block.key;
     for (chunk, count) in block.chunks_mut() {

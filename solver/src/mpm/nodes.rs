@@ -209,41 +209,50 @@ impl<R: Real> Nodes<R> {
 }
 
 impl<R: Real> NodeAccess for Nodes<R> {
+    #[inline]
     fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
+    #[inline]
     fn blocks(&self) -> &[BlockKey] {
         self.layout.node_blocks()
     }
 
+    #[inline]
     fn place_of(&self, index: [i32; 3]) -> Option<usize> {
         self.layout.place_of(index)
     }
 
+    #[inline]
     fn mass(&self, place: usize) -> f64 {
         self.motion[place / BLOCK_NODES].node(place % BLOCK_NODES)[0].to_f64()
     }
 
+    #[inline]
     fn velocity(&self, place: usize) -> Vec3 {
         let (block, node) = (place / BLOCK_NODES, place % BLOCK_NODES);
         vector(self.motion[block].node(node)) + vector(self.remainder[block].node(node))
     }
 
+    #[inline]
     fn displacement(&self, place: usize, dt: f64) -> Vec3 {
         // The displacement already contains the unconstrained motion.
         vector(self.displacement[place / BLOCK_NODES].node(place % BLOCK_NODES))
             - self.velocity(place) * dt
     }
 
+    #[inline]
     fn volume_fraction(&self, place: usize) -> f64 {
         self.remainder[place / BLOCK_NODES].node(place % BLOCK_NODES)[0].to_f64()
     }
 
+    #[inline]
     fn set_volume_fraction(&mut self, place: usize, volume_fraction: f64) {
         self.remainder[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)] = R::of(volume_fraction);
     }
 
+    #[inline]
     fn strain_rate(&self, place: usize) -> Sym3 {
         let part = |part: &[NodeBlock<R>]| {
             let node = part[place / BLOCK_NODES].node(place % BLOCK_NODES);
@@ -253,6 +262,7 @@ impl<R: Real> NodeAccess for Nodes<R> {
         Sym3::from_components([xx, yy, zz, xy, xz, yz])
     }
 
+    #[inline]
     fn set_strain_rate(&mut self, place: usize, strain_rate: &Sym3) {
         let [xx, yy, zz, xy, xz, yz] = strain_rate.components();
         let parts = [[xx, yy, zz, xy], [xz, yz, 0.0, 0.0]];
@@ -262,15 +272,18 @@ impl<R: Real> NodeAccess for Nodes<R> {
         }
     }
 
+    #[inline]
     fn compressive_strain(&self, place: usize) -> f64 {
         let node = self.displacement[place / BLOCK_NODES].node(place % BLOCK_NODES);
         node[0].to_f64()
     }
 
+    #[inline]
     fn set_compressive_strain(&mut self, place: usize, strain: f64) {
         self.displacement[place / BLOCK_NODES].0[4 * (place % BLOCK_NODES)] = R::of(strain);
     }
 
+    #[inline]
     fn set_velocity(&mut self, place: usize, velocity: &Vec3, dt: f64) {
         let (block, node) = (place / BLOCK_NODES, place % BLOCK_NODES);
         let moving = &mut self.motion[block].0[4 * node..4 * node + 4];

@@ -1,12 +1,14 @@
 //! Sums over the points of a block, in double precision.
 
-use super::blocks::{Block, End};
+use super::blocks::{Block, End, is_settled};
 use super::chunk::Chunk;
-use super::lanes::Real;
+use super::lanes::{Real, Splat, load, load_each};
 use super::packing::Packing;
 use crate::diagnostics::Totals;
+use crate::grid::BLOCK;
 use crate::math::Vec3;
 use crate::walls::Impulse;
+use fearless_simd::prelude::*;
 
 /// Sums over chunks, lane by lane, so that all points of a chunk are added at once.
 struct Sums<R: Real> {
@@ -119,59 +121,85 @@ fn add_elastic<R: Real>(sums: &mut Sums<R>, chunk: &Chunk<R>, packing: &Packing)
 }
 
 /// Knowledge of a block's points between two steps, found chunk by chunk.
-pub struct EndSums<R: Real> {
-    squared: R::Lanes,
-    flaw: R::Lanes,
-    volumetric_strain: R::Lanes,
+pub struct EndSums<S: Simd, R: Real> {
+    simd: S,
+    squared: R::Vector<S>,
+    flaw: R::Vector<S>,
+    volumetric_strain: R::Vector<S>,
+    /// Lowest and highest coordinates in the block [cells].
+    lowest: R::Vector<S>,
+    highest: R::Vector<S>,
 }
 
-impl<R: Real> EndSums<R> {
+impl<S: Simd, R: Real> EndSums<S, R> {
     /// Of no points.
-    pub const NONE: Self = Self {
-        squared: R::ZEROS,
-        flaw: R::ZEROS,
-        volumetric_strain: R::ZEROS,
-    };
+    #[inline(always)]
+    pub fn none(simd: S) -> Self {
+        let number = Splat::<S, R>::new(simd);
+        let (none, middle) = (number.of(0.0), number.of(0.5 + 0.5 * BLOCK as f64));
+        Self {
+            simd,
+            squared: none,
+            flaw: none,
+            volumetric_strain: none,
+            lowest: middle,
+            highest: middle,
+        }
+    }
 
     /// Adds a chunk.
     #[inline(always)]
     pub fn add(&mut self, chunk: &Chunk<R>) {
-        let [vx, vy, vz] = &chunk.velocity;
-        for lane in 0..R::LANES {
-            let here = vx[lane] * vx[lane] + vy[lane] * vy[lane] + vz[lane] * vz[lane];
-            self.squared[lane] = self.squared[lane].max(here);
-            self.volumetric_strain[lane] =
-                self.volumetric_strain[lane].min(chunk.volumetric_strain[lane]);
-        }
+        let simd = self.simd;
+        let [x, y, z] = load_each::<S, R, 3>(simd, &chunk.velocity);
+        let squared = x * x + y * y + z * z;
+        self.squared = self.squared.max_precise(squared);
+        let volumetric_strain = load::<S, R>(simd, &chunk.volumetric_strain);
+        self.volumetric_strain = self.volumetric_strain.min_precise(volumetric_strain);
         // Zero times a number is zero, unless the number is non-finite.
-        let motion = chunk.position.iter().chain(&chunk.velocity);
-        let inner = chunk.gradient.iter().flatten().chain(&chunk.deviator);
-        for of in motion.chain(inner).chain([&chunk.volumetric_strain]) {
-            for lane in 0..R::LANES {
-                self.flaw[lane] += of[lane] * R::ZERO;
-            }
+        let none = Splat::<S, R>::new(simd).of(0.0);
+        let mut flaw = (squared + volumetric_strain).mul_add(none, self.flaw);
+        for of in &chunk.position {
+            let coordinate = load::<S, R>(simd, of);
+            self.lowest = self.lowest.min_precise(coordinate);
+            self.highest = self.highest.max_precise(coordinate);
+            flaw = coordinate.mul_add(none, flaw);
         }
+        for of in chunk.velocity.iter().chain(&chunk.deviator) {
+            flaw = load::<S, R>(simd, of).mul_add(none, flaw);
+        }
+        for of in chunk.gradient.iter().flatten() {
+            flaw = load::<S, R>(simd, of).mul_add(none, flaw);
+        }
+        self.flaw = flaw;
     }
 
     /// Summary of the points.
     #[inline(always)]
     pub fn end(self) -> End<R> {
+        let flaw = self.flaw.to_array();
+        let finite = flaw.as_ref().iter().all(|sum| *sum == R::ZERO);
+        let lowest = over::<R>(&self.lowest.to_array(), R::min);
+        let highest = over::<R>(&self.highest.to_array(), R::max);
         End {
-            fastest: over(&self.squared, R::max).sqrt(),
-            finite: self.flaw.as_ref().iter().all(|sum| *sum == R::ZERO),
-            lowest_dilation: over(&self.volumetric_strain, R::min),
+            fastest: over::<R>(&self.squared.to_array(), R::max).sqrt(),
+            finite,
+            lowest_dilation: over::<R>(&self.volumetric_strain.to_array(), R::min),
+            left: !(finite && is_settled(lowest) && is_settled(highest)),
         }
     }
 }
 
-/// The extreme of the lanes and 0.
+/// The extreme of the lanes.
 fn over<R: Real>(lanes: &R::Lanes, extreme: fn(R, R) -> R) -> R {
-    lanes.as_ref().iter().copied().fold(R::ZERO, extreme)
+    let lanes = lanes.as_ref();
+    lanes.iter().copied().fold(lanes[0], extreme)
 }
 
 /// Knowledge of a block's points between two steps.
-pub fn end_of<R: Real>(block: &Block<R>) -> End<R> {
-    let mut sums = EndSums::NONE;
+#[inline(always)]
+pub fn end_of<S: Simd, R: Real>(simd: S, block: &Block<R>) -> End<R> {
+    let mut sums = EndSums::none(simd);
     for (chunk, _) in block.chunks() {
         sums.add(chunk);
     }

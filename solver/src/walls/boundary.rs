@@ -20,6 +20,7 @@ pub(super) struct Member {
 
 impl Member {
     /// A velocity in the frame of the first member, in that of this one, and back.
+    #[inline]
     pub(super) fn mirrored(&self, v: &Vec3) -> Vec3 {
         let [x, y] = self.sign.map(f64::from);
         Vec3::new(x * v.x, y * v.y, v.z)
@@ -81,11 +82,13 @@ impl ConstraintSets {
     }
 
     /// Members of a set.
+    #[inline]
     pub(super) fn members_of(&self, set: &ConstraintSet) -> &[Member] {
         &self.members[set.members.start as usize..set.members.end as usize]
     }
 
     /// Surfaces of the bed that act on a set alone.
+    #[inline]
     pub(super) fn surfaces_of(&self, set: &ConstraintSet) -> impl Iterator<Item = &Surface> {
         let surfaces = set.surfaces.map(|place| &self.surfaces[place as usize]);
         surfaces.into_iter().flatten().flatten()

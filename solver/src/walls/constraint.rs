@@ -140,6 +140,7 @@ impl Walls {
 
     /// Common motion of a constraint set in the frame of its first member, without the bed.
     /// `before` is given if the forces of a sub-step have acted.
+    #[inline]
     fn joint_motion(
         &self,
         set: &ConstraintSet,
@@ -206,6 +207,7 @@ struct Motion {
 
 impl ConstrainedVelocity {
     /// Velocity of one of the constraint set [m/s].
+    #[inline]
     fn velocity_of(&self, member: &Member) -> Vec3 {
         let mut velocity = member.mirrored(&self.velocity);
         for axis in 0..2 {
@@ -217,6 +219,7 @@ impl ConstrainedVelocity {
     }
 
     /// Adds the impulse of the change of velocity.
+    #[inline]
     fn account_for(
         &mut self,
         members: &[Member],
@@ -255,6 +258,7 @@ struct Folded {
 }
 
 impl Folded {
+    #[inline]
     fn of(members: &[Member], nodes: &impl NodeAccess) -> Self {
         let mut folded = Self {
             mass: 0.0,

@@ -1,5 +1,6 @@
 //! Points of one block, sorted by cell, and the block that a position lies in.
 
+use super::migration::Leaving;
 use crate::grid::{BLOCK, BlockKey};
 use crate::mpm::chunk::{Chunk, Packed, put, take};
 use crate::mpm::lanes::{MOST_LANES, Real};
@@ -26,6 +27,8 @@ pub struct End<R> {
     pub finite: bool,
     /// V ρ_c/m − 1 of the densest, at most 0.
     pub lowest_dilation: R,
+    /// True if one may have left the block.
+    pub left: bool,
 }
 
 impl<R: Real> Default for End<R> {
@@ -34,6 +37,7 @@ impl<R: Real> Default for End<R> {
             fastest: R::ZERO,
             finite: true,
             lowest_dilation: R::ZERO,
+            left: false,
         }
     }
 }
@@ -55,9 +59,6 @@ pub struct Block<R: Real> {
     pub(super) end: End<R>,
     #[serde(skip)]
     spread: Shifting,
-    /// True if some of its points may have left it.
-    #[serde(skip)]
-    pub(super) left: bool,
 }
 
 impl<R: Real> Block<R> {
@@ -128,6 +129,7 @@ impl<R: Real> Block<R> {
             slot % R::LANES,
             position,
         );
+        self.end.left = true;
     }
 
     /// Knowledge of its points since they were last moved.
@@ -150,23 +152,32 @@ impl<R: Real> Block<R> {
         self.runs = runs;
     }
 
-    /// Takes a point in, and a chunk from the pool if it needs one.
-    pub(super) fn push(&mut self, point: &Packed<R>, pool: &mut Pool<R>) {
-        if self.len == self.chunks.len() * R::LANES {
+    /// Makes room for so many points more.
+    pub(super) fn reserve(&mut self, count: usize, pool: &mut Pool<R>) {
+        let chunks = (self.len + count).div_ceil(R::LANES);
+        while self.chunks.len() < chunks {
             self.chunks.push(pool.take());
         }
+    }
+
+    /// Takes a point in, for which there is room.
+    pub(super) fn push(&mut self, point: &Packed<R>) {
         self.len += 1;
         self.set(self.len - 1, point);
     }
 
     /// Takes a point out, whose place the last one takes.
-    pub(super) fn swap_remove(&mut self, slot: usize, pool: &mut Pool<R>) {
+    pub(super) fn swap_remove(&mut self, slot: usize) {
         let last = self.len - 1;
         let moved = self.get(last);
         self.set(slot, &moved);
         self.set(last, &Packed::none());
         self.len = last;
-        let used = last.div_ceil(R::LANES);
+    }
+
+    /// Returns the chunks without points to the pool.
+    pub(super) fn trim(&mut self, pool: &mut Pool<R>) {
+        let used = self.len.div_ceil(R::LANES);
         pool.chunks.extend(self.chunks.drain(used..));
     }
 
@@ -176,29 +187,24 @@ impl<R: Real> Block<R> {
         self.set(other, &a);
     }
 
-    pub(super) fn look_for_leaving(&mut self) {
-        let left = self.chunks().any(|(chunk, _)| unsettled(chunk).is_some());
-        self.left = left;
-    }
-
     /// Takes out what has left the block.
-    pub(super) fn send_off(
-        &mut self,
-        travelling: &mut Vec<(BlockKey, Packed<R>)>,
-        pool: &mut Pool<R>,
-    ) {
+    pub(super) fn send_off(&mut self, leaving: &mut Vec<Leaving<R>>) {
+        if !self.end.left {
+            return;
+        }
+        self.end.left = false;
         let mut place = 0;
-        while place < self.chunks.len() {
+        while place * R::LANES < self.len {
             let Some(lane) = unsettled(&self.chunks[place]) else {
                 place += 1;
                 continue;
             };
             let slot = place * R::LANES + lane;
             let mut point = self.get(slot);
-            let key = settle(&self.key, &mut point.position);
-            travelling.push((key, point));
+            let to = settle(&self.key, &mut point.position);
+            leaving.push(Leaving { to, point });
             // The last point comes here, and is checked in turn.
-            self.swap_remove(slot, pool);
+            self.swap_remove(slot);
         }
     }
 
@@ -281,7 +287,7 @@ impl<R: Real> Pool<R> {
 }
 
 /// True if a coordinate belongs to the block [cells].
-pub(super) fn is_settled<R: Real>(x: R) -> bool {
+pub fn is_settled<R: Real>(x: R) -> bool {
     x >= R::of(0.5) && x < R::of(BLOCK as f64 + 0.5)
 }
 

@@ -1,10 +1,11 @@
 use super::block::{cell_of, is_settled};
 use super::*;
 use crate::grid::BLOCK;
-use crate::mpm::fixture::Random;
+use crate::mpm::fixture::{Random, levels};
 
 const LANES: usize = f32::LANES;
 use crate::mpm::totals::end_of;
+use fearless_simd::dispatch;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Position of a point, in cells from the origin: exact in f64.
@@ -272,12 +273,13 @@ fn a_place_at_the_rim_lies_in_one_block() {
 fn a_point_that_is_no_number_stays_and_is_found() {
     let mut random = Random(2);
     let mut blocks = Blocks::of(random_points(&mut random, 300).into_iter());
-    assert!(blocks.occupied().iter().all(|block| end_of(block).finite));
+    let finite = |block: &Block<f32>| dispatch!(levels()[0], simd => end_of(simd, block)).finite;
+    assert!(blocks.occupied().iter().all(finite));
     let lost = blocks.occupied()[3].get(2).id;
     blocks.occupied_mut()[3].shift(2, &[1.0, f32::NAN, 1.0]);
     blocks.settle();
     assert_eq!(blocks.count(), 300);
-    let flawed = |block: &&Block<f32>| !end_of(block).finite;
+    let flawed = |block: &&Block<f32>| !finite(block);
     let flawed: Vec<&Block<f32>> = blocks.occupied().iter().filter(flawed).collect();
     assert_eq!(flawed.len(), 1);
     assert!((0..flawed[0].count()).any(|slot| flawed[0].get(slot).id == lost));

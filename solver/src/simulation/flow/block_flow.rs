@@ -104,8 +104,10 @@ impl<R: Saved> BlockFlow<R> {
 
     /// Summarises the points for the next step.
     fn check_points(&mut self) {
+        let level = self.level;
         for block in self.blocks.occupied_mut() {
-            block.note_end(totals::end_of(block), Shifting::default());
+            let end = dispatch!(level, simd => totals::end_of(simd, block));
+            block.note_end(end, Shifting::default());
         }
         self.sum_up_ends();
     }
