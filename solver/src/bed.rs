@@ -119,6 +119,11 @@ pub trait Bed: Debug + Send + Sync {
     /// Surfaces, for columns of each direction, that a node is on or below.
     fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2];
 
+    /// True if there are such surfaces.
+    fn covers(&self, index: [i32; 3], lattice: &Lattice) -> bool {
+        self.surfaces_over(index, lattice) != [None; 2]
+    }
+
     /// Unit normal at (x, y).
     fn normal(&self, x: f64, y: f64) -> Vec3 {
         self.tangent(x, y).normal

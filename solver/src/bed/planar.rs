@@ -177,11 +177,7 @@ impl Bed for PlanarBed {
 
     fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2] {
         let x = lattice.position(index);
-        // A node on the plane up to rounding belongs to it.
-        let rounding = 1e-9 * (1.0 + x.norm());
-        if self.planes.iter().all(|plane| plane.height(&x) > rounding) {
-            return [None; 2];
-        }
+        let rounding = rounding(&x);
         let on_or_below = |way: Way, plane: &Plane| {
             Way::through(&plane.normal) == way && plane.height(&x) <= rounding
         };
@@ -194,6 +190,17 @@ impl Bed for PlanarBed {
             Some(self.surface_at(plane, way, index[0], lattice))
         })
     }
+
+    fn covers(&self, index: [i32; 3], lattice: &Lattice) -> bool {
+        let x = lattice.position(index);
+        let rounding = rounding(&x);
+        self.planes.iter().any(|plane| plane.height(&x) <= rounding)
+    }
+}
+
+/// Height of a node above a plane [m] up to which it belongs to it.
+fn rounding(x: &Vec3) -> f64 {
+    1e-9 * (1.0 + x.norm())
 }
 
 /// Surface with the slope dz/dx and the friction of two planes, weighted.

@@ -5,7 +5,7 @@ use super::columns::{BoundaryColumn, ColumnNode};
 use super::constraint::ConstrainedVelocity;
 use super::nodes::NodeAccess;
 use super::vertical_walls::Meets;
-use crate::bed::Surface;
+use crate::bed::{Bed, Surface};
 use crate::math::{Sym3, Vec3};
 use crate::method::METHOD;
 use std::ops::Range;
@@ -27,14 +27,24 @@ impl Member {
     }
 }
 
+/// How the bed acts on a constraint set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum BedAction {
+    /// Not at all, or through a column.
+    Elsewhere,
+    /// It lies on or below the bed.
+    Below,
+    /// Through the surfaces at this place of the list.
+    Alone(u32),
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ConstraintSet {
     members: Range<u32>,
     pub(super) back: Meets,
     pub(super) side: Meets,
-    /// Place of the surfaces of the bed that act on it alone: where it is on or below the bed,
-    /// unless it belongs to a column.
-    surfaces: Option<u32>,
+    /// How the bed acts on it.
+    bed: BedAction,
     /// Their mass together [kg].
     pub(super) mass: f64,
     /// Share of the kernels above the bed.
@@ -90,7 +100,10 @@ impl ConstraintSets {
     /// Surfaces of the bed that act on a set alone.
     #[inline]
     pub(super) fn surfaces_of(&self, set: &ConstraintSet) -> impl Iterator<Item = &Surface> {
-        let surfaces = set.surfaces.map(|place| &self.surfaces[place as usize]);
+        let surfaces = match set.bed {
+            BedAction::Alone(place) => Some(&self.surfaces[place as usize]),
+            BedAction::Elsewhere | BedAction::Below => None,
+        };
         surfaces.into_iter().flatten().flatten()
     }
 
@@ -99,19 +112,19 @@ impl ConstraintSets {
         &mut self,
         start: usize,
         [back, side]: [Meets; 2],
-        surfaces: [Option<Surface>; 2],
+        below_bed: bool,
         mass: f64,
         room: f64,
     ) {
-        let place = (surfaces != [None; 2]).then(|| {
-            self.surfaces.push(surfaces);
-            self.surfaces.len() as u32 - 1
-        });
         self.sets.push(ConstraintSet {
             members: start as u32..self.members.len() as u32,
             back,
             side,
-            surfaces: place,
+            bed: if below_bed {
+                BedAction::Below
+            } else {
+                BedAction::Elsewhere
+            },
             mass,
             room,
         });
@@ -119,20 +132,29 @@ impl ConstraintSets {
 
     /// Leaves the bed to the column of a set.
     pub(super) fn put_into_column(&mut self, set: u32) {
-        self.sets[set as usize].surfaces = None;
+        self.sets[set as usize].bed = BedAction::Elsewhere;
+    }
+
+    /// Finds the surfaces that act on the sets below the bed that belong to no column.
+    pub(super) fn find_surfaces(&mut self, bed: &dyn Bed, nodes: &impl NodeAccess) {
+        let below = |set: &&mut ConstraintSet| set.bed == BedAction::Below;
+        for set in self.sets.iter_mut().filter(below) {
+            let master = self.members[set.members.start as usize];
+            let index = nodes.index(master.place as usize);
+            set.bed = BedAction::Alone(self.surfaces.len() as u32);
+            self.surfaces
+                .push(bed.surfaces_over(index, nodes.lattice()));
+        }
     }
 
     /// Adds those of other blocks of nodes.
     pub(super) fn append(&mut self, others: &Self) {
         let (sets, members) = (self.sets.len() as u32, self.members.len() as u32);
-        let surfaces = self.surfaces.len() as u32;
         self.members.extend_from_slice(&others.members);
-        self.surfaces.extend_from_slice(&others.surfaces);
         self.cut.extend_from_slice(&others.cut);
         self.sets
             .extend(others.sets.iter().map(|set| ConstraintSet {
                 members: set.members.start + members..set.members.end + members,
-                surfaces: set.surfaces.map(|place| place + surfaces),
                 ..set.clone()
             }));
         let column_nodes = others.column_nodes.iter();
@@ -155,6 +177,10 @@ pub struct Boundary {
     pub(super) sets: ConstraintSets,
     /// The same by the tasks that found them.
     pub(super) found: Vec<ConstraintSets>,
+    /// Column nodes that may make a column.
+    pub(super) possible: Vec<Range<usize>>,
+    /// The columns that they make.
+    pub(super) made: Vec<Option<BoundaryColumn>>,
     pub(super) columns: Vec<BoundaryColumn>,
     /// Velocities of the first two nodes of each column of a kind.
     pub(super) ends: Vec<[Vec3; 2]>,
@@ -183,7 +209,8 @@ impl BoundaryCounts {
         // All are held twice: as they were found, and in one list.
         let of_node = 2 * (size_of::<ConstraintSet>() + size_of::<Member>())
             + size_of::<ConstrainedVelocity>();
-        let of_column = size_of::<BoundaryColumn>() + size_of::<[Vec3; 2]>();
+        let of_column =
+            2 * size_of::<BoundaryColumn>() + size_of::<Range<usize>>() + size_of::<[Vec3; 2]>();
         self.nodes * of_node as f64
             + self.images * 2.0 * size_of::<Member>() as f64
             + self.columns * of_column as f64
@@ -197,6 +224,8 @@ impl Boundary {
         let found: usize = self.found.iter().map(ConstraintSets::bytes).sum();
         self.sets.bytes()
             + found
+            + self.possible.capacity() * size_of::<Range<usize>>()
+            + self.made.capacity() * size_of::<Option<BoundaryColumn>>()
             + self.columns.capacity() * size_of::<BoundaryColumn>()
             + self.ends.capacity() * size_of::<[Vec3; 2]>()
             + self.constrained.capacity() * size_of::<ConstrainedVelocity>()

@@ -171,34 +171,49 @@ impl Walls {
 
     /// Makes columns of the column nodes.
     pub(super) fn make_columns(&self, boundary: &mut Boundary, lattice: &Lattice) {
-        let Boundary { sets, columns, .. } = boundary;
-        columns.clear();
+        let Boundary {
+            sets,
+            columns,
+            possible,
+            made,
+            ..
+        } = boundary;
         sets.column_nodes.par_sort_unstable();
+        let alike = |one: &ColumnNode, other: &ColumnNode| {
+            (one.way, one.across) == (other.way, other.across)
+        };
+        possible.clear();
         let mut start = 0;
-        while start < sets.column_nodes.len() {
-            let ColumnNode { way, across, .. } = sets.column_nodes[start];
-            let alike = |node: &&ColumnNode| (node.way, node.across) == (way, across);
-            let length = sets.column_nodes[start..].iter().take_while(alike).count();
-            let of_column = start..start + length;
-            start += length;
-            let intersection = self.bed.intersection(way, across, lattice);
-            let surface = self.bed.surface_in(way, across, lattice);
-            let Some((intersection, surface)) = intersection.zip(surface) else {
-                continue;
-            };
-            if let Some(column) = BoundaryColumn::new(
-                &sets.column_nodes,
-                of_column.clone(),
-                &sets.sets,
-                surface,
-                intersection.gap,
-            ) {
-                for place in of_column {
-                    sets.put_into_column(sets.column_nodes[place].set);
-                }
-                columns.push(column);
+        for of_column in sets.column_nodes.chunk_by(alike) {
+            possible.push(start..start + of_column.len());
+            start += of_column.len();
+        }
+        let known = &*sets;
+        possible
+            .par_iter()
+            .with_min_len(TASK)
+            .map(|nodes| self.column(known, nodes.clone(), lattice))
+            .collect_into_vec(made);
+        columns.clear();
+        columns.extend(made.drain(..).flatten());
+        for column in &*columns {
+            for place in column.column_nodes.clone() {
+                sets.put_into_column(sets.column_nodes[place].set);
             }
         }
+    }
+
+    /// The column of these nodes, if they make one.
+    fn column(
+        &self,
+        sets: &ConstraintSets,
+        nodes: Range<usize>,
+        lattice: &Lattice,
+    ) -> Option<BoundaryColumn> {
+        let ColumnNode { way, across, .. } = sets.column_nodes[nodes.start];
+        let gap = self.bed.intersection(way, across, lattice)?.gap;
+        let surface = self.bed.surface_in(way, across, lattice)?;
+        BoundaryColumn::new(&sets.column_nodes, nodes, &sets.sets, surface, gap)
     }
 
     /// Sets the velocities of the nodes of every column by linear extrapolation, with the

@@ -13,10 +13,13 @@ pub trait NodeAccess: Sync {
     fn blocks(&self) -> &[BlockKey];
     /// Place of node (i, j, k), if its block is there.
     fn place_of(&self, index: [i32; 3]) -> Option<usize>;
+    /// Index (i, j, k) of a node.
+    fn index(&self, place: usize) -> [i32; 3] {
+        index_of(self.blocks()[place / BLOCK_NODES], place % BLOCK_NODES)
+    }
     /// Position at the transfer [m].
     fn position(&self, place: usize) -> Vec3 {
-        let key = self.blocks()[place / BLOCK_NODES];
-        self.lattice().position(index_of(key, place % BLOCK_NODES))
+        self.lattice().position(self.index(place))
     }
     /// Mass [kg].
     fn mass(&self, place: usize) -> f64;

@@ -5,7 +5,7 @@ use super::boundary::{Boundary, ConstraintSets, Member};
 use super::constraint::ConstrainedVelocity;
 use super::nodes::NodeAccess;
 use super::vertical_walls::{Ends, Meets};
-use crate::grid::{BLOCK, BLOCK_NODES, index_of};
+use crate::grid::{BLOCK, BLOCK_NODES};
 use crate::kernel::{Lattice, REACH};
 use rayon::prelude::*;
 
@@ -41,6 +41,7 @@ impl Walls {
             boundary.sets.append(found);
         }
         self.make_columns(boundary, nodes.lattice());
+        boundary.sets.find_surfaces(&*self.bed, nodes);
         boundary
             .constrained
             .resize(boundary.sets.sets.len(), ConstrainedVelocity::default());
@@ -65,7 +66,7 @@ impl Walls {
         let margin = BED_REACH * nodes.lattice().spacing.max();
         for local in 0..BLOCK_NODES {
             let place = block * BLOCK_NODES + local;
-            let index = index_of(nodes.blocks()[block], local);
+            let index = nodes.index(place);
             let images = self.vertical_walls.has_images(index);
             // An empty node counts if its images may not be empty.
             if nodes.mass(place) <= 0.0 && !images {
@@ -105,14 +106,14 @@ impl Walls {
                 }),
                 _ => {}
             });
-        let surfaces = self.bed.surfaces_over(index, nodes.lattice());
+        let below_bed = self.bed.covers(index, nodes.lattice());
         let alone = found.members.len() == start + 1;
         let set = found.sets.len() as u32;
         let known = found.column_nodes.len();
         let column_nodes = self.column_nodes_of(index, set, nodes.lattice());
         found.column_nodes.extend(column_nodes);
         let of_column = found.column_nodes.len() > known;
-        let free = meets == [Meets::Not; 2] && surfaces == [None; 2] && !of_column;
+        let free = meets == [Meets::Not; 2] && !below_bed && !of_column;
         let plain = alone && free;
         let empty = alone && nodes.mass(place) <= 0.0;
         if plain || empty {
@@ -129,6 +130,6 @@ impl Walls {
         }
         let of_member = |member: &Member| nodes.mass(member.place as usize);
         let mass = found.members[start..].iter().map(of_member).sum();
-        found.push(start, meets, surfaces, mass, room);
+        found.push(start, meets, below_bed, mass, room);
     }
 }
