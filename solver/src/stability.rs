@@ -64,19 +64,54 @@ impl Limits {
         self.substep(METHOD.guards.largest_mach_number * self.p_wave_speed)
     }
 
-    /// The next step: equal sub-steps of `longest` [s], the fastest at `speed`
+    /// The next step: equal sub-steps of `longest` [s] or somewhat shorter, the fastest at `speed`
     /// [m/s], and none beyond `remaining` [s], when the run ends.
     pub fn pace(&self, longest: f64, speed: f64, remaining: f64) -> Pace {
-        divide(remaining, longest, self.substeps_per_step(longest, speed))
+        let division = self.division(longest, speed);
+        divide(remaining, division.substep, division.count)
     }
 
-    /// Largest number of sub-steps of this length [s] in a step, the fastest at `speed` [m/s];
-    /// whole, but kept as a float.
-    pub fn substeps_per_step(&self, substep: f64, speed: f64) -> f64 {
-        let travel = self.governing_speed(speed) * substep;
-        (self.flow_courant * self.cell_size / travel)
-            .floor()
-            .max(1.0)
+    /// Division of the time between two transfers, the fastest at `speed` [m/s], into sub-steps of
+    /// `longest` [s]: as many as fit in it, or one more that fill it, whichever is cheaper (equation
+    /// 27).
+    pub fn division(&self, longest: f64, speed: f64) -> Division {
+        let travel = self.governing_speed(speed) * longest;
+        let room = (self.flow_courant * self.cell_size / travel).max(1.0);
+        let (fits, fills) = (room.floor(), room.ceil());
+        // Per time; a transfer costs as much as some sub-steps.
+        let of_those_that_fit = (TRANSFER + fits) / fits;
+        let of_those_that_fill = (TRANSFER + fills) / room;
+        if of_those_that_fill < of_those_that_fit {
+            Division {
+                substep: longest * (room / fills),
+                count: fills,
+            }
+        } else {
+            Division {
+                substep: longest,
+                count: fits,
+            }
+        }
+    }
+}
+
+/// Sub-steps that take as long as the transfers of a step: 4.3 in the collapse of 200,000 points,
+/// 5 in the source paper's scene (`scree bench --only stages`).
+const TRANSFER: f64 = 4.0;
+
+/// Sub-steps between two transfers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Division {
+    /// Length of each [s].
+    pub substep: f64,
+    /// Their number, whole, but kept as a float.
+    pub count: f64,
+}
+
+impl Division {
+    /// Length of all together [s].
+    pub fn step(&self) -> f64 {
+        self.substep * self.count
     }
 }
 
@@ -124,7 +159,27 @@ mod tests {
         let pace = limits.pace(longest, 2.0, 1.0);
         let travel = 2.0 * pace.substep * f64::from(pace.count);
         assert!(travel <= 0.2 * 0.01 && travel > 0.15 * 0.01, "{travel}");
-        assert_eq!((pace.substep, pace.reaches_end), (longest, false));
+        assert!(pace.substep <= longest && !pace.reaches_end);
+    }
+
+    // Room for 1.4 sub-steps: two of 0.7 and their transfer cost 6 per 1.4, one and its transfer
+    // 5 per 1. For 3.1, four would cost 8 per 3.1, three cost 7 per 3.
+    #[test]
+    fn sub_steps_fill_the_time_between_two_transfers_where_that_is_cheaper() {
+        let limits = limits();
+        let of = |room: f64| {
+            let speed = 0.2 * 0.01 / (room * 1e-4);
+            let division = limits.division(1e-4, speed);
+            (division.count, division.substep / 1e-4)
+        };
+        let near = |one: (f64, f64), other: (f64, f64)| {
+            assert!((one.0 - other.0).abs() < 1e-9, "{one:?}");
+            assert!((one.1 - other.1).abs() < 1e-9, "{one:?}");
+        };
+        near(of(1.4), (2.0, 0.7));
+        near(of(3.1), (3.0, 1.0));
+        near(of(3.9), (4.0, 0.975));
+        near(of(0.3), (1.0, 1.0));
     }
 
     #[test]

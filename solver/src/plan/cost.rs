@@ -154,8 +154,8 @@ fn steps(prepared: &PreparedScene, points: u64) -> (u64, u64) {
         return over(duration, METHOD.time_step.without_flow, 1.0);
     };
     let longest = longest_substep(&flow.limits).min(flow.contact_substep(&prepared.bodies));
-    let allowed = flow.limits.substeps_per_step(longest, flow.limits.slow);
-    over(duration, longest, allowed)
+    let division = flow.limits.division(longest, flow.limits.slow);
+    over(duration, division.substep, division.count)
 }
 
 pub(super) fn longest_substep(limits: &Limits) -> f64 {

@@ -89,7 +89,7 @@ impl Simulation {
             .min(flow.limits.body_substep(body_speed))
             .min(self.contact_substep)
             .min(timing.longest_substep);
-        let step = flow.limits.substeps_per_step(substep, fastest) * substep;
+        let step = flow.limits.division(substep, fastest).step();
         let substep = self.for_bodies(substep, step);
         let limit = flow.limits.shortest_substep();
         if flow.limits.substep(flow_speed) < limit {
