@@ -65,9 +65,10 @@ pub struct ServiceConfig {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Workers {
-    /// Jobs that run at the same time.
-    pub count: usize,
-    /// Solver threads of one job; `None`: the cores are shared evenly.
+    /// Jobs that run at the same time; `None`: as many as cores.
+    pub count: Option<usize>,
+    /// Most solver threads of one job; `None`: as many as cores. Jobs that run at the same time
+    /// share the cores.
     pub threads_per_worker: Option<usize>,
 }
 
@@ -108,8 +109,10 @@ pub enum ConfigError {
 pub struct PoolSize {
     /// Jobs that run at the same time.
     pub workers: usize,
-    /// Solver threads of each.
+    /// Most solver threads of each.
     pub threads_per_worker: usize,
+    /// Cores that they share.
+    pub cores: usize,
 }
 
 impl Default for ServiceConfig {
@@ -118,7 +121,7 @@ impl Default for ServiceConfig {
             listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 8080)),
             database: PathBuf::from("scree.db"),
             workers: Workers {
-                count: 1,
+                count: None,
                 threads_per_worker: None,
             },
             queue: Queue {
@@ -164,7 +167,7 @@ impl ServiceConfig {
         config.map_err(|error| ConfigError::Unreadable(Box::new(error)))
     }
 
-    /// Checks the rules that types can't express: loopback, finite durations, workers × threads
+    /// Checks the rules that types can't express: loopback, finite durations, workers and threads
     /// within `cores`.
     ///
     /// # Errors
@@ -241,22 +244,18 @@ impl ServiceConfig {
 
 impl Workers {
     fn check(&self, cores: usize) -> Result<PoolSize, ConfigError> {
-        if self.count == 0 || self.count > cores {
+        let allowed = |key, value: Option<usize>| {
+            let value = value.unwrap_or(cores);
+            if (1..=cores).contains(&value) {
+                return Ok(value);
+            }
             let reason = format!("allowed is 1 <= x <= {cores}, the cores of this machine");
-            return Err(not_allowed("workers.count", self.count, reason));
-        }
-        let most = cores / self.count;
-        let threads = self.threads_per_worker.unwrap_or(most);
-        if threads == 0 || threads > most {
-            let reason = format!(
-                "with {} worker(s) on {cores} core(s), allowed is 1 <= x <= {most}",
-                self.count
-            );
-            return Err(not_allowed("workers.threads_per_worker", threads, reason));
-        }
+            Err(not_allowed(key, value, reason))
+        };
         Ok(PoolSize {
-            workers: self.count,
-            threads_per_worker: threads,
+            workers: allowed("workers.count", self.count)?,
+            threads_per_worker: allowed("workers.threads_per_worker", self.threads_per_worker)?,
+            cores,
         })
     }
 }

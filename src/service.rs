@@ -166,7 +166,7 @@ async fn serve(
     listener: TcpListener,
 ) -> Result<Tasks, StartError> {
     let left_running = left_running(config, store).await?;
-    let job_limits = JobLimits::new(&config.limits, size);
+    let job_limits = JobLimits::new(&config.limits);
     let means = Means {
         threads_per_worker: size.threads_per_worker,
         point_steps: config.limits.job_point_steps,

@@ -22,7 +22,7 @@ fn the_shipped_file_says_what_is_built_in() {
 fn the_environment_wins_over_the_file() {
     let environment = Serialized::default("workers.count", 7);
     let config = ServiceConfig::layered(Some(&shipped()), environment).unwrap();
-    assert_eq!(config.workers.count, 7);
+    assert_eq!(config.workers.count, Some(7));
     assert_eq!(config.limits, ServiceConfig::default().limits);
 }
 
@@ -54,15 +54,15 @@ fn workers_and_their_threads_fit_the_cores() {
         }
         .check(cores)
         .ok()
-        .map(|size| size.threads_per_worker)
+        .map(|size| (size.workers, size.threads_per_worker))
     };
-    assert_eq!(size(1, None, 2), Some(2));
-    assert_eq!(size(2, None, 5), Some(2));
-    assert_eq!(size(2, Some(1), 2), Some(1));
-    assert_eq!(size(2, Some(2), 2), None);
-    assert_eq!(size(3, None, 2), None);
-    assert_eq!(size(0, None, 2), None);
-    assert_eq!(size(1, Some(0), 2), None);
+    assert_eq!(size(None, None, 5), Some((5, 5)));
+    assert_eq!(size(Some(1), None, 2), Some((1, 2)));
+    assert_eq!(size(Some(2), Some(1), 2), Some((2, 1)));
+    assert_eq!(size(Some(3), None, 2), None);
+    assert_eq!(size(Some(0), None, 2), None);
+    assert_eq!(size(None, Some(0), 2), None);
+    assert_eq!(size(None, Some(3), 2), None);
 }
 
 #[test]

@@ -147,7 +147,9 @@ pub struct Provenance {
     /// start.
     #[schema(required = true)]
     pub instructions: Option<String>,
-    /// Number of solver threads; null before the start. Results do not depend on it.
+    /// Number of solver threads at the start of the last attempt; null before the start. Jobs that
+    /// run at the same time share the cores, so that it changes on the way; results do not depend on
+    /// it.
     #[schema(required = true)]
     pub threads: Option<u32>,
     /// Fingerprint of all records of the run, 64 hexadecimal digits: equal

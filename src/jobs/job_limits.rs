@@ -1,7 +1,7 @@
 //! Limits of a job: memory, wall time and size of its results. One that goes beyond them fails,
 //! and takes nobody along.
 
-use crate::config::{Limits, PoolSize};
+use crate::config::Limits;
 use crate::machine;
 use crate::runs::Resources;
 use std::time::Duration;
@@ -15,6 +15,8 @@ const SHARE_OF_MEMORY: f64 = 0.75;
 pub struct JobLimits {
     /// Largest memory [bytes].
     pub memory_bytes: u64,
+    /// Memory of all jobs that run at the same time [bytes].
+    pub memory_of_all_bytes: u64,
     /// Longest wall time.
     pub wall_time: Duration,
     /// Largest size of its results [bytes].
@@ -68,13 +70,12 @@ pub enum Excess {
 
 impl JobLimits {
     /// Limits of a job on a service with this configuration, on this machine.
-    pub fn new(limits: &Limits, size: PoolSize) -> Self {
-        let share = SHARE_OF_MEMORY / size.workers as f64;
-        let memory_bytes = limits
-            .job_memory_bytes
-            .unwrap_or_else(|| (machine::total_memory() as f64 * share) as u64);
+    pub fn new(limits: &Limits) -> Self {
+        let of_machine = (machine::total_memory() as f64 * SHARE_OF_MEMORY) as u64;
+        let memory_bytes = limits.job_memory_bytes.unwrap_or(of_machine);
         Self {
             memory_bytes,
+            memory_of_all_bytes: of_machine.max(memory_bytes),
             wall_time: limits.job_wall_time(),
             results_bytes: limits.job_results_bytes,
         }
@@ -82,8 +83,7 @@ impl JobLimits {
 
     /// Checks before a run is set up that its memory is there: a process that runs out of it ends
     /// with all of its jobs.
-    pub(super) fn check_before(&self, needed_bytes: u64) -> Result<(), Excess> {
-        self.check_memory(needed_bytes)?;
+    pub(super) fn check_available(needed_bytes: u64) -> Result<(), Excess> {
         let available_bytes = machine::available_memory();
         if needed_bytes > available_bytes {
             return Err(Excess::NoMemory {
@@ -118,7 +118,8 @@ impl JobLimits {
         }
     }
 
-    fn check_memory(&self, needed_bytes: u64) -> Result<(), Excess> {
+    /// Checks the memory of a run.
+    pub(super) fn check_memory(&self, needed_bytes: u64) -> Result<(), Excess> {
         if needed_bytes > self.memory_bytes {
             return Err(Excess::Memory {
                 needed_bytes,
@@ -137,6 +138,7 @@ mod tests {
     fn each_limit_is_told_with_its_numbers() {
         let limits = JobLimits {
             memory_bytes: 1000,
+            memory_of_all_bytes: 1000,
             wall_time: Duration::from_secs(10),
             results_bytes: Some(50),
         };
@@ -154,11 +156,7 @@ mod tests {
             limits.check_results(51),
             Err(Excess::Results { .. })
         ));
-        let unlimited = JobLimits {
-            memory_bytes: u64::MAX,
-            ..limits
-        };
-        let none = unlimited.check_before(u64::MAX).unwrap_err();
+        let none = JobLimits::check_available(u64::MAX).unwrap_err();
         assert!(matches!(none, Excess::NoMemory { .. }));
     }
 }

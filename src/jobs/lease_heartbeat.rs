@@ -72,7 +72,7 @@ fn renew_leases(equipment: &Equipment) {
             Ok(Renewal::Held) => {}
             Ok(renewal) => {
                 info!(id = %run.lease.job, ?renewal, "the job is not to go on");
-                run.stop.raise();
+                run.control.raise();
             }
             Err(error) => warn!(id = %run.lease.job, %error, "a lease can't be renewed now"),
         }

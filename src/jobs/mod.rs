@@ -15,6 +15,7 @@ pub mod job;
 mod job_limits;
 mod job_service;
 mod lease_heartbeat;
+mod memory_budget;
 mod news;
 mod open_chunk;
 pub mod pool;

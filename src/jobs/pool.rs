@@ -4,10 +4,11 @@
 use super::job::JobId;
 use super::job_limits::JobLimits;
 use super::lease_heartbeat::LeaseHeartbeat;
+use super::memory_budget::MemoryBudget;
 use super::store::{JobStore, Lease};
 use super::worker;
 use crate::config::{PoolSize, Queue, Recording, Retention, ServiceConfig};
-use crate::runs::{Progress, ProgressBoard, Stop, StopFlag};
+use crate::runs::{Progress, ProgressBoard, RunControl, Stop};
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -41,6 +42,7 @@ pub(super) struct Equipment {
     pub(super) runtime: Handle,
     pub(super) registry: Arc<RunningJobRegistry>,
     pub(super) threads: usize,
+    pub(super) memory: Arc<MemoryBudget>,
     pub(super) started: Instant,
     pub(super) queue: Queue,
     pub(super) recording: Recording,
@@ -48,9 +50,11 @@ pub(super) struct Equipment {
     pub(super) retention: Retention,
 }
 
-/// Registry of running jobs: workers wait in it for work, and jobs are stopped through it.
-#[derive(Debug, Default)]
+/// Registry of running jobs: workers wait in it for work, jobs are stopped through it, and share
+/// the cores by it.
+#[derive(Debug)]
 pub struct RunningJobRegistry {
+    cores: usize,
     state: Mutex<State>,
     changed: Condvar,
 }
@@ -65,6 +69,18 @@ struct State {
     running: BTreeMap<JobId, RegisteredRun>,
 }
 
+impl State {
+    /// Shares the cores among the running jobs, those that came first having one more if they do
+    /// not divide evenly.
+    fn share(&self, cores: usize) {
+        let jobs = self.running.len().max(1);
+        for (place, registered) in self.running.values().enumerate() {
+            let threads = cores / jobs + usize::from(place < cores % jobs);
+            registered.run.control.ask_for_threads(threads.max(1));
+        }
+    }
+}
+
 #[derive(Debug)]
 struct RegisteredRun {
     run: RunningJob,
@@ -75,7 +91,7 @@ struct RegisteredRun {
 #[derive(Debug, Clone)]
 pub(super) struct RunningJob {
     pub(super) lease: Lease,
-    pub(super) stop: Arc<StopFlag>,
+    pub(super) control: Arc<RunControl>,
     pub(super) board: Arc<ProgressBoard>,
 }
 
@@ -103,8 +119,9 @@ impl Pool {
         let equipment = Equipment {
             store,
             runtime: Handle::current(),
-            registry: Arc::default(),
+            registry: Arc::new(RunningJobRegistry::of_cores(size.cores)),
             threads: size.threads_per_worker,
+            memory: Arc::new(MemoryBudget::new(job_limits.memory_of_all_bytes)),
             started: Instant::now(),
             queue: config.queue.clone(),
             recording: config.recording.clone(),
@@ -193,6 +210,15 @@ impl Equipment {
 }
 
 impl RunningJobRegistry {
+    /// Without jobs yet, on a machine with so many cores.
+    fn of_cores(cores: usize) -> Self {
+        Self {
+            cores,
+            state: Mutex::default(),
+            changed: Condvar::new(),
+        }
+    }
+
     /// Lets the workers claim jobs: those that were left running, this many, are reclaimed.
     pub(super) fn open(&self, left_running: usize) {
         if left_running > 0 {
@@ -224,7 +250,7 @@ impl RunningJobRegistry {
     pub fn stop_job(&self, job: JobId) -> Option<watch::Receiver<()>> {
         let state = self.state();
         let registered = state.running.get(&job)?;
-        registered.run.stop.raise();
+        registered.run.control.raise();
         Some(registered.ended.clone())
     }
 
@@ -232,7 +258,7 @@ impl RunningJobRegistry {
         let mut state = self.state();
         state.closing = true;
         for registered in state.running.values() {
-            registered.run.stop.ask(Stop::OnceSaved);
+            registered.run.control.ask(Stop::OnceSaved);
         }
         self.changed.notify_all();
     }
@@ -250,7 +276,7 @@ impl RunningJobRegistry {
     fn cancel(&self) {
         for registered in self.state().running.values() {
             tracing::warn!(id = %registered.run.lease.job, "its state can't be saved in time: it goes back as it was saved last");
-            registered.run.stop.raise();
+            registered.run.control.raise();
         }
     }
 
@@ -301,19 +327,20 @@ impl RunningJobRegistry {
     pub(super) fn register(self: &Arc<Self>, lease: Lease) -> RunningJobGuard {
         let run = RunningJob {
             lease,
-            stop: Arc::default(),
+            control: Arc::default(),
             board: Arc::default(),
         };
         let (sender, ended) = watch::channel(());
         let mut state = self.state();
         if state.closing {
-            run.stop.ask(Stop::OnceSaved);
+            run.control.ask(Stop::OnceSaved);
         }
         let registered = RegisteredRun {
             run: run.clone(),
             ended,
         };
         state.running.insert(lease.job, registered);
+        state.share(self.cores);
         RunningJobGuard {
             registry: Arc::clone(self),
             run,
@@ -329,7 +356,10 @@ impl RunningJobRegistry {
 
 impl Drop for RunningJobGuard {
     fn drop(&mut self) {
-        self.registry.state().running.remove(&self.run.lease.job);
+        let mut state = self.registry.state();
+        state.running.remove(&self.run.lease.job);
+        state.share(self.registry.cores);
+        drop(state);
         self.registry.changed.notify_all();
     }
 }
@@ -347,25 +377,40 @@ mod tests {
     }
 
     #[test]
+    fn the_jobs_that_run_share_the_cores() {
+        let registry = Arc::new(RunningJobRegistry::of_cores(5));
+        let threads = |guard: &RunningJobGuard| guard.run.control.threads().unwrap_or(0);
+        let first = registry.register(lease());
+        assert_eq!(threads(&first), 5);
+        let second = registry.register(lease());
+        assert_eq!(threads(&first) + threads(&second), 5);
+        assert!(threads(&first).abs_diff(threads(&second)) == 1);
+        drop(first);
+        assert_eq!(threads(&second), 5);
+        let crowd: Vec<_> = (0..6).map(|_| registry.register(lease())).collect();
+        assert!(crowd.iter().all(|guard| threads(guard) == 1));
+    }
+
+    #[test]
     fn a_job_seated_on_a_closing_bench_is_asked_to_stop_at_once() {
-        let registry = Arc::new(RunningJobRegistry::default());
+        let registry = Arc::new(RunningJobRegistry::of_cores(2));
         let early = registry.register(lease());
-        assert!(!early.run.stop.is_raised());
+        assert!(!early.run.control.is_raised());
         registry.close();
-        assert_eq!(early.run.stop.asked(), Stop::OnceSaved);
-        assert!(registry.register(lease()).run.stop.is_raised());
+        assert_eq!(early.run.control.asked(), Stop::OnceSaved);
+        assert!(registry.register(lease()).run.control.is_raised());
         assert_eq!(registry.submissions(), None);
     }
 
     #[test]
     fn a_job_that_left_its_place_can_not_be_stopped() {
-        let registry = Arc::new(RunningJobRegistry::default());
+        let registry = Arc::new(RunningJobRegistry::of_cores(2));
         let lease = lease();
         let job = lease.job;
         let guard = registry.register(lease);
         assert_eq!(registry.runs().len(), 1);
         let ended = registry.stop_job(job).unwrap();
-        assert_eq!(guard.run.stop.asked(), Stop::AtOnce);
+        assert_eq!(guard.run.control.asked(), Stop::AtOnce);
         assert!(ended.has_changed().is_ok());
         drop(guard);
         assert!(
@@ -377,7 +422,7 @@ mod tests {
 
     #[test]
     fn a_submission_before_the_wait_is_not_slept_through() {
-        let registry = RunningJobRegistry::default();
+        let registry = RunningJobRegistry::of_cores(2);
         let seen = registry.submissions().unwrap();
         registry.announce();
         let began = Instant::now();

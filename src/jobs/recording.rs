@@ -2,13 +2,15 @@
 //! store at intervals, in few large blocks, at times with the run's state.
 
 use super::job_limits::{Excess, JobLimits};
+use super::memory_budget::{MemoryBudget, Reservation};
 use super::open_chunk::OpenChunk;
+use super::pool::RunningJob;
 use super::store::{JobStore, Lease, NewResults, ResumePoint, StoreError, StoredState};
 use crate::config::Recording;
 use crate::results::chunk::BlockError;
 use crate::results::fingerprint::Fingerprint;
 use crate::results::flow::StoredSnapshot;
-use crate::runs::{Progress, ProgressBoard, Resources, Sink};
+use crate::runs::{Progress, ProgressBoard, Resources, RunControl, Sink};
 use scree_solver::record::{Record, Sample};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -33,6 +35,9 @@ pub enum KeepError {
     /// The job's lease was lost.
     #[error("the job was taken away from its worker")]
     Lost,
+    /// The job was stopped while it waited for memory.
+    #[error("the job was stopped while it waited for memory")]
+    Stopped,
     /// The store's own error.
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -62,6 +67,10 @@ pub struct StoreSink {
     /// Time after the start at which the first state is due.
     first_state: Duration,
     board: Arc<ProgressBoard>,
+    control: Arc<RunControl>,
+    memory: Arc<MemoryBudget>,
+    /// Memory of the current run.
+    reserved: Option<Reservation>,
     open_chunks: Vec<OpenChunk>,
     samples: usize,
     fingerprint: Fingerprint,
@@ -83,19 +92,22 @@ struct Times {
 }
 
 impl StoreSink {
-    /// A sink for the job of this lease, which writes its progress to `board`.
-    pub fn new(
+    /// A sink for a running job, which takes its memory from this budget.
+    pub(super) fn new(
         (store, runtime): (Arc<dyn JobStore>, Handle),
-        lease: Lease,
+        job: RunningJob,
         (recording, limits): (Recording, JobLimits),
-        board: Arc<ProgressBoard>,
+        memory: Arc<MemoryBudget>,
     ) -> Self {
         let now = Instant::now();
         Self {
             store,
             runtime,
-            lease,
-            board,
+            lease: job.lease,
+            board: job.board,
+            control: job.control,
+            memory,
+            reserved: None,
             open_chunks: Vec::new(),
             samples: 0,
             fingerprint: Fingerprint::default(),
@@ -116,16 +128,18 @@ impl StoreSink {
         }
     }
 
-    /// A sink for the same job without any records.
-    pub fn afresh(&self) -> Self {
-        let mut sink = Self::new(
-            (Arc::clone(&self.store), self.runtime.clone()),
-            self.lease,
-            (self.recording.clone(), self.limits.clone()),
-            Arc::clone(&self.board),
-        );
-        sink.begin_with_a_state_in(self.first_state);
-        sink
+    /// Starts anew, without any records.
+    pub fn start_afresh(&mut self) {
+        self.open_chunks.clear();
+        self.samples = 0;
+        self.fingerprint = Fingerprint::default();
+        self.snapshots.clear();
+        self.state = None;
+        self.progress = Progress::default();
+        self.complete_bytes = 0;
+        self.begun = Instant::now();
+        (self.times.flushed, self.times.refused_since) = (self.begun, None);
+        self.begin_with_a_state_in(self.first_state);
     }
 
     /// Makes the first state be saved early.
@@ -258,7 +272,16 @@ impl Sink for StoreSink {
     }
 
     fn before_set_up(&mut self, memory_bytes: u64) -> Result<(), KeepError> {
-        Ok(self.limits.check_before(memory_bytes)?)
+        self.limits.check_memory(memory_bytes)?;
+        // That of the run before is free: waiting for more while holding it could last for ever.
+        self.reserved = None;
+        let asked = Instant::now();
+        let stopped = || self.control.is_raised();
+        let reserved = self.memory.reserve(memory_bytes, stopped);
+        self.reserved = Some(reserved.ok_or(KeepError::Stopped)?);
+        // Waiting is no wall time of the job.
+        self.begun += asked.elapsed();
+        Ok(JobLimits::check_available(memory_bytes)?)
     }
 
     fn resources(&mut self, resources: &Resources) -> Result<(), KeepError> {

@@ -7,7 +7,7 @@ use super::store::{
     AttemptStart, Claim, Claimant, FailedAttempt, Lease, ResumePoint, Solver, StoreError,
 };
 use crate::runs::convergence_study::Runs;
-use crate::runs::{COMMIT, Run, RunEnd, RunError, SavedRunError, Sink, StopFlag};
+use crate::runs::{COMMIT, Run, RunControl, RunEnd, RunError, SavedRunError, Sink};
 use scree_solver::plan::Cost;
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
@@ -102,32 +102,24 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResu
         Ok(scenario) => scenario,
         Err(error) => return internal_failure(&error.to_string()),
     };
-    let threads = scenario
-        .numerics
-        .threads
-        .unwrap_or(equipment.threads)
-        .min(equipment.threads);
+    let control = &*guard.run.control;
+    let most = scenario.numerics.threads.unwrap_or(equipment.threads);
+    control.limit_threads(most.min(equipment.threads));
     let mut sink = StoreSink::new(
         (Arc::clone(&equipment.store), equipment.runtime.clone()),
-        claim.lease,
+        guard.run.clone(),
         (equipment.recording.clone(), equipment.job_limits.clone()),
-        guard.run.board.clone(),
+        Arc::clone(&equipment.memory),
     );
     if claim.failed_attempts > 0 {
         sink.save_early();
     }
-    let stop = &*guard.run.stop;
-    if stop.is_raised() {
+    if control.is_raised() {
         return JobResult::Released;
     }
-    let ended = run_to_end(
-        equipment,
-        claim.lease,
-        (&scenario, threads),
-        (stop, &mut sink),
-    );
+    let ended = run_to_end(equipment, claim.lease, &scenario, (control, &mut sink));
     // Records are kept however the run ended.
-    let ended = match (ended, sink.finish(|| stop.is_raised())) {
+    let ended = match (ended, sink.finish(|| control.is_raised())) {
         (Ok(_), Err(error)) => Err(RunError::Sink(error)),
         (ended, _) => ended,
     };
@@ -142,18 +134,18 @@ fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResu
 fn run_to_end(
     equipment: &Equipment,
     lease: Lease,
-    (scenario, threads): (&Scenario, usize),
-    (stop, sink): (&StopFlag, &mut StoreSink),
+    scenario: &Scenario,
+    (control, sink): (&RunControl, &mut StoreSink),
 ) -> Result<RunEnd, RunError<KeepError>> {
     let memory_bytes = Cost::of(&PreparedScene::of(scenario)?).memory_bytes;
     sink.before_set_up(memory_bytes).map_err(RunError::Sink)?;
-    let what = (scenario, threads);
+    let what = (scenario, control.threads().unwrap_or(1));
     if scenario.accuracy.takes_several_runs() {
         let ways: Ways<Runs> = (Runs::restored, Runs::afresh);
-        return set_up(equipment, lease, what, sink, ways)?.go(stop, sink);
+        return set_up(equipment, lease, what, sink, ways)?.go(control, sink);
     }
     let ways: Ways<Run> = (Run::restored, Run::afresh);
-    set_up(equipment, lease, what, sink, ways)?.go(stop, sink)
+    set_up(equipment, lease, what, sink, ways)?.go(control, sink)
 }
 
 /// Functions that make a run from its saved state, and at its start.
@@ -198,7 +190,7 @@ fn set_up<T>(
         }
     }
     begin(equipment, lease, &AttemptStart::Afresh, threads)?;
-    *sink = sink.afresh();
+    sink.start_afresh();
     Ok(afresh(scenario, threads)?)
 }
 
@@ -239,6 +231,7 @@ fn result_of_error(error: &RunError<KeepError>) -> JobResult {
             JobResult::AttemptFailed(error.to_string())
         }
         RunError::Sink(KeepError::Lost) => JobResult::Gone,
+        RunError::Sink(KeepError::Stopped) => JobResult::Released,
         RunError::Sink(KeepError::Excess(excess)) => JobResult::Failed(Failure::excess(excess)),
         RunError::Sink(error) => JobResult::AttemptFailed(error.to_string()),
     }

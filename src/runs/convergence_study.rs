@@ -1,8 +1,9 @@
 //! Executes all runs that a scenario's answer needs: the refinement runs of its intervals, then the
 //! answer, or as many runs as its target takes.
 
+use super::control::RunControl;
 use super::progress::{Progress, Resources};
-use super::run::{Run, RunEnd, RunError, Sink, StopFlag};
+use super::run::{Run, RunEnd, RunError, Sink};
 use super::saved_run::SavedRunError;
 use super::saved_study::{self, SavedStudy};
 use super::study_progress::StudyProgress;
@@ -24,7 +25,7 @@ use std::borrow::Cow;
 pub fn run<S: Sink>(
     scenario: &Scenario,
     threads: usize,
-    stop: &StopFlag,
+    stop: &RunControl,
     sink: &mut S,
 ) -> Result<RunEnd, RunError<S::Error>> {
     Runs::afresh(scenario, threads)?.go(stop, sink)
@@ -102,7 +103,7 @@ impl Runs {
     /// See [`RunError`]; records that the sink has taken stay valid.
     pub fn go<S: Sink>(
         mut self,
-        stop: &StopFlag,
+        stop: &RunControl,
         sink: &mut S,
     ) -> Result<RunEnd, RunError<S::Error>> {
         let mut whole = Whole {

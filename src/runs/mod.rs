@@ -3,6 +3,7 @@
 //! before. The command line, the verification and the workers of the service all compute scenarios
 //! this way; records and progress go to a [`Sink`] of theirs.
 
+mod control;
 pub mod convergence_study;
 mod headed;
 mod pace;
@@ -13,6 +14,7 @@ mod saved_study;
 mod study_progress;
 mod watch;
 
+pub use control::{RunControl, Stop};
 pub use progress::{Progress, ProgressBoard, Resources};
-pub use run::{NoSink, Run, RunEnd, RunError, Sink, Stop, StopFlag};
+pub use run::{NoSink, Run, RunEnd, RunError, Sink};
 pub use saved_run::{COMMIT, SavedRunError};

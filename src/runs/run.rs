@@ -1,14 +1,14 @@
 //! One run of a scenario: the simulation, with a recorder, into a sink.
 
+use super::control::RunControl;
 use super::progress::{Progress, Resources};
 use super::saved_run::{self, SavedRunError, Spent};
 use super::watch::Watch;
 use scree_solver::record::{Outcome, Record, Recorder};
 use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
-use scree_solver::{Cancellation, Ending, SetupError, Simulation, StepError};
+use scree_solver::{Ending, SetupError, Simulation, StepError};
 use std::convert::Infallible;
-use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
 /// Sink of a run's records and progress.
@@ -76,68 +76,12 @@ impl Sink for NoSink {
     }
 }
 
-/// Point at which a run is to stop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stop {
-    /// At the end of the scenario.
-    AtTheEnd,
-    /// Once its state is saved, at the end of the current step.
-    OnceSaved,
-    /// Within the current sub-step, whose records are lost.
-    AtOnce,
-}
-
-/// Request to a run to stop. A request is never withdrawn.
-#[derive(Debug, Default)]
-pub struct StopFlag {
-    once_saved: AtomicBool,
-    /// Asked for a stop at once: the solver looks for it within a sub-step.
-    at_once: Cancellation,
-}
-
-impl StopFlag {
-    /// Asks for a stop at once.
-    pub fn raise(&self) {
-        self.ask(Stop::AtOnce);
-    }
-
-    /// Asks for a stop; the earlier of two requests counts.
-    pub fn ask(&self, stop: Stop) {
-        match stop {
-            Stop::AtTheEnd => {}
-            Stop::OnceSaved => self.once_saved.store(true, Ordering::Relaxed),
-            Stop::AtOnce => self.at_once.ask(),
-        }
-    }
-
-    /// The request for a stop at once, for the solver.
-    pub(super) fn cancellation(&self) -> Cancellation {
-        self.at_once.clone()
-    }
-
-    /// The stop asked for.
-    pub fn asked(&self) -> Stop {
-        if self.at_once.is_asked() {
-            Stop::AtOnce
-        } else if self.once_saved.load(Ordering::Relaxed) {
-            Stop::OnceSaved
-        } else {
-            Stop::AtTheEnd
-        }
-    }
-
-    /// True if a stop was asked for.
-    pub fn is_raised(&self) -> bool {
-        self.asked() > Stop::AtTheEnd
-    }
-}
-
 /// Regular end of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RunEnd {
     /// The simulated time is over.
     Completed(Box<Outcome>),
-    /// The [`StopFlag`] was raised first; the records so far stay valid.
+    /// The [`RunControl`] was raised first; the records so far stay valid.
     Stopped,
 }
 
@@ -163,7 +107,7 @@ pub enum RunError<E> {
 pub fn run<S: Sink>(
     scenario: &Scenario,
     threads: usize,
-    stop: &StopFlag,
+    stop: &RunControl,
     sink: &mut S,
 ) -> Result<RunEnd, RunError<S::Error>> {
     Run::afresh(scenario, threads)?.go(stop, sink)
@@ -219,7 +163,11 @@ impl Run {
     ///
     /// # Errors
     /// See [`RunError`]; records that the sink has taken stay valid.
-    pub fn go<S: Sink>(self, stop: &StopFlag, sink: &mut S) -> Result<RunEnd, RunError<S::Error>> {
+    pub fn go<S: Sink>(
+        self,
+        stop: &RunControl,
+        sink: &mut S,
+    ) -> Result<RunEnd, RunError<S::Error>> {
         let Self {
             mut simulation,
             recorder,
@@ -233,9 +181,15 @@ impl Run {
             watch.start(&simulation).map_err(RunError::Sink)?;
         }
         if duration_s > 0.0 {
-            let ending = simulation.run(duration_s, |simulation, report| {
-                watch.observe(simulation, report)
-            });
+            let ending = loop {
+                let ending = simulation.run(duration_s, |simulation, report| {
+                    watch.observe(simulation, report)
+                });
+                match watch.take_other_threads() {
+                    Some(threads) if ending.is_ok() => simulation.set_threads(threads)?,
+                    _ => break ending,
+                }
+            };
             watch.end().map_err(RunError::Sink)?;
             if ending? == Ending::Interrupted && !watch.ended_early() {
                 return Ok(RunEnd::Stopped);

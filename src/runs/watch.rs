@@ -1,9 +1,10 @@
 //! Watches a run between two sub-steps: handles records, progress, states and requests to
 //! stop.
 
+use super::control::{RunControl, Stop};
 use super::pace::Pace;
 use super::progress::Resources;
-use super::run::{Sink, Stop, StopFlag};
+use super::run::Sink;
 use super::saved_run::{self, Spent};
 use scree_solver::record::{Outcome, Record, Recorder};
 use scree_solver::{Simulation, SubstepReport};
@@ -13,20 +14,22 @@ use std::ops::ControlFlow;
 pub(super) struct Watch<'a, S: Sink> {
     recorder: Recorder,
     pace: Pace,
-    stop: &'a StopFlag,
+    stop: &'a RunControl,
     sink: &'a mut S,
     refused: Option<S::Error>,
     /// True if the run ended because nothing can move any more.
     ended_early: bool,
     /// True once the run is over, not only stopped.
     is_over: bool,
+    /// Solver threads that the run is to go on with.
+    other_threads: Option<usize>,
 }
 
 impl<'a, S: Sink> Watch<'a, S> {
     pub(super) fn new(
         recorder: Recorder,
         spent: Spent,
-        (stop, sink): (&'a StopFlag, &'a mut S),
+        (stop, sink): (&'a RunControl, &'a mut S),
     ) -> Self {
         Self {
             pace: Pace::new(&recorder, spent),
@@ -36,7 +39,13 @@ impl<'a, S: Sink> Watch<'a, S> {
             refused: None,
             ended_early: false,
             is_over: false,
+            other_threads: None,
         }
+    }
+
+    /// Solver threads that the run was interrupted for to go on with.
+    pub(super) fn take_other_threads(&mut self) -> Option<usize> {
+        self.other_threads.take()
     }
 
     /// True if the run ended because nothing can move any more.
@@ -80,6 +89,12 @@ impl<'a, S: Sink> Watch<'a, S> {
             self.refused = Some(error);
         }
         if self.refused.is_some() || stop_here || self.ended_early {
+            return ControlFlow::Break(());
+        }
+        let other = self.stop.threads();
+        let other = other.filter(|threads| *threads != simulation.threads());
+        if report.step_ended && other.is_some() {
+            self.other_threads = other;
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())

@@ -2,7 +2,7 @@
 
 use super::run::{CaseError, scenario_of};
 use crate::machine::cores;
-use crate::runs::{NoSink, RunEnd, RunError, StopFlag, convergence_study};
+use crate::runs::{NoSink, RunControl, RunEnd, RunError, convergence_study};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Ending;
 use serde_json::Value;
@@ -14,7 +14,7 @@ use serde_json::Value;
 pub(super) fn answer(document: &Value) -> Result<Outcome, CaseError> {
     let mut scenario = scenario_of(document)?;
     scenario.numerics.ending = Ending::Full;
-    match convergence_study::run(&scenario, cores(), &StopFlag::default(), &mut NoSink) {
+    match convergence_study::run(&scenario, cores(), &RunControl::default(), &mut NoSink) {
         Ok(RunEnd::Completed(outcome)) => Ok(*outcome),
         Ok(RunEnd::Stopped) => Err(CaseError::Never("none of the runs could be computed")),
         Err(RunError::Setup(error)) => Err(error.into()),

@@ -213,6 +213,7 @@ pub(crate) fn config(directory: &TempDir) -> ServiceConfig {
         database: database(directory),
         ..ServiceConfig::default()
     };
+    config.workers.count = Some(1);
     config.workers.threads_per_worker = Some(1);
     config.recording.flush_interval_s = 0.01;
     config

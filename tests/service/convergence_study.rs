@@ -1,7 +1,7 @@
 //! Answers that need several runs.
 
 use crate::app::{TestApp, tiny_scene};
-use scree::runs::{Progress, RunEnd, RunError, Sink, StopFlag, convergence_study};
+use scree::runs::{Progress, RunControl, RunEnd, RunError, Sink, convergence_study};
 use scree_solver::record::{Outcome, Record, Role, Sample};
 use scree_solver::scenario::Scenario;
 use serde_json::{Value, json};
@@ -40,7 +40,7 @@ fn scene(accuracy: Value) -> Scenario {
 
 fn completed(scenario: &Scenario) -> (Outcome, Recording) {
     let mut recording = Recording::default();
-    match convergence_study::run(scenario, 1, &StopFlag::default(), &mut recording) {
+    match convergence_study::run(scenario, 1, &RunControl::default(), &mut recording) {
         Ok(RunEnd::Completed(outcome)) => (*outcome, recording),
         other => panic!("{other:?}"),
     }
@@ -82,7 +82,7 @@ fn progress_is_that_of_all_runs_together() {
 
 #[test]
 fn a_stop_in_a_refinement_run_ends_everything() {
-    let stop = StopFlag::default();
+    let stop = RunControl::default();
     stop.raise();
     let mut recording = Recording::default();
     let scenario = scene(json!({"error_bars": true}));
@@ -104,7 +104,7 @@ fn a_sink_that_refuses_progress_ends_everything() {
         }
     }
     let scenario = scene(json!({"error_bars": true}));
-    let ended = convergence_study::run(&scenario, 1, &StopFlag::default(), &mut Shut);
+    let ended = convergence_study::run(&scenario, 1, &RunControl::default(), &mut Shut);
     assert_eq!(ended, Err(RunError::Sink("shut")));
 }
 

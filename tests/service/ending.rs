@@ -1,6 +1,6 @@
 //! Runs that end before their duration, because nothing can move any more.
 
-use scree::runs::{Progress, RunEnd, Sink, StopFlag, run};
+use scree::runs::{Progress, RunControl, RunEnd, Sink, run};
 use scree_solver::record::{Outcome, Record};
 use scree_solver::scenario::Scenario;
 use serde_json::{Value, json};
@@ -36,7 +36,7 @@ fn run(scene: &Value, ending: &str) -> (Outcome, Counted) {
     scene["numerics"]["ending"] = json!(ending);
     let scenario = Scenario::from_json(&scene.to_string()).unwrap();
     let mut sink = Counted::default();
-    match run::run(&scenario, 1, &StopFlag::default(), &mut sink) {
+    match run::run(&scenario, 1, &RunControl::default(), &mut sink) {
         Ok(RunEnd::Completed(outcome)) => (*outcome, sink),
         other => panic!("{other:?}"),
     }

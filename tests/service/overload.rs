@@ -120,7 +120,7 @@ async fn a_service_stops_in_time_while_a_large_run_is_set_up() {
     let directory = app.stop().await;
     let took = began.elapsed();
     assert!(took < Duration::from_millis(1_300), "{took:?}");
-    let app = TestApp::start_in(directory, |config| config.workers.count = 1).await;
+    let app = TestApp::start_in(directory, |config| config.workers.count = Some(1)).await;
     let waiting = app.get(&job).await.body;
     assert_eq!(
         waiting["attempts"][0]["ending"], "handed-back",

@@ -1,6 +1,6 @@
 //! Checks that every scenario of the repository can be run.
 
-use scree::runs::{Progress, RunEnd, Sink, StopFlag, run};
+use scree::runs::{Progress, RunControl, RunEnd, Sink, run};
 use scree_solver::record::Record;
 use scree_solver::scenario::Scenario;
 use std::convert::Infallible;
@@ -51,7 +51,7 @@ fn every_shipped_scenario_runs_coarsely() {
         scenario.duration_s = scenario.duration_s.min(LONGEST_RUN_S);
         scenario.numerics.cell_size_m = Some(scenario.channel.width_m / CELLS_ACROSS);
         let mut sink = Collected::default();
-        let ended = run::run(&scenario, 1, &StopFlag::default(), &mut sink).unwrap();
+        let ended = run::run(&scenario, 1, &RunControl::default(), &mut sink).unwrap();
         let RunEnd::Completed(outcome) = ended else {
             panic!("{} was stopped", file.display())
         };

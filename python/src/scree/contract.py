@@ -875,7 +875,9 @@ class Provenance(TypedDict):
     """
     threads: Optional[int]
     """
-    Number of solver threads; null before the start. Results do not depend on it.
+    Number of solver threads at the start of the last attempt; null before the start. Jobs that
+    run at the same time share the cores, so that it changes on the way; results do not depend on
+    it.
     """
 
 

@@ -183,6 +183,17 @@ impl Simulation {
         }
     }
 
+    /// Goes on with this number of solver threads; the results do not depend on it.
+    ///
+    /// # Errors
+    /// Threads that can't be started; those before stay.
+    pub fn set_threads(&mut self, threads: usize) -> Result<(), SetupError> {
+        if threads != self.threads() {
+            self.pool = start_threads(threads)?;
+        }
+        Ok(())
+    }
+
     /// Ends the run within a sub-step once this is asked; it is interrupted then.
     pub fn cancel_with(&mut self, cancellation: Cancellation) {
         self.cancellation = cancellation;

@@ -6,7 +6,7 @@ use super::stopwatch::median;
 use crate::cli::columns::table;
 use crate::cli::failure::{Failure, not_set_up};
 use crate::cli::machine::cores;
-use scree::runs::{NoSink, RunEnd, RunError, StopFlag, run};
+use scree::runs::{NoSink, RunControl, RunEnd, RunError, run};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::{Approach, Ending, Scenario, Symmetry};
 use serde::Serialize;
@@ -129,7 +129,7 @@ fn at(cell_size_m: f64, repeats: u32) -> Result<Vec<Saving>, Failure> {
 /// Runs a scenario as a job would; the time of its set-up is included.
 pub(super) fn timed(scenario: &Scenario, threads: usize) -> Result<(f64, Outcome), Failure> {
     let start = Instant::now();
-    match run::run(scenario, threads, &StopFlag::default(), &mut NoSink) {
+    match run::run(scenario, threads, &RunControl::default(), &mut NoSink) {
         Ok(RunEnd::Completed(outcome)) => Ok((start.elapsed().as_secs_f64(), *outcome)),
         Ok(RunEnd::Stopped) => Err(Failure::Other("the run was stopped".to_owned())),
         Err(RunError::Setup(error)) => Err(not_set_up(&error)),

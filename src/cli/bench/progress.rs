@@ -4,7 +4,7 @@ use super::forecasts::{SCENES, scenario};
 use crate::cli::columns::table;
 use crate::cli::failure::Failure;
 use crate::cli::machine::cores;
-use scree::runs::{Progress, Sink, StopFlag, convergence_study};
+use scree::runs::{Progress, RunControl, Sink, convergence_study};
 use scree_solver::Scenario;
 use scree_solver::record::Record;
 use serde::Serialize;
@@ -74,7 +74,7 @@ impl Track {
             began: Instant::now(),
             told: Vec::new(),
         };
-        let ended = convergence_study::run(scenario, cores(), &StopFlag::default(), &mut watched);
+        let ended = convergence_study::run(scenario, cores(), &RunControl::default(), &mut watched);
         ended.map_err(|error| Failure::Numerical(error.to_string()))?;
         Ok(Self {
             scene,

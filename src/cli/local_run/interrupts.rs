@@ -2,14 +2,14 @@
 
 use crate::cli::console;
 use crate::cli::signals::{Signal, Signals};
-use scree::runs::{Stop, StopFlag};
+use scree::runs::{RunControl, Stop};
 use std::io;
 use std::sync::{Arc, OnceLock};
 
 /// Watch for signals: the first asks the run to stop, the second ends the process.
 #[derive(Debug, Default)]
 pub(super) struct Interrupts {
-    stop: StopFlag,
+    stop: RunControl,
     first: OnceLock<Signal>,
 }
 
@@ -47,7 +47,7 @@ impl Interrupts {
     }
 
     /// The request to the run.
-    pub(super) fn stop(&self) -> &StopFlag {
+    pub(super) fn stop(&self) -> &RunControl {
         &self.stop
     }
 

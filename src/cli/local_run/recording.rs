@@ -5,7 +5,7 @@ use crate::cli::console;
 use crate::cli::files::FileError;
 use crate::cli::meter::Meter;
 use crate::cli::results_folder::SavedRun;
-use scree::runs::{Progress, Sink, StopFlag};
+use scree::runs::{Progress, RunControl, Sink};
 use scree_solver::record::{FlowSnapshot, Record, Sample};
 
 /// Records of a run, and its saved state.
@@ -14,7 +14,7 @@ pub(super) struct Recording<'a> {
     records: Vec<Record>,
     /// None for a run whose results go nowhere.
     saved: Option<(SavedRun, Schedule)>,
-    stop: &'a StopFlag,
+    stop: &'a RunControl,
     /// Share of the run that is done.
     pub(super) fraction: f64,
     pub(super) meter: Meter,
@@ -25,7 +25,7 @@ impl<'a> Recording<'a> {
     pub(super) fn new(
         records: Vec<Record>,
         saved: Option<SavedRun>,
-        stop: &'a StopFlag,
+        stop: &'a RunControl,
         meter: Meter,
     ) -> Self {
         Self {
@@ -154,7 +154,7 @@ mod tests {
                 }
                 None => (Runs::afresh(&scenario, 1).unwrap(), Vec::new()),
             };
-            let stop = StopFlag::default();
+            let stop = RunControl::default();
             let recording = Recording::new(records, Some(saved), &stop, Meter::Silent);
             let mut sink = Interrupter { recording, steps };
             if let RunEnd::Completed(outcome) = runs.go(&stop, &mut sink).unwrap() {
@@ -218,7 +218,7 @@ mod tests {
         let folder = ResultsFolder::for_new_run(directory.path()).unwrap();
         let saved = folder.save_run("{}", &Formats::default()).unwrap();
         folder.discard_partial().unwrap();
-        let stop = StopFlag::default();
+        let stop = RunControl::default();
         let mut recording = Recording::new(Vec::new(), Some(saved), &stop, Meter::Silent);
         recording.state(0.0, b"state").unwrap();
         stop.ask(Stop::OnceSaved);
