@@ -71,3 +71,60 @@ impl Point {
             .find_map(|(name, finite)| (!finite).then_some(name))
     }
 }
+
+/// Points after which an unloaded list returns memory.
+const RETURNED: usize = 1 << 14;
+
+/// Points of a list one after the other; the list returns its memory on the way, so that it and
+/// what is made of the points are never there as a whole at the same time.
+#[derive(Debug)]
+pub struct Unloading {
+    /// The last one first.
+    left: Vec<Point>,
+}
+
+impl Unloading {
+    /// Points of this list.
+    pub fn of(mut points: Vec<Point>) -> Self {
+        points.reverse();
+        Self { left: points }
+    }
+}
+
+impl Iterator for Unloading {
+    type Item = Point;
+
+    fn next(&mut self) -> Option<Point> {
+        let next = self.left.pop();
+        if self.left.len().is_multiple_of(RETURNED) {
+            self.left.shrink_to_fit();
+        }
+        next
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unloaded_list_gives_its_points_in_order_and_its_memory_back() {
+        let point = |id| Point {
+            id,
+            mass: 1.0,
+            volume: 1.0,
+            position: Vec3::zeros(),
+            velocity: Vec3::zeros(),
+            affine: Mat3::zeros(),
+            stress: Sym3::default(),
+        };
+        let count = 3 * RETURNED as u32 + 5;
+        let mut unloading = Unloading::of((0..count).map(point).collect());
+        for id in 0..count {
+            assert_eq!(unloading.next().map(|point| point.id), Some(id));
+            assert!(unloading.left.capacity() < unloading.left.len() + RETURNED + 1);
+        }
+        assert!(unloading.next().is_none());
+        assert_eq!(unloading.left.capacity(), 0);
+    }
+}

@@ -30,7 +30,7 @@ pub struct Blocks<R: Real> {
 }
 
 /// Points that arrive at once when blocks are made.
-pub const ARRIVING: usize = 1 << 16;
+pub const ARRIVING: usize = 1 << 14;
 
 impl<R: Real> Blocks<R> {
     /// Points, each with its block.

@@ -70,12 +70,13 @@ struct Flow {
 }
 
 impl Flow {
-    /// Bytes while points of the release become packed ones.
+    /// Bytes while points of the release become packed ones, some at a time: most at the start or
+    /// at the end.
     fn set_up<R: Real>(&self) -> f64 {
         let arriving = self.computed.min(ARRIVING as f64);
-        self.packed::<R>(self.blocks.of_points)
-            + self.computed * size_of::<Point>() as f64
-            + arriving * size_of::<(BlockKey, Packed<R>)>() as f64
+        let of_arriving = size_of::<Point>() + size_of::<(BlockKey, Packed<R>)>();
+        let released = self.computed * size_of::<Point>() as f64;
+        released.max(self.packed::<R>(self.blocks.of_points)) + arriving * of_arriving as f64
     }
 
     /// Bytes of points and grid once the flow has spread.

@@ -140,7 +140,7 @@ impl Simulation {
     /// Threads that can't be started.
     pub fn of_scene(scene: Scene, threads: usize) -> Result<Self, SetupError> {
         let pool = start_threads(threads)?;
-        let flow = flow::start(&scene.points, &scene.given, scene.precision, scene.shares);
+        let flow = flow::start(scene.points, &scene.given, scene.precision, scene.shares);
         let mut simulation = Self::assemble(scene.given, flow, scene.bodies, pool);
         simulation.state.clock.volume_left_out = scene.volume_left_out;
         simulation.start_audit();

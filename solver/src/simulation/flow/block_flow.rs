@@ -20,7 +20,7 @@ use crate::mpm::rows::Tile;
 use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use crate::mpm::stress_update::update_stress;
 use crate::mpm::totals;
-use crate::points::Point;
+use crate::points::{Point, Unloading};
 use crate::rigid::Body;
 use crate::simulation::setup::Setup;
 use crate::simulation::stages::{StageEnds, StepStage};
@@ -69,9 +69,10 @@ pub(in crate::simulation) struct BlockFlow<R: Real> {
 
 impl<R: Saved> BlockFlow<R> {
     /// A flow of these points.
-    pub(super) fn new(points: &[Point], given: &Setup) -> Self {
+    pub(super) fn new(points: Vec<Point>, given: &Setup) -> Self {
         let packing = packing(given);
-        let blocks = Blocks::of(points.iter().map(|point| packing.pack(point)));
+        let points = Unloading::of(points);
+        let blocks = Blocks::of(points.map(|point| packing.pack(&point)));
         Self::restored(blocks, given)
     }
 

@@ -32,7 +32,7 @@ pub(super) fn restore(saved: SavedFlow, given: &Setup, shares: Option<Shares>) -
 
 /// A flow of these points in the precision asked for, with these computed shares.
 pub(super) fn start(
-    points: &[Point],
+    points: Vec<Point>,
     given: &Setup,
     precision: Precision,
     shares: Option<Shares>,

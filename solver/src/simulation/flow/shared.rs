@@ -35,7 +35,7 @@ pub(in crate::simulation) struct SharedFlow {
 impl SharedFlow {
     /// A flow of the points of the first share.
     pub(super) fn start(
-        points: &[Point],
+        points: Vec<Point>,
         shares: Shares,
         whole: &Setup,
         precision: Precision,
@@ -64,7 +64,7 @@ impl SharedFlow {
         planes.push(*given.walls.vertical_walls.sides[1].plane());
         Self {
             planes,
-            flow: start_whole(&[], &given, precision),
+            flow: start_whole(Vec::new(), &given, precision),
             images: Images::of_share(share, &shares.columns, whole),
             share,
             shares,
@@ -104,7 +104,7 @@ impl SharedFlow {
         let shares = self.shares.clone();
         *self = Self::of(wider, shares, whole, self.precision);
         self.on_bodies = on_bodies;
-        self.flow = start_whole(&points, &self.given, self.precision);
+        self.flow = start_whole(points, &self.given, self.precision);
         instructions
             .into_iter()
             .for_each(|best| self.limit_instructions(best));

@@ -9,7 +9,11 @@ use crate::scenario::Precision;
 use crate::simulation::setup::Setup;
 
 /// A flow of these points, in the precision asked for.
-pub(super) fn start_whole(points: &[Point], given: &Setup, precision: Precision) -> Box<dyn Flow> {
+pub(super) fn start_whole(
+    points: Vec<Point>,
+    given: &Setup,
+    precision: Precision,
+) -> Box<dyn Flow> {
     match (given.flow.is_some(), precision) {
         (false, _) => Box::new(NoFlow),
         (true, Precision::Single) => Box::new(BlockFlow::<f32>::new(points, given)),
