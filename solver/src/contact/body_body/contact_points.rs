@@ -84,14 +84,18 @@ pub(super) fn contacts(
             );
         }
     }
-    for &(e, on_first) in &pair.first.edges {
-        for &(f, on_second) in &pair.second.edges {
-            let Some((p, q)) = crossing(&on_first, &on_second) else {
+    for (e, on_first) in &pair.first.edges {
+        let reached = Bounds::of(on_first).grown(pair.radii[0] + pair.radii[1]);
+        for (f, on_second) in &pair.second.edges {
+            if !reached.meets(on_second) {
+                continue;
+            }
+            let Some((p, q)) = crossing(on_first, on_second) else {
                 continue;
             };
             if let Some(near) = pair.between(&p, &q) {
-                let ends = pair.ends(&on_first, &on_second);
-                found.take(law, FeaturePair::Edges(e, f), near, &ends);
+                let ends = pair.ends(on_first, on_second);
+                found.take(law, FeaturePair::Edges(*e, *f), near, &ends);
             }
         }
     }
