@@ -4,12 +4,11 @@
 use super::blocks::Block;
 use super::constitutive::Law;
 use super::deformation::strain;
-use super::lanes::{Matrix, Real, Splat, load};
+use super::lanes::{Matrix, NODE_NUMBERS, Real, Splat, load};
 use super::redistribution::{
-    NoShiftZone, PointState, RedistributionRates, ShiftingSums, excess_volume_fraction,
-    redistribute,
+    NoShiftZone, PointState, RedistributionRates, ShiftingSums, redistribute,
 };
-use super::rows::{MomentSums, Moments, Quads, Tile, gather_mean};
+use super::rows::{MomentSums, Moments, Quads, Tile, gather_mean, store_transposed, transposed};
 use super::stencil::Stencils;
 use super::stress_update::velocity_gradient;
 use super::totals::EndSums;
@@ -36,19 +35,24 @@ impl<R: Real> EndTiles<R> {
         twist: Tile::EMPTY,
     };
 
-    /// Fills in excess volume fraction and twist of the nodes.
+    /// Fills in excess volume fraction, 0 to 1, and twist of the nodes.
     #[inline(always)]
-    pub fn cross(&mut self) {
-        let nodes = self
-            .motion
-            .0
-            .chunks_exact_mut(4)
-            .zip(self.displacement.0.chunks_exact(4));
-        for (twist, (v, u)) in self.twist.0.chunks_exact_mut(4).zip(nodes) {
-            v[0] = R::of(excess_volume_fraction(twist[0].to_f64()));
-            twist[1] = u[2] * v[3] - u[3] * v[2];
-            twist[2] = u[3] * v[1] - u[1] * v[3];
-            twist[3] = u[1] * v[2] - u[2] * v[1];
+    pub fn cross<S: Simd>(&mut self, simd: S) {
+        let number = Splat::<S, R>::new(simd);
+        let (none, one) = (number.of(0.0), number.of(1.0));
+        let nodes = NODE_NUMBERS * R::LANES;
+        let motion = self.motion.0.chunks_exact_mut(nodes);
+        let others = self.displacement.0.chunks_exact(nodes);
+        let twist = self.twist.0.chunks_exact_mut(nodes);
+        for ((motion, displacement), twist) in motion.zip(others).zip(twist) {
+            let [volume_fraction, ..] = transposed::<S, R>(simd, twist);
+            let [_, vx, vy, vz] = transposed::<S, R>(simd, motion);
+            let [_, ux, uy, uz] = transposed::<S, R>(simd, displacement);
+            let excess = (volume_fraction - one).max(none).min(one);
+            store_transposed::<S, R>([excess, vx, vy, vz], motion);
+            let across = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+            let [x, y, z] = across;
+            store_transposed::<S, R>([volume_fraction, x, y, z], twist);
         }
     }
 }

@@ -49,11 +49,6 @@ impl RedistributionRates {
     }
 }
 
-/// Excess volume fraction of a node of this volume fraction.
-pub fn excess_volume_fraction(volume_fraction: f64) -> f64 {
-    (volume_fraction - 1.0).clamp(0.0, 1.0)
-}
-
 /// Changes of the points' sums by redistribution; a shift leaves the velocity unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Shifting {

@@ -14,7 +14,7 @@ mod scatter;
 mod tile;
 
 pub use gather::{MomentSums, Moments, gather_mean};
-pub use quads::Quads;
+pub use quads::{Quads, store_transposed, transposed};
 pub use scatter::{LinearFields, scatter_mean};
 pub use tile::Tile;
 

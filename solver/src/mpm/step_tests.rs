@@ -168,7 +168,7 @@ impl<'a, R: Real> KernelStep<'a, R> {
                 nodes.motion_tile(simd, place, &mut tiles.motion);
                 nodes.displacement_tile(simd, place, &mut tiles.displacement);
                 nodes.volume_fraction_tile(simd, place, &mut tiles.twist);
-                tiles.cross();
+                tiles.cross(simd);
                 gather_motion(simd, block, &ending, &tiles);
             });
         }

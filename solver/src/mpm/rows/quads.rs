@@ -36,27 +36,42 @@ impl<R: Real> Quads<R> {
     /// The four numbers, each of all points.
     #[inline(always)]
     pub fn transposed<S: Simd>(&self, simd: S) -> [R::Vector<S>; 4] {
-        let mut parts = [Splat::<S, R>::new(simd).of(0.0); 4];
-        for (part, values) in parts.iter_mut().zip(self.0.chunks_exact(R::LANES)) {
-            *part = R::Vector::<S>::from_slice(simd, values);
-        }
-        let [a, b, c, d] = parts;
-        let (even_low, odd_low) = a.deinterleave(b);
-        let (even_high, odd_high) = c.deinterleave(d);
-        let (first, third) = even_low.deinterleave(even_high);
-        let (second, fourth) = odd_low.deinterleave(odd_high);
-        [first, second, third, fourth]
+        transposed::<S, R>(simd, &self.0)
     }
 
     /// Stores the four numbers, each of all points.
     #[inline(always)]
-    pub fn set<S: Simd>(&mut self, [first, second, third, fourth]: [R::Vector<S>; 4]) {
-        let (even_low, even_high) = first.interleave(third);
-        let (odd_low, odd_high) = second.interleave(fourth);
-        let (a, b) = even_low.interleave(odd_low);
-        let (c, d) = even_high.interleave(odd_high);
-        for (part, values) in self.0.chunks_exact_mut(R::LANES).zip([a, b, c, d]) {
-            values.store_slice(part);
-        }
+    pub fn set<S: Simd>(&mut self, values: [R::Vector<S>; 4]) {
+        store_transposed::<S, R>(values, &mut self.0);
+    }
+}
+
+/// Four numbers of as many points or nodes as a vector has lanes, each of all.
+#[inline(always)]
+pub fn transposed<S: Simd, R: Real>(simd: S, numbers: &[R]) -> [R::Vector<S>; 4] {
+    let mut parts = [Splat::<S, R>::new(simd).of(0.0); 4];
+    for (part, values) in parts.iter_mut().zip(numbers.chunks_exact(R::LANES)) {
+        *part = R::Vector::<S>::from_slice(simd, values);
+    }
+    let [a, b, c, d] = parts;
+    let (even_low, odd_low) = a.deinterleave(b);
+    let (even_high, odd_high) = c.deinterleave(d);
+    let (first, third) = even_low.deinterleave(even_high);
+    let (second, fourth) = odd_low.deinterleave(odd_high);
+    [first, second, third, fourth]
+}
+
+/// Stores four numbers, each of all, one point or node after the other.
+#[inline(always)]
+pub fn store_transposed<S: Simd, R: Real>(
+    [first, second, third, fourth]: [R::Vector<S>; 4],
+    numbers: &mut [R],
+) {
+    let (even_low, even_high) = first.interleave(third);
+    let (odd_low, odd_high) = second.interleave(fourth);
+    let (a, b) = even_low.interleave(odd_low);
+    let (c, d) = even_high.interleave(odd_high);
+    for (part, values) in numbers.chunks_exact_mut(R::LANES).zip([a, b, c, d]) {
+        values.store_slice(part);
     }
 }

@@ -3,18 +3,18 @@
 use super::StencilRows;
 use crate::grid::{TILE, TILE_NODES, in_tile};
 use crate::kernel::WIDTH;
-use crate::mpm::lanes::{NODE_NUMBERS, ROW, Real, Row};
+use crate::mpm::lanes::{MOST_LANES, NODE_NUMBERS, ROW, Real, Row};
 use crate::mpm::stencil::weights;
 use fearless_simd::prelude::*;
 
 /// Four numbers of each node in reach of one block's points, and room for a row that starts at
-/// the last node.
+/// the last node, to a multiple of the lanes of a vector.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Tile<R>(pub [R; TILE_NUMBERS]);
 
 /// Numbers of a tile.
-const TILE_NUMBERS: usize = NODE_NUMBERS * (TILE_NODES + 4);
+const TILE_NUMBERS: usize = NODE_NUMBERS * (TILE_NODES + 4).next_multiple_of(MOST_LANES);
 /// Numbers from the lowest node of a stencil to the end of its last row.
 const REACH: usize = NODE_NUMBERS * in_tile(WIDTH - 1, WIDTH - 1, 0) + ROW;
 

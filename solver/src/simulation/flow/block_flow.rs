@@ -148,14 +148,16 @@ impl<R: Saved> BlockFlow<R> {
             .par_iter_mut()
             .zip(&mut self.forces)
             .enumerate()
-            .for_each(|(place, (block, force))| {
-                dispatch!(level, simd => {
-                    block.prefetch();
-                    let mut motion = Tile::EMPTY;
-                    nodes.motion_tile(simd, place, &mut motion);
-                    update_stress(simd, block, law, dt, &motion, force);
-                });
-            });
+            .for_each_init(
+                || Tile::EMPTY,
+                |motion, (place, (block, force))| {
+                    dispatch!(level, simd => {
+                        block.prefetch();
+                        nodes.motion_tile(simd, place, motion);
+                        update_stress(simd, block, law, dt, motion, force);
+                    });
+                },
+            );
     }
 
     /// Scatters mass, momentum and strain rates of the points to the nodes. The tiles of forces are
@@ -187,14 +189,16 @@ impl<R: Saved> BlockFlow<R> {
             .zip(&mut self.momentum)
             .zip(&mut self.forces)
             .enumerate()
-            .for_each(|(place, ((block, rest), force))| {
-                dispatch!(level, simd => {
-                    block.prefetch();
-                    let mut tiles = TransferTiles::EMPTY;
-                    nodes.transfer_tiles(simd, place, &mut tiles);
-                    residual_transfer(simd, block, law, &tiles, smoothing, [rest, force]);
-                });
-            });
+            .for_each_init(
+                || TransferTiles::EMPTY,
+                |tiles, (place, ((block, rest), force))| {
+                    dispatch!(level, simd => {
+                        block.prefetch();
+                        nodes.transfer_tiles(simd, place, tiles);
+                        residual_transfer(simd, block, law, tiles, smoothing, [rest, force]);
+                    });
+                },
+            );
         self.nodes
             .take_residual(&self.momentum, R::of(kernel_mass), level);
     }
@@ -315,17 +319,19 @@ impl<R: Saved> Flow for BlockFlow<R> {
             .occupied_mut()
             .par_iter_mut()
             .enumerate()
-            .for_each(|(place, block)| {
-                dispatch!(level, simd => {
-                    block.prefetch();
-                    let mut tiles = EndTiles::EMPTY;
-                    nodes.motion_tile(simd, place, &mut tiles.motion);
-                    nodes.displacement_tile(simd, place, &mut tiles.displacement);
-                    nodes.volume_fraction_tile(simd, place, &mut tiles.twist);
-                    tiles.cross();
-                    gather_motion(simd, block, &ending, &tiles);
-                });
-            });
+            .for_each_init(
+                || EndTiles::EMPTY,
+                |tiles, (place, block)| {
+                    dispatch!(level, simd => {
+                        block.prefetch();
+                        nodes.motion_tile(simd, place, &mut tiles.motion);
+                        nodes.displacement_tile(simd, place, &mut tiles.displacement);
+                        nodes.volume_fraction_tile(simd, place, &mut tiles.twist);
+                        tiles.cross(simd);
+                        gather_motion(simd, block, &ending, tiles);
+                    });
+                },
+            );
         // Before points migrate to other blocks.
         self.sum_up_ends();
         let blocks = self.blocks.occupied().iter();
