@@ -6,14 +6,14 @@
 ///
 /// | part | operations |
 /// |---|---|
-/// | weights and levers (`stencil.rs`) | 3 × 16 |
-/// | gradient gathered from nine rows (`rows.rs`) | 3 × 180 + 60 |
+/// | weights (`stencil.rs`) | 3 × 13 + 9 |
+/// | gradient gathered from nine rows, about the middle node, then the point (`rows/gather.rs`) | 348 + 64 + 24 |
 /// | velocity gradient, F̂ and its cofactors, before and after (`deformation.rs`) | 9 + 2 × 53 + 56 + 18 |
 /// | strain rate shared (`strain_rate_smoothing.rs`) | 9 |
 /// | volumetric strain, pressure, trial and return of the deviator | 8 + 60 + 36 |
 /// | force | 63 |
-/// | force scattered to nine rows | 36 + 144 + 432 |
-pub const OPERATIONS: f64 = 48.0 + 600.0 + 189.0 + 9.0 + 104.0 + 63.0 + 612.0;
+/// | force scattered to nine rows (`rows/scatter.rs`) | 24 + 156 + 216 |
+pub const OPERATIONS: f64 = 48.0 + 436.0 + 189.0 + 9.0 + 104.0 + 63.0 + 396.0;
 
 /// Memory traffic of one point in one sub-step [bytes], once caches are too small for the whole
 /// flow: 26 numbers read and 15 written of a point; of a block full of points (512, tiles of

@@ -1,4 +1,4 @@
-//! Sums over the 27 nodes of points, row by row (docs/method.md, section 5).
+//! Sums over the 27 nodes of points, row by row.
 //!
 //! Three nodes along z, four numbers each, and a fourth node of weight zero make a row of
 //! sixteen numbers. The stencil of a point is nine rows; points of one cell have the same nine,
@@ -6,7 +6,7 @@
 //!
 //! Nothing is weighted by distances: whatever is linear about a point is taken about the middle
 //! node of its stencil, where distances are −1, 0 and 1, and moved to the point for all points of
-//! a chunk at once.
+//! a chunk at once (docs/decisions/0051-moments-about-the-middle-node.md).
 
 mod gather;
 mod quads;
