@@ -106,6 +106,22 @@ fn a_half_moves_as_the_whole() {
     }
 }
 
+// An odd number of points across a cell would leave one of nine rows in the centre plane: the channel
+// has eight or ten cells then.
+#[test]
+fn a_half_moves_as_the_whole_with_any_number_of_points_in_a_cell() {
+    let bounds = &EACH[0];
+    for per_cell in [1, 2, 16] {
+        let scene = struck(9).precision(bounds.precision);
+        let scene = scene.set("numerics", "points_per_cell", per_cell);
+        let half = scene.clone().set("numerics", "symmetry", "mirror");
+        let half = half.set("numerics", "approach", "full");
+        let (mut half, mut full) = (half.start(), scene.full().start());
+        assert_eq!(half.share(), Share::Half);
+        compare(&mut half, &mut full, bounds);
+    }
+}
+
 #[test]
 fn a_slab_becomes_a_half_between_nodes() {
     for bounds in EACH {

@@ -1,6 +1,7 @@
 //! The release: points on a lattice that follows the slope, near equilibrium
 //! (docs/method.md, equation 34).
 
+use super::resolution::points_across;
 use super::{GivenFlow, Setup, Share, resting_point};
 use crate::bed::Bed;
 use crate::contact::point_body::PointSphere;
@@ -114,7 +115,7 @@ impl Columns {
     ) -> Result<Self, SetupError> {
         let cell = lattice.spacing;
         let per_cell = f64::from(scenario.numerics.points_per_cell);
-        let per_cell_across = per_cell.cbrt().round().max(1.0);
+        let per_cell_across = points_across(&scenario.numerics);
         let in_plane = (cell.x * cell.z * per_cell_across / per_cell).sqrt();
         let across = (release.width_m / cell.y).round() * per_cell_across;
         let length = release.front_m - release.back_m;

@@ -5,12 +5,33 @@ use crate::bed::Bed;
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::method::METHOD;
-use crate::scenario::{Flow, Motion, Scenario};
+use crate::scenario::{Flow, Motion, Numerics, Scenario};
 
 /// Cell size of a scene without flow or bodies [m].
 const CELL_SIZE_OF_NOTHING: f64 = 0.01;
 /// Stiffness of a body on a rigid wall over that on an equal body: E*/2 and r/2.
 const TWO_LIKE_ONE: f64 = 2.0 * std::f64::consts::SQRT_2;
+
+/// Points across a cell, for the points that a cell has.
+pub(super) fn points_across(numerics: &Numerics) -> f64 {
+    f64::from(numerics.points_per_cell).cbrt().round().max(1.0)
+}
+
+/// Odd number of cells from which on an even one is as good: it differs by an eighth at most.
+const MANY_CELLS: f64 = 9.0;
+
+/// Number of cells that divide a channel of this width, in cells: the nearest whole one. With an odd
+/// number of points across a cell, an odd number of them would leave a row of points in the centre
+/// plane, and no half to compute (section 12); then it is the nearest even one.
+fn cells_across(width: f64, points_across: f64) -> f64 {
+    let nearest = width.round().max(1.0);
+    let odd = |number: f64| number % 2.0 == 1.0;
+    if odd(points_across) && odd(nearest) && nearest >= MANY_CELLS {
+        2.0 * (0.5 * width).round()
+    } else {
+        nearest
+    }
+}
 
 /// The lattice of a scenario: its cells divide the width evenly, so that both
 /// side walls lie on nodes.
@@ -20,7 +41,7 @@ pub(super) fn lattice(scenario: &Scenario) -> Lattice {
         .numerics
         .cell_size_m
         .unwrap_or_else(|| automatic_cell_size(scenario));
-    let across = (channel.width_m / cell).round().max(1.0);
+    let across = cells_across(channel.width_m / cell, points_across(&scenario.numerics));
     Lattice {
         origin: Vec3::new(-channel.incline_length_m, -0.5 * channel.width_m, 0.0),
         spacing: Vec3::new(cell, channel.width_m / across, cell),
@@ -265,6 +286,18 @@ mod tests {
             fixed: !free && place == 0,
         };
         Crowd(starts.iter().enumerate().map(weighty).collect())
+    }
+
+    #[test]
+    fn cells_across_leave_no_row_of_points_in_the_centre_plane() {
+        // Eight points a cell are two across: any number of cells.
+        assert_eq!(cells_across(9.2, 2.0), 9.0);
+        assert_eq!(cells_across(9.2, 1.0), 10.0);
+        assert_eq!(cells_across(8.9, 3.0), 8.0);
+        assert_eq!(cells_across(10.3, 1.0), 10.0);
+        // Few cells would become too long or too short.
+        assert_eq!(cells_across(5.1, 1.0), 5.0);
+        assert_eq!(cells_across(0.3, 1.0), 1.0);
     }
 
     // 10 cm of radii plus the difference in height.
