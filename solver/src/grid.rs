@@ -35,6 +35,18 @@ pub const fn in_block(a: usize, b: usize, c: usize) -> usize {
     (a * BLOCK + b) * BLOCK + c
 }
 
+/// Share of a list of blocks' values that is left as room when it grows: doubled, it would hold far
+/// more than it ever needs.
+const ROOM: usize = 16;
+
+/// Resizes a list with one value of each block.
+pub fn resize_list<T: Clone>(list: &mut Vec<T>, count: usize, value: T) {
+    if count > list.capacity() {
+        list.reserve_exact(count + count / ROOM - list.len());
+    }
+    list.resize(count, value);
+}
+
 /// Node index (i, j, k) of node `local` of a block.
 #[inline]
 pub fn index_of(key: BlockKey, local: usize) -> [i32; 3] {

@@ -6,7 +6,7 @@ use super::p2g::TransferTiles;
 use super::rows::Tile;
 use super::stencil::weights;
 use crate::grid::layout::{Layout, within};
-use crate::grid::{BLOCK_NODES, BlockKey};
+use crate::grid::{BLOCK_NODES, BlockKey, resize_list};
 use crate::kernel::{Lattice, PointStencil, WIDTH};
 use crate::math::{Sym3, Vec3};
 use crate::walls::NodeAccess;
@@ -55,11 +55,13 @@ impl<R: Real> Nodes<R> {
     pub fn lay_around(&mut self, blocks: impl ExactSizeIterator<Item = BlockKey> + Clone) {
         self.layout.lay_around(blocks);
         let count = self.layout.node_blocks().len();
-        self.motion.resize(count, NodeBlock::EMPTY);
-        self.remainder.resize(count, NodeBlock::EMPTY);
-        self.displacement.resize(count, NodeBlock::EMPTY);
-        for part in &mut self.strain_rate {
-            part.resize(count, NodeBlock::EMPTY);
+        let parts = [
+            &mut self.motion,
+            &mut self.remainder,
+            &mut self.displacement,
+        ];
+        for part in parts.into_iter().chain(&mut self.strain_rate) {
+            resize_list(part, count, NodeBlock::EMPTY);
         }
     }
 

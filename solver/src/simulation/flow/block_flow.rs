@@ -7,6 +7,7 @@ use super::stages::{Finished, Flow, StepEnd, StepStart, Substep};
 use crate::available_volume::exclude_volume;
 use crate::contact::point_body::{Around, ContactTime, CouplingGrid, FlowLoad, Loads};
 use crate::diagnostics::Totals;
+use crate::grid::resize_list;
 use crate::mpm::blocks::{Block, Blocks};
 use crate::mpm::constitutive::Law;
 use crate::mpm::g2p::{EndTiles, Ending, gather_motion};
@@ -231,9 +232,9 @@ impl<R: Saved> Flow for BlockFlow<R> {
         let keys = self.blocks.occupied().iter().map(|block| block.key);
         self.nodes.lay_around(keys);
         let count = self.blocks.occupied().len();
-        self.momentum.resize(count, Tile::EMPTY);
-        self.forces.resize(count, Tile::EMPTY);
-        self.shear.resize(count, Tile::EMPTY);
+        for tiles in [&mut self.momentum, &mut self.forces, &mut self.shear] {
+            resize_list(tiles, count, Tile::EMPTY);
+        }
         self.scatter_momentum();
         stages.done(StepStage::P2g);
         given.walls.find_boundary(&self.nodes, &mut self.boundary);
