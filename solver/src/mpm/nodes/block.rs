@@ -1,6 +1,6 @@
 //! Numbers of the nodes of one block, and the kernels that update them.
 
-use crate::grid::layout::{OCTANTS, there};
+use crate::grid::layout::there;
 use crate::grid::{BLOCK, BLOCK_NODES, TILE, in_block, in_tile};
 use crate::mpm::lanes::{NODE_NUMBERS, ROW, Real, Row};
 use crate::mpm::rows::Tile;
@@ -37,18 +37,72 @@ pub(super) struct Push<R> {
     pub(super) dt: R,
 }
 
-/// Rows along z that a tile shares with the block in an octant of it: the numbers along x and
-/// y, and their beginning in the tile. They are whole, four nodes long, in the lower octants
-/// and half as long in the upper ones.
-const fn shared(octant: [usize; 3]) -> ([usize; 2], usize) {
-    let rows = [
-        if octant[0] == 0 { BLOCK } else { TILE - BLOCK },
-        if octant[1] == 0 { BLOCK } else { TILE - BLOCK },
+/// Numbers of a block of nodes.
+type Numbers<R> = [R; NODE_NUMBERS * BLOCK_NODES];
+
+/// What a tile shares with the block in an octant of it. The octant is known to the compiler, so that
+/// every row is loaded and stored at a place that it knows: a block with few points costs little more
+/// than these.
+struct Octant<const X: usize, const Y: usize, const Z: usize>;
+
+impl<const X: usize, const Y: usize, const Z: usize> Octant<X, Y, Z> {
+    /// Rows along z that they share, along x and y; in the lower octants four nodes long, in the
+    /// upper ones two.
+    const ROWS: [usize; 2] = [
+        if X == 0 { BLOCK } else { TILE - BLOCK },
+        if Y == 0 { BLOCK } else { TILE - BLOCK },
     ];
-    let start = in_tile(octant[0] * BLOCK, octant[1] * BLOCK, octant[2] * BLOCK);
-    (rows, start)
+
+    /// Places of the first numbers of a row in the block and in the tile.
+    #[inline(always)]
+    const fn row(a: usize, b: usize) -> [usize; 2] {
+        let in_tile = in_tile(X * BLOCK + a, Y * BLOCK + b, Z * BLOCK);
+        [NODE_NUMBERS * in_block(a, b, 0), NODE_NUMBERS * in_tile]
+    }
+
+    /// Copies the nodes of the block to the tile.
+    #[inline(always)]
+    fn fill<S: Simd, R: Real>(simd: S, nodes: &Numbers<R>, tile: &mut Tile<R>) {
+        for a in 0..Self::ROWS[0] {
+            for b in 0..Self::ROWS[1] {
+                let [from, to] = Self::row(a, b);
+                if Z == 0 {
+                    let row = R::Row::<S>::load(simd, &nodes[from..from + ROW]);
+                    row.store(&mut tile.0[to..to + ROW]);
+                } else {
+                    let half = R::TwoNodes::<S>::from_slice(simd, &nodes[from..from + ROW / 2]);
+                    half.store_slice(&mut tile.0[to..to + ROW / 2]);
+                }
+            }
+        }
+    }
+
+    /// Adds the numbers of a tile, if it is there, to those of the block.
+    #[inline(always)]
+    fn add<S: Simd, R: Real>(simd: S, tiles: &[Tile<R>], source: u32, sums: &mut Numbers<R>) {
+        let Some(source) = there(source) else {
+            return;
+        };
+        let tile = &tiles[source].0;
+        for a in 0..Self::ROWS[0] {
+            for b in 0..Self::ROWS[1] {
+                let [to, from] = Self::row(a, b);
+                if Z == 0 {
+                    let (part, sum) = (&tile[from..from + ROW], &mut sums[to..to + ROW]);
+                    let part = R::Row::<S>::load(simd, part);
+                    R::Row::load(simd, sum).plus(part).store(sum);
+                } else {
+                    let part = &tile[from..from + ROW / 2];
+                    let sum = &mut sums[to..to + ROW / 2];
+                    let part = R::TwoNodes::<S>::from_slice(simd, part);
+                    (R::TwoNodes::from_slice(simd, sum) + part).store_slice(sum);
+                }
+            }
+        }
+    }
 }
 
+/// Copies the nodes of the eight blocks that a tile overlaps to it.
 #[inline(always)]
 pub(super) fn fill<S: Simd, R: Real>(
     simd: S,
@@ -56,24 +110,18 @@ pub(super) fn fill<S: Simd, R: Real>(
     blocks: &[NodeBlock<R>],
     tile: &mut Tile<R>,
 ) {
-    for (octant, block) in OCTANTS.iter().zip(reach) {
-        let nodes = &blocks[*block as usize].0;
-        let ([along_x, along_y], start) = shared(*octant);
-        for a in 0..along_x {
-            for b in 0..along_y {
-                let from = &nodes[4 * in_block(a, b, 0)..];
-                let to = &mut tile.0[4 * (start + in_tile(a, b, 0))..];
-                if octant[2] == 0 {
-                    R::Row::<S>::load(simd, &from[..ROW]).store(&mut to[..ROW]);
-                } else {
-                    let half = R::TwoNodes::<S>::from_slice(simd, &from[..ROW / 2]);
-                    half.store_slice(&mut to[..ROW / 2]);
-                }
-            }
-        }
-    }
+    // In the order of the octants, see `OCTANTS`.
+    Octant::<0, 0, 0>::fill(simd, &blocks[reach[0] as usize].0, tile);
+    Octant::<0, 0, 1>::fill(simd, &blocks[reach[1] as usize].0, tile);
+    Octant::<0, 1, 0>::fill(simd, &blocks[reach[2] as usize].0, tile);
+    Octant::<0, 1, 1>::fill(simd, &blocks[reach[3] as usize].0, tile);
+    Octant::<1, 0, 0>::fill(simd, &blocks[reach[4] as usize].0, tile);
+    Octant::<1, 0, 1>::fill(simd, &blocks[reach[5] as usize].0, tile);
+    Octant::<1, 1, 0>::fill(simd, &blocks[reach[6] as usize].0, tile);
+    Octant::<1, 1, 1>::fill(simd, &blocks[reach[7] as usize].0, tile);
 }
 
+/// Sums up the parts of the tiles that overlap a block.
 #[inline(always)]
 pub(super) fn add_up<S: Simd, R: Real>(
     simd: S,
@@ -82,28 +130,14 @@ pub(super) fn add_up<S: Simd, R: Real>(
     sums: &mut NodeBlock<R>,
 ) {
     *sums = NodeBlock::EMPTY;
-    for (octant, source) in OCTANTS.iter().zip(sources) {
-        let Some(source) = there(*source) else {
-            continue;
-        };
-        let tile = &tiles[source].0;
-        let ([along_x, along_y], start) = shared(*octant);
-        for a in 0..along_x {
-            for b in 0..along_y {
-                let part = &tile[4 * (start + in_tile(a, b, 0))..];
-                let sum = &mut sums.0[4 * in_block(a, b, 0)..];
-                if octant[2] == 0 {
-                    let (part, sum) = (&part[..ROW], &mut sum[..ROW]);
-                    let part = R::Row::<S>::load(simd, part);
-                    R::Row::load(simd, sum).plus(part).store(sum);
-                } else {
-                    let (part, sum) = (&part[..ROW / 2], &mut sum[..ROW / 2]);
-                    let part = R::TwoNodes::<S>::from_slice(simd, part);
-                    (R::TwoNodes::from_slice(simd, sum) + part).store_slice(sum);
-                }
-            }
-        }
-    }
+    Octant::<0, 0, 0>::add(simd, tiles, sources[0], &mut sums.0);
+    Octant::<0, 0, 1>::add(simd, tiles, sources[1], &mut sums.0);
+    Octant::<0, 1, 0>::add(simd, tiles, sources[2], &mut sums.0);
+    Octant::<0, 1, 1>::add(simd, tiles, sources[3], &mut sums.0);
+    Octant::<1, 0, 0>::add(simd, tiles, sources[4], &mut sums.0);
+    Octant::<1, 0, 1>::add(simd, tiles, sources[5], &mut sums.0);
+    Octant::<1, 1, 0>::add(simd, tiles, sources[6], &mut sums.0);
+    Octant::<1, 1, 1>::add(simd, tiles, sources[7], &mut sums.0);
 }
 
 #[inline(always)]
