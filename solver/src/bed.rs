@@ -120,9 +120,7 @@ pub trait Bed: Debug + Send + Sync {
     fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2];
 
     /// True if there are such surfaces.
-    fn covers(&self, index: [i32; 3], lattice: &Lattice) -> bool {
-        self.surfaces_over(index, lattice) != [None; 2]
-    }
+    fn covers(&self, index: [i32; 3], lattice: &Lattice) -> bool;
 
     /// Unit normal at (x, y).
     fn normal(&self, x: f64, y: f64) -> Vec3 {

@@ -35,7 +35,7 @@ pub const fn in_block(a: usize, b: usize, c: usize) -> usize {
     (a * BLOCK + b) * BLOCK + c
 }
 
-/// Share of a list of blocks' values that is left as room when it grows: doubled, it would hold far
+/// Number of blocks' values in a list for one more of room when it grows: doubled, it would hold far
 /// more than it ever needs.
 const ROOM: usize = 16;
 

@@ -1,4 +1,4 @@
-//! What is asked of a run from outside while it goes on.
+//! Requests from outside to a run while it goes on.
 
 use scree_solver::Cancellation;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

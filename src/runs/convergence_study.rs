@@ -16,7 +16,7 @@ use scree_solver::{SetupError, StepError};
 use std::borrow::Cow;
 
 /// Runs `scenario` on `threads` solver threads from its start to its end or until
-/// `stop` is raised. The sink gets only the records of the answer, as they are made; if
+/// `control` asks it to stop. The sink gets only the records of the answer, as they are made; if
 /// a target chooses the cells of the answer, once the answer is found. Progress is that of
 /// all runs together.
 ///
@@ -25,10 +25,10 @@ use std::borrow::Cow;
 pub fn run<S: Sink>(
     scenario: &Scenario,
     threads: usize,
-    stop: &RunControl,
+    control: &RunControl,
     sink: &mut S,
 ) -> Result<RunEnd, RunError<S::Error>> {
-    Runs::afresh(scenario, threads)?.go(stop, sink)
+    Runs::afresh(scenario, threads)?.go(control, sink)
 }
 
 /// The runs of a scenario that needs several.
@@ -97,13 +97,13 @@ impl Runs {
         })
     }
 
-    /// Runs to the end or until `stop` is raised.
+    /// Runs to the end or until `control` asks it to stop.
     ///
     /// # Errors
     /// See [`RunError`]; records that the sink has taken stay valid.
     pub fn go<S: Sink>(
         mut self,
-        stop: &RunControl,
+        control: &RunControl,
         sink: &mut S,
     ) -> Result<RunEnd, RunError<S::Error>> {
         let mut whole = Whole {
@@ -129,7 +129,7 @@ impl Runs {
                 convergence_study: &self.convergence_study,
                 kept,
             };
-            let ended = run.go(stop, &mut part);
+            let ended = run.go(control, &mut part);
             let Part { fate, kept, .. } = part;
             match ended {
                 Ok(RunEnd::Stopped) => return Ok(RunEnd::Stopped),

@@ -81,7 +81,7 @@ impl Sink for NoSink {
 pub enum RunEnd {
     /// The simulated time is over.
     Completed(Box<Outcome>),
-    /// The [`RunControl`] was raised first; the records so far stay valid.
+    /// The [`RunControl`] asked it to stop first; the records so far stay valid.
     Stopped,
 }
 
@@ -100,17 +100,17 @@ pub enum RunError<E> {
 }
 
 /// Runs `scenario` on `threads` solver threads from its start to its end or
-/// until `stop` is raised.
+/// until `control` asks it to stop.
 ///
 /// # Errors
 /// See [`RunError`]; records that the sink has taken stay valid.
 pub fn run<S: Sink>(
     scenario: &Scenario,
     threads: usize,
-    stop: &RunControl,
+    control: &RunControl,
     sink: &mut S,
 ) -> Result<RunEnd, RunError<S::Error>> {
-    Run::afresh(scenario, threads)?.go(stop, sink)
+    Run::afresh(scenario, threads)?.go(control, sink)
 }
 
 /// A run that is set up and not started yet.
@@ -159,13 +159,13 @@ impl Run {
         })
     }
 
-    /// Runs to the scenario's end or until `stop` is raised.
+    /// Runs to the scenario's end or until `control` asks it to stop.
     ///
     /// # Errors
     /// See [`RunError`]; records that the sink has taken stay valid.
     pub fn go<S: Sink>(
         self,
-        stop: &RunControl,
+        control: &RunControl,
         sink: &mut S,
     ) -> Result<RunEnd, RunError<S::Error>> {
         let Self {
@@ -173,9 +173,9 @@ impl Run {
             recorder,
             spent,
         } = self;
-        simulation.cancel_with(stop.cancellation());
+        simulation.cancel_with(control.cancellation());
         let duration_s = recorder.duration_s();
-        let mut watch = Watch::new(recorder, spent, (stop, sink));
+        let mut watch = Watch::new(recorder, spent, (control, sink));
         let (_, substeps, _) = simulation.counts();
         if substeps == 0 {
             watch.start(&simulation).map_err(RunError::Sink)?;

@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 pub(super) struct Watch<'a, S: Sink> {
     recorder: Recorder,
     pace: Pace,
-    stop: &'a RunControl,
+    control: &'a RunControl,
     sink: &'a mut S,
     refused: Option<S::Error>,
     /// True if the run ended because nothing can move any more.
@@ -29,12 +29,12 @@ impl<'a, S: Sink> Watch<'a, S> {
     pub(super) fn new(
         recorder: Recorder,
         spent: Spent,
-        (stop, sink): (&'a RunControl, &'a mut S),
+        (control, sink): (&'a RunControl, &'a mut S),
     ) -> Self {
         Self {
             pace: Pace::new(&recorder, spent),
             recorder,
-            stop,
+            control,
             sink,
             refused: None,
             ended_early: false,
@@ -79,7 +79,7 @@ impl<'a, S: Sink> Watch<'a, S> {
             self.is_over = true;
         }
         // Read once: a request that arrives in between is handled next time.
-        let stop = self.stop.asked();
+        let stop = self.control.asked();
         let stop_here = stop == Stop::AtOnce || (stop == Stop::OnceSaved && report.step_ended);
         let taken = self
             .hand_on(records)
@@ -91,7 +91,7 @@ impl<'a, S: Sink> Watch<'a, S> {
         if self.refused.is_some() || stop_here || self.ended_early {
             return ControlFlow::Break(());
         }
-        let other = self.stop.threads();
+        let other = self.control.threads();
         let other = other.filter(|threads| *threads != simulation.threads());
         if report.step_ended && other.is_some() {
             self.other_threads = other;

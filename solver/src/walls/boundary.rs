@@ -27,7 +27,7 @@ impl Member {
     }
 }
 
-/// How the bed acts on a constraint set.
+/// Action of the bed on a constraint set.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum BedAction {
     /// Not at all, or through a column.
@@ -43,7 +43,7 @@ pub(super) struct ConstraintSet {
     members: Range<u32>,
     pub(super) back: Meets,
     pub(super) side: Meets,
-    /// How the bed acts on it.
+    /// Action of the bed on it.
     bed: BedAction,
     /// Their mass together [kg].
     pub(super) mass: f64,

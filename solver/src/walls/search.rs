@@ -76,8 +76,10 @@ impl Walls {
                 self.vertical_walls.meets_back(index),
                 self.vertical_walls.meets_side(index),
             ];
-            let resting = nodes.lattice().position(index);
-            let near_bed = || self.bed.is_near(&resting, &resting, margin);
+            let near_bed = || {
+                let resting = nodes.lattice().position(index);
+                self.bed.is_near(&resting, &resting, margin)
+            };
             let acts = images || meets != [Meets::Not; 2] || near_bed();
             if acts && self.vertical_walls.master(index, nodes) == index {
                 self.add_set(nodes, place, index, meets, found);

@@ -261,20 +261,11 @@ fn unsettled<R: Real>(chunk: &Chunk<R>) -> Option<usize> {
 }
 
 /// Chunks without points, kept for blocks that will need them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Pool<R: Real> {
     pub(super) chunks: Vec<Box<Chunk<R>>>,
     /// Chunks taken since they were last put in order.
     pub(super) taken: usize,
-}
-
-impl<R: Real> Default for Pool<R> {
-    fn default() -> Self {
-        Self {
-            chunks: Vec::new(),
-            taken: 0,
-        }
-    }
 }
 
 impl<R: Real> Pool<R> {

@@ -20,7 +20,7 @@ pub(super) struct Leaving<R> {
 }
 
 /// Points that leave some blocks, in the order of these.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 struct Group<R: Real> {
     leaving: Vec<Leaving<R>>,
     /// Places of the blocks in which they arrive.
@@ -35,7 +35,7 @@ struct Arrival {
 }
 
 /// Points between two blocks.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Migration<R: Real> {
     groups: Vec<Group<R>>,
     /// All that leave, block after block in which they arrive.
@@ -44,26 +44,6 @@ pub(super) struct Migration<R: Real> {
     ends: Vec<usize>,
     /// Blocks to which the first points come.
     born: Vec<BlockKey>,
-}
-
-impl<R: Real> Default for Group<R> {
-    fn default() -> Self {
-        Self {
-            leaving: Vec::new(),
-            to: Vec::new(),
-        }
-    }
-}
-
-impl<R: Real> Default for Migration<R> {
-    fn default() -> Self {
-        Self {
-            groups: Vec::new(),
-            arrivals: Vec::new(),
-            ends: Vec::new(),
-            born: Vec::new(),
-        }
-    }
 }
 
 impl<R: Real> Migration<R> {

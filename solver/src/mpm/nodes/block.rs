@@ -40,7 +40,7 @@ pub(super) struct Push<R> {
 /// Numbers of a block of nodes.
 type Numbers<R> = [R; NODE_NUMBERS * BLOCK_NODES];
 
-/// What a tile shares with the block in an octant of it. The octant is known to the compiler, so that
+/// Octant of a tile, which overlaps a block there. The octant is known to the compiler, so that
 /// every row is loaded and stored at a place that it knows: a block with few points costs little more
 /// than these.
 struct Octant<const X: usize, const Y: usize, const Z: usize>;

@@ -127,6 +127,20 @@ fn mean_of<S: Simd, R: Real>(
     nodes[2].mul_add(weight[2], nodes[1].mul_add(weight[1], nodes[0] * weight[0]))
 }
 
+/// Weighted sum of three rows, each with the weight of one lane.
+#[inline(always)]
+fn weighted<S: Simd, R: Real>(
+    simd: S,
+    rows: [R::Row<S>; WIDTH],
+    weight: [&R::Lanes; WIDTH],
+    lane: usize,
+) -> R::Row<S> {
+    let number = Splat::<S, R>::new(simd);
+    let sum = rows[0].scaled(number.all(weight[0][lane]));
+    let sum = rows[1].scaled_plus(number.all(weight[1][lane]), sum);
+    rows[2].scaled_plus(number.all(weight[2][lane]), sum)
+}
+
 /// Weighted sums over y of the rows of a stencil.
 #[inline(always)]
 fn weighted_columns<S: Simd, R: Real>(
@@ -135,13 +149,10 @@ fn weighted_columns<S: Simd, R: Real>(
     lane: usize,
     rows: &StencilRows<S, R>,
 ) -> [R::Row<S>; WIDTH] {
-    let number = Splat::<S, R>::new(simd);
     let mut sums = rows[0];
     for a in 0..WIDTH {
-        let weight = &stencils.across[a];
-        sums[a] = rows[a][0].scaled(number.all(weight[0][lane]));
-        sums[a] = rows[a][1].scaled_plus(number.all(weight[1][lane]), sums[a]);
-        sums[a] = rows[a][2].scaled_plus(number.all(weight[2][lane]), sums[a]);
+        let [low, middle, high] = &stencils.across[a];
+        sums[a] = weighted::<S, R>(simd, rows[a], [low, middle, high], lane);
     }
     sums
 }
@@ -154,14 +165,11 @@ fn weighted_ends<S: Simd, R: Real>(
     lane: usize,
     rows: &StencilRows<S, R>,
 ) -> [R::Row<S>; 2] {
-    let number = Splat::<S, R>::new(simd);
-    let mut sums = [rows[0][0], rows[0][2]];
-    for end in 0..2 {
-        let b = 2 * end;
-        let weight = &stencils.across;
-        sums[end] = rows[0][b].scaled(number.all(weight[0][b][lane]));
-        sums[end] = rows[1][b].scaled_plus(number.all(weight[1][b][lane]), sums[end]);
-        sums[end] = rows[2][b].scaled_plus(number.all(weight[2][b][lane]), sums[end]);
+    let mut sums = [rows[0][0]; 2];
+    for (end, b) in [0, WIDTH - 1].into_iter().enumerate() {
+        let along_x = [rows[0][b], rows[1][b], rows[2][b]];
+        let [low, middle, high] = &stencils.across;
+        sums[end] = weighted::<S, R>(simd, along_x, [&low[b], &middle[b], &high[b]], lane);
     }
     sums
 }
