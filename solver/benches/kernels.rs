@@ -22,7 +22,7 @@ use scree_solver::mpm::rows::Tile;
 use scree_solver::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use scree_solver::mpm::stress_update::update_stress;
 use scree_solver::points::Point;
-use scree_solver::rigid::{Body, BodyState, Freedom, InverseInertia, Load};
+use scree_solver::rigid::{Body, BodyState, Freedom, InverseInertia, Load, TurnedCore};
 use scree_solver::shape::{RegularSolid, SharpPolyhedron, SpheroPolyhedron};
 use scree_solver::walls::Plane;
 use std::hint::black_box;
@@ -258,6 +258,7 @@ fn resting_cube(place: Vec3) -> Body {
         rolling_friction: 0.0,
         freedom: Freedom::Free,
         wall_touches: Vec::new(),
+        turned_core: TurnedCore::default(),
         state: BodyState {
             position: place,
             orientation: UnitQuaternion::identity(),

@@ -9,10 +9,14 @@ use crate::shape::SpheroPolyhedron;
 use nalgebra::{Quaternion, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
+mod approach;
 mod free_turning;
 mod inertia;
+mod turned_core;
 
+pub use approach::approach_bound;
 pub use inertia::InverseInertia;
+pub use turned_core::TurnedCore;
 
 /// Degrees of freedom of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,6 +63,8 @@ pub struct Body {
     pub freedom: Freedom,
     /// Its contacts with walls, as last found; kept to avoid allocations.
     pub wall_touches: Vec<WallTouch>,
+    /// Its core vertices in world axes, as last turned; kept to turn them once per sub-step.
+    pub turned_core: TurnedCore,
     /// State.
     pub state: BodyState,
 }
@@ -181,11 +187,6 @@ impl Body {
         let arm = place - self.state.position;
         let closest = self.shape.closest_feature(&self.to_body(&arm));
         closest.distance - self.shape.sphero_radius()
-    }
-
-    /// Acceleration at `arm` that a load gives to a body with zero angular velocity [m/s²].
-    pub fn acceleration_at(&self, load: &Load, arm: &Vec3) -> Vec3 {
-        load.force / self.mass + self.angular_acceleration(&load.torque).cross(arm)
     }
 
     /// F·F/m + T·I⁻¹T [W/s]: the power of a load at the accelerations that it gives, over their
@@ -332,19 +333,6 @@ impl Body {
         }
     }
 
-    /// Bound of the speed of any place of it while its momenta are constant, however it turns, or
-    /// at any time of a prescribed motion [m/s]; 0 for a fixed body.
-    pub fn speed_bound(&self) -> f64 {
-        match self.freedom {
-            Freedom::Fixed => 0.0,
-            Freedom::Prescribed(_) => self.speed_ahead(),
-            Freedom::Free | Freedom::InPlane => {
-                let turning = self.inverse_inertia.norm() * self.state.angular_momentum.norm();
-                self.velocity().norm() + turning * self.shape.bounding_radius()
-            }
-        }
-    }
-
     /// Changes momentum and angular momentum by `load` over `dt`; returns their means in that time.
     /// The work of the load at their velocities is the change of kinetic energy.
     pub fn kick(&mut self, load: &Load, dt: f64) -> [Vec3; 2] {
@@ -396,7 +384,7 @@ impl Body {
     }
 
     fn inverse_inertia_times(&self, orientation: &UnitQuaternion<f64>, v: &Vec3) -> Vec3 {
-        orientation * (self.inverse_inertia * orientation.inverse_transform_vector(v))
+        orientation * (&self.inverse_inertia * orientation.inverse_transform_vector(v))
     }
 }
 

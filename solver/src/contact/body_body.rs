@@ -1,19 +1,22 @@
 //! Contacts of two bodies: their forces and their history (docs/method.md, equations 43–47).
 
 use crate::contact::dissipation::{Damping, Taken, stopping};
-use crate::contact::friction::{Held, Spring};
+use crate::contact::friction::Spring;
 use crate::contact::law::{ContactLaw, effective_contact_mass};
 use crate::math::Vec3;
 use crate::rigid::{Body, Load};
 use serde::{Deserialize, Serialize};
 
 mod contact_points;
+mod history;
 mod motion;
+mod near_features;
 mod segments;
 mod separation;
 
 pub use contact_points::Contacts;
-use contact_points::{Contact, ContactPoint, FeaturePair, contacts};
+use contact_points::{Contact, ContactPoint, contacts};
+use history::{FeatureSprings, carry_history, energy_of};
 use motion::Motion;
 pub use separation::{Separation, distance, least_gap};
 
@@ -29,18 +32,6 @@ pub struct ContactPair {
     pub energy: f64,
     /// Load on the second now, the torque being about the first's centre.
     pub push: Load,
-}
-
-/// The springs of one contact.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct FeatureSprings {
-    between: FeaturePair,
-    /// Position of the contact, from the first body's centre [m].
-    place: Vec3,
-    /// Spring against sliding of the second body on the first.
-    sliding: Spring,
-    /// Spring against rolling; its stretch is an angle × the equivalent radius.
-    rolling: Spring,
 }
 
 /// Loads that two bodies exert on each other.
@@ -69,17 +60,18 @@ impl ContactPair {
         self.deepest > 0.0
     }
 
-    /// Finds the contacts of the two after a drift, and updates the bound of their gap.
+    /// Finds the contacts of the two after a drift in place of those `found` before, and updates
+    /// what is known of their separation.
     pub fn find(
         &mut self,
-        [first, second]: [&Body; 2],
+        pair: [&Body; 2],
         law: &ContactLaw,
         separation: &mut Separation,
-    ) -> Contacts {
-        let found = contacts(first, second, law, separation);
+        found: &mut Contacts,
+    ) {
+        contacts(pair, law, separation, found);
         let overlaps = found.places.iter().map(|contact| contact.near.overlap);
         self.deepest = overlaps.fold(0.0, f64::max);
-        found
     }
 
     /// Updates springs and forces of the contacts found after a drift of `dt`; returns their
@@ -88,7 +80,7 @@ impl ContactPair {
         &mut self,
         [first, second]: [&Body; 2],
         law: &ContactLaw,
-        found: &Contacts,
+        found: &mut Contacts,
         dt: f64,
     ) -> Taken {
         let held = energy_of(&self.springs);
@@ -101,19 +93,27 @@ impl ContactPair {
                 ..Taken::default()
             };
         }
-        let pair = Pair::new(first, second, law, &found.push);
-        self.springs = carry_history(&self.springs, &found.places, &pair);
+        let Contacts {
+            places,
+            pressed,
+            springs,
+            push,
+            ..
+        } = found;
+        let pair = Pair::new(first, second, law, push);
+        std::mem::swap(&mut self.springs, springs);
+        carry_history(springs, places, pair.radii, law, &mut self.springs);
         let mut taken = Taken {
             lost: (held - energy_of(&self.springs)).max(0.0),
             ..Taken::default()
         };
-        let pressed = pair.press(&found.places, dt);
-        for pressed in &pressed {
-            let ContactPoint { place, normal, .. } = &pressed.contact.near;
+        pair.press(places, dt, pressed);
+        for (contact, pressed) in places.iter().zip(&*pressed) {
+            let ContactPoint { place, normal, .. } = &contact.near;
             taken.damping.add_at(place, &(normal * pressed.damping));
         }
         self.push.add(&taken.damping);
-        let rubbed = pair.rub(&pressed, &mut self.springs, dt);
+        let rubbed = pair.rub(places, pressed, &mut self.springs, dt);
         self.energy += rubbed.energy;
         self.push.add(&rubbed.load);
         taken.damping.add(&rubbed.taken.damping);
@@ -125,65 +125,6 @@ impl ContactPair {
     pub fn exchange(&self, pair: [&Body; 2]) -> Exchange {
         Exchange::between(pair, &self.push)
     }
-}
-
-/// Energy stored in springs [J].
-fn energy_of(springs: &[FeatureSprings]) -> f64 {
-    let of_contact = |springs: &FeatureSprings| springs.sliding.energy() + springs.rolling.energy();
-    springs.iter().map(of_contact).sum()
-}
-
-/// The springs of the contacts found, from those `before`. A contact that appears at the place
-/// of another, as when a vertex slides over a rim, takes over its stretch. Together they store
-/// no more energy than those before.
-fn carry_history(
-    before: &[FeatureSprings],
-    contacts: &[Contact],
-    pair: &Pair,
-) -> Vec<FeatureSprings> {
-    let mut springs: Vec<FeatureSprings> = contacts
-        .iter()
-        .map(|contact| {
-            let history_of = history_of(before, contact, pair.radii);
-            let stiffness = pair.law.tangential_stiffness(contact.near.overlap);
-            let spring = |of: fn(&FeatureSprings) -> Spring| Spring {
-                stretch: history_of.map_or_else(Vec3::zeros, |spring| of(spring).stretch),
-                stiffness: contact.share * stiffness,
-            };
-            FeatureSprings {
-                between: contact.between,
-                place: contact.near.place,
-                sliding: spring(|springs| springs.sliding),
-                rolling: spring(|springs| springs.rolling),
-            }
-        })
-        .collect();
-    let factor = |of: fn(&FeatureSprings) -> &Spring| {
-        let held = Held::by(before.iter().map(of));
-        Held::by(springs.iter().map(of)).relaxed(&held)
-    };
-    let (sliding, rolling) = (factor(|of| &of.sliding), factor(|of| &of.rolling));
-    for spring in &mut springs {
-        spring.sliding.stretch *= sliding;
-        spring.rolling.stretch *= rolling;
-    }
-    springs
-}
-
-/// The springs that a contact takes over: its own, or the nearest within `reach`.
-fn history_of<'a>(
-    before: &'a [FeatureSprings],
-    contact: &Contact,
-    reach: f64,
-) -> Option<&'a FeatureSprings> {
-    let distance = |springs: &FeatureSprings| (springs.place - contact.near.place).norm();
-    let own = before
-        .iter()
-        .find(|springs| springs.between == contact.between);
-    own.or_else(|| {
-        let near = before.iter().filter(|springs| distance(springs) < reach);
-        near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-    })
 }
 
 /// Two bodies, and the quantities that do not depend on the contact.
@@ -202,9 +143,9 @@ struct Pair<'a> {
     rolling: f64,
 }
 
-/// A contact with its normal force.
-struct Pressed<'a> {
-    contact: &'a Contact,
+/// The normal force of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Pressed {
     /// Velocity of the second body at the contact relative to the first's [m/s].
     velocity: Vec3,
     /// Effective contact mass [kg].
@@ -266,44 +207,47 @@ impl<'a> Pair<'a> {
         a * b / (a + b)
     }
 
-    /// Normal forces, with the share of damping that takes energy (equation 18b).
-    fn press(&self, contacts: &'a [Contact], dt: f64) -> Vec<Pressed<'a>> {
+    /// Normal forces, with the share of damping that takes energy (equation 18b), in place of those
+    /// in `pressed`.
+    fn press(&self, contacts: &[Contact], dt: f64, pressed: &mut Vec<Pressed>) {
         let (mut damping, mut sum) = (Damping::default(), Load::default());
-        let mut pressed: Vec<Pressed> = contacts
-            .iter()
-            .map(|contact| {
-                let near = &contact.near;
-                let elastic = self.law.elastic_force(near.overlap);
-                let parting = self.relative(&self.accelerations, &near.place);
-                let mass =
-                    effective_contact_mass(elastic, parting.dot(&near.normal), self.reduced_mass);
-                let velocity = self.relative(&self.velocities, &near.place);
-                let approach = -velocity.dot(&near.normal);
-                let force = self.law.normal_force(near.overlap, approach, mass);
-                let part = contact.share * (force - elastic);
-                damping.power -= part * approach;
-                sum.add_at(&near.place, &(near.normal * part));
-                Pressed {
-                    contact,
-                    velocity,
-                    mass,
-                    force,
-                    damping: part,
-                }
-            })
-            .collect();
+        pressed.clear();
+        pressed.extend(contacts.iter().map(|contact| {
+            let near = &contact.near;
+            let elastic = self.law.elastic_force(near.overlap);
+            let parting = self.relative(&self.accelerations, &near.place);
+            let mass =
+                effective_contact_mass(elastic, parting.dot(&near.normal), self.reduced_mass);
+            let velocity = self.relative(&self.velocities, &near.place);
+            let approach = -velocity.dot(&near.normal);
+            let force = self.law.normal_force(near.overlap, approach, mass);
+            let part = contact.share * (force - elastic);
+            damping.power -= part * approach;
+            sum.add_at(&near.place, &(near.normal * part));
+            Pressed {
+                velocity,
+                mass,
+                force,
+                damping: part,
+            }
+        }));
         damping.stopping = self.stopping(&sum);
         let share = damping.share(dt);
-        for pressed in &mut pressed {
+        for (contact, pressed) in contacts.iter().zip(pressed) {
             let left_out = (1.0 - share) * pressed.damping;
             pressed.damping -= left_out;
-            pressed.force -= left_out / pressed.contact.share;
+            pressed.force -= left_out / contact.share;
         }
-        pressed
     }
 
     /// Friction and rolling resistance, with the share of damping that takes energy.
-    fn rub(&self, pressed: &[Pressed], springs: &mut [FeatureSprings], dt: f64) -> Rubbed {
+    fn rub(
+        &self,
+        contacts: &[Contact],
+        pressed: &[Pressed],
+        springs: &mut [FeatureSprings],
+        dt: f64,
+    ) -> Rubbed {
         let mut rubbed = Rubbed {
             load: Load::default(),
             energy: 0.0,
@@ -311,9 +255,8 @@ impl<'a> Pair<'a> {
         };
         let radius = self.equivalent_radius();
         let (mut damping, mut sum) = (Damping::default(), Load::default());
-        for (pressed, springs) in pressed.iter().zip(springs) {
-            let near = &pressed.contact.near;
-            let share = pressed.contact.share;
+        for ((contact, pressed), springs) in contacts.iter().zip(pressed).zip(springs) {
+            let (near, share) = (&contact.near, contact.share);
             let viscous = share * self.law.tangential_damping(near.overlap, pressed.mass);
             let across = |v: &Vec3| v - near.normal * v.dot(&near.normal);
             let mut resist = |spring: &mut Spring, velocity: Vec3, friction: f64| {

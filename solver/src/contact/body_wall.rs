@@ -9,6 +9,10 @@ use crate::math::Vec3;
 use crate::rigid::{Body, BodyState, Load};
 use crate::walls::Plane;
 
+/// Height over the sphero radius up to which a vertex is looked at: more than 1, since it is
+/// turned in another way and thus rounded differently.
+const NEAR: f64 = 1.001;
+
 /// Deepest overlap of the body with a wall [m]; negative when apart.
 pub fn deepest_overlap(body: &Body, planes: &[Plane]) -> f64 {
     overlaps(body, planes).fold(f64::NEG_INFINITY, |deepest, pair| deepest.max(pair.overlap))
@@ -16,8 +20,6 @@ pub fn deepest_overlap(body: &Body, planes: &[Plane]) -> f64 {
 
 /// A core vertex and a wall.
 pub struct WallOverlap {
-    /// Index of its spring among the body's.
-    place: usize,
     /// Vertex, from the body's centre [m].
     pub arm: Vec3,
     /// Normal of the wall.
@@ -29,23 +31,16 @@ pub struct WallOverlap {
 /// Every pair of core vertex and wall.
 pub fn overlaps<'a>(body: &'a Body, planes: &'a [Plane]) -> impl Iterator<Item = WallOverlap> + 'a {
     let radius = body.shape.sphero_radius();
-    body.shape
-        .core_vertices()
-        .iter()
-        .enumerate()
-        .flat_map(move |(vertex, core)| {
-            let arm = body.to_world(core);
-            let place = body.state.position + arm;
-            planes
-                .iter()
-                .enumerate()
-                .map(move |(which, plane)| WallOverlap {
-                    place: vertex * planes.len() + which,
-                    arm,
-                    normal: plane.normal,
-                    overlap: radius - plane.height(&place),
-                })
+    let vertices = body.shape.core_vertices().iter();
+    vertices.flat_map(move |core| {
+        let arm = body.to_world(core);
+        let place = body.state.position + arm;
+        planes.iter().map(move |plane| WallOverlap {
+            arm,
+            normal: plane.normal,
+            overlap: radius - plane.height(&place),
         })
+    })
 }
 
 /// Updates the body's wall load and its springs after a drift of `dt`; returns the dissipation
@@ -64,8 +59,7 @@ pub fn evaluate_wall_contacts(body: &mut Body, planes: &[Plane], dt: f64) -> Tak
         return taken;
     }
     let mut touches = std::mem::take(&mut body.wall_touches);
-    touches.clear();
-    touches.extend(touches_of(body, planes));
+    find_touches(body, planes, &mut touches);
     body.state.wall_overlap = deepest_of(&touches);
     taken.lost = forget_what_is_apart(&mut body.state, &touches);
     if !touches.is_empty() {
@@ -76,19 +70,34 @@ pub fn evaluate_wall_contacts(body: &mut Body, planes: &[Plane], dt: f64) -> Tak
     taken
 }
 
-/// Every vertex that overlaps a wall.
-fn touches_of<'a>(body: &'a Body, planes: &'a [Plane]) -> impl Iterator<Item = WallTouch> + 'a {
+/// Puts every vertex that overlaps a wall into `touches`, in the order of their springs.
+fn find_touches(body: &mut Body, planes: &[Plane], touches: &mut Vec<WallTouch>) {
+    touches.clear();
+    body.turn_core();
+    let body = &*body;
     let radius = body.shape.sphero_radius();
-    overlaps(body, planes)
-        .filter(|pair| pair.overlap > 0.0)
-        .map(move |pair| WallTouch {
-            place: pair.place,
-            arm: pair.arm - pair.normal * (radius - 0.5 * pair.overlap),
-            normal: pair.normal,
-            overlap: pair.overlap,
-            mass: body.mass,
-            force: 0.0,
-        })
+    for (which, plane) in planes.iter().enumerate() {
+        if !reaches(plane, body) {
+            continue;
+        }
+        let vertices = body.turned_core().iter().enumerate();
+        let near = |turned: &Vec3| plane.height(&(body.state.position + turned)) < NEAR * radius;
+        for (vertex, _) in vertices.filter(|(_, turned)| near(turned)) {
+            let arm = body.to_world(&body.shape.core_vertices()[vertex]);
+            let overlap = radius - plane.height(&(body.state.position + arm));
+            if overlap > 0.0 {
+                touches.push(WallTouch {
+                    place: vertex * planes.len() + which,
+                    arm: arm - plane.normal * (radius - 0.5 * overlap),
+                    normal: plane.normal,
+                    overlap,
+                    mass: body.mass,
+                    force: 0.0,
+                });
+            }
+        }
+    }
+    touches.sort_unstable_by_key(|touch| touch.place);
 }
 
 fn deepest_of(touches: &[WallTouch]) -> f64 {
@@ -102,7 +111,7 @@ fn forget_what_is_apart(state: &mut BodyState, touches: &[WallTouch]) -> f64 {
     for springs in [&mut state.springs, &mut state.rolling] {
         let mut touching = touches.iter().map(|touch| touch.place).peekable();
         for (place, spring) in springs.iter_mut().enumerate() {
-            if touching.next_if_eq(&place).is_none() {
+            if touching.next_if_eq(&place).is_none() && *spring != Spring::NEW {
                 lost += spring.energy();
                 *spring = Spring::NEW;
             }
@@ -120,12 +129,17 @@ fn press(body: &mut Body, touches: &mut [WallTouch], taken: &mut Taken, dt: f64)
         let force = touch.normal * law.elastic_force(touch.overlap);
         push.add_at(&touch.arm, &force);
     }
+    let (velocity, spin) = (body.velocity(), body.angular_velocity());
+    let (parting, turning) = (
+        push.force / body.mass,
+        body.angular_acceleration(&push.torque),
+    );
     let (mut damping, mut sum) = (Damping::default(), Load::default());
     for touch in &mut *touches {
         let elastic = law.elastic_force(touch.overlap);
-        let acceleration = body.acceleration_at(&push, &touch.arm).dot(&touch.normal);
+        let acceleration = (parting + turning.cross(&touch.arm)).dot(&touch.normal);
         touch.mass = effective_contact_mass(elastic, acceleration, body.mass);
-        let approach = -body.velocity_at(&touch.arm).dot(&touch.normal);
+        let approach = -(velocity + spin.cross(&touch.arm)).dot(&touch.normal);
         touch.force = law.normal_force(touch.overlap, approach, touch.mass);
         damping.power -= (touch.force - elastic) * approach;
         sum.add_at(&touch.arm, &(touch.normal * (touch.force - elastic)));
@@ -150,7 +164,7 @@ fn rub(body: &mut Body, touches: &[WallTouch], taken: &mut Taken, dt: f64) {
         std::mem::take(&mut body.state.rolling),
     );
     let law = &body.wall_law;
-    let spin = body.angular_velocity();
+    let (velocity, spin) = (body.velocity(), body.angular_velocity());
     let radius = body.shape.sphero_radius();
     let (mut load, mut energy) = (Load::default(), 0.0);
     let (mut damping, mut sum) = (Damping::default(), Load::default());
@@ -167,7 +181,7 @@ fn rub(body: &mut Body, touches: &[WallTouch], taken: &mut Taken, dt: f64) {
             damping.power += found.viscous.dot(&velocity);
             [found.elastic, found.viscous]
         };
-        let sliding = across(&body.velocity_at(&touch.arm));
+        let sliding = across(&(velocity + spin.cross(&touch.arm)));
         let cap = law.friction * touch.force;
         let [elastic, part] = resist(&mut springs[touch.place], sliding, cap);
         load.add_at(&touch.arm, &elastic);
@@ -191,11 +205,12 @@ fn rub(body: &mut Body, touches: &[WallTouch], taken: &mut Taken, dt: f64) {
 
 /// True if no wall reaches into the bounding ball.
 fn clear_of(body: &Body, planes: &[Plane]) -> bool {
-    let radius = body.shape.bounding_radius();
-    let heights = planes.iter();
-    heights
-        .map(|plane| plane.height(&body.state.position))
-        .all(|height| height > radius)
+    !planes.iter().any(|plane| reaches(plane, body))
+}
+
+/// True if a wall reaches into the bounding ball.
+fn reaches(plane: &Plane, body: &Body) -> bool {
+    plane.height(&body.state.position) <= body.shape.bounding_radius()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Bodies for tests.
 
-use super::{Body, BodyState, Freedom, InverseInertia, Load};
+use super::{Body, BodyState, Freedom, InverseInertia, Load, TurnedCore};
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
 use crate::shape::{ConvexPolyhedron, SpheroPolyhedron};
@@ -40,6 +40,7 @@ pub(crate) fn of_shape(shape: SpheroPolyhedron) -> Body {
         rolling_friction: 0.0,
         freedom: Freedom::Free,
         wall_touches: Vec::new(),
+        turned_core: TurnedCore::default(),
         state: BodyState {
             position: Vec3::zeros(),
             orientation: UnitQuaternion::identity(),

@@ -87,6 +87,10 @@ impl Turned {
     /// Turns under one part of the energy for `dt`: about its axis by δ L_a dt, in which
     /// the angular momentum turns the other way.
     fn about(&mut self, part: &AboutAxis, dt: f64) {
+        // A body of equal moments needs no sine.
+        if part.excess == 0.0 {
+            return;
+        }
         let (a, b, c) = (part.axis, (part.axis + 1) % 3, (part.axis + 2) % 3);
         let angular_momentum = &mut self.angular_momentum;
         let (sin, cos) = (0.5 * part.excess * angular_momentum[a] * dt).sin_cos();

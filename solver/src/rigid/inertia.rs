@@ -16,6 +16,8 @@ pub struct InverseInertia {
     determinant: f64,
     /// Largest of its eigenvalues.
     largest: f64,
+    /// Frobenius norm of the inverse.
+    norm: f64,
     turning: FreeTurning,
 }
 
@@ -27,6 +29,7 @@ impl InverseInertia {
             inertia: *inertia,
             determinant: tensor.determinant(),
             largest: tensor.symmetric_eigenvalues().max(),
+            norm: tensor.norm(),
             turning: FreeTurning::of(&tensor),
         })
     }
@@ -50,7 +53,7 @@ impl InverseInertia {
 
     /// Frobenius norm, a bound of the largest eigenvalue [1/(kg m²)].
     pub fn norm(&self) -> f64 {
-        self.tensor.norm()
+        self.norm
     }
 
     /// Orientation after `dt` [s] of free turning with an angular momentum in world axes
@@ -65,7 +68,7 @@ impl InverseInertia {
     }
 }
 
-impl Mul<Vec3> for InverseInertia {
+impl Mul<Vec3> for &InverseInertia {
     type Output = Vec3;
 
     fn mul(self, torque: Vec3) -> Vec3 {
@@ -85,7 +88,7 @@ mod tests {
         let inverse = InverseInertia::of(&inertia).expect("it is regular");
         assert!((inverse.largest() - 2.0).abs() < 1e-12);
         let about = turn * Vec3::y();
-        assert!((inverse * about - about * inverse.largest()).norm() < 1e-12);
+        assert!((&inverse * about - about * inverse.largest()).norm() < 1e-12);
         assert_eq!(InverseInertia::of(&Mat3::zeros()), None);
     }
 

@@ -22,7 +22,7 @@ use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, CaseError, Cost, Run};
 use crate::verify::scenes::{body, on_vertex, thrown_down};
 use crate::verify::{Case, Effort, How};
-use scree_solver::contact::body_body::{ContactPair, Separation, pair_law};
+use scree_solver::contact::body_body::{ContactPair, Contacts, Separation, pair_law};
 use scree_solver::contact::law::ContactLaw;
 use scree_solver::math::Vec3;
 use scree_solver::rigid::{Body, InverseInertia};
@@ -128,8 +128,9 @@ impl Slide {
         self.above.state.position = Vec3::new(RIM + beyond, across, self.height);
         let mut contact_pair = ContactPair::new([0, 1]);
         let both = [&self.below, &self.above];
-        let found = contact_pair.find(both, &self.law, &mut Separation::default());
-        contact_pair.touch(both, &self.law, &found, 0.0);
+        let mut found = Contacts::default();
+        contact_pair.find(both, &self.law, &mut Separation::default(), &mut found);
+        contact_pair.touch(both, &self.law, &mut found, 0.0);
         (
             contact_pair.energy / self.law.elastic_energy(OVERLAP),
             contact_pair.push.force / self.law.elastic_force(OVERLAP),

@@ -1,11 +1,15 @@
 //! Separation of two bodies along the face normals of their cores; where neither has faces,
 //! along the line of their nearest places.
 
+use super::near_features::NearFeatures;
 use super::segments::nearest_places;
 use crate::math::Vec3;
 use crate::rigid::Body;
 use crate::shape::distance_apart;
 use nalgebra::{Isometry3, Translation3};
+
+/// Core vertices of two bodies in world axes, from the first's centre [m].
+pub(super) type Corners = [Vec<Vec3>; 2];
 
 /// The gap of two bodies along a direction: a lower bound of their distance if positive.
 pub(super) struct Gap {
@@ -17,20 +21,27 @@ pub(super) struct Gap {
     pub(super) second_from: f64,
 }
 
-/// Bound of the gap of two bodies from the last evaluation. It saves work and changes no
-/// contact: bodies that are skipped do not touch.
-#[derive(Debug, Clone, Copy, Default)]
+/// What is known of two bodies from the last evaluation: a bound of their gap, and the features
+/// that may touch. It saves work and changes no contact: what is skipped does not touch.
+#[derive(Debug, Default)]
 pub struct Separation {
     /// Face with the widest gap, counted over the first's faces, then the second's.
     face: Option<usize>,
     /// A lower bound of the distance of the rounded bodies [m]; of no use below 0.
     pub(super) gap: f64,
+    /// True if they touched.
+    pub(super) touched: bool,
+    /// Features that may touch.
+    pub(super) near: NearFeatures,
+    /// Core vertices, as last put.
+    pub(super) corners: Corners,
 }
 
 impl Separation {
     /// True if they are still apart after coming nearer by at most `by` [m].
     pub fn outlasts(&mut self, by: f64) -> bool {
         self.gap -= by;
+        self.near.approach(by);
         self.gap > 0.0
     }
 
@@ -40,28 +51,30 @@ impl Separation {
     }
 
     /// A separating gap: that of the face found before, or else the widest.
-    pub(super) fn look(
-        &mut self,
-        bodies: [&Body; 2],
-        apart: &Vec3,
-        corners: &[Vec<Vec3>; 2],
-    ) -> Gap {
-        if let Some(face) = self.face {
-            return gap_at(bodies, apart, corners, face);
-        }
-        let (face, gap) = widest_gap(bodies, apart, corners);
-        self.face = face;
+    pub(super) fn look(&mut self, bodies: [&Body; 2], apart: &Vec3) -> Gap {
+        let gap = if let Some(face) = self.face {
+            gap_at(bodies, apart, &self.corners, face)
+        } else {
+            let (face, gap) = widest_gap(bodies, apart, &self.corners);
+            self.face = face;
+            gap
+        };
+        let reach = bodies.map(|body| body.shape.sphero_radius());
+        self.gap = gap.width - (reach[0] + reach[1]);
         gap
     }
 }
 
+/// Puts the core vertices of two bodies into `corners`; `apart` is the vector from the first's
+/// centre to the second's.
+pub(super) fn put_corners([first, second]: [&Body; 2], apart: &Vec3, corners: &mut Corners) {
+    let [of_first, of_second] = corners;
+    first.put_corners(&Vec3::zeros(), of_first);
+    second.put_corners(apart, of_second);
+}
+
 /// The gap along the normal of a face, counted over the first's faces, then the second's.
-fn gap_at(
-    [first, second]: [&Body; 2],
-    apart: &Vec3,
-    corners: &[Vec<Vec3>; 2],
-    number: usize,
-) -> Gap {
+fn gap_at([first, second]: [&Body; 2], apart: &Vec3, corners: &Corners, number: usize) -> Gap {
     let faces = first.shape.faces();
     let (direction, first_to, second_from) = if let Some(face) = faces.get(number) {
         let direction = first.to_world(&face.normal);
@@ -88,7 +101,7 @@ fn gap_at(
 
 /// The gap along the line of the nearest places of two cores without faces, which is their
 /// distance; where they meet, along z.
-fn gap_of_nearest(corners: &[Vec<Vec3>; 2]) -> Gap {
+fn gap_of_nearest(corners: &Corners) -> Gap {
     let (on_first, on_second) = nearest_places(&corners[0], &corners[1]);
     let direction = (on_second - on_first).try_normalize(f64::MIN_POSITIVE);
     let direction = direction.unwrap_or_else(Vec3::z);
@@ -104,7 +117,7 @@ fn gap_of_nearest(corners: &[Vec<Vec3>; 2]) -> Gap {
 }
 
 /// The widest gap, and its face if either body has any.
-fn widest_gap(bodies: [&Body; 2], apart: &Vec3, corners: &[Vec<Vec3>; 2]) -> (Option<usize>, Gap) {
+fn widest_gap(bodies: [&Body; 2], apart: &Vec3, corners: &Corners) -> (Option<usize>, Gap) {
     let faces: usize = bodies.iter().map(|body| body.shape.faces().len()).sum();
     if faces == 0 {
         return (None, gap_of_nearest(corners));
@@ -123,7 +136,8 @@ fn widest_gap(bodies: [&Body; 2], apart: &Vec3, corners: &[Vec<Vec3>; 2]) -> (Op
 /// normals or, if they have none, exact; of no use below 0.
 pub fn least_gap(first: &Body, second: &Body) -> f64 {
     let apart = second.state.position - first.state.position;
-    let corners = [corners(first, &Vec3::zeros()), corners(second, &apart)];
+    let mut corners = Corners::default();
+    put_corners([first, second], &apart, &mut corners);
     let reach = first.shape.sphero_radius() + second.shape.sphero_radius();
     widest_gap([first, second], &apart, &corners).1.width - reach
 }
@@ -136,11 +150,4 @@ pub fn distance(first: &Body, second: &Body) -> f64 {
     };
     let cores = distance_apart(&first.shape, &pose(first), &second.shape, &pose(second));
     cores - first.shape.sphero_radius() - second.shape.sphero_radius()
-}
-
-/// Core vertices in world axes, the body's centre being at `centre`.
-pub(super) fn corners(body: &Body, centre: &Vec3) -> Vec<Vec3> {
-    let turn = body.state.orientation.to_rotation_matrix();
-    let vertices = body.shape.core_vertices().iter();
-    vertices.map(|vertex| centre + turn * vertex).collect()
 }

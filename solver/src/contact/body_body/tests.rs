@@ -1,5 +1,6 @@
 mod sliding;
 
+use super::contact_points::FeaturePair;
 use super::*;
 use crate::math::Mat3;
 use crate::rigid::fixture::{cuboid, of_shape, tetrahedron};
@@ -40,7 +41,14 @@ fn moved(body: &Body, along: &Vec3, turn: &Vec3) -> Body {
 /// Contacts of two bodies, searched for without history.
 fn touching(first: &Body, second: &Body) -> Contacts {
     let law = law([first, second]);
-    contacts(first, second, &law, &mut Separation::default())
+    let mut found = Contacts::default();
+    contacts(
+        [first, second],
+        &law,
+        &mut Separation::default(),
+        &mut found,
+    );
+    found
 }
 
 /// Updates contacts and forces after a drift of `dt`.
@@ -51,8 +59,9 @@ fn touch(
     dt: f64,
     separation: &mut Separation,
 ) -> Exchange {
-    let found = contact_pair.find(pair, law, separation);
-    contact_pair.touch(pair, law, &found, dt);
+    let mut found = Contacts::default();
+    contact_pair.find(pair, law, separation, &mut found);
+    contact_pair.touch(pair, law, &mut found, dt);
     contact_pair.exchange(pair)
 }
 

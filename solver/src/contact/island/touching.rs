@@ -3,16 +3,15 @@
 use super::member::Member;
 use super::mover::Mover;
 use super::pair::{IslandPair, Side, body_of};
-use crate::contact::body_body::Contacts;
-use crate::rigid::{BodyState, Load};
+use crate::rigid::{Body, Load, approach_bound};
 
-/// States of all moving bodies of an island.
-fn states<'a>(
+/// All moving bodies of an island.
+fn moving<'a>(
     members: &'a mut [Member],
     movers: &'a mut [Mover],
-) -> impl Iterator<Item = &'a mut BodyState> {
-    let members = members.iter_mut().map(|member| &mut member.body.state);
-    members.chain(movers.iter_mut().map(|mover| &mut mover.body.state))
+) -> impl Iterator<Item = &'a mut Body> {
+    let members = members.iter_mut().map(|member| &mut *member.body);
+    members.chain(movers.iter_mut().map(|mover| &mut mover.body))
 }
 
 /// Finds the contacts of bodies after a drift of `dt`, and counts the touching bodies of each.
@@ -22,20 +21,24 @@ pub(super) fn find_contacts(
     contact_pairs: &mut [IslandPair],
     dt: f64,
 ) {
-    for state in states(members, movers) {
-        state.touching_bodies = 0;
+    for body in moving(members, movers) {
+        body.state.touching_bodies = 0;
+        if !contact_pairs.is_empty() {
+            body.turn_core();
+        }
     }
     for island_pair in contact_pairs {
         let [first, second] = island_pair.sides.map(|side| body_of(members, movers, side));
-        let approach = dt * (first.speed_bound() + second.speed_bound());
+        let approach = dt * approach_bound(first, second);
         if island_pair.separation.outlasts(approach) {
-            island_pair.contacts = Contacts::default();
+            island_pair.contacts.clear();
             continue;
         }
-        island_pair.contacts = island_pair.contact_pair.find(
+        island_pair.contact_pair.find(
             [first, second],
             &island_pair.law,
             &mut island_pair.separation,
+            &mut island_pair.contacts,
         );
         if island_pair.contact_pair.touches() {
             let smaller = f64::min(first.shape.sphero_radius(), second.shape.sphero_radius());
@@ -61,16 +64,16 @@ pub(super) fn evaluate_body_contacts(
     contact_pairs: &mut [IslandPair],
     dt: f64,
 ) {
-    for state in states(members, movers) {
-        state.body_load = Load::default();
-        state.barrier_load = Load::default();
+    for body in moving(members, movers) {
+        body.state.body_load = Load::default();
+        body.state.barrier_load = Load::default();
     }
     for island_pair in contact_pairs {
         let both = island_pair.sides.map(|side| body_of(members, movers, side));
         island_pair.taken =
             island_pair
                 .contact_pair
-                .touch(both, &island_pair.law, &island_pair.contacts, dt);
+                .touch(both, &island_pair.law, &mut island_pair.contacts, dt);
         if island_pair.contact_pair.touches() {
             let exchange = island_pair.contact_pair.exchange(both);
             let [one, other] = island_pair.sides;

@@ -7,7 +7,7 @@ use crate::contact::body_wall::evaluate_wall_contacts;
 use crate::contact::law::{ContactLaw, Dampings};
 use crate::math::Vec3;
 use crate::motion::Velocities;
-use crate::rigid::{Body, BodyState, Freedom, InverseInertia, Load, Prescribed};
+use crate::rigid::{Body, BodyState, Freedom, InverseInertia, Load, Prescribed, TurnedCore};
 use crate::scenario::{self, Scenario};
 
 /// The bodies of a scenario at the start.
@@ -74,6 +74,7 @@ fn body(
         rolling_friction: spec.rolling_friction,
         freedom: freedom(spec, pose.position),
         wall_touches: Vec::new(),
+        turned_core: TurnedCore::default(),
     };
     let velocities = match body.prescribed() {
         Some(prescribed) => prescribed.motion.velocities(0.0),

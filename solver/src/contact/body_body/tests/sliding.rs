@@ -1,6 +1,7 @@
 //! Tests of bodies that slide and fly past each other, and of short edges.
 
 use super::*;
+use crate::rigid::approach_bound;
 
 // A cube that stands on a vertex is slid off another at a constant height above its top: over
 // the face, past the edge and the vertex. The energy is that of one contact all the way,
@@ -140,7 +141,7 @@ fn what_is_known_of_the_gap_changes_no_bit() {
                 second.drift(h);
                 let pair = [&first, &second];
                 let afresh = touch(&mut forgetting, pair, &law, h, &mut Separation::default());
-                if separation.outlasts(h * (first.speed_bound() + second.speed_bound())) {
+                if separation.outlasts(h * approach_bound(&first, &second)) {
                     assert_eq!(afresh, Exchange::default());
                     spared += 1;
                 } else {
