@@ -121,6 +121,19 @@ impl ContactPair {
         taken
     }
 
+    /// Approach speeds and overlaps of their contacts, as last found [m/s, m].
+    pub fn approaches<'a>(
+        [first, second]: [&Body; 2],
+        found: &'a Contacts,
+    ) -> impl Iterator<Item = (f64, f64)> + 'a {
+        let apart = second.state.position - first.state.position;
+        let motions = [first, second].map(Motion::velocity);
+        found.places.iter().map(move |Contact { near, .. }| {
+            let velocity = relative(&motions, &near.place, &apart);
+            (-velocity.dot(&near.normal), near.overlap)
+        })
+    }
+
     /// Loads that the two exert on each other now.
     pub fn exchange(&self, pair: [&Body; 2]) -> Exchange {
         Exchange::between(pair, &self.push)
@@ -197,8 +210,8 @@ impl<'a> Pair<'a> {
 
     /// Motion of the second body relative to the first's at a place given from the
     /// first's centre.
-    fn relative(&self, [first, second]: &[Motion; 2], place: &Vec3) -> Vec3 {
-        second.at(&(place - self.apart)) - first.at(place)
+    fn relative(&self, motions: &[Motion; 2], place: &Vec3) -> Vec3 {
+        relative(motions, place, &self.apart)
     }
 
     /// R* of 1/R* = 1/r_a + 1/r_b [m].
@@ -293,6 +306,12 @@ impl<'a> Pair<'a> {
         let [first, second] = self.bodies;
         stopping(first, &exchange.on_first) + stopping(second, &exchange.on_second)
     }
+}
+
+/// Motion of a second body relative to a first's at a place given from the first's centre; `apart`
+/// is the vector from there to the second's.
+fn relative([first, second]: &[Motion; 2], place: &Vec3, apart: &Vec3) -> Vec3 {
+    second.at(&(place - apart)) - first.at(place)
 }
 
 impl Exchange {

@@ -34,6 +34,8 @@ pub struct Taken {
     /// Damping forces with their share: of the walls on the body, or of two bodies on the
     /// second, the torque being about the first's centre.
     pub damping: Load,
+    /// Power of these in the middle of the kick by them [W].
+    pub power: f64,
     /// Energy lost by slip, and by springs that got stiffer, turned or were released [J].
     pub lost: f64,
 }

@@ -13,6 +13,10 @@ use serde::{Deserialize, Serialize};
 /// Distance over R below which two places have no defined direction.
 const NO_DIRECTION: f64 = 1e-9;
 
+/// Distance of two edges over R up to which they are looked at: clearances beyond it are as good as
+/// this one.
+const LOOKED_AT: f64 = 1.0 + 1e-2;
+
 /// Two features that may touch, by their numbers in the cores.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum FeaturePair {
@@ -56,6 +60,8 @@ pub struct Contacts {
     pub(super) push: Load,
     /// The potential U [J].
     pub(super) energy: f64,
+    /// Least distance of the features that were looked at and do not touch [m].
+    pub(super) clearance: f64,
     /// What the last contact taken left to others; kept to avoid allocations, like the next two.
     booked: Vec<Booked>,
     /// Normal forces of the contacts.
@@ -110,6 +116,16 @@ impl Contacts {
         self.places.clear();
         self.push = Load::default();
         self.energy = 0.0;
+        self.clearance = f64::INFINITY;
+    }
+
+    /// Counts two features this far apart [m]; true if they touch.
+    fn touch_at(&mut self, apart: f64) -> bool {
+        let touch = apart < 0.0;
+        if !touch {
+            self.clearance = self.clearance.min(apart);
+        }
+        touch
     }
 
     /// Adds the part of a contact's energy that the `booked` contacts nearby do not account for.
@@ -192,27 +208,31 @@ impl<'a> Pair<'a> {
             ..
         } = separation;
         for &vertex in &near.vertices[0] {
-            if let Some(near) = self.of_first(&of_first[vertex]) {
+            if let Some(near) = self.of_first(&of_first[vertex], found) {
                 let between = FeaturePair::VertexOfFirst(vertex);
                 found.take(law, between, near, std::iter::empty());
             }
         }
         for &vertex in &near.vertices[1] {
             let place = &of_second[vertex];
-            if let Some(touching) = self.of_second(place) {
+            if let Some(touching) = self.of_second(place, found) {
                 let twins = near.vertices[0].iter();
                 let twins = twins.filter_map(|&twin| self.between(&of_first[twin], place));
                 let between = FeaturePair::VertexOfSecond(vertex);
                 found.take(law, between, touching, twins);
             }
         }
-        let reach = self.radii[0] + self.radii[1];
+        let reach = LOOKED_AT * (self.radii[0] + self.radii[1]);
+        found.touch_at(self.gap(reach));
         for pair in &near.edges {
             let on_first = pair.ends[0].map(|end| of_first[end]);
             let on_second = pair.ends[1].map(|end| of_second[end]);
             let Some((p, q)) = crossing(&on_first, &on_second, reach) else {
                 continue;
             };
+            if !found.touch_at(self.gap((q - p).norm())) {
+                continue;
+            }
             if let Some(near) = self.between(&p, &q) {
                 let [e, f] = pair.numbers;
                 let ends = self.ends(&on_first, &on_second);
@@ -222,22 +242,22 @@ impl<'a> Pair<'a> {
     }
 
     /// Nearest places of a vertex of the first body and the second's core.
-    fn of_first(&self, vertex: &Vec3) -> Option<ContactPoint> {
+    fn of_first(&self, vertex: &Vec3, found: &mut Contacts) -> Option<ContactPoint> {
         let second = self.bodies[1];
         let closest = second
             .shape
             .closest_feature(&second.to_body(&(vertex - self.apart)));
-        self.reaches(closest.distance).then(|| {
+        found.touch_at(self.gap(closest.distance)).then(|| {
             let normal = -second.to_world(&closest.normal);
             self.touching(vertex, &normal, closest.distance)
         })
     }
 
     /// Nearest places of a vertex of the second body and the first's core.
-    fn of_second(&self, vertex: &Vec3) -> Option<ContactPoint> {
+    fn of_second(&self, vertex: &Vec3, found: &mut Contacts) -> Option<ContactPoint> {
         let first = self.bodies[0];
         let closest = first.shape.closest_feature(&first.to_body(vertex));
-        self.reaches(closest.distance).then(|| {
+        found.touch_at(self.gap(closest.distance)).then(|| {
             let normal = first.to_world(&closest.normal);
             let on_first = vertex - normal * closest.distance;
             self.touching(&on_first, &normal, closest.distance)
@@ -249,13 +269,13 @@ impl<'a> Pair<'a> {
         let gap = on_second - on_first;
         let distance = gap.norm();
         let defined = distance > NO_DIRECTION * (self.radii[0] + self.radii[1]);
-        (defined && self.reaches(distance))
+        (defined && self.gap(distance) < 0.0)
             .then(|| self.touching(on_first, &(gap / distance), distance))
     }
 
-    /// True if the roundings of places at this distance overlap.
-    fn reaches(&self, distance: f64) -> bool {
-        self.radii[0] + self.radii[1] - distance > 0.0
+    /// Distance of the roundings of places at this distance; negative if they overlap.
+    fn gap(&self, distance: f64) -> f64 {
+        distance - (self.radii[0] + self.radii[1])
     }
 
     fn touching(&self, on_first: &Vec3, normal: &Vec3, distance: f64) -> ContactPoint {

@@ -47,6 +47,11 @@ impl NearFeatures {
         self.is_listed && self.margin > 0.0 && !*NOLIST
     }
 
+    /// Distance by which the bodies may come nearer before a feature that is not listed touches [m].
+    pub(super) fn margin(&self) -> f64 {
+        self.margin
+    }
+
     /// Uses up the margin for bodies that come nearer by at most `by` [m].
     pub(super) fn approach(&mut self, by: f64) {
         self.margin -= by;

@@ -1,6 +1,7 @@
 //! Separation of two bodies along the face normals of their cores; where neither has faces,
 //! along the line of their nearest places.
 
+use super::contact_points::Contacts;
 use super::near_features::NearFeatures;
 use super::segments::nearest_places;
 use crate::math::Vec3;
@@ -48,6 +49,12 @@ impl Separation {
     /// Lower bound of their distance [m]; 0 if none is known.
     pub fn at_least(&self) -> f64 {
         self.gap.max(0.0)
+    }
+
+    /// Lower bound of the distance of their features that do not touch [m], if some of them do;
+    /// `found` are the contacts found last.
+    pub fn clearance(&self, found: &Contacts) -> f64 {
+        found.clearance.min(self.near.margin())
     }
 
     /// A separating gap: that of the face found before, or else the widest.

@@ -22,12 +22,43 @@ pub(super) fn begin(members: &mut [Member], contact_pairs: &[IslandPair]) {
     }
 }
 
-/// Scales the pending dissipation: the next sub-step is so many times longer than the one
-/// before, and so is the kick in which the damping found there acts.
-pub(super) fn stretch(members: &mut [Member], longer: f64) {
-    for member in members {
-        let energy = &mut member.report.energy;
-        energy.dissipated += energy.pending * (longer - 1.0);
+/// Lengths of a sub-step and of the one before [s]. The damping found between them acts in the
+/// second half kick of the one, and in the first of the other.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lengths {
+    pub(super) before: f64,
+    pub(super) now: f64,
+}
+
+/// Corrects the dissipation counted for a sub-step as long as the one before, once the first half
+/// kick of a sub-step of another length is done.
+pub(super) fn correct_losses(
+    members: &mut [Member],
+    movers: &[Mover],
+    contact_pairs: &[IslandPair],
+    lengths: Lengths,
+) {
+    for member in &mut *members {
+        let now = power_on_member(member);
+        member.report.energy.dissipated += lengths.excess(&member.taken, now);
+    }
+    for island_pair in contact_pairs {
+        let now = power_in_pair(members, movers, island_pair);
+        let excess = lengths.excess(&island_pair.taken, now);
+        halve(members, island_pair, excess, |energy| {
+            &mut energy.dissipated
+        });
+    }
+}
+
+impl Lengths {
+    /// Dissipation less what was counted [J]; `power` is that of the damping after the kick [W].
+    /// Its velocities change evenly in the kick.
+    fn excess(&self, taken: &Taken, power: f64) -> f64 {
+        let Self { before, now } = *self;
+        let change = (power - taken.power) * (now * now - before * before) / (4.0 * now);
+        let work = 0.5 * taken.power * (before + now) + change;
+        (-work).max(0.0) - (-taken.power * before).max(0.0)
     }
 }
 
@@ -102,24 +133,20 @@ pub(super) fn take_in_work(
 pub(super) fn take_in_losses(
     members: &mut [Member],
     movers: &[Mover],
-    contact_pairs: &[IslandPair],
+    contact_pairs: &mut [IslandPair],
     dt: f64,
 ) {
     for member in &mut *members {
-        let power = |damping: &Load| damping.power(&member.body.velocities());
-        let damped = damped(&member.taken, power, dt);
+        member.taken.power = power_on_member(member);
+        // None if damping gave energy, since that was made.
+        let damped = (-member.taken.power * dt).max(0.0);
         let energy = &mut member.report.energy;
         energy.dissipated += member.taken.lost + damped;
         energy.pending = 0.5 * damped;
     }
     for island_pair in contact_pairs {
-        let both = island_pair.sides.map(|side| body_of(members, movers, side));
-        let power = |damping: &Load| {
-            let exchange = Exchange::between(both, damping);
-            let [first, second] = both.map(Body::velocities);
-            exchange.on_first.power(&first) + exchange.on_second.power(&second)
-        };
-        let damped = damped(&island_pair.taken, power, dt);
+        island_pair.taken.power = power_in_pair(members, movers, island_pair);
+        let damped = (-island_pair.taken.power * dt).max(0.0);
         halve(
             members,
             island_pair,
@@ -132,13 +159,25 @@ pub(super) fn take_in_losses(
     }
 }
 
-/// Energy dissipated by damping: none if damping gave energy, since that was made.
-fn damped(taken: &Taken, power: impl Fn(&Load) -> f64, dt: f64) -> f64 {
-    if taken.damping == Load::default() {
-        0.0
-    } else {
-        (-power(&taken.damping) * dt).max(0.0)
+/// Power of the damping of walls on a body now [W].
+fn power_on_member(member: &Member) -> f64 {
+    let damping = &member.taken.damping;
+    if *damping == Load::default() {
+        return 0.0;
     }
+    damping.power(&member.body.velocities())
+}
+
+/// Power of the damping in the contacts of two bodies now [W].
+fn power_in_pair(members: &[Member], movers: &[Mover], island_pair: &IslandPair) -> f64 {
+    let damping = &island_pair.taken.damping;
+    if *damping == Load::default() {
+        return 0.0;
+    }
+    let both = island_pair.sides.map(|side| body_of(members, movers, side));
+    let exchange = Exchange::between(both, damping);
+    let [first, second] = both.map(Body::velocities);
+    exchange.on_first.power(&first) + exchange.on_second.power(&second)
 }
 
 /// Adds an energy of a contact pair to its free bodies: half to each of two.

@@ -1,7 +1,7 @@
 //! Integration of an island's motion over a sub-step of the flow: velocity Verlet
 //! (docs/method.md, equations 15 and 20).
 
-use super::balance;
+use super::balance::{self, Lengths};
 use super::components::Island;
 use super::member::Member;
 use super::mover::Mover;
@@ -66,10 +66,14 @@ pub(super) fn advance_together(
         if around.is_cancelled() {
             return;
         }
-        let (stride, longer) = strides.next(members, movers, contact_pairs, around);
-        balance::stretch(members, longer);
+        let before = strides.before();
+        let stride = strides.next(members, movers, contact_pairs, around);
         let h = f64::from(stride) * strides.shortest;
         half_kick(members, movers, contact_pairs, around, 0.5 * h);
+        if let Some(before) = before.filter(|before| *before != h) {
+            let lengths = Lengths { before, now: h };
+            balance::correct_losses(members, movers, contact_pairs, lengths);
+        }
         for mover in movers.iter_mut() {
             mover.follow(around.time, f64::from(strides.done) * strides.shortest);
         }

@@ -2,27 +2,17 @@
 //! which resolves all that may happen (docs/method.md, equations 20, 20a and 20b).
 
 use super::flight::clear_for;
-use super::in_touch::{is_quiet, longest_in_touch};
+use super::in_touch::longest_in_touch;
 use super::member::Member;
 use super::mover::Mover;
 use super::pair::IslandPair;
 use super::surroundings::Surroundings;
-use crate::rigid::Load;
 
 /// Number of short sub-steps left below which gaps and contacts are not evaluated, since that
 /// costs as much as one or two sub-steps.
 const WORTH_A_LOOK: u32 = 4;
 /// Largest number of doublings of the interval between evaluations that find no room.
 const MOST_DOUBLINGS: u32 = 4;
-/// Number of short sub-steps in one of the flow below which contacts take them all.
-const MANY: u32 = 100;
-
-/// True if the flow pushes a body: it may press a contact far deeper than the body's present
-/// energy.
-fn is_pushed(member: &Member) -> bool {
-    member.flow != Load::default()
-}
-
 /// The sub-steps of an island within one of the flow, and their lengths.
 #[derive(Debug)]
 pub(super) struct Strides {
@@ -59,15 +49,19 @@ impl Strides {
         self.done < self.count
     }
 
-    /// Begins the next sub-step; returns its length in shortest ones, and the ratio of its length
-    /// to that of the one before.
+    /// Length of the last sub-step [s], if there was one.
+    pub(super) fn before(&self) -> Option<f64> {
+        (self.done > 0).then(|| f64::from(self.before) * self.shortest)
+    }
+
+    /// Begins the next sub-step; returns its length in shortest ones.
     pub(super) fn next(
         &mut self,
         members: &[Member],
         movers: &[Mover],
         contact_pairs: &[IslandPair],
         around: &Surroundings,
-    ) -> (u32, f64) {
+    ) -> u32 {
         let left = self.count - self.done;
         let stride = if left < WORTH_A_LOOK || self.is_waiting() {
             1
@@ -79,18 +73,14 @@ impl Strides {
             self.found((clear / self.shortest) as u32)
         };
         let stride = stride.clamp(1, left);
-        let ratio = if self.done == 0 {
-            1.0
-        } else {
-            f64::from(stride) / f64::from(self.before)
-        };
         self.before = stride;
         self.done += stride;
-        (stride, ratio)
+        stride
     }
 
-    /// A power of two, so that an impact has steps of one length; no longer than the one
-    /// before while damping counts, and at most twice as long.
+    /// A power of two, so that an impact has steps of one length; at most twice as long as the one
+    /// before, so that damping chosen for that one still dissipates. The last is one of the
+    /// shortest, as is the first that follows in the flow's next sub-step.
     fn in_touch(
         &mut self,
         members: &[Member],
@@ -98,20 +88,18 @@ impl Strides {
         contact_pairs: &[IslandPair],
         around: &Surroundings,
     ) -> u32 {
-        if self.count < MANY || members.iter().any(is_pushed) {
+        let left = self.count - self.done;
+        if self.done == 0 {
             return 1;
         }
-        let at_most = if self.done > 0 && is_quiet(members, around) {
-            2 * self.before
-        } else {
-            self.before
-        };
+        let at_most = (2 * self.before).min(left - 1);
         if at_most == 1 {
             return 1;
         }
-        let longest = longest_in_touch(members, movers, contact_pairs, around);
-        let stride = 1 << ((longest / self.shortest) as u32).max(1).ilog2();
-        self.found(stride).min(at_most)
+        let most = self.shortest * f64::from(at_most);
+        let longest = longest_in_touch(members, movers, contact_pairs, around, most);
+        let stride = ((longest / self.shortest) as u32).clamp(1, at_most);
+        self.found(1 << stride.ilog2())
     }
 
     fn is_waiting(&mut self) -> bool {
