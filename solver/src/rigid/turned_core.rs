@@ -18,12 +18,17 @@ impl Body {
     /// Turns its core vertices into world axes, unless they are known for its orientation.
     pub fn turn_core(&mut self) {
         if !self.core_is_turned() {
-            let orientation = self.state.orientation;
-            let known = &mut self.turned_core;
-            known.orientation = Some(orientation);
-            known.vertices.clear();
-            known.vertices.extend(turned(&self.shape, &orientation));
+            self.turn_core_anew();
         }
+    }
+
+    /// Turns its core vertices into world axes.
+    pub fn turn_core_anew(&mut self) {
+        let orientation = self.state.orientation;
+        let known = &mut self.turned_core;
+        known.orientation = Some(orientation);
+        known.vertices.clear();
+        known.vertices.extend(turned(&self.shape, &orientation));
     }
 
     /// Its core vertices in world axes as last turned, from its centre [m].

@@ -17,7 +17,7 @@ use crate::verify::run::{Answer, CaseError, Run, scene_of};
 use crate::verify::scenes::{GRAVITY, channel, downhill};
 use crate::verify::{Case, Effort, How};
 use scree_solver::math::Vec3;
-use scree_solver::rigid::{Body, InverseInertia};
+use scree_solver::rigid::{Body, InverseInertia, TurnedCore};
 use scree_solver::shape::{SharpPolyhedron, SpheroPolyhedron};
 use scree_solver::simulation::Scene;
 use serde_json::json;
@@ -136,6 +136,7 @@ fn scene(sides: u32) -> Result<Scene, CaseError> {
     let lower = low(&shape, body) - low(&body.shape, body);
     body.state.position += normal * lower;
     body.state.springs.clear();
+    body.turned_core = TurnedCore::default();
     body.shape = shape;
     Ok(scene)
 }

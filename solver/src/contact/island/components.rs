@@ -50,7 +50,7 @@ pub(super) fn islands<'a>(
     for (place, (body, report)) in bodies.iter_mut().zip(reports).enumerate() {
         *report = BodyReport::default();
         if !body.is_free() {
-            body.turn_core();
+            body.turn_core_anew();
             seats.push(Seat::Outside(body));
             continue;
         }

@@ -80,7 +80,7 @@ impl<'a> Member<'a> {
         let fastest = self.body.velocity().norm() + self.body.turning_bound();
         self.report.travelled += fastest * dt;
         self.body.drift(dt);
-        self.body.turn_core();
+        self.body.turn_core_anew();
     }
 
     /// Counts a sub-step as long as so many of the shortest.
