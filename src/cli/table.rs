@@ -184,6 +184,7 @@ mod tests {
             displacement_m: 0.41234,
             path_length_m: 0.5,
             final_position_m: [0.45, -1e-9, 0.02],
+            burial_depth_m: 0.0,
             final_orientation: [1.0, 0.0, 0.0, 0.0],
             error_bars: None,
             mass_properties: MassProperties {

@@ -198,6 +198,7 @@ pub(super) fn slid() -> BodyOutcome {
         displacement_m: 0.4005,
         path_length_m: 0.4005,
         final_position_m: [0.44, 0.02, 0.02],
+        burial_depth_m: 0.0,
         final_orientation: [1.0, 0.0, 0.0, 0.0],
         error_bars: None,
         mass_properties: MassProperties {

@@ -140,6 +140,10 @@ pub struct BodyOutcome {
     /// Centre at the end [m].
     #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
     pub final_position_m: [f64; 3],
+    /// Depth of its highest place below the surface of the flow round it at the end, along the
+    /// normal of the bed [m]; 0 if it stands out.
+    #[serde(default)]
+    pub burial_depth_m: f64,
     /// Orientation at the end [w, x, y, z].
     #[cfg_attr(feature = "schema", schema(min_items = 4, max_items = 4))]
     pub final_orientation: [f64; 4],

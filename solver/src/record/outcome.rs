@@ -113,7 +113,7 @@ impl BodyHistory {
         self.settling.rests() || measure(self.scale, body).is_slow(motion)
     }
 
-    /// The outcome of `body`, to which this history belongs; its energy is not included.
+    /// The outcome of `body`, to which this history belongs; its energy and burial are not included.
     pub(super) fn outcome(&self, body: &Body) -> BodyOutcome {
         let way = self.last.position - self.start;
         let moved = self.onset_time.is_some() || self.settling.moved();
@@ -127,6 +127,7 @@ impl BodyHistory {
             displacement_m: way.xy().norm(),
             path_length_m: self.path_length,
             final_position_m: self.last.position.into(),
+            burial_depth_m: 0.0,
             final_orientation: [q.w, q.i, q.j, q.k],
             error_bars: None,
             mass_properties: mass_properties(body),

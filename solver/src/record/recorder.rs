@@ -12,6 +12,7 @@ use super::rest::{
 use super::sampling::Sampling;
 use super::scale::Scale;
 use super::snapshots::Snapshots;
+use super::submergence::burial_depth;
 use super::{BodyOutcome, Conservation, Cost, FlowSnapshot, Outcome, Record, Sample};
 use crate::method::METHOD;
 use crate::plan::Plan;
@@ -238,6 +239,7 @@ impl Recorder {
         bodies
             .map(|(place, (history, body))| BodyOutcome {
                 energy: body_energy(simulation, place),
+                burial_depth_m: burial_depth(simulation, body),
                 ..history.outcome(body)
             })
             .collect()

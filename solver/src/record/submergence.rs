@@ -25,13 +25,30 @@ const GAP: f64 = 2.0;
 /// out, and so are points there.
 pub(super) fn submerged_fraction(simulation: &Simulation, body: &Body) -> f64 {
     let view = View::of(simulation, body);
+    level_at_the_centre(simulation, body, &view, 1.0)
+}
+
+/// Depth of the body's highest place below the surface of the flow round it, along the normal of
+/// the bed under it [m]; 0 if it stands out. The surface is that of [`submerged_fraction`].
+pub(super) fn burial_depth(simulation: &Simulation, body: &Body) -> f64 {
+    let view = View {
+        ceiling: f64::INFINITY,
+        ..View::of(simulation, body)
+    };
+    let level = level_at_the_centre(simulation, body, &view, f64::INFINITY);
+    (level - 1.0).max(0.0) * (view.high - view.low)
+}
+
+/// Height of the flow's surface at the body's centre over the body's foot, as a share of the
+/// body's height; that of each sector counts up to `most`.
+fn level_at_the_centre(simulation: &Simulation, body: &Body, view: &View, most: f64) -> f64 {
     let others = others_near(simulation.bodies(), body, view.ring);
     let hidden = |place: &Vec3| {
         let mut others = others.iter();
         others.any(|other| screens(other, place, &body.state.position))
     };
     let mut sectors: [Vec<Spot>; SECTORS] = Default::default();
-    simulation.visit_points(Some(&view.around()), |point| {
+    simulation.visit_points(view.around().as_ref(), |point| {
         let spot = view.spot(&point.position);
         if let Some(spot) = spot.filter(|_| !hidden(&point.position)) {
             sectors[sector(&spot)].push(spot);
@@ -42,9 +59,9 @@ pub(super) fn submerged_fraction(simulation: &Simulation, body: &Body) -> f64 {
         |sector: usize| view.has_room(simulation, sector) && !hidden(&view.middle_place(sector));
     let within = within.filter(|(sector, _)| has_say(*sector));
     let shares: Vec<(Spot, f64)> = within
-        .map(|(sector, spots)| view.share(sector, spots))
+        .map(|(sector, spots)| view.share(sector, spots, most))
         .collect();
-    at_the_centre(&shares).clamp(0.0, 1.0)
+    at_the_centre(&shares).clamp(0.0, most)
 }
 
 /// The other bodies that reach into a ring round one.
@@ -76,6 +93,8 @@ struct View {
     /// Lowest and highest place of the body [m].
     low: f64,
     high: f64,
+    /// Height above which points are not looked at [m].
+    ceiling: f64,
     /// Bounding radius of the body, and outer radius of the ring [m].
     radius: f64,
     ring: f64,
@@ -95,16 +114,18 @@ impl View {
             normal,
             low: -extent(-normal),
             high: extent(normal),
+            ceiling: extent(normal) + GAP * spacing,
             radius,
             ring: radius + RING * spacing,
             spacing,
         }
     }
 
-    /// A box that contains the ring.
-    fn around(&self) -> Around {
-        let tallest = self.high.max(-self.low) + GAP * self.spacing;
-        Around::column(self.centre, self.ring + self.normal.x.abs() * tallest)
+    /// A box that contains the ring up to the ceiling; none if there is no ceiling.
+    fn around(&self) -> Option<Around> {
+        let tallest = self.ceiling.max(GAP * self.spacing - self.low);
+        let column = || Around::column(self.centre, self.ring + self.normal.x.abs() * tallest);
+        tallest.is_finite().then(column)
     }
 
     /// A place if it is in the ring.
@@ -115,9 +136,9 @@ impl View {
             across: arm.y,
             height: arm.dot(&self.normal),
         };
-        let gap = GAP * self.spacing;
         let near = spot.along.hypot(spot.across) <= self.ring;
-        let beside = spot.height >= self.low - gap && spot.height <= self.high + gap;
+        let floor = self.low - GAP * self.spacing;
+        let beside = spot.height >= floor && spot.height <= self.ceiling;
         (near && beside).then_some(spot)
     }
 
@@ -144,8 +165,9 @@ impl View {
         sides.all(|plane| plane.height(&place) > 0.0)
     }
 
-    /// Position of a sector's surface, and the body's share below it.
-    fn share(&self, sector: usize, spots: &mut [Spot]) -> (Spot, f64) {
+    /// Position of a sector's surface, and its height over the body's foot as a share of the
+    /// body's height, up to `most`.
+    fn share(&self, sector: usize, spots: &mut [Spot], most: f64) -> (Spot, f64) {
         spots.sort_unstable_by(|a, b| a.height.total_cmp(&b.height));
         let mut level = self.low;
         let mut top = None;
@@ -161,7 +183,7 @@ impl View {
         };
         let surface = top.height + 0.5 * self.spacing;
         let share = (surface - self.low) / (self.high - self.low);
-        (top, share.clamp(0.0, 1.0))
+        (top, share.clamp(0.0, most))
     }
 }
 

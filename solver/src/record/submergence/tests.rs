@@ -45,6 +45,21 @@ fn a_body_at_a_wall_is_as_deep_as_one_amid_the_flow() {
     assert!((found - 0.5).abs() <= 0.01, "{found}");
 }
 
+#[test]
+fn burial_is_measured_along_the_normal_of_the_bed_from_the_top_of_the_body() {
+    for inclination in [0.0, 30.0] {
+        for (height, wanted) in [(0.04, 0.0), (0.1, 0.02), (0.2, 0.12)] {
+            let scenario = scene(inclination, height, |_| {});
+            let simulation = Simulation::new(&scenario, 1).expect("it fits");
+            let found = burial_depth(&simulation, &simulation.bodies()[0]);
+            assert!(
+                (found - wanted).abs() <= 0.003,
+                "{inclination}°, {height} m: {found}"
+            );
+        }
+    }
+}
+
 // A point resolves its surface to half a spacing: of a cube of half a cell, a whole side.
 #[test]
 fn cells_larger_than_the_body_tell_deep_from_dry() {
@@ -67,6 +82,7 @@ fn view() -> View {
         normal: Vec3::z(),
         low: -0.04,
         high: 0.04,
+        ceiling: 0.05,
         radius: 0.07,
         ring: 0.085,
         spacing: 0.005,
@@ -90,7 +106,7 @@ fn layered(top: impl Fn(usize) -> f64) -> [Vec<Spot>; SECTORS] {
 fn seen(mut sectors: [Vec<Spot>; SECTORS]) -> f64 {
     let sectors = sectors.iter_mut().enumerate();
     let shares: Vec<_> = sectors
-        .map(|(sector, spots)| view().share(sector, spots))
+        .map(|(sector, spots)| view().share(sector, spots, 1.0))
         .collect();
     at_the_centre(&shares)
 }
