@@ -1,43 +1,15 @@
 //! A job as seen outside the database.
 
+use super::identifier::identifier;
 use crate::runs::Progress;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
-use std::fmt;
-use std::str::FromStr;
 use utoipa::ToSchema;
-use uuid::Uuid;
 
-/// Identifier of a job: a UUID of version 7, so that identifiers sort by age.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct JobId(Uuid);
-
-impl JobId {
-    /// A new identifier.
-    pub fn new() -> Self {
-        Self(Uuid::now_v7())
-    }
-}
-
-impl Default for JobId {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl fmt::Display for JobId {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.hyphenated().fmt(formatter)
-    }
-}
-
-impl FromStr for JobId {
-    type Err = uuid::Error;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        Uuid::try_parse(text).map(Self)
-    }
+identifier! {
+    /// Identifier of a job.
+    JobId
 }
 
 /// State of a job, in the words of OGC API – Processes.

@@ -11,6 +11,7 @@ pub mod failure;
 mod fair_queue;
 mod flow_export;
 pub mod forecast;
+pub(crate) mod identifier;
 pub mod job;
 mod job_limits;
 mod job_service;
