@@ -1,0 +1,99 @@
+//! Answers to a study's questions, from the outcomes of its members.
+
+mod binomial;
+mod estimate;
+mod failures;
+mod halves;
+mod probability;
+mod quantiles;
+mod region;
+mod sample;
+mod sensitivity;
+
+pub use estimate::Estimate;
+pub use failures::{Counts, Failures};
+pub use probability::{Exceedance, Probability};
+pub use quantiles::Quantile;
+pub use region::{Atom, DensityGrid, Polygon, Region, RestDistribution};
+pub use sample::{RestingPlaces, Sample};
+pub use sensitivity::{
+    ElementaryEffect, ElementaryEffects, FirstOrderIndex, FirstOrderIndices, Measures, Moment,
+    SobolIndex, SobolIndices,
+};
+
+use crate::outcome::Member;
+use crate::study::{Ensemble, Question};
+use serde::{Deserialize, Serialize};
+
+/// Answers to a study.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = StudyAnswers))]
+pub struct Answers {
+    /// Members by the fate of their runs.
+    pub members: Counts,
+    /// Answers, in the order of the questions.
+    pub answers: Vec<Answer>,
+}
+
+/// Answer to a question, of the question's name.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = StudyAnswer))]
+#[serde(rename_all = "snake_case")]
+pub enum Answer {
+    /// Where the body comes to rest.
+    Rest(RestDistribution),
+    /// Probability of each threshold.
+    Exceeds(Vec<Exceedance>),
+    /// Probability that the body ends below the surface.
+    Buried(Probability),
+    /// Quantiles of the quantity.
+    Quantiles(Vec<Quantile>),
+    /// Inputs that the quantity depends on; none if it does not vary or too few members have it.
+    Sensitivity(Option<Measures>),
+}
+
+impl Answers {
+    /// Answers from the members that have an outcome; a member that is not in the list is pending.
+    /// The order of the list does not matter.
+    pub fn of(ensemble: &Ensemble, members: &[Member]) -> Self {
+        let questions = ensemble.study().questions.iter();
+        Self {
+            members: Counts::of(ensemble, members),
+            answers: questions
+                .map(|one| Answer::of(ensemble, members, one))
+                .collect(),
+        }
+    }
+}
+
+impl Answer {
+    /// Answer to one question.
+    pub fn of(ensemble: &Ensemble, members: &[Member], question: &Question) -> Self {
+        let sample = |name: &str, body: Option<usize>| Sample::of(ensemble, members, name, body);
+        match question {
+            Question::Rest(rest) => {
+                let places = RestingPlaces::of(ensemble, members, rest.body);
+                Self::Rest(RestDistribution::of(&places, &rest.regions))
+            }
+            Question::Exceeds(exceeds) => {
+                let sample = sample(&exceeds.quantity, exceeds.body);
+                Self::Exceeds(Exceedance::curve(&sample, &exceeds.thresholds))
+            }
+            Question::Buried(buried) => {
+                let sample = sample("buried_m", Some(buried.body));
+                Self::Buried(Probability::exceeding(&sample, buried.deeper_than_m))
+            }
+            Question::Quantiles(asked) => {
+                let sample = sample(&asked.quantity, asked.body);
+                let probabilities = asked.probabilities.iter();
+                Self::Quantiles(probabilities.map(|p| Quantile::of(&sample, *p)).collect())
+            }
+            Question::Sensitivity(asked) => {
+                let (name, body) = (&asked.quantity, asked.body);
+                Self::Sensitivity(Measures::of(ensemble, members, name, body))
+            }
+        }
+    }
+}

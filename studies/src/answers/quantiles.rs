@@ -1,0 +1,47 @@
+//! Quantiles of a quantity, with bounds.
+
+use super::{Sample, binomial};
+use crate::{CONFIDENCE, moments};
+use serde::{Deserialize, Serialize};
+
+/// Quantile of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Quantile {
+    /// Probability of a smaller value.
+    pub probability: f64,
+    /// Estimate from the known members, type 8 of Hyndman & Fan (1996), whose median is right for
+    /// any distribution; none without a known member.
+    pub estimate: Option<f64>,
+    /// Lower bound; none if the members are too few for one.
+    pub lower: Option<f64>,
+    /// Upper bound; none if the members are too few for one.
+    pub upper: Option<f64>,
+}
+
+impl Quantile {
+    /// Quantile of a sample at a probability 0 < p < 1.
+    ///
+    /// The bounds are order statistics, so they hold for any distribution: at [`CONFIDENCE`]
+    /// together for independent draws. A member of unknown outcome could lie anywhere: for the
+    /// lower bound it lies below all others, for the upper one above.
+    pub fn of(sample: &Sample, probability: f64) -> Self {
+        let sorted = moments::sorted(&sample.values);
+        let (known, unknown) = (sorted.len() as u64, sample.unknown);
+        let tail = 0.5 * (1.0 - CONFIDENCE);
+        let (lower, upper) = binomial::quantile_ranks(probability, known + unknown, tail);
+        let ranked = |rank: u64| sorted.get(rank.checked_sub(1)? as usize).copied();
+        Self {
+            probability,
+            estimate: type_8(&sorted, probability),
+            lower: lower.checked_sub(unknown).and_then(ranked),
+            upper: ranked(upper),
+        }
+    }
+}
+
+/// Quantile at the place (n + 1/3) p + 1/3 of the sorted values, counted from 1.
+fn type_8(sorted: &[f64], probability: f64) -> Option<f64> {
+    let place = (sorted.len() as f64 + 1.0 / 3.0) * probability + 1.0 / 3.0;
+    (!sorted.is_empty()).then(|| moments::at(sorted, place - 1.0))
+}

@@ -1,0 +1,109 @@
+//! Outcomes of the members.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Member of a study with its outcome.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = StudyMember))]
+#[serde(deny_unknown_fields)]
+pub struct Member {
+    /// Index in the design.
+    pub index: u64,
+    /// Outcome.
+    pub outcome: MemberOutcome,
+}
+
+/// Outcome of a member.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum MemberOutcome {
+    /// The run came to its end.
+    Finished(Finished),
+    /// The run failed; its quantities could have been anything.
+    Failed {
+        /// Reason, one of few words so that equal reasons are counted together.
+        reason: String,
+    },
+    /// The run has no outcome yet.
+    Pending,
+}
+
+/// Outcome of a run that came to its end.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = FinishedMember))]
+#[serde(deny_unknown_fields)]
+pub struct Finished {
+    /// Quantities of the whole run by name, the unit in the name; what did not happen is left out.
+    #[serde(default)]
+    pub quantities: BTreeMap<String, f64>,
+    /// Bodies, in the order of the scenario.
+    #[serde(default)]
+    pub bodies: Vec<MemberBody>,
+}
+
+/// Body at the end of a member's run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct MemberBody {
+    /// Position of its centre at the end: downstream, across, up [m].
+    pub rest_m: [f64; 3],
+    /// True if it still moves, so that the position is not where it rests.
+    pub moving: bool,
+    /// True if the flow hit it.
+    pub hit: bool,
+    /// Depth of its centre below the surface [m]; 0 if not below.
+    pub buried_m: f64,
+    /// Further quantities by name, the unit in the name, such as `displacement_m`; what did not
+    /// happen is left out.
+    #[serde(default)]
+    pub quantities: BTreeMap<String, f64>,
+}
+
+impl Member {
+    /// Outcome of a run that came to its end.
+    pub fn finished(&self) -> Option<&Finished> {
+        match &self.outcome {
+            MemberOutcome::Finished(finished) => Some(finished),
+            MemberOutcome::Failed { .. } | MemberOutcome::Pending => None,
+        }
+    }
+}
+
+impl Finished {
+    /// Finite quantity by name, of a body or of the whole run.
+    pub fn quantity(&self, name: &str, body: Option<usize>) -> Option<f64> {
+        let found = match body {
+            Some(body) => self.bodies.get(body)?.quantity(name),
+            None => self.quantities.get(name).copied(),
+        };
+        found.filter(|value| value.is_finite())
+    }
+}
+
+impl MemberBody {
+    /// Quantity by name: one of the map, the depth `buried_m`, a coordinate of the position as
+    /// `rest_x_m`, `rest_y_m`, `rest_z_m`, or 1 for yes and 0 for no as `hit`, `moving`.
+    pub fn quantity(&self, name: &str) -> Option<f64> {
+        match name {
+            "buried_m" => Some(self.buried_m),
+            "rest_x_m" => Some(self.rest_m[0]),
+            "rest_y_m" => Some(self.rest_m[1]),
+            "rest_z_m" => Some(self.rest_m[2]),
+            "hit" => Some(f64::from(u8::from(self.hit))),
+            "moving" => Some(f64::from(u8::from(self.moving))),
+            _ => self.quantities.get(name).copied(),
+        }
+    }
+
+    /// Place where it rests, downstream and across [m]; none while it moves.
+    pub fn resting_place(&self) -> Option<[f64; 2]> {
+        let place = [self.rest_m[0], self.rest_m[1]];
+        let known = !self.moving && place.iter().all(|x| x.is_finite());
+        known.then_some(place)
+    }
+}

@@ -1,0 +1,106 @@
+//! Members of a valid study.
+
+use super::pointer::Pointer;
+use super::{Study, Violation};
+use crate::correlation::Copula;
+use crate::design::Point;
+use serde_json::Value;
+use thiserror::Error;
+
+/// Members of a study without violations: their inputs and scenarios.
+#[derive(Debug, Clone)]
+pub struct Ensemble<'a> {
+    study: &'a Study,
+    pointers: Vec<Pointer>,
+    copula: Copula,
+}
+
+/// Index of a member that the design does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("there is no member {index}: the design has {members}")]
+pub struct NoSuchMember {
+    /// Index asked for.
+    pub index: u64,
+    /// Number of members of the design.
+    pub members: u64,
+}
+
+impl<'a> Ensemble<'a> {
+    /// Ensemble of a study.
+    ///
+    /// # Errors
+    /// All violations of the study.
+    pub fn of(study: &'a Study) -> Result<Self, Vec<Violation>> {
+        let found = study.violations();
+        if !found.is_empty() {
+            return Err(found);
+        }
+        let unlikely = |message: String| vec![Violation::new("", message)];
+        let inputs = study.inputs.iter();
+        let pointers = inputs.map(|input| Pointer::parse(&input.pointer));
+        let copula = Copula::new(study.inputs.len(), &study.correlations);
+        Ok(Self {
+            study,
+            pointers: pointers.collect::<Result<_, _>>().map_err(unlikely)?,
+            copula: copula.map_err(|wrong| unlikely(wrong.to_string()))?,
+        })
+    }
+
+    /// The study.
+    pub fn study(&self) -> &'a Study {
+        self.study
+    }
+
+    /// Number of members.
+    pub fn members(&self) -> u64 {
+        self.study.members()
+    }
+
+    /// Number of inputs.
+    pub(crate) fn inputs(&self) -> usize {
+        self.study.inputs.len()
+    }
+
+    /// Values of a member's inputs, in the order of the inputs. They depend on the study and the
+    /// index alone.
+    ///
+    /// # Errors
+    /// An index that is not below the number of members.
+    pub fn values(&self, index: u64) -> Result<Vec<Value>, NoSuchMember> {
+        let members = self.members();
+        if index >= members {
+            return Err(NoSuchMember { index, members });
+        }
+        Ok(match self.study.design.point(index, self.inputs()) {
+            Point::Values(values) => values.to_vec(),
+            Point::Unit(point) => self.quantiles(&self.copula.correlated(&point)),
+        })
+    }
+
+    /// Scenario of a member: the study's with the member's values at the inputs' places.
+    ///
+    /// # Errors
+    /// An index that is not below the number of members.
+    pub fn scenario(&self, index: u64) -> Result<Value, NoSuchMember> {
+        Ok(self.scenario_of(self.values(index)?))
+    }
+
+    /// Values of the inputs at a point; null of an input without distribution, which only an
+    /// explicit design has.
+    pub(super) fn quantiles(&self, point: &[f64]) -> Vec<Value> {
+        let quantile = |(input, probability): (&super::Input, &f64)| {
+            let distribution = input.distribution.as_ref();
+            distribution.map_or(Value::Null, |one| one.quantile(*probability))
+        };
+        self.study.inputs.iter().zip(point).map(quantile).collect()
+    }
+
+    /// Scenario with values at the inputs' places.
+    pub(super) fn scenario_of(&self, values: Vec<Value>) -> Value {
+        let mut scenario = self.study.scenario.clone();
+        for (pointer, value) in self.pointers.iter().zip(values) {
+            pointer.set(&mut scenario, value);
+        }
+        scenario
+    }
+}
