@@ -16,5 +16,6 @@ mod quota;
 pub mod results;
 pub mod runs;
 pub mod service;
+pub mod studies;
 pub mod verify;
 mod webhooks;

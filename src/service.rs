@@ -1,14 +1,15 @@
 //! The service as a whole: started with a configuration, stopped gracefully.
 
 use crate::config::{ConfigError, PoolSize, ServiceConfig};
-use crate::http;
+use crate::http::{self, Services};
 use crate::jobs::clock::SystemClock;
 use crate::jobs::pool::Pool;
 use crate::jobs::store::sqlite::{SqliteStore, backup};
-use crate::jobs::store::{JobStore, StoreError, StoreErrorKind};
+use crate::jobs::store::{JobStore, StoreError, StoreErrorKind, StudyStore};
 use crate::jobs::submit::Means;
 use crate::jobs::{AdmissionPool, Followers, JobLimits, JobService};
 use crate::machine::cores;
+use crate::studies::{self, StudyService};
 use crate::webhooks;
 use std::io;
 use std::net::SocketAddr;
@@ -47,7 +48,7 @@ pub enum StartError {
 #[derive(Debug)]
 pub struct RunningService {
     address: SocketAddr,
-    store: Arc<dyn JobStore>,
+    store: Arc<dyn StudyStore>,
     tasks: Tasks,
 }
 
@@ -56,6 +57,7 @@ pub struct RunningService {
 struct Tasks {
     pool: Pool,
     news: JoinHandle<()>,
+    driver: JoinHandle<()>,
     webhooks: Vec<JoinHandle<()>>,
     /// It only ends by itself if its listener is dead; `None` once that has been told.
     server: Option<JoinHandle<io::Result<()>>>,
@@ -88,6 +90,7 @@ impl RunningService {
         let Tasks {
             pool,
             news,
+            driver,
             webhooks,
             server,
             stop,
@@ -104,7 +107,11 @@ impl RunningService {
                 tracing::error!(%error, "a webhook did not stop as it should");
             }
         }
-        for (what, ended) in [("workers", workers.await), ("news", news.await)] {
+        for (what, ended) in [
+            ("workers", workers.await),
+            ("news", news.await),
+            ("studies", driver.await),
+        ] {
             if let Err(error) = ended {
                 tracing::error!(%error, what, "did not stop as it should");
             }
@@ -140,7 +147,7 @@ pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> 
 }
 
 /// The store of the service: the one place that names a database.
-async fn open_store(config: &ServiceConfig) -> Result<Arc<dyn JobStore>, StoreError> {
+async fn open_store(config: &ServiceConfig) -> Result<Arc<dyn StudyStore>, StoreError> {
     let largest = config.limits.database_bytes;
     let store =
         SqliteStore::open_with(&config.database, largest, Arc::new(SystemClock::default())).await?;
@@ -162,9 +169,10 @@ pub async fn back_up(
 async fn serve(
     config: &ServiceConfig,
     size: PoolSize,
-    store: &Arc<dyn JobStore>,
+    studies_store: &Arc<dyn StudyStore>,
     listener: TcpListener,
 ) -> Result<Tasks, StartError> {
+    let store: &Arc<dyn JobStore> = &(Arc::clone(studies_store) as Arc<dyn JobStore>);
     let left_running = left_running(config, store).await?;
     let job_limits = JobLimits::new(&config.limits);
     let means = Means {
@@ -184,11 +192,19 @@ async fn serve(
     );
     let (stop, stopped) = watch::channel(false);
     let webhooks = webhooks::start(&config.webhooks, store, &jobs, &stopped);
-    let router = http::router(jobs, config);
+    let studies = StudyService::new(
+        Arc::clone(studies_store),
+        jobs.clone(),
+        (means, size.workers),
+        (config.limits.studies, config.retention.ended_jobs()),
+    );
+    let driver = studies::driver::start(studies.clone());
+    let router = http::router(Services { jobs, studies }, config);
     let server = http::server::serve(listener, router, config.limits.clone(), stopped);
     Ok(Tasks {
         pool,
         news,
+        driver,
         webhooks,
         server: Some(tokio::spawn(server)),
         stop,

@@ -34,6 +34,8 @@ pub struct Limits {
     pub drain_timeout_s: f64,
     /// Largest number of jobs that may wait; more are refused with 429.
     pub queued_jobs: u32,
+    /// Largest number of studies that may run; more are refused with 429.
+    pub studies: u32,
     /// Largest number of point-steps (points times sub-steps) that a job may be planned to take,
     /// those of its refinement runs and its bodies' own sub-steps included; `None`: no limit.
     pub job_point_steps: Option<u64>,
@@ -62,6 +64,7 @@ impl Default for Limits {
             streams: 128,
             streams_per_caller: 64,
             drain_timeout_s: 5.0,
+            studies: 16,
             queued_jobs: 10_000,
             job_point_steps: None,
             job_memory_bytes: None,
@@ -84,6 +87,7 @@ impl Limits {
             ("limits.operator_connections", self.operator_connections),
             ("limits.streams", self.streams),
             ("limits.streams_per_caller", self.streams_per_caller),
+            ("limits.studies", self.studies as usize),
             ("limits.queued_jobs", self.queued_jobs as usize),
         ] {
             if value == 0 {

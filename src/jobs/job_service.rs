@@ -153,6 +153,17 @@ impl JobService {
         Ok(job.map_or(Dismissed::Unknown, |job| Dismissed::Done(Box::new(job))))
     }
 
+    /// Stops the run of a job that has been dismissed, if this service runs it.
+    pub fn stop_running(&self, id: JobId) {
+        // Nobody waits for its end.
+        drop(self.registry.stop_job(id));
+    }
+
+    /// Tells the workers that there are new jobs.
+    pub fn announce(&self) {
+        self.registry.announce();
+    }
+
     /// The state of a job, if there is one.
     ///
     /// # Errors

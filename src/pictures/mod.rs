@@ -17,6 +17,7 @@ mod labels;
 mod motion;
 mod outline;
 mod palette;
+mod study;
 mod style;
 mod surface;
 #[cfg(test)]
@@ -26,3 +27,4 @@ pub use aerial::aerial_view;
 pub use canvas::PictureError;
 pub use chart::{Axis, Chart, Curve, Scale};
 pub use motion::motion;
+pub use study::{Column, rest_map, scatter_matrix, tornado};

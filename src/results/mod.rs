@@ -7,6 +7,7 @@ pub mod columns;
 pub mod fingerprint;
 pub mod flow;
 pub mod interpolation;
+pub mod numpy;
 mod planes;
 pub mod table;
 pub mod vtk;

@@ -18,6 +18,7 @@ mod port;
 mod records;
 pub mod sqlite;
 mod state;
+mod studies;
 mod submission;
 #[cfg(test)]
 mod tests;
@@ -32,4 +33,8 @@ pub use page::{JobPage, ListedJob, Page, Removal};
 pub use port::JobStore;
 pub use records::{NewChunk, NewResults, StoredChunk};
 pub use state::{AttemptStart, ResumePoint, StoredState};
+pub use studies::{
+    EndedMember, Enlarged, ListedMember, MemberOutcome, MemberWork, NewMember, NewStudy,
+    StudyDismissal, StudyEnd, StudyPage, StudyStore, StudySubmitted,
+};
 pub use submission::{Room, Submission, Submitted};

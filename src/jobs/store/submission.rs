@@ -16,7 +16,7 @@ pub struct Submission<'a> {
     pub room: Room,
 }
 
-/// Largest number of jobs that may wait, those of the request included.
+/// Largest number of jobs that may wait, those of the request included; or of studies that may run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Room {
     /// Of all submitters together.

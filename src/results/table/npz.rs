@@ -2,6 +2,7 @@
 
 use super::{Field, Writer};
 use crate::results::columns::TrajectoryColumns;
+use crate::results::numpy;
 use crate::results::zip::{Method, ZipWriter};
 
 /// Writes one column per pass.
@@ -47,26 +48,13 @@ impl Writer for NpzWriter {
     }
 }
 
-/// Header before an array's numbers: NPY format, version 1.0.
+/// Header before an array's numbers.
 fn array_head(field: Field, rows: usize) -> Vec<u8> {
     let shape = match field.parts().len() {
         0 => format!("({rows},)"),
         parts => format!("({rows}, {parts})"),
     };
-    let mut text = format!(
-        "{{'descr': '{}', 'fortran_order': False, 'shape': {shape}, }}",
-        field.numpy_type()
-    );
-    // Magic, version and length take ten bytes; the numbers begin at a multiple
-    // of 64, after a line feed.
-    while !(10 + text.len() + 1).is_multiple_of(64) {
-        text.push(' ');
-    }
-    text.push('\n');
-    let mut head = b"\x93NUMPY\x01\x00".to_vec();
-    head.extend((text.len() as u16).to_le_bytes());
-    head.extend(text.bytes());
-    head
+    numpy::head(field.numpy_type(), &shape)
 }
 
 #[cfg(test)]

@@ -36,6 +36,8 @@ mod schema;
 mod size_limit;
 mod space;
 mod states;
+mod studies;
+mod study_members;
 mod submission;
 #[cfg(test)]
 pub(super) mod tests;

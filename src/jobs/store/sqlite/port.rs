@@ -5,13 +5,16 @@ use super::SqliteStore;
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus};
 use crate::jobs::store::{
-    AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, FormerRequest, JobCounts,
-    JobPage, JobStore, KeptAnswer, Key, KeyRetention, Lease, NewResults, Page, Removal, Renewal,
-    Returned, StoreError, StoredChunk, StoredState, Submission, Submitted,
+    AttemptStart, Claim, Claimant, Dismissal, EndedMember, Enlarged, Event, FailedAttempt,
+    FormerRequest, JobCounts, JobPage, JobStore, KeptAnswer, Key, KeyRetention, Lease,
+    ListedMember, MemberOutcome, NewMember, NewResults, NewStudy, Page, Removal, Renewal, Returned,
+    StoreError, StoredChunk, StoredState, StudyDismissal, StudyEnd, StudyPage, StudyStore,
+    StudySubmitted, Submission, Submitted,
 };
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
 use crate::runs::Progress;
+use crate::studies::study::{StoredStudy, StudyId};
 use async_trait::async_trait;
 use std::time::Duration;
 
@@ -209,5 +212,81 @@ impl JobStore for SqliteStore {
 
     async fn close(&self) {
         Self::close(self).await;
+    }
+}
+
+#[async_trait]
+impl StudyStore for SqliteStore {
+    async fn add_study(&self, study: &NewStudy<'_>) -> Result<StudySubmitted, StoreError> {
+        Ok(Self::add_study(self, study).await?)
+    }
+
+    async fn study(&self, id: StudyId) -> Result<Option<StoredStudy>, StoreError> {
+        Ok(Self::study(self, id).await?)
+    }
+
+    async fn studies(&self, page: &StudyPage) -> Result<Vec<StoredStudy>, StoreError> {
+        Ok(Self::studies(self, page).await?)
+    }
+
+    async fn enlarge_study(
+        &self,
+        id: StudyId,
+        documents: (Option<&str>, &str),
+    ) -> Result<Enlarged, StoreError> {
+        Ok(Self::enlarge_study(self, id, documents).await?)
+    }
+
+    async fn add_members(
+        &self,
+        study: StudyId,
+        members: &[NewMember],
+    ) -> Result<usize, StoreError> {
+        Ok(Self::add_members(self, study, members).await?)
+    }
+
+    async fn members(
+        &self,
+        study: StudyId,
+        from: (u32, u64),
+        limit: u32,
+    ) -> Result<Vec<ListedMember>, StoreError> {
+        Ok(Self::members(self, study, from, limit).await?)
+    }
+
+    async fn ended_members(&self, study: StudyId) -> Result<Vec<EndedMember>, StoreError> {
+        Ok(Self::ended_members(self, study).await?)
+    }
+
+    async fn note_outcomes(
+        &self,
+        study: StudyId,
+        outcomes: &[MemberOutcome],
+    ) -> Result<(), StoreError> {
+        Ok(Self::note_outcomes(self, study, outcomes).await?)
+    }
+
+    async fn outcomes(&self, study: StudyId) -> Result<Vec<MemberOutcome>, StoreError> {
+        Ok(Self::outcomes(self, study).await?)
+    }
+
+    async fn end_study(
+        &self,
+        id: StudyId,
+        end: StudyEnd<'_>,
+    ) -> Result<StudyDismissal, StoreError> {
+        Ok(Self::end_study(self, id, end).await?)
+    }
+
+    async fn remove_study(&self, id: StudyId) -> Result<Removal, StoreError> {
+        Ok(Self::remove_study(self, id).await?)
+    }
+
+    async fn study_ended_before(&self, age_ms: i64) -> Result<Option<StudyId>, StoreError> {
+        Ok(Self::study_ended_before(self, age_ms).await?)
+    }
+
+    async fn remove_orphans(&self) -> Result<u64, StoreError> {
+        Ok(Self::remove_orphans(self).await?)
     }
 }

@@ -1,14 +1,15 @@
 //! The life of a job: submission, claim, dismissal. The table of jobs is the queue.
 
-use super::SqliteStore;
 use super::error::Answer;
 use super::history::{begin_attempt, end_attempt};
 use super::lease::milliseconds;
 use super::size_limit::Purpose;
+use super::{Now, SqliteStore};
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::ending::BACK_OFF_MS;
 use crate::jobs::store::{Claim, Claimant, Dismissal, Lease, StoreError};
 use sqlx::FromRow;
+use sqlx::sqlite::SqliteConnection;
 
 #[derive(Debug, FromRow)]
 struct ClaimedRow {
@@ -28,9 +29,10 @@ impl SqliteStore {
              SET status = 'running', started_ms = ?1, solver_version = ?2, attempt = attempt + 1,
                  solver_commit = ?6, instructions = ?7,
                  lease_owner = ?3, lease_expires_operating_ms = ?4, lease_token = lease_token + 1
-             WHERE sequence = (SELECT min(sequence) FROM jobs WHERE status = 'accepted'
+             WHERE sequence = (SELECT sequence FROM jobs WHERE status = 'accepted'
                                AND not_before_operating_ms <= ?5
-                               AND (failed_attempts = 0 OR ?8 >= iif(failed_attempts = 1, ?9, ?10)))
+                               AND (failed_attempts = 0 OR ?8 >= iif(failed_attempts = 1, ?9, ?10))
+                               ORDER BY priority, sequence LIMIT 1)
              RETURNING id, attempt, lease_token, scenario, failed_attempts",
         )
         .bind(now.wall_ms)
@@ -56,39 +58,49 @@ impl SqliteStore {
     pub(super) async fn dismiss(&self, id: JobId) -> Answer<Dismissal> {
         let now = self.now();
         let mut transaction = self.begin_write(Purpose::Upkeep).await?;
-        let row: Option<(String, i64, i64)> =
-            sqlx::query_as("SELECT status, attempt, lease_token FROM jobs WHERE id = ?1")
-                .bind(id.to_string())
-                .fetch_optional(&mut *transaction)
-                .await?;
-        let Some((word, attempt, token)) = row else {
-            return Ok(Dismissal::Unknown);
-        };
-        let status = JobStatus::from_word(&word).ok_or_else(|| StoreError::Row {
-            job: id.to_string(),
-            what: "status",
-        })?;
-        match status {
-            JobStatus::Dismissed => return Ok(Dismissal::Dismissed),
-            JobStatus::Successful | JobStatus::Failed => return Ok(Dismissal::Ended(status)),
-            JobStatus::Accepted | JobStatus::Running => {}
-        }
-        sqlx::query(
-            "UPDATE jobs
-             SET status = 'dismissed', finished_ms = ?2, ended_operating_ms = ?3, eta_s = NULL,
-                 lease_owner = NULL, lease_expires_operating_ms = NULL
-             WHERE id = ?1",
-        )
-        .bind(id.to_string())
-        .bind(now.wall_ms)
-        .bind(now.operating_ms)
-        .execute(&mut *transaction)
-        .await?;
-        let lease = lease(&id.to_string(), attempt, token)?;
-        end_attempt(&mut transaction, lease, now.wall_ms, ("dismissed", None)).await?;
+        let dismissal = dismiss_row(&mut transaction, &id.to_string(), now).await?;
         transaction.commit().await?;
-        Ok(Dismissal::Dismissed)
+        Ok(dismissal)
     }
+}
+
+/// Dismisses a job unless it has ended.
+pub(super) async fn dismiss_row(
+    connection: &mut SqliteConnection,
+    id: &str,
+    now: Now,
+) -> Answer<Dismissal> {
+    let row: Option<(String, i64, i64)> =
+        sqlx::query_as("SELECT status, attempt, lease_token FROM jobs WHERE id = ?1")
+            .bind(id)
+            .fetch_optional(&mut *connection)
+            .await?;
+    let Some((word, attempt, token)) = row else {
+        return Ok(Dismissal::Unknown);
+    };
+    let status = JobStatus::from_word(&word).ok_or_else(|| StoreError::Row {
+        job: id.to_owned(),
+        what: "status",
+    })?;
+    match status {
+        JobStatus::Dismissed => return Ok(Dismissal::Dismissed),
+        JobStatus::Successful | JobStatus::Failed => return Ok(Dismissal::Ended(status)),
+        JobStatus::Accepted | JobStatus::Running => {}
+    }
+    sqlx::query(
+        "UPDATE jobs
+         SET status = 'dismissed', finished_ms = ?2, ended_operating_ms = ?3, eta_s = NULL,
+             lease_owner = NULL, lease_expires_operating_ms = NULL
+         WHERE id = ?1",
+    )
+    .bind(id)
+    .bind(now.wall_ms)
+    .bind(now.operating_ms)
+    .execute(&mut *connection)
+    .await?;
+    let lease = lease(id, attempt, token)?;
+    end_attempt(connection, lease, now.wall_ms, ("dismissed", None)).await?;
+    Ok(Dismissal::Dismissed)
 }
 
 impl ClaimedRow {

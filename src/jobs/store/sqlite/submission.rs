@@ -31,7 +31,8 @@ impl SqliteStore {
             None => None,
         };
         for job in submission.jobs {
-            insert(&mut transaction, job, submitter, (now, request)).await?;
+            let origin = Origin::Request(request);
+            insert(&mut transaction, job, (submitter, origin), now).await?;
         }
         transaction.commit().await?;
         Ok(Submitted::Accepted)
@@ -62,9 +63,11 @@ async fn no_room(
     submission: &Submission<'_>,
 ) -> Answer<Option<Submitted>> {
     let coming = u32::try_from(submission.jobs.len()).unwrap_or(u32::MAX);
-    let waiting: u32 = sqlx::query_scalar("SELECT count(*) FROM jobs WHERE status = 'accepted'")
-        .fetch_one(&mut *connection)
-        .await?;
+    // Members of studies take no place of a request's: only few of them wait at a time.
+    let waiting: u32 =
+        sqlx::query_scalar("SELECT count(*) FROM jobs WHERE status = 'accepted' AND priority = 0")
+            .fetch_one(&mut *connection)
+            .await?;
     if waiting.saturating_add(coming) > submission.room.queue {
         return Ok(Some(Submitted::QueueFull(waiting)));
     }
@@ -72,7 +75,8 @@ async fn no_room(
         return Ok(None);
     };
     let own: u32 = sqlx::query_scalar(
-        "SELECT count(*) FROM jobs WHERE submitter = ?1 AND status IN ('accepted', 'running')",
+        "SELECT count(*) FROM jobs
+         WHERE submitter = ?1 AND status IN ('accepted', 'running') AND priority = 0",
     )
     .bind(submission.submitter)
     .fetch_one(connection)
@@ -80,18 +84,44 @@ async fn no_room(
     Ok((own.saturating_add(coming) > quota).then_some(Submitted::QuotaSpent(own)))
 }
 
-async fn insert(
+/// Where a job comes from.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Origin {
+    /// A request, by its number if it had an Idempotency-Key.
+    Request(Option<i64>),
+    /// A study, of which it is a member.
+    Study,
+}
+
+impl Origin {
+    fn keyed_request(self) -> Option<i64> {
+        match self {
+            Self::Request(number) => number,
+            Self::Study => None,
+        }
+    }
+
+    /// Jobs of a higher number wait until none of a lower one does.
+    fn priority(self) -> i64 {
+        match self {
+            Self::Request(_) => 0,
+            Self::Study => 1,
+        }
+    }
+}
+
+pub(super) async fn insert(
     connection: &mut SqliteConnection,
     job: &NewJob,
-    submitter: Option<&str>,
-    (now, request): (Now, Option<i64>),
+    (submitter, origin): (Option<&str>, Origin),
+    now: Now,
 ) -> Answer<()> {
     let id = job.id.to_string();
     sqlx::query(
         "INSERT INTO jobs (id, created_ms, scenario, title, bodies, solver_version,
                            scenario_hash, submitter, keyed_request, plan,
-                           created_operating_ms)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
+                           created_operating_ms, priority)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)",
     )
     .bind(&id)
     .bind(now.wall_ms)
@@ -101,9 +131,10 @@ async fn insert(
     .bind(job.solver_version)
     .bind(&job.scenario_hash)
     .bind(submitter)
-    .bind(request)
+    .bind(origin.keyed_request())
     .bind(&job.plan)
     .bind(now.operating_ms)
+    .bind(origin.priority())
     .execute(&mut *connection)
     .await?;
     for label in &job.labels {

@@ -1,5 +1,5 @@
 //! Rules for every driver of the job store ([`conformance`], [`clocks`], [`pages`],
-//! [`races`], [`model`]). Those of one driver alone are in its folder.
+//! [`races`], [`studies`], [`model`]). Those of one driver alone are in its folder.
 
 /// Makes each rule a test of every driver; a further driver is one line here.
 macro_rules! conformance {
@@ -28,6 +28,7 @@ mod conformance;
 mod model;
 mod pages;
 mod races;
+mod studies;
 
 use super::*;
 use crate::jobs::clock::Clock;
@@ -81,14 +82,14 @@ impl Clock for SetClock {
 }
 
 /// A store that is being opened.
-pub(super) type Opening = Pin<Box<dyn Future<Output = Arc<dyn JobStore>> + Send>>;
+pub(super) type Opening = Pin<Box<dyn Future<Output = Arc<dyn StudyStore>> + Send>>;
 
 /// Constructor of a driver: opens a database, empty at first, in this folder if it is one of files.
 pub(super) type Open = fn(PathBuf, Arc<dyn Clock>) -> Opening;
 
 /// A driver with an empty database.
 pub(super) struct Fixture {
-    pub(super) store: Arc<dyn JobStore>,
+    pub(super) store: Arc<dyn StudyStore>,
     clock: Arc<SetClock>,
     pub(super) directory: Arc<TempDir>,
     open: Open,

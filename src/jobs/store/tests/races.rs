@@ -43,7 +43,7 @@ async fn no_stale_worker_ever_writes(fixture: &Fixture) {
 }
 
 /// Tries every kind of write; returns the number of accepted ones.
-async fn write_as_a_stale_worker(store: Arc<dyn JobStore>, lease: Lease, race: u32) -> u32 {
+async fn write_as_a_stale_worker(store: Arc<dyn StudyStore>, lease: Lease, race: u32) -> u32 {
     let mut written = 0;
     let progress = Progress::default();
     written += u32::from(store.keep(lease, &results_and_state(9)).await.unwrap());
@@ -58,7 +58,7 @@ async fn write_as_a_stale_worker(store: Arc<dyn JobStore>, lease: Lease, race: u
     written + u32::from(ended.unwrap())
 }
 
-async fn write_to_the_end(store: Arc<dyn JobStore>, lease: Lease) {
+async fn write_to_the_end(store: Arc<dyn StudyStore>, lease: Lease) {
     assert!(store.keep(lease, &results_and_state(5)).await.unwrap());
     let ended = store.succeed(lease, "{\"by\":\"b\"}", FINGERPRINT).await;
     assert!(ended.unwrap());

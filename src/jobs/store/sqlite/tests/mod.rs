@@ -13,6 +13,7 @@ use crate::jobs::job::JobStatus;
 use crate::jobs::store::tests::{FINGERPRINT, Fixture, Opening, results};
 use crate::jobs::store::{
     Dismissal, JobStore, NewResults, ResumePoint, StoreError, StoreErrorKind, StoredState,
+    StudyStore,
 };
 use crate::results::chunk::BlockError;
 use crate::results::columns::Selection;
@@ -26,7 +27,7 @@ pub(in crate::jobs::store) fn open(directory: PathBuf, clock: Arc<dyn Clock>) ->
     Box::pin(async move {
         let path = directory.join("test.db");
         let store = SqliteStore::open_with(&path, None, clock).await.unwrap();
-        Arc::new(store) as Arc<dyn JobStore>
+        Arc::new(store) as Arc<dyn StudyStore>
     })
 }
 

@@ -1,0 +1,233 @@
+//! Members of studies: made, ended, read.
+
+use super::error::Answer;
+use super::rows::integer;
+use super::size_limit::Purpose;
+use super::studies::status_of;
+use super::submission::{Origin, insert, parse};
+use super::{Now, SqliteStore};
+use crate::jobs::job::JobStatus;
+use crate::jobs::store::{
+    EndedMember, ListedMember, MemberOutcome, MemberWork, NewMember, StoreError,
+};
+use crate::jobs::submit::NewJob;
+use crate::runs::COMMIT;
+use crate::studies::study::{StudyId, StudyStatus};
+use sqlx::FromRow;
+use sqlx::sqlite::SqliteConnection;
+
+/// Largest number of ended members that are read at a time.
+const ENDED_AT_ONCE: u32 = 100;
+
+#[derive(Debug, FromRow)]
+struct MemberRow {
+    level: u32,
+    member: i64,
+    job_id: Option<String>,
+    status: Option<String>,
+    outcome: Option<String>,
+}
+
+#[derive(Debug, FromRow)]
+struct EndedRow {
+    level: u32,
+    member: i64,
+    status: Option<String>,
+    outcome: Option<String>,
+    problem: Option<String>,
+}
+
+impl SqliteStore {
+    pub(super) async fn add_members(&self, study: StudyId, members: &[NewMember]) -> Answer<usize> {
+        let now = self.now();
+        let mut transaction = self.begin_write(Purpose::Growth).await?;
+        if status_of(&mut transaction, study).await? != Some(StudyStatus::Running) {
+            return Ok(0);
+        }
+        let (sequence, submitter): (i64, Option<String>) =
+            sqlx::query_as("SELECT sequence, submitter FROM studies WHERE id = ?1")
+                .bind(study.to_string())
+                .fetch_one(&mut *transaction)
+                .await?;
+        let mut added = 0;
+        for new in members {
+            if is_made(&mut transaction, sequence, new).await? {
+                continue;
+            }
+            let (job, outcome) = match &new.work {
+                MemberWork::Job(job) => {
+                    let wanted = (&**job, submitter.as_deref());
+                    (Some(job_of(&mut transaction, wanted, now).await?), None)
+                }
+                MemberWork::Nothing(outcome) => (None, Some(outcome)),
+            };
+            sqlx::query(
+                "INSERT INTO study_members (study, level, member, job_id, outcome)
+                 VALUES (?1, ?2, ?3, ?4, ?5)",
+            )
+            .bind(sequence)
+            .bind(new.level)
+            .bind(integer(new.member))
+            .bind(job)
+            .bind(outcome)
+            .execute(&mut *transaction)
+            .await?;
+            added += 1;
+        }
+        transaction.commit().await?;
+        Ok(added)
+    }
+
+    pub(super) async fn members(
+        &self,
+        study: StudyId,
+        (level, member): (u32, u64),
+        limit: u32,
+    ) -> Answer<Vec<ListedMember>> {
+        let rows: Vec<MemberRow> = sqlx::query_as(
+            "SELECT level, member, job_id, jobs.status AS status, study_members.outcome AS outcome
+             FROM study_members LEFT JOIN jobs ON jobs.id = job_id
+             WHERE study = (SELECT sequence FROM studies WHERE id = ?1)
+               AND (level, member) >= (?2, ?3)
+             ORDER BY level, member LIMIT ?4",
+        )
+        .bind(study.to_string())
+        .bind(level)
+        .bind(integer(member))
+        .bind(limit)
+        .fetch_all(self.readers.pool())
+        .await?;
+        rows.into_iter().map(MemberRow::read).collect()
+    }
+
+    pub(super) async fn ended_members(&self, study: StudyId) -> Answer<Vec<EndedMember>> {
+        let rows: Vec<EndedRow> = sqlx::query_as(
+            "SELECT level, member, jobs.status AS status, jobs.outcome AS outcome, jobs.problem AS problem
+             FROM study_members LEFT JOIN jobs ON jobs.id = job_id
+             WHERE study = (SELECT sequence FROM studies WHERE id = ?1)
+               AND study_members.outcome IS NULL
+               AND (jobs.id IS NULL OR jobs.finished_ms IS NOT NULL)
+             LIMIT ?2",
+        )
+        .bind(study.to_string())
+        .bind(ENDED_AT_ONCE)
+        .fetch_all(self.readers.pool())
+        .await?;
+        rows.into_iter().map(EndedRow::read).collect()
+    }
+
+    pub(super) async fn note_outcomes(
+        &self,
+        study: StudyId,
+        outcomes: &[MemberOutcome],
+    ) -> Answer<()> {
+        let mut transaction = self.begin_write(Purpose::Upkeep).await?;
+        for noted in outcomes {
+            sqlx::query(
+                "UPDATE study_members SET outcome = ?4
+                 WHERE study = (SELECT sequence FROM studies WHERE id = ?1)
+                   AND level = ?2 AND member = ?3 AND outcome IS NULL",
+            )
+            .bind(study.to_string())
+            .bind(noted.level)
+            .bind(integer(noted.member))
+            .bind(&noted.outcome)
+            .execute(&mut *transaction)
+            .await?;
+        }
+        transaction.commit().await?;
+        Ok(())
+    }
+
+    pub(super) async fn outcomes(&self, study: StudyId) -> Answer<Vec<MemberOutcome>> {
+        let rows: Vec<(u32, i64, String)> = sqlx::query_as(
+            "SELECT level, member, outcome FROM study_members
+             WHERE study = (SELECT sequence FROM studies WHERE id = ?1) AND outcome IS NOT NULL
+             ORDER BY level, member",
+        )
+        .bind(study.to_string())
+        .fetch_all(self.readers.pool())
+        .await?;
+        let read = |(level, member, outcome): (u32, i64, String)| MemberOutcome {
+            level,
+            member: member.unsigned_abs(),
+            outcome,
+        };
+        Ok(rows.into_iter().map(read).collect())
+    }
+}
+
+async fn is_made(connection: &mut SqliteConnection, study: i64, new: &NewMember) -> Answer<bool> {
+    Ok(sqlx::query_scalar(
+        "SELECT EXISTS (SELECT 1 FROM study_members
+                        WHERE study = ?1 AND level = ?2 AND member = ?3)",
+    )
+    .bind(study)
+    .bind(new.level)
+    .bind(integer(new.member))
+    .fetch_one(connection)
+    .await?)
+}
+
+/// The job of a member: one that is there already, if it has the same scenario and submitter and
+/// was or will be run by this program; else a new one.
+async fn job_of(
+    connection: &mut SqliteConnection,
+    (job, submitter): (&NewJob, Option<&str>),
+    now: Now,
+) -> Answer<String> {
+    let shared: Option<String> = sqlx::query_scalar(
+        "SELECT id FROM jobs
+         WHERE scenario_hash = ?1 AND submitter IS ?2
+           AND (status IN ('accepted', 'running')
+                OR status = 'successful' AND solver_version = ?3 AND solver_commit = ?4)
+         ORDER BY status = 'successful' DESC, sequence LIMIT 1",
+    )
+    .bind(&job.scenario_hash)
+    .bind(submitter)
+    .bind(job.solver_version)
+    .bind(COMMIT)
+    .fetch_optional(&mut *connection)
+    .await?;
+    if let Some(id) = shared {
+        return Ok(id);
+    }
+    insert(connection, job, (submitter, Origin::Study), now).await?;
+    Ok(job.id.to_string())
+}
+
+fn broken(what: &'static str) -> StoreError {
+    StoreError::Row {
+        job: "of a study".to_owned(),
+        what,
+    }
+}
+
+fn status(word: Option<String>) -> Answer<Option<JobStatus>> {
+    let read = |word: String| JobStatus::from_word(&word).ok_or_else(|| broken("status"));
+    Ok(word.map(read).transpose()?)
+}
+
+impl MemberRow {
+    fn read(self) -> Answer<ListedMember> {
+        Ok(ListedMember {
+            level: self.level,
+            member: self.member.unsigned_abs(),
+            job: self.job_id.map(|id| parse(&id)).transpose()?,
+            status: status(self.status)?,
+            outcome: self.outcome,
+        })
+    }
+}
+
+impl EndedRow {
+    fn read(self) -> Answer<EndedMember> {
+        Ok(EndedMember {
+            level: self.level,
+            member: self.member.unsigned_abs(),
+            status: status(self.status)?,
+            outcome: self.outcome,
+            problem: self.problem,
+        })
+    }
+}

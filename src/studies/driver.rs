@@ -1,0 +1,218 @@
+//! Driver of studies: one task makes their members, notes their outcomes, and ends them. All that
+//! it knows is in the database, so that it goes on after a crash where it was.
+
+use super::StudyService;
+use super::members::new_members;
+use super::outcome;
+use super::schedule::{Conclusion, Next, conclusion, next};
+use super::study::{StoredStudy, StudyId, StudyStatus};
+use crate::jobs::News;
+use crate::jobs::failure::Failure;
+use crate::jobs::store::{EndedMember, MemberOutcome, NewMember, StoreError, StudyEnd, StudyPage};
+use scree_studies::{Ensemble, Study};
+use std::time::Duration;
+use thiserror::Error;
+use tokio::sync::broadcast::error::RecvError;
+use tokio::task::JoinHandle;
+use tokio::time::timeout;
+use tracing::{info, warn};
+
+/// Longest time between two looks at the studies.
+const LOOK_PAUSE: Duration = Duration::from_secs(1);
+
+/// Largest number of running studies that are looked at.
+const AT_ONCE: u32 = 1_000;
+
+/// Reason why a study can't go on.
+#[derive(Debug, Error)]
+enum DriveError {
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// The study, or what is stored of it, is not as it should be; it can't be mended.
+    #[error("{0}")]
+    Study(String),
+}
+
+/// Starts the driver; it ends when the service closes.
+pub(crate) fn start(studies: StudyService) -> JoinHandle<()> {
+    tokio::spawn(async move { drive(&studies).await })
+}
+
+async fn drive(studies: &StudyService) {
+    let mut news = studies.jobs.news();
+    loop {
+        look_at_all(studies).await;
+        if let Err(error) = remove_old(studies).await {
+            warn!(%error, "old studies can't be removed now");
+        }
+        // Members that end and studies that come are events; what is missed is seen a little later.
+        match timeout(LOOK_PAUSE, studies.wake(&mut news)).await {
+            Ok(Err(RecvError::Closed)) | Ok(Ok(News::Closing)) => return,
+            Ok(_) | Err(_) => {}
+        }
+    }
+}
+
+async fn look_at_all(studies: &StudyService) {
+    let running = StudyPage {
+        status: Some(StudyStatus::Running),
+        before: None,
+        limit: AT_ONCE,
+    };
+    let running = match studies.store.studies(&running).await {
+        Ok(running) => running,
+        Err(error) => return warn!(%error, "studies can't be read now"),
+    };
+    for study in running.into_iter().rev() {
+        let id = study.id;
+        match advance(studies, study).await {
+            Ok(()) => {}
+            Err(DriveError::Store(error)) => warn!(%id, %error, "the study waits"),
+            Err(DriveError::Study(why)) => fail(studies, id, &why).await,
+        }
+    }
+}
+
+/// Removes a study after its retention time, and some of the jobs that removed studies have left.
+async fn remove_old(studies: &StudyService) -> Result<(), StoreError> {
+    if let Some(age) = studies.retention {
+        let age_ms = i64::try_from(age.as_millis()).unwrap_or(i64::MAX);
+        if let Some(id) = studies.store.study_ended_before(age_ms).await? {
+            studies.store.remove_study(id).await?;
+            info!(%id, "removed a study that ended long ago");
+        }
+    }
+    studies.store.remove_orphans().await?;
+    Ok(())
+}
+
+/// Notes the outcomes of members that have ended, and takes the next step of the schedule.
+async fn advance(studies: &StudyService, stored: StoredStudy) -> Result<(), DriveError> {
+    let id = stored.id;
+    let is_news = note_outcomes(studies, id).await?;
+    // Nothing is left to do since the last step, unless a member has ended.
+    if !is_news && stored.members.made > stored.members.ended {
+        return Ok(());
+    }
+    let stored = match studies.store.study(id).await? {
+        Some(stored) if stored.status == StudyStatus::Running => stored,
+        _ => return Ok(()),
+    };
+    let (most, means, counts) = (studies.members_at_once(), studies.means, stored.members);
+    let step = aside(&stored, move |ensemble| {
+        match next(ensemble, counts, most) {
+            Next::Members(numbers) => {
+                new_members(ensemble, (id, numbers), &means).map(Step::Members)
+            }
+            Next::Wait => Ok(Step::Wait),
+            Next::Conclude => Ok(Step::Conclude),
+        }
+    });
+    match step
+        .await?
+        .map_err(|error| DriveError::Study(error.to_string()))?
+    {
+        Step::Members(members) => {
+            if studies.store.add_members(id, &members).await? > 0 {
+                studies.jobs.announce();
+            }
+        }
+        Step::Wait => {}
+        Step::Conclude => conclude(studies, &stored).await?,
+    }
+    Ok(())
+}
+
+/// Ends a study all of whose members have an outcome, or enlarges it, unless it has been changed
+/// meanwhile.
+async fn conclude(studies: &StudyService, stored: &StoredStudy) -> Result<(), DriveError> {
+    let (id, document) = (stored.id, stored.document.get());
+    let outcomes = studies.outcomes(id).await?;
+    let conclusion = aside(stored, move |ensemble| conclusion(ensemble, &outcomes));
+    match conclusion.await? {
+        Conclusion::Enlarge(larger) => {
+            let larger = serde_json::to_string(&larger);
+            let larger = larger.map_err(|error| DriveError::Study(error.to_string()))?;
+            studies
+                .store
+                .enlarge_study(id, (Some(document), &larger))
+                .await?;
+            info!(%id, "enlarged by its stopping rule");
+            studies.changed.notify_one();
+        }
+        Conclusion::End => {
+            let end = StudyEnd {
+                status: StudyStatus::Successful,
+                problem: None,
+                document: Some(document),
+            };
+            studies.end(id, end).await?;
+            info!(%id, "ended");
+        }
+    }
+    Ok(())
+}
+
+/// Step of a study, ready to be taken.
+enum Step {
+    Members(Vec<NewMember>),
+    Wait,
+    Conclude,
+}
+
+/// What this makes of a study, on a thread where it delays no request.
+async fn aside<T: Send + 'static>(
+    stored: &StoredStudy,
+    make: impl FnOnce(&Ensemble) -> T + Send + 'static,
+) -> Result<T, DriveError> {
+    let document = stored.document.get().to_owned();
+    let made = tokio::task::spawn_blocking(move || {
+        let study: Study = serde_json::from_str(&document).map_err(|error| error.to_string())?;
+        let ensemble = Ensemble::of(&study).map_err(|found| {
+            let first = found.into_iter().next();
+            first.map_or_else(String::new, |violation| violation.message)
+        })?;
+        Ok::<T, String>(make(&ensemble))
+    });
+    let made = made
+        .await
+        .map_err(|error| DriveError::Study(error.to_string()))?;
+    made.map_err(DriveError::Study)
+}
+
+/// Notes the outcomes of members that have ended; true if there were any.
+async fn note_outcomes(studies: &StudyService, id: StudyId) -> Result<bool, StoreError> {
+    let mut is_news = false;
+    loop {
+        let ended = studies.store.ended_members(id).await?;
+        if ended.is_empty() {
+            return Ok(is_news);
+        }
+        let outcomes: Vec<MemberOutcome> = ended.iter().map(in_short).collect();
+        studies.store.note_outcomes(id, &outcomes).await?;
+        is_news = true;
+    }
+}
+
+fn in_short(ended: &EndedMember) -> MemberOutcome {
+    MemberOutcome {
+        level: ended.level,
+        member: ended.member,
+        outcome: serde_json::to_string(&outcome::of_ended(ended)).unwrap_or_default(),
+    }
+}
+
+/// Ends a study that can't go on.
+async fn fail(studies: &StudyService, id: StudyId, why: &str) {
+    tracing::error!(%id, why, "the study can't go on");
+    let error_id = uuid::Uuid::now_v7().to_string();
+    let problem = serde_json::to_string(&Failure::internal(&error_id)).unwrap_or_default();
+    let end = StudyEnd {
+        status: StudyStatus::Failed,
+        problem: Some(&problem),
+        document: None,
+    };
+    if let Err(error) = studies.end(id, end).await {
+        warn!(%id, %error, "its end can't be written now");
+    }
+}

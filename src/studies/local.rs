@@ -1,0 +1,86 @@
+//! Members of a study computed in this process, without the service.
+
+use super::members::scenario;
+use super::outcome;
+use crate::jobs::failure::Failure;
+use crate::runs::convergence_study::Runs;
+use crate::runs::{NoSink, RunControl, RunEnd, RunError};
+use scree_solver::scenario::Scenario;
+use scree_studies::{Ensemble, Member, MemberOutcome};
+use serde_json::Value;
+use std::convert::Infallible;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+/// Computes members of these numbers, several at a time on one thread each, and hands over each as
+/// it ends, in any order; `control` can stop it, and members that had not ended by then are not
+/// handed over. What a member is and what comes of it depends on the study and its number alone.
+pub fn compute(
+    ensemble: &Ensemble,
+    numbers: &[u64],
+    (at_once, control): (usize, &RunControl),
+    mut ended: impl FnMut(Member),
+) {
+    let next = AtomicUsize::new(0);
+    let (sender, receiver) = mpsc::channel();
+    std::thread::scope(|scope| {
+        for _ in 0..at_once.clamp(1, numbers.len().max(1)) {
+            let sender = sender.clone();
+            scope.spawn(|| {
+                let sender = sender;
+                work(ensemble, numbers, (&next, control), &sender);
+            });
+        }
+        drop(sender);
+        for member in receiver {
+            ended(member);
+        }
+    });
+}
+
+fn work(
+    ensemble: &Ensemble,
+    numbers: &[u64],
+    (next, control): (&AtomicUsize, &RunControl),
+    sender: &mpsc::Sender<Member>,
+) {
+    while let Some(&index) = numbers.get(next.fetch_add(1, Ordering::Relaxed)) {
+        let outcome = scenario(ensemble, index)
+            .map_or_else(|error| failed(&error.to_string()), |one| run(&one, control));
+        // A member without an outcome was stopped; without a receiver nobody asks any more.
+        if outcome == MemberOutcome::Pending || sender.send(Member { index, outcome }).is_err() {
+            return;
+        }
+    }
+}
+
+/// Outcome of the run of a scenario; pending if it was stopped.
+fn run(scenario: &Value, control: &RunControl) -> MemberOutcome {
+    let Ok(scenario) = Scenario::from_value(scenario) else {
+        return outcome::not_allowed();
+    };
+    let ended = Runs::afresh(&scenario, 1)
+        .map_err(RunError::Setup)
+        .and_then(|runs| runs.go(control, &mut NoSink));
+    match ended {
+        Ok(RunEnd::Completed(outcome)) => outcome::of_run(&outcome),
+        Ok(RunEnd::Stopped) => MemberOutcome::Pending,
+        Err(error) => failed(&kind(&error)),
+    }
+}
+
+/// Kind of failure, as a job of the service has it.
+fn kind(error: &RunError<Infallible>) -> String {
+    let failure = match error {
+        RunError::Setup(error) => Failure::setup(error),
+        RunError::Step(error) => Failure::numerical(error),
+        RunError::Sink(never) => match *never {},
+    };
+    outcome::last_part(&failure.kind)
+}
+
+fn failed(reason: &str) -> MemberOutcome {
+    MemberOutcome::Failed {
+        reason: reason.to_owned(),
+    }
+}

@@ -1,0 +1,94 @@
+//! Outcome of a member in short: what its study's answers are made of.
+
+use crate::jobs::job::JobStatus;
+use crate::jobs::store::EndedMember;
+use scree_solver::record::{BodyOutcome, Outcome};
+use scree_studies::{Finished, MemberBody, MemberOutcome};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Outcome of a member whose job has ended.
+pub(super) fn of_ended(ended: &EndedMember) -> MemberOutcome {
+    match ended.status {
+        Some(JobStatus::Successful) => ended.outcome.as_deref().map_or_else(unreadable, of_job),
+        Some(JobStatus::Failed) => failed(&kind(ended.problem.as_deref().unwrap_or_default())),
+        Some(JobStatus::Dismissed) => failed("dismissed"),
+        Some(JobStatus::Accepted | JobStatus::Running) => MemberOutcome::Pending,
+        None => failed("removed"),
+    }
+}
+
+/// Outcome of a member from that of its run.
+pub fn of_run(outcome: &Outcome) -> MemberOutcome {
+    let flow = &outcome.flow;
+    let quantities = [
+        ("front_m", flow.front_m),
+        ("runout_m", flow.runout_m),
+        ("outflow_mass_kg", Some(flow.outflow_mass_kg)),
+        ("point_steps", Some(outcome.cost.point_steps as f64)),
+        ("wall_s", Some(outcome.cost.wall_s)),
+    ];
+    MemberOutcome::Finished(Finished {
+        quantities: those_there(quantities),
+        bodies: outcome.bodies.iter().map(of_body).collect(),
+    })
+}
+
+fn of_body(body: &BodyOutcome) -> MemberBody {
+    let quantities = [
+        ("first_contact_time_s", body.first_contact_time_s),
+        ("onset_time_s", body.onset_time_s),
+        ("peak_speed_m_s", Some(body.peak_speed_m_s)),
+        ("peak_speed_time_s", body.peak_speed_time_s),
+        ("stop_time_s", body.stop_time_s),
+        ("displacement_m", Some(body.displacement_m)),
+        ("path_length_m", Some(body.path_length_m)),
+    ];
+    MemberBody {
+        rest_m: body.final_position_m,
+        moving: body.onset_time_s.is_some() && body.stop_time_s.is_none(),
+        hit: body.first_contact_time_s.is_some(),
+        buried_m: body.burial_depth_m,
+        quantities: those_there(quantities),
+    }
+}
+
+fn those_there<const N: usize>(quantities: [(&str, Option<f64>); N]) -> BTreeMap<String, f64> {
+    let there = quantities
+        .into_iter()
+        .filter_map(|(name, value)| Some((name.to_owned(), value?)));
+    there.collect()
+}
+
+fn of_job(outcome: &str) -> MemberOutcome {
+    match serde_json::from_str::<Outcome>(outcome) {
+        Ok(outcome) => of_run(&outcome),
+        Err(_) => unreadable(),
+    }
+}
+
+/// Kind of a failure: the last part of its type.
+fn kind(problem: &str) -> String {
+    let problem: Value = serde_json::from_str(problem).unwrap_or_default();
+    last_part(problem["type"].as_str().unwrap_or("failed"))
+}
+
+/// Last part of the type of a failure, a URN.
+pub(super) fn last_part(kind: &str) -> String {
+    kind.rsplit(':').next().unwrap_or(kind).to_owned()
+}
+
+/// Outcome of a member whose scenario is not allowed.
+pub(super) fn not_allowed() -> MemberOutcome {
+    failed("invalid")
+}
+
+fn failed(reason: &str) -> MemberOutcome {
+    MemberOutcome::Failed {
+        reason: reason.to_owned(),
+    }
+}
+
+fn unreadable() -> MemberOutcome {
+    failed("unreadable")
+}

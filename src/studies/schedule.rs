@@ -1,0 +1,134 @@
+//! Schedule of a study: which members are to be computed next, and when it has ended.
+
+use super::study::MemberCounts;
+use scree_studies::answers::{RestDistribution, RestingPlaces};
+use scree_studies::{Ensemble, Member, Progress, Question, Stop, Study, Verdict};
+use std::ops::Range;
+
+/// What a study does next.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Next {
+    /// Members of these numbers are to be computed, in this order.
+    Members(Range<u64>),
+    /// The members in work are to end first.
+    Wait,
+    /// All members of the design have an outcome: see [`conclusion`].
+    Conclude,
+}
+
+/// What becomes of a study all of whose members have an outcome.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Conclusion {
+    /// It goes on as this larger study.
+    Enlarge(Box<Study>),
+    /// It has ended.
+    End,
+}
+
+/// What a study does next if the first members have been made, and so many of them have an
+/// outcome; at most `most` members are in work at a time.
+pub fn next(ensemble: &Ensemble, counts: MemberCounts, most: u64) -> Next {
+    let in_work = counts.made - counts.ended;
+    let until = ensemble
+        .members()
+        .min(counts.made + most.saturating_sub(in_work));
+    if until > counts.made {
+        Next::Members(counts.made..until)
+    } else if in_work > 0 || counts.made < ensemble.members() {
+        Next::Wait
+    } else {
+        Next::Conclude
+    }
+}
+
+/// What becomes of a study with these outcomes of all its members.
+pub fn conclusion(ensemble: &Ensemble, outcomes: &[Member]) -> Conclusion {
+    let study = ensemble.study();
+    match (&study.stop, study.design.doubled()) {
+        (Some(stop), Some(design)) if verdict(ensemble, stop, outcomes) == Verdict::Double => {
+            Conclusion::Enlarge(Box::new(Study {
+                design,
+                ..study.clone()
+            }))
+        }
+        _ => Conclusion::End,
+    }
+}
+
+/// Verdict of the stopping rule on a design all of whose members have an outcome.
+fn verdict(ensemble: &Ensemble, stop: &Stop, outcomes: &[Member]) -> Verdict {
+    let half = ensemble.members() / 2;
+    let first_half: Vec<Member> = outcomes
+        .iter()
+        .filter(|member| member.index < half)
+        .cloned()
+        .collect();
+    let questions = ensemble.study().questions.iter();
+    let watched = questions.filter_map(|question| match question {
+        Question::Rest(rest) if rest.regions.contains(&stop.region) => Some(rest.body),
+        _ => None,
+    });
+    let area = |members: &[Member], body: usize| {
+        let places = RestingPlaces::of(ensemble, members, body);
+        let distribution = RestDistribution::of(&places, &[stop.region]);
+        distribution
+            .regions
+            .first()
+            .map_or(0.0, |region| region.area_m2)
+    };
+    let areas_m2 = watched
+        .map(|body| [area(&first_half, body), area(outcomes, body)])
+        .collect();
+    stop.verdict(&Progress {
+        areas_m2,
+        members: ensemble.members(),
+        point_steps: point_steps(outcomes),
+    })
+}
+
+/// Work of the members so far [point-steps].
+pub fn point_steps(outcomes: &[Member]) -> f64 {
+    let finished = outcomes.iter().filter_map(Member::finished);
+    finished
+        .filter_map(|finished| finished.quantity("point_steps", None))
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn study(members: u64) -> Study {
+        let document = json!({
+            "scenario": {"x": 0.0},
+            "inputs": [{"pointer": "/x", "distribution": {"uniform": {"from": 0.0, "to": 1.0}}}],
+            "design": {"sobol": {"members": members, "seed": 1}},
+        });
+        serde_json::from_value(document).unwrap()
+    }
+
+    fn counts(made: u64, ended: u64) -> MemberCounts {
+        MemberCounts { made, ended }
+    }
+
+    #[test]
+    fn members_are_made_as_others_end_until_all_are() {
+        let study = study(8);
+        let ensemble = Ensemble::of(&study).unwrap();
+        let next = |made, ended| next(&ensemble, counts(made, ended), 3);
+        assert_eq!(next(0, 0), Next::Members(0..3));
+        assert_eq!(next(3, 0), Next::Wait);
+        assert_eq!(next(3, 2), Next::Members(3..5));
+        assert_eq!(next(7, 7), Next::Members(7..8));
+        assert_eq!(next(8, 7), Next::Wait);
+        assert_eq!(next(8, 8), Next::Conclude);
+    }
+
+    #[test]
+    fn without_a_stopping_rule_the_design_is_the_end() {
+        let study = study(2);
+        let ensemble = Ensemble::of(&study).unwrap();
+        assert_eq!(conclusion(&ensemble, &[]), Conclusion::End);
+    }
+}

@@ -1,0 +1,221 @@
+//! Study service: all operations on studies that clients may ask for.
+
+use super::study::{StoredStudy, StudyId, StudyStatus};
+use crate::jobs::job::JobId;
+use crate::jobs::store::{
+    Enlarged, Key, ListedMember, NewStudy, Removal, Room, StoreError, StudyDismissal, StudyEnd,
+    StudyPage, StudyStore, StudySubmitted,
+};
+use crate::jobs::submit::Means;
+use crate::jobs::{JobService, News};
+use scree_studies::{Answers, Ensemble, Member, MemberOutcome, Study};
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::Notify;
+use tokio::sync::broadcast::Receiver;
+use tokio::sync::broadcast::error::RecvError;
+
+/// Members of a study that wait or run at a time, for each worker: enough that none waits for the
+/// next to be made.
+const MEMBERS_PER_WORKER: u64 = 8;
+
+/// Service that clients use to submit, enlarge, read, dismiss and remove studies.
+#[derive(Debug, Clone)]
+pub struct StudyService {
+    pub(super) store: Arc<dyn StudyStore>,
+    pub(super) jobs: JobService,
+    pub(super) means: Means,
+    workers: usize,
+    /// Told when a study comes or goes on.
+    pub(super) changed: Arc<Notify>,
+    room: u32,
+    /// Time for which ended studies are kept; `None`: until they are removed.
+    pub(super) retention: Option<Duration>,
+}
+
+impl StudyService {
+    /// Service for the studies in this store, whose members are jobs of this service with so many
+    /// workers; at most `room` studies run at a time, and ended ones are kept for `retention`.
+    pub fn new(
+        store: Arc<dyn StudyStore>,
+        jobs: JobService,
+        (means, workers): (Means, usize),
+        (room, retention): (u32, Option<Duration>),
+    ) -> Self {
+        Self {
+            store,
+            jobs,
+            means,
+            workers: workers.max(1),
+            changed: Arc::default(),
+            room,
+            retention,
+        }
+    }
+
+    /// Number of workers.
+    pub fn workers(&self) -> usize {
+        self.workers
+    }
+
+    /// Members of a study that wait or run at a time.
+    pub(super) fn members_at_once(&self) -> u64 {
+        MEMBERS_PER_WORKER * self.workers as u64
+    }
+
+    /// Largest number of studies of one token that run at a time: half of all, so that none takes
+    /// all places.
+    pub fn room_of_one(&self) -> u32 {
+        (self.room / 2).max(1)
+    }
+
+    /// Largest number of studies that run at a time.
+    pub fn room(&self) -> u32 {
+        self.room
+    }
+
+    /// Keeps a study; its members are made from now on.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn submit(
+        &self,
+        (title, document): (&str, &str),
+        (submitter, key): (Option<&str>, Option<&Key>),
+    ) -> Result<(StudySubmitted, StudyId), StoreError> {
+        let id = StudyId::new();
+        let new = NewStudy {
+            id,
+            title,
+            document,
+            submitter,
+            key,
+            room: Room {
+                queue: self.room,
+                submitter: submitter.map(|_| self.room_of_one()),
+            },
+        };
+        let submitted = self.store.add_study(&new).await?;
+        self.changed.notify_one();
+        Ok((submitted, id))
+    }
+
+    /// The study, if there is one.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn study(&self, id: StudyId) -> Result<Option<StoredStudy>, StoreError> {
+        self.store.study(id).await
+    }
+
+    /// Studies, newest first.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn studies(&self, page: &StudyPage) -> Result<Vec<StoredStudy>, StoreError> {
+        self.store.studies(page).await
+    }
+
+    /// Members of a study from this number on.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn members(
+        &self,
+        id: StudyId,
+        from: u64,
+        limit: u32,
+    ) -> Result<Vec<ListedMember>, StoreError> {
+        self.store.members(id, (0, from), limit).await
+    }
+
+    /// Goes on with a larger document.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn enlarge(&self, id: StudyId, document: &str) -> Result<Enlarged, StoreError> {
+        let enlarged = self.store.enlarge_study(id, (None, document)).await?;
+        self.changed.notify_one();
+        Ok(enlarged)
+    }
+
+    /// Dismisses a study with its members.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn dismiss(&self, id: StudyId) -> Result<StudyDismissal, StoreError> {
+        let end = StudyEnd {
+            status: StudyStatus::Dismissed,
+            problem: None,
+            document: None,
+        };
+        self.end(id, end).await
+    }
+
+    /// Ends a study, and stops its members that run.
+    pub(super) async fn end(
+        &self,
+        id: StudyId,
+        end: StudyEnd<'_>,
+    ) -> Result<StudyDismissal, StoreError> {
+        let ended = self.store.end_study(id, end).await?;
+        if let StudyDismissal::Done(jobs) = &ended {
+            self.stop(jobs);
+        }
+        Ok(ended)
+    }
+
+    fn stop(&self, jobs: &[JobId]) {
+        for job in jobs {
+            self.jobs.stop_running(*job);
+        }
+    }
+
+    /// Removes a study that has ended, with all jobs that were made for it alone.
+    ///
+    /// # Errors
+    /// The store's own. What is left then is removed by the upkeep.
+    pub async fn remove(&self, id: StudyId) -> Result<Removal, StoreError> {
+        let removal = self.store.remove_study(id).await?;
+        if removal == Removal::Removed {
+            while self.store.remove_orphans().await? > 0 {}
+        }
+        Ok(removal)
+    }
+
+    /// Members with an outcome.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn outcomes(&self, id: StudyId) -> Result<Vec<Member>, StoreError> {
+        let stored = self.store.outcomes(id).await?;
+        let read = |member: &crate::jobs::store::MemberOutcome| Member {
+            index: member.member,
+            outcome: serde_json::from_str(&member.outcome).unwrap_or_else(|_| {
+                MemberOutcome::Failed {
+                    reason: "unreadable".to_owned(),
+                }
+            }),
+        };
+        Ok(stored.iter().map(read).collect())
+    }
+
+    /// Waits for news of a job or a study.
+    pub(super) async fn wake(&self, news: &mut Receiver<News>) -> Result<News, RecvError> {
+        tokio::select! {
+            news = news.recv() => news,
+            () = self.changed.notified() => Ok(News::Events(Arc::default())),
+        }
+    }
+}
+
+/// Answers of a stored study; work for a thread of its own.
+///
+/// # Errors
+/// The document is no study, in words.
+pub fn answers(document: &str, outcomes: &[Member]) -> Result<(Study, Answers), String> {
+    let study: Study = serde_json::from_str(document).map_err(|error| error.to_string())?;
+    let ensemble = Ensemble::of(&study).map_err(|_| "a stored study breaks rules".to_owned())?;
+    let answers = Answers::of(&ensemble, outcomes);
+    Ok((study, answers))
+}
