@@ -5,6 +5,7 @@ use super::files::FileError;
 use super::signals::Signal;
 use scree::jobs::forecast::ForecastError;
 use scree::pictures::PictureError;
+use scree::studies::export::ExportError;
 use scree_solver::SetupError;
 use std::fmt::Display;
 use std::io;
@@ -107,6 +108,12 @@ impl From<serde_json::Error> for Failure {
 
 impl From<PictureError> for Failure {
     fn from(error: PictureError) -> Self {
+        Self::Other(error.to_string())
+    }
+}
+
+impl From<ExportError> for Failure {
+    fn from(error: ExportError) -> Self {
         Self::Other(error.to_string())
     }
 }

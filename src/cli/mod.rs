@@ -13,6 +13,7 @@ mod console;
 mod demo;
 mod failure;
 mod files;
+mod interrupts;
 mod intervals;
 mod local_run;
 mod machine;
@@ -23,6 +24,7 @@ mod results_folder;
 mod scenario_file;
 mod serve;
 mod signals;
+mod study;
 mod table;
 mod token;
 mod validate;
@@ -44,6 +46,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Backup(options) => backup::backup(options),
         Command::Token(options) => token::token(options),
         Command::Run(options) => local_run::run(options),
+        Command::Study(options) => study::study(options),
         Command::Plan(options) => plan::plan(options),
         Command::Validate(options) => validate::validate(options),
         Command::Demo(options) => demo::demo(options),

@@ -35,6 +35,8 @@ pub(super) enum Command {
     Token(TokenOptions),
     /// Compute one scenario here, without the service
     Run(RunOptions),
+    /// Compute a study here: one scenario many times, with uncertain inputs
+    Study(StudyOptions),
     /// Print the computation, the reductions and the cost of a scenario's run
     Plan(PlanOptions),
     /// Check a scenario and list everything that is wrong with it
@@ -143,6 +145,26 @@ pub(super) struct RunOptions {
     pub(super) json: bool,
     /// Number of solver threads [default: the scenario's, else all cores]; results do not
     /// depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    #[command(flatten)]
+    pub(super) quiet: Quiet,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct StudyOptions {
+    /// Study, a JSON file; - reads standard input
+    #[arg(value_name = "STUDY.json")]
+    pub(super) study: PathBuf,
+    /// Write answers, members, regions and pictures into this directory; members that are there
+    /// already from the same study, also a smaller one, are not computed again
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Print only the answers, as JSON, on standard output
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Number of members computed at a time, each on one thread [default: all cores]; answers do
+    /// not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
     #[command(flatten)]

@@ -1,9 +1,9 @@
 //! Files that a run leaves in its folder, by the way it ended.
 
-use super::interrupts::Interrupts;
 use super::job::Job;
 use super::recording::Recorded;
 use crate::cli::failure::Failure;
+use crate::cli::interrupts::Interrupts;
 use crate::cli::results_folder::{Delivery, Place, ResultsFolder};
 use scree_solver::record::Outcome;
 

@@ -1,7 +1,6 @@
 //! `scree run`: one scenario, computed in this process.
 
 mod ending;
-mod interrupts;
 mod job;
 mod recording;
 mod schedule;
@@ -10,10 +9,10 @@ use super::arguments::RunOptions;
 use super::console;
 use super::failure::{Failure, not_set_up};
 use super::files::FileError;
+use super::interrupts::Interrupts;
 use super::machine::cores;
 use super::results_folder::Place;
 use super::{intervals, table};
-use interrupts::Interrupts;
 use job::{Asked, Job, Start};
 use recording::Recording;
 use scree::runs::{RunEnd, RunError, Stop};

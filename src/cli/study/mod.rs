@@ -1,0 +1,184 @@
+//! `scree study`: one scenario computed many times in this process.
+
+mod folder;
+mod table;
+
+use super::arguments::StudyOptions;
+use super::console;
+use super::failure::Failure;
+use super::interrupts::Interrupts;
+use super::machine::cores;
+use super::scenario_file;
+use folder::StudyFolder;
+use scree::runs::Stop;
+use scree::studies::local;
+use scree::studies::schedule::{Conclusion, conclusion};
+use scree_solver::scenario::{Scenario, ScenarioError};
+use scree_studies::{Answers, Ensemble, Member, Study};
+use std::time::{Duration, Instant};
+
+/// Time between two notes on progress.
+const NOTE_PAUSE: Duration = Duration::from_secs(5);
+
+/// Computes a study, writes its files and prints its answers.
+///
+/// # Errors
+/// See [`Failure`]; members that had ended by then are in the directory, and are not computed
+/// again by the same command.
+pub(super) fn study(options: &StudyOptions) -> Result<(), Failure> {
+    let text = scenario_file::read_text(&options.study)?;
+    let mut study = read(&text, &scenario_file::name(&options.study))?;
+    let folder = options.out.as_deref().map(StudyFolder::open).transpose()?;
+    let mut members = match &folder {
+        Some(folder) => folder.begin(&study)?,
+        None => Vec::new(),
+    };
+    let interrupts = Interrupts::watch(Stop::AtOnce)?;
+    let at_once = options.threads.map_or_else(cores, usize::from);
+    loop {
+        let ensemble = Ensemble::of(&study).map_err(|found| Failure::Input(in_words(&found)))?;
+        let missing = missing(&ensemble, &members);
+        if !missing.is_empty() {
+            let mut computing = Computing::new(options, ensemble.members(), members);
+            let control = (at_once, interrupts.stop());
+            local::compute(&ensemble, &missing, control, |member| {
+                computing.take(member, folder.as_ref());
+            });
+            members = computing.end()?;
+            if interrupts.stop().is_raised() {
+                return Err(stopped(&interrupts, &members, folder.is_some()));
+            }
+        }
+        match conclusion(&ensemble, &members) {
+            Conclusion::Enlarge(larger) => study = *larger,
+            Conclusion::End => break,
+        }
+    }
+    members.sort_by_key(|member| member.index);
+    let ensemble = Ensemble::of(&study).map_err(|found| Failure::Input(in_words(&found)))?;
+    let answers = Answers::of(&ensemble, &members);
+    if let Some(folder) = &folder {
+        folder.deliver(&ensemble, &members, &answers)?;
+    }
+    answer(options, &study, &answers)
+}
+
+/// Reads a study and checks both ends of every input.
+fn read(text: &str, name: &str) -> Result<Study, Failure> {
+    let study: Study = serde_json::from_str(text)
+        .map_err(|error| Failure::Input(format!("{name} is no study: {error}")))?;
+    let ensemble = Ensemble::of(&study)
+        .map_err(|found| Failure::Input(format!("{name} breaks rules:\n{}", in_words(&found))))?;
+    for end in ensemble.end_scenarios() {
+        if let Err(error) = Scenario::from_value(&end.scenario) {
+            let input = &study.inputs[end.input].pointer;
+            let why = match error {
+                ScenarioError::Invalid(found) => found
+                    .iter()
+                    .map(|violation| format!("\n  {}: {}", violation.pointer, violation.detail))
+                    .collect(),
+                error @ ScenarioError::Malformed { .. } => error.to_string(),
+            };
+            let value = &end.value;
+            return Err(Failure::Input(format!(
+                "{name} leads to scenarios that break rules; with {input} = {value}:{why}"
+            )));
+        }
+    }
+    Ok(study)
+}
+
+fn in_words(violations: &[scree_studies::Violation]) -> String {
+    let line = |violation: &scree_studies::Violation| {
+        format!("  {}: {}", violation.pointer, violation.message)
+    };
+    violations.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Members of the design that have no outcome yet.
+fn missing(ensemble: &Ensemble, members: &[Member]) -> Vec<u64> {
+    let mut there: Vec<u64> = members.iter().map(|member| member.index).collect();
+    there.sort_unstable();
+    (0..ensemble.members())
+        .filter(|index| there.binary_search(index).is_err())
+        .collect()
+}
+
+/// Members that are being computed.
+struct Computing<'a> {
+    options: &'a StudyOptions,
+    all: u64,
+    began: (Instant, usize),
+    noted: Instant,
+    members: Vec<Member>,
+    broken: Option<Failure>,
+}
+
+impl<'a> Computing<'a> {
+    fn new(options: &'a StudyOptions, all: u64, members: Vec<Member>) -> Self {
+        let now = Instant::now();
+        Self {
+            options,
+            all,
+            began: (now, members.len()),
+            noted: now,
+            members,
+            broken: None,
+        }
+    }
+
+    fn take(&mut self, member: Member, folder: Option<&StudyFolder>) {
+        if let Some(Err(error)) = folder.map(|folder| folder.keep(&member)) {
+            self.broken.get_or_insert(error.into());
+        }
+        self.members.push(member);
+        if self.noted.elapsed() >= NOTE_PAUSE {
+            self.noted = Instant::now();
+            self.note();
+        }
+    }
+
+    fn note(&self) {
+        let (began, before) = self.began;
+        let done = self.members.len();
+        let pace = began.elapsed().as_secs_f64() / (done - before).max(1) as f64;
+        let to_go = (pace * (self.all as f64 - done as f64)).ceil().max(0.0);
+        let (minutes, seconds) = ((to_go / 60.0) as u64, (to_go % 60.0) as u64);
+        self.options.quiet.note(&format!(
+            "{done} of {} members, {minutes}:{seconds:02} min to go",
+            self.all
+        ));
+    }
+
+    fn end(self) -> Result<Vec<Member>, Failure> {
+        self.broken.map_or(Ok(self.members), Err)
+    }
+}
+
+fn stopped(interrupts: &Interrupts, members: &[Member], is_kept: bool) -> Failure {
+    let done = members.len();
+    let what = if is_kept {
+        format!("; the same command goes on from the {done} members that have ended")
+    } else {
+        String::new()
+    };
+    Failure::Stopped(interrupts.first(), what)
+}
+
+/// Prints the answers, and where the files are.
+fn answer(options: &StudyOptions, study: &Study, answers: &Answers) -> Result<(), Failure> {
+    let text = if options.json {
+        serde_json::to_string_pretty(answers)?
+    } else {
+        let mut text = table::answers(study, answers);
+        if let Some(out) = &options.out {
+            text = format!("{text}\n\nwritten to {}", out.display());
+        }
+        text
+    };
+    let printed = match options.out {
+        Some(_) => console::answer(&text),
+        None => console::only_answer(&text),
+    };
+    Ok(printed?)
+}
