@@ -3,6 +3,7 @@
 use super::query::{Query, with_nearest};
 use crate::jobs::job::JobStatus;
 use crate::results::table::{Field, Format};
+use crate::studies::study::StudyStatus;
 use utoipa::ToSchema;
 
 /// A value that is one of a few words.
@@ -70,6 +71,16 @@ impl Choice for Remove {
 
     fn word(self) -> &'static str {
         "ended"
+    }
+}
+
+impl Choice for StudyStatus {
+    fn all() -> Vec<Self> {
+        Self::ALL.to_vec()
+    }
+
+    fn word(self) -> &'static str {
+        Self::word(self)
     }
 }
 

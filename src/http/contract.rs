@@ -15,7 +15,7 @@ use utoipa::openapi::{
 };
 
 /// Groups of requests, in reading order.
-const TAGS: [(&str, &str); 5] = [
+const TAGS: [(&str, &str); 6] = [
     (
         "plans",
         "What a job would compute and cost, before it is submitted.",
@@ -27,6 +27,10 @@ const TAGS: [(&str, &str); 5] = [
     (
         "results",
         "Trajectories of bodies, and snapshots of the flow.",
+    ),
+    (
+        "studies",
+        "One scenario with uncertain inputs: submit, follow and enlarge a study, and read its answers.",
     ),
     (
         "service",
@@ -86,7 +90,12 @@ fn requirement() -> SecurityRequirement {
 pub(super) fn finish(contract: &mut OpenApi) {
     let problems = examples::problems();
     for (path, item) in &mut contract.paths.paths {
-        for operation in [&mut item.get, &mut item.post, &mut item.delete] {
+        for operation in [
+            &mut item.get,
+            &mut item.post,
+            &mut item.patch,
+            &mut item.delete,
+        ] {
             let Some(operation) = operation else { continue };
             common_answers::add(path, operation);
             if is_open(path) {

@@ -35,9 +35,11 @@ mod reading;
 mod router;
 mod scenario_body;
 pub mod server;
+mod services;
 mod shares;
 mod slow_client;
 mod static_text;
+mod studies;
 mod submission;
 mod system;
 mod tracked_body;
@@ -46,3 +48,4 @@ mod turns;
 mod vector_lengths;
 
 pub use router::{openapi, router};
+pub use services::Services;

@@ -5,14 +5,14 @@ use super::browser::{self, Doors};
 use super::metrics::{self, RequestCounts};
 use super::problem::Problem;
 use super::scenario_body::BodyLimits;
+use super::services::Services;
 use super::shares::{self, Shares};
 use super::static_text::StaticText;
 use super::{
-    batch, compression, contract, drawings, events, flow, jobs, listing, ogc, plans, submission,
-    system, trajectory,
+    batch, compression, contract, drawings, events, flow, jobs, listing, ogc, plans, studies,
+    submission, system, trajectory,
 };
 use crate::config::ServiceConfig;
-use crate::jobs::JobService;
 use crate::jobs::submit::excerpt;
 use axum::extract::{DefaultBodyLimit, Request};
 use axum::http::{HeaderMap, HeaderValue, StatusCode};
@@ -32,7 +32,7 @@ use utoipa_axum::routes;
 use uuid::Uuid;
 
 /// All routes, with the layers around them.
-pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
+pub fn router(services: Services, config: &ServiceConfig) -> Router {
     let limits = &config.limits;
     let (router, contract) = documented(limits.request_timeout()).split_for_parts();
     let process = ogc::Process::of(&contract);
@@ -50,7 +50,7 @@ pub fn router(jobs: JobService, config: &ServiceConfig) -> Router {
         .route("/page.css", always(style))
         .fallback(system::no_such_route)
         .method_not_allowed_fallback(system::wrong_method)
-        .with_state(jobs)
+        .with_state(services)
         .layer(Extension(process))
         .layer(DefaultBodyLimit::max(body_bytes))
         .layer(from_fn(move |request, next| {
@@ -83,7 +83,7 @@ pub fn openapi() -> OpenApi {
 }
 
 /// The routes; those that wait by design have no time limit.
-fn documented(limit: Duration) -> OpenApiRouter<JobService> {
+fn documented(limit: Duration) -> OpenApiRouter<Services> {
     let quick = OpenApiRouter::new()
         .routes(routes!(listing::list))
         .routes(routes!(trajectory::trajectory))
@@ -97,6 +97,7 @@ fn documented(limit: Duration) -> OpenApiRouter<JobService> {
         .routes(routes!(system::health))
         .routes(routes!(system::ready))
         .routes(routes!(metrics::metrics))
+        .merge(studies::quick())
         .merge(ogc::quick())
         .layer(from_fn(move |request, next| in_time(limit, request, next)));
     let mut all = OpenApiRouter::with_openapi(contract::begin())
@@ -106,6 +107,7 @@ fn documented(limit: Duration) -> OpenApiRouter<JobService> {
         .routes(routes!(submission::submit))
         .routes(routes!(batch::submit_batch))
         .routes(routes!(plans::plan))
+        .merge(studies::submitting())
         .merge(ogc::waiting())
         .merge(quick);
     contract::finish(all.get_openapi_mut());
@@ -145,7 +147,7 @@ async fn limit_body(time: Duration, bytes: usize, mut request: Request, next: Ne
 }
 
 /// A route that always has the same text.
-fn always(text: StaticText) -> MethodRouter<JobService> {
+fn always(text: StaticText) -> MethodRouter<Services> {
     get(move |headers: HeaderMap| async move { text.answer(&headers) })
 }
 

@@ -6,12 +6,20 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder of the service, and the names that none of its files may contain.
-const RULES: [(&str, &[&str]); 6] = [
+const RULES: [(&str, &[&str]); 8] = [
     ("src/http", &["sqlx", "scree_solver", "SELECT ", "rayon"]),
     ("src/jobs", &["axum", "hyper", "crate::http"]),
     (
         "src/jobs/store",
         &["tokio::net", "Simulation", "Recorder", "Scenario"],
+    ),
+    (
+        "src/studies",
+        &["sqlx", "axum", "hyper", "crate::http", "SELECT "],
+    ),
+    (
+        "src/pictures",
+        &["sqlx", "axum", "crate::jobs", "crate::studies"],
     ),
     (
         "src/runs",

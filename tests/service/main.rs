@@ -24,4 +24,5 @@ mod restart;
 mod results;
 mod runs;
 mod scenarios;
+mod studies;
 mod webhooks;

@@ -171,6 +171,21 @@ class BoxShape(TypedDict):
     box: Box
 
 
+class BuriedQuestion(TypedDict):
+    """
+    Question how likely a body ends below the surface.
+    """
+
+    body: int
+    """
+    Index of the body in the scenario.
+    """
+    deeper_than_m: float
+    """
+    Depth below the surface that is exceeded [m], not negative.
+    """
+
+
 class Capsule(TypedDict):
     """
     A capsule along x: a cylinder with a half ball on either end. It has no other sphero radius than its own.
@@ -314,6 +329,22 @@ class Conservation(TypedDict):
     """
 
 
+class Correlation(TypedDict):
+    """
+    Rank correlation of two inputs.
+    """
+
+    inputs: List[int]
+    """
+    Indices of the two inputs in the list of inputs.
+    """
+    rank: float
+    """
+    Spearman's rank correlation ρ, −1 < ρ < 1. Where a discrete distribution ties many values,
+    that of the drawn values is nearer to 0.
+    """
+
+
 class Cost(TypedDict):
     """
     Cost of the answer.
@@ -382,6 +413,83 @@ class CubeShape(TypedDict):
     cube: Cube
 
 
+class DensityGrid(TypedDict):
+    """
+    Density of resting places at the nodes of a grid.
+    """
+
+    density_per_m2: List[float]
+    """
+    Density at the nodes [1/m²], the first axis fastest.
+    """
+    nodes: List[int]
+    """
+    Numbers of nodes.
+    """
+    origin_m: List[float]
+    """
+    First node, downstream and across [m].
+    """
+    spacing_m: List[float]
+    """
+    Distances of the nodes [m].
+    """
+
+
+class EffectMoment(TypedDict):
+    """
+    Statistic of the effects.
+    """
+
+    standard_error: float
+    """
+    Standard error by the jackknife (Tukey 1958), which for a mean is s/√r.
+    """
+    value: float
+    """
+    Value, in the unit of the quantity.
+    """
+
+
+class ElementaryEffect(TypedDict):
+    """
+    Elementary effects of one input: changes of the quantity over the change of the input's
+    probability, so in the unit of the quantity for the whole range of the input.
+    """
+
+    deviation: EffectMoment
+    """
+    Standard deviation σ of the effects, large for an input that interacts or acts non-linearly.
+    """
+    effects: int
+    """
+    Number of effects behind it.
+    """
+    effects_left_out: int
+    """
+    Effects left out because a member lacks the quantity.
+    """
+    mean: EffectMoment
+    """
+    Mean μ of the effects (Morris 1991).
+    """
+    mean_size: EffectMoment
+    """
+    Mean μ* of their sizes, by which inputs are ranked (Campolongo, Cariboni & Saltelli 2007).
+    """
+
+
+class ElementaryEffects(TypedDict):
+    """
+    Elementary effects of the inputs on a quantity.
+    """
+
+    inputs: List[ElementaryEffect]
+    """
+    Effects of the inputs, in their order.
+    """
+
+
 class EndedEarly(TypedDict):
     """
     Early stop of a run, with bounds on the changes that the rest of the run could have made.
@@ -412,6 +520,42 @@ class EndedEarly(TypedDict):
 Ending: TypeAlias = Literal['auto', 'full']
 """
 Condition that ends a run.
+"""
+
+
+class ExceedsQuestion(TypedDict):
+    """
+    Question how likely a quantity exceeds thresholds.
+    """
+
+    body: NotRequired[Optional[int]]
+    """
+    Index of the body whose quantity it is; none: one of the whole run.
+    """
+    quantity: str
+    """
+    Name of the quantity in the members' outcomes.
+    """
+    thresholds: List[float]
+    """
+    Thresholds, in the unit of the quantity.
+    """
+
+
+class ExplicitDesign(TypedDict):
+    """
+    Values of every member, given one by one; for probabilities they are equally likely draws.
+    """
+
+    members: List[List[Any]]
+    """
+    Members, each with a value for each input in the order of the inputs.
+    """
+
+
+FactorialLevels: TypeAlias = Union[int, List[int]]
+"""
+Numbers of levels.
 """
 
 
@@ -497,6 +641,19 @@ class FlowSnapshot(TypedDict):
     """
 
 
+class FullFactorialDesign(TypedDict):
+    """
+    All combinations of levels. The levels of an input are the middles of equally likely parts of
+    its distribution, the quantiles at (k + ½)/n, so all members are equally likely. The last input
+    changes fastest.
+    """
+
+    levels: FactorialLevels
+    """
+    Numbers of levels.
+    """
+
+
 class Health(TypedDict):
     """
     Health of the service.
@@ -534,6 +691,23 @@ State of a job, in the words of OGC API – Processes.
 """
 
 
+class LatinHypercubeDesign(TypedDict):
+    """
+    Latin hypercube (McKay, Beckman & Conover 1979): each input's range is cut into as many equally
+    likely strata as there are members, and each stratum has one member at a random place in it.
+    It cannot be enlarged.
+    """
+
+    members: int
+    """
+    Number of members.
+    """
+    seed: int
+    """
+    Seed of the order of the strata and the places within.
+    """
+
+
 class Link(TypedDict):
     """
     Link to a resource.
@@ -554,6 +728,32 @@ class Link(TypedDict):
     type: str
     """
     Media type of the resource.
+    """
+
+
+class ListDistribution(TypedDict):
+    """
+    List of equally likely numbers.
+    """
+
+    values: List[float]
+    """
+    Numbers, at least one.
+    """
+
+
+class LognormalDistribution(TypedDict):
+    """
+    Lognormal distribution, given by two of its quantiles.
+    """
+
+    median: float
+    """
+    Median, positive, in the unit of the input.
+    """
+    p95: float
+    """
+    95 % quantile, above the median.
     """
 
 
@@ -623,10 +823,97 @@ class Material(TypedDict):
     """
 
 
+class MemberBody(TypedDict):
+    """
+    Body at the end of a member's run.
+    """
+
+    buried_m: float
+    """
+    Depth of its centre below the surface [m]; 0 if not below.
+    """
+    hit: bool
+    """
+    True if the flow hit it.
+    """
+    moving: bool
+    """
+    True if it still moves, so that the position is not where it rests.
+    """
+    quantities: NotRequired[Dict[str, float]]
+    """
+    Further quantities by name, the unit in the name, such as `displacement_m`; what did not
+    happen is left out.
+    """
+    rest_m: List[float]
+    """
+    Position of its centre at the end: downstream, across, up [m].
+    """
+
+
+class MemberFailures(TypedDict):
+    """
+    Failures for one reason.
+    """
+
+    members: int
+    """
+    Number of members.
+    """
+    reason: str
+    """
+    Reason.
+    """
+
+
+class Failed(TypedDict):
+    """
+    The run failed; its quantities could have been anything.
+    """
+
+    reason: str
+    """
+    Reason, one of few words so that equal reasons are counted together.
+    """
+
+
+class MemberOutcome2(TypedDict):
+    """
+    The run failed; its quantities could have been anything.
+    """
+
+    failed: Failed
+    """
+    The run failed; its quantities could have been anything.
+    """
+
+
 Mode: TypeAlias = Literal['resting', 'sliding', 'rolling', 'saltating', 'carried']
 """
 Mode of motion of a body.
 """
+
+
+class MorrisDesign(TypedDict):
+    """
+    Trajectories (Morris 1991): each begins at a random point of a grid of levels and moves one
+    input after the other, in random order, by half the levels. The levels are the middles of
+    equally likely parts, the quantiles at (k + ½)/p, since an unbounded distribution has no end
+    for a level to lie at; so a step is ½ of probability.
+    """
+
+    levels: int
+    """
+    Number p of levels, even.
+    """
+    seed: int
+    """
+    Seed of the trajectories.
+    """
+    trajectories: int
+    """
+    Number r of trajectories, at least 2; there are r (d + 1) members for d inputs.
+    """
 
 
 TimesSItem: TypeAlias = float
@@ -678,6 +965,19 @@ Motion: TypeAlias = Union[Motion1, Motion2]
 """
 Prescribed motion of a body, in channel axes.
 """
+
+
+class OneAtATimeDesign(TypedDict):
+    """
+    One input after the other at each of its levels, all others at their medians. Member 0 has all
+    inputs at their medians, which an odd number of levels does not repeat. The levels are the
+    quantiles at (k + ½)/n.
+    """
+
+    levels: int
+    """
+    Number of levels of each input, at least 2.
+    """
 
 
 class OutputFormat(TypedDict):
@@ -740,6 +1040,37 @@ Precision: TypeAlias = Literal['single', 'double']
 """
 Arithmetic precision of points and grid; bodies, time and audits are in 64 bits.
 """
+
+
+class Probability(TypedDict):
+    """
+    Probability of an event, from the members in which it happened.
+    """
+
+    estimate: NotRequired[Optional[float]]
+    """
+    Share of the known members in which it happened; none without a known member.
+    """
+    happened: int
+    """
+    Members in which it happened.
+    """
+    known: int
+    """
+    Members of which it is known whether it happened.
+    """
+    lower: float
+    """
+    Lower bound: that of Clopper & Pearson (1934) if it happened in no unknown member.
+    """
+    unknown: int
+    """
+    Members of which it is not: failed, pending, or without the quantity.
+    """
+    upper: float
+    """
+    Upper bound: that if it happened in every unknown member.
+    """
 
 
 class Problem(TypedDict):
@@ -881,6 +1212,49 @@ class Provenance(TypedDict):
     """
 
 
+class Quantile(TypedDict):
+    """
+    Quantile of a quantity.
+    """
+
+    estimate: NotRequired[Optional[float]]
+    """
+    Estimate from the known members, type 8 of Hyndman & Fan (1996), whose median is right for
+    any distribution; none without a known member.
+    """
+    lower: NotRequired[Optional[float]]
+    """
+    Lower bound; none if the members are too few for one.
+    """
+    probability: float
+    """
+    Probability of a smaller value.
+    """
+    upper: NotRequired[Optional[float]]
+    """
+    Upper bound; none if the members are too few for one.
+    """
+
+
+class QuantilesQuestion(TypedDict):
+    """
+    Question for quantiles of a quantity.
+    """
+
+    body: NotRequired[Optional[int]]
+    """
+    Index of the body whose quantity it is; none: one of the whole run.
+    """
+    probabilities: List[float]
+    """
+    Probabilities of the quantiles, each 0 < p < 1.
+    """
+    quantity: str
+    """
+    Name of the quantity in the members' outcomes.
+    """
+
+
 Quantity: TypeAlias = Literal['onset_time_s', 'peak_speed_m_s', 'peak_speed_time_s', 'stop_time_s', 'displacement_m', 'path_length_m', 'front_m', 'runout_m']
 """
 A quantity of the outcome, by its key.
@@ -888,6 +1262,22 @@ A quantity of the outcome, by its key.
 
 
 ReferenceOnly: TypeAlias = Literal['reference']
+
+
+class RegionPolygon(TypedDict):
+    """
+    Polygon with holes.
+    """
+
+    holes_m: List[List[List[float]]]
+    """
+    Rings of the holes, likewise, clockwise.
+    """
+    outer_m: List[List[float]]
+    """
+    Outer ring, downstream and across [m], counter-clockwise; its first corner is repeated at
+    the end.
+    """
 
 
 RegularSolid: TypeAlias = Literal['tetrahedron', 'cube', 'octahedron', 'dodecahedron', 'icosahedron']
@@ -916,6 +1306,44 @@ ResponseForm: TypeAlias = Literal['raw', 'document']
 """
 Form of a synchronous answer.
 """
+
+
+class RestAtom(TypedDict):
+    """
+    Place at which many members come to rest exactly.
+    """
+
+    members: int
+    """
+    Members that rest there.
+    """
+    place_m: List[float]
+    """
+    Place, downstream and across [m].
+    """
+    radius_m: float
+    """
+    Distance up to which a place is this one [m].
+    """
+    share: float
+    """
+    Their share of the members with a known place.
+    """
+
+
+class RestQuestion(TypedDict):
+    """
+    Question where a body comes to rest.
+    """
+
+    body: int
+    """
+    Index of the body in the scenario.
+    """
+    regions: List[float]
+    """
+    Probabilities of the regions, each 0 < p < 1.
+    """
 
 
 Role: TypeAlias = Literal['coarser', 'reduced_stiffness', 'answer']
@@ -959,10 +1387,71 @@ class RunCost(TypedDict):
     """
 
 
+class SaltelliDesign(TypedDict):
+    """
+    Two independent samples A and B, and for each input i the mixture AB_i, A with the column i of
+    B (Saltelli et al. 2010). A and B are the first and second half of the dimensions of one
+    sequence of Sobol' points. The members of a row follow each other, A, B, AB_0, AB_1, …, so a
+    design can be enlarged.
+    """
+
+    base_members: int
+    """
+    Number N of rows, a power of two; there are N (d + 2) members for d inputs.
+    """
+    seed: int
+    """
+    Seed of the scrambling.
+    """
+
+
+class SensitivityMeasures2(TypedDict):
+    """
+    Elementary effects of Morris trajectories.
+    """
+
+    elementary: ElementaryEffects
+    """
+    Elementary effects of Morris trajectories.
+    """
+
+
+class SensitivityQuestion(TypedDict):
+    """
+    Question which inputs a quantity depends on.
+    """
+
+    body: NotRequired[Optional[int]]
+    """
+    Index of the body whose quantity it is; none: one of the whole run.
+    """
+    quantity: str
+    """
+    Name of the quantity in the members' outcomes.
+    """
+
+
 Share: TypeAlias = Literal['whole', 'half', 'slab']
 """
 Share of the flow that is computed; images stand for the rest.
 """
+
+
+class SobolDesign(TypedDict):
+    """
+    Sobol' points with nested uniform scrambling (Owen 1997) by hash (Burley 2020). Member i
+    depends on the seed and i alone, so a design can be enlarged. Each power of two of members is
+    balanced; beyond 2¹⁶ every further 2¹⁶ members have a scrambling of their own.
+    """
+
+    members: int
+    """
+    Number of members, a power of two.
+    """
+    seed: int
+    """
+    Seed of the scrambling.
+    """
 
 
 class Stage(TypedDict):
@@ -1036,6 +1525,213 @@ class StatusInfo(TypedDict):
     updated: str
     """
     Time of the last change of the state.
+    """
+
+
+class StoppingRule(TypedDict):
+    """
+    Stopping rule: the design is doubled until the regions' area settles or a limit is reached.
+    """
+
+    area_changes_less_than: float
+    """
+    Relative change of the region's area by a doubling below which the answer is settled.
+    """
+    budget_point_steps: NotRequired[Optional[float]]
+    """
+    Most work in point-steps; none: no limit.
+    """
+    max_members: int
+    """
+    Most members.
+    """
+    region: float
+    """
+    Probability of the region that is watched; the rest questions have it.
+    """
+
+
+class StudyAnswer3(TypedDict):
+    """
+    Probability that the body ends below the surface.
+    """
+
+    buried: Probability
+    """
+    Probability that the body ends below the surface.
+    """
+
+
+class StudyAnswer4(TypedDict):
+    """
+    Quantiles of the quantity.
+    """
+
+    quantiles: List[Quantile]
+    """
+    Quantiles of the quantity.
+    """
+
+
+class StudyCost(TypedDict):
+    """
+    Cost of the members of a study.
+    """
+
+    max_members: int
+    """
+    Most members, if a stopping rule enlarges the design; else those of the design.
+    """
+    member_memory_bytes: int
+    """
+    Largest memory of a member [bytes].
+    """
+    members: int
+    """
+    Members of the design.
+    """
+    members_costed: int
+    """
+    Members whose cost was found; the others are taken to cost as much on average.
+    """
+    point_steps: float
+    """
+    Work of all members of the design [point-steps].
+    """
+    point_steps_per_member: float
+    """
+    Mean work of a member [point-steps].
+    """
+
+
+class StudyEstimate(TypedDict):
+    """
+    Estimate with bounds.
+    """
+
+    lower: float
+    """
+    Lower bound.
+    """
+    upper: float
+    """
+    Upper bound.
+    """
+    value: float
+    """
+    Estimate.
+    """
+
+
+class StudyQuestion1(TypedDict):
+    """
+    Where a body comes to rest.
+    """
+
+    rest: RestQuestion
+    """
+    Where a body comes to rest.
+    """
+
+
+class StudyQuestion2(TypedDict):
+    """
+    Probability that a quantity exceeds thresholds.
+    """
+
+    exceeds: ExceedsQuestion
+    """
+    Probability that a quantity exceeds thresholds.
+    """
+
+
+class StudyQuestion3(TypedDict):
+    """
+    Probability that a body ends below the surface.
+    """
+
+    buried: BuriedQuestion
+    """
+    Probability that a body ends below the surface.
+    """
+
+
+class StudyQuestion4(TypedDict):
+    """
+    Quantiles of a quantity.
+    """
+
+    quantiles: QuantilesQuestion
+    """
+    Quantiles of a quantity.
+    """
+
+
+class StudyQuestion5(TypedDict):
+    """
+    Inputs that a quantity depends on.
+    """
+
+    sensitivity: SensitivityQuestion
+    """
+    Inputs that a quantity depends on.
+    """
+
+
+StudyQuestion: TypeAlias = Union[
+    StudyQuestion1,
+    StudyQuestion2,
+    StudyQuestion3,
+    StudyQuestion4,
+    StudyQuestion5,
+]
+"""
+Question to a study.
+"""
+
+
+StudyStatus: TypeAlias = Literal['running', 'successful', 'failed', 'dismissed']
+"""
+State of a study, in the words of OGC API – Processes.
+"""
+
+
+class StudySummary(TypedDict):
+    """
+    A study without its document.
+    """
+
+    created: str
+    """
+    Time of submission (RFC 3339).
+    """
+    finished: Optional[str]
+    """
+    Time at which the study ended; null before.
+    """
+    id: str
+    """
+    Identifier.
+    """
+    members: int
+    """
+    Members of its design.
+    """
+    members_ended: int
+    """
+    Members whose job has ended.
+    """
+    members_made: int
+    """
+    Members that have been made so far.
+    """
+    status: StudyStatus
+    """
+    State.
+    """
+    title: str
+    """
+    Title.
     """
 
 
@@ -1146,6 +1842,25 @@ class TrajectoryColumns(TypedDict):
     """
 
 
+TriangularDistribution = TypedDict(
+    'TriangularDistribution',
+    {
+        'from': float,
+        'mode': float,
+        'to': float,
+    },
+)
+
+
+TruncationRange = TypedDict(
+    'TruncationRange',
+    {
+        'from': float,
+        'to': float,
+    },
+)
+
+
 class UncertaintyInterval(TypedDict):
     """
     A quantity with the interval in which its grid-converged value (h → 0) is expected.
@@ -1173,6 +1888,15 @@ class UncertaintyInterval(TypedDict):
     """
 
 
+UniformDistribution = TypedDict(
+    'UniformDistribution',
+    {
+        'from': float,
+        'to': float,
+    },
+)
+
+
 ValueOnly: TypeAlias = Literal['value']
 
 
@@ -1196,6 +1920,21 @@ class WallTime(TypedDict):
     threads: int
     """
     Number of solver threads of the forecast.
+    """
+
+
+class WeightedValue(TypedDict):
+    """
+    Value of a choice.
+    """
+
+    value: Any
+    """
+    Any JSON value that the scenario may have at the input's place.
+    """
+    weight: float
+    """
+    Weight, positive; its share of the sum of the weights is the probability.
     """
 
 
@@ -1287,6 +2026,11 @@ class BodyOutcome(TypedDict):
     Outcome of one body.
     """
 
+    burial_depth_m: float
+    """
+    Depth of its highest place below the surface of the flow round it at the end, along the
+    normal of the bed [m]; 0 if it stands out.
+    """
     displacement_m: float
     """
     Net horizontal displacement of the centre [m].
@@ -1349,6 +2093,220 @@ class ByValue(TypedDict):
 
     format: NotRequired[Optional[OutputFormat]]
     transmissionMode: NotRequired[Optional[ValueOnly]]
+
+
+class ChoiceDistribution(TypedDict):
+    """
+    Choice among values with weights.
+    """
+
+    values: List[WeightedValue]
+    """
+    Values, at least one.
+    """
+
+
+class Design1(TypedDict):
+    """
+    Scrambled Sobol' points, for probabilities and regions.
+    """
+
+    sobol: SobolDesign
+    """
+    Scrambled Sobol' points, for probabilities and regions.
+    """
+
+
+class Design2(TypedDict):
+    """
+    Latin hypercube.
+    """
+
+    latin_hypercube: LatinHypercubeDesign
+    """
+    Latin hypercube.
+    """
+
+
+class Design3(TypedDict):
+    """
+    All combinations of levels.
+    """
+
+    full_factorial: FullFactorialDesign
+    """
+    All combinations of levels.
+    """
+
+
+class Design4(TypedDict):
+    """
+    Trajectories of elementary effects, for screening.
+    """
+
+    morris: MorrisDesign
+    """
+    Trajectories of elementary effects, for screening.
+    """
+
+
+class Design5(TypedDict):
+    """
+    Two samples and their mixtures, for Sobol' indices.
+    """
+
+    saltelli: SaltelliDesign
+    """
+    Two samples and their mixtures, for Sobol' indices.
+    """
+
+
+class Design6(TypedDict):
+    """
+    One input after the other away from the median.
+    """
+
+    one_at_a_time: OneAtATimeDesign
+    """
+    One input after the other away from the median.
+    """
+
+
+class Design7(TypedDict):
+    """
+    Values of every member, given.
+    """
+
+    explicit: ExplicitDesign
+    """
+    Values of every member, given.
+    """
+
+
+Design: TypeAlias = Union[Design1, Design2, Design3, Design4, Design5, Design6, Design7]
+"""
+Design of a study's members.
+"""
+
+
+class Distribution1(TypedDict):
+    """
+    Every number of a range equally likely.
+    """
+
+    uniform: UniformDistribution
+    """
+    Every number of a range equally likely.
+    """
+
+
+class Distribution3(TypedDict):
+    """
+    Normal logarithm.
+    """
+
+    lognormal: LognormalDistribution
+    """
+    Normal logarithm.
+    """
+
+
+class Distribution4(TypedDict):
+    """
+    Density a triangle.
+    """
+
+    triangular: TriangularDistribution
+    """
+    Density a triangle.
+    """
+
+
+class Distribution5(TypedDict):
+    """
+    Any JSON values with weights.
+    """
+
+    choice: ChoiceDistribution
+    """
+    Any JSON values with weights.
+    """
+
+
+class Distribution6(TypedDict):
+    """
+    Numbers that are equally likely.
+    """
+
+    list: ListDistribution
+    """
+    Numbers that are equally likely.
+    """
+
+
+class Exceedance(TypedDict):
+    """
+    Probability that a quantity exceeds a threshold.
+    """
+
+    probability: Probability
+    """
+    Probability of a larger value.
+    """
+    threshold: float
+    """
+    Threshold, in the unit of the quantity.
+    """
+
+
+class FinishedMember(TypedDict):
+    """
+    Outcome of a run that came to its end.
+    """
+
+    bodies: NotRequired[List[MemberBody]]
+    """
+    Bodies, in the order of the scenario.
+    """
+    quantities: NotRequired[Dict[str, float]]
+    """
+    Quantities of the whole run by name, the unit in the name; what did not happen is left out.
+    """
+
+
+class FirstOrderIndex(TypedDict):
+    """
+    First-order index of one input: the share of the variance that it explains alone. With
+    correlated inputs it has what they explain through it too.
+    """
+
+    classes: int
+    """
+    Number of classes that the values were cut into.
+    """
+    first_order: StudyEstimate
+    """
+    Index, with shifted bootstrap percentiles.
+    """
+
+
+class FirstOrderIndices(TypedDict):
+    """
+    First-order indices of a quantity from random members.
+    """
+
+    inputs: List[FirstOrderIndex]
+    """
+    Indices of the inputs, in their order.
+    """
+    members: int
+    """
+    Members with the quantity.
+    """
+    members_left_out: int
+    """
+    Members left out because they lack it.
+    """
 
 
 class Flow(TypedDict):
@@ -1448,6 +2406,62 @@ class LandingPage(TypedDict):
     """
     Name of the service.
     """
+
+
+class MemberCounts(TypedDict):
+    """
+    Counts of a design's members.
+    """
+
+    failed: int
+    """
+    Members whose run failed.
+    """
+    failures: List[MemberFailures]
+    """
+    Failures by reason, the most frequent first.
+    """
+    finished: int
+    """
+    Members whose run came to its end.
+    """
+    pending: int
+    """
+    Members without an outcome yet.
+    """
+
+
+class MemberOutcome1(TypedDict):
+    """
+    The run came to its end.
+    """
+
+    finished: FinishedMember
+    """
+    The run came to its end.
+    """
+
+
+MemberOutcome: TypeAlias = Union[MemberOutcome1, MemberOutcome2, Literal['pending']]
+"""
+Outcome of a member.
+"""
+
+
+class NormalDistribution(TypedDict):
+    """
+    Normal distribution.
+    """
+
+    mean: float
+    """
+    Mean before truncation, in the unit of the input.
+    """
+    sd: float
+    """
+    Standard deviation before truncation, in the unit of the input.
+    """
+    truncate: NotRequired[Optional[TruncationRange]]
 
 
 class Numerics(TypedDict):
@@ -1574,6 +2588,22 @@ class PlannedRefinementRun(TypedDict):
     """
 
 
+class PlannedStudy(TypedDict):
+    """
+    Plan of a study.
+    """
+
+    cost: StudyCost
+    """
+    Cost of the members.
+    """
+    wall_time: WallTime
+    """
+    Expected wall time of the design's members on all workers of this service, if they have
+    nothing else to do.
+    """
+
+
 class ProcessDescription(ProcessSummary):
     """
     Description of a process.
@@ -1601,6 +2631,46 @@ class ProcessList(TypedDict):
     processes: List[ProcessSummary]
     """
     Each in short.
+    """
+
+
+class Region(TypedDict):
+    """
+    Smallest area that holds a body at rest with a given probability.
+    """
+
+    area_m2: float
+    """
+    Area within the outline [m²].
+    """
+    area_standard_error_m2: float
+    """
+    Standard error of the area, from resampled members [m²].
+    """
+    atoms: int
+    """
+    Number of atoms that belong to it, the first in the list.
+    """
+    level_per_m2: NotRequired[Optional[float]]
+    """
+    Density at its edge [1/m²]; none if the atoms are enough.
+    """
+    members: Probability
+    """
+    Share of the members within, with bounds that members of unknown place widen.
+    """
+    polygons: List[RegionPolygon]
+    """
+    Its outline.
+    """
+    probability: float
+    """
+    Probability.
+    """
+    smoothed_probability: float
+    """
+    Probability that the smoothed density has within, atoms included. It differs from the
+    probability asked for by what the smoothing moves over the edge.
     """
 
 
@@ -1639,6 +2709,51 @@ class RequestedOutputs(TypedDict):
     trajectory: NotRequired[Optional[ByReference]]
 
 
+class RestDistribution(TypedDict):
+    """
+    Distribution of a body's resting places.
+    """
+
+    atoms: List[RestAtom]
+    """
+    Places at which many members come to rest exactly, such as that of a body which the flow
+    leaves alone; the most frequent first.
+    """
+    bandwidth_m: NotRequired[Optional[List[float]]]
+    """
+    Bandwidths of the density downstream and across [m].
+    """
+    density: NotRequired[Optional[DensityGrid]]
+    moving: int
+    """
+    Members whose run ended with the body still moving; their places are unknown.
+    """
+    noise_ratio: NotRequired[Optional[float]]
+    """
+    Variance of the density over that with independent draws, from differences between parts
+    of the members: 1 of independent ones, less of a balanced design.
+    """
+    regions: List[Region]
+    """
+    Regions, in the order in which they were asked for.
+    """
+    too_few_members_for: List[float]
+    """
+    Probabilities asked for whose region takes more members.
+    """
+
+
+class SensitivityMeasures3(TypedDict):
+    """
+    First-order indices of any other design with random members.
+    """
+
+    first_order: FirstOrderIndices
+    """
+    First-order indices of any other design with random members.
+    """
+
+
 Shape: TypeAlias = Union[
     CubeShape,
     BoxShape,
@@ -1650,6 +2765,90 @@ Shape: TypeAlias = Union[
 """
 Shape of a body before rounding; rounding does not move its faces.
 """
+
+
+class SobolIndex(TypedDict):
+    """
+    Sobol' indices of one input.
+    """
+
+    first_order: StudyEstimate
+    """
+    Share of the variance that the input explains alone (Saltelli et al. 2010, table 2, b).
+    """
+    total: StudyEstimate
+    """
+    Share of the variance that the input has a part in (Jansen 1999).
+    """
+
+
+class SobolIndices(TypedDict):
+    """
+    Sobol' indices of a quantity.
+    """
+
+    inputs: List[SobolIndex]
+    """
+    Indices of the inputs, in their order.
+    """
+    rows: int
+    """
+    Rows of the design of which every member has the quantity.
+    """
+    rows_left_out: int
+    """
+    Rows left out because a member lacks it.
+    """
+
+
+class StudyAnswer1(TypedDict):
+    """
+    Where the body comes to rest.
+    """
+
+    rest: RestDistribution
+    """
+    Where the body comes to rest.
+    """
+
+
+class StudyAnswer2(TypedDict):
+    """
+    Probability of each threshold.
+    """
+
+    exceeds: List[Exceedance]
+    """
+    Probability of each threshold.
+    """
+
+
+class StudyChanges(TypedDict):
+    """
+    Changes to a study; what is left out stays.
+    """
+
+    design: NotRequired[Optional[Design]]
+    questions: NotRequired[Optional[List[StudyQuestion]]]
+    """
+    Other questions.
+    """
+    stop: NotRequired[Optional[StoppingRule]]
+
+
+class StudyPage(TypedDict):
+    """
+    A page of studies, newest first.
+    """
+
+    next_cursor: Optional[str]
+    """
+    Value of `cursor` for the next page; null on the last page.
+    """
+    studies: List[StudySummary]
+    """
+    The studies of this page.
+    """
 
 
 class Trajectory(TypedDict):
@@ -1739,6 +2938,66 @@ class Body(TypedDict):
     yaw_deg: NotRequired[float]
     """
     Turn about the normal of the bed under the centre, x towards y [°].
+    """
+
+
+class Distribution2(TypedDict):
+    """
+    Normal, perhaps truncated.
+    """
+
+    normal: NormalDistribution
+    """
+    Normal, perhaps truncated.
+    """
+
+
+Distribution: TypeAlias = Union[
+    Distribution1,
+    Distribution2,
+    Distribution3,
+    Distribution4,
+    Distribution5,
+    Distribution6,
+]
+"""
+Distribution of one input.
+"""
+
+
+class ListedMember(TypedDict):
+    """
+    A member of a study.
+    """
+
+    job: Optional[str]
+    """
+    Its job, which other studies may share; null if its scenario is not allowed.
+    """
+    member: int
+    """
+    Number in the design.
+    """
+    outcome: Optional[MemberOutcome]
+    status: Optional[JobStatus]
+    values: List[Any]
+    """
+    Values of its inputs, in the order of the study's.
+    """
+
+
+class MemberPage(TypedDict):
+    """
+    Members of a study, in the order of the design.
+    """
+
+    members: List[ListedMember]
+    """
+    The members of this page.
+    """
+    next: Optional[int]
+    """
+    Value of `from` for the next page; null on the last page.
     """
 
 
@@ -1845,6 +3104,69 @@ class ScenarioInput(TypedDict):
     """
 
 
+class SensitivityMeasures1(TypedDict):
+    """
+    First-order and total indices of a Saltelli design.
+    """
+
+    sobol: SobolIndices
+    """
+    First-order and total indices of a Saltelli design.
+    """
+
+
+SensitivityMeasures: TypeAlias = Union[
+    SensitivityMeasures1,
+    SensitivityMeasures2,
+    SensitivityMeasures3,
+]
+"""
+Sensitivity of a quantity, by the method that the design is for.
+"""
+
+
+class StudyAnswer5(TypedDict):
+    """
+    Inputs that the quantity depends on; none if it does not vary or too few members have it.
+    """
+
+    sensitivity: Optional[SensitivityMeasures]
+
+
+StudyAnswer: TypeAlias = Union[StudyAnswer1, StudyAnswer2, StudyAnswer3, StudyAnswer4, StudyAnswer5]
+"""
+Answer to a question, of the question's name.
+"""
+
+
+class StudyAnswers(TypedDict):
+    """
+    Answers to a study.
+    """
+
+    answers: List[StudyAnswer]
+    """
+    Answers, in the order of the questions.
+    """
+    members: MemberCounts
+    """
+    Members by the fate of their runs.
+    """
+
+
+class StudyInput(TypedDict):
+    """
+    Uncertain input.
+    """
+
+    distribution: NotRequired[Optional[Distribution]]
+    pointer: str
+    """
+    Place in the scenario, a JSON pointer (RFC 6901) to what is there or to a new key of an
+    object that is there.
+    """
+
+
 class BatchJob(TypedDict):
     """
     One of many scenarios.
@@ -1940,6 +3262,54 @@ class Results(TypedDict):
     trajectory: NotRequired[Link]
     """
     Trajectory of the first body; absent without a body.
+    """
+
+
+class Study(TypedDict):
+    """
+    Study: a scenario, its uncertain inputs, the design of the members, and the questions.
+    """
+
+    correlations: NotRequired[List[Correlation]]
+    """
+    Rank correlations of pairs of inputs; all other pairs are independent.
+    """
+    design: Design
+    """
+    Design of the members.
+    """
+    inputs: List[StudyInput]
+    """
+    Uncertain inputs, at least one.
+    """
+    questions: NotRequired[List[StudyQuestion]]
+    """
+    Questions to be answered.
+    """
+    scenario: Any
+    """
+    Scenario that every member changes; what is in it is none of the study's business.
+    """
+    stop: NotRequired[Optional[StoppingRule]]
+    title: NotRequired[str]
+    """
+    Free text.
+    """
+
+
+class StudyState(StudySummary):
+    """
+    A study.
+    """
+
+    problem: Optional[Failure]
+    study: Study
+    """
+    The study, as enlarged last.
+    """
+    submitter: Optional[str]
+    """
+    Name of the access token of the submitter; null if none is required.
     """
 
 

@@ -17,7 +17,7 @@ mod status_info;
 
 pub(super) use process::Process;
 
-use crate::jobs::JobService;
+use crate::http::services::Services;
 use axum::Router;
 use axum::routing::get;
 use utoipa_axum::router::OpenApiRouter;
@@ -27,7 +27,7 @@ use utoipa_axum::routes;
 pub(super) const TAG: &str = "ogc";
 
 /// Requests that are answered at once.
-pub(super) fn quick() -> OpenApiRouter<JobService> {
+pub(super) fn quick() -> OpenApiRouter<Services> {
     OpenApiRouter::new()
         .routes(routes!(landing::landing_page))
         .routes(routes!(landing::conformance))
@@ -39,12 +39,12 @@ pub(super) fn quick() -> OpenApiRouter<JobService> {
 
 /// The landing page for clients that append to the address of the service. The contract has paths
 /// without a final slash.
-pub(super) fn beside_the_contract() -> Router<JobService> {
+pub(super) fn beside_the_contract() -> Router<Services> {
     Router::new().route("/ogc/", get(landing::landing_page))
 }
 
 /// Requests that may wait for a run.
-pub(super) fn waiting() -> OpenApiRouter<JobService> {
+pub(super) fn waiting() -> OpenApiRouter<Services> {
     OpenApiRouter::new()
         .routes(routes!(execution::execute))
         .routes(routes!(jobs::job_status, jobs::dismiss_job))

@@ -1,0 +1,26 @@
+//! State of the router: the services that requests use.
+
+use crate::jobs::JobService;
+use crate::studies::StudyService;
+use axum::extract::FromRef;
+
+/// Services that requests use.
+#[derive(Debug, Clone)]
+pub struct Services {
+    /// Jobs.
+    pub jobs: JobService,
+    /// Studies.
+    pub studies: StudyService,
+}
+
+impl FromRef<Services> for JobService {
+    fn from_ref(services: &Services) -> Self {
+        services.jobs.clone()
+    }
+}
+
+impl FromRef<Services> for StudyService {
+    fn from_ref(services: &Services) -> Self {
+        services.studies.clone()
+    }
+}

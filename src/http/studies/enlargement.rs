@@ -1,0 +1,119 @@
+//! Enlargement of a study.
+
+use super::documents::StudyDocument;
+use super::named::{NamedStudy, changeable, unknown_study};
+use super::validation::validated;
+use crate::http::access::Caller;
+use crate::http::field_errors::FieldError;
+use crate::http::problem::Problem;
+use crate::http::query::Query;
+use crate::http::scenario_body::{ScenarioText, read_envelope};
+use crate::jobs::JobService;
+use crate::jobs::store::Enlarged;
+use crate::studies::StudyService;
+use axum::Json;
+use axum::extract::{RawQuery, State};
+use axum::http::StatusCode;
+use scree_studies::{Design, Question, Stop, Study};
+use serde::Deserialize;
+use serde_json::Value;
+use utoipa::ToSchema;
+
+/// Changes to a study; what is left out stays.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+#[schema(as = StudyChanges)]
+pub(super) struct ChangesDocument {
+    /// A design that has the present one's members first.
+    design: Option<Design>,
+    /// Another stopping rule.
+    stop: Option<Stop>,
+    /// Other questions.
+    questions: Option<Vec<Question>>,
+}
+
+impl ChangesDocument {
+    fn applied(self, study: Study) -> Result<Study, Problem> {
+        let design = match self.design {
+            Some(design) if !study.design.can_be_enlarged_to(&design) => {
+                return Err(not_larger());
+            }
+            Some(design) => design,
+            None => study.design,
+        };
+        Ok(Study {
+            design,
+            stop: self.stop.or(study.stop),
+            questions: self.questions.unwrap_or(study.questions),
+            ..study
+        })
+    }
+}
+
+fn not_larger() -> Problem {
+    let allowed = "a design of the same kind and seed that has the present one's members first";
+    let fault = FieldError::of_body("/design", Value::Null, allowed);
+    let status = StatusCode::UNPROCESSABLE_ENTITY;
+    Problem {
+        errors: vec![fault],
+        ..Problem::new(status, "invalid-study", "Invalid study", allowed)
+    }
+}
+
+/// Enlarge a study
+///
+/// With a larger design no run is lost: its first members are those there already. A study that
+/// has ended successfully goes on. Its stopping rule and its questions may be changed, too.
+#[utoipa::path(
+    patch,
+    path = "/v1/studies/{id}",
+    tag = "studies",
+    params(("id" = String, Path, format = Uuid, description = "Identifier of the study")),
+    request_body = ChangesDocument,
+    responses(
+        (status = 200, description = "The study, which runs", body = StudyDocument),
+        (status = 400, description = "The body is not JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The study is another's", body = Problem, content_type = "application/problem+json"),
+        (status = 408, description = "The body took too long", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "The study has failed or is dismissed", body = Problem, content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large", body = Problem, content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The study breaks rules (`errors` has them all)", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
+        (status = 507, description = "The disk is full", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(in crate::http) async fn enlarge(
+    State(jobs): State<JobService>,
+    State(studies): State<StudyService>,
+    caller: Caller,
+    NamedStudy(id): NamedStudy,
+    RawQuery(query): RawQuery,
+    ScenarioText(text): ScenarioText,
+) -> Result<Json<StudyDocument>, Problem> {
+    Query::new(query.as_deref()).finish()?;
+    let stored = changeable(&studies, &caller, &id).await?;
+    let changes: ChangesDocument = read_envelope(&text, ("invalid-study", "Invalid study"))?;
+    let study: Study =
+        serde_json::from_str(stored.document.get()).map_err(|error| Problem::internal(&error))?;
+    let study = validated(&jobs, &caller, changes.applied(study)?).await?;
+    let document = serde_json::to_string(&study).map_err(|error| Problem::internal(&error))?;
+    match studies.enlarge(stored.id, &document).await? {
+        // No former document is asked for, so that none can be another.
+        Enlarged::Done | Enlarged::Changed => {}
+        Enlarged::Unknown => return Err(unknown_study(&id)),
+        Enlarged::Ended(status) => {
+            let detail = format!("study {id} is {}: it can't go on", status.word());
+            let title = "The study has ended";
+            return Err(Problem::new(
+                StatusCode::CONFLICT,
+                "study-ended",
+                title,
+                detail,
+            ));
+        }
+    }
+    let stored = studies.study(stored.id).await?;
+    let stored = stored.ok_or_else(|| unknown_study(&id))?;
+    Ok(Json(StudyDocument::from(stored)))
+}

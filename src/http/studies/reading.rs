@@ -1,0 +1,140 @@
+//! Studies and their answers, read.
+
+use super::documents::{StudyDocument, StudyPageDocument, StudySummaryDocument};
+use super::named::{NamedStudy, readable};
+use crate::http::access::Caller;
+use crate::http::etag;
+use crate::http::problem::Problem;
+use crate::http::query::Query;
+use crate::jobs::JobService;
+use crate::jobs::store::StudyPage;
+use crate::studies::StudyService;
+use crate::studies::service;
+use crate::studies::study::StudyStatus;
+use axum::extract::{RawQuery, State};
+use axum::http::HeaderMap;
+use axum::response::Response;
+use scree_studies::Answers;
+
+/// Default number of studies per page.
+const DEFAULT_LIMIT: u32 = 20;
+
+/// Largest number of studies per page.
+const LARGEST_LIMIT: u32 = 100;
+
+/// List studies, newest first
+///
+/// A page at a time: `next_cursor` of one is the `cursor` of the next, with the same filter.
+#[utoipa::path(
+    get,
+    path = "/v1/studies",
+    tag = "studies",
+    params(
+        ("status" = Option<StudyStatus>, Query, description = "Only studies of this state"),
+        ("limit" = Option<u32>, Query, description = "Most studies of the page", minimum = 1, maximum = 100),
+        ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
+        ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
+    ),
+    responses(
+        (status = 200, description = "A page of studies", body = StudyPageDocument),
+        (status = 304, description = "It is what `If-None-Match` names"),
+    )
+)]
+pub(in crate::http) async fn list(
+    State(studies): State<StudyService>,
+    headers: HeaderMap,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let mut query = Query::new(query.as_deref());
+    let status = query.choice("status");
+    let before = query.word("cursor", "the next_cursor of another page", cursor::read);
+    let limit = query.whole("limit", 1..=LARGEST_LIMIT);
+    let limit = limit.unwrap_or(DEFAULT_LIMIT);
+    query.finish()?;
+    let page = StudyPage {
+        status,
+        before,
+        limit: limit + 1,
+    };
+    let mut found = studies.studies(&page).await?;
+    let is_more = found.len() > limit as usize;
+    found.truncate(limit as usize);
+    let last = found.last().filter(|_| is_more);
+    let document = StudyPageDocument {
+        next_cursor: last.map(|study| cursor::write(study.sequence)),
+        studies: found.iter().map(StudySummaryDocument::from).collect(),
+    };
+    etag::json(&headers, &document)
+}
+
+/// Get a study
+#[utoipa::path(
+    get,
+    path = "/v1/studies/{id}",
+    tag = "studies",
+    params(
+        ("id" = String, Path, format = Uuid, description = "Identifier of the study"),
+        ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
+    ),
+    responses(
+        (status = 200, description = "The study", body = StudyDocument),
+        (status = 304, description = "It is what `If-None-Match` names"),
+    )
+)]
+pub(in crate::http) async fn show(
+    State(studies): State<StudyService>,
+    caller: Caller,
+    NamedStudy(id): NamedStudy,
+    headers: HeaderMap,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    Query::new(query.as_deref()).finish()?;
+    let study = readable(&studies, &caller, &id).await?;
+    etag::json(&headers, &StudyDocument::from(study))
+}
+
+/// Get the answers of a study
+///
+/// From the members that have ended so far, each with its uncertainty: members that failed, wait or
+/// run could have come out in any way, and widen the bounds.
+#[utoipa::path(
+    get,
+    path = "/v1/studies/{id}/answers",
+    tag = "studies",
+    params(
+        ("id" = String, Path, format = Uuid, description = "Identifier of the study"),
+        ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
+    ),
+    responses(
+        (status = 200, description = "The answers", body = Answers),
+        (status = 304, description = "It is what `If-None-Match` names"),
+        (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(in crate::http) async fn answers(
+    State(jobs): State<JobService>,
+    State(studies): State<StudyService>,
+    caller: Caller,
+    NamedStudy(id): NamedStudy,
+    headers: HeaderMap,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    Query::new(query.as_deref()).finish()?;
+    let study = readable(&studies, &caller, &id).await?;
+    let place = jobs.enter(&caller.share())?;
+    let outcomes = studies.outcomes(study.id).await?;
+    let answers = place.work(move |_| service::answers(study.document.get(), &outcomes));
+    let (_, answers) = answers.await?.map_err(|error| Problem::internal(&error))?;
+    etag::json(&headers, &answers)
+}
+
+/// Position in the list after which a page begins; opaque to clients.
+mod cursor {
+    pub(super) fn write(sequence: i64) -> String {
+        format!("s{sequence:x}")
+    }
+
+    pub(super) fn read(text: &str) -> Option<i64> {
+        i64::from_str_radix(text.strip_prefix('s')?, 16).ok()
+    }
+}

@@ -1,0 +1,144 @@
+//! Validation of a study: its own rules, and those of the scenarios at the ends of its inputs.
+
+use crate::http::access::Caller;
+use crate::http::field_errors::{FieldError, FieldErrors};
+use crate::http::problem::Problem;
+use crate::jobs::JobService;
+use crate::jobs::submit::{ScenarioError, Violation};
+use axum::http::StatusCode;
+use scree_studies::{EndScenario, Ensemble, Study};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::time::{Duration, Instant};
+
+/// Longest time for which scenarios are checked before others have their turn.
+const SLICE: Duration = Duration::from_millis(50);
+
+/// Checks a study in the caller's place in the admission pool: nothing is computed unless both
+/// ends of every input are allowed.
+///
+/// # Errors
+/// All violations at once, each with a pointer into the study.
+pub(super) async fn validated(
+    jobs: &JobService,
+    caller: &Caller,
+    study: Study,
+) -> Result<Study, Problem> {
+    let place = jobs.enter(&caller.share())?;
+    let mut checking = Checking::new(jobs.clone(), study);
+    while !checking.is_done() {
+        checking = place.work(move |_| checking.slice()).await?;
+    }
+    checking.finish()
+}
+
+/// A study whose scenarios are being checked.
+struct Checking {
+    jobs: JobService,
+    study: Study,
+    left: std::vec::IntoIter<EndScenario>,
+    /// Pointers and values of the faults so far.
+    seen: BTreeSet<(String, String)>,
+    wrong: FieldErrors,
+}
+
+impl Checking {
+    fn new(jobs: JobService, study: Study) -> Self {
+        let mut wrong = FieldErrors::default();
+        let ends = match Ensemble::of(&study) {
+            Ok(ensemble) => ensemble.end_scenarios(),
+            Err(violations) => {
+                let document = serde_json::to_value(&study).unwrap_or_default();
+                for violation in violations {
+                    wrong.add(|| of_study(&document, violation));
+                }
+                Vec::new()
+            }
+        };
+        Self {
+            jobs,
+            study,
+            left: ends.into_iter(),
+            seen: BTreeSet::new(),
+            wrong,
+        }
+    }
+
+    fn is_done(&self) -> bool {
+        self.left.len() == 0
+    }
+
+    /// Checks some of the scenarios, at least one.
+    fn slice(mut self) -> Self {
+        let began = Instant::now();
+        while let Some(end) = self.left.next() {
+            self.check(&end);
+            if began.elapsed() >= SLICE {
+                break;
+            }
+        }
+        self
+    }
+
+    fn check(&mut self, end: &EndScenario) {
+        let text = end.scenario.to_string();
+        let violations = match self.jobs.validate(&text, Vec::new()) {
+            Ok(_) => return,
+            Err(ScenarioError::Invalid(violations)) => violations,
+            Err(ScenarioError::Malformed { message, .. }) => {
+                let fault = || FieldError::of_body("/scenario", Value::Null, &message);
+                return self.wrong.add(fault);
+            }
+        };
+        for violation in violations {
+            // The same fault shows at each end of the other inputs.
+            let fault = (violation.pointer.clone(), violation.value.to_string());
+            if self.seen.insert(fault) {
+                self.wrong.add(|| of_end(&self.study, end, violation));
+            }
+        }
+    }
+
+    fn finish(self) -> Result<Study, Problem> {
+        if self.wrong.is_empty() {
+            return Ok(self.study);
+        }
+        let status = StatusCode::UNPROCESSABLE_ENTITY;
+        let detail = self.wrong.summary();
+        Err(Problem {
+            errors: self.wrong.into_list(),
+            ..Problem::new(status, "invalid-study", "Invalid study", detail)
+        })
+    }
+}
+
+fn of_study(document: &Value, violation: scree_studies::Violation) -> FieldError {
+    FieldError {
+        value: document
+            .pointer(&violation.pointer)
+            .cloned()
+            .unwrap_or_default(),
+        allowed: violation.allowed().to_owned(),
+        pointer: Some(violation.pointer),
+        parameter: None,
+        unit: None,
+        detail: violation.message,
+    }
+}
+
+/// A violation of the scenario at an end of an input: of an input's distribution if it is about
+/// that input's place, else of the study's scenario.
+fn of_end(study: &Study, end: &EndScenario, violation: Violation) -> FieldError {
+    let mut inputs = study.inputs.iter();
+    let pointer = match inputs.position(|input| input.pointer == violation.pointer) {
+        Some(input) => format!("/inputs/{input}/distribution"),
+        None => format!("/scenario{}", violation.pointer),
+    };
+    let place = &study.inputs[end.input].pointer;
+    let detail = format!("with {place} = {}: {}", end.value, violation.detail);
+    FieldError {
+        pointer: Some(pointer),
+        detail,
+        ..FieldError::from(violation)
+    }
+}
