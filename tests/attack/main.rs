@@ -15,6 +15,7 @@ mod load;
 #[cfg(target_os = "linux")]
 mod saturation;
 mod served;
+mod studies;
 
 /// One attack at a time, since concurrent ones would change each other's figures.
 pub(crate) fn turn() -> MutexGuard<'static, ()> {
