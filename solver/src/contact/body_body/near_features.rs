@@ -44,7 +44,7 @@ struct NearEdge {
 impl NearFeatures {
     /// True if all features that may touch are listed.
     pub(super) fn are_listed(&self) -> bool {
-        self.is_listed && self.margin > 0.0 && !*NOLIST
+        self.is_listed && self.margin > 0.0
     }
 
     /// Distance by which the bodies may come nearer before a feature that is not listed touches [m].
@@ -160,6 +160,3 @@ impl Bounds {
         (0..3).all(|axis| other.low[axis] < self.high[axis] && other.high[axis] > self.low[axis])
     }
 }
-
-static NOLIST: std::sync::LazyLock<bool> =
-    std::sync::LazyLock::new(|| std::env::var("NOLIST").is_ok());
