@@ -55,8 +55,8 @@ pub use distribution::{
 };
 pub use outcome::{Finished, Member, MemberBody, MemberOutcome};
 pub use study::{
-    Buried, EndScenario, Ensemble, Exceeds, Input, NoSuchMember, Progress, Quantiles, Question,
-    Rest, Sensitivity, Stop, Study, Verdict, Violation,
+    Buried, End, EndScenario, Ensemble, Exceeds, Input, NoSuchMember, Progress, Quantiles,
+    Question, Rest, Sensitivity, Stop, Study, Verdict, Violation,
 };
 
 /// Confidence of every interval in the answers.

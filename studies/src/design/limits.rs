@@ -29,14 +29,6 @@ pub(super) fn too_many(members: u64) -> Option<Violation> {
     })
 }
 
-/// More inputs than the Sobol' points have dimensions for.
-pub(super) fn too_many_inputs(inputs: usize, most: usize) -> Option<Violation> {
-    (inputs > most).then(|| {
-        let message = format!("the study has {inputs} inputs, allowed: at most {most}");
-        Violation::new("", message)
-    })
-}
-
 /// Middle of one of so many equally likely levels.
 pub(super) fn middle(level: u64, levels: u64) -> f64 {
     (level as f64 + 0.5) / levels as f64

@@ -146,11 +146,11 @@ impl Design {
     /// All that is wrong with the design for so many inputs; each pointer begins at the design.
     pub fn violations(&self, inputs: usize) -> Vec<Violation> {
         let (key, mut found) = match self {
-            Self::Sobol(sobol) => ("sobol", sobol.violations(inputs)),
+            Self::Sobol(sobol) => ("sobol", sobol.violations()),
             Self::LatinHypercube(latin) => ("latin_hypercube", latin.violations()),
             Self::FullFactorial(factorial) => ("full_factorial", factorial.violations(inputs)),
             Self::Morris(morris) => ("morris", morris.violations()),
-            Self::Saltelli(saltelli) => ("saltelli", saltelli.violations(inputs)),
+            Self::Saltelli(saltelli) => ("saltelli", saltelli.violations()),
             Self::OneAtATime(one) => ("one_at_a_time", one.violations()),
             Self::Explicit(explicit) => ("explicit", explicit.violations(inputs)),
         };

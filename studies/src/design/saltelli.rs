@@ -29,9 +29,8 @@ impl Saltelli {
         (0..inputs).map(coordinate).collect()
     }
 
-    pub(super) fn violations(&self, inputs: usize) -> Vec<Violation> {
+    pub(super) fn violations(&self) -> Vec<Violation> {
         let members = limits::power_of_two("/base_members", self.base_members);
-        let inputs = limits::too_many_inputs(inputs, sobol::DIMENSIONS / 2);
-        members.into_iter().chain(inputs).collect()
+        members.into_iter().collect()
     }
 }

@@ -1,12 +1,16 @@
 //! Check of a study.
 
 use super::pointer::Pointer;
-use super::{Study, Violation};
+use super::{Study, Violation, sizes};
 use crate::correlation;
 use crate::design::Design;
 
 /// All violations of a study, in the order of the document.
 pub(super) fn violations(study: &Study) -> Vec<Violation> {
+    let too_large = sizes::violations(study);
+    if !too_large.is_empty() {
+        return too_large;
+    }
     [
         inputs(study),
         correlations(study),

@@ -4,6 +4,17 @@ use super::Ensemble;
 use crate::design::Design;
 use serde_json::Value;
 
+/// Extreme value of an input.
+#[derive(Debug, Clone, PartialEq)]
+pub struct End {
+    /// Index of the input.
+    pub input: usize,
+    /// Its value.
+    pub value: Value,
+    /// Member of an explicit design that has it.
+    member: Option<usize>,
+}
+
 /// Scenario with one input at an extreme value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EndScenario {
@@ -16,63 +27,79 @@ pub struct EndScenario {
 }
 
 impl Ensemble<'_> {
-    /// Scenarios for validation before the first run: each end of each input's distribution with
-    /// all other inputs at their medians. An explicit design has for each input the members with
-    /// its smallest and largest number, and the first member with each value that is no number.
-    pub fn end_scenarios(&self) -> Vec<EndScenario> {
+    /// Ends of the inputs, for validation before the first run: those of each input's distribution.
+    /// An explicit design has for each input the members with its smallest and largest number, and
+    /// the first member with each value that is no number.
+    pub fn ends(&self) -> Vec<End> {
         match &self.study().design {
-            Design::Explicit(explicit) => self.explicit_ends(&explicit.members),
+            Design::Explicit(explicit) => explicit_ends(&explicit.members, self.inputs()),
             _ => self.distribution_ends(),
         }
     }
 
-    fn distribution_ends(&self) -> Vec<EndScenario> {
-        let medians = self.quantiles(&vec![0.5; self.inputs()]);
+    /// Scenario at an end of an input: with all other inputs at their medians, or as the member of
+    /// an explicit design has it.
+    pub fn end_scenario(&self, end: &End) -> Value {
+        let values = match (&self.study().design, end.member) {
+            (Design::Explicit(explicit), Some(member)) => explicit.members[member].clone(),
+            _ => {
+                let mut values = self.quantiles(&vec![0.5; self.inputs()]);
+                values[end.input] = end.value.clone();
+                values
+            }
+        };
+        self.scenario_of(values)
+    }
+
+    /// Scenarios at all ends, one at a time.
+    pub fn end_scenarios(&self) -> impl Iterator<Item = EndScenario> {
+        self.ends().into_iter().map(|end| EndScenario {
+            scenario: self.end_scenario(&end),
+            input: end.input,
+            value: end.value,
+        })
+    }
+
+    fn distribution_ends(&self) -> Vec<End> {
         let inputs = self.study().inputs.iter().enumerate();
         let ends = inputs.flat_map(|(input, given)| {
             let ends = given.distribution.iter().flat_map(|one| one.ends());
-            ends.map(move |value| (input, value))
+            ends.map(move |value| End {
+                input,
+                value,
+                member: None,
+            })
         });
-        ends.map(|(input, value)| {
-            let mut values = medians.clone();
-            values[input] = value;
-            self.end(input, &values)
-        })
-        .collect()
-    }
-
-    fn explicit_ends(&self, members: &[Vec<Value>]) -> Vec<EndScenario> {
-        let inputs = 0..self.inputs();
-        let ends = inputs.flat_map(|input| {
-            let ends = extreme_members(members, input).into_iter();
-            ends.map(move |values| (input, values))
-        });
-        ends.map(|(input, values)| self.end(input, values))
-            .collect()
-    }
-
-    fn end(&self, input: usize, values: &[Value]) -> EndScenario {
-        EndScenario {
-            input,
-            value: values[input].clone(),
-            scenario: self.scenario_of(values.to_vec()),
-        }
+        ends.collect()
     }
 }
 
-/// Members with the extreme values of an input.
-fn extreme_members(members: &[Vec<Value>], input: usize) -> Vec<&Vec<Value>> {
-    let number = |member: &&Vec<Value>| member[input].as_f64();
-    let numbers = || members.iter().filter(|member| number(member).is_some());
-    let compared = |one: &&Vec<Value>, other: &&Vec<Value>| {
+fn explicit_ends(members: &[Vec<Value>], inputs: usize) -> Vec<End> {
+    let ends = (0..inputs).flat_map(|input| {
+        let members = extreme_members(members, input).into_iter();
+        members.map(move |(place, member)| End {
+            input,
+            value: member[input].clone(),
+            member: Some(place),
+        })
+    });
+    ends.collect()
+}
+
+/// Members with the extreme values of an input, with their places.
+fn extreme_members(members: &[Vec<Value>], input: usize) -> Vec<(usize, &Vec<Value>)> {
+    let all = || members.iter().enumerate();
+    let number = |member: &(usize, &Vec<Value>)| member.1[input].as_f64();
+    let numbers = || all().filter(|member| number(member).is_some());
+    let compared = |one: &(usize, &Vec<Value>), other: &(usize, &Vec<Value>)| {
         let (one, other) = (number(one), number(other));
         one.partial_cmp(&other).unwrap_or(std::cmp::Ordering::Equal)
     };
     let ends = [numbers().min_by(compared), numbers().max_by(compared)];
-    let mut found: Vec<&Vec<Value>> = Vec::new();
-    let others = members.iter().filter(|member| number(member).is_none());
+    let mut found: Vec<(usize, &Vec<Value>)> = Vec::new();
+    let others = all().filter(|member| number(member).is_none());
     for member in ends.into_iter().flatten().chain(others) {
-        if found.iter().all(|one| one[input] != member[input]) {
+        if found.iter().all(|one| one.1[input] != member.1[input]) {
             found.push(member);
         }
     }

@@ -5,10 +5,11 @@ mod ends;
 mod ensemble;
 mod pointer;
 mod question;
+mod sizes;
 mod stop;
 mod violation;
 
-pub use ends::EndScenario;
+pub use ends::{End, EndScenario};
 pub use ensemble::{Ensemble, NoSuchMember};
 pub use question::{Buried, Exceeds, Quantiles, Question, Rest, Sensitivity};
 pub use stop::{Progress, Stop, Verdict};

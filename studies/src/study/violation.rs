@@ -32,7 +32,7 @@ impl Violation {
     }
 
     /// Violation of a field by its value.
-    pub(crate) fn of(pointer: &str, value: impl Display, allowed: impl Display) -> Self {
+    pub fn of(pointer: &str, value: impl Display, allowed: impl Display) -> Self {
         let field = field(pointer);
         Self::new(pointer, format!("{field} is {value}{ALLOWED}{allowed}"))
     }

@@ -58,7 +58,7 @@ fn a_pointer_reaches_new_keys_escaped_keys_and_items_of_lists() {
 fn end_scenarios_carry_each_end_with_the_others_at_their_medians() {
     let study = study(&document());
     let ensemble = Ensemble::of(&study).unwrap();
-    let ends = ensemble.end_scenarios();
+    let ends = ensemble.end_scenarios().collect::<Vec<_>>();
     let inputs: Vec<usize> = ends.iter().map(|end| end.input).collect();
     assert_eq!(inputs, [0, 0, 1, 1, 2, 2]);
     let median = json!({
@@ -93,7 +93,7 @@ fn no_member_lies_beyond_the_ends() {
     given["stop"] = Value::Null;
     let study = study(&given);
     let ensemble = Ensemble::of(&study).unwrap();
-    let ends = ensemble.end_scenarios();
+    let ends = ensemble.end_scenarios().collect::<Vec<_>>();
     for index in 0..ensemble.members() {
         for (input, value) in ensemble.values(index).unwrap().iter().enumerate() {
             let [low, high] = [0, 1].map(|end| ends[2 * input + end].value.as_f64().unwrap());
@@ -110,7 +110,7 @@ fn end_scenarios_of_an_explicit_design_are_members() {
         "design": {"explicit": {"members": [[2, "x"], [1, 5], [3, "y"], [2, "x"]]}}
     }));
     let ensemble = Ensemble::of(&study).unwrap();
-    let ends = ensemble.end_scenarios();
+    let ends = ensemble.end_scenarios().collect::<Vec<_>>();
     let found: Vec<(usize, Value)> = ends
         .iter()
         .map(|end| (end.input, end.scenario.clone()))

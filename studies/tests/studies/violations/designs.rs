@@ -1,7 +1,6 @@
 //! Violations by designs.
 
 use super::assert_refused;
-use crate::support::study;
 use serde_json::{Value, json};
 
 /// Asserts that a design gives a violation among others.
@@ -114,26 +113,4 @@ fn designs() {
         "/explicit/members/1",
         "members[1] has 2 values, allowed: 3, one for each input",
     );
-}
-
-#[test]
-fn more_inputs_than_the_sobol_points_have_dimensions() {
-    let input = |place: usize| json!({"pointer": format!("/{place}"), "distribution": {"list": {"values": [1]}}});
-    for (design, inputs, most) in [("sobol", 257, 256), ("saltelli", 129, 128)] {
-        let key = if design == "sobol" {
-            "members"
-        } else {
-            "base_members"
-        };
-        let study = study(&json!({
-            "scenario": {},
-            "inputs": (0..inputs).map(input).collect::<Vec<Value>>(),
-            "design": {design: {key: 2, "seed": 1}}
-        }));
-        let found = study.violations();
-        assert_eq!(found.len(), 1);
-        assert_eq!(found[0].pointer, format!("/design/{design}"));
-        let message = format!("the study has {inputs} inputs, allowed: at most {most}");
-        assert_eq!(found[0].message, message);
-    }
 }

@@ -88,3 +88,29 @@ fn all_violations_come_at_once_and_no_ensemble_has_any() {
     assert_eq!(found, expected);
     assert_eq!(Ensemble::of(&study).unwrap_err(), study.violations());
 }
+
+#[test]
+fn what_is_too_large_is_told_before_anything_else_is_looked_at() {
+    let input = |place: usize| {
+        json!({"pointer": format!("/{place}"),
+               "distribution": {"uniform": {"from": 0.0, "to": 1.0}}})
+    };
+    let mut given = document();
+    given["inputs"] = (0..101).map(input).collect();
+    let question = given["questions"][0].clone();
+    given["questions"] = vec![question; 33].into();
+    let pointers = |given: &Value| -> Vec<String> {
+        let found = study(given).violations();
+        found.into_iter().map(|one| one.pointer).collect()
+    };
+    assert_eq!(pointers(&given), ["/inputs", "/questions"]);
+
+    let mut given = document();
+    given["inputs"][0]["distribution"] = json!({"list": {"values": vec![0.3; 1_001]}});
+    given["questions"][1]["exceeds"]["thresholds"] = json!(vec![0.1; 101]);
+    let expected = [
+        "/inputs/0/distribution/list/values",
+        "/questions/1/exceeds/thresholds",
+    ];
+    assert_eq!(pointers(&given), expected);
+}
