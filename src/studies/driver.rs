@@ -115,6 +115,8 @@ async fn advance(studies: &StudyService, stored: StoredStudy) -> Result<(), Driv
         Step::Members(members) => {
             if studies.store.add_members(id, &members).await? > 0 {
                 studies.jobs.announce();
+                // Members without a new job end without an event.
+                studies.changed.notify_one();
             }
         }
         Step::Wait => {}
@@ -133,12 +135,8 @@ async fn conclude(studies: &StudyService, stored: &StoredStudy) -> Result<(), Dr
         Conclusion::Enlarge(larger) => {
             let larger = serde_json::to_string(&larger);
             let larger = larger.map_err(|error| DriveError::Study(error.to_string()))?;
-            studies
-                .store
-                .enlarge_study(id, (Some(document), &larger))
-                .await?;
+            studies.enlarge(stored, &larger).await?;
             info!(%id, "enlarged by its stopping rule");
-            studies.changed.notify_one();
         }
         Conclusion::End => {
             let end = StudyEnd {

@@ -8,6 +8,7 @@ pub mod local;
 pub mod members;
 pub mod outcome;
 pub mod plan;
+pub mod questions;
 pub mod schedule;
 pub mod service;
 pub mod study;

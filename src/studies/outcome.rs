@@ -7,6 +7,32 @@ use scree_studies::{Finished, MemberBody, MemberOutcome};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
+/// Quantities of the flow and of the whole run that a question may ask for.
+pub(super) const FLOW_QUANTITIES: [&str; 5] = [
+    "front_m",
+    "runout_m",
+    "outflow_mass_kg",
+    "point_steps",
+    "wall_s",
+];
+
+/// Quantities of a body that a question may ask for.
+pub(super) const BODY_QUANTITIES: [&str; 13] = [
+    "displacement_m",
+    "path_length_m",
+    "peak_speed_m_s",
+    "peak_speed_time_s",
+    "first_contact_time_s",
+    "onset_time_s",
+    "stop_time_s",
+    "rest_x_m",
+    "rest_y_m",
+    "rest_z_m",
+    "buried_m",
+    "hit",
+    "moving",
+];
+
 /// Outcome of a member whose job has ended.
 pub(super) fn of_ended(ended: &EndedMember) -> MemberOutcome {
     match ended.status {

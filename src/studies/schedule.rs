@@ -3,6 +3,7 @@
 use super::study::MemberCounts;
 use scree_studies::answers::{RestDistribution, RestingPlaces};
 use scree_studies::{Ensemble, Member, Progress, Question, Stop, Study, Verdict};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// What a study does next.
@@ -46,10 +47,15 @@ pub fn conclusion(ensemble: &Ensemble, outcomes: &[Member]) -> Conclusion {
     let study = ensemble.study();
     match (&study.stop, study.design.doubled()) {
         (Some(stop), Some(design)) if verdict(ensemble, stop, outcomes) == Verdict::Double => {
-            Conclusion::Enlarge(Box::new(Study {
+            let larger = Study {
                 design,
                 ..study.clone()
-            }))
+            };
+            // A design may not grow beyond its own limits.
+            match larger.violations().is_empty() {
+                true => Conclusion::Enlarge(Box::new(larger)),
+                false => Conclusion::End,
+            }
         }
         _ => Conclusion::End,
     }
@@ -57,32 +63,37 @@ pub fn conclusion(ensemble: &Ensemble, outcomes: &[Member]) -> Conclusion {
 
 /// Verdict of the stopping rule on a design all of whose members have an outcome.
 fn verdict(ensemble: &Ensemble, stop: &Stop, outcomes: &[Member]) -> Verdict {
-    let half = ensemble.members() / 2;
-    let first_half: Vec<Member> = outcomes
-        .iter()
-        .filter(|member| member.index < half)
-        .cloned()
-        .collect();
+    let of_first = |members: u64| -> Vec<Member> {
+        let first = outcomes.iter().filter(|member| member.index < members);
+        first.cloned().collect()
+    };
+    // A former, larger design may have left more.
+    let (first_half, all) = (
+        of_first(ensemble.members() / 2),
+        of_first(ensemble.members()),
+    );
     let questions = ensemble.study().questions.iter();
-    let watched = questions.filter_map(|question| match question {
-        Question::Rest(rest) if rest.regions.contains(&stop.region) => Some(rest.body),
-        _ => None,
-    });
+    let watched: BTreeSet<usize> = questions
+        .filter_map(|question| match question {
+            Question::Rest(rest) if rest.regions.contains(&stop.region) => Some(rest.body),
+            _ => None,
+        })
+        .collect();
     let area = |members: &[Member], body: usize| {
         let places = RestingPlaces::of(ensemble, members, body);
         let distribution = RestDistribution::of(&places, &[stop.region]);
-        distribution
-            .regions
-            .first()
-            .map_or(0.0, |region| region.area_m2)
+        let region = distribution.regions.first();
+        // Without a region nothing is settled.
+        region.map_or(f64::NAN, |region| region.area_m2)
     };
     let areas_m2 = watched
-        .map(|body| [area(&first_half, body), area(outcomes, body)])
+        .into_iter()
+        .map(|body| [area(&first_half, body), area(&all, body)])
         .collect();
     stop.verdict(&Progress {
         areas_m2,
         members: ensemble.members(),
-        point_steps: point_steps(outcomes),
+        point_steps: point_steps(&all),
     })
 }
 
@@ -106,6 +117,35 @@ mod tests {
             "design": {"sobol": {"members": members, "seed": 1}},
         });
         serde_json::from_value(document).unwrap()
+    }
+
+    fn stopping(members: u64) -> Study {
+        let mut study = study(members);
+        let rest = json!([{"rest": {"body": 0, "regions": [0.9]}}]);
+        study.questions = serde_json::from_value(rest).unwrap();
+        let stop = json!({"region": 0.9, "area_changes_less_than": 0.05, "max_members": 1_048_576});
+        study.stop = serde_json::from_value(stop).unwrap();
+        study
+    }
+
+    #[test]
+    fn a_design_without_a_region_yet_is_doubled() {
+        let study = stopping(8);
+        let ensemble = Ensemble::of(&study).unwrap();
+        let Conclusion::Enlarge(larger) = conclusion(&ensemble, &[]) else {
+            panic!("it ended without a region");
+        };
+        assert_eq!(larger.members(), 16);
+    }
+
+    #[test]
+    fn a_design_that_can_not_grow_any_more_is_the_end() {
+        let study = Study {
+            stop: None,
+            ..stopping(1_048_576)
+        };
+        let ensemble = Ensemble::of(&study).unwrap();
+        assert_eq!(conclusion(&ensemble, &[]), Conclusion::End);
     }
 
     fn counts(made: u64, ended: u64) -> MemberCounts {

@@ -63,6 +63,13 @@ impl StudyService {
         MEMBERS_PER_WORKER * self.workers as u64
     }
 
+    fn room_for(&self, submitter: Option<&str>) -> Room {
+        Room {
+            queue: self.room,
+            submitter: submitter.map(|_| self.room_of_one()),
+        }
+    }
+
     /// Largest number of studies of one token that run at a time: half of all, so that none takes
     /// all places.
     pub fn room_of_one(&self) -> u32 {
@@ -90,10 +97,7 @@ impl StudyService {
             document,
             submitter,
             key,
-            room: Room {
-                queue: self.room,
-                submitter: submitter.map(|_| self.room_of_one()),
-            },
+            room: self.room_for(submitter),
         };
         let submitted = self.store.add_study(&new).await?;
         self.changed.notify_one();
@@ -129,12 +133,18 @@ impl StudyService {
         self.store.members(id, (0, from), limit).await
     }
 
-    /// Goes on with a larger document.
+    /// Goes on with another document instead of the one that it has.
     ///
     /// # Errors
     /// The store's own.
-    pub async fn enlarge(&self, id: StudyId, document: &str) -> Result<Enlarged, StoreError> {
-        let enlarged = self.store.enlarge_study(id, (None, document)).await?;
+    pub async fn enlarge(
+        &self,
+        study: &StoredStudy,
+        document: &str,
+    ) -> Result<Enlarged, StoreError> {
+        let documents = (study.document.get(), document);
+        let room = self.room_for(study.submitter.as_deref());
+        let enlarged = self.store.enlarge_study(study.id, documents, room).await?;
         self.changed.notify_one();
         Ok(enlarged)
     }

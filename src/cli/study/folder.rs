@@ -5,7 +5,7 @@ use crate::cli::files::{self, FileError, failed};
 use scree::studies::export;
 use scree_studies::{Answers, Ensemble, Member, Study};
 use std::fs::{self, OpenOptions};
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// File with the study.
@@ -44,7 +44,16 @@ impl StudyFolder {
                 }
                 self.members()?
             }
-            Err(_) => Vec::new(),
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                if self.0.join(MEMBERS).exists() {
+                    return Err(Failure::Input(format!(
+                        "{} holds members of an unknown study: name another directory, or remove it",
+                        self.0.display()
+                    )));
+                }
+                Vec::new()
+            }
+            Err(error) => return Err(Failure::path("read", &path, &error)),
         };
         let text = serde_json::to_string_pretty(study)?;
         files::replace(&path, text.as_bytes())?;

@@ -11,8 +11,8 @@ use super::machine::cores;
 use super::scenario_file;
 use folder::StudyFolder;
 use scree::runs::Stop;
-use scree::studies::local;
 use scree::studies::schedule::{Conclusion, conclusion};
+use scree::studies::{local, questions};
 use scree_solver::scenario::{Scenario, ScenarioError};
 use scree_studies::{Answers, Ensemble, Member, Study};
 use std::time::{Duration, Instant};
@@ -69,21 +69,22 @@ fn read(text: &str, name: &str) -> Result<Study, Failure> {
         .map_err(|error| Failure::Input(format!("{name} is no study: {error}")))?;
     let ensemble = Ensemble::of(&study)
         .map_err(|found| Failure::Input(format!("{name} breaks rules:\n{}", in_words(&found))))?;
+    let mut found = in_words(&questions::violations(&study));
     for end in ensemble.end_scenarios() {
-        if let Err(error) = Scenario::from_value(&end.scenario) {
-            let input = &study.inputs[end.input].pointer;
-            let why = match error {
-                ScenarioError::Invalid(found) => found
-                    .iter()
-                    .map(|violation| format!("\n  {}: {}", violation.pointer, violation.detail))
-                    .collect(),
-                error @ ScenarioError::Malformed { .. } => error.to_string(),
-            };
-            let value = &end.value;
-            return Err(Failure::Input(format!(
-                "{name} leads to scenarios that break rules; with {input} = {value}:{why}"
-            )));
-        }
+        let faults = match Scenario::from_value(&end.scenario) {
+            Ok(_) => continue,
+            Err(ScenarioError::Invalid(faults)) => faults
+                .iter()
+                .map(|fault| format!("\n    {}: {}", fault.pointer, fault.detail))
+                .collect(),
+            Err(error @ ScenarioError::Malformed { .. }) => error.to_string(),
+        };
+        let (place, value) = (&study.inputs[end.input].pointer, &end.value);
+        found.push_str(&format!("\n  with {place} = {value}:{faults}"));
+    }
+    if !found.is_empty() {
+        let found = found.trim_start_matches('\n');
+        return Err(Failure::Input(format!("{name} breaks rules:\n{found}")));
     }
     Ok(study)
 }

@@ -4,11 +4,13 @@ use crate::http::access::Caller;
 use crate::http::field_errors::{FieldError, FieldErrors};
 use crate::http::problem::Problem;
 use crate::jobs::JobService;
-use crate::jobs::submit::{ScenarioError, Violation};
+use crate::jobs::submit::{ScenarioError, Violation, excerpt};
+use crate::studies::questions;
 use axum::http::StatusCode;
-use scree_studies::{EndScenario, Ensemble, Study};
+use scree_studies::{End, Ensemble, Study};
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Longest time for which scenarios are checked before others have their turn.
@@ -25,7 +27,8 @@ pub(super) async fn validated(
     study: Study,
 ) -> Result<Study, Problem> {
     let place = jobs.enter(&caller.share())?;
-    let mut checking = Checking::new(jobs.clone(), study);
+    let checker = jobs.clone();
+    let mut checking = place.work(move |_| Checking::new(checker, study)).await?;
     while !checking.is_done() {
         checking = place.work(move |_| checking.slice()).await?;
     }
@@ -35,8 +38,8 @@ pub(super) async fn validated(
 /// A study whose scenarios are being checked.
 struct Checking {
     jobs: JobService,
-    study: Study,
-    left: std::vec::IntoIter<EndScenario>,
+    study: Arc<Study>,
+    left: std::vec::IntoIter<End>,
     /// Pointers and values of the faults so far.
     seen: BTreeSet<(String, String)>,
     wrong: FieldErrors,
@@ -46,7 +49,13 @@ impl Checking {
     fn new(jobs: JobService, study: Study) -> Self {
         let mut wrong = FieldErrors::default();
         let ends = match Ensemble::of(&study) {
-            Ok(ensemble) => ensemble.end_scenarios(),
+            Ok(ensemble) => {
+                for violation in questions::violations(&study) {
+                    let document = serde_json::to_value(&study).unwrap_or_default();
+                    wrong.add(|| of_study(&document, violation));
+                }
+                ensemble.ends()
+            }
             Err(violations) => {
                 let document = serde_json::to_value(&study).unwrap_or_default();
                 for violation in violations {
@@ -57,7 +66,7 @@ impl Checking {
         };
         Self {
             jobs,
-            study,
+            study: Arc::new(study),
             left: ends.into_iter(),
             seen: BTreeSet::new(),
             wrong,
@@ -71,8 +80,12 @@ impl Checking {
     /// Checks some of the scenarios, at least one.
     fn slice(mut self) -> Self {
         let began = Instant::now();
+        let study = Arc::clone(&self.study);
+        let Ok(ensemble) = Ensemble::of(&study) else {
+            return self;
+        };
         while let Some(end) = self.left.next() {
-            self.check(&end);
+            self.check(&ensemble, &end);
             if began.elapsed() >= SLICE {
                 break;
             }
@@ -80,8 +93,8 @@ impl Checking {
         self
     }
 
-    fn check(&mut self, end: &EndScenario) {
-        let text = end.scenario.to_string();
+    fn check(&mut self, ensemble: &Ensemble, end: &End) {
+        let text = ensemble.end_scenario(end).to_string();
         let violations = match self.jobs.validate(&text, Vec::new()) {
             Ok(_) => return,
             Err(ScenarioError::Invalid(violations)) => violations,
@@ -101,7 +114,7 @@ impl Checking {
 
     fn finish(self) -> Result<Study, Problem> {
         if self.wrong.is_empty() {
-            return Ok(self.study);
+            return Ok(Arc::unwrap_or_clone(self.study));
         }
         let status = StatusCode::UNPROCESSABLE_ENTITY;
         let detail = self.wrong.summary();
@@ -128,14 +141,15 @@ fn of_study(document: &Value, violation: scree_studies::Violation) -> FieldError
 
 /// A violation of the scenario at an end of an input: of an input's distribution if it is about
 /// that input's place, else of the study's scenario.
-fn of_end(study: &Study, end: &EndScenario, violation: Violation) -> FieldError {
+fn of_end(study: &Study, end: &End, violation: Violation) -> FieldError {
     let mut inputs = study.inputs.iter();
     let pointer = match inputs.position(|input| input.pointer == violation.pointer) {
         Some(input) => format!("/inputs/{input}/distribution"),
         None => format!("/scenario{}", violation.pointer),
     };
     let place = &study.inputs[end.input].pointer;
-    let detail = format!("with {place} = {}: {}", end.value, violation.detail);
+    let value = excerpt(&end.value.to_string());
+    let detail = format!("with {place} = {value}: {}", violation.detail);
     FieldError {
         pointer: Some(pointer),
         detail,

@@ -104,7 +104,12 @@ pub fn map(
         Some(Question::Rest(question)) => question.body,
         _ => 0,
     };
-    let finished = members.iter().filter_map(Member::finished);
+    let inputs = study.inputs.len();
+    let drawn = members.iter().filter(|member| {
+        let index = member.index;
+        index < ensemble.members() && study.design.is_draw(index, inputs)
+    });
+    let finished = drawn.filter_map(Member::finished);
     let bodies = finished.filter_map(|finished| finished.bodies.get(body));
     let places: Vec<[f64; 2]> = bodies.filter_map(|body| body.resting_place()).collect();
     let scenario = Scenario::from_value(&study.scenario).ok();

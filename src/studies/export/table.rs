@@ -28,6 +28,7 @@ impl MemberTable {
     pub fn of(ensemble: &Ensemble, members: &[Member]) -> Self {
         let mut ended: Vec<&Member> = members
             .iter()
+            .filter(|member| member.index < ensemble.members())
             .filter(|member| member.outcome != MemberOutcome::Pending)
             .collect();
         ended.sort_by_key(|member| member.index);
