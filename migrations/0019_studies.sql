@@ -51,6 +51,8 @@ CREATE TABLE study_members (
 ) STRICT, WITHOUT ROWID;
 
 CREATE INDEX study_members_by_job ON study_members (job_id);
+-- Members are counted without reading their outcomes.
+CREATE INDEX study_members_of_study ON study_members (study, job_id);
 CREATE INDEX study_members_in_work ON study_members (study) WHERE outcome IS NULL;
 
 -- Jobs of removed studies that no other study needs: they are removed a few at a time.

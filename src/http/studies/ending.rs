@@ -34,7 +34,7 @@ use axum::response::{IntoResponse, Response};
         (status = 409, description = "The study had ended otherwise; or is to be removed and has not ended", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn dismiss(
+pub(in crate::http) async fn dismiss_study(
     State(studies): State<StudyService>,
     caller: Caller,
     NamedStudy(id): NamedStudy,

@@ -2,6 +2,7 @@
 
 use super::documents::StudyDocument;
 use super::named::{NamedStudy, changeable, unknown_study};
+use super::submission::full;
 use super::validation::validated;
 use crate::http::access::Caller;
 use crate::http::field_errors::FieldError;
@@ -75,15 +76,15 @@ fn not_larger() -> Problem {
         (status = 400, description = "The body is not JSON", body = Problem, content_type = "application/problem+json"),
         (status = 403, description = "The study is another's", body = Problem, content_type = "application/problem+json"),
         (status = 408, description = "The body took too long", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "The study has failed or is dismissed", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "The study has failed or is dismissed, or was changed meanwhile", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "The body is too large", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "The body is not declared as JSON", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "The study breaks rules (`errors` has them all)", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many studies run, or too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
         (status = 507, description = "The disk is full", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn enlarge(
+pub(in crate::http) async fn enlarge_study(
     State(jobs): State<JobService>,
     State(studies): State<StudyService>,
     caller: Caller,
@@ -98,9 +99,19 @@ pub(in crate::http) async fn enlarge(
         serde_json::from_str(stored.document.get()).map_err(|error| Problem::internal(&error))?;
     let study = validated(&jobs, &caller, changes.applied(study)?).await?;
     let document = serde_json::to_string(&study).map_err(|error| Problem::internal(&error))?;
-    match studies.enlarge(stored.id, &document).await? {
-        // No former document is asked for, so that none can be another.
-        Enlarged::Done | Enlarged::Changed => {}
+    match studies.enlarge(&stored, &document).await? {
+        Enlarged::Done => {}
+        Enlarged::Changed => {
+            let detail = format!("study {id} was changed meanwhile: read it, and change it again");
+            let title = "The study was changed";
+            return Err(Problem::new(
+                StatusCode::CONFLICT,
+                "study-changed",
+                title,
+                detail,
+            ));
+        }
+        Enlarged::Full(running) => return Err(full(running, studies.room())),
         Enlarged::Unknown => return Err(unknown_study(&id)),
         Enlarged::Ended(status) => {
             let detail = format!("study {id} is {}: it can't go on", status.word());

@@ -151,7 +151,7 @@ fn picture(contents: Vec<u8>) -> Response {
         (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn members_csv(
+pub(in crate::http) async fn study_members_csv(
     asked: Asked,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -174,7 +174,7 @@ pub(in crate::http) async fn members_csv(
         (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn members_npz(
+pub(in crate::http) async fn study_members_npz(
     asked: Asked,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -201,7 +201,7 @@ pub(in crate::http) async fn members_npz(
         (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn rest_geojson(
+pub(in crate::http) async fn study_rest_geojson(
     asked: Asked,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -231,7 +231,7 @@ pub(in crate::http) async fn rest_geojson(
         (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn rest_tiff(
+pub(in crate::http) async fn study_rest_tiff(
     asked: Asked,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -261,7 +261,7 @@ pub(in crate::http) async fn rest_tiff(
         (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn rest_picture(
+pub(in crate::http) async fn draw_study_rest(
     asked: Asked,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -289,7 +289,7 @@ pub(in crate::http) async fn rest_picture(
         (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn sensitivity_picture(
+pub(in crate::http) async fn draw_study_sensitivity(
     asked: Asked,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -313,7 +313,7 @@ pub(in crate::http) async fn sensitivity_picture(
         (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn scatter_picture(
+pub(in crate::http) async fn draw_study_scatter(
     asked: Asked,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {

@@ -36,7 +36,7 @@ const LARGEST_LIMIT: u32 = 1_000;
         (status = 304, description = "It is what `If-None-Match` names"),
     )
 )]
-pub(in crate::http) async fn list(
+pub(in crate::http) async fn list_members(
     State(studies): State<StudyService>,
     caller: Caller,
     NamedStudy(id): NamedStudy,

@@ -18,26 +18,26 @@ use utoipa_axum::routes;
 /// Requests that are answered at once.
 pub(super) fn quick() -> OpenApiRouter<Services> {
     OpenApiRouter::new()
-        .routes(routes!(reading::list))
-        .routes(routes!(reading::answers))
-        .routes(routes!(members::list))
-        .routes(routes!(exports::members_csv))
-        .routes(routes!(exports::members_npz))
-        .routes(routes!(exports::rest_geojson))
-        .routes(routes!(exports::rest_tiff))
-        .routes(routes!(exports::rest_picture))
-        .routes(routes!(exports::sensitivity_picture))
-        .routes(routes!(exports::scatter_picture))
+        .routes(routes!(reading::list_studies))
+        .routes(routes!(reading::study_answers))
+        .routes(routes!(members::list_members))
+        .routes(routes!(exports::study_members_csv))
+        .routes(routes!(exports::study_members_npz))
+        .routes(routes!(exports::study_rest_geojson))
+        .routes(routes!(exports::study_rest_tiff))
+        .routes(routes!(exports::draw_study_rest))
+        .routes(routes!(exports::draw_study_sensitivity))
+        .routes(routes!(exports::draw_study_scatter))
 }
 
 /// Requests whose time the admission pool limits.
 pub(super) fn submitting() -> OpenApiRouter<Services> {
     OpenApiRouter::new()
-        .routes(routes!(submission::submit))
-        .routes(routes!(plan::plan))
+        .routes(routes!(submission::submit_study))
+        .routes(routes!(plan::plan_study))
         .routes(routes!(
-            reading::show,
-            enlargement::enlarge,
-            ending::dismiss
+            reading::show_study,
+            enlargement::enlarge_study,
+            ending::dismiss_study
         ))
 }

@@ -46,7 +46,7 @@ pub(super) struct PlannedStudyDocument {
         (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn plan(
+pub(in crate::http) async fn plan_study(
     State(jobs): State<JobService>,
     State(studies): State<StudyService>,
     caller: Caller,

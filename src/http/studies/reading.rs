@@ -40,7 +40,7 @@ const LARGEST_LIMIT: u32 = 100;
         (status = 304, description = "It is what `If-None-Match` names"),
     )
 )]
-pub(in crate::http) async fn list(
+pub(in crate::http) async fn list_studies(
     State(studies): State<StudyService>,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
@@ -81,7 +81,7 @@ pub(in crate::http) async fn list(
         (status = 304, description = "It is what `If-None-Match` names"),
     )
 )]
-pub(in crate::http) async fn show(
+pub(in crate::http) async fn show_study(
     State(studies): State<StudyService>,
     caller: Caller,
     NamedStudy(id): NamedStudy,
@@ -111,7 +111,7 @@ pub(in crate::http) async fn show(
         (status = 429, description = "Too many requests are being read; try again after `Retry-After` seconds", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn answers(
+pub(in crate::http) async fn study_answers(
     State(jobs): State<JobService>,
     State(studies): State<StudyService>,
     caller: Caller,

@@ -42,7 +42,7 @@ use scree_studies::Study;
         (status = 507, description = "The disk is full", body = Problem, content_type = "application/problem+json"),
     )
 )]
-pub(in crate::http) async fn submit(
+pub(in crate::http) async fn submit_study(
     State(jobs): State<JobService>,
     State(studies): State<StudyService>,
     caller: Caller,
@@ -77,7 +77,7 @@ fn spent(own: u32, most: u32) -> Problem {
     Problem::busy("studies-spent", "Too many studies", &detail)
 }
 
-fn full(running: u32, most: u32) -> Problem {
+pub(super) fn full(running: u32, most: u32) -> Problem {
     let detail = format!("{running} studies run, and limits.studies of this service is {most}");
     Problem::busy("studies-full", "Too many studies run", &detail)
 }

@@ -23,10 +23,14 @@ pub trait StudyStore: JobStore {
     /// Studies, newest first.
     async fn studies(&self, page: &StudyPage) -> Answer<Vec<StoredStudy>>;
 
-    /// Replaces the document of a study that runs or was successful; it runs again. With a former
-    /// document only if it still has that one.
-    async fn enlarge_study(&self, id: StudyId, documents: (Option<&str>, &str))
-    -> Answer<Enlarged>;
+    /// Replaces this document of a study that runs or was successful by another; it runs again, if
+    /// there is room for it.
+    async fn enlarge_study(
+        &self,
+        id: StudyId,
+        documents: (&str, &str),
+        room: Room,
+    ) -> Answer<Enlarged>;
 
     /// Makes members of a running study, those that are not there yet: each is a job in the
     /// queue, behind all that are no member, or an earlier job of the same submitter with the same
@@ -121,6 +125,8 @@ pub enum Enlarged {
     Done,
     /// It has another document by now, and was left as it is.
     Changed,
+    /// Too many studies run, or too many of its submitter: their number.
+    Full(u32),
     /// It is in this state, and can't be enlarged.
     Ended(StudyStatus),
 }

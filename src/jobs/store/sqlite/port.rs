@@ -8,7 +8,7 @@ use crate::jobs::store::{
     AttemptStart, Claim, Claimant, Dismissal, EndedMember, Enlarged, Event, FailedAttempt,
     FormerRequest, JobCounts, JobPage, JobStore, KeptAnswer, Key, KeyRetention, Lease,
     ListedMember, MemberOutcome, NewMember, NewResults, NewStudy, Page, Removal, Renewal, Returned,
-    StoreError, StoredChunk, StoredState, StudyDismissal, StudyEnd, StudyPage, StudyStore,
+    Room, StoreError, StoredChunk, StoredState, StudyDismissal, StudyEnd, StudyPage, StudyStore,
     StudySubmitted, Submission, Submitted,
 };
 use crate::results::FlowSnapshot;
@@ -232,9 +232,10 @@ impl StudyStore for SqliteStore {
     async fn enlarge_study(
         &self,
         id: StudyId,
-        documents: (Option<&str>, &str),
+        documents: (&str, &str),
+        room: Room,
     ) -> Result<Enlarged, StoreError> {
-        Ok(Self::enlarge_study(self, id, documents).await?)
+        Ok(Self::enlarge_study(self, id, documents, room).await?)
     }
 
     async fn add_members(

@@ -8,7 +8,7 @@ use super::submission::parse;
 use crate::jobs::job::JobId;
 use crate::jobs::store::page::REMOVED_AT_ONCE;
 use crate::jobs::store::{
-    Dismissal, Enlarged, NewStudy, Removal, StoreError, StudyDismissal, StudyEnd, StudyPage,
+    Dismissal, Enlarged, NewStudy, Removal, Room, StoreError, StudyDismissal, StudyEnd, StudyPage,
     StudySubmitted,
 };
 use crate::studies::study::{MemberCounts, StoredStudy, StudyId, StudyStatus};
@@ -46,7 +46,7 @@ impl SqliteStore {
         if let Some(former) = former_study(&mut transaction, study).await? {
             return Ok(former);
         }
-        if let Some(full) = no_room(&mut transaction, study).await? {
+        if let Some(full) = no_room(&mut transaction, study.submitter, study.room).await? {
             return Ok(full);
         }
         sqlx::query(
@@ -76,9 +76,13 @@ impl SqliteStore {
     }
 
     pub(super) async fn studies(&self, page: &StudyPage) -> Answer<Vec<StoredStudy>> {
+        // Each text has an index.
+        let of_state = match page.status {
+            Some(_) => "status = ?2",
+            None => "?2 IS NULL",
+        };
         let rows: Vec<StudyRow> = sqlx::query_as(sqlx::AssertSqlSafe(format!(
-            "{COLUMNS} WHERE sequence < ?1 AND (?2 IS NULL OR status = ?2)
-             ORDER BY sequence DESC LIMIT ?3"
+            "{COLUMNS} WHERE sequence < ?1 AND {of_state} ORDER BY sequence DESC LIMIT ?3"
         )))
         .bind(page.before.unwrap_or(i64::MAX))
         .bind(page.status.map(StudyStatus::word))
@@ -91,7 +95,8 @@ impl SqliteStore {
     pub(super) async fn enlarge_study(
         &self,
         id: StudyId,
-        (former, document): (Option<&str>, &str),
+        (former, document): (&str, &str),
+        room: Room,
     ) -> Answer<Enlarged> {
         let mut transaction = self.begin_write(Purpose::Growth).await?;
         match status_of(&mut transaction, id).await? {
@@ -99,9 +104,17 @@ impl SqliteStore {
             Some(status @ (StudyStatus::Failed | StudyStatus::Dismissed)) => {
                 return Ok(Enlarged::Ended(status));
             }
-            Some(StudyStatus::Running | StudyStatus::Successful) => {}
+            Some(StudyStatus::Running) => {}
+            Some(StudyStatus::Successful) => {
+                let submitter = submitter_of(&mut transaction, id).await?;
+                let full = no_room(&mut transaction, submitter.as_deref(), room).await?;
+                if let Some(StudySubmitted::Full(count) | StudySubmitted::QuotaSpent(count)) = full
+                {
+                    return Ok(Enlarged::Full(count));
+                }
+            }
         }
-        if is_changed(&mut transaction, id, former).await? {
+        if is_changed(&mut transaction, id, Some(former)).await? {
             return Ok(Enlarged::Changed);
         }
         sqlx::query(
@@ -225,21 +238,34 @@ impl SqliteStore {
     }
 }
 
+async fn submitter_of(
+    transaction: &mut Transaction<'_, Sqlite>,
+    id: StudyId,
+) -> Answer<Option<String>> {
+    Ok(
+        sqlx::query_scalar("SELECT submitter FROM studies WHERE id = ?1")
+            .bind(id.to_string())
+            .fetch_one(&mut **transaction)
+            .await?,
+    )
+}
+
 async fn no_room(
     transaction: &mut Transaction<'_, Sqlite>,
-    study: &NewStudy<'_>,
+    submitter: Option<&str>,
+    room: Room,
 ) -> Answer<Option<StudySubmitted>> {
     let (all, own): (u32, u32) = sqlx::query_as(
         "SELECT count(*), count(*) FILTER (WHERE submitter = ?1)
          FROM studies WHERE status = 'running'",
     )
-    .bind(study.submitter)
+    .bind(submitter)
     .fetch_one(&mut **transaction)
     .await?;
-    if all >= study.room.queue {
+    if all >= room.queue {
         return Ok(Some(StudySubmitted::Full(all)));
     }
-    let is_spent = study.room.submitter.is_some_and(|most| own >= most);
+    let is_spent = room.submitter.is_some_and(|most| own >= most);
     Ok(is_spent.then_some(StudySubmitted::QuotaSpent(own)))
 }
 

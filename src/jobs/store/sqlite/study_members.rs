@@ -169,8 +169,9 @@ async fn is_made(connection: &mut SqliteConnection, study: i64, new: &NewMember)
     .await?)
 }
 
-/// The job of a member: one that is there already, if it has the same scenario and submitter and
-/// was or will be run by this program; else a new one.
+/// The job of a member: that of another study's member, or one that succeeded by this program, if
+/// it has the same scenario and submitter; else a new one. A single job that has not ended is not
+/// shared, since its client may dismiss it.
 async fn job_of(
     connection: &mut SqliteConnection,
     (job, submitter): (&NewJob, Option<&str>),
@@ -179,7 +180,7 @@ async fn job_of(
     let shared: Option<String> = sqlx::query_scalar(
         "SELECT id FROM jobs
          WHERE scenario_hash = ?1 AND submitter IS ?2
-           AND (status IN ('accepted', 'running')
+           AND (status IN ('accepted', 'running') AND priority = 1
                 OR status = 'successful' AND solver_version = ?3 AND solver_commit = ?4)
          ORDER BY status = 'successful' DESC, sequence LIMIT 1",
     )

@@ -217,8 +217,8 @@ async fn a_removed_study_takes_along_what_it_alone_has(fixture: &Fixture) {
     assert_eq!(lease.job, single);
     let one = fixture.study("one").await;
     let other = fixture.study("other").await;
-    // The job that was submitted by itself has this scenario.
-    assert_eq!(fixture.add(one, 0, "0").await, single);
+    // The job that was submitted by itself has this scenario, and is shared once it has succeeded.
+    assert_ne!(fixture.add(one, 7, "0").await, single);
     assert!(fixture.succeed(lease).await);
     let shared = fixture.add(one, 1, "a").await;
     fixture.add(other, 0, "a").await;
@@ -290,38 +290,36 @@ async fn only_so_many_studies_run_at_a_time(fixture: &Fixture) {
 }
 
 async fn a_successful_study_goes_on_when_it_is_enlarged_and_no_other(fixture: &Fixture) {
+    let enlarge = async |study, documents| {
+        let room = room(1, None);
+        let enlarged = fixture.store.enlarge_study(study, documents, room).await;
+        enlarged.unwrap()
+    };
     let study = fixture.study("a").await;
     fixture.end(study, StudyStatus::Successful).await;
     let ended = fixture.store.study_ended_before(0).await.unwrap();
     assert_eq!(ended, Some(study));
-    let enlarged = fixture
-        .store
-        .enlarge_study(study, (None, "{\"n\":2}"))
-        .await;
-    assert_eq!(enlarged.unwrap(), Enlarged::Done);
+    let other = fixture.study("b").await;
+    let documents = ("{}", "{\"n\":2}");
+    assert_eq!(enlarge(study, documents).await, Enlarged::Full(1));
+    fixture.end(other, StudyStatus::Dismissed).await;
+    assert_eq!(enlarge(study, documents).await, Enlarged::Done);
     assert_eq!(fixture.state(study).await, StudyStatus::Running);
-    assert_eq!(fixture.store.study_ended_before(0).await.unwrap(), None);
     let stored = fixture.store.study(study).await.unwrap().unwrap();
     assert_eq!(stored.document.get(), "{\"n\":2}");
     fixture.end(study, StudyStatus::Dismissed).await;
-    let enlarged = fixture
-        .store
-        .enlarge_study(study, (None, "{}"))
-        .await
-        .unwrap();
-    assert_eq!(enlarged, Enlarged::Ended(StudyStatus::Dismissed));
-    let unknown = fixture
-        .store
-        .enlarge_study(StudyId::new(), (None, "{}"))
-        .await;
-    assert_eq!(unknown.unwrap(), Enlarged::Unknown);
+    let ended = Enlarged::Ended(StudyStatus::Dismissed);
+    assert_eq!(enlarge(study, documents).await, ended);
+    assert_eq!(enlarge(StudyId::new(), documents).await, Enlarged::Unknown);
 }
 
 async fn a_study_that_was_changed_meanwhile_is_neither_ended_nor_enlarged(fixture: &Fixture) {
     let study = fixture.study("a").await;
     let enlarge = async |former, document| {
-        let documents = (Some(former), document);
-        fixture.store.enlarge_study(study, documents).await.unwrap()
+        let room = room(100, None);
+        let documents = (former, document);
+        let enlarged = fixture.store.enlarge_study(study, documents, room).await;
+        enlarged.unwrap()
     };
     assert_eq!(enlarge("{}", "[1]").await, Enlarged::Done);
     assert_eq!(enlarge("{}", "[2]").await, Enlarged::Changed);
