@@ -142,6 +142,15 @@ async fn both_ends_of_every_input_are_checked_before_anything_runs() {
     );
     assert_eq!(refused.body["errors"][0]["value"], 3);
     let mut wrong = study(4);
+    wrong["questions"][0]["exceeds"]["body"] = json!(1);
+    wrong["questions"][1]["quantiles"]["quantity"] = json!("runout");
+    let refused = post(&app, &wrong).await;
+    let expected = [
+        "/questions/0/exceeds/body",
+        "/questions/1/quantiles/quantity",
+    ];
+    assert_eq!(refused.wrong_fields(), expected, "{:#}", refused.body);
+    let mut wrong = study(4);
     wrong["desing"] = json!(1);
     post(&app, &wrong)
         .await
