@@ -45,8 +45,10 @@ fn work(
     sender: &mpsc::Sender<Member>,
 ) {
     while let Some(&index) = numbers.get(next.fetch_add(1, Ordering::Relaxed)) {
-        let outcome = scenario(ensemble, index)
-            .map_or_else(|error| failed(&error.to_string()), |one| run(&one, control));
+        let outcome = scenario(ensemble, index).map_or_else(
+            |error| MemberOutcome::failed(error.to_string()),
+            |one| run(&one, control),
+        );
         // A member without an outcome was stopped; without a receiver nobody asks any more.
         if outcome == MemberOutcome::Pending || sender.send(Member { index, outcome }).is_err() {
             return;
@@ -65,7 +67,7 @@ fn run(scenario: &Value, control: &RunControl) -> MemberOutcome {
     match ended {
         Ok(RunEnd::Completed(outcome)) => outcome::of_run(&outcome),
         Ok(RunEnd::Stopped) => MemberOutcome::Pending,
-        Err(error) => failed(&kind(&error)),
+        Err(error) => MemberOutcome::failed(kind(&error)),
     }
 }
 
@@ -77,10 +79,4 @@ fn kind(error: &RunError<Infallible>) -> String {
         RunError::Sink(never) => match *never {},
     };
     outcome::last_part(&failure.kind)
-}
-
-fn failed(reason: &str) -> MemberOutcome {
-    MemberOutcome::Failed {
-        reason: reason.to_owned(),
-    }
 }

@@ -37,10 +37,12 @@ pub(super) const BODY_QUANTITIES: [&str; 13] = [
 pub(super) fn of_ended(ended: &EndedMember) -> MemberOutcome {
     match ended.status {
         Some(JobStatus::Successful) => ended.outcome.as_deref().map_or_else(unreadable, of_job),
-        Some(JobStatus::Failed) => failed(&kind(ended.problem.as_deref().unwrap_or_default())),
-        Some(JobStatus::Dismissed) => failed("dismissed"),
+        Some(JobStatus::Failed) => {
+            MemberOutcome::failed(kind(ended.problem.as_deref().unwrap_or_default()))
+        }
+        Some(JobStatus::Dismissed) => MemberOutcome::failed("dismissed"),
         Some(JobStatus::Accepted | JobStatus::Running) => MemberOutcome::Pending,
-        None => failed("removed"),
+        None => MemberOutcome::failed("removed"),
     }
 }
 
@@ -106,15 +108,9 @@ pub(super) fn last_part(kind: &str) -> String {
 
 /// Outcome of a member whose scenario is not allowed.
 pub(super) fn not_allowed() -> MemberOutcome {
-    failed("invalid")
-}
-
-fn failed(reason: &str) -> MemberOutcome {
-    MemberOutcome::Failed {
-        reason: reason.to_owned(),
-    }
+    MemberOutcome::failed("invalid")
 }
 
 fn unreadable() -> MemberOutcome {
-    failed("unreadable")
+    MemberOutcome::failed("unreadable")
 }

@@ -201,11 +201,8 @@ impl StudyService {
         let stored = self.store.outcomes(id).await?;
         let read = |member: &crate::jobs::store::MemberOutcome| Member {
             index: member.member,
-            outcome: serde_json::from_str(&member.outcome).unwrap_or_else(|_| {
-                MemberOutcome::Failed {
-                    reason: "unreadable".to_owned(),
-                }
-            }),
+            outcome: serde_json::from_str(&member.outcome)
+                .unwrap_or_else(|_| MemberOutcome::failed("unreadable")),
         };
         Ok(stored.iter().map(read).collect())
     }

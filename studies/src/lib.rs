@@ -53,7 +53,7 @@ pub use distribution::{
     Choice, Distribution, Interval, List, Lognormal, Normal, SMALLEST_PROBABILITY, Triangular,
     Uniform, WeightedValue,
 };
-pub use outcome::{Finished, Member, MemberBody, MemberOutcome};
+pub use outcome::{FailedMember, Finished, Member, MemberBody, MemberOutcome};
 pub use study::{
     Buried, End, EndScenario, Ensemble, Exceeds, Input, NoSuchMember, Progress, Quantiles,
     Question, Rest, Sensitivity, Stop, Study, Verdict, Violation,

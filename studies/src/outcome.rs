@@ -23,12 +23,27 @@ pub enum MemberOutcome {
     /// The run came to its end.
     Finished(Finished),
     /// The run failed; its quantities could have been anything.
-    Failed {
-        /// Reason, one of few words so that equal reasons are counted together.
-        reason: String,
-    },
+    Failed(FailedMember),
     /// The run has no outcome yet.
     Pending,
+}
+
+/// Outcome of a run that failed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct FailedMember {
+    /// Reason, one of few words so that equal reasons are counted together.
+    pub reason: String,
+}
+
+impl MemberOutcome {
+    /// Outcome of a run that failed for this reason.
+    pub fn failed(reason: impl Into<String>) -> Self {
+        Self::Failed(FailedMember {
+            reason: reason.into(),
+        })
+    }
 }
 
 /// Outcome of a run that came to its end.
@@ -69,7 +84,7 @@ impl Member {
     pub fn finished(&self) -> Option<&Finished> {
         match &self.outcome {
             MemberOutcome::Finished(finished) => Some(finished),
-            MemberOutcome::Failed { .. } | MemberOutcome::Pending => None,
+            MemberOutcome::Failed(_) | MemberOutcome::Pending => None,
         }
     }
 }

@@ -559,6 +559,17 @@ Numbers of levels.
 """
 
 
+class FailedMember(TypedDict):
+    """
+    Outcome of a run that failed.
+    """
+
+    reason: str
+    """
+    Reason, one of few words so that equal reasons are counted together.
+    """
+
+
 class Failure(TypedDict):
     """
     Failure of a job: an RFC 9457 problem document without the HTTP status,
@@ -866,23 +877,12 @@ class MemberFailures(TypedDict):
     """
 
 
-class Failed(TypedDict):
-    """
-    The run failed; its quantities could have been anything.
-    """
-
-    reason: str
-    """
-    Reason, one of few words so that equal reasons are counted together.
-    """
-
-
 class MemberOutcome2(TypedDict):
     """
     The run failed; its quantities could have been anything.
     """
 
-    failed: Failed
+    failed: FailedMember
     """
     The run failed; its quantities could have been anything.
     """

@@ -247,6 +247,8 @@ pub(in crate::http) async fn study_rest_tiff(
 }
 
 /// Draw where a body comes to rest
+///
+/// Regions, resting places of the members, and the place at the start, seen from above.
 #[utoipa::path(
     get,
     path = "/v1/studies/{id}/rest.svg",
@@ -275,6 +277,8 @@ pub(in crate::http) async fn draw_study_rest(
 }
 
 /// Draw what a quantity depends on
+///
+/// A bar with its uncertainty for each input, the largest on top.
 #[utoipa::path(
     get,
     path = "/v1/studies/{id}/sensitivity.svg",
@@ -303,6 +307,8 @@ pub(in crate::http) async fn draw_study_sensitivity(
 }
 
 /// Draw quantities of the members against their inputs
+///
+/// Run-out, and displacement, resting place across and peak speed of the first body.
 #[utoipa::path(
     get,
     path = "/v1/studies/{id}/scatter.svg",

@@ -20,7 +20,9 @@ const DEFAULT_LIMIT: u32 = 100;
 /// Largest number of members per page.
 const LARGEST_LIMIT: u32 = 1_000;
 
-/// List the members of a study, in the order of its design
+/// List the members of a study
+///
+/// In the order of its design: values of the inputs, job and outcome in short.
 #[utoipa::path(
     get,
     path = "/v1/studies/{id}/members",

@@ -68,6 +68,9 @@ pub(in crate::http) async fn list_studies(
 }
 
 /// Get a study
+///
+/// Its state, its document as enlarged last, and how many of its members have been made and have
+/// ended.
 #[utoipa::path(
     get,
     path = "/v1/studies/{id}",

@@ -40,7 +40,7 @@ impl MemberTable {
         };
         let values = |member: &&Member| ensemble.values(member.index).unwrap_or_default();
         let failure = |member: &&Member| match &member.outcome {
-            MemberOutcome::Failed { reason } => Some(reason.clone()),
+            MemberOutcome::Failed(failed) => Some(failed.reason.clone()),
             MemberOutcome::Finished(_) | MemberOutcome::Pending => None,
         };
         let inputs = ensemble.study().inputs.iter();

@@ -38,7 +38,7 @@ impl Counts {
         for member in members.iter().filter(|one| one.index < ensemble.members()) {
             match &member.outcome {
                 MemberOutcome::Finished(_) => finished += 1,
-                MemberOutcome::Failed { reason } => *reasons.entry(reason).or_default() += 1,
+                MemberOutcome::Failed(failed) => *reasons.entry(&failed.reason).or_default() += 1,
                 MemberOutcome::Pending => {}
             }
         }

@@ -9,7 +9,7 @@ fn failed(index: u64, reason: &str) -> Member {
     let reason = reason.to_owned();
     Member {
         index,
-        outcome: MemberOutcome::Failed { reason },
+        outcome: MemberOutcome::failed(reason),
     }
 }
 

@@ -99,9 +99,7 @@ fn moving_and_failed_members_are_unknown_and_widen_the_share() {
     if let MemberOutcome::Finished(finished) = &mut members[7].outcome {
         finished.bodies[0].moving = true;
     }
-    members[9].outcome = MemberOutcome::Failed {
-        reason: "diverged".to_owned(),
-    };
+    members[9].outcome = MemberOutcome::failed("diverged");
     let found = RestingPlaces::of(&ensemble, &members, 0);
     assert_eq!(
         (found.places_m.len(), found.moving, found.unknown),

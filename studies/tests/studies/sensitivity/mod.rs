@@ -68,9 +68,7 @@ fn rows_with_a_failed_member_are_left_out_whole() {
     let ensemble = Ensemble::of(&study).unwrap();
     let mut members = members(&ensemble, ishigami);
     for index in [3, 4, 700, 3333] {
-        members[index].outcome = MemberOutcome::Failed {
-            reason: "diverged".to_owned(),
-        };
+        members[index].outcome = MemberOutcome::failed("diverged");
     }
     let found = sobol_indices(&ensemble, &members);
     assert_eq!((found.rows, found.rows_left_out), (1021, 3));
@@ -147,9 +145,7 @@ fn effects_without_a_member_are_left_out() {
     let mut members = members(&ensemble, |u| u[0] + 2.0 * u[1]);
     // The first member of a trajectory has one effect, the middle one has both.
     members[0].outcome = MemberOutcome::Pending;
-    members[4].outcome = MemberOutcome::Failed {
-        reason: "diverged".to_owned(),
-    };
+    members[4].outcome = MemberOutcome::failed("diverged");
     let Some(Measures::Elementary(found)) = measures(&ensemble, &members) else {
         panic!("no effects");
     };
