@@ -4,6 +4,10 @@ ALTER TABLE jobs ADD COLUMN priority INTEGER NOT NULL DEFAULT 0 CHECK (priority 
 -- Claiming asks for the oldest accepted job of the first priority.
 CREATE INDEX jobs_by_turn ON jobs (priority, sequence) WHERE status = 'accepted';
 
+-- Jobs of a submitter are counted by priority.
+DROP INDEX jobs_by_submitter;
+CREATE INDEX jobs_by_submitter ON jobs (submitter, status, priority) WHERE submitter IS NOT NULL;
+
 -- A study: one scenario with uncertain inputs, computed many times. Its members are ordinary
 -- jobs; what they are follows from the study and their numbers alone.
 CREATE TABLE studies (

@@ -11,6 +11,19 @@ use crate::jobs::store::{Claim, Claimant, Dismissal, Lease, StoreError};
 use sqlx::FromRow;
 use sqlx::sqlite::SqliteConnection;
 
+/// Claims the first job in turn. Without its name the index would not be taken, and all waiting jobs
+/// be sorted.
+const CLAIM: &str = "UPDATE jobs
+     SET status = 'running', started_ms = ?1, solver_version = ?2, attempt = attempt + 1,
+         solver_commit = ?6, instructions = ?7,
+         lease_owner = ?3, lease_expires_operating_ms = ?4, lease_token = lease_token + 1
+     WHERE sequence = (SELECT sequence FROM jobs INDEXED BY jobs_by_turn
+                       WHERE status = 'accepted'
+                       AND not_before_operating_ms <= ?5
+                       AND (failed_attempts = 0 OR ?8 >= iif(failed_attempts = 1, ?9, ?10))
+                       ORDER BY priority, sequence LIMIT 1)
+     RETURNING id, attempt, lease_token, scenario, failed_attempts";
+
 #[derive(Debug, FromRow)]
 struct ClaimedRow {
     id: String,
@@ -24,29 +37,19 @@ impl SqliteStore {
     pub(super) async fn claim(&self, claimant: &Claimant) -> Answer<Option<Claim>> {
         let now = self.now();
         let mut transaction = self.begin_write(Purpose::Upkeep).await?;
-        let row: Option<ClaimedRow> = sqlx::query_as(
-            "UPDATE jobs
-             SET status = 'running', started_ms = ?1, solver_version = ?2, attempt = attempt + 1,
-                 solver_commit = ?6, instructions = ?7,
-                 lease_owner = ?3, lease_expires_operating_ms = ?4, lease_token = lease_token + 1
-             WHERE sequence = (SELECT sequence FROM jobs WHERE status = 'accepted'
-                               AND not_before_operating_ms <= ?5
-                               AND (failed_attempts = 0 OR ?8 >= iif(failed_attempts = 1, ?9, ?10))
-                               ORDER BY priority, sequence LIMIT 1)
-             RETURNING id, attempt, lease_token, scenario, failed_attempts",
-        )
-        .bind(now.wall_ms)
-        .bind(claimant.solver.version)
-        .bind(&claimant.owner)
-        .bind(now.operating_ms + milliseconds(claimant.lease_duration))
-        .bind(now.operating_ms)
-        .bind(claimant.solver.commit)
-        .bind(claimant.solver.instructions)
-        .bind(milliseconds(claimant.up_for))
-        .bind(BACK_OFF_MS[0])
-        .bind(BACK_OFF_MS[1])
-        .fetch_optional(&mut *transaction)
-        .await?;
+        let row: Option<ClaimedRow> = sqlx::query_as(CLAIM)
+            .bind(now.wall_ms)
+            .bind(claimant.solver.version)
+            .bind(&claimant.owner)
+            .bind(now.operating_ms + milliseconds(claimant.lease_duration))
+            .bind(now.operating_ms)
+            .bind(claimant.solver.commit)
+            .bind(claimant.solver.instructions)
+            .bind(milliseconds(claimant.up_for))
+            .bind(BACK_OFF_MS[0])
+            .bind(BACK_OFF_MS[1])
+            .fetch_optional(&mut *transaction)
+            .await?;
         let Some(claim) = row.map(ClaimedRow::read).transpose()? else {
             return Ok(None);
         };
@@ -123,4 +126,30 @@ pub(super) fn lease(id: &str, attempt: i64, token: i64) -> Answer<Lease> {
         attempt: u32::try_from(attempt).map_err(|_| broken("attempt"))?,
         token,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::jobs::clock::SystemClock;
+    use sqlx::Row;
+    use std::sync::Arc;
+
+    /// However many jobs wait, none but the first in turn are read.
+    #[tokio::test]
+    async fn a_claim_sorts_no_jobs() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("test.db");
+        let clock = Arc::new(SystemClock::default());
+        let store = SqliteStore::open_with(&path, None, clock).await.unwrap();
+        let explained = sqlx::query(sqlx::AssertSqlSafe(format!("EXPLAIN QUERY PLAN {CLAIM}")));
+        let rows = explained.fetch_all(store.readers.pool()).await.unwrap();
+        let plan: Vec<String> = rows.iter().map(|row| row.get("detail")).collect();
+        let sorts = plan.iter().any(|step| step.contains("TEMP B-TREE"));
+        assert!(!sorts, "{plan:#?}");
+        assert!(
+            plan.iter().any(|step| step.contains("jobs_by_turn")),
+            "{plan:#?}"
+        );
+    }
 }
