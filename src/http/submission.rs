@@ -170,6 +170,13 @@ impl From<SubmitError> for Problem {
                 "Idempotency-Key of another request",
                 detail,
             ),
+            SubmitError::Closing => Self::new(
+                StatusCode::SERVICE_UNAVAILABLE,
+                "closing",
+                "The service stops",
+                detail,
+            )
+            .retry_after(RETRY_AFTER_S),
             SubmitError::QueueFull { .. } => {
                 Self::busy("queue-full", "Too many jobs wait", &detail)
             }

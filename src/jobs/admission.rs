@@ -3,6 +3,7 @@
 use super::JobService;
 use super::admission_pool::AdmissionError;
 use super::job::JobId;
+use super::pool::GRACE;
 use super::store::{self, FormerRequest, KeptAnswer, Key, Room, StoreError, Submitted};
 use super::submit::{NewJob, ScenarioError};
 use std::collections::BTreeSet;
@@ -43,6 +44,9 @@ pub enum SubmitError {
     /// The jobs can't be stored.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// The service stops, and has no time left for it.
+    #[error("the service stops, and has no time left to store it")]
+    Closing,
     /// A request with this key is in progress.
     #[error("a request with this Idempotency-Key is being answered")]
     InFlight,
@@ -136,6 +140,10 @@ impl JobService {
             queue: self.limits.queued_jobs,
             submitter: request.quota,
         };
+        // What is begun now is carried through, and would delay the stop.
+        if self.registry.closing_for() > self.limits.drain_timeout().mul_f64(GRACE) {
+            return Err(SubmitError::Closing);
+        }
         let submission = store::Submission {
             jobs: &request.jobs,
             submitter,

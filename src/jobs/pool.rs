@@ -22,7 +22,7 @@ use tokio::sync::watch;
 const IDLE_LOOK: Duration = Duration::from_secs(1);
 
 /// Share of the drain time after which a job that has not saved its state is cancelled.
-const GRACE: f64 = 0.7;
+pub(super) const GRACE: f64 = 0.7;
 
 /// The workers of a service.
 #[derive(Debug)]
@@ -65,11 +65,16 @@ struct State {
     submissions: u64,
     /// True once jobs may be claimed.
     open: bool,
-    closing: bool,
+    /// When the service began to stop.
+    closing: Option<Instant>,
     running: BTreeMap<JobId, RegisteredRun>,
 }
 
 impl State {
+    fn is_closing(&self) -> bool {
+        self.closing.is_some()
+    }
+
     /// Shares the cores among the running jobs, those that came first having one more if they do
     /// not divide evenly.
     fn share(&self, cores: usize) {
@@ -234,9 +239,9 @@ impl RunningJobRegistry {
 
     /// Waits until jobs may be claimed. False if the registry closes first.
     pub(super) fn wait_until_open(&self) -> bool {
-        let shut = |state: &mut State| !state.open && !state.closing;
+        let shut = |state: &mut State| !state.open && state.closing.is_none();
         let waited = self.changed.wait_while(self.state(), shut);
-        !waited.unwrap_or_else(PoisonError::into_inner).closing
+        !waited.unwrap_or_else(PoisonError::into_inner).is_closing()
     }
 
     /// Notifies the workers of a submitted job.
@@ -256,7 +261,7 @@ impl RunningJobRegistry {
 
     fn close(&self) {
         let mut state = self.state();
-        state.closing = true;
+        state.closing.get_or_insert_with(Instant::now);
         for registered in state.running.values() {
             registered.run.control.ask(Stop::OnceSaved);
         }
@@ -304,21 +309,27 @@ impl RunningJobRegistry {
         let state = self.state();
         let waited = self
             .changed
-            .wait_timeout_while(state, pause, |state| !state.closing);
+            .wait_timeout_while(state, pause, |state| !state.is_closing());
         let (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
-        !state.closing
+        !state.is_closing()
+    }
+
+    /// Time since the service began to stop; zero before.
+    pub fn closing_for(&self) -> Duration {
+        let closing = self.state().closing;
+        closing.map_or(Duration::ZERO, |since| since.elapsed())
     }
 
     /// Number of submissions so far; `None` once the registry is closed.
     pub fn submissions(&self) -> Option<u64> {
         let state = self.state();
-        (!state.closing).then_some(state.submissions)
+        (!state.is_closing()).then_some(state.submissions)
     }
 
     /// Waits for a submission after the `seen`-th, or for the registry to close.
     pub(super) fn wait(&self, seen: u64) {
         let state = self.state();
-        let idle = |state: &mut State| !state.closing && state.submissions == seen;
+        let idle = |state: &mut State| !state.is_closing() && state.submissions == seen;
         // Woken or timed out, the worker looks for work in either case.
         drop(self.changed.wait_timeout_while(state, IDLE_LOOK, idle));
     }
@@ -332,7 +343,7 @@ impl RunningJobRegistry {
         };
         let (sender, ended) = watch::channel(());
         let mut state = self.state();
-        if state.closing {
+        if state.is_closing() {
             run.control.ask(Stop::OnceSaved);
         }
         let registered = RegisteredRun {
