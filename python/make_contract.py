@@ -10,6 +10,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 CONTRACT = HERE.parent / "api" / "openapi.json"
@@ -48,10 +49,13 @@ COLUMNS: Dict[str, Column] = {{
 def write_documents(target: pathlib.Path) -> None:
     """Writes the documents of the contract as typed dictionaries."""
     generator = [sys.executable, "-m", "datamodel_code_generator", *OPTIONS]
-    files = ["--input", str(CONTRACT), "--output", str(target), "--custom-file-header", HEADER]
-    subprocess.run([*generator, *files], check=True)  # noqa: S603 -- all of it is from here
+    # Its formatter looks for settings near the file: the same everywhere only away from any.
+    with tempfile.TemporaryDirectory() as folder:
+        made = pathlib.Path(folder) / "contract.py"
+        files = ["--input", str(CONTRACT), "--output", str(made), "--custom-file-header", HEADER]
+        subprocess.run([*generator, *files], check=True, cwd=folder)  # noqa: S603 -- all from here
+        text = made.read_text(encoding="utf-8")
     # `typing_extensions` has all names of `typing`, the newer ones for the oldest Python too.
-    text = target.read_text(encoding="utf-8")
     target.write_text(text.replace("\nfrom typing import", "\nfrom typing_extensions import"))
 
 

@@ -3133,7 +3133,13 @@ class StudyAnswer5(TypedDict):
     sensitivity: Optional[SensitivityMeasures]
 
 
-StudyAnswer: TypeAlias = Union[StudyAnswer1, StudyAnswer2, StudyAnswer3, StudyAnswer4, StudyAnswer5]
+StudyAnswer: TypeAlias = Union[
+    StudyAnswer1,
+    StudyAnswer2,
+    StudyAnswer3,
+    StudyAnswer4,
+    StudyAnswer5,
+]
 """
 Answer to a question, of the question's name.
 """
