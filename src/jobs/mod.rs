@@ -23,6 +23,7 @@ pub mod pool;
 mod reading;
 mod recent;
 pub mod recording;
+mod running_jobs;
 pub mod store;
 pub mod submit;
 mod worker;

@@ -1,7 +1,7 @@
 //! News of jobs: one task reads the events of the database and tells all who follow, who would
 //! otherwise each ask the database all the time.
 
-use super::pool::RunningJobRegistry;
+use super::running_jobs::RunningJobRegistry;
 use super::store::{Event, JobStore, StoreError};
 use std::sync::Arc;
 use std::time::Duration;

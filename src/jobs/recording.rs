@@ -4,7 +4,7 @@
 use super::job_limits::{Excess, JobLimits};
 use super::memory_budget::{MemoryBudget, Reservation};
 use super::open_chunk::OpenChunk;
-use super::pool::RunningJob;
+use super::running_jobs::RunningJob;
 use super::store::{JobStore, Lease, NewResults, ResumePoint, StoreError, StoredState};
 use crate::config::Recording;
 use crate::results::chunk::BlockError;

@@ -1,8 +1,9 @@
 //! One worker: claims jobs, runs them, and records their ends.
 
 use super::failure::Failure;
-use super::pool::{Equipment, RunningJobGuard};
+use super::pool::Equipment;
 use super::recording::{KeepError, StoreSink};
+use super::running_jobs::RunningJobGuard;
 use super::store::{
     AttemptStart, Claim, Claimant, FailedAttempt, Lease, ResumePoint, Solver, StoreError,
 };

@@ -84,7 +84,7 @@ async fn no_room(
     Ok((own.saturating_add(coming) > quota).then_some(Submitted::QuotaSpent(own)))
 }
 
-/// Where a job comes from.
+/// Origin of a job.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Origin {
     /// A request, by its number if it had an Idempotency-Key.
