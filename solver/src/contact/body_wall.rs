@@ -15,32 +15,14 @@ const NEAR: f64 = 1.001;
 
 /// Deepest overlap of the body with a wall [m]; negative when apart.
 pub fn deepest_overlap(body: &Body, planes: &[Plane]) -> f64 {
-    overlaps(body, planes).fold(f64::NEG_INFINITY, |deepest, pair| deepest.max(pair.overlap))
-}
-
-/// A core vertex and a wall.
-pub struct WallOverlap {
-    /// Vertex, from the body's centre [m].
-    pub arm: Vec3,
-    /// Normal of the wall.
-    pub normal: Vec3,
-    /// Overlap [m]; negative when apart.
-    pub overlap: f64,
-}
-
-/// Every pair of core vertex and wall.
-pub fn overlaps<'a>(body: &'a Body, planes: &'a [Plane]) -> impl Iterator<Item = WallOverlap> + 'a {
     let radius = body.shape.sphero_radius();
     let vertices = body.shape.core_vertices().iter();
-    vertices.flat_map(move |core| {
-        let arm = body.to_world(core);
-        let place = body.state.position + arm;
-        planes.iter().map(move |plane| WallOverlap {
-            arm,
-            normal: plane.normal,
-            overlap: radius - plane.height(&place),
-        })
-    })
+    let places = vertices.map(|core| body.state.position + body.to_world(core));
+    let overlaps = places.flat_map(|place| {
+        let overlap = move |plane: &Plane| radius - plane.height(&place);
+        planes.iter().map(overlap)
+    });
+    overlaps.fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Updates the body's wall load and its springs after a drift of `dt`; returns the dissipation

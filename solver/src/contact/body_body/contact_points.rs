@@ -62,7 +62,8 @@ pub struct Contacts {
     pub(super) energy: f64,
     /// Least distance of the features that were looked at and do not touch [m].
     pub(super) clearance: f64,
-    /// What the last contact taken left to others; kept to avoid allocations, like the next two.
+    /// Parts of the last contact taken that others account for; kept to avoid allocations, like the
+    /// next two.
     booked: Vec<Booked>,
     /// Normal forces of the contacts.
     pub(super) pressed: Vec<Pressed>,

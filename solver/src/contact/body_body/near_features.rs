@@ -19,9 +19,8 @@ pub(super) struct NearFeatures {
     pub(super) edges: Vec<EdgePair>,
     /// Edges of each core that may touch.
     near_edges: [Vec<NearEdge>; 2],
-    /// Distance by which the bodies may still come nearer [m]; nothing is listed below 0.
+    /// Distance by which the bodies may still come nearer [m]; 0 or less if nothing is listed.
     margin: f64,
-    is_listed: bool,
 }
 
 /// An edge of the first core and one of the second.
@@ -44,7 +43,7 @@ struct NearEdge {
 impl NearFeatures {
     /// True if all features that may touch are listed.
     pub(super) fn are_listed(&self) -> bool {
-        self.is_listed && self.margin > 0.0
+        self.margin > 0.0
     }
 
     /// Distance by which the bodies may come nearer before a feature that is not listed touches [m].
@@ -89,7 +88,7 @@ impl NearFeatures {
                 }
             }
         }
-        (self.is_listed, self.margin) = (true, margin);
+        self.margin = margin;
     }
 
     /// Lists the vertices and edges of one of the two that are within reach of the other core.

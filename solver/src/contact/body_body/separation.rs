@@ -22,8 +22,8 @@ pub(super) struct Gap {
     pub(super) second_from: f64,
 }
 
-/// What is known of two bodies from the last evaluation: a bound of their gap, and the features
-/// that may touch. It saves work and changes no contact: what is skipped does not touch.
+/// Bound of the gap between two bodies, from the last evaluation, and the features that may touch. It
+/// saves work and changes no contact: what is skipped does not touch.
 #[derive(Debug, Default)]
 pub struct Separation {
     /// Face with the widest gap, counted over the first's faces, then the second's.

@@ -11,9 +11,11 @@ use super::surroundings::Surroundings;
 /// Number of short sub-steps left below which gaps and contacts are not evaluated, since that
 /// costs as much as one or two sub-steps.
 const WORTH_A_LOOK: u32 = 4;
+
 /// Largest number of doublings of the interval between evaluations that find no room.
 const MOST_DOUBLINGS: u32 = 4;
-/// The sub-steps of an island within one of the flow, and their lengths.
+
+/// Sub-steps of an island within one of the flow, and their lengths.
 #[derive(Debug)]
 pub(super) struct Strides {
     /// The shortest [s].
