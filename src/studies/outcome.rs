@@ -7,31 +7,37 @@ use scree_studies::{Finished, MemberBody, MemberOutcome};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Quantities of the flow and of the whole run that a question may ask for.
-pub(super) const FLOW_QUANTITIES: [&str; 5] = [
-    "front_m",
-    "runout_m",
-    "outflow_mass_kg",
-    "point_steps",
-    "wall_s",
+/// Quantity of a run, or of a body of it, by its name; none of what did not happen.
+type Quantity<T> = (&'static str, fn(&T) -> Option<f64>);
+
+const OF_RUN: [Quantity<Outcome>; 5] = [
+    ("front_m", |run| run.flow.front_m),
+    ("runout_m", |run| run.flow.runout_m),
+    ("outflow_mass_kg", |run| Some(run.flow.outflow_mass_kg)),
+    ("point_steps", |run| Some(run.cost.point_steps as f64)),
+    ("wall_s", |run| Some(run.cost.wall_s)),
 ];
 
-/// Quantities of a body that a question may ask for.
-pub(super) const BODY_QUANTITIES: [&str; 13] = [
-    "displacement_m",
-    "path_length_m",
-    "peak_speed_m_s",
-    "peak_speed_time_s",
-    "first_contact_time_s",
-    "onset_time_s",
-    "stop_time_s",
-    "rest_x_m",
-    "rest_y_m",
-    "rest_z_m",
-    "buried_m",
-    "hit",
-    "moving",
+const OF_BODY: [Quantity<BodyOutcome>; 7] = [
+    ("displacement_m", |body| Some(body.displacement_m)),
+    ("path_length_m", |body| Some(body.path_length_m)),
+    ("peak_speed_m_s", |body| Some(body.peak_speed_m_s)),
+    ("peak_speed_time_s", |body| body.peak_speed_time_s),
+    ("first_contact_time_s", |body| body.first_contact_time_s),
+    ("onset_time_s", |body| body.onset_time_s),
+    ("stop_time_s", |body| body.stop_time_s),
 ];
+
+/// Names of the quantities of the flow and of the whole run that a question may ask for.
+pub(super) fn names_of_run() -> Vec<&'static str> {
+    OF_RUN.iter().map(|(name, _)| *name).collect()
+}
+
+/// Names of the quantities of a body that a question may ask for.
+pub(super) fn names_of_body() -> Vec<&'static str> {
+    let further = OF_BODY.iter().map(|(name, _)| *name);
+    further.chain(MemberBody::OWN_QUANTITIES).collect()
+}
 
 /// Outcome of a member whose job has ended.
 pub(super) fn of_ended(ended: &EndedMember) -> MemberOutcome {
@@ -48,43 +54,26 @@ pub(super) fn of_ended(ended: &EndedMember) -> MemberOutcome {
 
 /// Outcome of a member from that of its run.
 pub fn of_run(outcome: &Outcome) -> MemberOutcome {
-    let flow = &outcome.flow;
-    let quantities = [
-        ("front_m", flow.front_m),
-        ("runout_m", flow.runout_m),
-        ("outflow_mass_kg", Some(flow.outflow_mass_kg)),
-        ("point_steps", Some(outcome.cost.point_steps as f64)),
-        ("wall_s", Some(outcome.cost.wall_s)),
-    ];
     MemberOutcome::Finished(Finished {
-        quantities: those_there(quantities),
+        quantities: those_there(&OF_RUN, outcome),
         bodies: outcome.bodies.iter().map(of_body).collect(),
     })
 }
 
 fn of_body(body: &BodyOutcome) -> MemberBody {
-    let quantities = [
-        ("first_contact_time_s", body.first_contact_time_s),
-        ("onset_time_s", body.onset_time_s),
-        ("peak_speed_m_s", Some(body.peak_speed_m_s)),
-        ("peak_speed_time_s", body.peak_speed_time_s),
-        ("stop_time_s", body.stop_time_s),
-        ("displacement_m", Some(body.displacement_m)),
-        ("path_length_m", Some(body.path_length_m)),
-    ];
     MemberBody {
         rest_m: body.final_position_m,
         moving: body.onset_time_s.is_some() && body.stop_time_s.is_none(),
         hit: body.first_contact_time_s.is_some(),
         buried_m: body.burial_depth_m,
-        quantities: those_there(quantities),
+        quantities: those_there(&OF_BODY, body),
     }
 }
 
-fn those_there<const N: usize>(quantities: [(&str, Option<f64>); N]) -> BTreeMap<String, f64> {
+fn those_there<T>(quantities: &[Quantity<T>], of: &T) -> BTreeMap<String, f64> {
     let there = quantities
-        .into_iter()
-        .filter_map(|(name, value)| Some((name.to_owned(), value?)));
+        .iter()
+        .filter_map(|(name, value)| Some(((*name).to_owned(), value(of)?)));
     there.collect()
 }
 

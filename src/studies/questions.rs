@@ -1,6 +1,6 @@
 //! Check of the questions of a study: that the bodies and quantities they ask for exist.
 
-use super::outcome::{BODY_QUANTITIES, FLOW_QUANTITIES};
+use super::outcome::{names_of_body, names_of_run};
 use scree_studies::{Question, Study, Violation};
 
 /// Questions about bodies and quantities that no outcome has.
@@ -40,9 +40,9 @@ fn no_body(study: &Study, at: &str, body: usize) -> Option<Violation> {
 }
 
 fn no_quantity(at: &str, body: Option<usize>, quantity: &str) -> Option<Violation> {
-    let (of, known): (_, &[&str]) = match body {
-        Some(_) => ("a body", &BODY_QUANTITIES),
-        None => ("the flow (others need body)", &FLOW_QUANTITIES),
+    let (of, known) = match body {
+        Some(_) => ("a body", names_of_body()),
+        None => ("the flow (others need body)", names_of_run()),
     };
     let allowed = format!("one of {of}: {}", known.join(", "));
     let pointer = format!("{at}/quantity");

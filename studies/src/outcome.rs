@@ -101,8 +101,12 @@ impl Finished {
 }
 
 impl MemberBody {
-    /// Quantity by name: one of the map, the depth `buried_m`, a coordinate of the position as
-    /// `rest_x_m`, `rest_y_m`, `rest_z_m`, or 1 for yes and 0 for no as `hit`, `moving`.
+    /// Names of the quantities that every body has, beside those of the map.
+    pub const OWN_QUANTITIES: [&str; 6] = [
+        "rest_x_m", "rest_y_m", "rest_z_m", "buried_m", "moving", "hit",
+    ];
+
+    /// Quantity by name: one of the map or of [`Self::OWN_QUANTITIES`], where 1 is yes and 0 is no.
     pub fn quantity(&self, name: &str) -> Option<f64> {
         match name {
             "buried_m" => Some(self.buried_m),
@@ -120,5 +124,24 @@ impl MemberBody {
         let place = [self.rest_m[0], self.rest_m[1]];
         let known = !self.moving && place.iter().all(|x| x.is_finite());
         known.then_some(place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_body_has_its_own_quantities_and_no_other() {
+        let body = MemberBody {
+            rest_m: [1.0, 2.0, 3.0],
+            moving: true,
+            hit: false,
+            buried_m: 0.5,
+            quantities: BTreeMap::new(),
+        };
+        let values = MemberBody::OWN_QUANTITIES.map(|name| body.quantity(name));
+        assert_eq!(values, [1.0, 2.0, 3.0, 0.5, 1.0, 0.0].map(Some));
+        assert_eq!(body.quantity("displacement_m"), None);
     }
 }

@@ -2803,12 +2803,12 @@ class SobolIndices(TypedDict):
 
 class StudyAnswer1(TypedDict):
     """
-    Where the body comes to rest.
+    Distribution of the body's resting place.
     """
 
     rest: RestDistribution
     """
-    Where the body comes to rest.
+    Distribution of the body's resting place.
     """
 
 

@@ -11,7 +11,7 @@ use tiff::tags::Tag;
 const MODEL_PIXEL_SCALE: u16 = 33550;
 /// A pixel, and the place of its upper left corner.
 const MODEL_TIEPOINT: u16 = 33922;
-/// What the coordinates mean.
+/// Keys of the meaning of the coordinates.
 const GEO_KEY_DIRECTORY: u16 = 34735;
 /// Texts of the keys.
 const GEO_ASCII_PARAMS: u16 = 34737;

@@ -77,10 +77,7 @@ fn names(members: &[&Member]) -> Vec<String> {
     for body in 0..bodies {
         let of_body = finished().filter_map(|one| one.bodies.get(body));
         let further: BTreeSet<&String> = of_body.flat_map(|one| one.quantities.keys()).collect();
-        let fixed = [
-            "rest_x_m", "rest_y_m", "rest_z_m", "buried_m", "moving", "hit",
-        ];
-        let all = fixed
+        let all = MemberBody::OWN_QUANTITIES
             .into_iter()
             .chain(further.into_iter().map(String::as_str));
         names.extend(all.map(|name| format!("body{body}.{name}")));
@@ -95,12 +92,10 @@ fn quantity(finished: &Finished, name: &str) -> Option<f64> {
     let Some((body, name)) = of_body else {
         return finished.quantity(name, None);
     };
-    let body: &MemberBody = finished.bodies.get(body.parse::<usize>().ok()?)?;
-    match name {
-        "moving" => Some(f64::from(u8::from(body.moving))),
-        "hit" => Some(f64::from(u8::from(body.hit))),
-        name => body.quantity(name),
-    }
+    finished
+        .bodies
+        .get(body.parse::<usize>().ok()?)?
+        .quantity(name)
 }
 
 /// The table as CSV (RFC 4180): `member`, the inputs by their pointers, `failure`, the quantities;

@@ -42,7 +42,7 @@ pub struct Answers {
 #[cfg_attr(feature = "schema", schema(as = StudyAnswer))]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
-    /// Where the body comes to rest.
+    /// Distribution of the body's resting place.
     Rest(RestDistribution),
     /// Probability of each threshold.
     Exceeds(Vec<Exceedance>),

@@ -119,7 +119,7 @@ impl Kernel {
             .sum()
     }
 
-    /// What a place itself adds to the density at it, if it had all the weight [1/m²].
+    /// Density at a place due to that place itself, if it had all the weight [1/m²].
     pub(super) fn own(&self, place_m: [f64; 2]) -> f64 {
         let along = |axis: usize| {
             let (_, beyond) = self.cell(place_m, axis);
