@@ -5,23 +5,20 @@ use super::StudyService;
 use super::members::new_members;
 use super::outcome;
 use super::schedule::{Conclusion, Next, conclusion, next};
-use super::study::{StoredStudy, StudyId, StudyStatus};
-use crate::jobs::News;
+use super::study::{MemberCounts, StoredStudy, StudyId, StudyStatus};
 use crate::jobs::failure::Failure;
-use crate::jobs::store::{EndedMember, MemberOutcome, NewMember, StoreError, StudyEnd, StudyPage};
-use scree_studies::{Ensemble, Study};
+use crate::jobs::store::{
+    EndedMember, Enlarged, MemberOutcome, NewMember, StoreError, StudyDismissal, StudyEnd,
+};
+use scree_studies::Ensemble;
 use std::time::Duration;
 use thiserror::Error;
-use tokio::sync::broadcast::error::RecvError;
 use tokio::task::JoinHandle;
 use tokio::time::timeout;
 use tracing::{info, warn};
 
 /// Longest time between two looks at the studies.
 const LOOK_PAUSE: Duration = Duration::from_secs(1);
-
-/// Largest number of running studies that are looked at.
-const AT_ONCE: u32 = 1_000;
 
 /// Reason why a study can't go on.
 #[derive(Debug, Error)]
@@ -46,26 +43,19 @@ async fn drive(studies: &StudyService) {
             warn!(%error, "old studies can't be removed now");
         }
         // Members that end and studies that come are events; what is missed is seen a little later.
-        match timeout(LOOK_PAUSE, studies.wake(&mut news)).await {
-            Ok(Err(RecvError::Closed)) | Ok(Ok(News::Closing)) => return,
-            Ok(_) | Err(_) => {}
+        if timeout(LOOK_PAUSE, studies.wait_for_news(&mut news)).await == Ok(false) {
+            return;
         }
     }
 }
 
 async fn look_at_all(studies: &StudyService) {
-    let running = StudyPage {
-        status: Some(StudyStatus::Running),
-        before: None,
-        limit: AT_ONCE,
-    };
-    let running = match studies.store.studies(&running).await {
+    let running = match studies.store.running_studies().await {
         Ok(running) => running,
         Err(error) => return warn!(%error, "studies can't be read now"),
     };
-    for study in running.into_iter().rev() {
-        let id = study.id;
-        match advance(studies, study).await {
+    for (id, counts) in running {
+        match advance(studies, id, counts).await {
             Ok(()) => {}
             Err(DriveError::Store(error)) => warn!(%id, %error, "the study waits"),
             Err(DriveError::Study(why)) => fail(studies, id, &why).await,
@@ -87,11 +77,14 @@ async fn remove_old(studies: &StudyService) -> Result<(), StoreError> {
 }
 
 /// Notes the outcomes of members that have ended, and takes the next step of the schedule.
-async fn advance(studies: &StudyService, stored: StoredStudy) -> Result<(), DriveError> {
-    let id = stored.id;
+async fn advance(
+    studies: &StudyService,
+    id: StudyId,
+    before: MemberCounts,
+) -> Result<(), DriveError> {
     let is_news = note_outcomes(studies, id).await?;
     // Nothing is left to do since the last step, unless a member has ended.
-    if !is_news && stored.members.made > stored.members.ended {
+    if !is_news && before.made > before.ended {
         return Ok(());
     }
     let stored = match studies.store.study(id).await? {
@@ -135,8 +128,9 @@ async fn conclude(studies: &StudyService, stored: &StoredStudy) -> Result<(), Dr
         Conclusion::Enlarge(larger) => {
             let larger = serde_json::to_string(&larger);
             let larger = larger.map_err(|error| DriveError::Study(error.to_string()))?;
-            studies.enlarge(stored, &larger).await?;
-            info!(%id, "enlarged by its stopping rule");
+            if studies.enlarge(stored, &larger).await? == Enlarged::Done {
+                info!(%id, "enlarged by its stopping rule");
+            }
         }
         Conclusion::End => {
             let end = StudyEnd {
@@ -144,8 +138,9 @@ async fn conclude(studies: &StudyService, stored: &StoredStudy) -> Result<(), Dr
                 problem: None,
                 document: Some(document),
             };
-            studies.end(id, end).await?;
-            info!(%id, "ended");
+            if let StudyDismissal::Done(_) = studies.end(id, end).await? {
+                info!(%id, "ended");
+            }
         }
     }
     Ok(())
@@ -158,24 +153,16 @@ enum Step {
     Conclude,
 }
 
-/// What this makes of a study, on a thread where it delays no request.
+/// Result of `make` with the members of a study, on a thread where it delays no request.
 async fn aside<T: Send + 'static>(
     stored: &StoredStudy,
     make: impl FnOnce(&Ensemble) -> T + Send + 'static,
 ) -> Result<T, DriveError> {
-    let document = stored.document.get().to_owned();
-    let made = tokio::task::spawn_blocking(move || {
-        let study: Study = serde_json::from_str(&document).map_err(|error| error.to_string())?;
-        let ensemble = Ensemble::of(&study).map_err(|found| {
-            let first = found.into_iter().next();
-            first.map_or_else(String::new, |violation| violation.message)
-        })?;
-        Ok::<T, String>(make(&ensemble))
-    });
-    let made = made
-        .await
-        .map_err(|error| DriveError::Study(error.to_string()))?;
-    made.map_err(DriveError::Study)
+    let stored = stored.clone();
+    let made = tokio::task::spawn_blocking(move || stored.with_ensemble(make));
+    made.await
+        .map_err(|error| DriveError::Study(error.to_string()))?
+        .map_err(|error| DriveError::Study(error.to_string()))
 }
 
 /// Notes the outcomes of members that have ended; true if there were any.

@@ -6,7 +6,7 @@ use scree_studies::{Ensemble, Member, Progress, Question, Stop, Study, Verdict};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// What a study does next.
+/// Next step of a study.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Next {
     /// Members of these numbers are to be computed, in this order.
@@ -17,7 +17,7 @@ pub enum Next {
     Conclude,
 }
 
-/// What becomes of a study all of whose members have an outcome.
+/// Conclusion from the outcomes of all members of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Conclusion {
     /// It goes on as this larger study.
@@ -26,8 +26,8 @@ pub enum Conclusion {
     End,
 }
 
-/// What a study does next if the first members have been made, and so many of them have an
-/// outcome; at most `most` members are in work at a time.
+/// Next step of a study whose first members have been made, so many of them with an outcome; at
+/// most `most` members are in work at a time.
 pub fn next(ensemble: &Ensemble, counts: MemberCounts, most: u64) -> Next {
     let in_work = counts.made - counts.ended;
     let until = ensemble
@@ -42,7 +42,7 @@ pub fn next(ensemble: &Ensemble, counts: MemberCounts, most: u64) -> Next {
     }
 }
 
-/// What becomes of a study with these outcomes of all its members.
+/// Conclusion from these outcomes of all members of a study.
 pub fn conclusion(ensemble: &Ensemble, outcomes: &[Member]) -> Conclusion {
     let study = ensemble.study();
     match (&study.stop, study.design.doubled()) {
@@ -98,7 +98,7 @@ fn verdict(ensemble: &Ensemble, stop: &Stop, outcomes: &[Member]) -> Verdict {
 }
 
 /// Work of the members so far [point-steps].
-pub fn point_steps(outcomes: &[Member]) -> f64 {
+fn point_steps(outcomes: &[Member]) -> f64 {
     let finished = outcomes.iter().filter_map(Member::finished);
     finished
         .filter_map(|finished| finished.quantity("point_steps", None))

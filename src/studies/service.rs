@@ -8,7 +8,7 @@ use crate::jobs::store::{
 };
 use crate::jobs::submit::Means;
 use crate::jobs::{JobService, News};
-use scree_studies::{Answers, Ensemble, Member, MemberOutcome, Study};
+use scree_studies::{Member, MemberOutcome};
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::Notify;
@@ -207,22 +207,11 @@ impl StudyService {
         Ok(stored.iter().map(read).collect())
     }
 
-    /// Waits for news of a job or a study.
-    pub(super) async fn wake(&self, news: &mut Receiver<News>) -> Result<News, RecvError> {
+    /// Waits for news of a job or a study; false if the service closes.
+    pub(super) async fn wait_for_news(&self, news: &mut Receiver<News>) -> bool {
         tokio::select! {
-            news = news.recv() => news,
-            () = self.changed.notified() => Ok(News::Events(Arc::default())),
+            news = news.recv() => !matches!(news, Ok(News::Closing) | Err(RecvError::Closed)),
+            () = self.changed.notified() => true,
         }
     }
-}
-
-/// Answers of a stored study; work for a thread of its own.
-///
-/// # Errors
-/// The document is no study, in words.
-pub fn answers(document: &str, outcomes: &[Member]) -> Result<(Study, Answers), String> {
-    let study: Study = serde_json::from_str(document).map_err(|error| error.to_string())?;
-    let ensemble = Ensemble::of(&study).map_err(|_| "a stored study breaks rules".to_owned())?;
-    let answers = Answers::of(&ensemble, outcomes);
-    Ok((study, answers))
 }

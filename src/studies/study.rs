@@ -2,8 +2,10 @@
 
 use crate::jobs::identifier::identifier;
 use jiff::Timestamp;
+use scree_studies::{Ensemble, Study, Violation};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
+use thiserror::Error;
 use utoipa::ToSchema;
 
 identifier! {
@@ -82,4 +84,41 @@ pub struct MemberCounts {
     pub made: u64,
     /// Those whose job has ended.
     pub ended: u64,
+}
+
+/// Reason why the document of a stored study can't be used.
+#[derive(Debug, Error)]
+pub enum UnusableStudy {
+    /// It is no study.
+    #[error("the stored study can't be read: {0}")]
+    Unreadable(#[from] serde_json::Error),
+    /// It is a study that breaks rules: the first.
+    #[error("the stored study breaks rules: {0}")]
+    BreaksRules(String),
+}
+
+impl From<Vec<Violation>> for UnusableStudy {
+    fn from(found: Vec<Violation>) -> Self {
+        let first = found.into_iter().next();
+        Self::BreaksRules(first.map_or_else(String::new, |violation| violation.message))
+    }
+}
+
+impl StoredStudy {
+    /// Study that its document describes.
+    ///
+    /// # Errors
+    /// The document is no study.
+    pub fn study(&self) -> Result<Study, UnusableStudy> {
+        Ok(serde_json::from_str(self.document.get())?)
+    }
+
+    /// Result of `make` with the members that the study describes.
+    ///
+    /// # Errors
+    /// The document is no study, or breaks rules.
+    pub fn with_ensemble<T>(&self, make: impl FnOnce(&Ensemble) -> T) -> Result<T, UnusableStudy> {
+        let study = self.study()?;
+        Ok(make(&Ensemble::of(&study)?))
+    }
 }

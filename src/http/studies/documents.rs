@@ -110,7 +110,7 @@ impl From<&StoredStudy> for StudySummaryDocument {
 
 /// Members of its design; those made if its document can't be read.
 fn members_of(study: &StoredStudy) -> u64 {
-    let document = serde_json::from_str::<Study>(study.document.get());
+    let document = study.study();
     document.map_or(study.members.made, |study| study.members())
 }
 

@@ -95,9 +95,8 @@ pub(in crate::http) async fn enlarge_study(
     Query::new(query.as_deref()).finish()?;
     let stored = changeable(&studies, &caller, &id).await?;
     let changes: ChangesDocument = read_envelope(&text, ("invalid-study", "Invalid study"))?;
-    let study: Study =
-        serde_json::from_str(stored.document.get()).map_err(|error| Problem::internal(&error))?;
-    let study = validated(&jobs, &caller, changes.applied(study)?).await?;
+    let changed = changes.applied(stored.study()?)?;
+    let study = validated(&jobs, &caller, changed).await?;
     let document = serde_json::to_string(&study).map_err(|error| Problem::internal(&error))?;
     match studies.enlarge(&stored, &document).await? {
         Enlarged::Done => {}

@@ -1,123 +1,30 @@
 //! Answers of a study as files: tables, maps, pictures.
 
-use super::named::{NamedStudy, readable};
-use crate::http::access::Caller;
+use super::asked::AskedStudy;
 use crate::http::archive::{Archive, Svg, attachment};
 use crate::http::problem::Problem;
 use crate::http::query::Query;
-use crate::http::services::Services;
-use crate::jobs::JobService;
-use crate::studies::StudyService;
-use crate::studies::export::{self, ExportError, MemberTable};
-use axum::extract::{FromRequestParts, RawQuery};
+use crate::studies::export::{self, ExportError};
+use axum::extract::RawQuery;
 use axum::http::header;
-use axum::http::request::Parts;
 use axum::response::{IntoResponse, Response};
-use scree_studies::answers::{Answer, Measures, RestDistribution};
-use scree_studies::{Ensemble, Member, Question, Study};
-
-/// Study of which a file is asked for, and what it is made with.
-pub(in crate::http) struct Asked {
-    jobs: JobService,
-    studies: StudyService,
-    caller: Caller,
-    id: String,
-}
-
-impl FromRequestParts<Services> for Asked {
-    type Rejection = Problem;
-
-    async fn from_request_parts(parts: &mut Parts, state: &Services) -> Result<Self, Problem> {
-        let NamedStudy(id) = NamedStudy::from_request_parts(parts, state).await?;
-        let caller = Caller::from_request_parts(parts, state).await?;
-        Ok(Self {
-            jobs: state.jobs.clone(),
-            studies: state.studies.clone(),
-            caller,
-            id,
-        })
-    }
-}
-
-/// A study and its members that have an outcome.
-struct Known<'a> {
-    ensemble: Ensemble<'a>,
-    members: Vec<Member>,
-}
-
-impl Asked {
-    /// Makes a file in the caller's place in the admission pool.
-    async fn make(
-        self,
-        make: impl FnOnce(&Known) -> Result<Vec<u8>, Problem> + Send + 'static,
-    ) -> Result<Vec<u8>, Problem> {
-        let stored = readable(&self.studies, &self.caller, &self.id).await?;
-        let place = self.jobs.enter(&self.caller.share())?;
-        let members = self.studies.outcomes(stored.id).await?;
-        let made = place.work(move |_| {
-            let study: Study = serde_json::from_str(stored.document.get())
-                .map_err(|error| Problem::internal(&error))?;
-            let ensemble = Ensemble::of(&study)
-                .map_err(|_| Problem::internal("a stored study breaks rules"))?;
-            make(&Known { ensemble, members })
-        });
-        made.await?
-    }
-}
-
-impl Known<'_> {
-    fn table(&self) -> MemberTable {
-        MemberTable::of(&self.ensemble, &self.members)
-    }
-
-    /// The first question of a kind from this place on, and its answer.
-    fn answer<T>(
-        &self,
-        asked: Option<usize>,
-        what: &str,
-        of_kind: impl Fn(Answer) -> Option<T>,
-        is_of_kind: impl Fn(&Question) -> bool,
-    ) -> Result<(usize, T), Problem> {
-        let mut questions = self.ensemble.study().questions.iter().enumerate();
-        let found = questions.find(|(place, question)| {
-            is_of_kind(question) && asked.is_none_or(|asked| asked == *place)
-        });
-        let answer = found.and_then(|(place, question)| {
-            let answer = Answer::of(&self.ensemble, &self.members, question);
-            Some((place, of_kind(answer)?))
-        });
-        answer.ok_or_else(|| {
-            let detail = match asked {
-                Some(place) => format!("question {place} of the study has no {what}"),
-                None => format!("no question of the study has a {what}"),
-            };
-            Problem::not_found("no-answer", detail)
-        })
-    }
-
-    fn rest(&self, asked: Option<usize>) -> Result<(usize, RestDistribution), Problem> {
-        let rest = |answer| match answer {
-            Answer::Rest(rest) => Some(rest),
-            _ => None,
-        };
-        let is_rest = |question: &Question| matches!(question, Question::Rest(_));
-        self.answer(asked, "resting place", rest, is_rest)
-    }
-
-    fn sensitivity(&self, asked: Option<usize>) -> Result<(usize, Measures), Problem> {
-        let measures = |answer| match answer {
-            Answer::Sensitivity(measures) => measures,
-            _ => None,
-        };
-        let is_it = |question: &Question| matches!(question, Question::Sensitivity(_));
-        self.answer(asked, "sensitivity", measures, is_it)
-    }
-}
 
 impl From<ExportError> for Problem {
     fn from(error: ExportError) -> Self {
         Self::internal(&error)
     }
+}
+
+/// Question about a resting place that is asked for.
+#[derive(utoipa::IntoParams)]
+#[into_params(parameter_in = Query)]
+#[expect(
+    dead_code,
+    reason = "a type of the contract: the query has a reader of its own"
+)]
+struct QuestionParameter {
+    /// Place of the question in the study; the first about a resting place if left out
+    question: Option<u32>,
 }
 
 /// Value of `question`.
@@ -152,12 +59,12 @@ fn picture(contents: Vec<u8>) -> Response {
     )
 )]
 pub(in crate::http) async fn study_members_csv(
-    asked: Asked,
+    asked: AskedStudy,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::new(query.as_deref()).finish()?;
-    let name = format!("study-{}.csv", asked.id);
-    let made = asked.make(|known| Ok(export::members_as_csv(&known.table()).into()));
+    let name = format!("study-{}.csv", asked.id());
+    let made = asked.make(|outcomes| Ok(export::members_as_csv(&outcomes.table()).into()));
     Ok(file(made.await?, ("text/csv; charset=utf-8", &name)))
 }
 
@@ -175,12 +82,12 @@ pub(in crate::http) async fn study_members_csv(
     )
 )]
 pub(in crate::http) async fn study_members_npz(
-    asked: Asked,
+    asked: AskedStudy,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::new(query.as_deref()).finish()?;
-    let name = format!("study-{}.npz", asked.id);
-    let made = asked.make(|known| Ok(export::members_as_npz(&known.table())));
+    let name = format!("study-{}.npz", asked.id());
+    let made = asked.make(|outcomes| Ok(export::members_as_npz(&outcomes.table())));
     Ok(file(made.await?, ("application/zip", &name)))
 }
 
@@ -193,7 +100,7 @@ pub(in crate::http) async fn study_members_npz(
     tag = "studies",
     params(
         ("id" = String, Path, format = Uuid, description = "Identifier of the study"),
-        ("question" = Option<u32>, Query, description = "Place of the question in the study; the first about a resting place if left out"),
+        QuestionParameter,
     ),
     responses(
         (status = 200, description = "The regions", body = serde_json::Value, content_type = "application/geo+json"),
@@ -202,13 +109,13 @@ pub(in crate::http) async fn study_members_npz(
     )
 )]
 pub(in crate::http) async fn study_rest_geojson(
-    asked: Asked,
+    asked: AskedStudy,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let place = question(query.as_deref())?;
-    let made = asked.make(move |known| {
-        let (_, rest) = known.rest(place)?;
-        Ok(export::rest_as_geojson(&rest).to_string().into())
+    let made = asked.make(move |outcomes| {
+        let (_, rest) = outcomes.rest(place)?;
+        Ok(export::rest_as_geojson(&rest).to_string())
     });
     let kind = [(header::CONTENT_TYPE, "application/geo+json")];
     Ok((kind, made.await?).into_response())
@@ -223,7 +130,7 @@ pub(in crate::http) async fn study_rest_geojson(
     tag = "studies",
     params(
         ("id" = String, Path, format = Uuid, description = "Identifier of the study"),
-        ("question" = Option<u32>, Query, description = "Place of the question in the study; the first about a resting place if left out"),
+        QuestionParameter,
     ),
     responses(
         (status = 200, description = "The image", body = Archive, content_type = "image/tiff"),
@@ -232,13 +139,13 @@ pub(in crate::http) async fn study_rest_geojson(
     )
 )]
 pub(in crate::http) async fn study_rest_tiff(
-    asked: Asked,
+    asked: AskedStudy,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let place = question(query.as_deref())?;
-    let name = format!("study-{}.tif", asked.id);
-    let made = asked.make(move |known| {
-        let (_, rest) = known.rest(place)?;
+    let name = format!("study-{}.tif", asked.id());
+    let made = asked.make(move |outcomes| {
+        let (_, rest) = outcomes.rest(place)?;
         let too_few = || Problem::not_found("no-answer", "too few members have come to rest");
         let density = rest.density.as_ref().ok_or_else(too_few)?;
         Ok(export::density_as_geotiff(density).map_err(ExportError::from)?)
@@ -255,7 +162,7 @@ pub(in crate::http) async fn study_rest_tiff(
     tag = "studies",
     params(
         ("id" = String, Path, format = Uuid, description = "Identifier of the study"),
-        ("question" = Option<u32>, Query, description = "Place of the question in the study; the first about a resting place if left out"),
+        QuestionParameter,
     ),
     responses(
         (status = 200, description = "The picture", body = Svg, content_type = "image/svg+xml"),
@@ -264,13 +171,13 @@ pub(in crate::http) async fn study_rest_tiff(
     )
 )]
 pub(in crate::http) async fn draw_study_rest(
-    asked: Asked,
+    asked: AskedStudy,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let place = question(query.as_deref())?;
-    let made = asked.make(move |known| {
-        let (place, rest) = known.rest(place)?;
-        let map = export::map(&known.ensemble, &known.members, (place, &rest));
+    let made = asked.make(move |outcomes| {
+        let (place, rest) = outcomes.rest(place)?;
+        let map = export::map(outcomes.ensemble, &outcomes.members, (place, &rest));
         Ok(map.map_err(ExportError::from)?.into())
     });
     Ok(picture(made.await?))
@@ -294,13 +201,13 @@ pub(in crate::http) async fn draw_study_rest(
     )
 )]
 pub(in crate::http) async fn draw_study_sensitivity(
-    asked: Asked,
+    asked: AskedStudy,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let place = question(query.as_deref())?;
-    let made = asked.make(move |known| {
-        let (place, measures) = known.sensitivity(place)?;
-        let tornado = export::tornado(known.ensemble.study(), (place, &measures));
+    let made = asked.make(move |outcomes| {
+        let (place, measures) = outcomes.sensitivity(place)?;
+        let tornado = export::tornado(outcomes.ensemble.study(), (place, &measures));
         Ok(tornado.map_err(ExportError::from)?.into())
     });
     Ok(picture(made.await?))
@@ -320,13 +227,13 @@ pub(in crate::http) async fn draw_study_sensitivity(
     )
 )]
 pub(in crate::http) async fn draw_study_scatter(
-    asked: Asked,
+    asked: AskedStudy,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::new(query.as_deref()).finish()?;
-    let made = asked.make(|known| {
-        let title = &known.ensemble.study().title;
-        let drawn = export::scatter(title, &known.table());
+    let made = asked.make(|outcomes| {
+        let title = &outcomes.ensemble.study().title;
+        let drawn = export::scatter(title, &outcomes.table());
         Ok(drawn.map_err(ExportError::from)?.into())
     });
     Ok(picture(made.await?))

@@ -11,7 +11,7 @@ use crate::studies::StudyService;
 use axum::extract::{RawQuery, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
-use scree_studies::{Ensemble, Study};
+use scree_studies::Ensemble;
 use serde_json::value::RawValue;
 
 /// Default number of members per page.
@@ -54,16 +54,12 @@ pub(in crate::http) async fn list_members(
     let mut found = studies.members(stored.id, from, limit + 1).await?;
     let next = found.get(limit as usize).map(|member| member.member);
     found.truncate(limit as usize);
-    let study: Study =
-        serde_json::from_str(stored.document.get()).map_err(|error| Problem::internal(&error))?;
-    let ensemble =
-        Ensemble::of(&study).map_err(|_| Problem::internal("a stored study breaks rules"))?;
-    let members = found.into_iter().map(|member| document(&ensemble, member));
-    let document = MemberPageDocument {
-        members: members.collect::<Result<_, _>>()?,
-        next,
-    };
-    etag::json(&headers, &document)
+    let members = stored.with_ensemble(|ensemble| {
+        let members = found.into_iter().map(|member| document(ensemble, member));
+        members.collect::<Result<_, _>>()
+    });
+    let members = members??;
+    etag::json(&headers, &MemberPageDocument { members, next })
 }
 
 fn document(ensemble: &Ensemble, member: ListedMember) -> Result<MemberDocument, Problem> {

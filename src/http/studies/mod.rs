@@ -1,5 +1,6 @@
 //! Studies: one scenario with uncertain inputs.
 
+mod asked;
 mod documents;
 mod ending;
 mod enlargement;

@@ -4,7 +4,7 @@ use crate::http::access::Caller;
 use crate::http::problem::Problem;
 use crate::jobs::submit::excerpt;
 use crate::studies::StudyService;
-use crate::studies::study::StoredStudy;
+use crate::studies::study::{StoredStudy, UnusableStudy};
 use axum::extract::{FromRequestParts, Path};
 use axum::http::request::Parts;
 
@@ -54,4 +54,10 @@ pub(super) async fn changeable(
 pub(super) fn unknown_study(id: &str) -> Problem {
     let detail = format!("there is no study {}", excerpt(id));
     Problem::not_found("unknown-study", detail)
+}
+
+impl From<UnusableStudy> for Problem {
+    fn from(error: UnusableStudy) -> Self {
+        Self::internal(&error)
+    }
 }

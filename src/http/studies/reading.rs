@@ -1,15 +1,14 @@
 //! Studies and their answers, read.
 
+use super::asked::AskedStudy;
 use super::documents::{StudyDocument, StudyPageDocument, StudySummaryDocument};
 use super::named::{NamedStudy, readable};
 use crate::http::access::Caller;
 use crate::http::etag;
 use crate::http::problem::Problem;
 use crate::http::query::Query;
-use crate::jobs::JobService;
 use crate::jobs::store::StudyPage;
 use crate::studies::StudyService;
-use crate::studies::service;
 use crate::studies::study::StudyStatus;
 use axum::extract::{RawQuery, State};
 use axum::http::HeaderMap;
@@ -115,19 +114,12 @@ pub(in crate::http) async fn show_study(
     )
 )]
 pub(in crate::http) async fn study_answers(
-    State(jobs): State<JobService>,
-    State(studies): State<StudyService>,
-    caller: Caller,
-    NamedStudy(id): NamedStudy,
+    asked: AskedStudy,
     headers: HeaderMap,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::new(query.as_deref()).finish()?;
-    let study = readable(&studies, &caller, &id).await?;
-    let place = jobs.enter(&caller.share())?;
-    let outcomes = studies.outcomes(study.id).await?;
-    let answers = place.work(move |_| service::answers(study.document.get(), &outcomes));
-    let (_, answers) = answers.await?.map_err(|error| Problem::internal(&error))?;
+    let answers = asked.make(|outcomes| Ok(outcomes.answers())).await?;
     etag::json(&headers, &answers)
 }
 

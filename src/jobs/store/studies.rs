@@ -3,7 +3,7 @@
 use super::{JobStore, Key, Removal, Room, StoreError};
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::submit::NewJob;
-use crate::studies::study::{StoredStudy, StudyId, StudyStatus};
+use crate::studies::study::{MemberCounts, StoredStudy, StudyId, StudyStatus};
 use async_trait::async_trait;
 
 type Answer<T> = Result<T, StoreError>;
@@ -22,6 +22,9 @@ pub trait StudyStore: JobStore {
 
     /// Studies, newest first.
     async fn studies(&self, page: &StudyPage) -> Answer<Vec<StoredStudy>>;
+
+    /// Running studies in the order of their submission, with the numbers of their members.
+    async fn running_studies(&self) -> Answer<Vec<(StudyId, MemberCounts)>>;
 
     /// Replaces this document of a study that runs or was successful by another; it runs again, if
     /// there is room for it.
@@ -142,7 +145,7 @@ pub struct NewMember {
     pub work: MemberWork,
 }
 
-/// What is to be done for a new member.
+/// Work of making a new member.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MemberWork {
     /// This job, or an equal one.

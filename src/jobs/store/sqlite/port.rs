@@ -14,7 +14,7 @@ use crate::jobs::store::{
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
 use crate::runs::Progress;
-use crate::studies::study::{StoredStudy, StudyId};
+use crate::studies::study::{MemberCounts, StoredStudy, StudyId};
 use async_trait::async_trait;
 use std::time::Duration;
 
@@ -227,6 +227,10 @@ impl StudyStore for SqliteStore {
 
     async fn studies(&self, page: &StudyPage) -> Result<Vec<StoredStudy>, StoreError> {
         Ok(Self::studies(self, page).await?)
+    }
+
+    async fn running_studies(&self) -> Result<Vec<(StudyId, MemberCounts)>, StoreError> {
+        Ok(Self::running_studies(self).await?)
     }
 
     async fn enlarge_study(

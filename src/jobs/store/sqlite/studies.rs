@@ -17,12 +17,12 @@ use serde_json::value::RawValue;
 use sqlx::sqlite::SqliteConnection;
 use sqlx::{FromRow, Sqlite, Transaction};
 
-const COLUMNS: &str = "SELECT sequence, id, status, title, created_ms, finished_ms, document,
-        submitter, problem,
-        (SELECT count(*) FROM study_members WHERE study = studies.sequence) AS made,
-        (SELECT count(*) FROM study_members
-         WHERE study = studies.sequence AND outcome IS NULL) AS in_work
-    FROM studies";
+const COLUMNS: &str =
+    "sequence, id, status, title, created_ms, finished_ms, document, submitter, problem";
+
+const COUNTS: &str = "(SELECT count(*) FROM study_members WHERE study = studies.sequence) AS made,
+    (SELECT count(*) FROM study_members
+     WHERE study = studies.sequence AND outcome IS NULL) AS in_work";
 
 #[derive(Debug, FromRow)]
 struct StudyRow {
@@ -67,11 +67,12 @@ impl SqliteStore {
     }
 
     pub(super) async fn study(&self, id: StudyId) -> Answer<Option<StoredStudy>> {
-        let row: Option<StudyRow> =
-            sqlx::query_as(sqlx::AssertSqlSafe(format!("{COLUMNS} WHERE id = ?1")))
-                .bind(id.to_string())
-                .fetch_optional(self.readers.pool())
-                .await?;
+        let row: Option<StudyRow> = sqlx::query_as(sqlx::AssertSqlSafe(format!(
+            "SELECT {COLUMNS}, {COUNTS} FROM studies WHERE id = ?1"
+        )))
+        .bind(id.to_string())
+        .fetch_optional(self.readers.pool())
+        .await?;
         row.map(StudyRow::read).transpose()
     }
 
@@ -82,7 +83,8 @@ impl SqliteStore {
             None => "?2 IS NULL",
         };
         let rows: Vec<StudyRow> = sqlx::query_as(sqlx::AssertSqlSafe(format!(
-            "{COLUMNS} WHERE sequence < ?1 AND {of_state} ORDER BY sequence DESC LIMIT ?3"
+            "SELECT {COLUMNS}, {COUNTS} FROM studies
+             WHERE sequence < ?1 AND {of_state} ORDER BY sequence DESC LIMIT ?3"
         )))
         .bind(page.before.unwrap_or(i64::MAX))
         .bind(page.status.map(StudyStatus::word))
@@ -90,6 +92,18 @@ impl SqliteStore {
         .fetch_all(self.readers.pool())
         .await?;
         rows.into_iter().map(StudyRow::read).collect()
+    }
+
+    pub(super) async fn running_studies(&self) -> Answer<Vec<(StudyId, MemberCounts)>> {
+        let rows: Vec<(String, i64, i64)> = sqlx::query_as(sqlx::AssertSqlSafe(format!(
+            "SELECT id, {COUNTS} FROM studies WHERE status = 'running' ORDER BY sequence"
+        )))
+        .fetch_all(self.readers.pool())
+        .await?;
+        let read = |(id, made, in_work): (String, i64, i64)| {
+            Ok((parse_study(&id)?, counts(made, in_work)))
+        };
+        rows.into_iter().map(read).collect()
     }
 
     pub(super) async fn enlarge_study(
@@ -355,6 +369,13 @@ fn parse_study(id: &str) -> Answer<StudyId> {
     Ok(parsed)
 }
 
+fn counts(made: i64, in_work: i64) -> MemberCounts {
+    MemberCounts {
+        made: made.unsigned_abs(),
+        ended: (made - in_work).unsigned_abs(),
+    }
+}
+
 impl StudyRow {
     fn read(self) -> Answer<StoredStudy> {
         let broken = |what| StoreError::Row {
@@ -375,10 +396,7 @@ impl StudyRow {
                 .clone()
                 .map(|text| json(text, "problem"))
                 .transpose()?,
-            members: MemberCounts {
-                made: self.made.unsigned_abs(),
-                ended: (self.made - self.in_work).unsigned_abs(),
-            },
+            members: counts(self.made, self.in_work),
             title: self.title,
             submitter: self.submitter,
         })

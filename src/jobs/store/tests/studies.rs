@@ -1,7 +1,7 @@
 //! Rules for every driver that keeps studies, one per test.
 
 use super::*;
-use crate::studies::study::{StudyId, StudyStatus};
+use crate::studies::study::{MemberCounts, StudyId, StudyStatus};
 
 conformance! {
     members_are_claimed_when_no_other_job_waits
@@ -17,6 +17,7 @@ conformance! {
     a_successful_study_goes_on_when_it_is_enlarged_and_no_other
     a_study_that_was_changed_meanwhile_is_neither_ended_nor_enlarged
     studies_are_listed_newest_first
+    running_studies_are_counted_in_the_order_of_submission
 }
 
 impl Fixture {
@@ -360,4 +361,25 @@ async fn studies_are_listed_newest_first(fixture: &Fixture) {
     let running = page(Some(StudyStatus::Running), None, 10);
     let running = fixture.store.studies(&running).await.unwrap();
     assert_eq!(running.len(), 2);
+}
+
+async fn running_studies_are_counted_in_the_order_of_submission(fixture: &Fixture) {
+    let [first, ended, last] = ["a", "b", "c"].map(|title| fixture.study(title));
+    let (first, ended, last) = (first.await, ended.await, last.await);
+    fixture.add(last, 0, "a").await;
+    let job = fixture.add(last, 1, "b").await;
+    fixture.end(ended, StudyStatus::Successful).await;
+    let dismissed = fixture.store.dismiss(job).await.unwrap();
+    assert_eq!(dismissed, Dismissal::Dismissed);
+    let found = fixture.store.ended_members(last).await.unwrap();
+    let outcomes = found.iter().map(|ended| MemberOutcome {
+        level: ended.level,
+        member: ended.member,
+        outcome: "{}".to_owned(),
+    });
+    let outcomes: Vec<_> = outcomes.collect();
+    fixture.store.note_outcomes(last, &outcomes).await.unwrap();
+    let counts = |made, ended| MemberCounts { made, ended };
+    let running = fixture.store.running_studies().await.unwrap();
+    assert_eq!(running, [(first, counts(0, 0)), (last, counts(2, 1))]);
 }
