@@ -13,7 +13,7 @@ from scree import contract, local_service
 from scree.errors import Conflict, WaitTimeout
 from scree.events import JobEvent, follow
 from scree.job import JobHandle, ProgressFunction
-from scree.transport import Transport
+from scree.transport import Transport, Value
 
 #: Jobs of one page of a list, the most that the service gives.
 PAGE = 100
@@ -173,21 +173,13 @@ class Client:
         include : iterable of {"outcome"}
             Parts of the jobs beside their summaries.
         """
-        parameters = [("limit", str(PAGE))]
+        parameters: list[tuple[str, Value]] = [("limit", PAGE)]
         parameters += [("status", state) for state in _texts(status)]
         parameters += [("label", label)] if label is not None else []
         times = (("created_from", created_from), ("created_to", created_to))
         parameters += [(name, time.astimezone().isoformat()) for name, time in times if time]
         parameters += [("include", part) for part in include]
-        cursor: str | None = None
-        while True:
-            next_page = [] if cursor is None else [("cursor", cursor)]
-            answer = self._transport.get("/v1/jobs", [*parameters, *next_page])
-            page = cast(contract.JobPage, answer.json())
-            yield from page["jobs"]
-            cursor = page["next_cursor"]
-            if cursor is None:
-                return
+        return self._transport.entries("/v1/jobs", parameters, of="jobs")
 
     def events(self, after: int | None = None) -> Iterator[JobEvent]:
         """Changes of all jobs, without end: from the next one, or those after a number."""

@@ -90,6 +90,35 @@ class Transport:
         body = json.dumps(document, default=_plain, allow_nan=False).encode()
         return self._request("POST", path, parameters, headers, body)
 
+    def entries(
+        self,
+        path: str,
+        parameters: Parameters,
+        *,
+        of: str,
+        place: tuple[str, str] = ("cursor", "next_cursor"),
+    ) -> Iterator[Any]:
+        """Entries of a list, read page by page.
+
+        Parameters
+        ----------
+        path, parameters
+            Those of the first page.
+        of : str
+            Key of a page's entries.
+        place : (str, str)
+            Parameter of a further page, and the key of its value in the page before: null on
+            the last page.
+        """
+        parameter, key = place
+        further: Parameters = []
+        while True:
+            page = self.get(path, [*parameters, *further]).json()
+            yield from page[of]
+            if page[key] is None:
+                return
+            further = [(parameter, page[key])]
+
     def events(self, parameters: Parameters, after: int | None) -> Iterator[ServerSentEvent]:
         """Events of one connection, until it ends.
 
