@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import io
-from typing import TYPE_CHECKING, Any, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scree.arrays import NamedArrays, read_npz
 from scree.columns import COLUMNS, Column
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _COMPONENTS = {3: ("axis", "xyz"), 4: ("quaternion", "wxyz")}
 
 
-class BodyTrajectory(Mapping[str, NDArray[Any]]):
+class BodyTrajectory(NamedArrays):
     """Trajectory of one body: its columns by name, each with n samples.
 
     =========================  =======  =======  ==========================================
@@ -44,30 +44,17 @@ class BodyTrajectory(Mapping[str, NDArray[Any]]):
     """
 
     def __init__(self, job_id: str, body: int, columns: Mapping[str, NDArray[Any]]) -> None:
+        super().__init__(columns)
         self.job_id = job_id
         self.body = body
-        self._columns = dict(columns)
 
     @classmethod
     def from_npz(cls, job_id: str, body: int, archive: bytes) -> BodyTrajectory:
         """Trajectory from the service's NPZ archive."""
-        with np.load(io.BytesIO(archive), allow_pickle=False) as arrays:
-            columns = {name: arrays[name] for name in arrays.files}
+        columns = read_npz(archive)
         # Modes are stored as bytes.
         text = {name: np.char.decode(a) for name, a in columns.items() if a.dtype.kind == "S"}
         return cls(job_id, body, {**columns, **text})
-
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        """Column of this name."""
-        return self._columns[name]
-
-    def __iter__(self) -> Iterator[str]:
-        """Names of the columns."""
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        """Number of columns."""
-        return len(self._columns)
 
     def __repr__(self) -> str:
         """Body and shapes of the columns."""
