@@ -6,7 +6,7 @@ import math
 import os
 import time
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator, cast
+from typing import Callable, Iterable, Iterator, cast
 from urllib.parse import quote
 
 from typing_extensions import Literal, Self
@@ -17,7 +17,7 @@ from scree.events import JobEvent, follow
 from scree.flow import FlowPoints
 from scree.picture import Picture
 from scree.trajectory import BodyTrajectory
-from scree.transport import LONGEST_WAIT_S, Transport, Value
+from scree.transport import LONGEST_WAIT_S, Transport, Value, given
 
 #: Time between two calls of a `progress` function [s].
 _PROGRESS_S = 1.0
@@ -160,8 +160,7 @@ class JobHandle:
         InvalidRequest
             A parameter that is not allowed.
         """
-        given = {"body": body, "from_s": from_s, "to_s": to_s, "stride": stride}
-        parameters = _given(given)
+        parameters = given(body=body, from_s=from_s, to_s=to_s, stride=stride)
         parameters += [("fields", name) for name in fields or ()]
         answer = self._transport.get(f"{self._path}/trajectory.npz", parameters)
         return BodyTrajectory.from_npz(self.id, body, answer.content)
@@ -179,7 +178,7 @@ class JobHandle:
         NotFound
             There is no snapshot (yet).
         """
-        answer = self._transport.get(f"{self._path}/flow", _given({"time_s": time_s}))
+        answer = self._transport.get(f"{self._path}/flow", given(time_s=time_s))
         return FlowPoints.from_document(answer.json())
 
     def flow_archive(self, file: str | os.PathLike[str]) -> None:
@@ -242,8 +241,3 @@ class JobHandle:
         document = cast(contract.Job, self._transport.get(self._path, parameters).json())
         self._document = document
         return document
-
-
-def _given(parameters: dict[str, Any]) -> list[tuple[str, Value]]:
-    """Parameters that have a value."""
-    return [(name, value) for name, value in parameters.items() if value is not None]

@@ -206,6 +206,11 @@ class Retries:
         time.sleep(pause_s)
 
 
+def given(**parameters: Value | None) -> list[tuple[str, Value]]:
+    """Parameters that have a value."""
+    return [(name, value) for name, value in parameters.items() if value is not None]
+
+
 def _is_temporary(error: errors.ScreeError) -> bool:
     """Tells if a repetition may be answered otherwise.
 
