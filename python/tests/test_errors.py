@@ -74,6 +74,9 @@ def test_an_answer_of_something_else_is_shown() -> None:
         scree.JobFailed("1", {"type": "t", "title": "T", "detail": "D"}),
         scree.JobDismissed("1"),
         scree.WaitTimeout("1", 2.0),
+        scree.StudyFailed("1", {"type": "t", "title": "T", "detail": "D"}),
+        scree.StudyDismissed("1"),
+        scree.StudyWaitTimeout("1", 2.0),
     ],
 )
 def test_exceptions_can_be_sent_between_processes(error: scree.ScreeError) -> None:

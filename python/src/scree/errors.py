@@ -66,7 +66,7 @@ class RequestRefused(ScreeError):
 
 
 class InvalidRequest(RequestRefused):
-    """A scenario, batch, parameter or key that is not allowed (400, 422)."""
+    """A scenario, batch, study, parameter or key that is not allowed (400, 422)."""
 
 
 class NotPermitted(RequestRefused):
@@ -74,11 +74,11 @@ class NotPermitted(RequestRefused):
 
 
 class NotFound(RequestRefused):
-    """No such job, body, snapshot or picture, or not yet (404)."""
+    """No such job, body, snapshot, study, answer or picture, or not yet (404)."""
 
 
 class Conflict(RequestRefused):
-    """The state of the job does not permit this (409)."""
+    """The state of the job or study does not permit this (409)."""
 
 
 class Busy(RequestRefused):
@@ -114,11 +114,7 @@ class JobFailed(JobError):
 
     def __str__(self) -> str:
         """Title, detail and numbers of the failure."""
-        members = cast(Mapping[str, Any], self.problem)
-        numbers = {k: v for k, v in members.items() if k not in ("type", "title", "detail")}
-        listed = "; ".join(f"{name} = {_short(value)}" for name, value in numbers.items())
-        text = f"job {self.job_id} failed: {self.problem['title']}: {self.problem['detail']}"
-        return f"{text} ({listed})" if listed else text
+        return f"job {self.job_id} failed: {_reason(self.problem)}"
 
 
 class JobDismissed(JobError):
@@ -149,6 +145,58 @@ class WaitTimeout(JobError, TimeoutError):
         return f"job {self.job_id} did not end within {self.timeout_s:g} s"
 
 
+class StudyError(ScreeError):
+    """A study that does not come to its end.
+
+    Attributes
+    ----------
+    study_id : str
+        Identifier of the study.
+    """
+
+    def __init__(self, study_id: str, *details: object) -> None:
+        super().__init__(study_id, *details)
+        self.study_id = study_id
+
+
+class StudyFailed(StudyError):
+    """The study failed; its members until then are kept.
+
+    Attributes
+    ----------
+    problem : scree.contract.Failure
+        Reason of the failure.
+    """
+
+    def __init__(self, study_id: str, problem: Failure) -> None:
+        super().__init__(study_id, problem)
+        self.problem = problem
+
+    def __str__(self) -> str:
+        """Title, detail and numbers of the failure."""
+        return f"study {self.study_id} failed: {_reason(self.problem)}"
+
+
+class StudyDismissed(StudyError):
+    """The study was dismissed; its members until then are kept."""
+
+    def __str__(self) -> str:
+        """Identifier and state."""
+        return f"study {self.study_id} was dismissed"
+
+
+class StudyWaitTimeout(StudyError, TimeoutError):
+    """The study did not end within the time given; it goes on."""
+
+    def __init__(self, study_id: str, timeout_s: float) -> None:
+        super().__init__(study_id, timeout_s)
+        self.timeout_s = timeout_s
+
+    def __str__(self) -> str:
+        """Identifier and time."""
+        return f"study {self.study_id} did not end within {self.timeout_s:g} s"
+
+
 _BY_STATUS: dict[int, type[RequestRefused]] = {
     400: InvalidRequest,
     401: NotPermitted,
@@ -171,6 +219,14 @@ def _fault(error: FieldError) -> str:
     unit = f"; unit: {error['unit']}" if error["unit"] else ""
     numbers = f"value: {_short(error['value'])}; allowed: {error['allowed']}{unit}"
     return f"  {place}: {error['detail']} [{numbers}]"
+
+
+def _reason(problem: Failure) -> str:
+    members = cast(Mapping[str, Any], problem)
+    numbers = {k: v for k, v in members.items() if k not in ("type", "title", "detail")}
+    listed = "; ".join(f"{name} = {_short(value)}" for name, value in numbers.items())
+    text = f"{problem['title']}: {problem['detail']}"
+    return f"{text} ({listed})" if listed else text
 
 
 def _short(value: object) -> str:
