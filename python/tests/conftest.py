@@ -1,4 +1,4 @@
-"""A local service, shared by all tests, and one job that has ended well."""
+"""A local service, shared by all tests, and a job and a study that have ended well."""
 
 from __future__ import annotations
 
@@ -25,3 +25,8 @@ def client(service: scree.LocalService) -> Iterator[scree.Client]:
 @pytest.fixture(scope="session")
 def job(client: scree.Client) -> scree.JobHandle:
     return client.submit(scenes.SMALL).wait(60)
+
+
+@pytest.fixture(scope="session")
+def study(client: scree.Client) -> scree.StudyHandle:
+    return client.submit_study(scenes.STUDY).wait(60)

@@ -31,3 +31,35 @@ LONG = {
     "duration_s": 60,
     "numerics": {"cell_size_m": 0.005, "points_per_cell": 8, "ending": "full"},
 }
+
+#: A cube on the incline.
+PLACED = [{**SMALL["bodies"][0], "position": {"downstream_m": 0.1}}]
+
+#: Cubes that stay where they are put.
+STUDY: dict[str, Any] = {
+    "title": "where it stands",
+    "scenario": {**START, "bodies": PLACED},
+    "inputs": [
+        {
+            "pointer": "/bodies/0/position/downstream_m",
+            "distribution": {"uniform": {"from": 0.1, "to": 0.2}},
+        },
+        {
+            "pointer": "/bodies/0/position/lateral_m",
+            "distribution": {"uniform": {"from": -0.02, "to": 0.02}},
+        },
+    ],
+    "design": {"sobol": {"members": 32, "seed": 1}},
+    "questions": [
+        {"rest": {"body": 0, "regions": [0.5, 0.8]}},
+        {"sensitivity": {"quantity": "rest_x_m", "body": 0}},
+    ],
+}
+
+#: A few members of the same kind, without a question.
+FEW: dict[str, Any] = {
+    **STUDY,
+    "title": "a few",
+    "design": {"sobol": {"members": 4, "seed": 2}},
+    "questions": [],
+}

@@ -75,7 +75,7 @@ def server(*steps: Step) -> Iterator[tuple[str, list[Request]]]:
             self.end_headers()
             self.wfile.write(data)
 
-        do_POST = do_DELETE = do_GET  # noqa: N815 -- the names that http.server looks for
+        do_POST = do_PATCH = do_DELETE = do_GET  # noqa: N815 -- the names that http.server looks for
 
         def log_message(self, *_: object) -> None:
             pass

@@ -18,7 +18,9 @@ def test_versions_and_documents_are_those_of_the_service(service: scree.LocalSer
     assert importlib.metadata.version("scree") == served["info"]["version"]
     schemas = served["components"]["schemas"]
     assert set(contract.Scenario.__annotations__) == set(schemas["Scenario"]["properties"])
+    assert set(contract.Study.__annotations__) == set(schemas["Study"]["properties"])
     assert list(get_args(contract.JobStatus)) == schemas["JobStatus"]["enum"]
+    assert list(get_args(contract.StudyStatus)) == schemas["StudyStatus"]["enum"]
 
 
 def test_the_package_is_typed() -> None:

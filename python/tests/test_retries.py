@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 import uuid
 
@@ -53,6 +54,19 @@ def test_a_key_in_use_is_tried_again() -> None:
         with scree.Client(url) as client:
             assert client.submit({}).id == "1"
     assert len({request.headers["Idempotency-Key"] for request in requests}) == 1
+
+
+def test_a_study_is_submitted_and_changed_again_after_a_broken_connection() -> None:
+    steps = [
+        *(break_off, scripted.answer(202, {"id": "1", "status": "running"})),
+        *(break_off, scripted.answer(200, {"id": "1", "status": "running"})),
+    ]
+    with scripted.server(*steps) as (url, requests), scree.Client(url) as client:
+        client.submit_study({}).change(questions=[])
+    submissions, changes = requests[:2], requests[2:]
+    assert len({request.headers["Idempotency-Key"] for request in submissions}) == 1
+    assert [request.method for request in changes] == ["PATCH", "PATCH"]
+    assert [json.loads(request.body) for request in changes] == [{"questions": []}] * 2
 
 
 def test_patience_has_an_end() -> None:

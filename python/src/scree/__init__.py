@@ -41,7 +41,9 @@ from scree.events import JobEvent
 from scree.flow import FlowPoints
 from scree.job import JobHandle
 from scree.local_service import LocalService
+from scree.member_table import MemberTable
 from scree.picture import Picture
+from scree.study import StudyHandle
 from scree.trajectory import BodyTrajectory
 
 __all__ = [
@@ -59,6 +61,7 @@ __all__ = [
     "JobNotEnded",
     "LocalService",
     "LocalServiceError",
+    "MemberTable",
     "NotFound",
     "NotPermitted",
     "Picture",
@@ -67,6 +70,7 @@ __all__ = [
     "StudyDismissed",
     "StudyError",
     "StudyFailed",
+    "StudyHandle",
     "StudyWaitTimeout",
     "UnexpectedAnswer",
     "Unreachable",

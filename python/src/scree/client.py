@@ -13,13 +13,17 @@ from scree import contract, local_service
 from scree.errors import Conflict, WaitTimeout
 from scree.events import JobEvent, follow
 from scree.job import JobHandle, ProgressFunction
-from scree.transport import Transport, Value
+from scree.study import StudyHandle
+from scree.transport import Transport, Value, given
 
-#: Jobs of one page of a list, the most that the service gives.
+#: Jobs or studies of one page of a list, the most that the service gives.
 PAGE = 100
 
 #: A scenario: typed, or any dictionary, which the service checks.
 ScenarioLike = Union[contract.Scenario, Mapping[str, Any]]
+
+#: A study: typed, or any dictionary, which the service checks.
+StudyLike = Union[contract.Study, Mapping[str, Any]]
 
 
 class Client:
@@ -27,7 +31,7 @@ class Client:
 
     Requests are repeated after broken connections, and while the service is too busy
     (429, 503), at the pace it asks for. Submissions carry an idempotency key, so that a
-    repetition never makes a second job.
+    repetition never makes a second job or study.
 
     Parameters
     ----------
@@ -60,7 +64,7 @@ class Client:
         return cls(local_service.shared().url)
 
     def close(self) -> None:
-        """Closes the connections; handles of jobs need them."""
+        """Closes the connections; handles of jobs and studies need them."""
         self._transport.close()
 
     def __enter__(self) -> Self:
@@ -184,6 +188,58 @@ class Client:
     def events(self, after: int | None = None) -> Iterator[JobEvent]:
         """Changes of all jobs, without end: from the next one, or those after a number."""
         return follow(self._transport, None, after)
+
+    def submit_study(self, study: StudyLike, *, key: str | None = None) -> StudyHandle:
+        """Submits a study: a scenario with uncertain inputs, computed many times.
+
+        Parameters
+        ----------
+        study : Study or mapping
+            The study; numbers and arrays of NumPy are welcome.
+        key : str, optional
+            Idempotency key: the same key with the same study gives the same study, also from
+            another process. Without it, one is made for this call.
+
+        Raises
+        ------
+        InvalidRequest
+            The study is not allowed: the text names each field.
+        Busy
+            Too many studies run, for longer than the client's patience.
+        """
+        answer = self._transport.post("/v1/studies", study, key=key or str(uuid.uuid4()))
+        document = cast(contract.StudyState, answer.json())
+        return StudyHandle(self._transport, document["id"], document)
+
+    def plan_study(self, study: StudyLike) -> contract.PlannedStudy:
+        """Plan of a study: what its members would cost, and how long they would take."""
+        answer = self._transport.post("/v1/study-plans", study)
+        return cast(contract.PlannedStudy, answer.json())
+
+    def study(self, study_id: str) -> StudyHandle:
+        """Study with this identifier.
+
+        Raises
+        ------
+        NotFound
+            There is none.
+        """
+        study = StudyHandle(self._transport, study_id)
+        study.refresh()
+        return study
+
+    def studies(
+        self, *, status: contract.StudyStatus | None = None
+    ) -> Iterator[contract.StudySummary]:
+        """Studies, newest first, read page by page.
+
+        Parameters
+        ----------
+        status : str, optional
+            Only studies in this state; without it, in all.
+        """
+        parameters = given(limit=PAGE, status=status)
+        return self._transport.entries("/v1/studies", parameters, of="studies")
 
 
 def run(

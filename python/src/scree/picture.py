@@ -1,4 +1,4 @@
-"""Pictures of a job."""
+"""Pictures of jobs and studies."""
 
 from __future__ import annotations
 

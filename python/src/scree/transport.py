@@ -21,6 +21,7 @@ LONGEST_WAIT_S = 60
 _READ_S = 60.0
 #: First and longest pause before a request is repeated, where the service names none [s].
 _PAUSES_S = (0.1, 2.0)
+_JSON = {"Content-Type": "application/json"}
 _LOOPBACK = ("127.0.0.1", "::1", "localhost")
 _KEY_IN_USE = "urn:scree:problem:key-in-use"
 
@@ -36,8 +37,9 @@ class Transport:
     """Connections to one service.
 
     Every request of this package can be repeated without harm: those that submit
-    jobs have an idempotency key. So a request is repeated after a broken connection
-    and after 429 and 503, until `patience_s` has passed.
+    jobs and studies have an idempotency key, and a change that is made twice is as
+    made once. So a request is repeated after a broken connection and after 429 and
+    503, until `patience_s` has passed.
 
     Parameters
     ----------
@@ -60,7 +62,7 @@ class Transport:
             # A proxy of the environment knows nothing of this machine's loopback interface.
             trust_env=address.host not in _LOOPBACK,
         )
-        # Handles of jobs need the connections as long as there are any.
+        # Handles of jobs and studies need the connections as long as there are any.
         self._closing = weakref.finalize(self, self._http.close)
 
     def close(self) -> None:
@@ -83,12 +85,12 @@ class Transport:
         key: str | None = None,
     ) -> httpx.Response:
         """Answer to a POST request with a JSON document."""
-        headers = {"Content-Type": "application/json"}
-        if key is not None:
-            headers["Idempotency-Key"] = key
-        # JSON has no NaN: a ValueError here says so before the service does.
-        body = json.dumps(document, default=_plain, allow_nan=False).encode()
-        return self._request("POST", path, parameters, headers, body)
+        headers = {**_JSON, "Idempotency-Key": key} if key is not None else _JSON
+        return self._request("POST", path, parameters, headers, _encoded(document))
+
+    def patch(self, path: str, document: Mapping[str, Any]) -> httpx.Response:
+        """Answer to a PATCH request with a JSON document."""
+        return self._request("PATCH", path, (), _JSON, _encoded(document))
 
     def entries(
         self,
@@ -231,6 +233,11 @@ def _exception(response: httpx.Response) -> errors.ScreeError:
         return errors.refusal(cast(Problem, response.json()))
     beginning = response.text[:200]
     return errors.UnexpectedAnswer(f"{response.url}: {response.status_code}: {beginning}")
+
+
+def _encoded(document: Mapping[str, Any]) -> bytes:
+    # JSON has no NaN: a ValueError here says so before the service does.
+    return json.dumps(document, default=_plain, allow_nan=False).encode()
 
 
 def _plain(value: object) -> object:
