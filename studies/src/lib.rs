@@ -3,7 +3,8 @@
 //! A [`Study`] names the inputs, their distributions and the design of the members. Its
 //! [`Ensemble`] gives each member's inputs and scenario. From the members' outcomes,
 //! [`Answers`] says where a body comes to rest and with what probability, and which inputs
-//! matter. [`multilevel`] combines runs of several accuracies.
+//! matter. With several levels of cell size, members of coarse cells are corrected by those that are
+//! computed with finer ones, too, and [`NextStep`] says what an accuracy asked for still needs.
 //!
 //! ```
 //! use scree_studies::{Answers, Ensemble, Finished, Member, MemberOutcome, Study};
@@ -21,7 +22,7 @@
 //!     let friction = scenario["channel"]["base_friction"].as_f64().unwrap_or(0.0);
 //!     let quantities = [("runout_m".to_owned(), 0.4 / friction)].into();
 //!     let outcome = MemberOutcome::Finished(Finished { quantities, bodies: Vec::new() });
-//!     Ok(Member { index, outcome })
+//!     Ok(Member::coarsest(index, outcome))
 //! };
 //! let members = (0..ensemble.members()).map(run).collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?;
 //! let answers = Answers::of(&ensemble, &members);
@@ -37,7 +38,7 @@ mod correlation;
 mod design;
 mod distribution;
 mod moments;
-pub mod multilevel;
+mod multilevel;
 mod normal;
 mod outcome;
 mod random;
@@ -53,10 +54,12 @@ pub use distribution::{
     Choice, Distribution, Interval, List, Lognormal, Normal, SMALLEST_PROBABILITY, Triangular,
     Uniform, WeightedValue,
 };
+pub use multilevel::{Forecast, ForecastLevel, Needed, NextStep};
 pub use outcome::{FailedMember, Finished, Member, MemberBody, MemberOutcome};
 pub use study::{
-    Buried, End, EndScenario, Ensemble, Exceeds, Input, NoSuchMember, Progress, Quantiles,
-    Question, Rest, Sensitivity, Stop, Study, Verdict, Violation,
+    Accuracy, Buried, End, EndScenario, Ensemble, Exceeds, FinerLevel, Input, Mean, MemberId,
+    NoSuchMember, Progress, Quantiles, Question, Rest, Sensitivity, Stop, Study, Verdict,
+    Violation,
 };
 
 /// Confidence of every interval in the answers.

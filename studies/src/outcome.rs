@@ -1,5 +1,6 @@
 //! Outcomes of the members.
 
+use crate::study::MemberId;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -9,10 +10,21 @@ use std::collections::BTreeMap;
 #[cfg_attr(feature = "schema", schema(as = StudyMember))]
 #[serde(deny_unknown_fields)]
 pub struct Member {
+    /// Level of its cells, 0 the coarsest.
+    #[serde(default, skip_serializing_if = "is_coarsest")]
+    pub level: u32,
     /// Index in the design.
     pub index: u64,
     /// Outcome.
     pub outcome: MemberOutcome,
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde asks for a reference"
+)]
+fn is_coarsest(level: &u32) -> bool {
+    *level == 0
 }
 
 /// Outcome of a member.
@@ -80,6 +92,28 @@ pub struct MemberBody {
 }
 
 impl Member {
+    /// Member of this name with an outcome.
+    pub fn new(id: MemberId, outcome: MemberOutcome) -> Self {
+        Self {
+            level: id.level,
+            index: id.index,
+            outcome,
+        }
+    }
+
+    /// Member on the coarsest level, the only one of most studies.
+    pub fn coarsest(index: u64, outcome: MemberOutcome) -> Self {
+        Self::new(MemberId::coarsest(index), outcome)
+    }
+
+    /// Name of its run.
+    pub fn id(&self) -> MemberId {
+        MemberId {
+            level: self.level,
+            index: self.index,
+        }
+    }
+
     /// Outcome of a run that came to its end.
     pub fn finished(&self) -> Option<&Finished> {
         match &self.outcome {

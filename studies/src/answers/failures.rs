@@ -5,7 +5,7 @@ use crate::study::Ensemble;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Counts of a design's members.
+/// Counts of a study's members, each on every level that it is on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[cfg_attr(feature = "schema", schema(as = MemberCounts))]
@@ -34,8 +34,12 @@ pub struct Failures {
 impl Counts {
     /// Counts of an ensemble's members; a member that is not in the list is pending.
     pub fn of(ensemble: &Ensemble, members: &[Member]) -> Self {
+        let study = ensemble.study();
         let (mut finished, mut reasons) = (0, BTreeMap::<&str, u64>::new());
-        for member in members.iter().filter(|one| one.index < ensemble.members()) {
+        for member in members
+            .iter()
+            .filter(|one| one.index < study.members_on(one.level))
+        {
             match &member.outcome {
                 MemberOutcome::Finished(_) => finished += 1,
                 MemberOutcome::Failed(failed) => *reasons.entry(&failed.reason).or_default() += 1,
@@ -46,7 +50,7 @@ impl Counts {
         Self {
             finished,
             failed,
-            pending: ensemble.members().saturating_sub(finished + failed),
+            pending: study.runs().saturating_sub(finished + failed),
             failures: by_frequency(reasons),
         }
     }

@@ -4,6 +4,8 @@ mod binomial;
 mod estimate;
 mod failures;
 mod halves;
+mod levels;
+mod mean;
 mod probability;
 mod quantiles;
 mod region;
@@ -12,10 +14,12 @@ mod sensitivity;
 
 pub use estimate::Estimate;
 pub use failures::{Counts, Failures};
+pub use levels::{AccuracyReached, QuantityOnLevel, StudyLevel};
+pub use mean::Mean;
 pub use probability::{Exceedance, Probability};
 pub use quantiles::Quantile;
 pub use region::{Atom, DensityGrid, Polygon, Region, RestDistribution};
-pub use sample::{RestingPlaces, Sample};
+pub use sample::{LevelError, RestingPlaces, Sample};
 pub use sensitivity::{
     ElementaryEffect, ElementaryEffects, FirstOrderIndex, FirstOrderIndices, Measures, Moment,
     SobolIndex, SobolIndices,
@@ -30,8 +34,14 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[cfg_attr(feature = "schema", schema(as = StudyAnswers))]
 pub struct Answers {
-    /// Members by the fate of their runs.
+    /// Members by the fate of their runs, those of all levels.
     pub members: Counts,
+    /// Levels, the coarsest first; none of a study on one level.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub levels: Vec<StudyLevel>,
+    /// Accuracy reached, if one is asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<AccuracyReached>,
     /// Answers, in the order of the questions.
     pub answers: Vec<Answer>,
 }
@@ -48,6 +58,8 @@ pub enum Answer {
     Exceeds(Vec<Exceedance>),
     /// Probability that the body ends below the surface.
     Buried(Probability),
+    /// Mean of the quantity.
+    Mean(Mean),
     /// Quantiles of the quantity.
     Quantiles(Vec<Quantile>),
     /// Inputs that the quantity depends on; none if it does not vary or too few members have it.
@@ -61,6 +73,8 @@ impl Answers {
         let questions = ensemble.study().questions.iter();
         Self {
             members: Counts::of(ensemble, members),
+            levels: StudyLevel::all(ensemble, members),
+            accuracy: AccuracyReached::of(ensemble, members),
             answers: questions
                 .map(|one| Answer::of(ensemble, members, one))
                 .collect(),
@@ -84,6 +98,9 @@ impl Answer {
             Question::Buried(buried) => {
                 let sample = sample("buried_m", Some(buried.body));
                 Self::Buried(Probability::exceeding(&sample, buried.deeper_than_m))
+            }
+            Question::Mean(asked) => {
+                Self::Mean(Mean::of(ensemble, members, &asked.quantity, asked.body))
             }
             Question::Quantiles(asked) => {
                 let sample = sample(&asked.quantity, asked.body);

@@ -11,7 +11,9 @@ use serde::{Deserialize, Serialize};
 pub struct Probability {
     /// Share of the known members in which it happened; none without a known member.
     pub estimate: Option<f64>,
-    /// Lower bound: that of Clopper & Pearson (1934) if it happened in no unknown member.
+    /// Lower bound: that of Clopper & Pearson (1934) if it happened in no unknown member. With
+    /// several levels it counts as many draws as the multilevel estimate is worth (Korn & Graubard
+    /// 1998), and holds the numerical error.
     pub lower: f64,
     /// Upper bound: that if it happened in every unknown member.
     pub upper: f64,
@@ -51,12 +53,32 @@ impl Probability {
 
     /// Probability that a sample's quantity exceeds a threshold.
     pub fn exceeding(sample: &Sample, threshold: f64) -> Self {
-        let above = sample.values.iter().filter(|value| **value > threshold);
-        Self::of(
-            above.count() as u64,
-            sample.values.len() as u64,
-            sample.unknown,
-        )
+        let above = |threshold: f64| {
+            let above = sample.values.iter().filter(|value| **value > threshold);
+            above.count() as u64
+        };
+        let plain = Self::of(above(threshold), sample.values.len() as u64, sample.unknown);
+        sample.levels.map_or(plain, |levels| {
+            let within = above(threshold + levels.numerical);
+            let beyond = above(threshold - levels.numerical);
+            plain.with_draws(levels.draws, [within, beyond])
+        })
+    }
+
+    /// The same with the bounds of so many independent draws, of which the event happened in the
+    /// shares of the known members in which it happened at least and at most.
+    pub(super) fn with_draws(self, draws: f64, [least, most]: [u64; 2]) -> Self {
+        let known = self.known.max(1) as f64;
+        let draws = draws.min(known).max(1.0).floor();
+        let tail = 0.5 * (1.0 - CONFIDENCE);
+        let least = (draws * least as f64 / known).floor() as u64;
+        let most = (draws * most as f64 / known).ceil() as u64;
+        let is_known = self.known as f64 / (self.known + self.unknown).max(1) as f64;
+        Self {
+            lower: is_known * binomial::lower_bound(least, draws as u64, tail),
+            upper: 1.0 - is_known * (1.0 - binomial::upper_bound(most, draws as u64, tail)),
+            ..self
+        }
     }
 }
 

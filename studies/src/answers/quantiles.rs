@@ -24,20 +24,44 @@ impl Quantile {
     ///
     /// The bounds are order statistics, so they hold for any distribution: at [`CONFIDENCE`]
     /// together for independent draws. A member of unknown outcome could lie anywhere: for the
-    /// lower bound it lies below all others, for the upper one above.
+    /// lower bound it lies below all others, for the upper one above. With several levels the ranks
+    /// are those of as many draws as the multilevel estimate is worth (Woodruff 1952), and the
+    /// numerical error is added.
     pub fn of(sample: &Sample, probability: f64) -> Self {
         let sorted = moments::sorted(&sample.values);
         let (known, unknown) = (sorted.len() as u64, sample.unknown);
-        let tail = 0.5 * (1.0 - CONFIDENCE);
-        let (lower, upper) = binomial::quantile_ranks(probability, known + unknown, tail);
+        let (lower, upper) = ranks(sample, probability);
         let ranked = |rank: u64| sorted.get(rank.checked_sub(1)? as usize).copied();
+        let numerical = sample.levels.map_or(0.0, |levels| levels.numerical);
+        let lower = lower.checked_sub(unknown).and_then(ranked);
+        let upper = (upper <= known).then(|| ranked(upper)).flatten();
         Self {
             probability,
             estimate: type_8(&sorted, probability),
-            lower: lower.checked_sub(unknown).and_then(ranked),
-            upper: ranked(upper),
+            lower: lower.map(|lower| lower - numerical),
+            upper: upper.map(|upper| upper + numerical),
         }
     }
+}
+
+/// Ranks among all members, counted from 1, of the bounds of a quantile; 0 and more than there are
+/// stand for no bound.
+fn ranks(sample: &Sample, probability: f64) -> (u64, u64) {
+    let all = sample.values.len() as u64 + sample.unknown;
+    let tail = 0.5 * (1.0 - CONFIDENCE);
+    let Some(levels) = sample.levels else {
+        return binomial::quantile_ranks(probability, all, tail);
+    };
+    let draws = (levels.draws as u64).clamp(1, all.max(1));
+    let (lower, upper) = binomial::quantile_ranks(probability, draws, tail);
+    // The same shares of the members.
+    let share = all as f64 / draws as f64;
+    let beyond = if upper > draws {
+        all + 1
+    } else {
+        (upper as f64 * share).ceil() as u64
+    };
+    ((lower as f64 * share).floor() as u64, beyond)
 }
 
 /// Quantile at the place (n + 1/3) p + 1/3 of the sorted values, counted from 1.

@@ -1,16 +1,29 @@
 //! Samples of a study's members.
 
+use crate::multilevel::{Corrected, Known};
 use crate::outcome::{Finished, Member};
 use crate::study::Ensemble;
 use std::collections::BTreeMap;
 
-/// Sample of a quantity: its value in every member that counts for probabilities.
+/// Sample of a quantity: its value in every member that counts for probabilities, on the finest
+/// level.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sample {
     /// Values, in the order of the members.
     pub values: Vec<f64>,
     /// Number of members without a known value.
     pub unknown: u64,
+    /// Errors that the members' number does not tell; none of a study on one level.
+    pub levels: Option<LevelError>,
+}
+
+/// Errors of a quantity known from several levels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LevelError {
+    /// Number of independent draws on the finest level whose mean has the same sampling variance.
+    pub draws: f64,
+    /// Half width of what the cells of the finest level may shift the quantity by, in its unit.
+    pub numerical: f64,
 }
 
 /// Sample of a body's resting places.
@@ -22,52 +35,102 @@ pub struct RestingPlaces {
     pub moving: u64,
     /// Number of members without a known place, those with a moving body among them.
     pub unknown: u64,
+    /// Errors downstream and across that the members' number does not tell; none of a study on one
+    /// level.
+    pub levels: Option<[LevelError; 2]>,
 }
 
 impl Sample {
     /// Sample of a quantity, of a body or of the whole run.
     pub fn of(ensemble: &Ensemble, members: &[Member], name: &str, body: Option<usize>) -> Self {
-        let known = by_index(members, |finished| finished.quantity(name, body));
-        let (values, unknown) = draws(ensemble, &known);
-        Self { values, unknown }
+        let corrected = corrected(ensemble, members, (name, body));
+        Self {
+            levels: level_errors(&corrected).map(|[error]| error),
+            values: corrected
+                .values
+                .into_values()
+                .map(|[value]| value)
+                .collect(),
+            unknown: corrected.unknown,
+        }
     }
 }
 
 impl RestingPlaces {
     /// Resting places of a body.
     pub fn of(ensemble: &Ensemble, members: &[Member], body: usize) -> Self {
-        let known = by_index(members, |finished| {
+        let known = Known::of(ensemble, members, |finished| {
             finished.bodies.get(body)?.resting_place()
         });
-        let moves = by_index(members, |finished| {
-            finished.bodies.get(body).filter(|body| body.moving)
-        });
-        let (places_m, unknown) = draws(ensemble, &known);
+        let corrected = Corrected::of(&known);
         Self {
-            places_m,
-            moving: draws(ensemble, &moves).0.len() as u64,
-            unknown,
+            levels: level_errors(&corrected),
+            places_m: corrected.values.into_values().collect(),
+            moving: moving(ensemble, members, body),
+            unknown: corrected.unknown,
         }
     }
 }
 
-/// Something of each finished member that has it, by the member's index.
+/// A quantity on the finest level by the index of the draw.
+pub(super) fn on_finest_level(
+    ensemble: &Ensemble,
+    members: &[Member],
+    quantity: (&str, Option<usize>),
+) -> BTreeMap<u64, f64> {
+    let corrected = corrected(ensemble, members, quantity);
+    let values = corrected.values.into_iter();
+    values.map(|(index, [value])| (index, value)).collect()
+}
+
+pub(super) fn corrected(
+    ensemble: &Ensemble,
+    members: &[Member],
+    (name, body): (&str, Option<usize>),
+) -> Corrected<1> {
+    Corrected::of(&Known::of(ensemble, members, |finished| {
+        finished.quantity(name, body).map(|value| [value])
+    }))
+}
+
+/// Number of draws whose finest run ended with the body still moving.
+fn moving(ensemble: &Ensemble, members: &[Member], body: usize) -> u64 {
+    let known = Known::of(ensemble, members, |finished| {
+        let is_moving = finished.bodies.get(body)?.moving;
+        is_moving.then_some([1.0])
+    });
+    let finest = ensemble.study().levels() as usize - 1;
+    let draws = known.draws().iter();
+    let moves = draws.filter(|index| matches!(known.best(**index, finest), Some((_, Some(_)))));
+    moves.count() as u64
+}
+
+/// Errors along each axis; none of a study on one level.
+fn level_errors<const D: usize>(corrected: &Corrected<D>) -> Option<[LevelError; D]> {
+    let means = corrected
+        .means
+        .as_ref()
+        .filter(|means| means.levels() > 1)?;
+    Some(std::array::from_fn(|axis| {
+        let error = means.error(axis);
+        let draws = means.spread(axis) / error.variance;
+        LevelError {
+            draws: if draws.is_finite() {
+                draws
+            } else {
+                corrected.values.len() as f64
+            },
+            numerical: error.numerical.unwrap_or(0.0),
+        }
+    }))
+}
+
+/// Something of each finished member that has it on level 0, by the member's index.
 pub(super) fn by_index<'a, T>(
     members: &'a [Member],
     found: impl Fn(&'a Finished) -> Option<T>,
 ) -> BTreeMap<u64, T> {
+    let coarsest = members.iter().filter(|member| member.level == 0);
     let of_one = |member: &'a Member| Some((member.index, found(member.finished()?)?));
-    members.iter().filter_map(of_one).collect()
-}
-
-/// What is known of the members that are draws, and the number of draws without it.
-fn draws<T: Clone>(ensemble: &Ensemble, known: &BTreeMap<u64, T>) -> (Vec<T>, u64) {
-    let (design, inputs) = (&ensemble.study().design, ensemble.inputs());
-    let draws = (0..ensemble.members()).filter(|index| design.is_draw(*index, inputs));
-    let found: Vec<Option<&T>> = draws.map(|index| known.get(&index)).collect();
-    let unknown = found.iter().filter(|one| one.is_none()).count();
-    (
-        found.into_iter().flatten().cloned().collect(),
-        unknown as u64,
-    )
+    coarsest.filter_map(of_one).collect()
 }

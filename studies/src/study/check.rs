@@ -1,7 +1,7 @@
 //! Check of a study.
 
 use super::pointer::Pointer;
-use super::{Study, Violation, sizes};
+use super::{Study, Violation, levels, sizes};
 use crate::correlation;
 use crate::design::Design;
 
@@ -15,6 +15,8 @@ pub(super) fn violations(study: &Study) -> Vec<Violation> {
         inputs(study),
         correlations(study),
         Violation::under("/design", study.design.violations(study.inputs.len())),
+        levels::violations(study),
+        accuracy(study),
         stop(study),
         questions(study),
     ]
@@ -100,6 +102,12 @@ fn uncorrelated_design(design: &Design) -> Option<Violation> {
         _ => return None,
     };
     Some(Violation::new("", message))
+}
+
+fn accuracy(study: &Study) -> Vec<Violation> {
+    let asked = study.accuracy.iter();
+    let found = asked.flat_map(|accuracy| accuracy.violations(study));
+    Violation::under("/accuracy", found.collect())
 }
 
 fn stop(study: &Study) -> Vec<Violation> {

@@ -13,6 +13,8 @@ pub struct End {
     pub value: Value,
     /// Member of an explicit design that has it.
     member: Option<usize>,
+    /// Level of the scenario.
+    level: u32,
 }
 
 /// Scenario with one input at an extreme value.
@@ -29,12 +31,20 @@ pub struct EndScenario {
 impl Ensemble<'_> {
     /// Ends of the inputs, for validation before the first run: those of each input's distribution.
     /// An explicit design has for each input the members with its smallest and largest number, and
-    /// the first member with each value that is no number.
+    /// the first member with each value that is no number. Ends come on the coarsest level and on the
+    /// finest.
     pub fn ends(&self) -> Vec<End> {
-        match &self.study().design {
+        let ends = match &self.study().design {
             Design::Explicit(explicit) => explicit_ends(&explicit.members, self.inputs()),
             _ => self.distribution_ends(),
-        }
+        };
+        let level = self.study().levels() - 1;
+        let on_finest = ends.iter().filter(|_| level > 0).map(|end| End {
+            level,
+            ..end.clone()
+        });
+        let on_finest: Vec<End> = on_finest.collect();
+        ends.into_iter().chain(on_finest).collect()
     }
 
     /// Scenario at an end of an input: with all other inputs at their medians, or as the member of
@@ -48,7 +58,7 @@ impl Ensemble<'_> {
                 values
             }
         };
-        self.scenario_of(values)
+        self.on_level(end.level, self.scenario_of(values))
     }
 
     /// Scenarios at all ends, one at a time.
@@ -68,6 +78,7 @@ impl Ensemble<'_> {
                 input,
                 value,
                 member: None,
+                level: 0,
             })
         });
         ends.collect()
@@ -81,6 +92,7 @@ fn explicit_ends(members: &[Vec<Value>], inputs: usize) -> Vec<End> {
             input,
             value: member[input].clone(),
             member: Some(place),
+            level: 0,
         })
     });
     ends.collect()

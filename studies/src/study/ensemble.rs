@@ -1,7 +1,7 @@
 //! Members of a valid study.
 
 use super::pointer::Pointer;
-use super::{Study, Violation};
+use super::{MemberId, Study, Violation, levels};
 use crate::correlation::Copula;
 use crate::design::Point;
 use serde_json::Value;
@@ -12,6 +12,7 @@ use thiserror::Error;
 pub struct Ensemble<'a> {
     study: &'a Study,
     pointers: Vec<Pointer>,
+    cell_size: Pointer,
     copula: Copula,
 }
 
@@ -42,6 +43,7 @@ impl<'a> Ensemble<'a> {
         Ok(Self {
             study,
             pointers: pointers.collect::<Result<_, _>>().map_err(unlikely)?,
+            cell_size: Pointer::parse(levels::CELL_SIZE).map_err(unlikely)?,
             copula: copula.map_err(|wrong| unlikely(wrong.to_string()))?,
         })
     }
@@ -83,6 +85,22 @@ impl<'a> Ensemble<'a> {
     /// An index that is not below the number of members.
     pub fn scenario(&self, index: u64) -> Result<Value, NoSuchMember> {
         Ok(self.scenario_of(self.values(index)?))
+    }
+
+    /// Scenario of a member on a level: on a finer one with the level's cells.
+    ///
+    /// # Errors
+    /// An index that is not below the number of members of the design.
+    pub fn scenario_on(&self, id: MemberId) -> Result<Value, NoSuchMember> {
+        Ok(self.on_level(id.level, self.scenario(id.index)?))
+    }
+
+    /// Scenario with the cells of a finer level.
+    pub(super) fn on_level(&self, level: u32, mut scenario: Value) -> Value {
+        if let Some(size) = self.study.cell_size_m(level).filter(|_| level > 0) {
+            self.cell_size.set(&mut scenario, size.into());
+        }
+        scenario
     }
 
     /// Values of the inputs at a point; null of an input without distribution, which only an

@@ -1,17 +1,22 @@
 //! The study document.
 
+mod accuracy;
 mod check;
 mod ends;
 mod ensemble;
+mod levels;
 mod pointer;
 mod question;
 mod sizes;
 mod stop;
 mod violation;
 
+pub use accuracy::Accuracy;
 pub use ends::{End, EndScenario};
 pub use ensemble::{Ensemble, NoSuchMember};
-pub use question::{Buried, Exceeds, Quantiles, Question, Rest, Sensitivity};
+pub(crate) use levels::FEWEST_MEMBERS;
+pub use levels::{FinerLevel, MemberId};
+pub use question::{Buried, Exceeds, Mean, Quantiles, Question, Rest, Sensitivity};
 pub use stop::{Progress, Stop, Verdict};
 pub use violation::Violation;
 
@@ -38,6 +43,13 @@ pub struct Study {
     pub correlations: Vec<Correlation>,
     /// Design of the members.
     pub design: Design,
+    /// Levels of finer cells, the coarsest first, beside the scenario's own cells, level 0; none: the
+    /// scenario's alone.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub finer_levels: Vec<FinerLevel>,
+    /// Accuracy that members and finer levels are added for; none: the levels as they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
     /// Rule that enlarges the design until the answer is settled; none: the design as it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stop: Option<Stop>,
@@ -66,7 +78,7 @@ impl Study {
         check::violations(self)
     }
 
-    /// Number of members of the design.
+    /// Number of members of the design, those of level 0.
     pub fn members(&self) -> u64 {
         self.design.members(self.inputs.len())
     }

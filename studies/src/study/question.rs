@@ -16,6 +16,8 @@ pub enum Question {
     Exceeds(Exceeds),
     /// Probability that a body ends below the surface.
     Buried(Buried),
+    /// Mean of a quantity.
+    Mean(Mean),
     /// Quantiles of a quantity.
     Quantiles(Quantiles),
     /// Inputs that a quantity depends on.
@@ -61,6 +63,19 @@ pub struct Buried {
     pub deeper_than_m: f64,
 }
 
+/// Question for the mean of a quantity.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "schema", schema(as = MeanQuestion))]
+#[serde(deny_unknown_fields)]
+pub struct Mean {
+    /// Name of the quantity in the members' outcomes.
+    pub quantity: String,
+    /// Index of the body whose quantity it is; none: one of the whole run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<usize>,
+}
+
 /// Question for quantiles of a quantity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
@@ -96,6 +111,7 @@ impl Question {
             Self::Rest(rest) => ("rest", probabilities("regions", &rest.regions)),
             Self::Exceeds(exceeds) => ("exceeds", exceeds.violations()),
             Self::Buried(buried) => ("buried", buried.violations()),
+            Self::Mean(mean) => ("mean", name(&mean.quantity)),
             Self::Quantiles(quantiles) => ("quantiles", quantiles.violations()),
             Self::Sensitivity(sensitivity) => ("sensitivity", name(&sensitivity.quantity)),
         };

@@ -49,7 +49,7 @@ fn numbers(place: usize, question: &Question) -> Option<Violation> {
         Question::Rest(rest) => ("rest/regions", rest.regions.len()),
         Question::Exceeds(exceeds) => ("exceeds/thresholds", exceeds.thresholds.len()),
         Question::Quantiles(asked) => ("quantiles/probabilities", asked.probabilities.len()),
-        Question::Buried(_) | Question::Sensitivity(_) => return None,
+        Question::Buried(_) | Question::Mean(_) | Question::Sensitivity(_) => return None,
     };
     too_many(&format!("/questions/{place}/{pointer}"), count, NUMBERS)
 }

@@ -8,6 +8,7 @@ use serde_json::json;
 fn failed(index: u64, reason: &str) -> Member {
     let reason = reason.to_owned();
     Member {
+        level: 0,
         index,
         outcome: MemberOutcome::failed(reason),
     }
@@ -18,6 +19,7 @@ fn quantiles_are_those_of_type_8() {
     let sample = Sample {
         values: vec![5.0, 1.0, 2.0, 9.0],
         unknown: 0,
+        levels: None,
     };
     // Places (4 + 1/3) p + 1/3 of 1, 2, 5, 9.
     let expected = [
@@ -37,7 +39,14 @@ fn bounds_of_quantiles_hold_as_often_as_told() {
     let holds = |seed: u64| {
         let drawn = independent(60, 1, seed);
         let values = drawn.iter().map(|u| z(u[0]).exp()).collect();
-        let found = Quantile::of(&Sample { values, unknown: 0 }, 0.8);
+        let found = Quantile::of(
+            &Sample {
+                values,
+                unknown: 0,
+                levels: None,
+            },
+            0.8,
+        );
         let truth = z(0.8).exp();
         found.lower.unwrap() <= truth && truth <= found.upper.unwrap()
     };
@@ -54,6 +63,7 @@ fn members_of_unknown_outcome_widen_quantiles_to_both_sides() {
         &Sample {
             values: values.clone(),
             unknown: 0,
+            levels: None,
         },
         0.5,
     );
@@ -61,6 +71,7 @@ fn members_of_unknown_outcome_widen_quantiles_to_both_sides() {
         &Sample {
             values: values.clone(),
             unknown: 10,
+            levels: None,
         },
         0.5,
     );
@@ -72,6 +83,7 @@ fn members_of_unknown_outcome_widen_quantiles_to_both_sides() {
         &Sample {
             values,
             unknown: 90,
+            levels: None,
         },
         0.5,
     );
@@ -117,7 +129,7 @@ fn every_question_of_a_study_is_answered_in_its_order() {
             let quantities = &mut finished.bodies[0].quantities;
             quantities.insert("displacement_m".to_owned(), values[2] / 90.0);
         }
-        Member { index, outcome }
+        Member::coarsest(index, outcome)
     };
     let mut members: Vec<Member> = (0..250).map(member).collect();
     members[3] = failed(3, "diverged");

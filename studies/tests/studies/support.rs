@@ -60,6 +60,7 @@ pub(crate) fn unit_study(inputs: usize, design: &Value, questions: &Value) -> St
 /// Members of a study whose only quantity is a function of the inputs' numbers.
 pub(crate) fn members(ensemble: &Ensemble, quantity: impl Fn(&[f64]) -> f64) -> Vec<Member> {
     let member = |index| Member {
+        level: 0,
         index,
         outcome: MemberOutcome::Finished(Finished {
             quantities: BTreeMap::from([("y".to_owned(), quantity(&numbers(ensemble, index)))]),

@@ -41,6 +41,9 @@ pub struct RestDistribution {
     pub too_few_members_for: Vec<f64>,
     /// Members whose run ended with the body still moving; their places are unknown.
     pub moving: u64,
+    /// Half width of what the cells of the finest level may shift the places by, downstream and
+    /// across [m]; none of a study on one level.
+    pub numerical_error_m: Option<[f64; 2]>,
 }
 
 /// Smallest area that holds a body at rest with a given probability.
@@ -100,6 +103,9 @@ impl RestDistribution {
             too_few_members_for: missing.map(|(probability, _)| *probability).collect(),
             regions: found.into_iter().flatten().collect(),
             moving: places.moving,
+            numerical_error_m: places
+                .levels
+                .map(|levels| levels.map(|level| level.numerical)),
             bandwidth_m: fit.as_ref().map(|fit| fit.kernel.bandwidth_m),
             noise_ratio: fit.as_ref().map(|fit| fit.noise),
             density: fit.map(|fit| fit.density),
@@ -172,7 +178,7 @@ impl Parts<'_> {
         Some(Region {
             level_per_m2: Some(level),
             area_m2: polygons.iter().map(Polygon::area_m2).sum(),
-            area_standard_error_m2: fit.area_error_m2(of_density),
+            area_standard_error_m2: self.fewer_draws().sqrt() * fit.area_error_m2(of_density),
             polygons,
             smoothed_probability: held + (1.0 - held) * within,
             members: self.members_within(self.atoms.len(), Some(level)),
@@ -199,6 +205,22 @@ impl Parts<'_> {
         let above = |fit: &Fit| level.map_or(0, |level| fit.scores.above(level));
         let within = at_atoms + self.fit.map_or(0, above);
         let known = self.places.places_m.len() as u64;
-        Probability::of(within, known, self.places.unknown)
+        let members = Probability::of(within, known, self.places.unknown);
+        match self.draws() {
+            Some(draws) => members.with_draws(draws, [within, within]),
+            None => members,
+        }
+    }
+
+    /// Number of independent draws that places known from several levels are worth.
+    fn draws(&self) -> Option<f64> {
+        let [downstream, across] = self.places.levels?;
+        Some(downstream.draws.min(across.draws))
+    }
+
+    /// Members with a known place over the draws that they are worth, at least 1.
+    fn fewer_draws(&self) -> f64 {
+        let known = self.places.places_m.len() as f64;
+        self.draws().map_or(1.0, |draws| (known / draws).max(1.0))
     }
 }

@@ -9,7 +9,7 @@ pub use elementary::{ElementaryEffect, ElementaryEffects, Moment};
 pub use given_data::{FirstOrderIndex, FirstOrderIndices};
 pub use variance::{SobolIndex, SobolIndices};
 
-use super::sample::by_index;
+use super::sample::{by_index, on_finest_level};
 use crate::design::Design;
 use crate::outcome::Member;
 use crate::study::Ensemble;
@@ -38,15 +38,18 @@ impl Measures {
         name: &str,
         body: Option<usize>,
     ) -> Option<Self> {
-        let known = by_index(members, |finished| finished.quantity(name, body));
+        let known = || by_index(members, |finished| finished.quantity(name, body));
         let inputs = ensemble.inputs();
         match &ensemble.study().design {
-            Design::Saltelli(design) => SobolIndices::of(design, inputs, &known).map(Self::Sobol),
+            Design::Saltelli(design) => SobolIndices::of(design, inputs, &known()).map(Self::Sobol),
             Design::Morris(design) => {
-                ElementaryEffects::of(design, inputs, &known).map(Self::Elementary)
+                ElementaryEffects::of(design, inputs, &known()).map(Self::Elementary)
             }
             Design::OneAtATime(_) => None,
-            _ => FirstOrderIndices::of(ensemble, &known).map(Self::FirstOrder),
+            _ => {
+                let on_finest = on_finest_level(ensemble, members, (name, body));
+                FirstOrderIndices::of(ensemble, &on_finest).map(Self::FirstOrder)
+            }
         }
     }
 }

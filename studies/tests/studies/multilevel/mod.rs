@@ -1,120 +1,87 @@
-//! Multilevel estimates, against a stand-in whose levels have a known error.
+//! Studies on several levels, against a stand-in whose levels have a known error.
 
-mod allocation;
-mod cloud;
+mod accuracy;
+mod bounds;
+mod places;
 
-use crate::support::{deviation, independent, mean, z};
-use scree_studies::multilevel::{Levels, Pair};
+use crate::support::z;
+use scree_studies::{Ensemble, Finished, Member, MemberBody, MemberId, MemberOutcome, Study};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
-/// Members and pairs of the three levels.
-const MEMBERS: [u64; 3] = [600, 80, 20];
-/// Cost of one member: half the cell size, sixteen times the work.
-const COSTS: [f64; 3] = [1.0, 16.0, 256.0];
+/// Cells of the coarsest level [m].
+const COARSEST_M: f64 = 0.03;
 
-/// Stand-in for a run: exp(u₀) and an error that halves from level to level, a part of it random.
-fn quantity(u: &[f64], level: i32) -> f64 {
-    let cell = 0.5_f64.powi(level);
-    u[0].exp() + 0.2 * cell * (1.0 + u[1]) + 0.1 * cell * z(u[2])
-}
-
-/// Expectation on a level.
-fn expectation(level: i32) -> f64 {
-    std::f64::consts::E - 1.0 + 0.3 * 0.5_f64.powi(level)
-}
-
-fn levels(seed: u64, members: [u64; 3]) -> Levels {
-    let drawn = |level: u64| independent(members[level as usize], 3, 10 * seed + level);
-    let base = drawn(0).iter().map(|u| quantity(u, 0)).collect();
-    let pairs = |level: i32| {
-        let drawn = drawn(level as u64);
-        let pair = |u: &Vec<f64>| Pair {
-            coarse: quantity(u, level - 1),
-            fine: quantity(u, level),
-        };
-        drawn.iter().map(pair).collect()
+/// Study of four inputs over 0..1 on three levels, with questions.
+fn study(members: [u64; 3], seed: u64, questions: &Value) -> Study {
+    let input = |place: usize| {
+        let distribution = json!({"uniform": {"from": 0.0, "to": 1.0}});
+        json!({"pointer": format!("/{place}"), "distribution": distribution})
     };
-    Levels::new(base, vec![pairs(1), pairs(2)]).unwrap()
+    let document = json!({
+        "scenario": {"numerics": {"cell_size_m": COARSEST_M}},
+        "inputs": (0..4).map(input).collect::<Vec<Value>>(),
+        "design": {"sobol": {"members": members[0], "seed": seed}},
+        "finer_levels": [{"cell_size_m": 0.02, "members": members[1]},
+                         {"cell_size_m": 0.015, "members": members[2]}],
+        "questions": questions
+    });
+    serde_json::from_value(document).unwrap()
 }
 
-/// Asserts that estimates have a truth as their mean and the variance they claim.
-fn assert_unbiased(estimates: &[(f64, f64)], truth: f64) {
-    let values: Vec<f64> = estimates.iter().map(|one| one.0).collect();
-    let claimed = mean(&estimates.iter().map(|one| one.1).collect::<Vec<f64>>()).sqrt();
-    let error = deviation(&values) / (values.len() as f64).sqrt();
-    assert!(
-        (mean(&values) - truth).abs() < 3.0 * error,
-        "{} {truth} ± {error}",
-        mean(&values)
-    );
-    let ratio = claimed / deviation(&values);
-    assert!((0.85..1.15).contains(&ratio), "{ratio}");
+/// Stand-in for a run: exp(u₀) and an error of first order in the cell size, a part of it random.
+fn quantity(u: &[f64], cell_size_m: f64) -> f64 {
+    let cells = cell_size_m / COARSEST_M;
+    u[0].exp() + 0.2 * cells * (1.0 + u[1]) + 0.1 * cells * z(u[2])
 }
 
-#[test]
-fn the_mean_is_that_of_the_finest_level() {
-    let estimate = |seed| {
-        let found = levels(seed, MEMBERS).mean();
-        (found.value, found.variance)
-    };
-    let estimates: Vec<(f64, f64)> = (0..200).map(estimate).collect();
-    assert_unbiased(&estimates, expectation(2));
+/// Expectation of the stand-in with cells of a size, 0 in the limit.
+fn expectation(cell_size_m: f64) -> f64 {
+    std::f64::consts::E - 1.0 + 0.3 * cell_size_m / COARSEST_M
 }
 
-#[test]
-fn the_probability_of_exceedance_is_that_of_the_finest_level() {
-    let exact = independent(200_000, 3, 777);
-    let above = exact.iter().filter(|u| quantity(u, 2) > 2.0).count() as f64;
-    let estimate = |seed| {
-        let found = levels(seed, MEMBERS).exceeding(2.0).mean();
-        (found.value, found.variance)
-    };
-    let estimates: Vec<(f64, f64)> = (0..200).map(estimate).collect();
-    assert_unbiased(&estimates, above / 200_000.0);
+/// All runs of a study, each with an outcome that follows from its inputs and its cell size.
+fn runs(ensemble: &Ensemble, outcome: impl Fn(&[f64], f64) -> MemberOutcome) -> Vec<Member> {
+    let study = ensemble.study();
+    let levels = 0..study.levels();
+    let ids = levels.flat_map(|level| {
+        let members = 0..study.members_on(level);
+        members.map(move |index| MemberId { level, index })
+    });
+    ids.map(|id| {
+        let scenario = ensemble.scenario_on(id).unwrap();
+        let cell_size_m = scenario["numerics"]["cell_size_m"].as_f64().unwrap();
+        let input = |place: usize| scenario[place.to_string()].as_f64().unwrap();
+        let inputs: Vec<f64> = (0..study.inputs.len()).map(input).collect();
+        Member {
+            level: id.level,
+            index: id.index,
+            outcome: outcome(&inputs, cell_size_m),
+        }
+    })
+    .collect()
 }
 
-#[test]
-fn control_variates_are_unbiased_and_no_noisier() {
-    let members = [600, 100, 40];
-    let controlled = |seed| {
-        let found = levels(seed, members).controlled_mean(20).unwrap();
-        (found.value, found.variance)
-    };
-    let estimates: Vec<(f64, f64)> = (0..200).map(controlled).collect();
-    assert_unbiased(&estimates, expectation(2));
-    let found = levels(1, members).controlled_mean(20).unwrap();
-    assert!(
-        found
-            .coefficients
-            .iter()
-            .all(|one| (0.7..1.1).contains(one)),
-        "{found:?}"
-    );
+/// Outcome with the quantity y, and the work of cells of a size.
+fn finished(y: f64, cell_size_m: f64) -> MemberOutcome {
+    let work = 1e6 * (COARSEST_M / cell_size_m).powi(4);
+    let quantities = [("y".to_owned(), y), ("point_steps".to_owned(), work)];
+    MemberOutcome::Finished(Finished {
+        quantities: BTreeMap::from(quantities),
+        bodies: Vec::new(),
+    })
 }
 
-#[test]
-fn control_variates_hold_where_the_levels_hardly_correlate() {
-    // The coarse level has nothing to do with the fine one and varies ten times as much.
-    let weak = |seed: u64| {
-        let base = independent(400, 1, 2 * seed)
-            .iter()
-            .map(|u| 10.0 * z(u[0]))
-            .collect();
-        let pair = |u: &Vec<f64>| Pair {
-            coarse: 10.0 * z(u[0]),
-            fine: 1.0 + z(u[1]),
-        };
-        let pairs = independent(60, 2, 2 * seed + 1).iter().map(pair).collect();
-        Levels::new(base, vec![pairs]).unwrap()
-    };
-    let spread = |estimate: fn(&Levels) -> f64| {
-        let values: Vec<f64> = (0..100).map(|seed| estimate(&weak(seed))).collect();
-        (mean(&values), deviation(&values))
-    };
-    let telescoping = spread(|levels| levels.mean().value);
-    let controlled = spread(|levels| levels.controlled_mean(20).unwrap().value);
-    assert!((controlled.0 - 1.0).abs() < 0.1, "{controlled:?}");
-    assert!(
-        controlled.1 < 0.3 * telescoping.1,
-        "{controlled:?} {telescoping:?}"
-    );
+/// Outcome with a body at rest.
+fn rested(place_m: [f64; 2]) -> MemberOutcome {
+    MemberOutcome::Finished(Finished {
+        quantities: BTreeMap::new(),
+        bodies: vec![MemberBody {
+            rest_m: [place_m[0], place_m[1], 0.0],
+            moving: false,
+            hit: true,
+            buried_m: 0.0,
+            quantities: BTreeMap::new(),
+        }],
+    })
 }

@@ -92,6 +92,7 @@ fn moving_and_failed_members_are_unknown_and_widen_the_share() {
     let study = unit_study(2, &json!({"sobol": {"members": 64, "seed": 1}}), &json!([]));
     let ensemble = Ensemble::of(&study).unwrap();
     let member = |(index, u): (usize, &Vec<f64>)| Member {
+        level: 0,
         index: index as u64,
         outcome: rested([u[0], u[1]], 0.0),
     };

@@ -36,6 +36,7 @@ fn places(points: &[Vec<f64>], map: Map) -> RestingPlaces {
         places_m: points.iter().map(|u| map(u)).collect(),
         moving: 0,
         unknown: 0,
+        levels: None,
     }
 }
 

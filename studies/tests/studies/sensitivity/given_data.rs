@@ -76,6 +76,7 @@ fn a_choice_of_words_has_an_index() {
                 bodies: Vec::new(),
             };
             Member {
+                level: 0,
                 index,
                 outcome: MemberOutcome::Finished(finished),
             }

@@ -1,0 +1,126 @@
+//! Members and levels are added until a mean is as accurate as asked.
+
+use super::{COARSEST_M, expectation, finished, quantity, runs, study};
+use scree_studies::answers::AccuracyReached;
+use scree_studies::{Accuracy, Answers, Ensemble, Member, MemberOutcome, Needed, NextStep, Study};
+use serde_json::json;
+
+/// Study that begins with the coarsest level alone.
+fn asked(seed: u64, target: f64) -> Study {
+    let mut study = study([64, 16, 8], seed, &json!([]));
+    study.finer_levels.clear();
+    study.accuracy = Some(Accuracy {
+        quantity: "y".to_owned(),
+        body: None,
+        target,
+        finest_cell_size_m: None,
+        budget_point_steps: None,
+    });
+    study
+}
+
+fn outcomes(ensemble: &Ensemble) -> Vec<Member> {
+    runs(ensemble, |u, cells| finished(quantity(u, cells), cells))
+}
+
+/// The study at its end, and the accuracy that it has reached.
+fn ended(mut study: Study) -> (Study, AccuracyReached) {
+    for _ in 0..40 {
+        let ensemble = Ensemble::of(&study).unwrap();
+        let members = outcomes(&ensemble);
+        let next = NextStep::of(&ensemble, &members).unwrap();
+        let Some(larger) = next.study else {
+            let reached = Answers::of(&ensemble, &members).accuracy.unwrap();
+            return (study, reached);
+        };
+        assert_ne!(larger, study);
+        study = larger;
+    }
+    panic!(
+        "it does not end: {:?} {:?}",
+        study.design, study.finer_levels
+    );
+}
+
+#[test]
+fn a_target_is_met_by_an_interval_that_holds_the_limit_of_fine_cells() {
+    let mut held = 0;
+    for seed in 0..20 {
+        let (study, reached) = ended(asked(seed, 0.05));
+        assert_eq!(reached.needed, Needed::Nothing);
+        assert!(reached.reached.unwrap() <= 0.05, "{reached:?}");
+        assert!(study.levels() >= 3, "{study:?}");
+        let truth = expectation(0.0);
+        let mean = reached.mean;
+        held += usize::from(mean.lower.unwrap() <= truth && truth <= mean.upper.unwrap());
+    }
+    assert!(held >= 19, "{held} of 20");
+}
+
+#[test]
+fn levels_are_cheaper_than_the_finest_alone() {
+    let (_, reached) = ended(asked(1, 0.03));
+    assert!(reached.gain.unwrap() > 5.0, "{reached:?}");
+    assert_eq!(
+        reached.levels.len(),
+        ended(asked(1, 0.03)).0.levels() as usize
+    );
+}
+
+#[test]
+fn a_budget_is_kept() {
+    let mut study = asked(1, 0.03);
+    let (_, without) = ended(study.clone());
+    if let Some(accuracy) = &mut study.accuracy {
+        accuracy.budget_point_steps = Some(0.5 * without.point_steps);
+    }
+    let (_, reached) = ended(study);
+    assert_eq!(reached.needed, Needed::Budget);
+    assert!(reached.point_steps <= 0.5 * without.point_steps);
+}
+
+#[test]
+fn cells_are_no_smaller_than_allowed() {
+    let mut study = asked(1, 0.03);
+    if let Some(accuracy) = &mut study.accuracy {
+        accuracy.finest_cell_size_m = Some(0.4 * COARSEST_M);
+    }
+    let (study, reached) = ended(study);
+    assert_eq!(reached.needed, Needed::SmallerCells);
+    assert!(
+        study
+            .finer_levels
+            .iter()
+            .all(|level| level.cell_size_m >= 0.4 * COARSEST_M)
+    );
+}
+
+#[test]
+fn levels_all_of_whose_members_fail_are_the_end() {
+    let study = study([64, 16, 8], 1, &json!([]));
+    let study = Study {
+        accuracy: asked(1, 0.05).accuracy,
+        ..study
+    };
+    let ensemble = Ensemble::of(&study).unwrap();
+    let mut members = outcomes(&ensemble);
+    for member in members.iter_mut().filter(|member| member.level == 2) {
+        member.outcome = MemberOutcome::failed("numerical");
+    }
+    let next = NextStep::of(&ensemble, &members).unwrap();
+    assert_eq!((next.needed, next.study), (Needed::Successes, None));
+}
+
+#[test]
+fn a_quantity_that_never_varies_is_met_at_once() {
+    let study = asked(1, 0.05);
+    let constant = |study: &Study| {
+        let ensemble = Ensemble::of(study).unwrap();
+        let members = runs(&ensemble, |_, cells| finished(2.0, cells));
+        NextStep::of(&ensemble, &members).unwrap()
+    };
+    let two = constant(&study).study.unwrap();
+    let three = constant(&two).study.unwrap();
+    assert_eq!(three.levels(), 3);
+    assert_eq!(constant(&three).needed, Needed::Nothing);
+}
