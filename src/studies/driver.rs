@@ -91,12 +91,12 @@ async fn advance(
         Some(stored) if stored.status == StudyStatus::Running => stored,
         _ => return Ok(()),
     };
-    let (most, means, counts) = (studies.members_at_once(), studies.means, stored.members);
+    let (most, means) = (studies.members_at_once(), studies.means);
+    let in_work = stored.members.made - stored.members.ended;
+    let made = studies.store.members_made(id).await?;
     let step = aside(&stored, move |ensemble| {
-        match next(ensemble, counts, most) {
-            Next::Members(numbers) => {
-                new_members(ensemble, (id, numbers), &means).map(Step::Members)
-            }
+        match next(ensemble.study(), &made, (in_work, most)) {
+            Next::Members(ids) => new_members(ensemble, (id, &ids), &means).map(Step::Members),
             Next::Wait => Ok(Step::Wait),
             Next::Conclude => Ok(Step::Conclude),
         }

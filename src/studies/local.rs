@@ -6,29 +6,29 @@ use crate::jobs::failure::Failure;
 use crate::runs::convergence_study::Runs;
 use crate::runs::{NoSink, RunControl, RunEnd, RunError};
 use scree_solver::scenario::Scenario;
-use scree_studies::{Ensemble, Member, MemberOutcome};
+use scree_studies::{Ensemble, Member, MemberId, MemberOutcome};
 use serde_json::Value;
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
-/// Computes members of these numbers, several at a time on one thread each, and hands over each as
-/// it ends, in any order; `control` can stop it, and members that had not ended by then are not
-/// handed over. What a member is and what comes of it depends on the study and its number alone.
+/// Computes these members, several at a time on one thread each, and hands over each as it ends, in
+/// any order; `control` can stop it, and members that had not ended by then are not handed over.
+/// What a member is and what comes of it depends on the study, its level and its number alone.
 pub fn compute(
     ensemble: &Ensemble,
-    numbers: &[u64],
+    ids: &[MemberId],
     (at_once, control): (usize, &RunControl),
     mut ended: impl FnMut(Member),
 ) {
     let next = AtomicUsize::new(0);
     let (sender, receiver) = mpsc::channel();
     std::thread::scope(|scope| {
-        for _ in 0..at_once.clamp(1, numbers.len().max(1)) {
+        for _ in 0..at_once.clamp(1, ids.len().max(1)) {
             let sender = sender.clone();
             scope.spawn(|| {
                 let sender = sender;
-                work(ensemble, numbers, (&next, control), &sender);
+                work(ensemble, ids, (&next, control), &sender);
             });
         }
         drop(sender);
@@ -40,17 +40,17 @@ pub fn compute(
 
 fn work(
     ensemble: &Ensemble,
-    numbers: &[u64],
+    ids: &[MemberId],
     (next, control): (&AtomicUsize, &RunControl),
     sender: &mpsc::Sender<Member>,
 ) {
-    while let Some(&index) = numbers.get(next.fetch_add(1, Ordering::Relaxed)) {
-        let outcome = scenario(ensemble, index).map_or_else(
+    while let Some(&id) = ids.get(next.fetch_add(1, Ordering::Relaxed)) {
+        let outcome = scenario(ensemble, id).map_or_else(
             |error| MemberOutcome::failed(error.to_string()),
             |one| run(&one, control),
         );
         // A member without an outcome was stopped; without a receiver nobody asks any more.
-        if outcome == MemberOutcome::Pending || sender.send(Member { index, outcome }).is_err() {
+        if outcome == MemberOutcome::Pending || sender.send(Member::new(id, outcome)).is_err() {
             return;
         }
     }

@@ -4,29 +4,27 @@ use super::outcome;
 use super::study::StudyId;
 use crate::jobs::store::{MemberWork, NewMember};
 use crate::jobs::submit::{self, Means, ScenarioError};
-use scree_studies::{Ensemble, NoSuchMember};
+use scree_studies::{Ensemble, MemberId, NoSuchMember};
 use serde_json::Value;
-use std::ops::Range;
 
-/// The members of these numbers of a study, as jobs for a service with these means. One whose
-/// scenario is not allowed has failed.
+/// These members of a study as jobs for a service with these means. One whose scenario is not
+/// allowed has failed.
 ///
 /// # Errors
 /// The design has no such member.
 pub(super) fn new_members(
     ensemble: &Ensemble,
-    (study, numbers): (StudyId, Range<u64>),
+    (study, ids): (StudyId, &[MemberId]),
     means: &Means,
 ) -> Result<Vec<NewMember>, NoSuchMember> {
-    numbers
-        .map(|number| {
-            Ok(NewMember {
-                level: 0,
-                member: number,
-                work: work(&scenario(ensemble, number)?, study, means),
-            })
+    let new = ids.iter().map(|id| {
+        Ok(NewMember {
+            level: id.level,
+            member: id.index,
+            work: work(&scenario(ensemble, *id)?, study, means),
         })
-        .collect()
+    });
+    new.collect()
 }
 
 /// Scenario of a member: without snapshots of the flow unless the study's asks for them, since
@@ -34,8 +32,8 @@ pub(super) fn new_members(
 ///
 /// # Errors
 /// The design has no such member.
-pub fn scenario(ensemble: &Ensemble, number: u64) -> Result<Value, NoSuchMember> {
-    let mut scenario = ensemble.scenario(number)?;
+pub fn scenario(ensemble: &Ensemble, id: MemberId) -> Result<Value, NoSuchMember> {
+    let mut scenario = ensemble.scenario_on(id)?;
     without_snapshots(&mut scenario);
     Ok(scenario)
 }

@@ -4,7 +4,7 @@ use super::members::scenario;
 use scree_solver::plan::Cost;
 use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
-use scree_studies::Ensemble;
+use scree_studies::{Ensemble, Forecast, MemberId};
 use serde::Serialize;
 use serde_json::Value;
 use utoipa::ToSchema;
@@ -14,14 +14,14 @@ use utoipa::ToSchema;
 const COSTED: u64 = 32;
 
 /// Cost of the members of a study.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 #[schema(as = StudyCost)]
 pub struct StudyCost {
-    /// Members of the design.
+    /// Members of the design, on all levels together.
     pub members: u64,
     /// Most members, if a stopping rule enlarges the design; else those of the design.
     pub max_members: u64,
-    /// Members whose cost was found; the others are taken to cost as much on average.
+    /// Members whose cost was found; the others of a level are taken to cost as much on average.
     pub members_costed: u64,
     /// Mean work of a member [point-steps].
     pub point_steps_per_member: f64,
@@ -29,31 +29,65 @@ pub struct StudyCost {
     pub point_steps: f64,
     /// Largest memory of a member [bytes].
     pub member_memory_bytes: u64,
+    /// What the accuracy asked for is expected to take, from studies of the source paper's scene; null
+    /// without one. Members and levels are added by what the first ones tell.
+    #[schema(required = true)]
+    pub accuracy: Option<Forecast>,
 }
 
-/// Cost of a study; members that can't be set up are left out. `None` if that is all of them.
+/// Cost of a study; members that can't be set up are left out. `None` if those are all of a level.
 pub fn cost(ensemble: &Ensemble) -> Option<StudyCost> {
-    let members = ensemble.members();
-    let costs: Vec<Cost> = spread(members)
-        .filter_map(|number| cost_of(&scenario(ensemble, number).ok()?))
-        .collect();
-    let memory = costs.iter().map(|cost| cost.memory_bytes).max()?;
-    let work: f64 = costs.iter().map(|cost| cost.point_steps as f64).sum();
-    let per_member = work / costs.len() as f64;
-    let stop = ensemble.study().stop.as_ref();
+    let study = ensemble.study();
+    let levels: Vec<LevelCost> = (0..study.levels())
+        .map(|level| LevelCost::of(ensemble, level))
+        .collect::<Option<_>>()?;
+    let (members, work) = (
+        study.runs(),
+        levels.iter().map(LevelCost::point_steps).sum(),
+    );
+    let most = study.stop.as_ref().map_or(0, |stop| stop.max_members);
     Some(StudyCost {
         members,
-        max_members: stop.map_or(members, |stop| stop.max_members.max(members)),
-        members_costed: costs.len() as u64,
-        point_steps_per_member: per_member,
-        point_steps: per_member * members as f64,
-        member_memory_bytes: memory,
+        max_members: most.max(members),
+        members_costed: levels.iter().map(|level| level.costed).sum(),
+        point_steps_per_member: work / members as f64,
+        point_steps: work,
+        member_memory_bytes: levels.iter().map(|level| level.memory_bytes).max()?,
+        accuracy: Forecast::of(study, levels[0].point_steps_per_member),
     })
 }
 
-/// Numbers of members spread evenly over a design.
-fn spread(members: u64) -> impl Iterator<Item = u64> {
-    let count = members.min(COSTED);
+/// Cost of the members of a level.
+struct LevelCost {
+    members: u64,
+    costed: u64,
+    point_steps_per_member: f64,
+    memory_bytes: u64,
+}
+
+impl LevelCost {
+    fn of(ensemble: &Ensemble, level: u32) -> Option<Self> {
+        let members = ensemble.study().members_on(level);
+        let costs: Vec<Cost> = spread(members, COSTED / u64::from(ensemble.study().levels()))
+            .filter_map(|index| cost_of(&scenario(ensemble, MemberId { level, index }).ok()?))
+            .collect();
+        let work: f64 = costs.iter().map(|cost| cost.point_steps as f64).sum();
+        Some(Self {
+            members,
+            costed: costs.len() as u64,
+            point_steps_per_member: work / costs.len() as f64,
+            memory_bytes: costs.iter().map(|cost| cost.memory_bytes).max()?,
+        })
+    }
+
+    fn point_steps(&self) -> f64 {
+        self.members as f64 * self.point_steps_per_member
+    }
+}
+
+/// At most so many numbers of members spread evenly over a level.
+fn spread(members: u64, most: u64) -> impl Iterator<Item = u64> {
+    let count = members.min(most);
     (0..count).map(move |place| place * members / count.max(1))
 }
 

@@ -3,12 +3,18 @@
 use super::outcome::{names_of_body, names_of_run};
 use scree_studies::{Question, Study, Violation};
 
-/// Questions about bodies and quantities that no outcome has.
+/// Questions, and an accuracy, about bodies and quantities that no outcome has.
 pub fn violations(study: &Study) -> Vec<Violation> {
     let questions = study.questions.iter().enumerate();
-    let found = questions.flat_map(|(place, question)| {
+    let asked = questions.map(|(place, question)| {
         let (key, body, quantity) = asked(question);
-        let at = format!("/questions/{place}/{key}");
+        (format!("/questions/{place}/{key}"), body, quantity)
+    });
+    let accuracy = study.accuracy.iter().map(|accuracy| {
+        let quantity = Some(accuracy.quantity.as_str());
+        ("/accuracy".to_owned(), accuracy.body, quantity)
+    });
+    let found = asked.chain(accuracy).filter_map(|(at, body, quantity)| {
         let body_there = body.and_then(|body| no_body(study, &at, body));
         body_there.or_else(|| no_quantity(&at, body, quantity?))
     });
@@ -21,6 +27,7 @@ fn asked(question: &Question) -> (&'static str, Option<usize>, Option<&str>) {
         Question::Rest(rest) => ("rest", Some(rest.body), None),
         Question::Buried(buried) => ("buried", Some(buried.body), None),
         Question::Exceeds(asked) => ("exceeds", asked.body, Some(&asked.quantity)),
+        Question::Mean(asked) => ("mean", asked.body, Some(&asked.quantity)),
         Question::Quantiles(asked) => ("quantiles", asked.body, Some(&asked.quantity)),
         Question::Sensitivity(asked) => ("sensitivity", asked.body, Some(&asked.quantity)),
     }

@@ -1,16 +1,17 @@
 //! Schedule of a study: which members are to be computed next, and when it has ended.
 
-use super::study::MemberCounts;
+use scree_solver::scenario::Scenario;
 use scree_studies::answers::{RestDistribution, RestingPlaces};
-use scree_studies::{Ensemble, Member, Progress, Question, Stop, Study, Verdict};
+use scree_studies::{
+    Ensemble, Member, MemberId, NextStep, Progress, Question, Stop, Study, Verdict,
+};
 use std::collections::BTreeSet;
-use std::ops::Range;
 
 /// Next step of a study.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Next {
-    /// Members of these numbers are to be computed, in this order.
-    Members(Range<u64>),
+    /// These members are to be computed, in this order.
+    Members(Vec<MemberId>),
     /// The members in work are to end first.
     Wait,
     /// All members of the design have an outcome: see [`conclusion`].
@@ -26,16 +27,21 @@ pub enum Conclusion {
     End,
 }
 
-/// Next step of a study whose first members have been made, so many of them with an outcome; at
-/// most `most` members are in work at a time.
-pub fn next(ensemble: &Ensemble, counts: MemberCounts, most: u64) -> Next {
-    let in_work = counts.made - counts.ended;
-    let until = ensemble
-        .members()
-        .min(counts.made + most.saturating_sub(in_work));
-    if until > counts.made {
-        Next::Members(counts.made..until)
-    } else if in_work > 0 || counts.made < ensemble.members() {
+/// Next step of a study whose first members on each level have been made, `in_work` of them without
+/// an outcome; at most `most` members are in work at a time.
+pub fn next(study: &Study, made: &[u64], (in_work, most): (u64, u64)) -> Next {
+    let made_on = |level: u32| made.get(level as usize).copied().unwrap_or(0);
+    let mut missing = study
+        .ids()
+        .filter(|id| id.index >= made_on(id.level))
+        .peekable();
+    let is_complete = missing.peek().is_none();
+    let new: Vec<MemberId> = missing
+        .take(most.saturating_sub(in_work) as usize)
+        .collect();
+    if !new.is_empty() {
+        Next::Members(new)
+    } else if in_work > 0 || !is_complete {
         Next::Wait
     } else {
         Next::Conclude
@@ -45,6 +51,12 @@ pub fn next(ensemble: &Ensemble, counts: MemberCounts, most: u64) -> Next {
 /// Conclusion from these outcomes of all members of a study.
 pub fn conclusion(ensemble: &Ensemble, outcomes: &[Member]) -> Conclusion {
     let study = ensemble.study();
+    if let Some(next) = NextStep::of(ensemble, outcomes) {
+        let larger = next.study.filter(finest_level_is_allowed);
+        return larger.map_or(Conclusion::End, |larger| {
+            Conclusion::Enlarge(Box::new(larger))
+        });
+    }
     match (&study.stop, study.design.doubled()) {
         (Some(stop), Some(design)) if verdict(ensemble, stop, outcomes) == Verdict::Double => {
             let larger = Study {
@@ -59,6 +71,15 @@ pub fn conclusion(ensemble: &Ensemble, outcomes: &[Member]) -> Conclusion {
         }
         _ => Conclusion::End,
     }
+}
+
+/// True if scenarios on the finest level are allowed: those at both ends of every input.
+fn finest_level_is_allowed(study: &Study) -> bool {
+    let is_allowed = |ensemble: Ensemble| {
+        let mut ends = ensemble.end_scenarios();
+        ends.all(|end| Scenario::from_value(&end.scenario).is_ok())
+    };
+    Ensemble::of(study).is_ok_and(is_allowed)
 }
 
 /// Verdict of the stopping rule on a design all of whose members have an outcome.
@@ -109,6 +130,7 @@ fn point_steps(outcomes: &[Member]) -> f64 {
 mod tests {
     use super::*;
     use serde_json::json;
+    use std::ops::Range;
 
     fn study(members: u64) -> Study {
         let document = json!({
@@ -148,21 +170,32 @@ mod tests {
         assert_eq!(conclusion(&ensemble, &[]), Conclusion::End);
     }
 
-    fn counts(made: u64, ended: u64) -> MemberCounts {
-        MemberCounts { made, ended }
-    }
-
     #[test]
     fn members_are_made_as_others_end_until_all_are() {
         let study = study(8);
-        let ensemble = Ensemble::of(&study).unwrap();
-        let next = |made, ended| next(&ensemble, counts(made, ended), 3);
-        assert_eq!(next(0, 0), Next::Members(0..3));
+        let next = |made, ended| next(&study, &[made], (made - ended, 3));
+        let numbers =
+            |numbers: Range<u64>| Next::Members(numbers.map(MemberId::coarsest).collect());
+        assert_eq!(next(0, 0), numbers(0..3));
         assert_eq!(next(3, 0), Next::Wait);
-        assert_eq!(next(3, 2), Next::Members(3..5));
-        assert_eq!(next(7, 7), Next::Members(7..8));
+        assert_eq!(next(3, 2), numbers(3..5));
+        assert_eq!(next(7, 7), numbers(7..8));
         assert_eq!(next(8, 7), Next::Wait);
         assert_eq!(next(8, 8), Next::Conclude);
+    }
+
+    #[test]
+    fn members_of_fine_cells_are_made_first() {
+        let mut study = study(16);
+        study.scenario = json!({"x": 0.0, "numerics": {"cell_size_m": 0.03}});
+        let finer = json!([{"cell_size_m": 0.02, "members": 8}]);
+        study.finer_levels = serde_json::from_value(finer).unwrap();
+        let on = |level, numbers: Range<u64>| numbers.map(move |index| MemberId { level, index });
+        let next = |made: &[u64]| next(&study, made, (0, 6));
+        assert_eq!(next(&[]), Next::Members(on(1, 0..6).collect()));
+        let both = on(1, 6..8).chain(on(0, 2..6));
+        assert_eq!(next(&[2, 6]), Next::Members(both.collect()));
+        assert_eq!(next(&[16, 8]), Next::Conclude);
     }
 
     #[test]

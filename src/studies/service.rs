@@ -120,17 +120,17 @@ impl StudyService {
         self.store.studies(page).await
     }
 
-    /// Members of a study from this number on.
+    /// Members of a study on a level, from this number on.
     ///
     /// # Errors
     /// The store's own.
     pub async fn members(
         &self,
         id: StudyId,
-        from: u64,
+        from: (u32, u64),
         limit: u32,
     ) -> Result<Vec<ListedMember>, StoreError> {
-        self.store.members(id, (0, from), limit).await
+        self.store.members(id, from, limit).await
     }
 
     /// Goes on with another document instead of the one that it has.
@@ -200,6 +200,7 @@ impl StudyService {
     pub async fn outcomes(&self, id: StudyId) -> Result<Vec<Member>, StoreError> {
         let stored = self.store.outcomes(id).await?;
         let read = |member: &crate::jobs::store::MemberOutcome| Member {
+            level: member.level,
             index: member.member,
             outcome: serde_json::from_str(&member.outcome)
                 .unwrap_or_else(|_| MemberOutcome::failed("unreadable")),

@@ -25,4 +25,5 @@ mod results;
 mod runs;
 mod scenarios;
 mod studies;
+mod study_levels;
 mod webhooks;

@@ -5,7 +5,7 @@ use reqwest::{Method, StatusCode};
 use serde_json::{Value, json};
 
 /// A study of a tiny scene with so many members.
-fn study(members: u64) -> Value {
+pub(crate) fn study(members: u64) -> Value {
     let mut scenario = tiny_scene();
     scenario.as_object_mut().unwrap().remove("flow_snapshots");
     json!({
@@ -23,19 +23,19 @@ fn study(members: u64) -> Value {
     })
 }
 
-async fn post(app: &TestApp, study: &Value) -> Answer {
+pub(crate) async fn post(app: &TestApp, study: &Value) -> Answer {
     let text = study.to_string();
     app.post_to("/v1/studies", "application/json", text).await
 }
 
 /// Submits a study that must be accepted; returns its path.
-async fn submit(app: &TestApp, study: &Value) -> String {
+pub(crate) async fn submit(app: &TestApp, study: &Value) -> String {
     let answer = post(app, study).await;
     assert_eq!(answer.status, StatusCode::ACCEPTED, "{:#}", answer.body);
     answer.location.unwrap()
 }
 
-async fn change(app: &TestApp, path: &str, changes: &Value) -> Answer {
+pub(crate) async fn change(app: &TestApp, path: &str, changes: &Value) -> Answer {
     let request = app.client.request(Method::PATCH, app.url(path));
     let request = request
         .header("content-type", "application/json")
@@ -43,7 +43,7 @@ async fn change(app: &TestApp, path: &str, changes: &Value) -> Answer {
     Answer::read(request.send().await.unwrap()).await
 }
 
-async fn wait_for_end(app: &TestApp, path: &str) -> Value {
+pub(crate) async fn wait_for_end(app: &TestApp, path: &str) -> Value {
     app.wait(path, |study| study["status"] != "running").await
 }
 
@@ -296,7 +296,7 @@ async fn answers_come_as_tables_maps_and_pictures() {
     assert_eq!(kind, "text/csv; charset=utf-8");
     let csv = String::from_utf8(csv).unwrap();
     let lines: Vec<&str> = csv.split("\r\n").collect();
-    assert!(lines[0].starts_with("member,/channel/base_friction,failure,front_m"));
+    assert!(lines[0].starts_with("level,member,/channel/base_friction,failure,front_m"));
     assert_eq!(lines.len(), 66, "a head, 64 members, and an end");
     let (kind, npz) = file(&app, &format!("{path}/members.npz")).await;
     assert_eq!((kind.as_str(), &npz[..2]), ("application/zip", &b"PK"[..]));

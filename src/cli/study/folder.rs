@@ -120,5 +120,6 @@ fn goes_on(former: &Study, study: &Study) -> bool {
         && former.correlations == study.correlations;
     let larger = former.design.can_be_enlarged_to(&study.design)
         || study.design.can_be_enlarged_to(&former.design);
-    same && larger
+    let levels = former.levels_go_on_in(study) || study.levels_go_on_in(former);
+    same && larger && levels
 }

@@ -14,7 +14,8 @@ use scree::runs::Stop;
 use scree::studies::schedule::{Conclusion, conclusion};
 use scree::studies::{local, questions};
 use scree_solver::scenario::{Scenario, ScenarioError};
-use scree_studies::{Answers, Ensemble, Member, Study};
+use scree_studies::{Answers, Ensemble, Member, MemberId, Study};
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// Time between two notes on progress.
@@ -37,9 +38,9 @@ pub(super) fn study(options: &StudyOptions) -> Result<(), Failure> {
     let at_once = options.threads.map_or_else(cores, usize::from);
     loop {
         let ensemble = Ensemble::of(&study).map_err(|found| Failure::Input(in_words(&found)))?;
-        let missing = missing(&ensemble, &members);
+        let missing = missing(&study, &members);
         if !missing.is_empty() {
-            let mut computing = Computing::new(options, ensemble.members(), members);
+            let mut computing = Computing::new(options, study.runs(), members);
             let control = (at_once, interrupts.stop());
             local::compute(&ensemble, &missing, control, |member| {
                 computing.take(member, folder.as_ref());
@@ -54,7 +55,7 @@ pub(super) fn study(options: &StudyOptions) -> Result<(), Failure> {
             Conclusion::End => break,
         }
     }
-    members.sort_by_key(|member| member.index);
+    members.sort_by_key(Member::id);
     let ensemble = Ensemble::of(&study).map_err(|found| Failure::Input(in_words(&found)))?;
     let answers = Answers::of(&ensemble, &members);
     if let Some(folder) = &folder {
@@ -97,12 +98,9 @@ fn in_words(violations: &[scree_studies::Violation]) -> String {
 }
 
 /// Members of the design that have no outcome yet.
-fn missing(ensemble: &Ensemble, members: &[Member]) -> Vec<u64> {
-    let mut there: Vec<u64> = members.iter().map(|member| member.index).collect();
-    there.sort_unstable();
-    (0..ensemble.members())
-        .filter(|index| there.binary_search(index).is_err())
-        .collect()
+fn missing(study: &Study, members: &[Member]) -> Vec<MemberId> {
+    let there: BTreeSet<MemberId> = members.iter().map(Member::id).collect();
+    study.ids().filter(|id| !there.contains(id)).collect()
 }
 
 /// Members that are being computed.

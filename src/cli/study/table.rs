@@ -1,12 +1,21 @@
 //! Answers of a study for people.
 
 use crate::cli::columns::table;
-use scree_studies::answers::{Answer, Estimate, Measures, Moment, Probability, Region};
-use scree_studies::{Answers, Question, Study};
+use scree_studies::answers::{
+    AccuracyReached, Answer, Estimate, Mean, Measures, Moment, Probability, Region,
+};
+use scree_studies::{Answers, Needed, Question, Study};
 
 /// A paragraph on the members, and a table for each question.
 pub(super) fn answers(study: &Study, answers: &Answers) -> String {
     let mut paragraphs = vec![members(answers)];
+    if !answers.levels.is_empty() {
+        paragraphs.push(levels(answers).trim_end().to_owned());
+    }
+    if let (Some(asked), Some(reached)) = (&study.accuracy, &answers.accuracy) {
+        let quantity = of_body(&asked.quantity, asked.body);
+        paragraphs.push(accuracy(&quantity, reached));
+    }
     for (question, answer) in study.questions.iter().zip(&answers.answers) {
         paragraphs.push(one(study, question, answer).trim_end().to_owned());
     }
@@ -23,6 +32,68 @@ fn members(answers: &Answers) -> String {
         ));
     }
     line
+}
+
+fn levels(answers: &Answers) -> String {
+    let on_level = |level: usize| answers.accuracy.as_ref()?.levels.get(level);
+    let rows = answers.levels.iter().enumerate().map(|(place, level)| {
+        let quantity = on_level(place);
+        [
+            format!("{:.2}", 1e3 * level.cell_size_m),
+            level.finished.to_string(),
+            format!("{:.3e}", level.point_steps_per_member),
+            number(quantity.map(|quantity| quantity.mean)),
+            number(quantity.map(|quantity| quantity.standard_deviation)),
+        ]
+    });
+    let columns = [
+        "cells mm",
+        "members",
+        "point-steps of one",
+        "mean",
+        "adds ±",
+    ];
+    table("levels", columns, rows)
+}
+
+fn accuracy(quantity: &str, reached: &AccuracyReached) -> String {
+    let within = reached.reached.map_or_else(|| "–".to_owned(), percent);
+    let mut text = format!(
+        "mean of {quantity}: {}\nwithin {within}, asked for {}: {}",
+        mean(&reached.mean),
+        percent(reached.target),
+        needed(reached.needed),
+    );
+    if let (Some(members), Some(gain)) = (reached.one_level_members, reached.gain) {
+        text.push_str(&format!(
+            "\n{:.3e} point-steps; {members} members of the finest cells alone would take {gain:.1} times as many",
+            reached.point_steps
+        ));
+    }
+    text
+}
+
+fn needed(needed: Needed) -> &'static str {
+    match needed {
+        Needed::Nothing => "met",
+        Needed::Members => "more members are needed",
+        Needed::FinerLevel => "a finer level is needed",
+        Needed::SmallerCells => "not met, smaller cells than allowed would be needed",
+        Needed::Budget => "not met, more than the budget would be needed",
+        Needed::LargerDesign => "not met, more members than a design may have would be needed",
+        Needed::Successes => "not met, too few members of the finest level have it",
+    }
+}
+
+fn mean(mean: &Mean) -> String {
+    let bounds = [mean.lower, mean.upper].map(number).join(" to ");
+    let numerical = mean.numerical_error.map_or_else(
+        || "numerical not known".to_owned(),
+        |error| format!("numerical {error:.4}"),
+    );
+    let sampling = number(mean.sampling_error);
+    let estimate = number(mean.estimate);
+    format!("{estimate} ({bounds}; sampling error {sampling}, {numerical})")
 }
 
 fn one(study: &Study, question: &Question, answer: &Answer) -> String {
@@ -65,6 +136,10 @@ fn one(study: &Study, question: &Question, answer: &Answer) -> String {
                 "body {} ends more than {} m below the surface: {estimate} ({bounds})",
                 asked.body, asked.deeper_than_m
             )
+        }
+        (Question::Mean(asked), Answer::Mean(found)) => {
+            let quantity = of_body(&asked.quantity, asked.body);
+            format!("mean of {quantity}: {}", mean(found))
         }
         (Question::Quantiles(asked), Answer::Quantiles(quantiles)) => {
             let title = format!("quantiles of {}", of_body(&asked.quantity, asked.body));

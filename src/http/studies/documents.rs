@@ -44,7 +44,7 @@ pub(super) struct StudySummaryDocument {
     /// Time at which the study ended; null before.
     #[schema(required = true, format = "date-time")]
     pub finished: Option<String>,
-    /// Members of its design.
+    /// Members of its design, on all levels together.
     pub members: u64,
     /// Members that have been made so far.
     pub members_made: u64,
@@ -67,6 +67,8 @@ pub(super) struct StudyPageDocument {
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = ListedMember)]
 pub(super) struct MemberDocument {
+    /// Level of its cells, 0 the coarsest.
+    pub level: u32,
     /// Number in the design.
     pub member: u64,
     /// Values of its inputs, in the order of the study's.
@@ -82,7 +84,7 @@ pub(super) struct MemberDocument {
     pub outcome: Option<Box<RawValue>>,
 }
 
-/// Members of a study, in the order of the design.
+/// Members of a study on a level, in the order of the design.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = MemberPage)]
 pub(super) struct MemberPageDocument {
@@ -111,7 +113,7 @@ impl From<&StoredStudy> for StudySummaryDocument {
 /// Members of its design; those made if its document can't be read.
 fn members_of(study: &StoredStudy) -> u64 {
     let document = study.study();
-    document.map_or(study.members.made, |study| study.members())
+    document.map_or(study.members.made, |study| study.runs())
 }
 
 impl From<StoredStudy> for StudyDocument {

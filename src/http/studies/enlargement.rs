@@ -15,7 +15,7 @@ use crate::studies::StudyService;
 use axum::Json;
 use axum::extract::{RawQuery, State};
 use axum::http::StatusCode;
-use scree_studies::{Design, Question, Stop, Study};
+use scree_studies::{Accuracy, Design, FinerLevel, Question, Stop, Study};
 use serde::Deserialize;
 use serde_json::Value;
 use utoipa::ToSchema;
@@ -27,6 +27,10 @@ use utoipa::ToSchema;
 pub(super) struct ChangesDocument {
     /// A design that has the present one's members first.
     design: Option<Design>,
+    /// Levels that begin with the present ones' cell sizes.
+    finer_levels: Option<Vec<FinerLevel>>,
+    /// Another accuracy.
+    accuracy: Option<Accuracy>,
     /// Another stopping rule.
     stop: Option<Stop>,
     /// Other questions.
@@ -34,26 +38,36 @@ pub(super) struct ChangesDocument {
 }
 
 impl ChangesDocument {
-    fn applied(self, study: Study) -> Result<Study, Problem> {
+    fn applied(self, study: &Study) -> Result<Study, Problem> {
         let design = match self.design {
             Some(design) if !study.design.can_be_enlarged_to(&design) => {
-                return Err(not_larger());
+                let allowed =
+                    "a design of the same kind and seed that has the present one's members first";
+                return Err(not_larger("/design", allowed));
             }
             Some(design) => design,
-            None => study.design,
+            None => study.design.clone(),
         };
-        Ok(Study {
+        let changed = Study {
             design,
+            finer_levels: self
+                .finer_levels
+                .unwrap_or_else(|| study.finer_levels.clone()),
+            accuracy: self.accuracy.or_else(|| study.accuracy.clone()),
             stop: self.stop.or(study.stop),
-            questions: self.questions.unwrap_or(study.questions),
-            ..study
-        })
+            questions: self.questions.unwrap_or_else(|| study.questions.clone()),
+            ..study.clone()
+        };
+        if !study.levels_go_on_in(&changed) {
+            let allowed = "levels of which the first have the present ones' cell sizes";
+            return Err(not_larger("/finer_levels", allowed));
+        }
+        Ok(changed)
     }
 }
 
-fn not_larger() -> Problem {
-    let allowed = "a design of the same kind and seed that has the present one's members first";
-    let fault = FieldError::of_body("/design", Value::Null, allowed);
+fn not_larger(pointer: &str, allowed: &str) -> Problem {
+    let fault = FieldError::of_body(pointer, Value::Null, allowed);
     let status = StatusCode::UNPROCESSABLE_ENTITY;
     Problem {
         errors: vec![fault],
@@ -64,7 +78,8 @@ fn not_larger() -> Problem {
 /// Enlarge a study
 ///
 /// With a larger design no run is lost: its first members are those there already. A study that
-/// has ended successfully goes on. Its stopping rule and its questions may be changed, too.
+/// has ended successfully goes on. Its levels, its accuracy, its stopping rule and its questions may
+/// be changed, too.
 #[utoipa::path(
     patch,
     path = "/v1/studies/{id}",
@@ -95,7 +110,7 @@ pub(in crate::http) async fn enlarge_study(
     Query::new(query.as_deref()).finish()?;
     let stored = changeable(&studies, &caller, &id).await?;
     let changes: ChangesDocument = read_envelope(&text, ("invalid-study", "Invalid study"))?;
-    let changed = changes.applied(stored.study()?)?;
+    let changed = changes.applied(&stored.study()?)?;
     let study = validated(&jobs, &caller, changed).await?;
     let document = serde_json::to_string(&study).map_err(|error| Problem::internal(&error))?;
     match studies.enlarge(&stored, &document).await? {

@@ -232,8 +232,7 @@ pub(in crate::http) async fn draw_study_scatter(
 ) -> Result<Response, Problem> {
     Query::new(query.as_deref()).finish()?;
     let made = asked.make(|outcomes| {
-        let title = &outcomes.ensemble.study().title;
-        let drawn = export::scatter(title, &outcomes.table());
+        let drawn = export::scatter(outcomes.ensemble, &outcomes.members);
         Ok(drawn.map_err(ExportError::from)?.into())
     });
     Ok(picture(made.await?))

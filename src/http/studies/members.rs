@@ -22,13 +22,14 @@ const LARGEST_LIMIT: u32 = 1_000;
 
 /// List the members of a study
 ///
-/// In the order of its design: values of the inputs, job and outcome in short.
+/// In the order of its design, those on one level: values of the inputs, job and outcome in short.
 #[utoipa::path(
     get,
     path = "/v1/studies/{id}/members",
     tag = "studies",
     params(
         ("id" = String, Path, format = Uuid, description = "Identifier of the study"),
+        ("level" = Option<u32>, Query, description = "Level of the cells, 0 the coarsest; 0 if left out"),
         ("from" = Option<u64>, Query, description = "Number of the first member of the page"),
         ("limit" = Option<u32>, Query, description = "Most members of the page", minimum = 1, maximum = 1000),
         ("If-None-Match" = Option<String>, Header, description = "The `ETag` of an answer that is there already"),
@@ -47,11 +48,12 @@ pub(in crate::http) async fn list_members(
 ) -> Result<Response, Problem> {
     let mut query = Query::new(query.as_deref());
     let from = query.whole("from", 0..=u64::from(u32::MAX)).unwrap_or(0);
+    let level = query.whole("level", 0..=u32::MAX).unwrap_or(0);
     let limit = query.whole("limit", 1..=LARGEST_LIMIT);
     let limit = limit.unwrap_or(DEFAULT_LIMIT);
     query.finish()?;
     let stored = readable(&studies, &caller, &id).await?;
-    let mut found = studies.members(stored.id, from, limit + 1).await?;
+    let mut found = studies.members(stored.id, (level, from), limit + 1).await?;
     let next = found.get(limit as usize).map(|member| member.member);
     found.truncate(limit as usize);
     let members = stored.with_ensemble(|ensemble| {
@@ -66,6 +68,7 @@ fn document(ensemble: &Ensemble, member: ListedMember) -> Result<MemberDocument,
     let values = ensemble.values(member.member);
     let outcome = member.outcome.map(RawValue::from_string).transpose();
     Ok(MemberDocument {
+        level: member.level,
         member: member.member,
         values: values.map_err(|error| Problem::internal(&error))?,
         job: member.job.map(|job| job.to_string()),

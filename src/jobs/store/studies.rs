@@ -41,7 +41,10 @@ pub trait StudyStore: JobStore {
     /// more.
     async fn add_members(&self, study: StudyId, members: &[NewMember]) -> Answer<usize>;
 
-    /// Members of a study, by grid level and number, from this one on; at most `limit`.
+    /// Numbers of members made on each level, the coarsest first.
+    async fn members_made(&self, study: StudyId) -> Answer<Vec<u64>>;
+
+    /// Members of a study on a level, from this number on; at most `limit`.
     async fn members(
         &self,
         study: StudyId,
@@ -56,7 +59,7 @@ pub trait StudyStore: JobStore {
     /// Notes outcomes of members, each once.
     async fn note_outcomes(&self, study: StudyId, outcomes: &[MemberOutcome]) -> Answer<()>;
 
-    /// All outcomes of a study that are noted, by grid level and number.
+    /// All outcomes of a study that are noted, by level and number.
     async fn outcomes(&self, study: StudyId) -> Answer<Vec<MemberOutcome>>;
 
     /// Ends a running study. Members that wait or run are dismissed, unless another running study
@@ -137,7 +140,7 @@ pub enum Enlarged {
 /// A member to be made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewMember {
-    /// Grid level, from the coarsest.
+    /// Level of its cells, from the coarsest.
     pub level: u32,
     /// Number in the study's design.
     pub member: u64,
@@ -157,7 +160,7 @@ pub enum MemberWork {
 /// A member of a list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ListedMember {
-    /// Grid level, from the coarsest.
+    /// Level of its cells, from the coarsest.
     pub level: u32,
     /// Number in the study's design.
     pub member: u64,
@@ -172,7 +175,7 @@ pub struct ListedMember {
 /// A member whose job has ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EndedMember {
-    /// Grid level, from the coarsest.
+    /// Level of its cells, from the coarsest.
     pub level: u32,
     /// Number in the study's design.
     pub member: u64,
@@ -187,7 +190,7 @@ pub struct EndedMember {
 /// Outcome of a member in short.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemberOutcome {
-    /// Grid level, from the coarsest.
+    /// Level of its cells, from the coarsest.
     pub level: u32,
     /// Number in the study's design.
     pub member: u64,

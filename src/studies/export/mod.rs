@@ -10,7 +10,7 @@ pub use table::{MemberTable, members_as_csv, members_as_npz};
 
 use crate::pictures::{self, PictureError};
 use scree_solver::scenario::Scenario;
-use scree_studies::answers::{Answer, Measures, RestDistribution};
+use scree_studies::answers::{Answer, Measures, RestDistribution, RestingPlaces};
 use scree_studies::{Answers, Ensemble, Member, Question, Study};
 use thiserror::Error;
 
@@ -39,10 +39,7 @@ pub fn files(
     let mut files = vec![
         ("members.csv".to_owned(), members_as_csv(&table).into()),
         ("members.npz".to_owned(), members_as_npz(&table)),
-        (
-            "scatter.svg".to_owned(),
-            scatter(&ensemble.study().title, &table)?.into(),
-        ),
+        ("scatter.svg".to_owned(), scatter(ensemble, members)?.into()),
     ];
     for (place, answer) in answers.answers.iter().enumerate() {
         match answer {
@@ -74,11 +71,12 @@ const DRAWN: [&str; 4] = [
     "body0.peak_speed_m_s",
 ];
 
-/// Picture of quantities of the members against their inputs.
+/// Picture of quantities of the members, each on its finest level, against their inputs.
 ///
 /// # Errors
 /// The picture can't be drawn.
-pub fn scatter(title: &str, table: &MemberTable) -> Result<String, PictureError> {
+pub fn scatter(ensemble: &Ensemble, members: &[Member]) -> Result<String, PictureError> {
+    let table = MemberTable::on_finest(ensemble, members);
     let inputs = table.inputs.iter().enumerate();
     let inputs: Vec<_> = inputs
         .map(|(place, name)| (name.clone(), table.input(place)))
@@ -87,10 +85,11 @@ pub fn scatter(title: &str, table: &MemberTable) -> Result<String, PictureError>
         let place = table.quantities.iter().position(|other| other == name)?;
         Some(((*name).to_owned(), table.quantity(place)))
     });
+    let title = &ensemble.study().title;
     pictures::scatter_matrix(title, &inputs, &drawn.collect::<Vec<_>>())
 }
 
-/// Map of the resting places of a question.
+/// Map of the resting places of a question, on the finest level.
 ///
 /// # Errors
 /// The picture can't be drawn.
@@ -104,14 +103,7 @@ pub fn map(
         Some(Question::Rest(question)) => question.body,
         _ => 0,
     };
-    let inputs = study.inputs.len();
-    let drawn = members.iter().filter(|member| {
-        let index = member.index;
-        index < ensemble.members() && study.design.is_draw(index, inputs)
-    });
-    let finished = drawn.filter_map(Member::finished);
-    let bodies = finished.filter_map(|finished| finished.bodies.get(body));
-    let places: Vec<[f64; 2]> = bodies.filter_map(|body| body.resting_place()).collect();
+    let places = RestingPlaces::of(ensemble, members, body).places_m;
     let scenario = Scenario::from_value(&study.scenario).ok();
     pictures::rest_map(&study.title, scenario.as_ref(), body, (rest, &places))
 }

@@ -4,12 +4,15 @@ use crate::results::numpy;
 use crate::results::zip::{Method, ZipWriter};
 use scree_studies::{Ensemble, Finished, Member, MemberBody, MemberOutcome};
 use serde_json::Value;
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 /// Members with their inputs and quantities.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemberTable {
-    /// Numbers of the members, in order.
+    /// Levels of the members.
+    pub levels: Vec<u32>,
+    /// Numbers of the members, those of a level in order.
     pub members: Vec<u64>,
     /// JSON pointers of the inputs.
     pub inputs: Vec<String>,
@@ -24,15 +27,23 @@ pub struct MemberTable {
 }
 
 impl MemberTable {
-    /// Table of the members that have an outcome.
+    /// Table of the members that have an outcome, on every level that they are on.
     pub fn of(ensemble: &Ensemble, members: &[Member]) -> Self {
-        let mut ended: Vec<&Member> = members
-            .iter()
-            .filter(|member| member.index < ensemble.members())
-            .filter(|member| member.outcome != MemberOutcome::Pending)
-            .collect();
-        ended.sort_by_key(|member| member.index);
-        let quantities = names(&ended);
+        let mut ended = ended(ensemble, members);
+        ended.sort_by_key(|member| member.id());
+        Self::of_ended(ensemble, &ended)
+    }
+
+    /// Table of the members that have an outcome, each on its finest level alone.
+    pub fn on_finest(ensemble: &Ensemble, members: &[Member]) -> Self {
+        let mut ended = ended(ensemble, members);
+        ended.sort_by_key(|member| (member.index, Reverse(member.level)));
+        ended.dedup_by_key(|member| member.index);
+        Self::of_ended(ensemble, &ended)
+    }
+
+    fn of_ended(ensemble: &Ensemble, ended: &[&Member]) -> Self {
+        let quantities = names(ended);
         let result = |member: &&Member| {
             let finished = member.finished();
             let value = |name: &String| finished.and_then(|finished| quantity(finished, name));
@@ -45,6 +56,7 @@ impl MemberTable {
         };
         let inputs = ensemble.study().inputs.iter();
         Self {
+            levels: ended.iter().map(|member| member.level).collect(),
             members: ended.iter().map(|member| member.index).collect(),
             inputs: inputs.map(|input| input.pointer.clone()).collect(),
             values: ended.iter().map(values).collect(),
@@ -66,6 +78,16 @@ impl MemberTable {
         let values = self.results.iter().map(|row| row[place]);
         values.map(|value| value.unwrap_or(f64::NAN)).collect()
     }
+}
+
+/// Members of a study that have an outcome.
+fn ended<'a>(ensemble: &Ensemble, members: &'a [Member]) -> Vec<&'a Member> {
+    let study = ensemble.study();
+    let ended = members
+        .iter()
+        .filter(|member| member.index < study.members_on(member.level))
+        .filter(|member| member.outcome != MemberOutcome::Pending);
+    ended.collect()
 }
 
 /// Names of all quantities that any member has.
@@ -98,10 +120,10 @@ fn quantity(finished: &Finished, name: &str) -> Option<f64> {
         .quantity(name)
 }
 
-/// The table as CSV (RFC 4180): `member`, the inputs by their pointers, `failure`, the quantities;
+/// The table as CSV (RFC 4180): `level`, `member`, the inputs by their pointers, `failure`, the quantities;
 /// an empty field for what did not happen.
 pub fn members_as_csv(table: &MemberTable) -> String {
-    let names = ["member"].into_iter();
+    let names = ["level", "member"].into_iter();
     let names = names.chain(table.inputs.iter().map(String::as_str));
     let names = names.chain(["failure"]);
     let names = names.chain(table.quantities.iter().map(String::as_str));
@@ -114,7 +136,8 @@ pub fn members_as_csv(table: &MemberTable) -> String {
         let failure = field(table.failures[row].as_deref().unwrap_or_default());
         let results = table.results[row].iter();
         let results = results.map(|value| value.map_or(String::new(), |value| value.to_string()));
-        let fields = std::iter::once(member.to_string()).chain(inputs);
+        let name = [table.levels[row].to_string(), member.to_string()];
+        let fields = name.into_iter().chain(inputs);
         text.push_str(&line(fields.chain([failure]).chain(results)));
     }
     text
@@ -137,10 +160,12 @@ fn field(text: &str) -> String {
 /// The numbers of the table as NPZ: an array of 64-bit floats for each column, NaN where there is
 /// no number; slashes of pointers are dots in the names.
 pub fn members_as_npz(table: &MemberTable) -> Vec<u8> {
-    let mut columns = vec![(
-        "member".to_owned(),
-        table.members.iter().map(|number| *number as f64).collect(),
-    )];
+    let levels = table.levels.iter().map(|level| f64::from(*level));
+    let numbers = table.members.iter().map(|number| *number as f64);
+    let mut columns = vec![
+        ("level".to_owned(), levels.collect::<Vec<f64>>()),
+        ("member".to_owned(), numbers.collect()),
+    ];
     let named = |pointer: &str| pointer.trim_start_matches('/').replace('/', ".");
     for (place, pointer) in table.inputs.iter().enumerate() {
         columns.push((named(pointer), table.input(place)));

@@ -250,6 +250,10 @@ impl StudyStore for SqliteStore {
         Ok(Self::add_members(self, study, members).await?)
     }
 
+    async fn members_made(&self, study: StudyId) -> Result<Vec<u64>, StoreError> {
+        Ok(Self::members_made(self, study).await?)
+    }
+
     async fn members(
         &self,
         study: StudyId,

@@ -78,6 +78,22 @@ impl SqliteStore {
         Ok(added)
     }
 
+    pub(super) async fn members_made(&self, study: StudyId) -> Answer<Vec<u64>> {
+        let rows: Vec<(u32, i64)> = sqlx::query_as(
+            "SELECT level, count(*) FROM study_members
+             WHERE study = (SELECT sequence FROM studies WHERE id = ?1) GROUP BY level",
+        )
+        .bind(study.to_string())
+        .fetch_all(self.readers.pool())
+        .await?;
+        let levels = rows.iter().map(|(level, _)| *level as usize + 1).max();
+        let mut made = vec![0; levels.unwrap_or(0)];
+        for (level, count) in rows {
+            made[level as usize] = count.unsigned_abs();
+        }
+        Ok(made)
+    }
+
     pub(super) async fn members(
         &self,
         study: StudyId,
@@ -88,8 +104,8 @@ impl SqliteStore {
             "SELECT level, member, job_id, jobs.status AS status, study_members.outcome AS outcome
              FROM study_members LEFT JOIN jobs ON jobs.id = job_id
              WHERE study = (SELECT sequence FROM studies WHERE id = ?1)
-               AND (level, member) >= (?2, ?3)
-             ORDER BY level, member LIMIT ?4",
+               AND level = ?2 AND member >= ?3
+             ORDER BY member LIMIT ?4",
         )
         .bind(study.to_string())
         .bind(level)

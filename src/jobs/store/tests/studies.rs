@@ -7,6 +7,7 @@ conformance! {
     members_are_claimed_when_no_other_job_waits
     members_take_no_place_in_the_queue
     a_member_is_made_once_and_only_of_a_running_study
+    members_of_each_level_are_counted_and_listed_by_themselves
     members_with_equal_scenarios_share_a_job_of_one_submitter
     the_outcome_of_a_member_is_noted_once_and_outlives_its_job
     a_member_whose_scenario_is_not_allowed_has_an_outcome_and_no_job
@@ -119,6 +120,35 @@ async fn a_member_is_made_once_and_only_of_a_running_study(fixture: &Fixture) {
     fixture.end(study, StudyStatus::Dismissed).await;
     let late = [new_member(2, "d")];
     assert_eq!(fixture.store.add_members(study, &late).await.unwrap(), 0);
+}
+
+async fn members_of_each_level_are_counted_and_listed_by_themselves(fixture: &Fixture) {
+    let (study, other) = (fixture.study("a").await, fixture.study("b").await);
+    assert!(fixture.store.members_made(study).await.unwrap().is_empty());
+    let on_level = |level: u32, member: u64, scenario: &str| NewMember {
+        level,
+        ..new_member(member, scenario)
+    };
+    let members = [
+        on_level(0, 0, "a"),
+        on_level(2, 0, "b"),
+        on_level(0, 1, "c"),
+    ];
+    fixture.store.add_members(study, &members).await.unwrap();
+    fixture.add(other, 0, "d").await;
+    let made = fixture.store.members_made(study).await.unwrap();
+    assert_eq!(made, [2, 0, 1]);
+    let numbers = async |level: u32, from: u64| {
+        let found = fixture.store.members(study, (level, from), 10).await;
+        let found = found.unwrap().into_iter();
+        found
+            .map(|member| (member.level, member.member))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(numbers(0, 0).await, [(0, 0), (0, 1)]);
+    assert_eq!(numbers(0, 1).await, [(0, 1)]);
+    assert_eq!(numbers(1, 0).await, []);
+    assert_eq!(numbers(2, 0).await, [(2, 0)]);
 }
 
 async fn members_with_equal_scenarios_share_a_job_of_one_submitter(fixture: &Fixture) {
