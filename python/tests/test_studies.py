@@ -79,6 +79,18 @@ def test_an_enlarged_study_goes_on_with_its_members(client: scree.Client) -> Non
     assert [member["job"] for member in study.members()][:4] == before
 
 
+def test_finer_levels_correct_the_first_members(client: scree.Client) -> None:
+    few = {**scenes.FEW, "design": {"sobol": {"members": 16, "seed": 2}}}
+    study = client.submit_study(few).wait(60)
+    coarse = study.document["study"]["scenario"]["numerics"]["cell_size_m"]
+    study.change(finer_levels=[{"cell_size_m": coarse / 1.5, "members": 8}])
+    assert study.wait(60).document["members_ended"] == 24
+    assert [member["level"] for member in study.members(level=1)] == [1] * 8
+    first = [member["values"] for member in study.members()][:8]
+    assert [member["values"] for member in study.members(level=1)] == first
+    assert [level["finished"] for level in study.answers()["levels"]] == [16, 8]
+
+
 def test_other_questions_get_answers(client: scree.Client) -> None:
     study = client.submit_study(scenes.FEW).wait(60)
     assert study.answers()["answers"] == []

@@ -621,6 +621,21 @@ class FieldError(TypedDict):
     """
 
 
+class FinerLevel(TypedDict):
+    """
+    Level of finer cells.
+    """
+
+    cell_size_m: float
+    """
+    Cell size [m], smaller than that of the level before by a factor of 1.2 to 4.
+    """
+    members: int
+    """
+    Number of members, at least 8 and at most those of the level before: the first of the design.
+    """
+
+
 class FlowSnapshot(TypedDict):
     """
     The flow at one instant.
@@ -649,6 +664,25 @@ class FlowSnapshot(TypedDict):
     time_s: float
     """
     Simulated time [s].
+    """
+
+
+class ForecastLevel(TypedDict):
+    """
+    Level that an accuracy is expected to take.
+    """
+
+    cell_size_m: float
+    """
+    Cell size [m].
+    """
+    members: int
+    """
+    Members.
+    """
+    point_steps_per_member: float
+    """
+    Work of a member [point-steps].
     """
 
 
@@ -834,6 +868,21 @@ class Material(TypedDict):
     """
 
 
+class MeanQuestion(TypedDict):
+    """
+    Question for the mean of a quantity.
+    """
+
+    body: NotRequired[Optional[int]]
+    """
+    Index of the body whose quantity it is; none: one of the whole run.
+    """
+    quantity: str
+    """
+    Name of the quantity in the members' outcomes.
+    """
+
+
 class MemberBody(TypedDict):
     """
     Body at the end of a member's run.
@@ -967,6 +1016,12 @@ Prescribed motion of a body, in channel axes.
 """
 
 
+Needed: TypeAlias = Literal['nothing', 'members', 'finer_level', 'smaller_cells', 'budget', 'larger_design', 'successes']
+"""
+What a study needs next for its accuracy; if it has ended, what it would have needed.
+"""
+
+
 class OneAtATimeDesign(TypedDict):
     """
     One input after the other at each of its levels, all others at their medians. Member 0 has all
@@ -1061,7 +1116,9 @@ class Probability(TypedDict):
     """
     lower: float
     """
-    Lower bound: that of Clopper & Pearson (1934) if it happened in no unknown member.
+    Lower bound: that of Clopper & Pearson (1934) if it happened in no unknown member. With
+    several levels it counts as many draws as the multilevel estimate is worth (Korn & Graubard
+    1998), and holds the numerical error.
     """
     unknown: int
     """
@@ -1259,6 +1316,22 @@ Quantity: TypeAlias = Literal['onset_time_s', 'peak_speed_m_s', 'peak_speed_time
 """
 A quantity of the outcome, by its key.
 """
+
+
+class QuantityOnLevel(TypedDict):
+    """
+    A quantity on a level.
+    """
+
+    mean: float
+    """
+    Mean on the level.
+    """
+    standard_deviation: float
+    """
+    Standard deviation, over the members, of what the level adds: of the quantity on the
+    coarsest, of the residuals of a regression on the next coarser level on others.
+    """
 
 
 ReferenceOnly: TypeAlias = Literal['reference']
@@ -1551,6 +1624,35 @@ class StoppingRule(TypedDict):
     """
 
 
+class StudyAccuracy(TypedDict):
+    """
+    Target of the accuracy of a mean: members and finer levels are added until sampling error and
+    numerical error together are within it.
+    """
+
+    body: NotRequired[Optional[int]]
+    """
+    Index of the body whose quantity it is; none: one of the whole run.
+    """
+    budget_point_steps: NotRequired[Optional[float]]
+    """
+    Most work in point-steps; none: no limit.
+    """
+    finest_cell_size_m: NotRequired[Optional[float]]
+    """
+    Smallest cells that may be taken [m]; none: no limit but those of a scenario.
+    """
+    quantity: str
+    """
+    Name of the quantity whose mean it is about.
+    """
+    target: float
+    """
+    Largest distance of the ends of the mean's interval from the mean, over the mean,
+    0.001 <= x <= 1.
+    """
+
+
 class StudyAnswer3(TypedDict):
     """
     Probability that the body ends below the surface.
@@ -1562,7 +1664,7 @@ class StudyAnswer3(TypedDict):
     """
 
 
-class StudyAnswer4(TypedDict):
+class StudyAnswer5(TypedDict):
     """
     Quantiles of the quantity.
     """
@@ -1570,37 +1672,6 @@ class StudyAnswer4(TypedDict):
     quantiles: List[Quantile]
     """
     Quantiles of the quantity.
-    """
-
-
-class StudyCost(TypedDict):
-    """
-    Cost of the members of a study.
-    """
-
-    max_members: int
-    """
-    Most members, if a stopping rule enlarges the design; else those of the design.
-    """
-    member_memory_bytes: int
-    """
-    Largest memory of a member [bytes].
-    """
-    members: int
-    """
-    Members of the design.
-    """
-    members_costed: int
-    """
-    Members whose cost was found; the others are taken to cost as much on average.
-    """
-    point_steps: float
-    """
-    Work of all members of the design [point-steps].
-    """
-    point_steps_per_member: float
-    """
-    Mean work of a member [point-steps].
     """
 
 
@@ -1620,6 +1691,96 @@ class StudyEstimate(TypedDict):
     value: float
     """
     Estimate.
+    """
+
+
+class StudyForecast(TypedDict):
+    """
+    Levels that an accuracy is expected to take.
+    """
+
+    gain: float
+    """
+    That over the work of the levels: how many times cheaper they are.
+    """
+    is_expected_to_be_met: bool
+    """
+    True if the cells may get as small as the target is expected to take.
+    """
+    levels: List[ForecastLevel]
+    """
+    Levels, the coarsest first.
+    """
+    one_level_members: int
+    """
+    Members of the finest level alone with the same sampling error.
+    """
+    one_level_point_steps: float
+    """
+    Their work [point-steps].
+    """
+    point_steps: float
+    """
+    Work of all their members [point-steps].
+    """
+
+
+class StudyLevel(TypedDict):
+    """
+    Level of a study.
+    """
+
+    cell_size_m: float
+    """
+    Cell size [m].
+    """
+    finished: int
+    """
+    Those of them whose run came to its end.
+    """
+    members: int
+    """
+    Members on the level.
+    """
+    point_steps_per_member: float
+    """
+    Mean work of such a member [point-steps], or what it is expected to be.
+    """
+
+
+class StudyMean(TypedDict):
+    """
+    Mean of a quantity.
+    """
+
+    estimate: NotRequired[Optional[float]]
+    """
+    Estimate, on the finest level; none of fewer than two known members.
+    """
+    known: int
+    """
+    Members whose quantity is known.
+    """
+    lower: NotRequired[Optional[float]]
+    """
+    Lower bound: sampling and numerical error below the estimate.
+    """
+    numerical_error: NotRequired[Optional[float]]
+    """
+    What cells of the finest level add to it; none on one level, which does not tell.
+    """
+    sampling_error: NotRequired[Optional[float]]
+    """
+    Half width of the interval that sampling alone asks for.
+    """
+    unknown: int
+    """
+    Members whose quantity is not: failed, pending, or without it. For the bounds they lie
+    anywhere between the smallest known value and the largest.
+    """
+    upper: NotRequired[Optional[float]]
+    """
+    Upper bound, likewise.
     """
 
 
@@ -1658,6 +1819,17 @@ class StudyQuestion3(TypedDict):
 
 class StudyQuestion4(TypedDict):
     """
+    Mean of a quantity.
+    """
+
+    mean: MeanQuestion
+    """
+    Mean of a quantity.
+    """
+
+
+class StudyQuestion5(TypedDict):
+    """
     Quantiles of a quantity.
     """
 
@@ -1667,7 +1839,7 @@ class StudyQuestion4(TypedDict):
     """
 
 
-class StudyQuestion5(TypedDict):
+class StudyQuestion6(TypedDict):
     """
     Inputs that a quantity depends on.
     """
@@ -1684,6 +1856,7 @@ StudyQuestion: TypeAlias = Union[
     StudyQuestion3,
     StudyQuestion4,
     StudyQuestion5,
+    StudyQuestion6,
 ]
 """
 Question to a study.
@@ -1715,7 +1888,7 @@ class StudySummary(TypedDict):
     """
     members: int
     """
-    Members of its design.
+    Members of its design, on all levels together.
     """
     members_ended: int
     """
@@ -2410,7 +2583,7 @@ class LandingPage(TypedDict):
 
 class MemberCounts(TypedDict):
     """
-    Counts of a design's members.
+    Counts of a study's members, each on every level that it is on.
     """
 
     failed: int
@@ -2588,22 +2761,6 @@ class PlannedRefinementRun(TypedDict):
     """
 
 
-class PlannedStudy(TypedDict):
-    """
-    Plan of a study.
-    """
-
-    cost: StudyCost
-    """
-    Cost of the members.
-    """
-    wall_time: WallTime
-    """
-    Expected wall time of the design's members on all workers of this service, if they have
-    nothing else to do.
-    """
-
-
 class ProcessDescription(ProcessSummary):
     """
     Description of a process.
@@ -2733,6 +2890,11 @@ class RestDistribution(TypedDict):
     Variance of the density over that with independent draws, from differences between parts
     of the members: 1 of independent ones, less of a balanced design.
     """
+    numerical_error_m: NotRequired[Optional[List[float]]]
+    """
+    Half width of what the cells of the finest level may shift the places by, downstream and
+    across [m]; none of a study on one level.
+    """
     regions: List[Region]
     """
     Regions, in the order in which they were asked for.
@@ -2801,6 +2963,45 @@ class SobolIndices(TypedDict):
     """
 
 
+class StudyAccuracyReached(TypedDict):
+    """
+    Accuracy that a study has reached.
+    """
+
+    gain: NotRequired[Optional[float]]
+    """
+    Their work over the work so far: how many times cheaper the levels are.
+    """
+    levels: List[QuantityOnLevel]
+    """
+    The quantity on the levels with enough members, the coarsest first.
+    """
+    mean: StudyMean
+    """
+    Mean that the accuracy is about.
+    """
+    needed: Needed
+    """
+    What is needed next; of a study that has ended, what it would have taken.
+    """
+    one_level_members: NotRequired[Optional[int]]
+    """
+    Members of the finest level alone whose mean would have the same sampling error.
+    """
+    point_steps: float
+    """
+    Work so far [point-steps].
+    """
+    reached: NotRequired[Optional[float]]
+    """
+    That distance so far; none of too few members.
+    """
+    target: float
+    """
+    Largest distance of the interval's ends from the mean that was asked for, over the mean.
+    """
+
+
 class StudyAnswer1(TypedDict):
     """
     Distribution of the body's resting place.
@@ -2823,17 +3024,65 @@ class StudyAnswer2(TypedDict):
     """
 
 
+class StudyAnswer4(TypedDict):
+    """
+    Mean of the quantity.
+    """
+
+    mean: StudyMean
+    """
+    Mean of the quantity.
+    """
+
+
 class StudyChanges(TypedDict):
     """
     Changes to a study; what is left out stays.
     """
 
+    accuracy: NotRequired[Optional[StudyAccuracy]]
     design: NotRequired[Optional[Design]]
+    finer_levels: NotRequired[Optional[List[FinerLevel]]]
+    """
+    Levels that begin with the present ones' cell sizes.
+    """
     questions: NotRequired[Optional[List[StudyQuestion]]]
     """
     Other questions.
     """
     stop: NotRequired[Optional[StoppingRule]]
+
+
+class StudyCost(TypedDict):
+    """
+    Cost of the members of a study.
+    """
+
+    accuracy: Optional[StudyForecast]
+    max_members: int
+    """
+    Most members, if a stopping rule enlarges the design; else those of the design.
+    """
+    member_memory_bytes: int
+    """
+    Largest memory of a member [bytes].
+    """
+    members: int
+    """
+    Members of the design, on all levels together.
+    """
+    members_costed: int
+    """
+    Members whose cost was found; the others of a level are taken to cost as much on average.
+    """
+    point_steps: float
+    """
+    Work of all members of the design [point-steps].
+    """
+    point_steps_per_member: float
+    """
+    Mean work of a member [point-steps].
+    """
 
 
 class StudyPage(TypedDict):
@@ -2974,6 +3223,10 @@ class ListedMember(TypedDict):
     """
     Its job, which other studies may share; null if its scenario is not allowed.
     """
+    level: int
+    """
+    Level of its cells, 0 the coarsest.
+    """
     member: int
     """
     Number in the design.
@@ -2988,7 +3241,7 @@ class ListedMember(TypedDict):
 
 class MemberPage(TypedDict):
     """
-    Members of a study, in the order of the design.
+    Members of a study on a level, in the order of the design.
     """
 
     members: List[ListedMember]
@@ -3036,6 +3289,22 @@ class Planned(TypedDict):
     wall_time: WallTime
     """
     Expected wall time of all runs on a worker of this service.
+    """
+
+
+class PlannedStudy(TypedDict):
+    """
+    Plan of a study.
+    """
+
+    cost: StudyCost
+    """
+    Cost of the members.
+    """
+    wall_time: WallTime
+    """
+    Expected wall time of the design's members on all workers of this service, if they have
+    nothing else to do.
     """
 
 
@@ -3125,7 +3394,7 @@ Sensitivity of a quantity, by the method that the design is for.
 """
 
 
-class StudyAnswer5(TypedDict):
+class StudyAnswer6(TypedDict):
     """
     Inputs that the quantity depends on; none if it does not vary or too few members have it.
     """
@@ -3139,6 +3408,7 @@ StudyAnswer: TypeAlias = Union[
     StudyAnswer3,
     StudyAnswer4,
     StudyAnswer5,
+    StudyAnswer6,
 ]
 """
 Answer to a question, of the question's name.
@@ -3150,13 +3420,18 @@ class StudyAnswers(TypedDict):
     Answers to a study.
     """
 
+    accuracy: NotRequired[Optional[StudyAccuracyReached]]
     answers: List[StudyAnswer]
     """
     Answers, in the order of the questions.
     """
+    levels: NotRequired[List[StudyLevel]]
+    """
+    Levels, the coarsest first; none of a study on one level.
+    """
     members: MemberCounts
     """
-    Members by the fate of their runs.
+    Members by the fate of their runs, those of all levels.
     """
 
 
@@ -3276,6 +3551,7 @@ class Study(TypedDict):
     Study: a scenario, its uncertain inputs, the design of the members, and the questions.
     """
 
+    accuracy: NotRequired[Optional[StudyAccuracy]]
     correlations: NotRequired[List[Correlation]]
     """
     Rank correlations of pairs of inputs; all other pairs are independent.
@@ -3283,6 +3559,11 @@ class Study(TypedDict):
     design: Design
     """
     Design of the members.
+    """
+    finer_levels: NotRequired[List[FinerLevel]]
+    """
+    Levels of finer cells, the coarsest first, beside the scenario's own cells, level 0; none: the
+    scenario's alone.
     """
     inputs: List[StudyInput]
     """

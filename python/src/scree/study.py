@@ -112,9 +112,15 @@ class StudyHandle:
         """Answers to all questions, in their order, each with its uncertainty."""
         return cast(contract.StudyAnswers, self._transport.get(f"{self._path}/answers").json())
 
-    def members(self) -> Iterator[contract.ListedMember]:
-        """Members in the order of the design, read page by page: values, job and outcome."""
-        path, parameters = f"{self._path}/members", given(limit=MEMBERS_PAGE)
+    def members(self, level: int = 0) -> Iterator[contract.ListedMember]:
+        """Members in the order of the design, read page by page: values, job and outcome.
+
+        Parameters
+        ----------
+        level : int, optional
+            Level of their cells, 0 the coarsest.
+        """
+        path, parameters = f"{self._path}/members", given(level=level, limit=MEMBERS_PAGE)
         return self._transport.entries(path, parameters, of="members", place=("from", "next"))
 
     def table(self) -> MemberTable:
@@ -180,6 +186,8 @@ class StudyHandle:
         self,
         *,
         design: contract.Design | None = None,
+        finer_levels: Iterable[contract.FinerLevel] | None = None,
+        accuracy: contract.StudyAccuracy | None = None,
         stop: contract.StoppingRule | None = None,
         questions: Iterable[contract.StudyQuestion] | None = None,
     ) -> Self:
@@ -189,6 +197,10 @@ class StudyHandle:
         ----------
         design : dict, optional
             A design that has the present one's members first.
+        finer_levels : iterable of dict, optional
+            Levels of which the first have the present ones' cell sizes.
+        accuracy : dict, optional
+            Another accuracy.
         stop : dict, optional
             Another stopping rule.
         questions : iterable of dict, optional
@@ -201,8 +213,15 @@ class StudyHandle:
         Conflict
             The study has failed or is dismissed, or was changed meanwhile.
         """
+        levels = None if finer_levels is None else list(finer_levels)
         asked = None if questions is None else list(questions)
-        changes = {"design": design, "stop": stop, "questions": asked}
+        changes = {
+            "design": design,
+            "finer_levels": levels,
+            "accuracy": accuracy,
+            "stop": stop,
+            "questions": asked,
+        }
         changed = {name: value for name, value in changes.items() if value is not None}
         self._document = self._transport.patch(self._path, changed).json()
         return self
