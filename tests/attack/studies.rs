@@ -6,7 +6,7 @@ use crate::served::{Place, Served, scene};
 use serde_json::{Value, json};
 use std::time::Duration;
 
-/// A study whose members take a fraction of a second each.
+/// A study whose members take a fraction of a second each, to which levels are added.
 fn study(members: usize) -> Value {
     json!({
         "scenario": scene(0.4),
@@ -17,6 +17,8 @@ fn study(members: usize) -> Value {
              "distribution": {"triangular": {"from": 0, "mode": 10, "to": 90}}},
         ],
         "design": {"sobol": {"members": members, "seed": 3}},
+        "accuracy": {"quantity": "displacement_m", "body": 0, "target": 0.5,
+                     "finest_cell_size_m": 0.01},
         "questions": [
             {"rest": {"body": 0, "regions": [0.5, 0.9]}},
             {"quantiles": {"quantity": "displacement_m", "body": 0, "probabilities": [0.5]}},
@@ -33,14 +35,26 @@ fn submit(served: &Served, study: &Value) -> String {
 
 /// Values, outcomes and jobs' fingerprints of the members, and the answers.
 fn all_of(served: &Served, study: &str) -> (Vec<Value>, Value) {
-    let members = get(&served.address, &format!("{study}/members?limit=1000"));
-    let members = members["members"].as_array().expect("members").clone();
+    let levels = get(&served.address, study)["study"]["finer_levels"].clone();
+    let levels = levels.as_array().map_or(0, Vec::len);
+    let on_level = |level: usize| {
+        let members = format!("{study}/members?level={level}&limit=1000");
+        let members = get(&served.address, &members)["members"].clone();
+        members.as_array().expect("members").clone()
+    };
+    let members: Vec<Value> = (0..=levels).flat_map(on_level).collect();
     let told = members.iter().map(|member| {
         let job = format!("/v1/jobs/{}", member["job"].as_str().expect("a job"));
         let fingerprint = get(&served.address, &job)["provenance"]["fingerprint"].clone();
         let mut outcome = member["outcome"].clone();
         outcome["finished"]["quantities"]["wall_s"] = Value::Null;
-        json!([member["member"], member["values"], outcome, fingerprint])
+        json!([
+            member["level"],
+            member["member"],
+            member["values"],
+            outcome,
+            fingerprint
+        ])
     });
     let answers = get(&served.address, &format!("{study}/answers"));
     (told.collect(), answers)
@@ -57,13 +71,14 @@ fn a_study_killed_many_times_has_the_same_members_and_answers() {
     served.wait(&path, |study| study["status"] == "successful");
     let expected = all_of(&served, &path);
     served.kill();
-    assert_eq!(expected.0.len(), members);
+    let all = expected.0.len();
+    assert!(all > members, "no level was added: {:#}", expected.1);
 
     let place = Place::new(&settings);
     let mut served = place.serve();
     let path = submit(&served, &study(members));
     for kill in 1..=kills {
-        let ended = (kill * members / (kills + 1)) as u64;
+        let ended = (kill * all / (kills + 1)) as u64;
         served.wait(&path, |study| {
             study["members_ended"].as_u64() >= Some(ended)
         });
@@ -80,7 +95,7 @@ fn a_study_killed_many_times_has_the_same_members_and_answers() {
         .filter(|(a, b)| a != b)
         .count();
     crate::tell(&format!(
-        "study of {members} members, {kills} kills: {differ} members differ, answers equal: {}",
+        "study of {all} members on several levels, {kills} kills: {differ} members differ, answers equal: {}",
         found.1 == expected.1
     ));
     assert_eq!(found, expected);
