@@ -1,6 +1,6 @@
 //! Means of quantities, with bounds.
 
-use crate::multilevel::{Corrected, MeanError};
+use crate::multilevel::{Corrected, LevelMeans, MeanError};
 use crate::outcome::Member;
 use crate::study::Ensemble;
 use serde::{Deserialize, Serialize};
@@ -31,16 +31,12 @@ impl Mean {
     /// Mean of a quantity, of a body or of the whole run. Together the bounds hold at
     /// [`crate::CONFIDENCE`] for independent draws; a Sobol' design errs less.
     pub fn of(ensemble: &Ensemble, members: &[Member], name: &str, body: Option<usize>) -> Self {
-        Self::of_corrected(&super::sample::corrected(ensemble, members, (name, body)))
-    }
-
-    fn of_corrected(corrected: &Corrected<1>) -> Self {
+        let known = super::sample::known(ensemble, members, (name, body));
+        let corrected = Corrected::of(&known);
+        let means = LevelMeans::of(&known);
         let values = || corrected.values.values().map(|[value]| *value);
         let (known, unknown) = (corrected.values.len() as u64, corrected.unknown);
-        let found = corrected
-            .means
-            .as_ref()
-            .map(|means| (means.mean()[0], means.error(0)));
+        let found = means.map(|means| (means.mean()[0], means.error(0)));
         let least = values().fold(f64::INFINITY, f64::min);
         let most = values().fold(f64::NEG_INFINITY, f64::max);
         let all = (known + unknown) as f64;

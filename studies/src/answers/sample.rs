@@ -1,6 +1,6 @@
 //! Samples of a study's members.
 
-use crate::multilevel::{Corrected, Known};
+use crate::multilevel::{Corrected, Known, LevelMeans};
 use crate::outcome::{Finished, Member};
 use crate::study::Ensemble;
 use std::collections::BTreeMap;
@@ -43,9 +43,10 @@ pub struct RestingPlaces {
 impl Sample {
     /// Sample of a quantity, of a body or of the whole run.
     pub fn of(ensemble: &Ensemble, members: &[Member], name: &str, body: Option<usize>) -> Self {
-        let corrected = corrected(ensemble, members, (name, body));
+        let known = known(ensemble, members, (name, body));
+        let corrected = Corrected::of(&known);
         Self {
-            levels: level_errors(&corrected).map(|[error]| error),
+            levels: level_errors(&known).map(|[error]| error),
             values: corrected
                 .values
                 .into_values()
@@ -64,7 +65,7 @@ impl RestingPlaces {
         });
         let corrected = Corrected::of(&known);
         Self {
-            levels: level_errors(&corrected),
+            levels: level_errors(&known),
             places_m: corrected.values.into_values().collect(),
             moving: moving(ensemble, members, body),
             unknown: corrected.unknown,
@@ -78,19 +79,20 @@ pub(super) fn on_finest_level(
     members: &[Member],
     quantity: (&str, Option<usize>),
 ) -> BTreeMap<u64, f64> {
-    let corrected = corrected(ensemble, members, quantity);
+    let corrected = Corrected::of(&known(ensemble, members, quantity));
     let values = corrected.values.into_iter();
     values.map(|(index, [value])| (index, value)).collect()
 }
 
-pub(super) fn corrected(
+/// What is known of a quantity.
+pub(super) fn known(
     ensemble: &Ensemble,
     members: &[Member],
     (name, body): (&str, Option<usize>),
-) -> Corrected<1> {
-    Corrected::of(&Known::of(ensemble, members, |finished| {
+) -> Known<1> {
+    Known::of(ensemble, members, |finished| {
         finished.quantity(name, body).map(|value| [value])
-    }))
+    })
 }
 
 /// Number of draws whose finest run ended with the body still moving.
@@ -105,23 +107,15 @@ fn moving(ensemble: &Ensemble, members: &[Member], body: usize) -> u64 {
     moves.count() as u64
 }
 
-/// Errors along each axis; none of a study on one level.
-fn level_errors<const D: usize>(corrected: &Corrected<D>) -> Option<[LevelError; D]> {
-    let means = corrected
-        .means
-        .as_ref()
-        .filter(|means| means.levels() > 1)?;
-    Some(std::array::from_fn(|axis| {
-        let error = means.error(axis);
-        let draws = means.spread(axis) / error.variance;
-        LevelError {
-            draws: if draws.is_finite() {
-                draws
-            } else {
-                corrected.values.len() as f64
-            },
-            numerical: error.numerical.unwrap_or(0.0),
-        }
+/// Errors along each axis; none of a study on one level, or of too few pairs.
+fn level_errors<const D: usize>(known: &Known<D>) -> Option<[LevelError; D]> {
+    if known.finest() == 0 {
+        return None;
+    }
+    let means = LevelMeans::of(known)?;
+    Some(std::array::from_fn(|axis| LevelError {
+        draws: means.draws(axis),
+        numerical: means.error(axis).numerical.unwrap_or(0.0),
     }))
 }
 

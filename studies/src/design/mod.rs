@@ -130,6 +130,14 @@ impl Design {
         }
     }
 
+    /// True if the draws' coordinates are uniform.
+    pub(crate) fn is_uniform(&self) -> bool {
+        matches!(
+            self,
+            Self::Sobol(_) | Self::LatinHypercube(_) | Self::Saltelli(_)
+        )
+    }
+
     /// True if the design has draws from the inputs' distributions.
     pub(crate) fn has_draws(&self) -> bool {
         self.is_draw(0, 0)

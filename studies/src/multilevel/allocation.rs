@@ -20,6 +20,15 @@ impl LevelMeans<1> {
         let variances: Vec<f64> = variances.collect();
         let levels = || variances.iter().zip(costs);
         let sum: f64 = levels().map(|(one, cost)| (one * cost).sqrt()).sum();
+        // Of a variance to which covariances add, the levels' own terms may take a part.
+        let own = self.terms.iter().zip(&variances);
+        let own: f64 = own.map(|(term, one)| one / term.members as f64).sum();
+        let (all, _) = self.extrapolated_variance(0);
+        let variance = if all > 0.0 {
+            variance * own / all
+        } else {
+            variance
+        };
         let mut members: Vec<f64> = levels()
             .map(|(one, cost)| (one / cost).sqrt() * sum / variance)
             .map(|members| members.ceil().max(FEWEST_MEMBERS as f64))

@@ -1,10 +1,11 @@
 //! Means on the levels, and their errors.
 
 use super::known::Known;
-use super::regression::Regression;
+use super::regression::{Regression, Row};
 use super::student;
 use crate::CONFIDENCE;
 use nalgebra::{SMatrix, SVector};
+use std::collections::BTreeMap;
 
 /// Means of a quantity on the levels up to the finest with enough pairs.
 #[derive(Debug, Clone)]
@@ -18,18 +19,21 @@ pub(crate) struct LevelMeans<const D: usize> {
 pub(super) struct Term<const D: usize> {
     /// Cell size [m].
     pub(super) cell_size_m: f64,
-    /// Mean on the level: that of the values on the coarsest; on others E_l = mean f_l + B_l (E_{l−1}
-    /// − mean f_{l−1}), the means over the pairs.
+    /// Mean on the level, that which the regression predicts: E_l = mean f_l + B_l (E_{l−1} − mean
+    /// f_{l−1}) − Σ b_j mean φ_j, the means over the pairs, φ_j functions of the inputs of mean 0.
     pub(super) mean: SVector<f64, D>,
     /// Slope B_l of the regression on the next coarser level; 0 of the coarsest.
     pub(super) slope: SMatrix<f64, D, D>,
-    /// Sampling variance that the level adds for each member: of the values on the coarsest, of the
-    /// regression's residuals on others.
+    /// Sampling variance that the level adds for each member: that of the regression's residuals.
     pub(super) variance: SMatrix<f64, D, D>,
     /// Degrees of freedom of that variance.
     freedom: f64,
     /// Members or pairs.
     pub(super) members: usize,
+    /// Residuals of the regression by the index of the member.
+    residuals: BTreeMap<u64, SVector<f64, D>>,
+    /// Variance of the quantity on the level over those members.
+    spread: SMatrix<f64, D, D>,
 }
 
 /// Error of a mean along one axis.
@@ -52,16 +56,15 @@ impl MeanError {
 
 impl<const D: usize> LevelMeans<D> {
     /// Means of what is known; none of fewer than two values on the coarsest level.
-    pub(super) fn of(known: &Known<D>) -> Option<Self> {
-        let values = known.values(0);
-        if values.len() < 2 {
-            return None;
-        }
-        let mut terms = vec![Term::coarsest(&values, known.cell_size_m(0))];
-        for level in 1..=known.finest() {
-            let coarser = terms[level - 1].mean;
-            let regression = Regression::of(&known.pairs(level));
-            terms.push(Term::finer(&regression, coarser, known.cell_size_m(level)));
+    pub(crate) fn of(known: &Known<D>) -> Option<Self> {
+        let mut terms: Vec<Term<D>> = Vec::new();
+        for level in 0..=known.finest() {
+            let rows = known.rows(level);
+            if rows.len() < 2 {
+                return None;
+            }
+            let coarser = terms.last().map(|term| term.mean);
+            terms.push(Term::of(&rows, coarser, known.cell_size_m(level)));
         }
         Some(Self { terms })
     }
@@ -76,13 +79,29 @@ impl<const D: usize> LevelMeans<D> {
         self.terms[self.terms.len() - 1].mean
     }
 
-    /// Variance of the quantity on the finest level along an axis.
-    pub(crate) fn spread(&self, axis: usize) -> f64 {
-        let weights = self.weights(0.0);
-        let weighted = self.terms.iter().zip(&weights);
-        weighted
-            .map(|(term, weight)| (weight * term.variance * weight.transpose())[(axis, axis)])
-            .sum()
+    /// Number of independent draws on the finest level whose mean would have the same sampling
+    /// variance.
+    pub(crate) fn one_level_draws(&self, axis: usize) -> f64 {
+        self.spread(axis) / self.variance(&self.weights(0.0), axis).0
+    }
+
+    /// Number of independent draws that a distribution of the members corrected to the finest level is
+    /// worth: as many as there are on the coarsest, less what the corrections are uncertain by.
+    pub(crate) fn draws(&self, axis: usize) -> f64 {
+        let mut weights = self.weights(0.0);
+        weights[0] = SMatrix::zeros();
+        let (corrections, _) = self.variance(&weights, axis);
+        let draws = 1.0 / self.terms[0].members as f64 + corrections / self.spread(axis);
+        if draws.is_finite() {
+            1.0 / draws
+        } else {
+            self.terms[0].members as f64
+        }
+    }
+
+    /// Variance of the quantity on the finest level.
+    fn spread(&self, axis: usize) -> f64 {
+        self.terms[self.terms.len() - 1].spread[(axis, axis)]
     }
 
     /// Error along an axis.
@@ -145,7 +164,8 @@ impl<const D: usize> LevelMeans<D> {
     }
 
     /// Variance along an axis of the sum of the levels' terms with these weights, and its degrees of
-    /// freedom (Satterthwaite 1946).
+    /// freedom (Satterthwaite 1946). Levels have members in common, whose residuals may go
+    /// together; covariances that would lower the variance are not counted.
     fn variance(&self, weights: &[SMatrix<f64, D, D>], axis: usize) -> (f64, f64) {
         let (mut sum, mut squares) = (0.0, 0.0);
         for (term, weight) in self.terms.iter().zip(weights) {
@@ -159,7 +179,24 @@ impl<const D: usize> LevelMeans<D> {
         } else {
             f64::INFINITY
         };
-        (sum, freedom)
+        (sum + self.covariance(weights, axis).max(0.0), freedom)
+    }
+
+    /// Twice the covariances of all pairs of levels, of weighted terms along an axis: of nested means
+    /// that of the members over the number on the coarser level.
+    fn covariance(&self, weights: &[SMatrix<f64, D, D>], axis: usize) -> f64 {
+        let weighted = |level: usize, residual: &SVector<f64, D>| (weights[level] * residual)[axis];
+        let of_two = |(coarser, finer): (usize, usize)| {
+            let (coarse, fine) = (&self.terms[coarser], &self.terms[finer]);
+            let products = fine.residuals.iter().filter_map(|(index, residual)| {
+                let other = coarse.residuals.get(index)?;
+                Some(weighted(coarser, other) * weighted(finer, residual))
+            });
+            2.0 * products.sum::<f64>() / fine.freedom / coarse.members as f64
+        };
+        let levels = 0..self.terms.len();
+        let pairs = levels.flat_map(|finer| (0..finer).map(move |coarser| (coarser, finer)));
+        pairs.map(of_two).sum()
     }
 }
 
@@ -194,40 +231,44 @@ impl Term<1> {
             variance: SMatrix::repeat(deviation * deviation),
             freedom: f64::INFINITY,
             members: 1,
+            residuals: BTreeMap::new(),
+            spread: SMatrix::repeat(deviation * deviation),
         }
     }
 }
 
 impl<const D: usize> Term<D> {
-    fn coarsest(values: &[SVector<f64, D>], cell_size_m: f64) -> Self {
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<SVector<f64, D>>() / count;
-        let square = |value: &SVector<f64, D>| (value - mean) * (value - mean).transpose();
-        let squares: SMatrix<f64, D, D> = values.iter().map(square).sum();
+    /// Term of a level. A mean corrected by q fitted slopes varies (n − 2)/(n − 2 − q) times as much
+    /// as with the true ones (Lavenberg & Welch 1981).
+    fn of(rows: &[Row<D>], coarser: Option<SVector<f64, D>>, cell_size_m: f64) -> Self {
+        let regression = Regression::of(rows);
+        let count = rows.len() as f64;
+        let fitted = match regression.regressors as f64 {
+            0.0 => 1.0,
+            slopes => (count - 2.0) / (count - 2.0 - slopes).max(1.0),
+        };
         Self {
             cell_size_m,
-            mean,
-            slope: SMatrix::zeros(),
-            variance: squares / (count - 1.0),
-            freedom: count - 1.0,
-            members: values.len(),
-        }
-    }
-
-    /// Term of a finer level. A mean corrected by a fitted slope varies (n − 2)/(n − 2 − D) times
-    /// as much as with the true one (Lavenberg & Welch 1981).
-    fn finer(regression: &Regression<D>, coarser: SVector<f64, D>, cell_size_m: f64) -> Self {
-        let pairs = regression.pairs as f64;
-        let fitted = (pairs - 2.0) / (pairs - 2.0 - D as f64);
-        Self {
-            cell_size_m,
-            mean: regression.mean_fine + regression.slope * (coarser - regression.mean_coarse),
+            mean: regression.predicted_mean(coarser),
             slope: regression.slope,
             variance: regression.residual * fitted,
             freedom: regression.freedom(),
-            members: regression.pairs,
+            members: rows.len(),
+            residuals: rows
+                .iter()
+                .map(|row| (row.index, regression.residual_of(row)))
+                .collect(),
+            spread: spread(rows),
         }
     }
+}
+
+/// Covariance of the values of members.
+fn spread<const D: usize>(rows: &[Row<D>]) -> SMatrix<f64, D, D> {
+    let count = rows.len() as f64;
+    let mean = rows.iter().map(|row| row.value).sum::<SVector<f64, D>>() / count;
+    let square = |row: &Row<D>| (row.value - mean) * (row.value - mean).transpose();
+    rows.iter().map(square).sum::<SMatrix<f64, D, D>>() / (count - 1.0)
 }
 
 /// Half width of the interval at [`CONFIDENCE`].

@@ -1,6 +1,6 @@
 //! What is known of a quantity on each level.
 
-use super::regression::{FEWEST_PAIRS, Pair};
+use super::regression::{FEWEST_PAIRS, Row};
 use crate::outcome::{Finished, Member, MemberOutcome};
 use crate::study::Ensemble;
 use nalgebra::SVector;
@@ -14,6 +14,9 @@ pub(crate) struct Known<const D: usize> {
     /// Values of the runs that have an outcome, by level and index; none of a run that failed or
     /// lacks the quantity.
     levels: Vec<BTreeMap<u64, Option<SVector<f64, D>>>>,
+    /// Functions of the inputs of the members that have an outcome, by the index: see
+    /// [`Ensemble::centred_functions`].
+    inputs: BTreeMap<u64, Vec<f64>>,
     /// Cell size of each level [m]; none of a study on one level.
     cell_sizes_m: Vec<f64>,
 }
@@ -28,6 +31,7 @@ impl<const D: usize> Known<D> {
     ) -> Self {
         let study = ensemble.study();
         let mut levels = vec![BTreeMap::new(); study.levels() as usize];
+        let mut functions = BTreeMap::new();
         let (design, inputs) = (&study.design, ensemble.inputs());
         for member in members {
             let has = member.index < study.members_on(member.level);
@@ -38,6 +42,8 @@ impl<const D: usize> Known<D> {
             };
             if has && design.is_draw(member.index, inputs) {
                 levels[member.level as usize].insert(member.index, value);
+                let of_inputs = || ensemble.centred_functions(member.index);
+                functions.entry(member.index).or_insert_with(of_inputs);
             }
         }
         let draws = (0..ensemble.members()).filter(|index| design.is_draw(*index, inputs));
@@ -45,6 +51,7 @@ impl<const D: usize> Known<D> {
         Self {
             draws: draws.collect(),
             levels,
+            inputs: functions,
             cell_sizes_m: cell_sizes_m.collect::<Option<_>>().unwrap_or_default(),
         }
     }
@@ -62,22 +69,37 @@ impl<const D: usize> Known<D> {
     /// Finest level with enough pairs with the next coarser one, on which all coarser ones have
     /// enough, too.
     pub(crate) fn finest(&self) -> usize {
-        let enough = |level: &usize| self.pairs(*level).len() >= FEWEST_PAIRS;
+        let enough = |level: &usize| self.pairs(*level) >= FEWEST_PAIRS;
         (1..self.levels.len()).take_while(enough).count()
     }
 
-    /// Values on a level, by the index.
-    pub(super) fn values(&self, level: usize) -> Vec<SVector<f64, D>> {
-        self.levels[level].values().flatten().copied().collect()
+    /// Number of members with a value on a level and on the next coarser one.
+    fn pairs(&self, level: usize) -> usize {
+        let coarse = |index: &u64| matches!(self.levels[level - 1].get(index), Some(Some(_)));
+        let values = self.levels[level].iter();
+        values
+            .filter(|(index, value)| value.is_some() && coarse(index))
+            .count()
     }
 
-    /// Pairs of a level with the next coarser one, by the index.
-    pub(super) fn pairs(&self, level: usize) -> Vec<Pair<D>> {
-        let of_one = |(index, fine): (&u64, &Option<SVector<f64, D>>)| {
-            let coarse = self.levels[level - 1].get(index)?;
-            Some(Pair {
-                coarse: (*coarse)?,
-                fine: (*fine)?,
+    /// Functions of the inputs of a member that has an outcome.
+    pub(super) fn inputs(&self, index: u64) -> &[f64] {
+        self.inputs.get(&index).map_or(&[], |inputs| inputs)
+    }
+
+    /// Members with a value on a level and, but for the coarsest, on the next coarser one, by the
+    /// index.
+    pub(super) fn rows(&self, level: usize) -> Vec<Row<D>> {
+        let of_one = |(index, value): (&u64, &Option<SVector<f64, D>>)| {
+            let coarse = match level.checked_sub(1) {
+                Some(coarser) => Some((*self.levels[coarser].get(index)?)?),
+                None => None,
+            };
+            Some(Row {
+                index: *index,
+                coarse,
+                inputs: self.inputs(*index).to_vec(),
+                value: (*value)?,
             })
         };
         self.levels[level].iter().filter_map(of_one).collect()

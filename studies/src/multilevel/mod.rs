@@ -10,6 +10,7 @@ mod forecast;
 mod known;
 mod next;
 mod regression;
+mod selection;
 mod student;
 
 pub(crate) use correction::Corrected;

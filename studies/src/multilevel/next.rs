@@ -93,8 +93,7 @@ impl Progress {
 
     /// Number of members of the finest level alone whose mean has the same sampling variance.
     pub(crate) fn one_level_members(&self) -> Option<f64> {
-        let means = self.means.as_ref()?;
-        let members = means.spread(0) / means.error(0).variance;
+        let members = self.means.as_ref()?.one_level_draws(0);
         Some(members).filter(|members| members.is_finite())
     }
 

@@ -79,6 +79,25 @@ impl<'a> Ensemble<'a> {
         })
     }
 
+    /// Functions of a member's inputs whose mean over the inputs' distribution is 0, whatever that is:
+    /// Legendre polynomials of first and second degree of each input's probability, of variance 1.
+    /// None of a design whose members aren't at probabilities that are uniform.
+    pub(crate) fn centred_functions(&self, index: u64) -> Vec<f64> {
+        let design = &self.study.design;
+        let point = match design.point(index, self.inputs()) {
+            Point::Unit(point) if design.is_uniform() => self.copula.correlated(&point),
+            _ => return Vec::new(),
+        };
+        let functions = point.iter().flat_map(|probability| {
+            let x = 2.0 * probability - 1.0;
+            [
+                3.0_f64.sqrt() * x,
+                5.0_f64.sqrt() * 0.5 * (3.0 * x * x - 1.0),
+            ]
+        });
+        functions.collect()
+    }
+
     /// Scenario of a member: the study's with the member's values at the inputs' places.
     ///
     /// # Errors

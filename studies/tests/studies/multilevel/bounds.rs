@@ -81,7 +81,7 @@ fn a_mean_is_that_of_the_finest_level_and_its_interval_holds_the_limit() {
 
 #[test]
 fn bounds_of_probabilities_and_quantiles_hold_those_of_the_finest_level() {
-    let exact = independent(100_000, 3, 777);
+    let exact = independent(100_000, 4, 777);
     let mut values: Vec<f64> = exact.iter().map(|u| quantity(u, FINEST_M)).collect();
     values.sort_by(f64::total_cmp);
     let asked = [0.05, 0.5, 0.9].map(|probability| {

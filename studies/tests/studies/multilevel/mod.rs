@@ -29,10 +29,17 @@ fn study(members: [u64; 3], seed: u64, questions: &Value) -> Study {
     serde_json::from_value(document).unwrap()
 }
 
-/// Stand-in for a run: exp(u₀) and an error of first order in the cell size, a part of it random.
+/// Stand-in for a run: exp(u₀) and an error of first order in the cell size, a part of it random; and
+/// chaos, which no smooth function of the inputs tells, a part of it the same on all levels.
 fn quantity(u: &[f64], cell_size_m: f64) -> f64 {
     let cells = cell_size_m / COARSEST_M;
-    u[0].exp() + 0.2 * cells * (1.0 + u[1]) + 0.1 * cells * z(u[2])
+    let chaos = 0.2 * chaos(u[3], 1e4) + 0.1 * cells * chaos(u[3], 1.7e4);
+    u[0].exp() + 0.2 * cells * (1.0 + u[1]) + 0.1 * cells * z(u[2]) + chaos
+}
+
+/// Uniform over −√3..√3, of variance 1.
+fn chaos(u: f64, factor: f64) -> f64 {
+    12.0_f64.sqrt() * ((u * factor).fract() - 0.5)
 }
 
 /// Expectation of the stand-in with cells of a size, 0 in the limit.
