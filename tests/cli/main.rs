@@ -12,6 +12,7 @@ mod packaging;
 mod plan;
 mod run;
 mod serve;
+mod study;
 mod usage;
 mod validate;
 mod verify;

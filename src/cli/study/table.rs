@@ -111,6 +111,11 @@ fn one(study: &Study, question: &Question, answer: &Answer) -> String {
                 let share = percent(atom.share);
                 text.push_str(&format!("  {share} rest at x {x:.4} m, y {y:.4} m\n"));
             }
+            if let Some([x, y]) = rest.numerical_error_m {
+                text.push_str(&format!(
+                    "  cells of the finest level may shift places by {x:.4} m downstream, {y:.4} m across\n"
+                ));
+            }
             if rest.moving > 0 {
                 text.push_str(&format!(
                     "  {} still moved when their run ended\n",
