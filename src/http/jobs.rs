@@ -116,8 +116,7 @@ pub(super) async fn dismissed(
     match jobs.dismiss(job).await? {
         Dismissed::Done(job) => Ok(*job),
         Dismissed::Unknown => Err(unknown_job(id)),
-        Dismissed::TooLate(status) => Err(Problem::new(
-            StatusCode::CONFLICT,
+        Dismissed::TooLate(status) => Err(Problem::conflict(
             "job-ended",
             "The job has ended",
             format!(
@@ -132,8 +131,7 @@ async fn removed(jobs: &JobService, job: JobId, id: &str) -> Result<Response, Pr
     match jobs.remove(job).await? {
         Removal::Removed => Ok(StatusCode::NO_CONTENT.into_response()),
         Removal::Unknown => Err(unknown_job(id)),
-        Removal::Active => Err(Problem::new(
-            StatusCode::CONFLICT,
+        Removal::Active => Err(Problem::conflict(
             "job-active",
             "The job has not ended",
             format!("job {id} has not ended: dismiss it first"),

@@ -91,6 +91,11 @@ impl Problem {
         Self::new(StatusCode::NOT_FOUND, what, "Not found", detail)
     }
 
+    /// The request does not go together with the state of what it is about.
+    pub(super) fn conflict(kind: &str, title: &'static str, detail: impl Into<String>) -> Self {
+        Self::new(StatusCode::CONFLICT, kind, title, detail)
+    }
+
     /// A body that is JSON, but not a legal scenario.
     pub(super) fn invalid_scenario(faults: FieldErrors) -> Self {
         let status = StatusCode::UNPROCESSABLE_ENTITY;

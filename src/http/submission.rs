@@ -161,9 +161,7 @@ impl From<SubmitError> for Problem {
             SubmitError::Scenario(error) => error.into(),
             SubmitError::Store(error) => error.into(),
             SubmitError::Admission(error) => error.into(),
-            SubmitError::InFlight => {
-                Self::new(StatusCode::CONFLICT, "key-in-use", "Being answered", detail)
-            }
+            SubmitError::InFlight => Self::conflict("key-in-use", "Being answered", detail),
             SubmitError::OtherRequest => Self::new(
                 StatusCode::UNPROCESSABLE_ENTITY,
                 "key-of-another-request",

@@ -40,7 +40,7 @@ pub(super) fn study(options: &StudyOptions) -> Result<(), Failure> {
         let ensemble = Ensemble::of(&study).map_err(|found| Failure::Input(in_words(&found)))?;
         let missing = missing(&study, &members);
         if !missing.is_empty() {
-            let mut computing = Computing::new(options, study.runs(), members);
+            let mut computing = Computing::new(options, (missing.len(), study.runs()), members);
             let control = (at_once, interrupts.stop());
             local::compute(&ensemble, &missing, control, |member| {
                 computing.take(member, folder.as_ref());
@@ -107,19 +107,22 @@ fn missing(study: &Study, members: &[Member]) -> Vec<MemberId> {
 struct Computing<'a> {
     options: &'a StudyOptions,
     all: u64,
-    began: (Instant, usize),
+    done: u64,
+    began: (Instant, u64),
     noted: Instant,
     members: Vec<Member>,
     broken: Option<Failure>,
 }
 
 impl<'a> Computing<'a> {
-    fn new(options: &'a StudyOptions, all: u64, members: Vec<Member>) -> Self {
-        let now = Instant::now();
+    /// Members of which so many are missing, of all of a study.
+    fn new(options: &'a StudyOptions, (missing, all): (usize, u64), members: Vec<Member>) -> Self {
+        let (now, done) = (Instant::now(), all - missing as u64);
         Self {
             options,
             all,
-            began: (now, members.len()),
+            done,
+            began: (now, done),
             noted: now,
             members,
             broken: None,
@@ -131,6 +134,7 @@ impl<'a> Computing<'a> {
             self.broken.get_or_insert(error.into());
         }
         self.members.push(member);
+        self.done += 1;
         if self.noted.elapsed() >= NOTE_PAUSE {
             self.noted = Instant::now();
             self.note();
@@ -139,13 +143,12 @@ impl<'a> Computing<'a> {
 
     fn note(&self) {
         let (began, before) = self.began;
-        let done = self.members.len();
-        let pace = began.elapsed().as_secs_f64() / (done - before).max(1) as f64;
-        let to_go = (pace * (self.all as f64 - done as f64)).ceil().max(0.0);
+        let pace = began.elapsed().as_secs_f64() / (self.done - before).max(1) as f64;
+        let to_go = (pace * (self.all - self.done) as f64).ceil();
         let (minutes, seconds) = ((to_go / 60.0) as u64, (to_go % 60.0) as u64);
         self.options.quiet.note(&format!(
-            "{done} of {} members, {minutes}:{seconds:02} min to go",
-            self.all
+            "{} of {} members, {minutes}:{seconds:02} min to go",
+            self.done, self.all
         ));
     }
 

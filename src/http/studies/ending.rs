@@ -53,7 +53,11 @@ pub(in crate::http) async fn dismiss_study(
         StudyDismissal::Unknown => return Err(unknown_study(&id)),
         StudyDismissal::Ended(status) => {
             let detail = format!("study {id} is {}", status.word());
-            return Err(conflict("study-ended", "The study has ended", &detail));
+            return Err(Problem::conflict(
+                "study-ended",
+                "The study has ended",
+                detail,
+            ));
         }
     }
     let dismissed = studies.study(study).await?;
@@ -67,11 +71,11 @@ async fn removed(studies: &StudyService, study: StudyId) -> Result<Response, Pro
         Removal::Unknown => Err(unknown_study(&study.to_string())),
         Removal::Active => {
             let detail = format!("study {study} has not ended: dismiss it first");
-            Err(conflict("study-active", "The study has not ended", &detail))
+            Err(Problem::conflict(
+                "study-active",
+                "The study has not ended",
+                detail,
+            ))
         }
     }
-}
-
-fn conflict(kind: &str, title: &'static str, detail: &str) -> Problem {
-    Problem::new(StatusCode::CONFLICT, kind, title, detail)
 }

@@ -3,7 +3,7 @@
 use super::documents::StudyDocument;
 use super::named::{NamedStudy, changeable, unknown_study};
 use super::submission::full;
-use super::validation::validated;
+use super::validation::{INVALID_STUDY, validated};
 use crate::http::access::Caller;
 use crate::http::field_errors::FieldError;
 use crate::http::problem::Problem;
@@ -71,7 +71,7 @@ fn not_larger(pointer: &str, allowed: &str) -> Problem {
     let status = StatusCode::UNPROCESSABLE_ENTITY;
     Problem {
         errors: vec![fault],
-        ..Problem::new(status, "invalid-study", "Invalid study", allowed)
+        ..Problem::new(status, INVALID_STUDY.0, INVALID_STUDY.1, allowed)
     }
 }
 
@@ -109,7 +109,7 @@ pub(in crate::http) async fn enlarge_study(
 ) -> Result<Json<StudyDocument>, Problem> {
     Query::new(query.as_deref()).finish()?;
     let stored = changeable(&studies, &caller, &id).await?;
-    let changes: ChangesDocument = read_envelope(&text, ("invalid-study", "Invalid study"))?;
+    let changes: ChangesDocument = read_envelope(&text, INVALID_STUDY)?;
     let changed = changes.applied(&stored.study()?)?;
     let study = validated(&jobs, &caller, changed).await?;
     let document = serde_json::to_string(&study).map_err(|error| Problem::internal(&error))?;
@@ -118,24 +118,14 @@ pub(in crate::http) async fn enlarge_study(
         Enlarged::Changed => {
             let detail = format!("study {id} was changed meanwhile: read it, and change it again");
             let title = "The study was changed";
-            return Err(Problem::new(
-                StatusCode::CONFLICT,
-                "study-changed",
-                title,
-                detail,
-            ));
+            return Err(Problem::conflict("study-changed", title, detail));
         }
         Enlarged::Full(running) => return Err(full(running, studies.room())),
         Enlarged::Unknown => return Err(unknown_study(&id)),
         Enlarged::Ended(status) => {
             let detail = format!("study {id} is {}: it can't go on", status.word());
             let title = "The study has ended";
-            return Err(Problem::new(
-                StatusCode::CONFLICT,
-                "study-ended",
-                title,
-                detail,
-            ));
+            return Err(Problem::conflict("study-ended", title, detail));
         }
     }
     let stored = studies.study(stored.id).await?;

@@ -1,6 +1,6 @@
 //! Plans of studies.
 
-use super::validation::validated;
+use super::validation::{INVALID_STUDY, validated};
 use crate::http::access::Caller;
 use crate::http::problem::Problem;
 use crate::http::scenario_body::{ScenarioText, read_envelope};
@@ -52,7 +52,7 @@ pub(in crate::http) async fn plan_study(
     caller: Caller,
     ScenarioText(text): ScenarioText,
 ) -> Result<Json<PlannedStudyDocument>, Problem> {
-    let study: Study = read_envelope(&text, ("invalid-study", "Invalid study"))?;
+    let study: Study = read_envelope(&text, INVALID_STUDY)?;
     let study = validated(&jobs, &caller, study).await?;
     let place = jobs.enter(&caller.share())?;
     let costed = place.work(move |_| costed(&study)).await?;
@@ -95,5 +95,5 @@ fn costed(study: &Study) -> Option<(StudyCost, String)> {
 fn no_member() -> Problem {
     let status = StatusCode::UNPROCESSABLE_ENTITY;
     let detail = "none of the members that were tried can be set up";
-    Problem::new(status, "invalid-study", "Invalid study", detail)
+    Problem::new(status, INVALID_STUDY.0, INVALID_STUDY.1, detail)
 }

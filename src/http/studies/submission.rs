@@ -2,7 +2,7 @@
 
 use super::documents::StudyDocument;
 use super::named::unknown_study;
-use super::validation::validated;
+use super::validation::{INVALID_STUDY, validated};
 use crate::http::access::Caller;
 use crate::http::idempotency;
 use crate::http::problem::Problem;
@@ -53,7 +53,7 @@ pub(in crate::http) async fn submit_study(
 ) -> Result<Response, Problem> {
     Query::new(query.as_deref()).finish()?;
     let key = idempotency::key(&headers, &format!("{uri}\n{text}"))?;
-    let study: Study = read_envelope(&text, ("invalid-study", "Invalid study"))?;
+    let study: Study = read_envelope(&text, INVALID_STUDY)?;
     let study = validated(&jobs, &caller, study).await?;
     let document = serde_json::to_string(&study).map_err(|error| Problem::internal(&error))?;
     let request = (caller.name(), key.as_ref());

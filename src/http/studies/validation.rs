@@ -13,6 +13,9 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+/// Type and title of the problem of a study that is not allowed.
+pub(super) const INVALID_STUDY: (&str, &str) = ("invalid-study", "Invalid study");
+
 /// Longest time for which scenarios are checked before others have their turn.
 const SLICE: Duration = Duration::from_millis(50);
 
@@ -120,7 +123,7 @@ impl Checking {
         let detail = self.wrong.summary();
         Err(Problem {
             errors: self.wrong.into_list(),
-            ..Problem::new(status, "invalid-study", "Invalid study", detail)
+            ..Problem::new(status, INVALID_STUDY.0, INVALID_STUDY.1, detail)
         })
     }
 }
