@@ -2,7 +2,10 @@
 
 use super::{COARSEST_M, expectation, finished, quantity, runs, study};
 use scree_studies::answers::AccuracyReached;
-use scree_studies::{Accuracy, Answers, Ensemble, Member, MemberOutcome, Needed, NextStep, Study};
+use scree_studies::{
+    Accuracy, Answers, Ensemble, Forecast, ForecastLevel, Member, MemberOutcome, Needed, NextStep,
+    Study,
+};
 use serde_json::json;
 
 /// Study that begins with the coarsest level alone.
@@ -123,4 +126,32 @@ fn a_quantity_that_never_varies_is_met_at_once() {
     let three = constant(&two).study.unwrap();
     assert_eq!(three.levels(), 3);
     assert_eq!(constant(&three).needed, Needed::Nothing);
+}
+
+#[test]
+fn a_forecast_takes_finer_cells_for_a_closer_target() {
+    let forecast = |target: f64, finest_cell_size_m: Option<f64>| {
+        let mut study = asked(1, target);
+        if let Some(accuracy) = &mut study.accuracy {
+            accuracy.finest_cell_size_m = finest_cell_size_m;
+        }
+        Forecast::of(&study, 1e6).unwrap()
+    };
+    let (wide, close) = (forecast(0.2, None), forecast(0.05, None));
+    assert!(wide.levels.len() >= 3 && close.levels.len() > wide.levels.len());
+    for one in [&wide, &close] {
+        assert!(one.is_expected_to_be_met && one.gain > 1.0, "{one:?}");
+        let work = |level: &ForecastLevel| level.members as f64 * level.point_steps_per_member;
+        assert_eq!(one.point_steps, one.levels.iter().map(work).sum::<f64>());
+        let alone = one.one_level_point_steps / one.point_steps;
+        assert!((one.gain / alone - 1.0).abs() < 1e-12);
+        let members: Vec<u64> = one.levels.iter().map(|level| level.members).collect();
+        assert!(
+            members.is_sorted_by(|coarse, fine| coarse >= fine),
+            "{members:?}"
+        );
+    }
+    assert!(!forecast(0.05, Some(0.01)).is_expected_to_be_met);
+    let without = study([64, 16, 8], 1, &json!([]));
+    assert_eq!(Forecast::of(&without, 1e6), None);
 }
