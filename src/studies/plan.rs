@@ -96,3 +96,31 @@ fn cost_of(scenario: &Value) -> Option<Cost> {
     let prepared = PreparedScene::of(&scenario).ok()?;
     Some(Cost::of(&prepared))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::studies::questions;
+    use scree_studies::Study;
+    use std::path::Path;
+
+    #[test]
+    fn every_example_is_allowed_and_has_a_cost() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/studies");
+        let examples: Vec<_> = std::fs::read_dir(folder).unwrap().collect();
+        assert!(examples.len() >= 2);
+        for example in examples {
+            let path = example.unwrap().path();
+            let text = std::fs::read_to_string(&path).unwrap();
+            let study: Study = serde_json::from_str(&text).unwrap();
+            assert_eq!(questions::violations(&study), [], "{}", path.display());
+            let ensemble = Ensemble::of(&study).unwrap();
+            for end in ensemble.end_scenarios() {
+                Scenario::from_value(&end.scenario).unwrap();
+            }
+            let cost = cost(&ensemble).unwrap();
+            assert!(cost.point_steps > 0.0, "{}", path.display());
+            assert_eq!(cost.accuracy.is_some(), study.accuracy.is_some());
+        }
+    }
+}
