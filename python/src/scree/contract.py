@@ -1634,9 +1634,9 @@ class StudyAccuracy(TypedDict):
     """
     Index of the body whose quantity it is; none: one of the whole run.
     """
-    budget_point_steps: NotRequired[Optional[float]]
+    budget_point_steps: NotRequired[float]
     """
-    Most work in point-steps; none: no limit.
+    Most work in point-steps, 1e12 if left out.
     """
     finest_cell_size_m: NotRequired[Optional[float]]
     """
@@ -1705,7 +1705,7 @@ class StudyForecast(TypedDict):
     """
     is_expected_to_be_met: bool
     """
-    True if the cells may get as small as the target is expected to take.
+    True if cells may get as small, and work as much, as the target is expected to take.
     """
     levels: List[ForecastLevel]
     """

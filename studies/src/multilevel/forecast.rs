@@ -34,7 +34,7 @@ pub struct Forecast {
     pub one_level_point_steps: f64,
     /// That over the work of the levels: how many times cheaper they are.
     pub gain: f64,
-    /// True if the cells may get as small as the target is expected to take.
+    /// True if cells may get as small, and work as much, as the target is expected to take.
     pub is_expected_to_be_met: bool,
 }
 
@@ -90,7 +90,7 @@ impl Forecast {
             one_level_members: alone as u64,
             one_level_point_steps: alone_work,
             gain: alone_work / work,
-            is_expected_to_be_met: remaining <= share,
+            is_expected_to_be_met: remaining <= share && work <= accuracy.budget_point_steps,
         })
     }
 }

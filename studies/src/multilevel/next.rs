@@ -199,7 +199,7 @@ fn affordable(study: Study, costs: &[f64], (accuracy, needed): (&Accuracy, Neede
     let work: f64 = levels
         .map(|(level, cost)| study.members_on(level) as f64 * cost)
         .sum();
-    if work > accuracy.budget_point_steps.unwrap_or(f64::INFINITY) {
+    if work > accuracy.budget_point_steps {
         return NextStep::without_study(Needed::Budget);
     }
     NextStep {

@@ -17,7 +17,7 @@ fn asked(seed: u64, target: f64) -> Study {
         body: None,
         target,
         finest_cell_size_m: None,
-        budget_point_steps: None,
+        budget_point_steps: 1e12,
     });
     study
 }
@@ -75,7 +75,7 @@ fn a_budget_is_kept() {
     let mut study = asked(1, 0.03);
     let (_, without) = ended(study.clone());
     if let Some(accuracy) = &mut study.accuracy {
-        accuracy.budget_point_steps = Some(0.5 * without.point_steps);
+        accuracy.budget_point_steps = 0.5 * without.point_steps;
     }
     let (_, reached) = ended(study);
     assert_eq!(reached.needed, Needed::Budget);
