@@ -13,7 +13,9 @@ impl Scores {
     ///
     /// Of independent draws each is left out of its own density. The members of a balanced design
     /// keep apart, so that leaving one out would leave a hole which a further draw does not find;
-    /// of it the share of the noise ratio is left out, and its copies in a resample entirely.
+    /// of it the share of the noise ratio is left out, and its copies in a resample entirely. A
+    /// hole is no deeper than the density around it: what stays is multiplied by the share that
+    /// the others have in the density, so that nothing stays of a member far from all others.
     pub(super) fn of(
         kernel: &Kernel,
         density: &DensityGrid,
@@ -23,10 +25,12 @@ impl Scores {
     ) -> Self {
         let total: f64 = weights.iter().sum();
         let score = |(place, weight): (&[f64; 2], &f64)| {
-            let left_out = weight - 1.0 + noise;
-            let others = total * kernel.at(density, *place) - left_out * kernel.own(*place);
+            let own = kernel.own(*place);
+            let others = total * kernel.at(density, *place) - weight * own;
+            let kept = (1.0 - noise) * own * others / (others + own);
+            let score = (others + kept) / (total - weight + 1.0 - noise);
             let copies = *weight as usize;
-            std::iter::repeat_n(others / (total - left_out), copies)
+            std::iter::repeat_n(score, copies)
         };
         let mut ascending: Vec<f64> = places_m.iter().zip(weights).flat_map(score).collect();
         ascending.sort_by(f64::total_cmp);

@@ -1,6 +1,6 @@
 //! Probability that regions hold, and their areas.
 
-use super::{Map, normal, places, skewed, sobol, two_peaked};
+use super::{Map, caught_or_carried, normal, places, skewed, sobol, two_peaked};
 use crate::support::{deviation, independent, mean};
 use scree_studies::answers::RestDistribution;
 
@@ -32,6 +32,14 @@ fn of_fresh_members_the_region_holds_its_probability() {
     let design = |seed| sobol(256, seed, 3);
     assert_covers("one skewed peak, Sobol'", &coverage(skewed, design), 0.02);
     assert_covers("two peaks, Sobol'", &coverage(two_peaked, design), 0.02);
+}
+
+// The line makes the kernels too narrow for the other peak, where many members stand alone.
+#[test]
+fn it_does_where_one_peak_is_a_line_and_the_other_wide() {
+    let design = |seed| sobol(256, seed, 3);
+    let shares = coverage(caught_or_carried, design);
+    assert_covers("a line and a wide peak, Sobol'", &shares, 0.02);
 }
 
 #[test]

@@ -27,6 +27,15 @@ fn two_peaked(u: &[f64]) -> [f64; 2] {
     [1.0 + 0.4 * x, 0.2 + y]
 }
 
+/// Two peaks of unlike widths: caught along a barrier, or carried on through the gap beside it.
+fn caught_or_carried(u: &[f64]) -> [f64; 2] {
+    let across = 0.14 * (u[0] - 0.5);
+    if across > 0.0 {
+        return [0.115, across];
+    }
+    [0.3 + 0.05 * z(u[1]), across + 0.04 + 0.02 * z(u[2])]
+}
+
 fn normal(u: &[f64]) -> [f64; 2] {
     [z(u[0]), 2.0 * z(u[1])]
 }
