@@ -27,6 +27,7 @@ mod rotation;
 mod sliding_block;
 mod source_paper;
 mod sphere_into_bed;
+mod study_regions;
 mod torque_free;
 mod two_clocks;
 mod wall_bore;
@@ -67,4 +68,5 @@ pub const ALL: &[Case] = &[
     error_bars::CASE,
     coarse_cells::CASE,
     early_stop::CASE,
+    study_regions::CASE,
 ];
