@@ -3303,8 +3303,8 @@ class PlannedStudy(TypedDict):
     """
     wall_time: WallTime
     """
-    Expected wall time of the design's members on all workers of this service, if they have
-    nothing else to do.
+    Expected wall time of the design's members, or of those that an accuracy is expected to take,
+    on all workers of this service, if they have nothing else to do.
     """
 
 

@@ -22,8 +22,8 @@ use utoipa::ToSchema;
 pub(super) struct PlannedStudyDocument {
     /// Cost of the members.
     pub cost: StudyCost,
-    /// Expected wall time of the design's members on all workers of this service, if they have
-    /// nothing else to do.
+    /// Expected wall time of the design's members, or of those that an accuracy is expected to take,
+    /// on all workers of this service, if they have nothing else to do.
     pub wall_time: WallTime,
 }
 
@@ -71,12 +71,15 @@ pub(in crate::http) async fn plan_study(
     Ok(Json(PlannedStudyDocument { cost, wall_time }))
 }
 
-/// Number of members like the first, of this many point-steps, that cost as much as all.
+/// Number of members like the first, of this many point-steps, that cost as much as all that are
+/// expected.
 fn members_like_the_first(cost: &StudyCost, point_steps: u64) -> f64 {
     if point_steps == 0 {
         return cost.members as f64;
     }
-    cost.point_steps / point_steps as f64
+    let forecast = cost.accuracy.as_ref();
+    let all = forecast.map_or(cost.point_steps, |forecast| forecast.point_steps);
+    all / point_steps as f64
 }
 
 /// Cost of a study, and its first member's scenario as it runs beside others: on one thread.
