@@ -49,8 +49,8 @@ pub struct AccuracyReached {
 pub struct QuantityOnLevel {
     /// Mean on the level.
     pub mean: f64,
-    /// Standard deviation, over the members, of what the level adds: of the quantity on the
-    /// coarsest, of the residuals of a regression on the next coarser level on others.
+    /// Standard deviation, over the members, of what the level adds: of the residuals of a regression
+    /// on the inputs, and on all but the coarsest on the next coarser level.
     pub standard_deviation: f64,
 }
 
@@ -79,7 +79,7 @@ impl AccuracyReached {
     /// Accuracy reached by a study that one is asked of.
     pub fn of(ensemble: &Ensemble, members: &[Member]) -> Option<Self> {
         let accuracy = ensemble.study().accuracy.as_ref()?;
-        let needed = NextStep::of(ensemble, members)?.needed;
+        let needed = NextStep::of(ensemble, members, |_| true)?.needed;
         Some(Self::found(ensemble, members, (accuracy, needed)))
     }
 
@@ -88,23 +88,20 @@ impl AccuracyReached {
         members: &[Member],
         (accuracy, needed): (&Accuracy, Needed),
     ) -> Self {
-        let mean = Mean::of(ensemble, members, &accuracy.quantity, accuracy.body);
         let progress = Progress::of(ensemble, members, accuracy);
+        let mean = progress.mean;
         let levels = StudyLevel::all(ensemble, members);
         let work = levels
             .iter()
             .map(|level| level.finished as f64 * level.point_steps_per_member);
         let point_steps: f64 = work.sum();
-        let reached = mean.estimate.zip(mean.lower).zip(mean.upper);
-        let reached =
-            reached.map(|((value, lower), upper)| (value - lower).max(upper - value) / value.abs());
         let one_level = progress.one_level_members();
         let finest = progress.means.as_ref().map_or(0, LevelMeans::levels).max(1) - 1;
         let one_level_work = one_level.zip(progress.costs.get(finest));
         Self {
             mean,
             target: accuracy.target,
-            reached,
+            reached: mean.relative_error(),
             needed,
             levels: progress.means.as_ref().map(on_levels).unwrap_or_default(),
             point_steps,

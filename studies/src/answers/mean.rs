@@ -1,6 +1,6 @@
 //! Means of quantities, with bounds.
 
-use crate::multilevel::{Corrected, LevelMeans, MeanError};
+use crate::multilevel::{Corrected, Known, LevelMeans, MeanError};
 use crate::outcome::Member;
 use crate::study::Ensemble;
 use serde::{Deserialize, Serialize};
@@ -31,9 +31,13 @@ impl Mean {
     /// Mean of a quantity, of a body or of the whole run. Together the bounds hold at
     /// [`crate::CONFIDENCE`] for independent draws; a Sobol' design errs less.
     pub fn of(ensemble: &Ensemble, members: &[Member], name: &str, body: Option<usize>) -> Self {
-        let known = super::sample::known(ensemble, members, (name, body));
-        let corrected = Corrected::of(&known);
-        let means = LevelMeans::of(&known);
+        Self::of_known(&super::sample::known(ensemble, members, (name, body)))
+    }
+
+    /// Mean of what is known.
+    pub(crate) fn of_known(known: &Known<1>) -> Self {
+        let corrected = Corrected::of(known);
+        let means = LevelMeans::of(known);
         let values = || corrected.values.values().map(|[value]| *value);
         let (known, unknown) = (corrected.values.len() as u64, corrected.unknown);
         let found = means.map(|means| (means.mean()[0], means.error(0)));
@@ -53,5 +57,15 @@ impl Mean {
             known,
             unknown,
         }
+    }
+    /// Largest distance of the bounds from the estimate, over the estimate; 0 of bounds at an
+    /// estimate of 0.
+    pub(crate) fn relative_error(&self) -> Option<f64> {
+        let (estimate, lower, upper) = (self.estimate?, self.lower?, self.upper?);
+        let distance = (estimate - lower).max(upper - estimate);
+        Some(match distance > 0.0 {
+            true => distance / estimate.abs(),
+            false => 0.0,
+        })
     }
 }

@@ -53,30 +53,32 @@ impl Probability {
 
     /// Probability that a sample's quantity exceeds a threshold.
     pub fn exceeding(sample: &Sample, threshold: f64) -> Self {
-        let above = |threshold: f64| {
-            let above = sample.values.iter().filter(|value| **value > threshold);
+        let above = |values: &[f64]| {
+            let above = values.iter().filter(|value| **value > threshold);
             above.count() as u64
         };
-        let plain = Self::of(above(threshold), sample.values.len() as u64, sample.unknown);
+        let known = sample.values.len() as u64;
+        let plain = Self::of(above(&sample.values), known, sample.unknown);
         sample.levels.map_or(plain, |levels| {
-            let within = above(threshold + levels.numerical);
-            let beyond = above(threshold - levels.numerical);
-            plain.with_draws(levels.draws, [within, beyond])
+            let [least, most] =
+                [-1.0, 1.0].map(|side| above(&sample.shifted(side * levels.numerical)));
+            plain.with_draws(levels.draws, [least, most])
         })
     }
 
     /// The same with the bounds of so many independent draws, of which the event happened in the
     /// shares of the known members in which it happened at least and at most.
     pub(super) fn with_draws(self, draws: f64, [least, most]: [u64; 2]) -> Self {
+        let all = (self.known + self.unknown).max(1) as f64;
         let known = self.known.max(1) as f64;
-        let draws = draws.min(known).max(1.0).floor();
+        // Unknown members are draws like the known ones, and could have come out in any way.
+        let draws = (draws.min(known) * all / known).floor().max(1.0);
         let tail = 0.5 * (1.0 - CONFIDENCE);
-        let least = (draws * least as f64 / known).floor() as u64;
-        let most = (draws * most as f64 / known).ceil() as u64;
-        let is_known = self.known as f64 / (self.known + self.unknown).max(1) as f64;
+        let least = (draws * least as f64 / all).floor() as u64;
+        let most = (draws * (most + self.unknown) as f64 / all).ceil() as u64;
         Self {
-            lower: is_known * binomial::lower_bound(least, draws as u64, tail),
-            upper: 1.0 - is_known * (1.0 - binomial::upper_bound(most, draws as u64, tail)),
+            lower: binomial::lower_bound(least, draws as u64, tail),
+            upper: binomial::upper_bound(most.min(draws as u64), draws as u64, tail),
             ..self
         }
     }

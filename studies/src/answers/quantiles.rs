@@ -31,15 +31,21 @@ impl Quantile {
         let sorted = moments::sorted(&sample.values);
         let (known, unknown) = (sorted.len() as u64, sample.unknown);
         let (lower, upper) = ranks(sample, probability);
-        let ranked = |rank: u64| sorted.get(rank.checked_sub(1)? as usize).copied();
         let numerical = sample.levels.map_or(0.0, |levels| levels.numerical);
-        let lower = lower.checked_sub(unknown).and_then(ranked);
-        let upper = (upper <= known).then(|| ranked(upper)).flatten();
+        let ranked = |rank: u64, shift: f64| {
+            let place = rank.checked_sub(1)? as usize;
+            if shift == 0.0 {
+                return sorted.get(place).copied();
+            }
+            let shifted = moments::sorted(&sample.shifted(shift));
+            shifted.get(place).copied()
+        };
+        let lower = lower.checked_sub(unknown);
         Self {
             probability,
             estimate: type_8(&sorted, probability),
-            lower: lower.map(|lower| lower - numerical),
-            upper: upper.map(|upper| upper + numerical),
+            lower: lower.and_then(|lower| ranked(lower, -numerical)),
+            upper: (upper <= known).then(|| ranked(upper, numerical)).flatten(),
         }
     }
 }

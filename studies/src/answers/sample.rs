@@ -1,5 +1,6 @@
 //! Samples of a study's members.
 
+use crate::moments;
 use crate::multilevel::{Corrected, Known, LevelMeans};
 use crate::outcome::{Finished, Member};
 use crate::study::Ensemble;
@@ -57,6 +58,28 @@ impl Sample {
     }
 }
 
+/// Smallest share of the members, and fewest, that have a value exactly which the size of the cells
+/// does not shift: it is one that a quantity can't be below or above, or yes or no.
+const LEAST_SHARE: f64 = 0.02;
+const FEWEST: usize = 5;
+
+impl Sample {
+    /// Values in ascending order, shifted but for those that many members have exactly, such as the
+    /// depth 0 of bodies on the surface.
+    pub(super) fn shifted(&self, by: f64) -> Vec<f64> {
+        let least = FEWEST.max((LEAST_SHARE * self.values.len() as f64).ceil() as usize);
+        let mut values = moments::sorted(&self.values);
+        for equal in values.chunk_by_mut(|one, other| one == other) {
+            if equal.len() < least {
+                for value in equal {
+                    *value += by;
+                }
+            }
+        }
+        values
+    }
+}
+
 impl RestingPlaces {
     /// Resting places of a body.
     pub fn of(ensemble: &Ensemble, members: &[Member], body: usize) -> Self {
@@ -67,7 +90,7 @@ impl RestingPlaces {
         Self {
             levels: level_errors(&known),
             places_m: corrected.values.into_values().collect(),
-            moving: moving(ensemble, members, body),
+            moving: moving(ensemble, members, (body, known.finest())),
             unknown: corrected.unknown,
         }
     }
@@ -85,23 +108,22 @@ pub(super) fn on_finest_level(
 }
 
 /// What is known of a quantity.
-pub(super) fn known(
-    ensemble: &Ensemble,
+pub(super) fn known<'a>(
+    ensemble: &'a Ensemble,
     members: &[Member],
     (name, body): (&str, Option<usize>),
-) -> Known<1> {
+) -> Known<'a, 1> {
     Known::of(ensemble, members, |finished| {
         finished.quantity(name, body).map(|value| [value])
     })
 }
 
-/// Number of draws whose finest run ended with the body still moving.
-fn moving(ensemble: &Ensemble, members: &[Member], body: usize) -> u64 {
+/// Number of draws whose finest run up to a level ended with the body still moving.
+fn moving(ensemble: &Ensemble, members: &[Member], (body, finest): (usize, usize)) -> u64 {
     let known = Known::of(ensemble, members, |finished| {
         let is_moving = finished.bodies.get(body)?.moving;
         is_moving.then_some([1.0])
     });
-    let finest = ensemble.study().levels() as usize - 1;
     let draws = known.draws().iter();
     let moves = draws.filter(|index| matches!(known.best(**index, finest), Some((_, Some(_)))));
     moves.count() as u64

@@ -273,5 +273,5 @@ fn spread<const D: usize>(rows: &[Row<D>]) -> SMatrix<f64, D, D> {
 
 /// Half width of the interval at [`CONFIDENCE`].
 pub(super) fn half_width(variance: f64, freedom: f64) -> f64 {
-    student::quantile(0.5 * (1.0 + CONFIDENCE), freedom.max(3.0)) * variance.sqrt()
+    student::quantile(0.5 * (1.0 + CONFIDENCE), freedom.max(1.0)) * variance.sqrt()
 }

@@ -141,7 +141,7 @@ fn expected_means(cells: &[f64]) -> LevelMeans<1> {
 fn members(study: &Study, level: usize, wanted: f64) -> u64 {
     let begun = match level as u32 {
         level if level < study.levels() => study.members_on(level),
-        _ => PILOT.min(study.members()),
+        _ => PILOT.min(study.members_on(study.levels() - 1)),
     };
     let members = begun.max(wanted.ceil() as u64).max(FEWEST_MEMBERS);
     match level {

@@ -6,32 +6,32 @@ use crate::study::Ensemble;
 use nalgebra::SVector;
 use std::collections::BTreeMap;
 
+/// Most members on a level whose inputs are looked at: of more, the plain mean is certain enough.
+const LOOKED_AT: usize = 1 << 14;
+
 /// Quantity with `D` components in the members that are draws.
 #[derive(Debug, Clone)]
-pub(crate) struct Known<const D: usize> {
+pub(crate) struct Known<'a, const D: usize> {
+    ensemble: &'a Ensemble<'a>,
     /// Indices of the draws.
     draws: Vec<u64>,
     /// Values of the runs that have an outcome, by level and index; none of a run that failed or
     /// lacks the quantity.
     levels: Vec<BTreeMap<u64, Option<SVector<f64, D>>>>,
-    /// Functions of the inputs of the members that have an outcome, by the index: see
-    /// [`Ensemble::centred_functions`].
-    inputs: BTreeMap<u64, Vec<f64>>,
     /// Cell size of each level [m]; none of a study on one level.
     cell_sizes_m: Vec<f64>,
 }
 
-impl<const D: usize> Known<D> {
+impl<'a, const D: usize> Known<'a, D> {
     /// What members have of a quantity. Members that the study does not have (any more) are left
     /// out.
     pub(crate) fn of(
-        ensemble: &Ensemble,
+        ensemble: &'a Ensemble<'a>,
         members: &[Member],
         quantity: impl Fn(&Finished) -> Option<[f64; D]>,
     ) -> Self {
         let study = ensemble.study();
         let mut levels = vec![BTreeMap::new(); study.levels() as usize];
-        let mut functions = BTreeMap::new();
         let (design, inputs) = (&study.design, ensemble.inputs());
         for member in members {
             let has = member.index < study.members_on(member.level);
@@ -42,16 +42,14 @@ impl<const D: usize> Known<D> {
             };
             if has && design.is_draw(member.index, inputs) {
                 levels[member.level as usize].insert(member.index, value);
-                let of_inputs = || ensemble.centred_functions(member.index);
-                functions.entry(member.index).or_insert_with(of_inputs);
             }
         }
         let draws = (0..ensemble.members()).filter(|index| design.is_draw(*index, inputs));
         let cell_sizes_m = (0..study.levels()).map(|level| study.cell_size_m(level));
         Self {
+            ensemble,
             draws: draws.collect(),
             levels,
-            inputs: functions,
             cell_sizes_m: cell_sizes_m.collect::<Option<_>>().unwrap_or_default(),
         }
     }
@@ -69,12 +67,12 @@ impl<const D: usize> Known<D> {
     /// Finest level with enough pairs with the next coarser one, on which all coarser ones have
     /// enough, too.
     pub(crate) fn finest(&self) -> usize {
-        let enough = |level: &usize| self.pairs(*level) >= FEWEST_PAIRS;
+        let enough = |level: &usize| self.pairs_with_values(*level) >= FEWEST_PAIRS;
         (1..self.levels.len()).take_while(enough).count()
     }
 
     /// Number of members with a value on a level and on the next coarser one.
-    fn pairs(&self, level: usize) -> usize {
+    fn pairs_with_values(&self, level: usize) -> usize {
         let coarse = |index: &u64| matches!(self.levels[level - 1].get(index), Some(Some(_)));
         let values = self.levels[level].iter();
         values
@@ -82,14 +80,15 @@ impl<const D: usize> Known<D> {
             .count()
     }
 
-    /// Functions of the inputs of a member that has an outcome.
-    pub(super) fn inputs(&self, index: u64) -> &[f64] {
-        self.inputs.get(&index).map_or(&[], |inputs| inputs)
+    /// Functions of the inputs of a member: see [`Ensemble::centred_functions`].
+    pub(super) fn inputs(&self, index: u64) -> Vec<f64> {
+        self.ensemble.centred_functions(index)
     }
 
     /// Members with a value on a level and, but for the coarsest, on the next coarser one, by the
-    /// index.
+    /// index; without functions of their inputs if they are very many.
     pub(super) fn rows(&self, level: usize) -> Vec<Row<D>> {
+        let are_inputs_of_use = self.levels[level].len() <= LOOKED_AT;
         let of_one = |(index, value): (&u64, &Option<SVector<f64, D>>)| {
             let coarse = match level.checked_sub(1) {
                 Some(coarser) => Some((*self.levels[coarser].get(index)?)?),
@@ -98,11 +97,29 @@ impl<const D: usize> Known<D> {
             Some(Row {
                 index: *index,
                 coarse,
-                inputs: self.inputs(*index).to_vec(),
+                inputs: match are_inputs_of_use {
+                    true => self.inputs(*index),
+                    false => Vec::new(),
+                },
                 value: (*value)?,
             })
         };
         self.levels[level].iter().filter_map(of_one).collect()
+    }
+
+    /// Coarse values of the members with an outcome on a level, by the index, and their rows there;
+    /// none of those without a value.
+    pub(super) fn pairs(&self, level: usize) -> Vec<(SVector<f64, D>, Option<Row<D>>)> {
+        let mut rows: BTreeMap<u64, Row<D>> = self
+            .rows(level)
+            .into_iter()
+            .map(|row| (row.index, row))
+            .collect();
+        let coarser = &self.levels[level - 1];
+        let outcomes = self.levels[level].keys();
+        outcomes
+            .filter_map(|index| Some(((*coarser.get(index)?)?, rows.remove(index))))
+            .collect()
     }
 
     /// Finest run of a draw up to a level that has an outcome: its level, and the value if it has

@@ -2,6 +2,7 @@
 
 use super::Known;
 use super::estimate::{LevelMeans, half_width};
+use crate::answers::Mean;
 use crate::design::Design;
 use crate::outcome::Member;
 use crate::study::{Accuracy, Ensemble, FinerLevel, Study};
@@ -32,7 +33,7 @@ pub enum Needed {
     Nothing,
     /// More members.
     Members,
-    /// A level of finer cells.
+    /// A level of finer cells; of a study that has ended, one whose scenarios are not allowed.
     FinerLevel,
     /// Smaller cells than the smallest allowed, or more levels than a study may have.
     SmallerCells,
@@ -40,14 +41,16 @@ pub enum Needed {
     Budget,
     /// More members than a design may have.
     LargerDesign,
-    /// Members that succeed: too few have the quantity.
+    /// Members that succeed: too few have the quantity, or so many lack it that the interval is wide.
     Successes,
 }
 
 /// Progress of a study towards its accuracy.
 #[derive(Debug, Clone)]
 pub(crate) struct Progress {
-    /// Means of the quantity; none of too few members.
+    /// Mean of the quantity.
+    pub(crate) mean: Mean,
+    /// Means of the quantity on the levels; none of too few members.
     pub(crate) means: Option<LevelMeans<1>>,
     /// Mean work of a member on each level [point-steps], or what it is expected to be.
     pub(crate) costs: Vec<f64>,
@@ -63,12 +66,17 @@ pub struct NextStep {
 }
 
 impl NextStep {
-    /// Next step after all members have an outcome; none of a study without an accuracy.
-    pub fn of(ensemble: &Ensemble, members: &[Member]) -> Option<Self> {
+    /// Next step after all members have an outcome; none of a study without an accuracy. Only a study
+    /// that is allowed gets a finer level.
+    pub fn of(
+        ensemble: &Ensemble,
+        members: &[Member],
+        is_allowed: impl Fn(&Study) -> bool,
+    ) -> Option<Self> {
         let study = ensemble.study();
         let accuracy = study.accuracy.as_ref()?;
         let progress = Progress::of(ensemble, members, accuracy);
-        Some(progress.next(study, accuracy))
+        Some(progress.next(study, accuracy, &is_allowed))
     }
 
     fn without_study(needed: Needed) -> Self {
@@ -86,6 +94,7 @@ impl Progress {
             finished.quantity(name, body).map(|value| [value])
         });
         Self {
+            mean: Mean::of_known(&known),
             means: LevelMeans::of(&known),
             costs: costs(ensemble.study(), members),
         }
@@ -97,7 +106,12 @@ impl Progress {
         Some(members).filter(|members| members.is_finite())
     }
 
-    fn next(&self, study: &Study, accuracy: &Accuracy) -> NextStep {
+    fn next(
+        &self,
+        study: &Study,
+        accuracy: &Accuracy,
+        is_allowed: &dyn Fn(&Study) -> bool,
+    ) -> NextStep {
         let Some(means) = self
             .means
             .as_ref()
@@ -106,16 +120,23 @@ impl Progress {
             return NextStep::without_study(Needed::Successes);
         };
         if means.terms.len() < FEWEST_LEVELS {
-            return self.finer_level(study, accuracy);
+            return self.finer_level(study, accuracy, is_allowed);
+        }
+        if self
+            .mean
+            .relative_error()
+            .is_some_and(|error| error <= accuracy.target)
+        {
+            return NextStep::without_study(Needed::Nothing);
         }
         let target = accuracy.target * means.mean()[0].abs();
         if means.error(0).half_width() <= target {
-            return NextStep::without_study(Needed::Nothing);
+            return NextStep::without_study(Needed::Successes);
         }
         let remaining = means.remaining(0).unwrap_or(f64::INFINITY);
         if remaining > NUMERICAL_SHARE * target {
-            let finer = self.finer_level(study, accuracy);
-            if finer.needed != Needed::SmallerCells || remaining > LARGEST_SHARE * target {
+            let finer = self.finer_level(study, accuracy, is_allowed);
+            if finer.study.is_some() || remaining > LARGEST_SHARE * target {
                 return finer;
             }
         }
@@ -123,7 +144,12 @@ impl Progress {
     }
 
     /// The study with a finer level.
-    fn finer_level(&self, study: &Study, accuracy: &Accuracy) -> NextStep {
+    fn finer_level(
+        &self,
+        study: &Study,
+        accuracy: &Accuracy,
+        is_allowed: &dyn Fn(&Study) -> bool,
+    ) -> NextStep {
         let finest = study.levels() - 1;
         let cell_size_m = finer_cells(study.cell_size_m(finest).unwrap_or(f64::NAN));
         let level = FinerLevel {
@@ -132,11 +158,14 @@ impl Progress {
         };
         let mut finer = study.clone();
         finer.finer_levels.push(level);
-        let is_allowed = accuracy
+        let is_in_range = accuracy
             .finest_cell_size_m
             .is_none_or(|least| cell_size_m >= least);
-        if !is_allowed || !finer.violations().is_empty() {
+        if !is_in_range || !finer.violations().is_empty() {
             return NextStep::without_study(Needed::SmallerCells);
+        }
+        if !is_allowed(&finer) {
+            return NextStep::without_study(Needed::FinerLevel);
         }
         let mut costs = self.costs.clone();
         costs.extend(
@@ -213,7 +242,8 @@ fn affordable(study: Study, costs: &[f64], (accuracy, needed): (&Accuracy, Neede
 pub(crate) fn costs(study: &Study, members: &[Member]) -> Vec<f64> {
     let mut costs: Vec<f64> = Vec::new();
     for level in 0..study.levels() {
-        let work = members.iter().filter(|member| member.level == level);
+        let of_level = members.iter().filter(|member| member.level == level);
+        let work = of_level.filter(|member| member.index < study.members_on(level));
         let work = work.filter_map(|member| member.finished()?.quantity("point_steps", None));
         let (mut sum, mut count) = (0.0, 0.0);
         for one in work {

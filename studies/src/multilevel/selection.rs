@@ -10,6 +10,8 @@ const ROWS_PER_PARAMETER: usize = 3;
 const WORTH_TAKING: f64 = 0.85;
 /// Length of a column over its former one below which it follows from others.
 const DEPENDENT: f64 = 1e-6;
+/// Distance from the mean, over the mean, that is rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Offered columns, by their places, that predict a target well beside those that are taken anyway:
 /// forward selection by the prediction sum of squares (PRESS, Allen 1974), the error of each row
@@ -124,9 +126,15 @@ fn without_direction(column: &mut [f64], direction: &[f64]) {
     }
 }
 
+/// Column without its mean; zeros, not their rounding, of one that does not vary.
 pub(super) fn centred(column: &[f64]) -> Vec<f64> {
     let mean = crate::moments::mean(column);
-    column.iter().map(|value| value - mean).collect()
+    let centred: Vec<f64> = column.iter().map(|value| value - mean).collect();
+    let varies = |value: &f64| value.abs() > ROUNDING * mean.abs();
+    match centred.iter().any(varies) {
+        true => centred,
+        false => vec![0.0; column.len()],
+    }
 }
 
 pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
@@ -154,6 +162,13 @@ mod tests {
         assert_eq!(selected(&taken, &offered, &target), [5]);
         let of_noise = (100..130).map(|seed| selected(&[], &offered, &noise(seed)).len());
         assert!(of_noise.sum::<usize>() < 15);
+    }
+
+    #[test]
+    fn a_column_that_does_not_vary_has_no_rounding_left() {
+        for value in [0.1, 0.35, -7.3e5, 0.0] {
+            assert_eq!(centred(&[value; 16]), [0.0; 16]);
+        }
     }
 
     #[test]

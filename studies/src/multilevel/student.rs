@@ -2,9 +2,17 @@
 
 use crate::normal;
 
-/// Quantile at a probability 0.5 < p < 1 of Student's t distribution with at least three degrees
-/// of freedom, by the expansion in 1/ν (Abramowitz & Stegun 1964, 26.7.5); within 1 % at p = 0.975.
+/// Quantile at a probability 0.5 < p < 1 of Student's t distribution with at least one degree of
+/// freedom: exact of one and two, which stand for a little more, too; of three and more by the
+/// expansion in 1/ν (Abramowitz & Stegun 1964, 26.7.5), within 1 % at p = 0.975.
 pub(super) fn quantile(probability: f64, freedom: f64) -> f64 {
+    let between = 2.0 * probability - 1.0;
+    if freedom < 2.0 {
+        return libm::tan(0.5 * std::f64::consts::PI * between);
+    }
+    if freedom < 3.0 {
+        return between * (2.0 / (1.0 - between * between)).sqrt();
+    }
     let z = normal::quantile(probability);
     let square = z * z;
     let first = z * (square + 1.0) / 4.0;
@@ -20,7 +28,7 @@ mod tests {
 
     #[test]
     fn quantiles_are_those_of_another_library() {
-        for freedom in [3.0, 5.0, 10.0, 30.0, 1000.0] {
+        for freedom in [1.0, 2.0, 3.0, 5.0, 10.0, 30.0, 1000.0] {
             let other = StudentsT::new(0.0, 1.0, freedom)
                 .unwrap()
                 .inverse_cdf(0.975);

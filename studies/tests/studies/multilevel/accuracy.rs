@@ -31,7 +31,7 @@ fn ended(mut study: Study) -> (Study, AccuracyReached) {
     for _ in 0..40 {
         let ensemble = Ensemble::of(&study).unwrap();
         let members = outcomes(&ensemble);
-        let next = NextStep::of(&ensemble, &members).unwrap();
+        let next = NextStep::of(&ensemble, &members, |_| true).unwrap();
         let Some(larger) = next.study else {
             let reached = Answers::of(&ensemble, &members).accuracy.unwrap();
             return (study, reached);
@@ -110,7 +110,7 @@ fn levels_all_of_whose_members_fail_are_the_end() {
     for member in members.iter_mut().filter(|member| member.level == 2) {
         member.outcome = MemberOutcome::failed("numerical");
     }
-    let next = NextStep::of(&ensemble, &members).unwrap();
+    let next = NextStep::of(&ensemble, &members, |_| true).unwrap();
     assert_eq!((next.needed, next.study), (Needed::Successes, None));
 }
 
@@ -120,7 +120,7 @@ fn a_quantity_that_never_varies_is_met_at_once() {
     let constant = |study: &Study| {
         let ensemble = Ensemble::of(study).unwrap();
         let members = runs(&ensemble, |_, cells| finished(2.0, cells));
-        NextStep::of(&ensemble, &members).unwrap()
+        NextStep::of(&ensemble, &members, |_| true).unwrap()
     };
     let two = constant(&study).study.unwrap();
     let three = constant(&two).study.unwrap();
@@ -154,4 +154,50 @@ fn a_forecast_takes_finer_cells_for_a_closer_target() {
     assert!(!forecast(0.05, Some(0.01)).is_expected_to_be_met);
     let without = study([64, 16, 8], 1, &json!([]));
     assert_eq!(Forecast::of(&without, 1e6), None);
+}
+
+#[test]
+fn outcomes_beyond_the_present_design_change_nothing() {
+    let study = study([64, 16, 8], 1, &json!([]));
+    let study = Study {
+        accuracy: asked(1, 0.001).accuracy,
+        ..study
+    };
+    let ensemble = Ensemble::of(&study).unwrap();
+    let members = outcomes(&ensemble);
+    let mut more = members.clone();
+    for level in 0..3 {
+        let index = 1000;
+        let outcome = finished(1e3, 1e-3);
+        more.push(Member {
+            level,
+            index,
+            outcome,
+        });
+    }
+    let next = |members: &[Member]| NextStep::of(&ensemble, members, |_| true);
+    assert_eq!(next(&more), next(&members));
+}
+
+#[test]
+fn a_finer_level_that_is_not_allowed_leaves_more_members_or_the_end() {
+    let study = asked(1, 0.05);
+    let ensemble = Ensemble::of(&study).unwrap();
+    let next = NextStep::of(&ensemble, &outcomes(&ensemble), |_| false).unwrap();
+    assert_eq!((next.needed, next.study), (Needed::FinerLevel, None));
+}
+
+#[test]
+fn a_target_is_not_met_by_members_that_are_unknown() {
+    let study = asked(1, 0.2);
+    let (study, reached) = ended(study);
+    assert_eq!(reached.needed, Needed::Nothing);
+    let ensemble = Ensemble::of(&study).unwrap();
+    let mut members = outcomes(&ensemble);
+    for member in members.iter_mut().filter(|member| member.index % 2 == 1) {
+        member.outcome = MemberOutcome::failed("numerical");
+    }
+    let reached = Answers::of(&ensemble, &members).accuracy.unwrap();
+    assert!(reached.reached.unwrap() > 0.2, "{reached:?}");
+    assert_ne!(reached.needed, Needed::Nothing);
 }
