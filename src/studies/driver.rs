@@ -2,7 +2,7 @@
 //! it knows is in the database, so that it goes on after a crash where it was.
 
 use super::StudyService;
-use super::members::new_members;
+use super::members::{is_allowed, new_members};
 use super::outcome;
 use super::schedule::{Conclusion, Next, conclusion, next};
 use super::study::{MemberCounts, StoredStudy, StudyId, StudyStatus};
@@ -123,13 +123,16 @@ async fn advance(
 async fn conclude(studies: &StudyService, stored: &StoredStudy) -> Result<(), DriveError> {
     let (id, document) = (stored.id, stored.document.get());
     let outcomes = studies.outcomes(id).await?;
-    let conclusion = aside(stored, move |ensemble| conclusion(ensemble, &outcomes));
+    let means = studies.means;
+    let conclusion = aside(stored, move |ensemble| {
+        conclusion(ensemble, &outcomes, |scenario| is_allowed(scenario, &means))
+    });
     match conclusion.await? {
         Conclusion::Enlarge(larger) => {
             let larger = serde_json::to_string(&larger);
             let larger = larger.map_err(|error| DriveError::Study(error.to_string()))?;
             if studies.enlarge(stored, &larger).await? == Enlarged::Done {
-                info!(%id, "enlarged by its stopping rule");
+                info!(%id, "enlarged");
             }
         }
         Conclusion::End => {

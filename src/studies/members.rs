@@ -27,6 +27,11 @@ pub(super) fn new_members(
     new.collect()
 }
 
+/// True if a service with these means takes jobs of a scenario.
+pub(super) fn is_allowed(scenario: &Value, means: &Means) -> bool {
+    submit::validate(&scenario.to_string(), means, Vec::new()).is_ok()
+}
+
 /// Scenario of a member: without snapshots of the flow unless the study's asks for them, since
 /// no answer is made of them.
 ///

@@ -1,10 +1,10 @@
 //! Schedule of a study: which members are to be computed next, and when it has ended.
 
-use scree_solver::scenario::Scenario;
 use scree_studies::answers::{RestDistribution, RestingPlaces};
 use scree_studies::{
     Ensemble, Member, MemberId, NextStep, Progress, Question, Stop, Study, Verdict,
 };
+use serde_json::Value;
 use std::collections::BTreeSet;
 
 /// Next step of a study.
@@ -48,12 +48,16 @@ pub fn next(study: &Study, made: &[u64], (in_work, most): (u64, u64)) -> Next {
     }
 }
 
-/// Conclusion from these outcomes of all members of a study.
-pub fn conclusion(ensemble: &Ensemble, outcomes: &[Member]) -> Conclusion {
+/// Conclusion from these outcomes of all members of a study, where only such scenarios are allowed.
+pub fn conclusion(
+    ensemble: &Ensemble,
+    outcomes: &[Member],
+    is_allowed: impl Fn(&Value) -> bool,
+) -> Conclusion {
     let study = ensemble.study();
-    if let Some(next) = NextStep::of(ensemble, outcomes) {
-        let larger = next.study.filter(finest_level_is_allowed);
-        return larger.map_or(Conclusion::End, |larger| {
+    let finest_is_allowed = |study: &Study| finest_level_is_allowed(study, &is_allowed);
+    if let Some(next) = NextStep::of(ensemble, outcomes, finest_is_allowed) {
+        return next.study.map_or(Conclusion::End, |larger| {
             Conclusion::Enlarge(Box::new(larger))
         });
     }
@@ -74,12 +78,12 @@ pub fn conclusion(ensemble: &Ensemble, outcomes: &[Member]) -> Conclusion {
 }
 
 /// True if scenarios on the finest level are allowed: those at both ends of every input.
-fn finest_level_is_allowed(study: &Study) -> bool {
-    let is_allowed = |ensemble: Ensemble| {
+fn finest_level_is_allowed(study: &Study, is_allowed: impl Fn(&Value) -> bool) -> bool {
+    let are_allowed = |ensemble: Ensemble| {
         let mut ends = ensemble.end_scenarios();
-        ends.all(|end| Scenario::from_value(&end.scenario).is_ok())
+        ends.all(|end| is_allowed(&end.scenario))
     };
-    Ensemble::of(study).is_ok_and(is_allowed)
+    Ensemble::of(study).is_ok_and(are_allowed)
 }
 
 /// Verdict of the stopping rule on a design all of whose members have an outcome.
@@ -154,7 +158,7 @@ mod tests {
     fn a_design_without_a_region_yet_is_doubled() {
         let study = stopping(8);
         let ensemble = Ensemble::of(&study).unwrap();
-        let Conclusion::Enlarge(larger) = conclusion(&ensemble, &[]) else {
+        let Conclusion::Enlarge(larger) = conclusion(&ensemble, &[], |_| true) else {
             panic!("it ended without a region");
         };
         assert_eq!(larger.members(), 16);
@@ -167,7 +171,7 @@ mod tests {
             ..stopping(1_048_576)
         };
         let ensemble = Ensemble::of(&study).unwrap();
-        assert_eq!(conclusion(&ensemble, &[]), Conclusion::End);
+        assert_eq!(conclusion(&ensemble, &[], |_| true), Conclusion::End);
     }
 
     #[test]
@@ -202,6 +206,6 @@ mod tests {
     fn without_a_stopping_rule_the_design_is_the_end() {
         let study = study(2);
         let ensemble = Ensemble::of(&study).unwrap();
-        assert_eq!(conclusion(&ensemble, &[]), Conclusion::End);
+        assert_eq!(conclusion(&ensemble, &[], |_| true), Conclusion::End);
     }
 }

@@ -103,6 +103,23 @@ async fn levels_and_members_are_added_for_an_accuracy() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn an_accuracy_and_a_stopping_rule_replace_each_other() {
+    let app = TestApp::start().await;
+    let mut asked = study(16);
+    asked["questions"] = json!([{"rest": {"body": 0, "regions": [0.5]}}]);
+    asked["stop"] = json!({"region": 0.5, "area_changes_less_than": 0.5, "max_members": 16});
+    let path = submit(&app, &asked).await;
+    wait_for_end(&app, &path).await;
+    let accuracy = json!({"accuracy": {"quantity": "runout_m", "target": 1.0}});
+    let changed = change(&app, &path, &accuracy).await;
+    assert_eq!(changed.status, StatusCode::OK, "{:#}", changed.body);
+    let ended = wait_for_end(&app, &path).await;
+    assert_eq!(ended["study"]["stop"], Value::Null);
+    assert_eq!(ended["study"]["accuracy"]["target"], 1.0);
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn levels_that_can_not_be_are_refused_by_their_place() {
     let app = TestApp::start().await;
     let mut wrong = on_two_levels();

@@ -1329,8 +1329,8 @@ class QuantityOnLevel(TypedDict):
     """
     standard_deviation: float
     """
-    Standard deviation, over the members, of what the level adds: of the quantity on the
-    coarsest, of the residuals of a regression on the next coarser level on others.
+    Standard deviation, over the members, of what the level adds: of the residuals of a regression
+    on the inputs, and on all but the coarsest on the next coarser level.
     """
 
 

@@ -15,6 +15,7 @@ use scree::studies::schedule::{Conclusion, conclusion};
 use scree::studies::{local, questions};
 use scree_solver::scenario::{Scenario, ScenarioError};
 use scree_studies::{Answers, Ensemble, Member, MemberId, Study};
+use serde_json::Value;
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
@@ -50,7 +51,7 @@ pub(super) fn study(options: &StudyOptions) -> Result<(), Failure> {
                 return Err(stopped(&interrupts, &members, folder.is_some()));
             }
         }
-        match conclusion(&ensemble, &members) {
+        match conclusion(&ensemble, &members, is_allowed) {
             Conclusion::Enlarge(larger) => study = *larger,
             Conclusion::End => break,
         }
@@ -95,6 +96,10 @@ fn in_words(violations: &[scree_studies::Violation]) -> String {
         format!("  {}: {}", violation.pointer, violation.message)
     };
     violations.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn is_allowed(scenario: &Value) -> bool {
+    Scenario::from_value(scenario).is_ok()
 }
 
 /// Members of the design that have no outcome yet.

@@ -77,11 +77,13 @@ fn needed(needed: Needed) -> &'static str {
     match needed {
         Needed::Nothing => "met",
         Needed::Members => "more members are needed",
-        Needed::FinerLevel => "a finer level is needed",
+        Needed::FinerLevel => {
+            "not met, a finer level would be needed, whose scenarios are not allowed"
+        }
         Needed::SmallerCells => "not met, smaller cells than allowed would be needed",
         Needed::Budget => "not met, more than the budget would be needed",
         Needed::LargerDesign => "not met, more members than a design may have would be needed",
-        Needed::Successes => "not met, too few members of the finest level have it",
+        Needed::Successes => "not met, too many members lack it",
     }
 }
 

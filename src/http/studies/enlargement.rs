@@ -29,9 +29,9 @@ pub(super) struct ChangesDocument {
     design: Option<Design>,
     /// Levels that begin with the present ones' cell sizes.
     finer_levels: Option<Vec<FinerLevel>>,
-    /// Another accuracy.
+    /// Another accuracy; it replaces a stopping rule.
     accuracy: Option<Accuracy>,
-    /// Another stopping rule.
+    /// Another stopping rule; it replaces an accuracy.
     stop: Option<Stop>,
     /// Other questions.
     questions: Option<Vec<Question>>,
@@ -48,13 +48,18 @@ impl ChangesDocument {
             Some(design) => design,
             None => study.design.clone(),
         };
+        // The one excludes the other, so either of them replaces both.
+        let (accuracy, stop) = match (self.accuracy, self.stop) {
+            (None, None) => (study.accuracy.clone(), study.stop),
+            given => given,
+        };
         let changed = Study {
             design,
             finer_levels: self
                 .finer_levels
                 .unwrap_or_else(|| study.finer_levels.clone()),
-            accuracy: self.accuracy.or_else(|| study.accuracy.clone()),
-            stop: self.stop.or(study.stop),
+            accuracy,
+            stop,
             questions: self.questions.unwrap_or_else(|| study.questions.clone()),
             ..study.clone()
         };
