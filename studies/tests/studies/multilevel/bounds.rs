@@ -159,7 +159,6 @@ fn a_member_that_failed_on_its_finest_level_is_unknown_and_so_are_its_like() {
     );
 }
 
-/// Share of the members whose outcome is unknown, where a quarter of the fine runs fails.
 #[test]
 fn runs_that_fail_on_a_finer_level_count_for_all_members() {
     let study = study(
@@ -190,8 +189,6 @@ fn what_many_members_share_exactly_is_drawn_from_all_pairs_that_have_it() {
         true => finished(1.0, cells),
         false => finished(0.0, cells),
     });
-    let mut members = members;
-    members.sort_by_key(|member| member.index);
     let Answer::Exceeds(curve) = &Answers::of(&ensemble, &members).answers[0] else {
         panic!("no curve");
     };

@@ -4,8 +4,8 @@ mod accuracy;
 mod bounds;
 mod places;
 
-use crate::support::z;
-use scree_studies::{Ensemble, Finished, Member, MemberBody, MemberId, MemberOutcome, Study};
+use crate::support::{unit_study, z};
+use scree_studies::{Ensemble, Finished, Member, MemberId, MemberOutcome, Study};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -14,19 +14,14 @@ const COARSEST_M: f64 = 0.03;
 
 /// Study of four inputs over 0..1 on three levels, with questions.
 fn study(members: [u64; 3], seed: u64, questions: &Value) -> Study {
-    let input = |place: usize| {
-        let distribution = json!({"uniform": {"from": 0.0, "to": 1.0}});
-        json!({"pointer": format!("/{place}"), "distribution": distribution})
-    };
-    let document = json!({
-        "scenario": {"numerics": {"cell_size_m": COARSEST_M}},
-        "inputs": (0..4).map(input).collect::<Vec<Value>>(),
-        "design": {"sobol": {"members": members[0], "seed": seed}},
-        "finer_levels": [{"cell_size_m": 0.02, "members": members[1]},
-                         {"cell_size_m": 0.015, "members": members[2]}],
-        "questions": questions
-    });
-    serde_json::from_value(document).unwrap()
+    let design = json!({"sobol": {"members": members[0], "seed": seed}});
+    let finer_levels = json!([{"cell_size_m": 0.02, "members": members[1]},
+                              {"cell_size_m": 0.015, "members": members[2]}]);
+    Study {
+        scenario: json!({"numerics": {"cell_size_m": COARSEST_M}}),
+        finer_levels: serde_json::from_value(finer_levels).unwrap(),
+        ..unit_study(4, &design, questions)
+    }
 }
 
 /// Stand-in for a run: exp(u₀) and an error of first order in the cell size, a part of it random; and
@@ -76,19 +71,5 @@ fn finished(y: f64, cell_size_m: f64) -> MemberOutcome {
     MemberOutcome::Finished(Finished {
         quantities: BTreeMap::from(quantities),
         bodies: Vec::new(),
-    })
-}
-
-/// Outcome with a body at rest.
-fn rested(place_m: [f64; 2]) -> MemberOutcome {
-    MemberOutcome::Finished(Finished {
-        quantities: BTreeMap::new(),
-        bodies: vec![MemberBody {
-            rest_m: [place_m[0], place_m[1], 0.0],
-            moving: false,
-            hit: true,
-            buried_m: 0.0,
-            quantities: BTreeMap::new(),
-        }],
     })
 }

@@ -1,7 +1,7 @@
 //! Resting places corrected by pairs.
 
-use super::{rested, runs, study};
-use crate::support::{deviation, mean, z};
+use super::{runs, study};
+use crate::support::{deviation, mean, rested, z};
 use scree_studies::answers::{RestDistribution, RestingPlaces};
 use scree_studies::{Ensemble, Member};
 use serde_json::json;
@@ -23,7 +23,7 @@ fn place(u: &[f64], cell_size_m: f64) -> [f64; 2] {
 fn places(seed: u64, place: impl Fn(&[f64], f64) -> [f64; 2]) -> RestingPlaces {
     let study = study(MEMBERS, seed, &json!([]));
     let ensemble = Ensemble::of(&study).unwrap();
-    let members = runs(&ensemble, |u, cells| rested(place(u, cells)));
+    let members = runs(&ensemble, |u, cells| rested(place(u, cells), 0.0));
     RestingPlaces::of(&ensemble, &members, 0)
 }
 
@@ -87,7 +87,7 @@ fn places_on_a_line_are_corrected_along_it() {
 fn members_that_still_move_on_their_finest_level_are_counted() {
     let study = study(MEMBERS, 1, &json!([]));
     let ensemble = Ensemble::of(&study).unwrap();
-    let mut members = runs(&ensemble, |u, cells| rested(place(u, cells)));
+    let mut members = runs(&ensemble, |u, cells| rested(place(u, cells), 0.0));
     let moves = |member: &Member| member.index == 5 || member.index == 400;
     for member in members.iter_mut().filter(|member| moves(member)) {
         let scree_studies::MemberOutcome::Finished(finished) = &mut member.outcome else {
