@@ -14,7 +14,7 @@ use std::sync::mpsc;
 
 /// Computes these members, several at a time on one thread each, and hands over each as it ends, in
 /// any order; `control` can stop it, and members that had not ended by then are not handed over.
-/// What a member is and what comes of it depends on the study, its level and its number alone.
+/// A member and its outcome depend on the study, its level and its number alone.
 pub fn compute(
     ensemble: &Ensemble,
     ids: &[MemberId],

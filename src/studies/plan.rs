@@ -29,8 +29,8 @@ pub struct StudyCost {
     pub point_steps: f64,
     /// Largest memory of a member [bytes].
     pub member_memory_bytes: u64,
-    /// What the accuracy asked for is expected to take, from studies of the source paper's scene; null
-    /// without one. Members and levels are added by what the first ones tell.
+    /// Levels that the accuracy asked for is expected to take, from studies of the source paper's
+    /// scene; null without one. Members and levels are added by what the first ones tell.
     #[schema(required = true)]
     pub accuracy: Option<Forecast>,
 }

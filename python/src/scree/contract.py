@@ -1018,7 +1018,7 @@ Prescribed motion of a body, in channel axes.
 
 Needed: TypeAlias = Literal['nothing', 'members', 'finer_level', 'smaller_cells', 'budget', 'larger_design', 'successes']
 """
-What a study needs next for its accuracy; if it has ended, what it would have needed.
+Need of a study for its accuracy; of one that has ended, the need that it ended with.
 """
 
 
@@ -1767,7 +1767,7 @@ class StudyMean(TypedDict):
     """
     numerical_error: NotRequired[Optional[float]]
     """
-    What cells of the finest level add to it; none on one level, which does not tell.
+    Half width that cells of the finest level add to it; none on one level, which does not tell.
     """
     sampling_error: NotRequired[Optional[float]]
     """
@@ -2982,7 +2982,7 @@ class StudyAccuracyReached(TypedDict):
     """
     needed: Needed
     """
-    What is needed next; of a study that has ended, what it would have taken.
+    Need for the target; of a study that has ended, the one that it ended with.
     """
     one_level_members: NotRequired[Optional[int]]
     """

@@ -1,7 +1,7 @@
 //! Levels of a study, and the accuracy that they reach.
 
 use super::Mean;
-use crate::multilevel::{LevelMeans, Needed, NextStep, Progress};
+use crate::multilevel::{LevelMeans, Needed, Progress};
 use crate::outcome::Member;
 use crate::study::{Accuracy, Ensemble};
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ pub struct AccuracyReached {
     pub target: f64,
     /// That distance so far; none of too few members.
     pub reached: Option<f64>,
-    /// What is needed next; of a study that has ended, what it would have taken.
+    /// Need for the target; of a study that has ended, the one that it ended with.
     pub needed: Needed,
     /// The quantity on the levels with enough members, the coarsest first.
     pub levels: Vec<QuantityOnLevel>,
@@ -76,21 +76,25 @@ impl StudyLevel {
 }
 
 impl AccuracyReached {
-    /// Accuracy reached by a study that one is asked of.
-    pub fn of(ensemble: &Ensemble, members: &[Member]) -> Option<Self> {
-        let accuracy = ensemble.study().accuracy.as_ref()?;
-        let needed = NextStep::of(ensemble, members, |_| true)?.needed;
-        Some(Self::found(ensemble, members, (accuracy, needed)))
+    /// Accuracy reached by a study that one is asked of, with these levels.
+    pub(super) fn of(
+        ensemble: &Ensemble,
+        members: &[Member],
+        levels: &[StudyLevel],
+    ) -> Option<Self> {
+        let study = ensemble.study();
+        let accuracy = study.accuracy.as_ref()?;
+        let progress = Progress::of(ensemble, members, accuracy);
+        let needed = progress.next(study, accuracy, &|_| true).needed;
+        Some(Self::found(accuracy, (&progress, needed), levels))
     }
 
     fn found(
-        ensemble: &Ensemble,
-        members: &[Member],
-        (accuracy, needed): (&Accuracy, Needed),
+        accuracy: &Accuracy,
+        (progress, needed): (&Progress, Needed),
+        levels: &[StudyLevel],
     ) -> Self {
-        let progress = Progress::of(ensemble, members, accuracy);
         let mean = progress.mean;
-        let levels = StudyLevel::all(ensemble, members);
         let work = levels
             .iter()
             .map(|level| level.finished as f64 * level.point_steps_per_member);

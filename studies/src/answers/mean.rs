@@ -18,7 +18,7 @@ pub struct Mean {
     pub upper: Option<f64>,
     /// Half width of the interval that sampling alone asks for.
     pub sampling_error: Option<f64>,
-    /// What cells of the finest level add to it; none on one level, which does not tell.
+    /// Half width that cells of the finest level add to it; none on one level, which does not tell.
     pub numerical_error: Option<f64>,
     /// Members whose quantity is known.
     pub known: u64,
@@ -31,13 +31,13 @@ impl Mean {
     /// Mean of a quantity, of a body or of the whole run. Together the bounds hold at
     /// [`crate::CONFIDENCE`] for independent draws; a Sobol' design errs less.
     pub fn of(ensemble: &Ensemble, members: &[Member], name: &str, body: Option<usize>) -> Self {
-        Self::of_known(&super::sample::known(ensemble, members, (name, body)))
+        let known = Known::of_quantity(ensemble, members, (name, body));
+        Self::of_known(&known, LevelMeans::of(&known).as_ref())
     }
 
-    /// Mean of what is known.
-    pub(crate) fn of_known(known: &Known<1>) -> Self {
+    /// Mean of known values, of which these are the means on the levels.
+    pub(crate) fn of_known(known: &Known<1>, means: Option<&LevelMeans<1>>) -> Self {
         let corrected = Corrected::of(known);
-        let means = LevelMeans::of(known);
         let values = || corrected.values.values().map(|[value]| *value);
         let (known, unknown) = (corrected.values.len() as u64, corrected.unknown);
         let found = means.map(|means| (means.mean()[0], means.error(0)));

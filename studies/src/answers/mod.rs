@@ -71,10 +71,11 @@ impl Answers {
     /// The order of the list does not matter.
     pub fn of(ensemble: &Ensemble, members: &[Member]) -> Self {
         let questions = ensemble.study().questions.iter();
+        let levels = StudyLevel::all(ensemble, members);
         Self {
             members: Counts::of(ensemble, members),
-            levels: StudyLevel::all(ensemble, members),
-            accuracy: AccuracyReached::of(ensemble, members),
+            accuracy: AccuracyReached::of(ensemble, members, &levels),
+            levels,
             answers: questions
                 .map(|one| Answer::of(ensemble, members, one))
                 .collect(),

@@ -44,7 +44,7 @@ pub struct RestingPlaces {
 impl Sample {
     /// Sample of a quantity, of a body or of the whole run.
     pub fn of(ensemble: &Ensemble, members: &[Member], name: &str, body: Option<usize>) -> Self {
-        let known = known(ensemble, members, (name, body));
+        let known = Known::of_quantity(ensemble, members, (name, body));
         let corrected = Corrected::of(&known);
         Self {
             levels: level_errors(&known).map(|[error]| error),
@@ -102,20 +102,9 @@ pub(super) fn on_finest_level(
     members: &[Member],
     quantity: (&str, Option<usize>),
 ) -> BTreeMap<u64, f64> {
-    let corrected = Corrected::of(&known(ensemble, members, quantity));
+    let corrected = Corrected::of(&Known::of_quantity(ensemble, members, quantity));
     let values = corrected.values.into_iter();
     values.map(|(index, [value])| (index, value)).collect()
-}
-
-/// What is known of a quantity.
-pub(super) fn known<'a>(
-    ensemble: &'a Ensemble,
-    members: &[Member],
-    (name, body): (&str, Option<usize>),
-) -> Known<'a, 1> {
-    Known::of(ensemble, members, |finished| {
-        finished.quantity(name, body).map(|value| [value])
-    })
 }
 
 /// Number of draws whose finest run up to a level ended with the body still moving.

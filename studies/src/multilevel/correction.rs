@@ -76,12 +76,14 @@ struct Step<const D: usize> {
 
 impl<const D: usize> Step<D> {
     fn of(known: &Known<D>, level: usize) -> Self {
-        let mut pairs = known.pairs(level);
+        let rows = known.rows(level);
+        let regression = Regression::of(&rows);
+        let mut pairs = known.pairs(level, rows);
         pairs.truncate(LOOKED_AT);
         Self {
             coarser: level - 1,
             pairs,
-            regression: Regression::of(&known.rows(level)),
+            regression,
         }
     }
 

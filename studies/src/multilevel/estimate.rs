@@ -14,7 +14,7 @@ pub(crate) struct LevelMeans<const D: usize> {
     pub(super) terms: Vec<Term<D>>,
 }
 
-/// What a level adds to the estimate of the mean.
+/// Term that a level adds to the estimate of the mean.
 #[derive(Debug, Clone)]
 pub(super) struct Term<const D: usize> {
     /// Cell size [m].
@@ -43,7 +43,7 @@ pub(crate) struct MeanError {
     pub(crate) variance: f64,
     /// Half width of the interval at [`CONFIDENCE`] that sampling alone asks for.
     pub(crate) sampling: f64,
-    /// What the numerical error adds to it on both sides; none on one level.
+    /// Half width that the numerical error adds to it; none on one level.
     pub(crate) numerical: Option<f64>,
 }
 
@@ -208,9 +208,7 @@ impl LevelMeans<1> {
             .map(|term| (term.mean[0], term.variance[(0, 0)].sqrt()))
             .collect()
     }
-}
 
-impl LevelMeans<1> {
     /// The same with other numbers of members.
     pub(super) fn with_members(mut self, members: &[u64]) -> Self {
         for (term, members) in self.terms.iter_mut().zip(members) {

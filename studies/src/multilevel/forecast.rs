@@ -1,10 +1,11 @@
 //! Levels and members that an accuracy is expected to take, before any member is computed.
 
 use super::estimate::{LevelMeans, Term};
-use super::next::{LARGEST_SHARE, NUMERICAL_SHARE, PILOT, REFINEMENT, WORK_ORDER, finer_cells};
-use crate::normal;
-use crate::study::Study;
-use crate::{CONFIDENCE, study::FEWEST_MEMBERS};
+use super::next::{
+    FEWEST_LEVELS, LARGEST_SHARE, NUMERICAL_SHARE, PILOT, REFINEMENT, WORK_ORDER, finer_cells,
+};
+use crate::study::{FEWEST_MEMBERS, MOST_FINER, Study};
+use crate::{CONFIDENCE, normal};
 use serde::{Deserialize, Serialize};
 
 /// Standard deviation of a quantity over its mean: the displacement of the cube of the source
@@ -16,8 +17,6 @@ const ADDED: f64 = 0.6;
 const ADDED_ORDER: f64 = 2.0;
 /// Numerical error of the coarsest level over the mean, likewise; it falls with the first power.
 const NUMERICAL: f64 = 0.3;
-/// Most levels that are looked at.
-const MOST_LEVELS: u32 = 7;
 
 /// Levels that an accuracy is expected to take.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -106,13 +105,10 @@ fn cells(study: &Study) -> Option<Vec<f64>> {
     let accuracy = study.accuracy.as_ref()?;
     let given = (0..study.levels()).map(|level| study.cell_size_m(level));
     let mut cells = given.collect::<Option<Vec<f64>>>()?;
-    while (cells.len() as u32) < MOST_LEVELS {
+    while cells.len() <= MOST_FINER {
         let finer = finer_cells(*cells.last()?);
-        let is_allowed = accuracy
-            .finest_cell_size_m
-            .is_none_or(|least| finer >= least);
         let is_enough = expected_error(&cells) <= NUMERICAL_SHARE * accuracy.target;
-        if (is_enough && cells.len() >= 3) || !is_allowed {
+        if (is_enough && cells.len() >= FEWEST_LEVELS) || !accuracy.takes_cells(finer) {
             break;
         }
         cells.push(finer);

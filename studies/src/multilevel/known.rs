@@ -1,4 +1,4 @@
-//! What is known of a quantity on each level.
+//! Known values of a quantity on each level.
 
 use super::regression::{FEWEST_PAIRS, Row};
 use crate::outcome::{Finished, Member, MemberOutcome};
@@ -23,8 +23,8 @@ pub(crate) struct Known<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Known<'a, D> {
-    /// What members have of a quantity. Members that the study does not have (any more) are left
-    /// out.
+    /// Values that members have of a quantity. Members that the study does not have (any more) are
+    /// left out.
     pub(crate) fn of(
         ensemble: &'a Ensemble<'a>,
         members: &[Member],
@@ -107,14 +107,15 @@ impl<'a, const D: usize> Known<'a, D> {
         self.levels[level].iter().filter_map(of_one).collect()
     }
 
-    /// Coarse values of the members with an outcome on a level, by the index, and their rows there;
-    /// none of those without a value.
-    pub(super) fn pairs(&self, level: usize) -> Vec<(SVector<f64, D>, Option<Row<D>>)> {
-        let mut rows: BTreeMap<u64, Row<D>> = self
-            .rows(level)
-            .into_iter()
-            .map(|row| (row.index, row))
-            .collect();
+    /// Coarse values of the members with an outcome on a level, by the index, and their rows there,
+    /// of all of these; none of those without a value.
+    pub(super) fn pairs(
+        &self,
+        level: usize,
+        rows: Vec<Row<D>>,
+    ) -> Vec<(SVector<f64, D>, Option<Row<D>>)> {
+        let rows = rows.into_iter().map(|row| (row.index, row));
+        let mut rows: BTreeMap<u64, Row<D>> = rows.collect();
         let coarser = &self.levels[level - 1];
         let outcomes = self.levels[level].keys();
         outcomes
@@ -131,5 +132,18 @@ impl<'a, const D: usize> Known<'a, D> {
     ) -> Option<(usize, Option<SVector<f64, D>>)> {
         let of_level = |level: usize| Some((level, *self.levels[level].get(&index)?));
         (0..=finest).rev().find_map(of_level)
+    }
+}
+
+impl<'a> Known<'a, 1> {
+    /// Values of a quantity by name, of a body or of the whole run.
+    pub(crate) fn of_quantity(
+        ensemble: &'a Ensemble<'a>,
+        members: &[Member],
+        (name, body): (&str, Option<usize>),
+    ) -> Self {
+        Self::of(ensemble, members, |finished| {
+            finished.quantity(name, body).map(|value| [value])
+        })
     }
 }

@@ -1,4 +1,4 @@
-//! What brings a study nearer to the accuracy asked of it.
+//! Next step of a study towards the accuracy asked of it.
 
 use super::Known;
 use super::estimate::{LevelMeans, half_width};
@@ -14,7 +14,7 @@ pub(super) const REFINEMENT: f64 = 1.5;
 pub(super) const PILOT: u64 = 16;
 /// Fewest levels of which a numerical error is believed: with three, two differences tell whether
 /// it falls.
-const FEWEST_LEVELS: usize = 3;
+pub(super) const FEWEST_LEVELS: usize = 3;
 /// Share of the target that the error of the finest cells may take before a finer level is added.
 pub(super) const NUMERICAL_SHARE: f64 = 0.7;
 /// Largest share of the target that it may take at all: the rest is left to sampling.
@@ -24,7 +24,7 @@ const GROWTH: f64 = 4.0;
 /// Power of the cell size with which a member's work grows: cells in three directions, and steps.
 pub(super) const WORK_ORDER: f64 = 4.0;
 
-/// What a study needs next for its accuracy; if it has ended, what it would have needed.
+/// Need of a study for its accuracy; of one that has ended, the need that it ended with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
@@ -59,7 +59,7 @@ pub(crate) struct Progress {
 /// Next step of a study towards its accuracy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NextStep {
-    /// What is needed.
+    /// Need that it answers.
     pub needed: Needed,
     /// The study with more members or a finer level, if that is what is needed.
     pub study: Option<Study>,
@@ -89,13 +89,12 @@ impl NextStep {
 
 impl Progress {
     pub(crate) fn of(ensemble: &Ensemble, members: &[Member], accuracy: &Accuracy) -> Self {
-        let (name, body) = (&accuracy.quantity, accuracy.body);
-        let known = Known::of(ensemble, members, |finished| {
-            finished.quantity(name, body).map(|value| [value])
-        });
+        let quantity = (accuracy.quantity.as_str(), accuracy.body);
+        let known = Known::of_quantity(ensemble, members, quantity);
+        let means = LevelMeans::of(&known);
         Self {
-            mean: Mean::of_known(&known),
-            means: LevelMeans::of(&known),
+            mean: Mean::of_known(&known, means.as_ref()),
+            means,
             costs: costs(ensemble.study(), members),
         }
     }
@@ -106,7 +105,8 @@ impl Progress {
         Some(members).filter(|members| members.is_finite())
     }
 
-    fn next(
+    /// Next step of the study.
+    pub(crate) fn next(
         &self,
         study: &Study,
         accuracy: &Accuracy,
@@ -158,10 +158,7 @@ impl Progress {
         };
         let mut finer = study.clone();
         finer.finer_levels.push(level);
-        let is_in_range = accuracy
-            .finest_cell_size_m
-            .is_none_or(|least| cell_size_m >= least);
-        if !is_in_range || !finer.violations().is_empty() {
+        if !accuracy.takes_cells(cell_size_m) || !finer.violations().is_empty() {
             return NextStep::without_study(Needed::SmallerCells);
         }
         if !is_allowed(&finer) {

@@ -1,6 +1,6 @@
 //! Accuracy asked of a study.
 
-use super::{Study, Violation};
+use super::{Study, Violation, question};
 use serde::{Deserialize, Serialize};
 
 /// Target of the accuracy of a mean: members and finer levels are added until sampling error and
@@ -33,15 +33,15 @@ fn default_budget() -> f64 {
 }
 
 impl Accuracy {
+    /// True if cells of a size are not smaller than the smallest.
+    pub(crate) fn takes_cells(&self, cell_size_m: f64) -> bool {
+        self.finest_cell_size_m
+            .is_none_or(|least| cell_size_m >= least)
+    }
+
     /// All that is wrong with it in its study; each pointer begins at it.
     pub(super) fn violations(&self, study: &Study) -> Vec<Violation> {
-        let mut found = Vec::new();
-        if self.quantity.is_empty() {
-            found.push(Violation::new(
-                "/quantity",
-                "quantity is empty, allowed: a name",
-            ));
-        }
+        let mut found = question::name(&self.quantity);
         if !(0.001..=1.0).contains(&self.target) {
             found.push(Violation::of("/target", self.target, "0.001 <= x <= 1"));
         }

@@ -49,7 +49,7 @@ fn pointer(study: &Study, place: usize) -> Option<Violation> {
     }
     let overlaps = |earlier: &usize| {
         let earlier = Pointer::parse(&study.inputs[*earlier].pointer);
-        earlier.is_ok_and(|earlier| earlier.holds(&pointer) || pointer.holds(&earlier))
+        earlier.is_ok_and(|earlier| earlier.overlaps(&pointer))
     };
     let earlier = (0..place).find(overlaps)?;
     let allowed = format!("a place that does not overlap that of input {earlier}");

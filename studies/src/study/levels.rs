@@ -10,7 +10,7 @@ use serde_json::Value;
 /// Place of the cell size in a scenario.
 pub(super) const CELL_SIZE: &str = "/numerics/cell_size_m";
 /// Most finer levels.
-const MOST: usize = 6;
+pub(crate) const MOST_FINER: usize = 6;
 /// Fewest members of a finer level: fewer tell little of how it differs from the coarser one.
 pub(crate) const FEWEST_MEMBERS: u64 = 8;
 /// Smallest and largest ratio of the cell sizes of neighbouring levels.
@@ -96,9 +96,9 @@ impl Study {
 /// All that is wrong with the levels, in the order of the document.
 pub(super) fn violations(study: &Study) -> Vec<Violation> {
     let mut found = unsuited(study);
-    if study.finer_levels.len() > MOST {
+    if study.finer_levels.len() > MOST_FINER {
         let given = format!("a list of {}", study.finer_levels.len());
-        let allowed = format!("at most {MOST} finer levels");
+        let allowed = format!("at most {MOST_FINER} finer levels");
         found.push(Violation::of("/finer_levels", given, allowed));
         return found;
     }
@@ -124,7 +124,7 @@ fn unsuited(study: &Study) -> Vec<Violation> {
     for (place, input) in study.inputs.iter().enumerate() {
         let (given, cells) = (Pointer::parse(&input.pointer), Pointer::parse(CELL_SIZE));
         if let (Ok(given), Ok(cells)) = (given, cells)
-            && (given.holds(&cells) || cells.holds(&given))
+            && given.overlaps(&cells)
         {
             let at = format!("/inputs/{place}/pointer");
             let allowed = "another place than the cell size, which the levels set";

@@ -14,7 +14,7 @@ mod violation;
 pub use accuracy::Accuracy;
 pub use ends::{End, EndScenario};
 pub use ensemble::{Ensemble, NoSuchMember};
-pub(crate) use levels::FEWEST_MEMBERS;
+pub(crate) use levels::{FEWEST_MEMBERS, MOST_FINER};
 pub use levels::{FinerLevel, MemberId};
 pub use question::{Buried, Exceeds, Mean, Quantiles, Question, Rest, Sensitivity};
 pub use stop::{Progress, Stop, Verdict};

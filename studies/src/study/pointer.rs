@@ -28,10 +28,15 @@ impl Pointer {
     }
 
     /// True if this is the other's place or a place around it.
-    pub(super) fn holds(&self, other: &Self) -> bool {
+    fn holds(&self, other: &Self) -> bool {
         let own: Vec<&String> = self.tokens().collect();
         let others: Vec<&String> = other.tokens().collect();
         others.starts_with(&own)
+    }
+
+    /// True if one of the two places is the other or lies in it.
+    pub(super) fn overlaps(&self, other: &Self) -> bool {
+        self.holds(other) || other.holds(self)
     }
 
     fn tokens(&self) -> impl Iterator<Item = &String> {

@@ -163,7 +163,8 @@ impl Quantiles {
     }
 }
 
-fn name(quantity: &str) -> Vec<Violation> {
+/// Violation of the name of a quantity.
+pub(super) fn name(quantity: &str) -> Vec<Violation> {
     let wrong = || Violation::new("/quantity", "quantity is empty, allowed: a name");
     quantity.is_empty().then(wrong).into_iter().collect()
 }
