@@ -16,6 +16,7 @@ mod keyed_request;
 mod page;
 mod port;
 mod records;
+mod rows;
 pub mod sqlite;
 mod state;
 mod studies;

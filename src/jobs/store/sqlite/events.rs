@@ -3,17 +3,9 @@
 use super::SqliteStore;
 use super::error::Answer;
 use crate::jobs::job::JobId;
-use crate::jobs::store::event::{Change, EVENTS_AT_ONCE};
-use crate::jobs::store::{Event, StoreError};
-use sqlx::FromRow;
-
-#[derive(Debug, FromRow)]
-struct EventRow {
-    sequence: i64,
-    job_id: String,
-    status: String,
-    attempt: u32,
-}
+use crate::jobs::store::Event;
+use crate::jobs::store::event::EVENTS_AT_ONCE;
+use crate::jobs::store::rows::EventRow;
 
 impl SqliteStore {
     pub(super) async fn events(&self, after: i64, job: Option<JobId>) -> Answer<Vec<Event>> {
@@ -32,27 +24,13 @@ impl SqliteStore {
             query = query.bind(job.to_string());
         }
         let rows: Vec<EventRow> = query.fetch_all(self.readers.pool()).await?;
-        rows.into_iter().map(EventRow::read).collect()
+        let events: Result<_, _> = rows.into_iter().map(EventRow::read).collect();
+        Ok(events?)
     }
 
     pub(super) async fn last_event(&self) -> Answer<i64> {
         let last = sqlx::query_scalar("SELECT seq FROM sqlite_sequence WHERE name = 'events'");
         let last: Option<i64> = last.fetch_optional(self.readers.pool()).await?;
         Ok(last.unwrap_or(0))
-    }
-}
-
-impl EventRow {
-    fn read(self) -> Answer<Event> {
-        let broken = |what| StoreError::Row {
-            job: self.job_id.clone(),
-            what,
-        };
-        Ok(Event {
-            sequence: self.sequence,
-            job: self.job_id.parse().map_err(|_| broken("id"))?,
-            change: Change::from_word(&self.status).ok_or_else(|| broken("status"))?,
-            attempt: self.attempt,
-        })
     }
 }

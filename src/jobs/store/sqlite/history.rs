@@ -2,21 +2,9 @@
 
 use super::error::Answer;
 use crate::jobs::job::{Attempt, JobId};
-use crate::jobs::store::{Lease, StoreError};
-use jiff::Timestamp;
-use sqlx::FromRow;
+use crate::jobs::store::Lease;
+use crate::jobs::store::rows::AttemptRow;
 use sqlx::sqlite::SqliteConnection;
-
-#[derive(Debug, FromRow)]
-struct AttemptRow {
-    attempt: u32,
-    owner: String,
-    started_ms: i64,
-    resumed_from_s: Option<f64>,
-    ended_ms: Option<i64>,
-    ending: Option<String>,
-    detail: Option<String>,
-}
 
 /// All attempts at a job, in order.
 pub(super) async fn attempts_of(
@@ -30,27 +18,9 @@ pub(super) async fn attempts_of(
     .bind(job.to_string())
     .fetch_all(connection)
     .await?;
-    rows.into_iter().map(|row| row.read(job)).collect()
-}
-
-impl AttemptRow {
-    fn read(self, job: JobId) -> Answer<Attempt> {
-        let time = |ms| {
-            Timestamp::from_millisecond(ms).map_err(|_| StoreError::Row {
-                job: job.to_string(),
-                what: "an attempt's time",
-            })
-        };
-        Ok(Attempt {
-            attempt: self.attempt,
-            owner: self.owner,
-            started: time(self.started_ms)?,
-            resumed_from_s: self.resumed_from_s,
-            ended: self.ended_ms.map(time).transpose()?,
-            ending: self.ending,
-            detail: self.detail,
-        })
-    }
+    let id = job.to_string();
+    let attempts: Result<_, _> = rows.into_iter().map(|row| row.read(&id)).collect();
+    Ok(attempts?)
 }
 
 /// Records that a worker of `owner` claimed a job.

@@ -2,35 +2,14 @@
 
 use super::SqliteStore;
 use super::error::Answer;
-use super::rows::integer;
 use super::size_limit::Purpose;
-use super::submission::parse;
 use crate::jobs::job::JobId;
-use crate::jobs::store::{FormerRequest, KeptAnswer, Key, KeyRetention, StoreError};
-use sqlx::FromRow;
+use crate::jobs::store::rows::{KeyedRequestRow, identifiers_text, integer, pack_answer, space};
+use crate::jobs::store::{FormerRequest, KeptAnswer, Key, KeyRetention};
 use sqlx::sqlite::SqliteConnection;
-
-/// Level of zstd at which an answer, mostly a scenario's text, is compressed.
-const LEVEL: i32 = 3;
-
-/// Largest answer read back [bytes]: a batch's identifiers, or a job with a scenario of any size
-/// that a request may have.
-const LARGEST_ANSWER: usize = 1 << 30;
-
-/// Space of a request beside its lists and its answer [bytes], about.
-const ROW_BYTES: usize = 256;
 
 /// Largest number of keys forgotten in one transaction, so that submissions don't wait long.
 const FORGOTTEN_AT_ONCE: u32 = 50;
-
-#[derive(Debug, FromRow)]
-struct KeyedRequestRow {
-    body_hash: Vec<u8>,
-    job_ids: String,
-    answer_status: Option<u16>,
-    answer_location: Option<String>,
-    answer_body: Option<Vec<u8>>,
-}
 
 impl SqliteStore {
     pub(super) async fn former_request(
@@ -48,8 +27,7 @@ impl SqliteStore {
         key: &Key,
         answer: &KeptAnswer,
     ) -> Answer<Option<KeptAnswer>> {
-        let body = zstd::bulk::compress(answer.body.as_bytes(), LEVEL)
-            .map_err(|error| StoreError::Defect(error.into()))?;
+        let body = pack_answer(&answer.body)?;
         let mut transaction = self.begin_write(Purpose::Growth).await?;
         let done = sqlx::query(
             "UPDATE keyed_requests
@@ -155,7 +133,7 @@ pub(super) async fn former_request(
     .bind(&key.text)
     .fetch_optional(connection)
     .await?;
-    row.map(|row| row.read(key)).transpose()
+    Ok(row.map(|row| row.read(key)).transpose()?)
 }
 
 /// Records a request with a key and its jobs; returns its number. One without jobs is released
@@ -164,11 +142,10 @@ pub(super) async fn keep_key(
     connection: &mut SqliteConnection,
     submitter: Option<&str>,
     (key, operating_ms): (&Key, i64),
-    jobs: impl Iterator<Item = JobId>,
+    jobs: &[JobId],
 ) -> Answer<i64> {
-    let ids: Vec<String> = jobs.map(|id| id.to_string()).collect();
-    let released_ms = ids.is_empty().then_some(operating_ms);
-    let ids = serde_json::Value::from(ids).to_string();
+    let released_ms = jobs.is_empty().then_some(operating_ms);
+    let ids = identifiers_text(jobs);
     let sequence = sqlx::query_scalar(
         "INSERT INTO keyed_requests (submitter, key, body_hash, released_operating_ms,
                                      stored_bytes, job_ids)
@@ -179,44 +156,9 @@ pub(super) async fn keep_key(
     .bind(&key.text)
     .bind(&key.request_hash[..])
     .bind(released_ms)
-    .bind(integer((ROW_BYTES + ids.len()) as u64))
+    .bind(integer(space(&ids)))
     .bind(ids)
     .fetch_one(connection)
     .await?;
     Ok(sequence)
-}
-
-impl KeyedRequestRow {
-    fn read(self, key: &Key) -> Answer<FormerRequest> {
-        if self.body_hash != key.request_hash {
-            return Ok(FormerRequest::Other);
-        }
-        let unreadable = |what| StoreError::Row {
-            job: format!("of the key {}", key.text),
-            what,
-        };
-        let ids: Vec<String> =
-            serde_json::from_str(&self.job_ids).map_err(|_| unreadable("identifiers"))?;
-        let jobs: Result<_, _> = ids.iter().map(|id| parse(id)).collect();
-        let answer = match (self.answer_status, self.answer_body) {
-            (Some(status), Some(body)) => Some(KeptAnswer {
-                status,
-                location: self.answer_location,
-                body: text(&body).ok_or_else(|| unreadable("kept answer"))?,
-            }),
-            _ => None,
-        };
-        Ok(FormerRequest::Same {
-            jobs: jobs?,
-            answer,
-        })
-    }
-}
-
-fn text(compressed: &[u8]) -> Option<String> {
-    let mut reader = zstd::stream::read::Decoder::new(compressed).ok()?;
-    let mut bytes = Vec::new();
-    let limit = LARGEST_ANSWER as u64;
-    std::io::Read::read_to_end(&mut std::io::Read::take(&mut reader, limit), &mut bytes).ok()?;
-    String::from_utf8(bytes).ok()
 }

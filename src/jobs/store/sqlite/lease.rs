@@ -3,10 +3,10 @@
 use super::SqliteStore;
 use super::ending::set_back_row;
 use super::error::Answer;
-use super::queue::lease;
 use super::results::keep_progress;
 use super::size_limit::Purpose;
 use crate::jobs::job::JobStatus;
+use crate::jobs::store::rows::{lease, milliseconds};
 use crate::jobs::store::{FailedAttempt, Lease, Renewal};
 use crate::runs::Progress;
 use std::time::Duration;
@@ -72,8 +72,4 @@ impl SqliteStore {
         transaction.commit().await?;
         Ok(left.len())
     }
-}
-
-pub(super) fn milliseconds(duration: Duration) -> i64 {
-    i64::try_from(duration.as_millis()).unwrap_or(i64::MAX / 4)
 }

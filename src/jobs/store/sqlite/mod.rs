@@ -31,7 +31,6 @@ mod queue;
 mod read;
 mod removal;
 mod results;
-mod rows;
 mod schema;
 mod size_limit;
 mod space;

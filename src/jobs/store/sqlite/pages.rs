@@ -2,9 +2,9 @@
 
 use super::SqliteStore;
 use super::error::Answer;
-use super::rows::ListedRow;
 use crate::jobs::job::JobStatus;
 use crate::jobs::store::page::OUTCOME_BYTES;
+use crate::jobs::store::rows::ListedRow;
 use crate::jobs::store::{JobPage, Page};
 use futures_util::TryStreamExt;
 use jiff::Timestamp;

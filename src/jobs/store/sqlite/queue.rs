@@ -2,13 +2,12 @@
 
 use super::error::Answer;
 use super::history::{begin_attempt, end_attempt};
-use super::lease::milliseconds;
 use super::size_limit::Purpose;
 use super::{Now, SqliteStore};
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::ending::BACK_OFF_MS;
-use crate::jobs::store::{Claim, Claimant, Dismissal, Lease, StoreError};
-use sqlx::FromRow;
+use crate::jobs::store::rows::{ClaimedRow, job_status, lease, milliseconds};
+use crate::jobs::store::{Claim, Claimant, Dismissal};
 use sqlx::sqlite::SqliteConnection;
 
 /// Claims the first job in turn. Without its name the index would not be taken, and all waiting jobs
@@ -23,15 +22,6 @@ const CLAIM: &str = "UPDATE jobs
                        AND (failed_attempts = 0 OR ?8 >= iif(failed_attempts = 1, ?9, ?10))
                        ORDER BY priority, sequence LIMIT 1)
      RETURNING id, attempt, lease_token, scenario, failed_attempts";
-
-#[derive(Debug, FromRow)]
-struct ClaimedRow {
-    id: String,
-    attempt: i64,
-    lease_token: i64,
-    scenario: String,
-    failed_attempts: u32,
-}
 
 impl SqliteStore {
     pub(super) async fn claim(&self, claimant: &Claimant) -> Answer<Option<Claim>> {
@@ -81,10 +71,7 @@ pub(super) async fn dismiss_row(
     let Some((word, attempt, token)) = row else {
         return Ok(Dismissal::Unknown);
     };
-    let status = JobStatus::from_word(&word).ok_or_else(|| StoreError::Row {
-        job: id.to_owned(),
-        what: "status",
-    })?;
+    let status = job_status(id, &word)?;
     match status {
         JobStatus::Dismissed => return Ok(Dismissal::Dismissed),
         JobStatus::Successful | JobStatus::Failed => return Ok(Dismissal::Ended(status)),
@@ -104,28 +91,6 @@ pub(super) async fn dismiss_row(
     let lease = lease(id, attempt, token)?;
     end_attempt(connection, lease, now.wall_ms, ("dismissed", None)).await?;
     Ok(Dismissal::Dismissed)
-}
-
-impl ClaimedRow {
-    fn read(self) -> Answer<Claim> {
-        Ok(Claim {
-            lease: lease(&self.id, self.attempt, self.lease_token)?,
-            scenario: self.scenario,
-            failed_attempts: self.failed_attempts,
-        })
-    }
-}
-
-pub(super) fn lease(id: &str, attempt: i64, token: i64) -> Answer<Lease> {
-    let broken = |what| StoreError::Row {
-        job: id.to_owned(),
-        what,
-    };
-    Ok(Lease {
-        job: id.parse().map_err(|_| broken("id"))?,
-        attempt: u32::try_from(attempt).map_err(|_| broken("attempt"))?,
-        token,
-    })
 }
 
 #[cfg(test)]

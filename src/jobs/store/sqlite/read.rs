@@ -3,9 +3,8 @@
 use super::SqliteStore;
 use super::error::Answer;
 use super::history::attempts_of;
-use super::rows::JobRow;
 use crate::jobs::job::{Job, JobId, JobStatus};
-use crate::jobs::store::StoreError;
+use crate::jobs::store::rows::{JobRow, job_status};
 
 /// A job's row and its labels.
 macro_rules! with_labels {
@@ -28,7 +27,7 @@ impl SqliteStore {
             .await?;
         let Some(row) = row else { return Ok(None) };
         let attempts = attempts_of(&mut transaction, id).await?;
-        row.read(attempts).map(Some)
+        Ok(Some(row.read(attempts)?))
     }
 
     pub(super) async fn status(&self, id: JobId) -> Answer<Option<JobStatus>> {
@@ -36,12 +35,7 @@ impl SqliteStore {
             .bind(id.to_string())
             .fetch_optional(self.readers.pool())
             .await?;
-        let read = |word: String| {
-            JobStatus::from_word(&word).ok_or_else(|| StoreError::Row {
-                job: id.to_string(),
-                what: "status",
-            })
-        };
+        let read = |word: String| job_status(&id.to_string(), &word);
         Ok(word.map(read).transpose()?)
     }
 }

@@ -2,36 +2,17 @@
 
 use super::SqliteStore;
 use super::error::Answer;
-use super::rows::integer;
 use super::size_limit::Purpose;
 use super::states::write_state;
 use crate::jobs::job::{JobId, JobStatus};
-use crate::jobs::store::{Lease, NewChunk, NewResults, StoreError, StoredChunk};
+use crate::jobs::store::rows::{ChunkRow, SnapshotRow, chunk_of, integer, snapshot_of};
+use crate::jobs::store::{Lease, NewChunk, NewResults, StoredChunk};
 use crate::results::FlowSnapshot;
-use crate::results::chunk::{self, Block, BlockError, CHUNK_SAMPLES};
+use crate::results::chunk::{self, CHUNK_SAMPLES};
 use crate::results::columns::{Selection, TrajectoryColumns};
 use crate::results::flow::StoredSnapshot;
 use crate::runs::Progress;
-use sqlx::FromRow;
 use sqlx::sqlite::SqliteConnection;
-
-#[derive(Debug, FromRow)]
-struct ChunkRow {
-    first_sample: i64,
-    samples: i64,
-    checksum: Vec<u8>,
-    data: Vec<u8>,
-}
-
-#[derive(Debug, FromRow)]
-struct SnapshotRow {
-    time_s: f64,
-    points: i64,
-    thinning: u32,
-    kept: i64,
-    checksum: Vec<u8>,
-    data: Vec<u8>,
-}
 
 impl SqliteStore {
     pub(super) async fn keep(&self, lease: Lease, results: &NewResults) -> Answer<bool> {
@@ -73,9 +54,7 @@ impl SqliteStore {
         .bind(selection.latest_s())
         .fetch_optional(self.readers.pool())
         .await?;
-        row.map(ChunkRow::read)
-            .transpose()
-            .map_err(|source| StoreError::Block { job, source }.into())
+        Ok(row.map(|row| chunk_of(job, row)).transpose()?)
     }
 
     pub(super) async fn results_bytes(&self, job: JobId) -> Answer<u64> {
@@ -99,7 +78,7 @@ impl SqliteStore {
         .bind(integer(body as u64))
         .fetch_one(self.readers.pool())
         .await?;
-        Ok(end.map_or(0, length))
+        Ok(end.and_then(|end| usize::try_from(end).ok()).unwrap_or(0))
     }
 
     pub(super) async fn snapshot_times(&self, job: JobId) -> Answer<Vec<f64>> {
@@ -126,10 +105,8 @@ impl SqliteStore {
         .fetch_optional(self.readers.pool())
         .await?;
         let Some(row) = row else { return Ok(None) };
-        let first_sample = length(row.first_sample);
-        row.read()
-            .map(|chunk| Some((first_sample, chunk.columns)))
-            .map_err(|source| StoreError::Block { job, source }.into())
+        let first_sample = row.first_sample();
+        Ok(Some((first_sample, chunk_of(job, row)?.columns)))
     }
 
     pub(super) async fn snapshot(
@@ -146,9 +123,7 @@ impl SqliteStore {
         .bind(time_s)
         .fetch_optional(self.readers.pool())
         .await?;
-        row.map(SnapshotRow::read)
-            .transpose()
-            .map_err(|source| StoreError::Block { job, source }.into())
+        Ok(row.map(|row| snapshot_of(job, row)).transpose()?)
     }
 }
 
@@ -229,38 +204,4 @@ async fn write_snapshot(
     .execute(connection)
     .await?;
     Ok(())
-}
-
-impl ChunkRow {
-    fn read(self) -> Result<StoredChunk, BlockError> {
-        let samples = length(self.samples);
-        let columns = chunk::decode(&block(self.checksum, self.data)?, samples)?;
-        Ok(StoredChunk {
-            next_sample: self.first_sample + self.samples,
-            columns,
-        })
-    }
-}
-
-impl SnapshotRow {
-    fn read(self) -> Result<FlowSnapshot, BlockError> {
-        let stored = StoredSnapshot {
-            time_s: self.time_s,
-            points: self.points.unsigned_abs(),
-            thinning: self.thinning,
-            kept: length(self.kept),
-            block: block(self.checksum, self.data)?,
-        };
-        stored.unpack()
-    }
-}
-
-fn block(checksum: Vec<u8>, data: Vec<u8>) -> Result<Block, BlockError> {
-    let checksum = checksum.try_into().map_err(|_| BlockError::Checksum)?;
-    Ok(Block { data, checksum })
-}
-
-/// A length; the table's CHECK keeps it from being negative.
-fn length(stored: i64) -> usize {
-    usize::try_from(stored).unwrap_or(0)
 }

@@ -3,25 +3,14 @@
 
 use super::SqliteStore;
 use super::error::Answer;
-use super::rows::integer;
 use super::size_limit::Purpose;
 use crate::jobs::job::JobId;
-use crate::jobs::store::{AttemptStart, Lease, ResumePoint, StoreError, StoredState};
-use crate::results::chunk::{Block, BlockError};
-use sqlx::FromRow;
+use crate::jobs::store::rows::{StateRow, integer, state_of};
+use crate::jobs::store::{AttemptStart, Lease, ResumePoint, StoredState};
 use sqlx::sqlite::SqliteConnection;
 
 /// Bytes of one stored piece.
 const PIECE_BYTES: usize = 8 << 20;
-
-#[derive(Debug, FromRow)]
-struct StateRow {
-    time_s: f64,
-    samples: i64,
-    fingerprint: Vec<u8>,
-    bytes: i64,
-    checksum: Vec<u8>,
-}
 
 impl SqliteStore {
     pub(super) async fn state(&self, job: JobId) -> Answer<Option<StoredState>> {
@@ -40,10 +29,7 @@ impl SqliteStore {
         .bind(job.to_string())
         .fetch_all(&mut *transaction)
         .await?;
-        let state = row.read(pieces.concat());
-        state
-            .map(Some)
-            .map_err(|source| StoreError::Block { job, source }.into())
+        Ok(Some(state_of(job, row, pieces.concat())?))
     }
 
     pub(super) async fn begin(
@@ -71,25 +57,6 @@ impl SqliteStore {
         }
         transaction.commit().await?;
         Ok(true)
-    }
-}
-
-impl StateRow {
-    fn read(self, data: Vec<u8>) -> Result<StoredState, BlockError> {
-        let exact = |bytes: Vec<u8>| bytes.try_into().map_err(|_| BlockError::Checksum);
-        let length = |number| usize::try_from(number).map_err(|_| BlockError::Checksum);
-        Ok(StoredState {
-            resume_point: ResumePoint {
-                time_s: self.time_s,
-                samples: length(self.samples)?,
-                fingerprint: exact(self.fingerprint)?,
-            },
-            bytes: length(self.bytes)?,
-            block: Block {
-                data,
-                checksum: exact(self.checksum)?,
-            },
-        })
     }
 }
 

@@ -4,18 +4,16 @@ use super::SqliteStore;
 use super::error::Answer;
 use super::queue::dismiss_row;
 use super::size_limit::Purpose;
-use super::submission::parse;
 use crate::jobs::job::JobId;
 use crate::jobs::store::page::REMOVED_AT_ONCE;
+use crate::jobs::store::rows::{self, StudyRow, counts, job_id, parse_study, study_status};
 use crate::jobs::store::{
-    Dismissal, Enlarged, NewStudy, Removal, Room, StoreError, StudyDismissal, StudyEnd, StudyPage,
+    Dismissal, Enlarged, NewStudy, Removal, Room, StudyDismissal, StudyEnd, StudyPage,
     StudySubmitted,
 };
 use crate::studies::study::{MemberCounts, StoredStudy, StudyId, StudyStatus};
-use jiff::Timestamp;
-use serde_json::value::RawValue;
 use sqlx::sqlite::SqliteConnection;
-use sqlx::{FromRow, Sqlite, Transaction};
+use sqlx::{Sqlite, Transaction};
 
 const COLUMNS: &str =
     "sequence, id, status, title, created_ms, finished_ms, document, submitter, problem";
@@ -23,21 +21,6 @@ const COLUMNS: &str =
 const COUNTS: &str = "(SELECT count(*) FROM study_members WHERE study = studies.sequence) AS made,
     (SELECT count(*) FROM study_members
      WHERE study = studies.sequence AND outcome IS NULL) AS in_work";
-
-#[derive(Debug, FromRow)]
-struct StudyRow {
-    sequence: i64,
-    id: String,
-    status: String,
-    title: String,
-    created_ms: i64,
-    finished_ms: Option<i64>,
-    document: String,
-    submitter: Option<String>,
-    problem: Option<String>,
-    made: i64,
-    in_work: i64,
-}
 
 impl SqliteStore {
     pub(super) async fn add_study(&self, study: &NewStudy<'_>) -> Answer<StudySubmitted> {
@@ -73,7 +56,7 @@ impl SqliteStore {
         .bind(id.to_string())
         .fetch_optional(self.readers.pool())
         .await?;
-        row.map(StudyRow::read).transpose()
+        Ok(row.map(StudyRow::read).transpose()?)
     }
 
     pub(super) async fn studies(&self, page: &StudyPage) -> Answer<Vec<StoredStudy>> {
@@ -91,7 +74,8 @@ impl SqliteStore {
         .bind(page.limit)
         .fetch_all(self.readers.pool())
         .await?;
-        rows.into_iter().map(StudyRow::read).collect()
+        let studies: Result<_, _> = rows.into_iter().map(StudyRow::read).collect();
+        Ok(studies?)
     }
 
     pub(super) async fn running_studies(&self) -> Answer<Vec<(StudyId, MemberCounts)>> {
@@ -219,7 +203,7 @@ impl SqliteStore {
         .bind(self.operating_ms().saturating_sub(age_ms))
         .fetch_optional(self.readers.pool())
         .await?;
-        id.map(|id| parse_study(&id)).transpose()
+        Ok(id.map(|id| parse_study(&id)).transpose()?)
     }
 
     pub(super) async fn remove_orphans(&self) -> Answer<u64> {
@@ -299,13 +283,7 @@ async fn former_study(
     .bind(&key.text)
     .fetch_optional(&mut **transaction)
     .await?;
-    let Some((id, hash)) = row else {
-        return Ok(None);
-    };
-    if hash != key.request_hash {
-        return Ok(Some(StudySubmitted::OtherRequest));
-    }
-    Ok(Some(StudySubmitted::Before(parse_study(&id)?)))
+    Ok(row.map(|row| rows::former_study(row, key)).transpose()?)
 }
 
 pub(super) async fn status_of(
@@ -316,13 +294,7 @@ pub(super) async fn status_of(
         .bind(id.to_string())
         .fetch_optional(connection)
         .await?;
-    let read = |word: String| {
-        StudyStatus::from_word(&word).ok_or_else(|| StoreError::Row {
-            job: format!("study {id}"),
-            what: "status",
-        })
-    };
-    Ok(word.map(read).transpose()?)
+    Ok(word.map(|word| study_status(id, &word)).transpose()?)
 }
 
 /// True if a study has another document than this one.
@@ -358,47 +330,6 @@ async fn jobs_of_no_other(connection: &mut SqliteConnection, id: StudyId) -> Ans
     .bind(id.to_string())
     .fetch_all(connection)
     .await?;
-    ids.iter().map(|id| parse(id)).collect()
-}
-
-fn parse_study(id: &str) -> Answer<StudyId> {
-    let parsed = id.parse().map_err(|_| StoreError::Row {
-        job: format!("study {id}"),
-        what: "id",
-    })?;
-    Ok(parsed)
-}
-
-fn counts(made: i64, in_work: i64) -> MemberCounts {
-    MemberCounts {
-        made: made.unsigned_abs(),
-        ended: (made - in_work).unsigned_abs(),
-    }
-}
-
-impl StudyRow {
-    fn read(self) -> Answer<StoredStudy> {
-        let broken = |what| StoreError::Row {
-            job: format!("study {}", self.id),
-            what,
-        };
-        let time = |ms| Timestamp::from_millisecond(ms).map_err(|_| broken("a time"));
-        let json = |text: String, what| RawValue::from_string(text).map_err(|_| broken(what));
-        Ok(StoredStudy {
-            id: parse_study(&self.id)?,
-            sequence: self.sequence,
-            status: StudyStatus::from_word(&self.status).ok_or_else(|| broken("status"))?,
-            created: time(self.created_ms)?,
-            finished: self.finished_ms.map(time).transpose()?,
-            document: json(self.document.clone(), "document")?,
-            problem: self
-                .problem
-                .clone()
-                .map(|text| json(text, "problem"))
-                .transpose()?,
-            members: counts(self.made, self.in_work),
-            title: self.title,
-            submitter: self.submitter,
-        })
-    }
+    let ids: Result<_, _> = ids.iter().map(|id| job_id(id)).collect();
+    Ok(ids?)
 }

@@ -1,41 +1,19 @@
 //! Members of studies: made, ended, read.
 
 use super::error::Answer;
-use super::rows::integer;
 use super::size_limit::Purpose;
 use super::studies::status_of;
-use super::submission::{Origin, insert, parse};
+use super::submission::{Origin, insert};
 use super::{Now, SqliteStore};
-use crate::jobs::job::JobStatus;
-use crate::jobs::store::{
-    EndedMember, ListedMember, MemberOutcome, MemberWork, NewMember, StoreError,
-};
+use crate::jobs::store::rows::{EndedRow, MemberRow, integer, made_by_level, member_outcome};
+use crate::jobs::store::{EndedMember, ListedMember, MemberOutcome, MemberWork, NewMember};
 use crate::jobs::submit::NewJob;
 use crate::runs::COMMIT;
 use crate::studies::study::{StudyId, StudyStatus};
-use sqlx::FromRow;
 use sqlx::sqlite::SqliteConnection;
 
 /// Largest number of ended members that are read at a time.
 const ENDED_AT_ONCE: u32 = 100;
-
-#[derive(Debug, FromRow)]
-struct MemberRow {
-    level: u32,
-    member: i64,
-    job_id: Option<String>,
-    status: Option<String>,
-    outcome: Option<String>,
-}
-
-#[derive(Debug, FromRow)]
-struct EndedRow {
-    level: u32,
-    member: i64,
-    status: Option<String>,
-    outcome: Option<String>,
-    problem: Option<String>,
-}
 
 impl SqliteStore {
     pub(super) async fn add_members(&self, study: StudyId, members: &[NewMember]) -> Answer<usize> {
@@ -79,19 +57,14 @@ impl SqliteStore {
     }
 
     pub(super) async fn members_made(&self, study: StudyId) -> Answer<Vec<u64>> {
-        let rows: Vec<(u32, i64)> = sqlx::query_as(
+        let rows: Vec<(i64, i64)> = sqlx::query_as(
             "SELECT level, count(*) FROM study_members
              WHERE study = (SELECT sequence FROM studies WHERE id = ?1) GROUP BY level",
         )
         .bind(study.to_string())
         .fetch_all(self.readers.pool())
         .await?;
-        let levels = rows.iter().map(|(level, _)| *level as usize + 1).max();
-        let mut made = vec![0; levels.unwrap_or(0)];
-        for (level, count) in rows {
-            made[level as usize] = count.unsigned_abs();
-        }
-        Ok(made)
+        Ok(made_by_level(&rows)?)
     }
 
     pub(super) async fn members(
@@ -113,7 +86,8 @@ impl SqliteStore {
         .bind(limit)
         .fetch_all(self.readers.pool())
         .await?;
-        rows.into_iter().map(MemberRow::read).collect()
+        let members: Result<_, _> = rows.into_iter().map(MemberRow::read).collect();
+        Ok(members?)
     }
 
     pub(super) async fn ended_members(&self, study: StudyId) -> Answer<Vec<EndedMember>> {
@@ -129,7 +103,8 @@ impl SqliteStore {
         .bind(ENDED_AT_ONCE)
         .fetch_all(self.readers.pool())
         .await?;
-        rows.into_iter().map(EndedRow::read).collect()
+        let ended: Result<_, _> = rows.into_iter().map(EndedRow::read).collect();
+        Ok(ended?)
     }
 
     pub(super) async fn note_outcomes(
@@ -156,7 +131,7 @@ impl SqliteStore {
     }
 
     pub(super) async fn outcomes(&self, study: StudyId) -> Answer<Vec<MemberOutcome>> {
-        let rows: Vec<(u32, i64, String)> = sqlx::query_as(
+        let rows: Vec<(i64, i64, String)> = sqlx::query_as(
             "SELECT level, member, outcome FROM study_members
              WHERE study = (SELECT sequence FROM studies WHERE id = ?1) AND outcome IS NOT NULL
              ORDER BY level, member",
@@ -164,12 +139,8 @@ impl SqliteStore {
         .bind(study.to_string())
         .fetch_all(self.readers.pool())
         .await?;
-        let read = |(level, member, outcome): (u32, i64, String)| MemberOutcome {
-            level,
-            member: member.unsigned_abs(),
-            outcome,
-        };
-        Ok(rows.into_iter().map(read).collect())
+        let outcomes: Result<_, _> = rows.into_iter().map(member_outcome).collect();
+        Ok(outcomes?)
     }
 }
 
@@ -211,40 +182,4 @@ async fn job_of(
     }
     insert(connection, job, (submitter, Origin::Study), now).await?;
     Ok(job.id.to_string())
-}
-
-fn broken(what: &'static str) -> StoreError {
-    StoreError::Row {
-        job: "of a study".to_owned(),
-        what,
-    }
-}
-
-fn status(word: Option<String>) -> Answer<Option<JobStatus>> {
-    let read = |word: String| JobStatus::from_word(&word).ok_or_else(|| broken("status"));
-    Ok(word.map(read).transpose()?)
-}
-
-impl MemberRow {
-    fn read(self) -> Answer<ListedMember> {
-        Ok(ListedMember {
-            level: self.level,
-            member: self.member.unsigned_abs(),
-            job: self.job_id.map(|id| parse(&id)).transpose()?,
-            status: status(self.status)?,
-            outcome: self.outcome,
-        })
-    }
-}
-
-impl EndedRow {
-    fn read(self) -> Answer<EndedMember> {
-        Ok(EndedMember {
-            level: self.level,
-            member: self.member.unsigned_abs(),
-            status: status(self.status)?,
-            outcome: self.outcome,
-            problem: self.problem,
-        })
-    }
 }

@@ -2,11 +2,11 @@
 
 use super::error::Answer;
 use super::keyed_requests::{former_request, keep_key};
-use super::rows::integer;
 use super::size_limit::Purpose;
 use super::{Now, SqliteStore};
 use crate::jobs::job::JobId;
-use crate::jobs::store::{StoreError, Submission, Submitted};
+use crate::jobs::store::rows::{integer, job_id};
+use crate::jobs::store::{Submission, Submitted};
 use crate::jobs::submit::NewJob;
 use sqlx::sqlite::SqliteConnection;
 
@@ -25,8 +25,8 @@ impl SqliteStore {
         }
         let request = match submission.key {
             Some(key) => {
-                let ids = submission.jobs.iter().map(|job| job.id);
-                Some(keep_key(&mut transaction, submitter, (key, now.operating_ms), ids).await?)
+                let ids: Vec<JobId> = submission.jobs.iter().map(|job| job.id).collect();
+                Some(keep_key(&mut transaction, submitter, (key, now.operating_ms), &ids).await?)
             }
             None => None,
         };
@@ -54,7 +54,7 @@ impl SqliteStore {
         .bind(solver.1)
         .fetch_optional(self.readers.pool())
         .await?;
-        id.map(|id| parse(&id)).transpose()
+        Ok(id.map(|id| job_id(&id)).transpose()?)
     }
 }
 
@@ -148,12 +148,4 @@ pub(super) async fn insert(
         .await?;
     }
     Ok(())
-}
-
-pub(super) fn parse(id: &str) -> Answer<JobId> {
-    let id = id.parse().map_err(|_| StoreError::Row {
-        job: id.to_owned(),
-        what: "id",
-    })?;
-    Ok(id)
 }

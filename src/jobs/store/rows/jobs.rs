@@ -1,6 +1,6 @@
-//! Rows of the `jobs` table, and their conversion.
+//! Jobs, in short and whole.
 
-use super::error::Answer;
+use super::broken;
 use crate::jobs::job::{Attempt, Job, JobStatus, JobSummary, Provenance};
 use crate::jobs::store::{ListedJob, StoreError};
 use crate::runs::Progress;
@@ -30,7 +30,7 @@ struct SummaryRow {
 
 /// Columns that a list shows.
 #[derive(Debug, FromRow)]
-pub(super) struct ListedRow {
+pub(in super::super) struct ListedRow {
     #[sqlx(flatten)]
     summary: SummaryRow,
     outcome: Option<String>,
@@ -38,12 +38,12 @@ pub(super) struct ListedRow {
 
 /// All columns of a job.
 #[derive(Debug, FromRow)]
-pub(super) struct JobRow {
+pub(in super::super) struct JobRow {
     #[sqlx(flatten)]
     summary: SummaryRow,
     bodies: i64,
     attempt: i64,
-    threads: Option<u32>,
+    threads: Option<i64>,
     solver_version: String,
     solver_commit: String,
     instructions: String,
@@ -58,28 +58,22 @@ pub(super) struct JobRow {
 
 impl ListedRow {
     /// Size of the outcome [bytes].
-    pub(super) fn outcome_bytes(&self) -> usize {
+    pub(in super::super) fn outcome_bytes(&self) -> usize {
         self.outcome.as_ref().map_or(0, String::len)
     }
 
-    pub(super) fn read(self) -> Answer<ListedJob> {
+    pub(in super::super) fn read(self) -> Result<ListedJob, StoreError> {
         let summary = self.summary.read()?;
         let outcome = self.outcome.map(RawValue::from_string).transpose();
-        let outcome = outcome.map_err(|_| StoreError::Row {
-            job: summary.id.to_string(),
-            what: "outcome",
-        })?;
+        let outcome = outcome.map_err(|_| broken(&summary.id.to_string(), "outcome"))?;
         Ok(ListedJob { summary, outcome })
     }
 }
 
 impl SummaryRow {
-    fn read(self) -> Answer<JobSummary> {
+    fn read(self) -> Result<JobSummary, StoreError> {
         let progress = self.progress();
-        let broken = |what| StoreError::Row {
-            job: self.id.clone(),
-            what,
-        };
+        let broken = |what| broken(&self.id, what);
         let time = |ms| Timestamp::from_millisecond(ms).map_err(|_| broken("a time"));
         Ok(JobSummary {
             id: self.id.parse().map_err(|_| broken("id"))?,
@@ -107,12 +101,9 @@ impl SummaryRow {
 }
 
 impl JobRow {
-    pub(super) fn read(self, attempts: Vec<Attempt>) -> Answer<Job> {
+    pub(in super::super) fn read(self, attempts: Vec<Attempt>) -> Result<Job, StoreError> {
         let id = self.summary.id.clone();
-        let broken = |what| StoreError::Row {
-            job: id.clone(),
-            what,
-        };
+        let broken = |what| broken(&id, what);
         let json = |text: String, what| RawValue::from_string(text).map_err(|_| broken(what));
         Ok(Job {
             summary: self.summary.read()?,
@@ -125,7 +116,11 @@ impl JobRow {
                 solver_version: self.solver_version,
                 solver_commit: started(self.solver_commit),
                 instructions: started(self.instructions),
-                threads: self.threads,
+                threads: self
+                    .threads
+                    .map(u32::try_from)
+                    .transpose()
+                    .map_err(|_| broken("threads"))?,
                 fingerprint: self.fingerprint,
             },
             scenario: json(self.scenario, "scenario")?,
@@ -139,9 +134,4 @@ impl JobRow {
 /// A text that is empty until a worker claims the job.
 fn started(text: String) -> Option<String> {
     (!text.is_empty()).then_some(text)
-}
-
-/// A count as SQLite stores it; counts of a run stay far below the limit.
-pub(super) fn integer(count: u64) -> i64 {
-    i64::try_from(count).unwrap_or(i64::MAX)
 }
