@@ -12,6 +12,7 @@ use thiserror::Error;
 
 mod admission;
 mod browser;
+mod database;
 mod limits;
 mod origin;
 mod queue;
@@ -23,6 +24,7 @@ mod webhooks;
 
 pub use admission::Admission;
 pub use browser::Browser;
+pub use database::Database;
 pub use limits::Limits;
 pub use origin::{Authority, Host, Origin};
 pub use queue::Queue;
@@ -37,8 +39,8 @@ pub struct ServiceConfig {
     /// Address and port; port 0 selects a free port. An address beyond the loopback interface
     /// needs access tokens.
     pub listen: SocketAddr,
-    /// SQLite file; created if it does not exist.
-    pub database: PathBuf,
+    /// SQLite file, or URL of a PostgreSQL database, which several services and workers can share.
+    pub database: Database,
     /// Worker pool.
     pub workers: Workers,
     /// Leases of jobs.
@@ -65,7 +67,8 @@ pub struct ServiceConfig {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Workers {
-    /// Jobs that run at the same time; `None`: as many as cores.
+    /// Jobs that run at the same time; `None`: as many as cores. With 0 the jobs are left to worker
+    /// processes.
     pub count: Option<usize>,
     /// Most solver threads of one job; `None`: as many as cores. Jobs that run at the same time
     /// share the cores.
@@ -119,7 +122,7 @@ impl Default for ServiceConfig {
     fn default() -> Self {
         Self {
             listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 8080)),
-            database: PathBuf::from("scree.db"),
+            database: Database::from("scree.db"),
             workers: Workers {
                 count: None,
                 threads_per_worker: None,
@@ -176,7 +179,8 @@ impl ServiceConfig {
         tokens::check(&self.tokens)?;
         webhooks::check(&self.webhooks)?;
         self.check_listen()?;
-        self.check_database()?;
+        self.database.check()?;
+        self.check_sharing()?;
         self.browser.check()?;
         self.check_times()?;
         self.admission.check()?;
@@ -198,16 +202,19 @@ impl ServiceConfig {
         ))
     }
 
-    /// SQLite gives these names a meaning of their own, and the lock file would be beside
-    /// something that is no file.
-    fn check_database(&self) -> Result<(), ConfigError> {
-        let name = self.database.to_string_lossy();
-        if !name.is_empty() && name != ":memory:" && !name.starts_with("file:") {
-            return Ok(());
+    /// Rules that hold for a database of one process, or for one of several.
+    fn check_sharing(&self) -> Result<(), ConfigError> {
+        let shared = self.database.is_shared();
+        if let (true, Some(limit)) = (shared, self.limits.database_bytes) {
+            let reason = "the size of a PostgreSQL database is limited on its server";
+            return Err(not_allowed("limits.database_bytes", limit, reason));
         }
-        let reason = "allowed is the path of a file; a database in memory would lose every job, \
-                      and a path is not written as a URI";
-        Err(not_allowed("database", format!("{name:?}"), reason))
+        if !shared && self.workers.count == Some(0) {
+            let reason = "a service without workers needs workers of its own beside it, and with \
+                          them a PostgreSQL database";
+            return Err(not_allowed("workers.count", 0, reason));
+        }
+        Ok(())
     }
 
     fn check_times(&self) -> Result<(), ConfigError> {
@@ -244,17 +251,17 @@ impl ServiceConfig {
 
 impl Workers {
     fn check(&self, cores: usize) -> Result<PoolSize, ConfigError> {
-        let allowed = |key, value: Option<usize>| {
+        let allowed = |key, value: Option<usize>, least| {
             let value = value.unwrap_or(cores);
-            if (1..=cores).contains(&value) {
+            if (least..=cores).contains(&value) {
                 return Ok(value);
             }
-            let reason = format!("allowed is 1 <= x <= {cores}, the cores of this machine");
+            let reason = format!("allowed is {least} <= x <= {cores}, the cores of this machine");
             Err(not_allowed(key, value, reason))
         };
         Ok(PoolSize {
-            workers: allowed("workers.count", self.count)?,
-            threads_per_worker: allowed("workers.threads_per_worker", self.threads_per_worker)?,
+            workers: allowed("workers.count", self.count, 0)?,
+            threads_per_worker: allowed("workers.threads_per_worker", self.threads_per_worker, 1)?,
             cores,
         })
     }

@@ -2,12 +2,13 @@
 //! up. This library holds the service; the binary adds the command line.
 //!
 //! Structure: [`service::start`] binds the address, opens the database
-//! and starts the workers; [`http`] receives jobs and returns results;
+//! and starts the workers, and [`worker_process::start`] starts workers alone; [`http`] receives jobs and returns results;
 //! [`jobs`] keeps them in the database; [`runs`] computes a scenario; [`results`] converts the
 //! records of a run into stored and served forms; [`pictures`] draws them. Separately, [`verify`]
 //! compares the solver with known answers.
 
 pub mod config;
+mod database;
 pub mod http;
 pub mod jobs;
 pub mod machine;
@@ -19,3 +20,4 @@ pub mod service;
 pub mod studies;
 pub mod verify;
 mod webhooks;
+pub mod worker_process;

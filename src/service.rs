@@ -1,10 +1,10 @@
 //! The service as a whole: started with a configuration, stopped gracefully.
 
-use crate::config::{ConfigError, PoolSize, ServiceConfig};
+use crate::config::{ConfigError, Database, PoolSize, ServiceConfig};
+use crate::database::{self, Part};
 use crate::http::{self, Services};
-use crate::jobs::clock::SystemClock;
-use crate::jobs::pool::Pool;
-use crate::jobs::store::sqlite::{SqliteStore, backup};
+use crate::jobs::pool::{Pool, PoolStart};
+use crate::jobs::store::sqlite::backup;
 use crate::jobs::store::{JobStore, StoreError, StoreErrorKind, StudyStore};
 use crate::jobs::submit::Means;
 use crate::jobs::{AdmissionPool, Followers, JobLimits, JobService};
@@ -21,6 +21,9 @@ use tokio::sync::watch;
 use tokio::task::JoinHandle;
 
 pub use backup::{Backup, BackupError};
+
+/// Connections of a service to a database on a server, besides those of its workers.
+const CONNECTIONS: u32 = 8;
 
 /// Error at the start of the service.
 #[derive(Debug, Error)]
@@ -129,10 +132,11 @@ impl RunningService {
 pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> {
     let size = config.check(cores())?;
     let (listener, address) = listen(config.listen).await?;
-    let store = open_store(&config).await?;
+    let connections = CONNECTIONS + u32::try_from(size.workers).unwrap_or(u32::MAX);
+    let store = database::open(&config, Part::Service, connections).await?;
     match serve(&config, size, &store, listener).await {
         Ok(tasks) => {
-            tracing::info!(%address, ?size, database = %config.database.display(), "serving");
+            tracing::info!(%address, ?size, database = %config.database, "serving");
             Ok(RunningService {
                 address,
                 store,
@@ -146,24 +150,19 @@ pub async fn start(config: ServiceConfig) -> Result<RunningService, StartError> 
     }
 }
 
-/// The store of the service: the one place that names a database.
-async fn open_store(config: &ServiceConfig) -> Result<Arc<dyn StudyStore>, StoreError> {
-    let largest = config.limits.database_bytes;
-    let store =
-        SqliteStore::open_with(&config.database, largest, Arc::new(SystemClock::default())).await?;
-    Ok(Arc::new(store))
-}
-
 /// Copies a database, which a service may be using, to a file.
 ///
 /// # Errors
 /// [`BackupError`]; the destination is unchanged then.
 pub async fn back_up(
-    database: &Path,
+    database: &Database,
     destination: &Path,
     replace: bool,
 ) -> Result<Backup, BackupError> {
-    backup::back_up(database, destination, replace).await
+    match database {
+        Database::File(path) => backup::back_up(path, destination, replace).await,
+        Database::Postgres(_) => Err(BackupError::OnServer),
+    }
 }
 
 async fn serve(
@@ -173,16 +172,24 @@ async fn serve(
     listener: TcpListener,
 ) -> Result<Tasks, StartError> {
     let store: &Arc<dyn JobStore> = &(Arc::clone(studies_store) as Arc<dyn JobStore>);
-    let left_running = left_running(config, store).await?;
+    let name = database::name_of_process(config);
+    let left_running = left_running(&name, store).await?;
     let job_limits = JobLimits::new(&config.limits);
     let means = Means {
         threads_per_worker: size.threads_per_worker,
         point_steps: config.limits.job_point_steps,
         memory_bytes: job_limits.memory_bytes,
     };
-    let pool = Pool::start(Arc::clone(store), size, config, job_limits, left_running);
-    let pool = pool.map_err(StartError::Workers)?;
-    let (followers, news) = Followers::start(Arc::clone(store), pool.registry());
+    let start = PoolStart {
+        size,
+        name,
+        job_limits,
+        left_running,
+        removes_old: true,
+    };
+    let pool = Pool::start(Arc::clone(store), config, start).map_err(StartError::Workers)?;
+    let (stop, stopped) = watch::channel(false);
+    let (followers, news) = Followers::start(Arc::clone(store), stopped.clone());
     let jobs = JobService::new(
         Arc::clone(store),
         pool.registry(),
@@ -190,7 +197,6 @@ async fn serve(
         (AdmissionPool::new(&config.admission, cores()), means),
         followers,
     );
-    let (stop, stopped) = watch::channel(false);
     let webhooks = webhooks::start(&config.webhooks, store, &jobs, &stopped);
     let studies = StudyService::new(
         Arc::clone(studies_store),
@@ -213,11 +219,8 @@ async fn serve(
 
 /// Number of jobs that a former process left running, once they are reclaimed; `None` if the
 /// database can't be written now.
-async fn left_running(
-    config: &ServiceConfig,
-    store: &Arc<dyn JobStore>,
-) -> Result<Option<usize>, StoreError> {
-    match store.reclaim_own(&config.queue.name).await {
+async fn left_running(name: &str, store: &Arc<dyn JobStore>) -> Result<Option<usize>, StoreError> {
+    match store.reclaim_own(name).await {
         Ok(count) => Ok(Some(count)),
         Err(error) => match error.kind() {
             StoreErrorKind::Damaged | StoreErrorKind::Defect => Err(error),

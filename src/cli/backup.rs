@@ -30,7 +30,8 @@ pub(super) fn backup(options: &BackupOptions) -> Result<(), Failure> {
 /// Failure of a backup, by the person who can act on it.
 fn not_made(error: &BackupError) -> Failure {
     match error {
-        BackupError::Missing(_)
+        BackupError::OnServer
+        | BackupError::Missing(_)
         | BackupError::Exists(_)
         | BackupError::Itself(_)
         | BackupError::Destination { .. } => Failure::Input(error.to_string()),

@@ -19,10 +19,7 @@ const USUAL_CONFIG: &str = "configs/service.toml";
 /// The configuration is refused, or the service can't start.
 pub(super) fn serve(options: &ServeOptions) -> Result<(), Failure> {
     let config = configuration(options)?;
-    match config.log.format {
-        LogFormat::Text => log_to_standard_error(LevelFilter::INFO),
-        LogFormat::Json => log_as_json(),
-    }
+    log(config.log.format);
     let runtime = tokio::runtime::Runtime::new()?;
     let ended = runtime.block_on(async {
         // Before the address is announced: signals sent before the handlers exist would be lost.
@@ -57,17 +54,24 @@ async fn end_of_stdin() {
 }
 
 fn configuration(options: &ServeOptions) -> Result<ServiceConfig, Failure> {
-    let usual = Path::new(USUAL_CONFIG);
-    let usual = usual.is_file().then_some(usual);
-    let mut config = ServiceConfig::load(options.config.as_deref().or(usual))
-        .map_err(|error| Failure::Input(error.to_string()))?;
+    let mut config = load(options.config.as_deref())?;
     if let Some(listen) = options.listen {
         config.listen = listen;
     }
     if let Some(database) = &options.database {
         config.database.clone_from(database);
     }
+    if let Some(workers) = options.workers {
+        config.workers.count = Some(usize::from(workers));
+    }
     Ok(config)
+}
+
+/// The configuration of this file, or of the usual one.
+pub(super) fn load(file: Option<&Path>) -> Result<ServiceConfig, Failure> {
+    let usual = Path::new(USUAL_CONFIG);
+    let usual = usual.is_file().then_some(usual);
+    ServiceConfig::load(file.or(usual)).map_err(|error| Failure::Input(error.to_string()))
 }
 
 /// Failure of the start of a service, by the person who can act on it.
@@ -75,6 +79,14 @@ pub(super) fn not_started(error: &StartError) -> Failure {
     match error {
         StartError::Config(error) => Failure::Input(error.to_string()),
         error => Failure::Other(error.to_string()),
+    }
+}
+
+/// Sends the log to standard error in this format.
+pub(super) fn log(format: LogFormat) {
+    match format {
+        LogFormat::Text => log_to_standard_error(LevelFilter::INFO),
+        LogFormat::Json => log_as_json(),
     }
 }
 

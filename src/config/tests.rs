@@ -60,7 +60,7 @@ fn workers_and_their_threads_fit_the_cores() {
     assert_eq!(size(Some(1), None, 2), Some((1, 2)));
     assert_eq!(size(Some(2), Some(1), 2), Some((2, 1)));
     assert_eq!(size(Some(3), None, 2), None);
-    assert_eq!(size(Some(0), None, 2), None);
+    assert_eq!(size(Some(0), None, 2), Some((0, 2)));
     assert_eq!(size(None, Some(0), 2), None);
     assert_eq!(size(None, Some(3), 2), None);
 }
@@ -87,6 +87,13 @@ fn what_types_can_not_forbid_is_refused_by_name() {
             "{refused}"
         );
     }
+    let idle = refused(|config| config.workers.count = Some(0));
+    assert!(idle.contains("workers.count = 0"), "{idle}");
+    let limited = refused(|config| {
+        config.database = "postgres://db/scree".into();
+        config.limits.database_bytes = Some(1);
+    });
+    assert!(limited.contains("limits.database_bytes = 1"), "{limited}");
     let open = refused(|config| config.listen = "0.0.0.0:80".parse().unwrap());
     assert!(open.contains("listen = 0.0.0.0:80"), "{open}");
     assert!(ServiceConfig::default().check(2).is_ok());

@@ -8,7 +8,7 @@ use super::news::{Followers, News};
 use super::recent::Recent;
 use super::running_jobs::RunningJobRegistry;
 use super::store::{Dismissal, Event, JobCounts, JobPage, JobStore, Page, Removal, StoreError};
-use super::submit::{self, Means, NewJob, ScenarioError};
+use super::submit::{self, AffordableJob, Means, NewJob, ScenarioError};
 use crate::config::Limits;
 use crate::runs::Progress;
 use std::sync::Arc;
@@ -106,10 +106,10 @@ impl JobService {
     pub async fn plan(&self, caller: &str, scenario: String) -> Result<Planned, PlanError> {
         let place = self.enter(caller)?;
         let means = self.means;
-        let (prepared, plan) = place
+        let AffordableJob { scene, plan, .. } = place
             .work(move |_| submit::read_affordable(&scenario, &means))
             .await??;
-        let scenario = prepared.scenario;
+        let scenario = scene.scenario;
         let threads = scenario.numerics.threads;
         let threads = threads.unwrap_or(means.threads_per_worker);
         let planned = place

@@ -5,6 +5,7 @@
 
 use super::pool::Equipment;
 use super::store::{KeyRetention, Renewal, StoreError};
+use crate::config::Retention;
 use std::io;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
@@ -89,7 +90,8 @@ fn renew_leases(equipment: &Equipment) {
 
 /// Removes jobs after their retention time.
 fn remove_old(equipment: &Equipment) {
-    let Some(age) = equipment.retention.ended_jobs() else {
+    let retention = equipment.retention.as_ref();
+    let Some(age) = retention.and_then(Retention::ended_jobs) else {
         return;
     };
     let age_ms = milliseconds(age);
@@ -105,9 +107,12 @@ fn remove_old(equipment: &Equipment) {
 
 /// Forgets the keys that have outlived their jobs for long, or in too large a number.
 async fn forget_keys(equipment: &Equipment) -> Result<(), StoreError> {
+    let Some(retention) = &equipment.retention else {
+        return Ok(());
+    };
     let kept = KeyRetention {
-        age_ms: milliseconds(equipment.retention.keys()),
-        bytes: equipment.retention.keys_bytes,
+        age_ms: milliseconds(retention.keys()),
+        bytes: retention.keys_bytes,
     };
     for _ in 0..ROUNDS_OF_FORGETTING {
         if equipment.store.forget_keys(kept).await? == 0 {
@@ -143,6 +148,6 @@ impl Upkeep {
 }
 
 fn reclaim_expired(equipment: &Equipment) -> Result<usize, StoreError> {
-    let expired = equipment.store.reclaim_expired(&equipment.queue.name);
+    let expired = equipment.store.reclaim_expired(&equipment.name);
     equipment.runtime.block_on(expired)
 }

@@ -19,6 +19,7 @@ mod lease_heartbeat;
 mod memory_budget;
 mod news;
 mod open_chunk;
+mod packs;
 pub mod pool;
 mod reading;
 mod recent;

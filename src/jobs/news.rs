@@ -1,17 +1,11 @@
 //! News of jobs: one task reads the events of the database and tells all who follow, who would
 //! otherwise each ask the database all the time.
 
-use super::running_jobs::RunningJobRegistry;
 use super::store::{Event, JobStore, StoreError};
 use std::sync::Arc;
-use std::time::Duration;
-use tokio::sync::broadcast;
+use tokio::sync::{broadcast, watch};
 use tokio::task::JoinHandle;
-use tokio::time::sleep;
 use tracing::warn;
-
-/// Time between two looks for events.
-const LOOK_PAUSE: Duration = Duration::from_millis(50);
 
 /// Pieces of news that a follower may be behind; one that is further behind asks the database.
 const BACKLOG: usize = 256;
@@ -30,14 +24,14 @@ pub enum News {
 pub struct Followers(broadcast::Sender<News>);
 
 impl Followers {
-    /// Starts the task that tells the news; it ends when the registry closes.
+    /// Starts the task that tells the news until the service is stopped.
     pub fn start(
         store: Arc<dyn JobStore>,
-        registry: Arc<RunningJobRegistry>,
+        stopped: watch::Receiver<bool>,
     ) -> (Self, JoinHandle<()>) {
         let (sender, _) = broadcast::channel(BACKLOG);
         let followers = Self(sender.clone());
-        let task = tokio::spawn(async move { tell(&*store, &registry, &sender).await });
+        let task = tokio::spawn(async move { tell(&*store, stopped, &sender).await });
         (followers, task)
     }
 
@@ -49,18 +43,21 @@ impl Followers {
 
 async fn tell(
     store: &dyn JobStore,
-    registry: &RunningJobRegistry,
+    mut stopped: watch::Receiver<bool>,
     sender: &broadcast::Sender<News>,
 ) {
     let mut last = None;
-    while registry.submissions().is_some() {
+    while !*stopped.borrow() {
         match next(store, &mut last).await {
             Ok(events) if events.is_empty() => {}
             // Without a follower nobody misses it.
             Ok(events) => drop(sender.send(News::Events(events.into()))),
             Err(error) => warn!(%error, "events can't be read now"),
         }
-        sleep(LOOK_PAUSE).await;
+        tokio::select! {
+            () = store.wait_for_events() => {}
+            _ = stopped.wait_for(|stopped| *stopped) => {}
+        }
     }
     drop(sender.send(News::Closing));
 }

@@ -13,6 +13,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use tokio::runtime::Handle;
+use tokio::task::AbortHandle;
 
 /// Share of the drain time after which a job that has not saved its state is cancelled.
 pub(super) const GRACE: f64 = 0.7;
@@ -24,6 +25,8 @@ pub struct Pool {
     equipment: Equipment,
     /// Time that running jobs have once the pool stops.
     drain: Duration,
+    /// Announces jobs that other processes have put into the queue.
+    announcer: AbortHandle,
     /// Dropped last: leases are renewed until every worker has ended.
     _keeper: LeaseHeartbeat,
 }
@@ -31,6 +34,8 @@ pub struct Pool {
 /// Resources that a worker needs.
 #[derive(Debug, Clone)]
 pub(super) struct Equipment {
+    /// Name of the process among those that share the database.
+    pub(super) name: String,
     pub(super) store: Arc<dyn JobStore>,
     pub(super) runtime: Handle,
     pub(super) registry: Arc<RunningJobRegistry>,
@@ -40,23 +45,43 @@ pub(super) struct Equipment {
     pub(super) queue: Queue,
     pub(super) recording: Recording,
     pub(super) job_limits: JobLimits,
-    pub(super) retention: Retention,
+    /// Retention of jobs that have ended; `None`: it is left to others.
+    pub(super) retention: Option<Retention>,
+}
+
+/// What a pool is given.
+#[derive(Debug)]
+pub struct PoolStart {
+    /// Size of the pool.
+    pub size: PoolSize,
+    /// Name of the process among those that share the database.
+    pub name: String,
+    /// Limits of jobs.
+    pub job_limits: JobLimits,
+    /// Number of jobs reclaimed from a former process; `None`: they could not be yet.
+    pub left_running: Option<usize>,
+    /// True if old jobs are removed by this process.
+    pub removes_old: bool,
 }
 
 impl Pool {
-    /// Starts the workers. They use the current tokio runtime for the database. `left_running`
-    /// is the number of jobs reclaimed from a former process; `None`: they could not be yet.
+    /// Starts the workers. They use the current tokio runtime for the database.
     ///
     /// # Errors
     /// The system refuses a thread.
     pub fn start(
         store: Arc<dyn JobStore>,
-        size: PoolSize,
         config: &ServiceConfig,
-        job_limits: JobLimits,
-        left_running: Option<usize>,
+        PoolStart {
+            size,
+            name,
+            job_limits,
+            left_running,
+            removes_old,
+        }: PoolStart,
     ) -> io::Result<Self> {
         let equipment = Equipment {
+            name,
             store,
             runtime: Handle::current(),
             registry: Arc::new(RunningJobRegistry::of_cores(size.cores)),
@@ -66,7 +91,7 @@ impl Pool {
             queue: config.queue.clone(),
             recording: config.recording.clone(),
             job_limits,
-            retention: config.retention.clone(),
+            retention: removes_old.then(|| config.retention.clone()),
         };
         if let Some(count) = left_running {
             equipment.registry.open(count);
@@ -75,6 +100,7 @@ impl Pool {
             threads: Vec::new(),
             equipment: equipment.clone(),
             drain: config.limits.drain_timeout(),
+            announcer: announce(&equipment),
             _keeper: LeaseHeartbeat::start(equipment.clone())?,
         };
         for index in 0..size.workers {
@@ -85,6 +111,11 @@ impl Pool {
             pool.threads.push(thread);
         }
         Ok(pool)
+    }
+
+    /// True if no job runs in this process.
+    pub fn is_idle(&self) -> bool {
+        self.equipment.registry.runs().is_empty()
     }
 
     /// Registry of the running jobs.
@@ -119,8 +150,21 @@ impl Pool {
 /// stopped, still ends its workers.
 impl Drop for Pool {
     fn drop(&mut self) {
+        self.announcer.abort();
         self.equipment.registry.close();
     }
+}
+
+/// Wakes the workers whenever another process has put jobs into the queue.
+fn announce(equipment: &Equipment) -> AbortHandle {
+    let (store, registry) = (equipment.store.clone(), equipment.registry.clone());
+    let announcing = async move {
+        loop {
+            store.wait_for_jobs().await;
+            registry.announce();
+        }
+    };
+    equipment.runtime.spawn(announcing).abort_handle()
 }
 
 impl Equipment {
@@ -139,10 +183,7 @@ impl Equipment {
         if self.registry.is_open() {
             return;
         }
-        match self
-            .runtime
-            .block_on(self.store.reclaim_own(&self.queue.name))
-        {
+        match self.runtime.block_on(self.store.reclaim_own(&self.name)) {
             Ok(count) => self.registry.open(count),
             Err(error) => tracing::warn!(%error, "former jobs can't be reclaimed now"),
         }

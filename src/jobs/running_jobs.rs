@@ -37,11 +37,12 @@ impl State {
         self.closing.is_some()
     }
 
-    /// Shares the cores among the running jobs, those that came first having one more if they do
-    /// not divide evenly.
+    /// Shares the cores among the jobs that have begun, those that came first having one more if
+    /// they do not divide evenly.
     fn share(&self, cores: usize) {
-        let jobs = self.running.len().max(1);
-        for (place, registered) in self.running.values().enumerate() {
+        let begun = || self.running.values().filter(|registered| registered.begun);
+        let jobs = begun().count().max(1);
+        for (place, registered) in begun().enumerate() {
             let threads = cores / jobs + usize::from(place < cores % jobs);
             registered.run.control.ask_for_threads(threads.max(1));
         }
@@ -51,6 +52,8 @@ impl State {
 #[derive(Debug)]
 struct RegisteredRun {
     run: RunningJob,
+    /// False while it waits in its worker's pack.
+    begun: bool,
     ended: watch::Receiver<()>,
 }
 
@@ -190,7 +193,7 @@ impl RunningJobRegistry {
         drop(self.changed.wait_timeout_while(state, IDLE_LOOK, idle));
     }
 
-    /// Registers a job that is about to run.
+    /// Registers a job that a worker has claimed; it takes no cores until it begins.
     pub(super) fn register(self: &Arc<Self>, lease: Lease) -> RunningJobGuard {
         let run = RunningJob {
             lease,
@@ -204,10 +207,10 @@ impl RunningJobRegistry {
         }
         let registered = RegisteredRun {
             run: run.clone(),
+            begun: false,
             ended,
         };
         state.running.insert(lease.job, registered);
-        state.share(self.cores);
         RunningJobGuard {
             registry: Arc::clone(self),
             run,
@@ -218,6 +221,17 @@ impl RunningJobRegistry {
     fn state(&self) -> MutexGuard<'_, State> {
         // Every critical section leaves the state consistent, even if it panics.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl RunningJobGuard {
+    /// Gives the job its share of the cores: it is about to run.
+    pub(super) fn begin(&self) {
+        let mut state = self.registry.state();
+        if let Some(registered) = state.running.get_mut(&self.run.lease.job) {
+            registered.begun = true;
+        }
+        state.share(self.registry.cores);
     }
 }
 
@@ -247,14 +261,20 @@ mod tests {
     fn the_jobs_that_run_share_the_cores() {
         let registry = Arc::new(RunningJobRegistry::of_cores(5));
         let threads = |guard: &RunningJobGuard| guard.run.control.threads().unwrap_or(0);
-        let first = registry.register(lease());
+        let begun = || {
+            let guard = registry.register(lease());
+            guard.begin();
+            guard
+        };
+        let first = begun();
+        let _waits = registry.register(lease());
         assert_eq!(threads(&first), 5);
-        let second = registry.register(lease());
+        let second = begun();
         assert_eq!(threads(&first) + threads(&second), 5);
         assert!(threads(&first).abs_diff(threads(&second)) == 1);
         drop(first);
         assert_eq!(threads(&second), 5);
-        let crowd: Vec<_> = (0..6).map(|_| registry.register(lease())).collect();
+        let crowd: Vec<_> = (0..6).map(|_| begun()).collect();
         assert!(crowd.iter().all(|guard| threads(guard) == 1));
     }
 

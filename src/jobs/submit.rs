@@ -25,6 +25,10 @@ pub struct NewJob {
     pub scenario_hash: String,
     /// The JSON of its plan: computation, reductions and cost.
     pub plan: String,
+    /// Work that the plan foresees, of all runs of the job [point-steps].
+    pub planned_work: u64,
+    /// Memory that the plan foresees, of the largest run [bytes].
+    pub planned_memory_bytes: u64,
     /// Its labels, each once.
     pub labels: Vec<String>,
     /// Version of the solver that validated it.
@@ -61,8 +65,8 @@ pub fn validate(
     means: &Means,
     mut labels: Vec<String>,
 ) -> Result<NewJob, ScenarioError> {
-    let (prepared, plan) = read_affordable(text, means)?;
-    let scenario = prepared.scenario;
+    let AffordableJob { scene, plan, cost } = read_affordable(text, means)?;
+    let scenario = scene.scenario;
     let json = serde_json::to_string(&scenario).map_err(|error| unwritable(&error))?;
     labels.sort();
     labels.dedup();
@@ -73,16 +77,28 @@ pub fn validate(
         scenario_hash: blake3::hash(json.as_bytes()).to_hex().to_string(),
         scenario: json,
         plan: serde_json::to_string(&plan).map_err(|error| unwritable(&error))?,
+        planned_work: cost.point_steps,
+        planned_memory_bytes: cost.memory_bytes,
         labels,
         solver_version: scree_solver::VERSION,
     })
+}
+
+/// A job that resources allow.
+pub struct AffordableJob {
+    /// The scene of the answer's run.
+    pub scene: PreparedScene,
+    /// Plan of that run.
+    pub plan: Plan,
+    /// Cost of all runs.
+    pub cost: JobCost,
 }
 
 /// Reads a scenario whose run these resources allow, and plans it.
 ///
 /// # Errors
 /// All rules that the scenario breaks.
-pub fn read_affordable(text: &str, means: &Means) -> Result<(PreparedScene, Plan), ScenarioError> {
+pub fn read_affordable(text: &str, means: &Means) -> Result<AffordableJob, ScenarioError> {
     let prepared = read(text, means.threads_per_worker)?;
     let plan = Plan::of(&prepared);
     let job = JobCost::of(&prepared.scenario, &plan.cost)?;
@@ -92,18 +108,23 @@ pub fn read_affordable(text: &str, means: &Means) -> Result<(PreparedScene, Plan
     ];
     let excesses: Vec<Violation> = excesses.into_iter().flatten().collect();
     if excesses.is_empty() {
-        Ok((prepared, plan))
+        Ok(AffordableJob {
+            scene: prepared,
+            plan,
+            cost: job,
+        })
     } else {
         Err(ScenarioError::Invalid(excesses))
     }
 }
 
 /// Cost of all runs of a job: that of the answer and those behind its uncertainty intervals.
-struct JobCost {
+#[derive(Debug, Clone, Copy)]
+pub struct JobCost {
     /// Sum over the runs, bodies' sub-steps included.
-    point_steps: u64,
+    pub point_steps: u64,
     /// Largest of a run [bytes].
-    memory_bytes: u64,
+    pub memory_bytes: u64,
 }
 
 impl JobCost {

@@ -1,11 +1,12 @@
 //! One worker: claims jobs, runs them, and records their ends.
 
 use super::failure::Failure;
+use super::packs::Packs;
 use super::pool::Equipment;
 use super::recording::{KeepError, StoreSink};
 use super::running_jobs::RunningJobGuard;
 use super::store::{
-    AttemptStart, Claim, Claimant, FailedAttempt, Lease, ResumePoint, Solver, StoreError,
+    AttemptStart, Claim, Claimant, FailedAttempt, Lease, Pack, ResumePoint, Solver, StoreError,
 };
 use crate::runs::convergence_study::Runs;
 use crate::runs::{COMMIT, Run, RunControl, RunEnd, RunError, SavedRunError, Sink};
@@ -16,7 +17,7 @@ use scree_solver::simulation::PreparedScene;
 use scree_solver::{Instructions, SetupError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tracing::{error, info, info_span, warn};
 use uuid::Uuid;
 
@@ -38,7 +39,7 @@ enum JobResult {
 /// Works until the registry is closed.
 pub(super) fn work(equipment: &Equipment) {
     let mut claimant = Claimant {
-        owner: equipment.queue.name.clone(),
+        owner: equipment.name.clone(),
         lease_duration: equipment.queue.lease_duration(),
         solver: Solver {
             version: scree_solver::VERSION,
@@ -46,15 +47,19 @@ pub(super) fn work(equipment: &Equipment) {
             instructions: instructions(),
         },
         up_for: Duration::ZERO,
+        pack: Pack::SINGLE,
+        memory_bytes: equipment.job_limits.memory_bytes,
     };
+    let mut packs = Packs::default();
     if !equipment.registry.wait_until_open() {
         return;
     }
     while let Some(seen) = equipment.registry.submissions() {
         claimant.up_for = equipment.started.elapsed();
+        claimant.pack = packs.next();
         match equipment.runtime.block_on(equipment.store.claim(&claimant)) {
-            Ok(Some(claim)) => execute(equipment, &claim),
-            Ok(None) => equipment.registry.wait(seen),
+            Ok(claims) if claims.is_empty() => equipment.registry.wait(seen),
+            Ok(claims) => execute_all(equipment, &claims, &mut packs),
             Err(error) => {
                 error!(%error, "no job can be claimed");
                 equipment.registry.wait(seen);
@@ -71,14 +76,27 @@ fn instructions() -> &'static str {
     }
 }
 
-fn execute(equipment: &Equipment, claim: &Claim) {
+/// Executes claimed jobs one after the other.
+fn execute_all(equipment: &Equipment, claims: &[Claim], packs: &mut Packs) {
+    // Registered before their scenarios are read: a dismissal before this finds the row changed,
+    // one after this finds the entry. The leases of all are renewed from now on.
+    let registered = claims
+        .iter()
+        .map(|claim| equipment.registry.register(claim.lease));
+    let registered: Vec<_> = registered.collect();
+    for (claim, guard) in claims.iter().zip(registered) {
+        let began = Instant::now();
+        execute(equipment, claim, &guard);
+        packs.note(claim.planned_work, began.elapsed());
+    }
+}
+
+fn execute(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) {
     let lease = claim.lease;
     let _span = info_span!("job", id = %lease.job, attempt = lease.attempt).entered();
-    // Registered before its row is read: a dismissal before this finds the
-    // row changed, one after this finds the entry.
-    let guard = equipment.registry.register(lease);
+    guard.begin();
     info!("started");
-    let result = catching_panics(|| run(equipment, claim, &guard));
+    let result = catching_panics(|| run(equipment, claim, guard));
     while let Err(error) = record_result(equipment, lease, &result) {
         error!(%error, "the job's end can't be written now");
         if !equipment.registry.pause(RETRY_PAUSE) {

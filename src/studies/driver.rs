@@ -38,9 +38,15 @@ pub(crate) fn start(studies: StudyService) -> JoinHandle<()> {
 async fn drive(studies: &StudyService) {
     let mut news = studies.jobs.news();
     loop {
-        look_at_all(studies).await;
-        if let Err(error) = remove_old(studies).await {
-            warn!(%error, "old studies can't be removed now");
+        match studies.store.leads().await {
+            Ok(true) => {
+                look_at_all(studies).await;
+                if let Err(error) = remove_old(studies).await {
+                    warn!(%error, "old studies can't be removed now");
+                }
+            }
+            Ok(false) => {}
+            Err(error) => warn!(%error, "studies can't be driven now"),
         }
         // Members that end and studies that come are events; what is missed is seen a little later.
         if timeout(LOOK_PAUSE, studies.wait_for_news(&mut news)).await == Ok(false) {
@@ -50,17 +56,29 @@ async fn drive(studies: &StudyService) {
 }
 
 async fn look_at_all(studies: &StudyService) {
-    let running = match studies.store.running_studies().await {
+    let (running, most) = match running_studies(studies).await {
         Ok(running) => running,
         Err(error) => return warn!(%error, "studies can't be read now"),
     };
     for (id, counts) in running {
-        match advance(studies, id, counts).await {
+        match advance(studies, id, (counts, most)).await {
             Ok(()) => {}
             Err(DriveError::Store(error)) => warn!(%id, %error, "the study waits"),
             Err(DriveError::Study(why)) => fail(studies, id, &why).await,
         }
     }
+}
+
+/// The running studies, and the largest number of members that each may have in work.
+async fn running_studies(
+    studies: &StudyService,
+) -> Result<(Vec<(StudyId, MemberCounts)>, u64), StoreError> {
+    let running = studies.store.running_studies().await?;
+    if running.is_empty() {
+        return Ok((running, 0));
+    }
+    let most = studies.members_at_once(studies.store.running_jobs().await?);
+    Ok((running, most))
 }
 
 /// Removes a study after its retention time, and some of the jobs that removed studies have left.
@@ -80,18 +98,19 @@ async fn remove_old(studies: &StudyService) -> Result<(), StoreError> {
 async fn advance(
     studies: &StudyService,
     id: StudyId,
-    before: MemberCounts,
+    (before, most): (MemberCounts, u64),
 ) -> Result<(), DriveError> {
     let is_news = note_outcomes(studies, id).await?;
-    // Nothing is left to do since the last step, unless a member has ended.
-    if !is_news && before.made > before.ended {
+    // Nothing is left to do since the last step, unless a member has ended or more may be in work.
+    let in_work = before.made - before.ended;
+    if !is_news && in_work > 0 && in_work >= most {
         return Ok(());
     }
     let stored = match studies.store.study(id).await? {
         Some(stored) if stored.status == StudyStatus::Running => stored,
         _ => return Ok(()),
     };
-    let (most, means) = (studies.members_at_once(), studies.means);
+    let means = studies.means;
     let in_work = stored.members.made - stored.members.ended;
     let made = studies.store.members_made(id).await?;
     let step = aside(&stored, move |ensemble| {

@@ -19,6 +19,9 @@ use tokio::sync::broadcast::error::RecvError;
 /// next to be made.
 const MEMBERS_PER_WORKER: u64 = 8;
 
+/// Largest number of members of a study that wait or run at a time, however many workers there are.
+const MEMBERS_AT_ONCE: u64 = 10_000;
+
 /// Service that clients use to submit, enlarge, read, dismiss and remove studies.
 #[derive(Debug, Clone)]
 pub struct StudyService {
@@ -58,9 +61,11 @@ impl StudyService {
         self.workers
     }
 
-    /// Members of a study that wait or run at a time.
-    pub(super) fn members_at_once(&self) -> u64 {
-        MEMBERS_PER_WORKER * self.workers as u64
+    /// Members of a study that wait or run at a time, while so many jobs run here and elsewhere:
+    /// as long as workers take all that is made for them, more is made.
+    pub(super) fn members_at_once(&self, running_jobs: u64) -> u64 {
+        let members = MEMBERS_PER_WORKER * running_jobs.max(self.workers as u64);
+        members.min(MEMBERS_AT_ONCE)
     }
 
     fn room_for(&self, submitter: Option<&str>) -> Room {

@@ -84,7 +84,11 @@ impl Teller {
     }
 
     /// Tells all events after the last that was taken; a new receiver is told from now on.
+    /// Of several services one tells.
     async fn all_there_is(&self) -> Result<(), StoreError> {
+        if !self.store.leads().await? {
+            return Ok(());
+        }
         let last = self.store.last_event().await?;
         let noted = self.store.webhook_position(&self.webhook.name).await?;
         // A number that no event has had is from before the database was restored.

@@ -210,7 +210,7 @@ impl Answer {
 pub(crate) fn config(directory: &TempDir) -> ServiceConfig {
     let mut config = ServiceConfig {
         listen: "127.0.0.1:0".parse().unwrap(),
-        database: database(directory),
+        database: database(directory).into(),
         ..ServiceConfig::default()
     };
     config.workers.count = Some(1);

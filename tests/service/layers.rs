@@ -1,6 +1,6 @@
 //! Allowed dependencies between layers, checked by the names of the folders: HTTP holds no
 //! SQL, the jobs and their store no HTTP, the runs no job, HTTP accesses the solver only through
-//! the jobs, and only the driver's folder names the database.
+//! the jobs, and only the drivers' folders name the database.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -50,11 +50,16 @@ const RULES: [(&str, &[&str]); 8] = [
     ),
 ];
 
-/// The only folder that may hold SQL and name the library that executes it.
-const DRIVER: &str = "src/jobs/store/sqlite";
+/// The only folders that may hold SQL or name the library that executes it: the drivers', and that
+/// of the rows that all of them read.
+const DRIVERS: [&str; 3] = [
+    "src/jobs/store/sqlite",
+    "src/jobs/store/postgres",
+    "src/jobs/store/rows",
+];
 
-/// The only file outside it that may name its type: it opens the store.
-const OPENS_THE_STORE: &str = "src/service.rs";
+/// The only file outside of them that may name their types: it opens the store.
+const OPENS_THE_STORE: &str = "src/database.rs";
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
@@ -93,20 +98,20 @@ fn no_folder_names_what_it_must_not_know() {
     }
 }
 
-/// The files of the service and of the solver outside the driver's folder.
-fn outside_the_driver(root: &Path) -> Vec<PathBuf> {
-    let driver = root.join(DRIVER);
-    assert!(driver.is_dir(), "{DRIVER} is not there");
+/// The files of the service and of the solver outside the drivers' folders.
+fn outside_the_drivers(root: &Path) -> Vec<PathBuf> {
+    let drivers = DRIVERS.map(|driver| root.join(driver));
+    assert!(drivers.iter().all(|driver| driver.is_dir()));
     let files = ["src", "solver/src"].map(|folder| rust_files(&root.join(folder)));
     let mut files = files.concat();
-    files.retain(|file| !file.starts_with(&driver));
+    files.retain(|file| !drivers.iter().any(|driver| file.starts_with(driver)));
     files
 }
 
 #[test]
-fn sql_is_in_one_folder() {
+fn sql_is_in_the_drivers_folders() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for file in outside_the_driver(root) {
+    for file in outside_the_drivers(root) {
         let code = code(&file);
         for name in ["sqlx", "SELECT ", "INSERT INTO ", "PRAGMA ", "pragma_"] {
             assert!(!code.contains(name), "{} names {name}", file.display());
@@ -117,7 +122,9 @@ fn sql_is_in_one_folder() {
 #[test]
 fn one_place_names_the_database_and_opens_it() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files = outside_the_driver(root);
-    files.retain(|file| code(file).contains("SqliteStore"));
-    assert_eq!(files, [root.join(OPENS_THE_STORE)]);
+    for driver in ["SqliteStore", "PostgresStore"] {
+        let mut files = outside_the_drivers(root);
+        files.retain(|file| code(file).contains(driver));
+        assert_eq!(files, [root.join(OPENS_THE_STORE)], "{driver}");
+    }
 }

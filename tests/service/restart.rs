@@ -4,7 +4,9 @@ use crate::app::{
     TestApp, config, database, endless_scene, has_ended, is_running, long_scene, tiny_scene,
 };
 use scree::jobs::store::sqlite::SqliteStore;
-use scree::jobs::store::{Claimant, JobStore, Lease, Room, Solver, Submission, TOLERATED_SETBACKS};
+use scree::jobs::store::{
+    Claimant, JobStore, Lease, Pack, Room, Solver, Submission, TOLERATED_SETBACKS,
+};
 use scree::jobs::submit;
 use scree::service::{self, StartError};
 use serde_json::{Value, json};
@@ -171,12 +173,14 @@ async fn cut_off(directory: &TempDir, times: u32) -> Lease {
             instructions: "",
         },
         up_for: Duration::from_secs(3_600),
+        pack: Pack::SINGLE,
+        memory_bytes: u64::MAX >> 1,
     };
     for _ in 1..times {
-        store.claim(&claimant).await.unwrap().unwrap();
+        assert_eq!(store.claim(&claimant).await.unwrap().len(), 1);
         store.reclaim_own(&claimant.owner).await.unwrap();
     }
-    let claim = store.claim(&claimant).await.unwrap().unwrap();
+    let claim = store.claim(&claimant).await.unwrap().remove(0);
     store.close().await;
     claim.lease
 }

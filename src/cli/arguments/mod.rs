@@ -5,11 +5,14 @@ mod measuring;
 mod quiet;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use jiff::SignedDuration;
 pub(super) use measuring::{BenchOptions, Measurement, SuiteWord, VerifyOptions};
 pub(super) use quiet::Quiet;
+use scree::config::Database;
 use scree::results::table::Format;
 use std::net::SocketAddr;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Simulates objects that are hit and carried by granular flows, and reports where they end up.
 #[derive(Debug, Parser)]
@@ -29,6 +32,8 @@ const EXIT_CODES: &str = "Exit codes: 0 fine, 2 invalid input, 3 numerical failu
 pub(super) enum Command {
     /// Start the HTTP service
     Serve(ServeOptions),
+    /// Start workers alone, for a PostgreSQL database that services and other workers share
+    Work(WorkOptions),
     /// Copy the service's database, which may be in use, to a file
     Backup(BackupOptions),
     /// Make an access token for the service
@@ -60,9 +65,15 @@ pub(super) struct ServeOptions {
     /// [default: 127.0.0.1:8080]
     #[arg(long, value_name = "ADDRESS")]
     pub(super) listen: Option<SocketAddr>,
-    /// SQLite file; created if it does not exist [default: scree.db]
-    #[arg(long, value_name = "FILE")]
-    pub(super) database: Option<PathBuf>,
+    /// SQLite file, created if it does not exist, or URL of a PostgreSQL database, which several
+    /// services and workers can share (SCREE_DATABASE says it without showing a password to others
+    /// on this machine) [default: scree.db]
+    #[arg(long, value_name = "FILE|URL")]
+    pub(super) database: Option<Database>,
+    /// Number of jobs that run at the same time; 0 leaves them to worker processes
+    /// [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub(super) workers: Option<u16>,
     /// Configuration file in TOML; flags and environment variables override it
     /// [default: configs/service.toml, if it exists]
     #[arg(long, value_name = "FILE")]
@@ -71,6 +82,39 @@ pub(super) struct ServeOptions {
     /// started it, however that ends
     #[arg(long)]
     pub(super) until_stdin_ends: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct WorkOptions {
+    /// URL of the PostgreSQL database (SCREE_DATABASE says it without showing a password to others
+    /// on this machine)
+    #[arg(long, value_name = "URL")]
+    pub(super) database: Option<Database>,
+    /// Number of threads; as many jobs run at the same time, and share them if they are fewer
+    /// [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    /// Leave once no job waits and no study runs
+    #[arg(long)]
+    pub(super) until_empty: bool,
+    /// Leave after this time; running jobs are saved and go on elsewhere
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    pub(super) max_time: Option<Duration>,
+    /// Time to save running jobs before the process leaves [default: 20s]
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    pub(super) grace: Option<Duration>,
+    /// Configuration file in TOML; flags and environment variables override it
+    /// [default: configs/service.toml, if it exists]
+    #[arg(long, value_name = "FILE")]
+    pub(super) config: Option<PathBuf>,
+}
+
+/// A time like 90s, 30m, 1h or 1h30m.
+fn time(text: &str) -> Result<Duration, String> {
+    let parsed: Result<SignedDuration, _> = text.parse();
+    let time = parsed.ok().and_then(|time| Duration::try_from(time).ok());
+    let time = time.filter(|time| !time.is_zero());
+    time.ok_or_else(|| "a time is written like 90s, 30m, 1h or 1h30m".to_owned())
 }
 
 #[derive(Debug, Args)]
@@ -89,9 +133,9 @@ pub(super) struct ManOptions {
 
 #[derive(Debug, Args)]
 pub(super) struct BackupOptions {
-    /// Database of the service
+    /// Database of the service, a file
     #[arg(long, value_name = "FILE", default_value = "scree.db")]
-    pub(super) database: PathBuf,
+    pub(super) database: Database,
     /// File to write
     #[arg(value_name = "DEST")]
     pub(super) destination: PathBuf,

@@ -63,7 +63,7 @@ async fn with_own_service(
     let throw_away = tempfile::tempdir()?;
     let config = ServiceConfig {
         listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)),
-        database: throw_away.path().join("demo.db"),
+        database: throw_away.path().join("demo.db").into(),
         ..ServiceConfig::default()
     };
     let running = service::start(config)

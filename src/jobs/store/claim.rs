@@ -14,6 +14,26 @@ pub struct Claimant {
     pub solver: Solver,
     /// Uptime of the service.
     pub up_for: Duration,
+    /// Largest pack.
+    pub pack: Pack,
+    /// Memory that one of its jobs may have [bytes]: what is planned to need more is left to others,
+    /// if there can be any.
+    pub memory_bytes: u64,
+}
+
+/// Size of a pack: jobs that are claimed at once, since each would take less time than its claim is
+/// worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pack {
+    /// Number of jobs.
+    pub jobs: u32,
+    /// Their planned work together [point-steps]; the first may have more.
+    pub work: u64,
+}
+
+impl Pack {
+    /// One job, whatever its work.
+    pub const SINGLE: Self = Self { jobs: 1, work: 0 };
 }
 
 /// The program that runs a job.
@@ -36,6 +56,8 @@ pub struct Claim {
     pub scenario: String,
     /// Failed attempts in a row before this attempt.
     pub failed_attempts: u32,
+    /// Work that the plan foresees [point-steps]; 0 if the driver does not keep it.
+    pub planned_work: u64,
 }
 
 /// Lease of one worker on a job: every write by the worker names it.

@@ -46,13 +46,35 @@ pub(super) enum Consequence {
     Fails(Failure),
 }
 
+/// How far an attempt came before it failed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reached {
+    /// Its job waited in a pack.
+    Nothing,
+    /// It had begun.
+    Begun,
+    /// It had saved a state.
+    State,
+}
+
+impl Reached {
+    /// By whether the attempt had begun, and whether it had saved a state.
+    pub(super) fn of(begun: bool, saved: bool) -> Self {
+        match (begun, saved) {
+            (_, true) => Self::State,
+            (true, false) => Self::Begun,
+            (false, false) => Self::Nothing,
+        }
+    }
+}
+
 impl FailedAttempt {
-    /// Consequence of this attempt after `before` failed ones in a row. `saved` is true if
-    /// the attempt has saved a state.
-    pub(super) fn consequence(&self, before: u32, saved: bool) -> Consequence {
+    /// Consequence of this attempt after `before` failed ones in a row, by how far it came.
+    pub(super) fn consequence(&self, before: u32, reached: Reached) -> Consequence {
         let by_death = matches!(self, Self::CutOff | Self::Expired);
-        if saved && by_death {
-            // The attempt made progress, and the next one continues from there.
+        if by_death && reached != Reached::Begun {
+            // The attempt made progress, and the next one continues from there; or its job can't
+            // be the cause of the death.
             return Consequence::Waits {
                 failed_attempts: 0,
                 wait_ms: 0,

@@ -1,9 +1,10 @@
 //! Store of jobs and results: the port [`JobStore`] that the jobs use, and the types it
-//! speaks of. These know no database; each database has a folder of its own ([`sqlite`]),
-//! which alone names its driver and holds its SQL. This folder uses neither HTTP nor the
+//! speaks of. These know no database; each database has a folder of its own ([`sqlite`],
+//! [`postgres`]), which alone names its driver and holds its SQL; [`rows`] has the rows that all
+//! drivers read. This folder uses neither HTTP nor the
 //! solver.
 //!
-//! A further database is a folder beside [`sqlite`] with an implementation of [`JobStore`],
+//! A further database is a folder beside these with an implementation of [`JobStore`],
 //! a constructor in `tests/mod.rs`, which makes every rule in `tests/` a test of
 //! it, and the line that opens the store in `src/service.rs`.
 
@@ -15,6 +16,7 @@ mod event;
 mod keyed_request;
 mod page;
 mod port;
+pub mod postgres;
 mod records;
 mod rows;
 pub mod sqlite;
@@ -24,7 +26,7 @@ mod submission;
 #[cfg(test)]
 mod tests;
 
-pub use claim::{Claim, Claimant, Dismissal, Lease, Renewal, Solver};
+pub use claim::{Claim, Claimant, Dismissal, Lease, Pack, Renewal, Solver};
 pub use counts::JobCounts;
 pub use ending::{FailedAttempt, Returned, TOLERATED_SETBACKS};
 pub use error::{Cause, StoreError, StoreErrorKind};

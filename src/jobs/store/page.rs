@@ -57,3 +57,12 @@ pub enum Removal {
     /// The job has not ended.
     Active,
 }
+
+/// The first whole millisecond that is not before a time.
+pub(super) fn milliseconds_from(time: Timestamp) -> i64 {
+    let whole = time.as_millisecond();
+    match Timestamp::from_millisecond(whole) {
+        Ok(start) if start < time => whole + 1,
+        _ => whole,
+    }
+}

@@ -60,7 +60,14 @@ pub trait JobStore: Debug + Send + Sync {
     /// Claims the oldest accepted job that need not wait after a failed attempt. A job with
     /// failed attempts waits until the service has been up for its waiting time, so that
     /// a service that keeps crashing sooner does not fail the job.
-    async fn claim(&self, claimant: &Claimant) -> Answer<Option<Claim>>;
+    ///
+    /// Jobs behind it that no worker has had before may come with it, as far as they fit into the
+    /// claimant's pack. They begin one after the other, and a lease that runs out before its job
+    /// has begun is no failed attempt.
+    async fn claim(&self, claimant: &Claimant) -> Answer<Vec<Claim>>;
+
+    /// True if no job waits and no study runs, which could make more.
+    async fn is_idle(&self) -> Answer<bool>;
 
     /// Dismisses a job. A worker that runs it notices at its next write or
     /// heartbeat; the caller notifies it sooner.
@@ -79,6 +86,18 @@ pub trait JobStore: Debug + Send + Sync {
     /// Forgets some of the keys that are kept no longer and returns their number. To be called
     /// until it returns 0. A key with a job is kept.
     async fn forget_keys(&self, kept: KeyRetention) -> Answer<u64>;
+
+    // Several processes with one database.
+
+    /// Waits until another process may have put jobs into the queue; for ever if none can.
+    async fn wait_for_jobs(&self);
+
+    /// Waits until there may be new events.
+    async fn wait_for_events(&self);
+
+    /// True if, of the services that share the database, this one drives studies and tells
+    /// webhooks, from now on until it loses its session with the database.
+    async fn leads(&self) -> Answer<bool>;
 
     // Leases. Every write of a worker names its lease.
 
@@ -152,6 +171,9 @@ pub trait JobStore: Debug + Send + Sync {
 
     /// Notes the number of the last event that this webhook's receiver has been told.
     async fn note_webhook_position(&self, name: &str, position: i64) -> Answer<()>;
+
+    /// Number of jobs that run, in all processes.
+    async fn running_jobs(&self) -> Answer<u64>;
 
     /// Counts jobs.
     async fn count_jobs(&self) -> Answer<JobCounts>;

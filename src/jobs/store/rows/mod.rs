@@ -31,6 +31,7 @@ pub(super) struct ClaimedRow {
     lease_token: i64,
     scenario: String,
     failed_attempts: i64,
+    planned_work: i64,
 }
 
 impl ClaimedRow {
@@ -39,6 +40,7 @@ impl ClaimedRow {
             lease: lease(&self.id, self.attempt, self.lease_token)?,
             failed_attempts: u32::try_from(self.failed_attempts)
                 .map_err(|_| broken(&self.id, "failed attempts"))?,
+            planned_work: self.planned_work.unsigned_abs(),
             scenario: self.scenario,
         })
     }

@@ -27,6 +27,9 @@ pub struct Backup {
 /// Reason why there is no backup. Whatever it is, the destination is as it was.
 #[derive(Debug, Error)]
 pub enum BackupError {
+    /// The database is on a server.
+    #[error("the database is on a PostgreSQL server: pg_dump copies it")]
+    OnServer,
     /// The database does not exist.
     #[error("database {0} not found")]
     Missing(PathBuf),

@@ -5,7 +5,7 @@ use super::history::end_attempt;
 use super::size_limit::Purpose;
 use super::{Now, SqliteStore};
 use crate::jobs::failure::Failure;
-use crate::jobs::store::ending::Consequence;
+use crate::jobs::store::ending::{Consequence, Reached};
 use crate::jobs::store::{FailedAttempt, Lease, Returned, StoreError};
 use sqlx::sqlite::SqliteConnection;
 
@@ -101,7 +101,7 @@ pub(super) async fn set_back_row(
         (failed_attempt.word(), failed_attempt.detail()),
     )
     .await?;
-    match failed_attempt.consequence(before, got_on) {
+    match failed_attempt.consequence(before, Reached::of(true, got_on)) {
         Consequence::Waits {
             failed_attempts,
             wait_ms,

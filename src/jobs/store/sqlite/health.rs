@@ -33,6 +33,13 @@ impl SqliteStore {
         Ok(())
     }
 
+    pub(super) async fn running_jobs(&self) -> Answer<u64> {
+        let count: i64 = sqlx::query_scalar("SELECT count(*) FROM jobs WHERE status = 'running'")
+            .fetch_one(self.readers.pool())
+            .await?;
+        Ok(count.unsigned_abs())
+    }
+
     pub(super) async fn count_jobs(&self) -> Answer<JobCounts> {
         let counts: Vec<(String, i64)> =
             sqlx::query_as("SELECT status, count(*) FROM jobs GROUP BY status")

@@ -3,11 +3,10 @@
 use super::SqliteStore;
 use super::error::Answer;
 use crate::jobs::job::JobStatus;
-use crate::jobs::store::page::OUTCOME_BYTES;
+use crate::jobs::store::page::{OUTCOME_BYTES, milliseconds_from};
 use crate::jobs::store::rows::ListedRow;
 use crate::jobs::store::{JobPage, Page};
 use futures_util::TryStreamExt;
-use jiff::Timestamp;
 use sqlx::{QueryBuilder, Sqlite};
 
 impl SqliteStore {
@@ -76,19 +75,11 @@ fn push_state(query: &mut QueryBuilder<Sqlite>, page: &Page, status: JobStatus) 
     query.push(")");
 }
 
-/// The first whole millisecond that is not before a time.
-fn milliseconds_from(time: Timestamp) -> i64 {
-    let whole = time.as_millisecond();
-    match Timestamp::from_millisecond(whole) {
-        Ok(start) if start < time => whole + 1,
-        _ => whole,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::jobs::clock::SystemClock;
+    use jiff::Timestamp;
     use sqlx::Row;
     use std::sync::Arc;
 

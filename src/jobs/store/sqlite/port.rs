@@ -17,6 +17,10 @@ use crate::runs::Progress;
 use crate::studies::study::{MemberCounts, StoredStudy, StudyId};
 use async_trait::async_trait;
 use std::time::Duration;
+use tokio::time::sleep;
+
+/// Time between two looks for events.
+const LOOK_PAUSE: Duration = Duration::from_millis(50);
 
 #[async_trait]
 impl JobStore for SqliteStore {
@@ -49,8 +53,26 @@ impl JobStore for SqliteStore {
         Ok(Self::finished_like(self, scenario_hash, solver).await?)
     }
 
-    async fn claim(&self, claimant: &Claimant) -> Result<Option<Claim>, StoreError> {
+    async fn claim(&self, claimant: &Claimant) -> Result<Vec<Claim>, StoreError> {
         Ok(Self::claim(self, claimant).await?)
+    }
+
+    async fn is_idle(&self) -> Result<bool, StoreError> {
+        Ok(Self::is_idle(self).await?)
+    }
+
+    /// The database has one process, whose own jobs are announced to its workers.
+    async fn wait_for_jobs(&self) {
+        std::future::pending::<()>().await;
+    }
+
+    async fn wait_for_events(&self) {
+        sleep(LOOK_PAUSE).await;
+    }
+
+    /// There is no other service.
+    async fn leads(&self) -> Result<bool, StoreError> {
+        Ok(true)
     }
 
     async fn dismiss(&self, id: JobId) -> Result<Dismissal, StoreError> {
@@ -150,6 +172,10 @@ impl JobStore for SqliteStore {
 
     async fn note_webhook_position(&self, name: &str, position: i64) -> Result<(), StoreError> {
         Ok(Self::note_webhook_position(self, name, position).await?)
+    }
+
+    async fn running_jobs(&self) -> Result<u64, StoreError> {
+        Ok(Self::running_jobs(self).await?)
     }
 
     async fn count_jobs(&self) -> Result<JobCounts, StoreError> {

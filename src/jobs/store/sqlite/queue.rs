@@ -21,10 +21,12 @@ const CLAIM: &str = "UPDATE jobs
                        AND not_before_operating_ms <= ?5
                        AND (failed_attempts = 0 OR ?8 >= iif(failed_attempts = 1, ?9, ?10))
                        ORDER BY priority, sequence LIMIT 1)
-     RETURNING id, attempt, lease_token, scenario, failed_attempts";
+     RETURNING id, attempt, lease_token, scenario, failed_attempts, 0 AS planned_work";
 
 impl SqliteStore {
-    pub(super) async fn claim(&self, claimant: &Claimant) -> Answer<Option<Claim>> {
+    /// Claims one job: a pack would keep work from the other workers of the process, and spare it
+    /// little.
+    pub(super) async fn claim(&self, claimant: &Claimant) -> Answer<Vec<Claim>> {
         let now = self.now();
         let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let row: Option<ClaimedRow> = sqlx::query_as(CLAIM)
@@ -41,11 +43,19 @@ impl SqliteStore {
             .fetch_optional(&mut *transaction)
             .await?;
         let Some(claim) = row.map(ClaimedRow::read).transpose()? else {
-            return Ok(None);
+            return Ok(Vec::new());
         };
         begin_attempt(&mut transaction, claim.lease, &claimant.owner, now.wall_ms).await?;
         transaction.commit().await?;
-        Ok(Some(claim))
+        Ok(vec![claim])
+    }
+
+    pub(super) async fn is_idle(&self) -> Answer<bool> {
+        let idle = sqlx::query_scalar(
+            "SELECT NOT EXISTS (SELECT 1 FROM jobs WHERE status = 'accepted')
+                AND NOT EXISTS (SELECT 1 FROM studies WHERE status = 'running')",
+        );
+        Ok(idle.fetch_one(self.readers.pool()).await?)
     }
 
     pub(super) async fn dismiss(&self, id: JobId) -> Answer<Dismissal> {

@@ -4,21 +4,25 @@
 /// Makes each rule a test of every driver; a further driver is one line here.
 macro_rules! conformance {
     ($($rule:ident)*) => {
-        rules_of! { sqlite: crate::jobs::store::sqlite::tests::open; $($rule)* }
+        mod sqlite {
+            $(rule_of! { crate::jobs::store::sqlite::tests::open, $rule, })*
+        }
+        mod postgres {
+            $(rule_of! {
+                crate::jobs::store::postgres::tests::open, $rule,
+                #[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+            })*
+        }
     };
 }
 
-/// Makes each rule a test of one driver, given by its constructor.
-macro_rules! rules_of {
-    ($driver:ident: $open:path; $($rule:ident)*) => {
-        mod $driver {
-            use super::Fixture;
-            $(
-                #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-                async fn $rule() {
-                    super::$rule(&Fixture::new($open).await).await;
-                }
-            )*
+/// Makes a rule a test of one driver, given by its constructor.
+macro_rules! rule_of {
+    ($open:path, $rule:ident, $(#[$attribute:meta])?) => {
+        $(#[$attribute])?
+        #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+        async fn $rule() {
+            super::$rule(&super::Fixture::new($open).await).await;
         }
     };
 }
@@ -146,8 +150,8 @@ impl Fixture {
     }
 
     async fn try_claim(&self, owner: &str) -> Option<Lease> {
-        let claim = self.store.claim(&claimant(owner)).await.unwrap();
-        claim.map(|claim| claim.lease)
+        let claims = self.store.claim(&claimant(owner)).await.unwrap();
+        claims.first().map(|claim| claim.lease)
     }
 
     pub(super) async fn claim(&self, owner: &str) -> Lease {
@@ -189,6 +193,8 @@ pub(super) fn new_job() -> NewJob {
         scenario: "{}".to_owned(),
         scenario_hash: "0".repeat(64),
         plan: "{}".to_owned(),
+        planned_work: 10,
+        planned_memory_bytes: 1_000,
         labels: Vec::new(),
         solver_version: "1",
     }
@@ -216,6 +222,8 @@ pub(super) fn claimant(owner: &str) -> Claimant {
             instructions: "none",
         },
         up_for: Duration::from_secs(3_600),
+        pack: Pack::SINGLE,
+        memory_bytes: 1_000_000,
     }
 }
 

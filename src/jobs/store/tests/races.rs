@@ -75,10 +75,13 @@ async fn a_job_is_claimed_by_one_of_many(fixture: &Fixture) {
         tokio::spawn(async move {
             let mut claimed = Vec::new();
             let claimant = claimant(&format!("worker {worker}"));
-            while let Some(claim) = store.claim(&claimant).await.unwrap() {
-                claimed.push(claim.lease.job);
+            loop {
+                let claims = store.claim(&claimant).await.unwrap();
+                if claims.is_empty() {
+                    return claimed;
+                }
+                claimed.extend(claims.iter().map(|claim| claim.lease.job));
             }
-            claimed
         })
     });
     let workers: Vec<_> = workers.collect();

@@ -80,7 +80,7 @@ async fn in_a_full_database_jobs_are_still_dismissed_ended_and_removed() {
     assert_eq!(refused.kind(), StoreErrorKind::Full, "{refused}");
     assert!((10..25).contains(&ids.len()), "{}", ids.len());
     let claim = JobStore::claim(&store, &claimant("a")).await.unwrap();
-    let lease = claim.unwrap().lease;
+    let lease = claim[0].lease;
     let kept = JobStore::keep(&store, lease, &large_results()).await;
     assert_eq!(kept.unwrap_err().kind(), StoreErrorKind::Full);
     let failure = Failure::internal("x");

@@ -1,0 +1,154 @@
+//! Submission of jobs: one request, one transaction, all of its jobs or none.
+
+use super::error::Answer;
+use super::keyed_requests::{former_request, keep_key};
+use super::locks::Turn;
+use super::news::Subject;
+use super::{Now, PostgresStore};
+use crate::jobs::job::JobId;
+use crate::jobs::store::rows::{integer, job_id};
+use crate::jobs::store::{Submission, Submitted};
+use crate::jobs::submit::NewJob;
+use sqlx::PgConnection;
+
+impl PostgresStore {
+    pub(super) async fn submit(&self, submission: &Submission<'_>) -> Answer<Submitted> {
+        let now = self.now().await?;
+        let mut transaction = self.begin_in_turn(Turn::Submission).await?;
+        let submitter = submission.submitter;
+        if let Some(key) = submission.key
+            && let Some(former) = former_request(&mut transaction, submitter, key).await?
+        {
+            return Ok(Submitted::Before(former));
+        }
+        if let Some(full) = no_room(&mut transaction, submission).await? {
+            return Ok(full);
+        }
+        let request = match submission.key {
+            Some(key) => {
+                let ids: Vec<JobId> = submission.jobs.iter().map(|job| job.id).collect();
+                Some(keep_key(&mut transaction, submitter, (key, now.operating_ms), &ids).await?)
+            }
+            None => None,
+        };
+        for job in submission.jobs {
+            let origin = Origin::Request(request);
+            insert(&mut transaction, job, (submitter, origin), now).await?;
+        }
+        transaction.commit().await?;
+        self.news.tell(&[Subject::Queue, Subject::Events]);
+        Ok(Submitted::Accepted)
+    }
+
+    pub(super) async fn finished_like(
+        &self,
+        scenario_hash: &str,
+        solver: (&str, &str),
+    ) -> Answer<Option<JobId>> {
+        let id: Option<String> = sqlx::query_scalar(
+            "SELECT id::text FROM jobs
+             WHERE scenario_hash = $1 AND status = 'successful'
+               AND solver_version = $2 AND solver_commit = $3
+             ORDER BY sequence DESC LIMIT 1",
+        )
+        .bind(scenario_hash)
+        .bind(solver.0)
+        .bind(solver.1)
+        .fetch_optional(&self.pool)
+        .await?;
+        Ok(id.map(|id| job_id(&id)).transpose()?)
+    }
+}
+
+async fn no_room(
+    connection: &mut PgConnection,
+    submission: &Submission<'_>,
+) -> Answer<Option<Submitted>> {
+    let coming = u32::try_from(submission.jobs.len()).unwrap_or(u32::MAX);
+    // Members of studies take no place of a request's: only few of them wait at a time.
+    let waiting: i64 =
+        sqlx::query_scalar("SELECT count(*) FROM jobs WHERE status = 'accepted' AND priority = 0")
+            .fetch_one(&mut *connection)
+            .await?;
+    let waiting = u32::try_from(waiting).unwrap_or(u32::MAX);
+    if waiting.saturating_add(coming) > submission.room.queue {
+        return Ok(Some(Submitted::QueueFull(waiting)));
+    }
+    let Some(quota) = submission.room.submitter else {
+        return Ok(None);
+    };
+    let own: i64 = sqlx::query_scalar(
+        "SELECT count(*) FROM jobs
+         WHERE submitter = $1 AND status IN ('accepted', 'running') AND priority = 0",
+    )
+    .bind(submission.submitter)
+    .fetch_one(connection)
+    .await?;
+    let own = u32::try_from(own).unwrap_or(u32::MAX);
+    Ok((own.saturating_add(coming) > quota).then_some(Submitted::QuotaSpent(own)))
+}
+
+/// Origin of a job.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Origin {
+    /// A request, by its number if it had an Idempotency-Key.
+    Request(Option<i64>),
+    /// A study, of which it is a member.
+    Study,
+}
+
+impl Origin {
+    fn keyed_request(self) -> Option<i64> {
+        match self {
+            Self::Request(number) => number,
+            Self::Study => None,
+        }
+    }
+
+    /// Jobs of a higher number wait until none of a lower one does.
+    fn priority(self) -> i64 {
+        match self {
+            Self::Request(_) => 0,
+            Self::Study => 1,
+        }
+    }
+}
+
+/// Puts a job into the queue, with its labels.
+pub(super) async fn insert(
+    connection: &mut PgConnection,
+    job: &NewJob,
+    (submitter, origin): (Option<&str>, Origin),
+    now: Now,
+) -> Answer<()> {
+    sqlx::query(
+        "WITH job AS (
+             INSERT INTO jobs (id, created_ms, scenario, title, bodies, solver_version,
+                               scenario_hash, submitter, keyed_request, plan,
+                               created_operating_ms, priority, planned_work,
+                               planned_memory_bytes)
+             VALUES ($1::uuid, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $15)
+             RETURNING id, sequence, status, created_ms
+         )
+         INSERT INTO labels (label, job_id, sequence, status, created_ms)
+         SELECT label, id, sequence, status, created_ms FROM job, unnest($14::text[]) AS label",
+    )
+    .bind(job.id.to_string())
+    .bind(now.wall_ms)
+    .bind(&job.scenario)
+    .bind(&job.title)
+    .bind(integer(job.bodies as u64))
+    .bind(job.solver_version)
+    .bind(&job.scenario_hash)
+    .bind(submitter)
+    .bind(origin.keyed_request())
+    .bind(&job.plan)
+    .bind(now.operating_ms)
+    .bind(origin.priority())
+    .bind(integer(job.planned_work))
+    .bind(&job.labels)
+    .bind(integer(job.planned_memory_bytes))
+    .execute(&mut *connection)
+    .await?;
+    Ok(())
+}
