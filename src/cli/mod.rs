@@ -29,6 +29,7 @@ mod table;
 mod token;
 mod validate;
 mod verify;
+mod work;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -43,6 +44,7 @@ pub(crate) fn run() -> ExitCode {
     };
     let result = match &arguments.command {
         Command::Serve(options) => serve::serve(options),
+        Command::Work(options) => work::work(options),
         Command::Backup(options) => backup::backup(options),
         Command::Token(options) => token::token(options),
         Command::Run(options) => local_run::run(options),
