@@ -1,6 +1,7 @@
 //! `scree study`: one scenario computed many times in this process.
 
 mod folder;
+mod progress;
 mod table;
 
 use super::arguments::StudyOptions;
@@ -10,6 +11,7 @@ use super::interrupts::Interrupts;
 use super::machine::cores;
 use super::scenario_file;
 use folder::StudyFolder;
+use progress::MemberNotes;
 use scree::runs::Stop;
 use scree::studies::schedule::{Conclusion, conclusion};
 use scree::studies::{local, questions};
@@ -17,10 +19,6 @@ use scree_solver::scenario::{Scenario, ScenarioError};
 use scree_studies::{Answers, Ensemble, Member, MemberId, Study};
 use serde_json::Value;
 use std::collections::BTreeSet;
-use std::time::{Duration, Instant};
-
-/// Time between two notes on progress.
-const NOTE_PAUSE: Duration = Duration::from_secs(5);
 
 /// Computes a study, writes its files and prints its answers.
 ///
@@ -109,26 +107,22 @@ fn missing(study: &Study, members: &[Member]) -> Vec<MemberId> {
 }
 
 /// Members that are being computed.
-struct Computing<'a> {
-    options: &'a StudyOptions,
+struct Computing {
     all: u64,
     done: u64,
-    began: (Instant, u64),
-    noted: Instant,
+    notes: MemberNotes,
     members: Vec<Member>,
     broken: Option<Failure>,
 }
 
-impl<'a> Computing<'a> {
+impl Computing {
     /// Members of which so many are missing, of all of a study.
-    fn new(options: &'a StudyOptions, (missing, all): (usize, u64), members: Vec<Member>) -> Self {
-        let (now, done) = (Instant::now(), all - missing as u64);
+    fn new(options: &StudyOptions, (missing, all): (usize, u64), members: Vec<Member>) -> Self {
+        let done = all - missing as u64;
         Self {
-            options,
             all,
             done,
-            began: (now, done),
-            noted: now,
+            notes: MemberNotes::new(options.quiet, done),
             members,
             broken: None,
         }
@@ -140,21 +134,7 @@ impl<'a> Computing<'a> {
         }
         self.members.push(member);
         self.done += 1;
-        if self.noted.elapsed() >= NOTE_PAUSE {
-            self.noted = Instant::now();
-            self.note();
-        }
-    }
-
-    fn note(&self) {
-        let (began, before) = self.began;
-        let pace = began.elapsed().as_secs_f64() / (self.done - before).max(1) as f64;
-        let to_go = (pace * (self.all - self.done) as f64).ceil();
-        let (minutes, seconds) = ((to_go / 60.0) as u64, (to_go % 60.0) as u64);
-        self.options.quiet.note(&format!(
-            "{} of {} members, {minutes}:{seconds:02} min to go",
-            self.done, self.all
-        ));
+        self.notes.show(self.done, self.all);
     }
 
     fn end(self) -> Result<Vec<Member>, Failure> {
