@@ -1,6 +1,6 @@
 //! Text for people: standard output for answers, standard error for the rest.
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use thiserror::Error;
 
 /// Standard output can't be written.
@@ -36,9 +36,15 @@ fn print(text: &str) -> io::Result<()> {
     output.flush()
 }
 
+/// Clears the line in which a progress bar may stand, which is then drawn anew below.
+const CLEAR_LINE: &[u8] = b"\r\x1b[2K";
+
 /// Prints a note on standard error and ignores failures.
 pub(super) fn note(text: &str) {
     let mut output = io::stderr().lock();
+    if output.is_terminal() {
+        let _ = output.write_all(CLEAR_LINE);
+    }
     let _ = output.write_all(text.as_bytes());
     let _ = output.write_all(b"\n");
 }
