@@ -153,8 +153,9 @@ impl ServiceConfig {
     /// # Errors
     /// A named file is missing, a key is unknown, or a value has the wrong type.
     pub fn load(file: Option<&Path>) -> Result<Self, ConfigError> {
-        // SCREE_BINARY is the Python package's, and no key.
-        let environment = Env::prefixed("SCREE_").ignore(&["binary"]).split("__");
+        // No keys: the first is the Python package's, the others are for clients.
+        let others = ["binary", "token", "url"];
+        let environment = Env::prefixed("SCREE_").ignore(&others).split("__");
         Self::layered(file, environment)
     }
 

@@ -49,6 +49,25 @@ impl Failure {
         }
     }
 
+    /// The same failure, said of one thing among several.
+    pub(super) fn of(self, what: &str) -> Self {
+        self.reworded(|text| format!("{what}: {text}"))
+    }
+
+    /// The same failure, with more to say about it.
+    pub(super) fn and(self, more: &str) -> Self {
+        self.reworded(|text| format!("{text}{more}"))
+    }
+
+    fn reworded(self, reword: impl FnOnce(String) -> String) -> Self {
+        match self {
+            Self::Input(text) => Self::Input(reword(text)),
+            Self::Numerical(text) => Self::Numerical(reword(text)),
+            Self::Other(text) => Self::Other(reword(text)),
+            same @ (Self::Missed(_) | Self::Stopped(..)) => same,
+        }
+    }
+
     /// Reports the failure on standard error and returns the exit code of the process.
     pub(super) fn report(&self) -> ExitCode {
         match self {

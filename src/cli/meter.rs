@@ -59,6 +59,11 @@ impl Meter {
         Self::bar().unwrap_or_else(|| Self::Lines(LineSchedule::new(Instant::now())))
     }
 
+    /// True if it shows nothing.
+    pub(super) fn is_silent(&self) -> bool {
+        matches!(self, Self::Silent)
+    }
+
     fn bar() -> Option<Self> {
         let template = "{wide_bar} {percent:>3} %  {msg}";
         let style = ProgressStyle::with_template(template).ok()?;

@@ -15,11 +15,13 @@ mod failure;
 mod files;
 mod interrupts;
 mod intervals;
+mod job_document;
 mod local_run;
 mod machine;
 mod manual;
 mod meter;
 mod plan;
+mod remote;
 mod results_folder;
 mod scenario_file;
 mod serve;
@@ -49,6 +51,10 @@ pub(crate) fn run() -> ExitCode {
         Command::Token(options) => token::token(options),
         Command::Run(options) => local_run::run(options),
         Command::Study(options) => study::study(options),
+        Command::Submit(options) => remote::submit(options),
+        Command::Watch(options) => remote::watch(options),
+        Command::Get(options) => remote::get(options),
+        Command::Dismiss(options) => remote::dismiss(options),
         Command::Plan(options) => plan::plan(options),
         Command::Validate(options) => validate::validate(options),
         Command::Demo(options) => demo::demo(options),

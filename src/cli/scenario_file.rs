@@ -53,20 +53,23 @@ pub(super) fn name(path: &Path) -> String {
 fn explain(error: &ScenarioError, name: &str) -> String {
     match error {
         ScenarioError::Malformed { .. } => format!("{name} is {error}"),
-        ScenarioError::Invalid(violations) => {
-            let rules = if violations.len() == 1 {
-                "rule"
-            } else {
-                "rules"
-            };
-            let mut text = format!("{name} breaks {} {rules}:", violations.len());
-            for violation in violations {
-                text.push_str("\n\n");
-                text.push_str(&describe(violation));
-            }
-            text
-        }
+        ScenarioError::Invalid(violations) => broken_rules(violations, name),
     }
+}
+
+/// Message about the rules that the file of this name breaks, for people.
+pub(super) fn broken_rules(violations: &[Violation], name: &str) -> String {
+    let rules = if violations.len() == 1 {
+        "rule"
+    } else {
+        "rules"
+    };
+    let mut text = format!("{name} breaks {} {rules}:", violations.len());
+    for violation in violations {
+        text.push_str("\n\n");
+        text.push_str(&describe(violation));
+    }
+    text
 }
 
 fn describe(violation: &Violation) -> String {

@@ -25,11 +25,14 @@ impl From<Output> for Answer {
     }
 }
 
-/// The binary, in a directory without a configuration.
+/// The binary, in a directory without a configuration, and without that of whoever runs the tests.
 pub(crate) fn scree() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_scree"));
     command
         .current_dir(env!("CARGO_TARGET_TMPDIR"))
+        .env("XDG_CONFIG_HOME", env!("CARGO_TARGET_TMPDIR"))
+        .env_remove("SCREE_URL")
+        .env_remove("SCREE_TOKEN")
         .stdin(Stdio::null());
     command
 }
@@ -65,8 +68,15 @@ pub(crate) struct Served {
 impl Served {
     /// Starts a service on this database and waits until it listens.
     pub(crate) fn start(database: &Path, stderr: Stdio) -> Self {
+        Self::start_with(&["--listen", "127.0.0.1:0"], database, stderr)
+    }
+
+    /// Starts a service with these arguments.
+    pub(crate) fn start_with(arguments: &[&str], database: &Path, stderr: Stdio) -> Self {
         let mut child = scree()
-            .args(["serve", "--listen", "127.0.0.1:0", "--database"])
+            .arg("serve")
+            .args(arguments)
+            .arg("--database")
             .arg(database)
             .stdout(Stdio::piped())
             .stderr(stderr)

@@ -10,6 +10,7 @@ mod folder;
 mod interrupted;
 mod packaging;
 mod plan;
+mod remote;
 mod run;
 mod serve;
 mod study;

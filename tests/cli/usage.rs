@@ -11,6 +11,11 @@ fn help_and_version_are_answers() {
         "serve",
         "backup",
         "run",
+        "study",
+        "submit",
+        "watch",
+        "get",
+        "dismiss",
         "plan",
         "validate",
         "demo",
@@ -31,7 +36,7 @@ fn shells_and_manuals_learn_the_command_line() {
     for shell in ["bash", "zsh", "fish"] {
         let script = ask(&[&"completions", &shell]);
         assert_eq!((script.code, script.stderr.as_str()), (Some(0), ""));
-        for word in ["validate", "resume", "completions", "format", "quiet"] {
+        for word in ["validate", "resume", "token-file", "format", "quiet"] {
             assert!(script.stdout.contains(word), "{shell}: {word}");
         }
     }
@@ -47,13 +52,15 @@ fn shells_and_manuals_learn_the_command_line() {
 
 #[test]
 fn arguments_not_understood_are_invalid_input() {
-    let wrong: [&[&dyn AsRef<std::ffi::OsStr>]; 8] = [
+    let wrong: [&[&dyn AsRef<std::ffi::OsStr>]; 10] = [
         &[],
         &[&"simulate"],
         &[&"run"],
         &[&"run", &"a.json", &"--threads", &"0"],
         &[&"run", &"a.json", &"--format", &"csv"],
         &[&"run", &"a.json", &"--out", &"b", &"--format", &"xls"],
+        &[&"submit"],
+        &[&"get", &"--out", &"b"],
         &[&"serve", &"--listen", &"somewhere"],
         &[&"bench", &"--only", &"s300k"],
     ];

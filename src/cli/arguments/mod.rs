@@ -3,11 +3,13 @@
 mod format;
 mod measuring;
 mod quiet;
+mod remote;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use jiff::SignedDuration;
 pub(super) use measuring::{BenchOptions, Measurement, SuiteWord, VerifyOptions};
 pub(super) use quiet::Quiet;
+pub(super) use remote::{DismissOptions, GetOptions, ServiceOptions, SubmitOptions, WatchOptions};
 use scree::config::Database;
 use scree::results::table::Format;
 use std::net::SocketAddr;
@@ -42,6 +44,14 @@ pub(super) enum Command {
     Run(RunOptions),
     /// Compute a study here: one scenario many times, with uncertain inputs
     Study(StudyOptions),
+    /// Submit scenarios to a service, as jobs
+    Submit(SubmitOptions),
+    /// Follow a job or study of a service until it ends
+    Watch(WatchOptions),
+    /// Fetch the outcome and results of a job, or the answers of a study; or list jobs
+    Get(GetOptions),
+    /// Stop jobs or studies of a service
+    Dismiss(DismissOptions),
     /// Print the computation, the reductions and the cost of a scenario's run
     Plan(PlanOptions),
     /// Check a scenario and list everything that is wrong with it

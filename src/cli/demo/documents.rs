@@ -2,51 +2,9 @@
 
 use crate::cli::failure::Failure;
 use scree::results::TrajectoryColumns;
-use scree::runs::Progress;
-use scree_solver::record::{FlowSnapshot, Outcome, Sample};
+use scree_solver::record::{FlowSnapshot, Sample};
 use scree_solver::scenario::Scenario;
 use serde::Deserialize;
-
-/// Kind of a failure of the computation.
-const NUMERICAL: &str = "urn:scree:failure:numerical";
-/// Kind of a failure of the scenario: too large to set up.
-const SETUP: &str = "urn:scree:failure:setup";
-
-/// Fields of a job that the demo reads.
-#[derive(Debug, Deserialize)]
-pub(super) struct Job {
-    pub(super) id: String,
-    pub(super) progress: Progress,
-    status: String,
-    outcome: Option<Outcome>,
-    problem: Option<Problem>,
-}
-
-/// Reason that a job failed.
-#[derive(Debug, Deserialize)]
-struct Problem {
-    #[serde(rename = "type")]
-    kind: String,
-    detail: String,
-}
-
-impl Job {
-    /// End of the job; none while it runs or waits.
-    pub(super) fn end(self) -> Option<Result<Outcome, Failure>> {
-        if matches!(self.status.as_str(), "accepted" | "running") {
-            return None;
-        }
-        Some(match (self.outcome, self.problem) {
-            (Some(outcome), _) if self.status == "successful" => Ok(outcome),
-            (_, Some(problem)) => Err(match problem.kind.as_str() {
-                NUMERICAL => Failure::Numerical(problem.detail),
-                SETUP => Failure::Input(problem.detail),
-                _ => Failure::Other(problem.detail),
-            }),
-            _ => Err(Failure::Other(format!("the job ended as {}", self.status))),
-        })
-    }
-}
 
 /// Trajectory document of one body.
 #[derive(Debug, Deserialize)]

@@ -7,13 +7,15 @@ mod documents;
 
 use super::arguments::{DemoOptions, Quiet};
 use super::failure::Failure;
+use super::job_document::Job;
 use super::meter::Meter;
-use super::results_folder::{Delivery, Place, ResultsFolder};
+use super::results_folder::{Delivery, Place, ResultsFolder, file_name};
 use super::signals::Signals;
 use super::{console, scenario_file, serve, table};
 use client::Client;
-use documents::{Job, Recorded};
+use documents::Recorded;
 use scree::config::ServiceConfig;
+use scree::results::table::Format;
 use scree::service;
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
@@ -109,9 +111,9 @@ async fn wait(client: Client, id: &str, mut meter: Meter) -> Result<Outcome, Fai
     loop {
         let job: Job = client.get(&format!("/v1/jobs/{id}")).await?.json()?;
         meter.show(&job.progress);
-        if let Some(end) = job.end() {
+        if job.has_ended() {
             meter.finish();
-            return end;
+            return job.end();
         }
         tokio::time::sleep(POLL_INTERVAL).await;
     }
@@ -128,7 +130,7 @@ async fn fetch(
     for body in 0..scenario.bodies.len() {
         let path = format!("/v1/jobs/{id}/trajectory?body={body}");
         let document = client.get(&path).await?.accepted()?;
-        delivery.trajectory_document(body, &document)?;
+        delivery.write(&file_name(body, Format::Json), &document)?;
         recorded.add_trajectory(&document)?;
     }
     for time_s in documents::snapshot_times(scenario) {

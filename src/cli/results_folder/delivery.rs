@@ -1,12 +1,10 @@
 //! Delivery of results: written into a folder of their own, then listed, then moved. From the list
 //! on, the delivery is completed by whoever opens the folder next, should this process end.
 
-use super::formats::file_name;
-use super::{Formats, OUTCOME, PLAN, ResultsFolder, SCENARIO, results_in};
+use super::{Formats, OUTCOME, PICTURES, PLAN, ResultsFolder, SCENARIO, results_in};
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, FileError};
 use scree::pictures;
-use scree::results::table::Format;
 use scree_solver::record::{FlowSnapshot, Outcome, Sample};
 use scree_solver::scenario::Scenario;
 use serde::{Deserialize, Serialize};
@@ -82,18 +80,6 @@ impl<'a> Delivery<'a> {
         files.try_for_each(|(name, contents)| self.write(&name, &contents))
     }
 
-    /// Writes the trajectory document of a body, as the service gives it.
-    ///
-    /// # Errors
-    /// The file can't be written.
-    pub(in crate::cli) fn trajectory_document(
-        &mut self,
-        body: usize,
-        document: &[u8],
-    ) -> Result<(), Failure> {
-        self.write(&file_name(body, Format::Json), document)
-    }
-
     /// Draws and writes the pictures.
     ///
     /// # Errors
@@ -105,13 +91,18 @@ impl<'a> Delivery<'a> {
         snapshots: &[FlowSnapshot],
         outcome: &Outcome,
     ) -> Result<(), Failure> {
-        let motion = pictures::motion(scenario, samples, outcome)?;
-        self.write("motion.svg", motion.as_bytes())?;
-        let aerial = pictures::aerial_view(scenario, samples, snapshots)?;
-        self.write("aerial.svg", aerial.as_bytes())
+        let [motion, aerial] = PICTURES;
+        let drawn = pictures::motion(scenario, samples, outcome)?;
+        self.write(motion, drawn.as_bytes())?;
+        let drawn = pictures::aerial_view(scenario, samples, snapshots)?;
+        self.write(aerial, drawn.as_bytes())
     }
 
-    fn write(&mut self, name: &str, contents: &[u8]) -> Result<(), Failure> {
+    /// Writes a file with the name of a result.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub(in crate::cli) fn write(&mut self, name: &str, contents: &[u8]) -> Result<(), Failure> {
         files::write(&self.folder.new_files().join(name), contents)?;
         self.list.files.push(name.to_owned());
         Ok(())

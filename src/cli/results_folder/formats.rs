@@ -22,6 +22,11 @@ impl Formats {
         (!chosen.is_empty()).then_some(Self(chosen))
     }
 
+    /// Each of them.
+    pub(in crate::cli) fn each(&self) -> impl Iterator<Item = Format> {
+        self.0.iter().copied()
+    }
+
     /// The trajectory of a body, with the name of its file, in each format.
     pub(in crate::cli) fn files_of(
         &self,
@@ -49,7 +54,7 @@ impl Formats {
 }
 
 /// Name of the file of a body's trajectory.
-pub(super) fn file_name(body: usize, format: Format) -> String {
+pub(in crate::cli) fn file_name(body: usize, format: Format) -> String {
     format!("trajectory-{body}.{}", format.word())
 }
 

@@ -10,7 +10,7 @@ mod saved;
 use super::failure::Failure;
 use super::files::{self, FileError};
 pub(super) use delivery::{Delivery, Place};
-pub(super) use formats::Formats;
+pub(super) use formats::{Formats, file_name};
 pub(super) use saved::{Interrupted, SavedRun, SavedState};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
@@ -22,13 +22,16 @@ use std::path::{Path, PathBuf};
 const PARTIAL: &str = ".scree-partial";
 
 /// Name of the file of the outcome.
-const OUTCOME: &str = "outcome.json";
+pub(super) const OUTCOME: &str = "outcome.json";
 
 /// Name of the file of the scenario.
-const SCENARIO: &str = "scenario.json";
+pub(super) const SCENARIO: &str = "scenario.json";
 
 /// Name of the file of the plan.
-const PLAN: &str = "plan.json";
+pub(super) const PLAN: &str = "plan.json";
+
+/// Names of the files of the pictures.
+pub(super) const PICTURES: [&str; 2] = ["motion.svg", "aerial.svg"];
 
 /// A folder for results that no other run uses meanwhile.
 #[derive(Debug)]
@@ -225,8 +228,9 @@ fn results_in(folder: &Path) -> io::Result<Vec<String>> {
     for entry in fs::read_dir(folder)? {
         let name = entry?.file_name();
         let Some(name) = name.to_str() else { continue };
-        let others = [OUTCOME, SCENARIO, PLAN, "motion.svg", "aerial.svg"];
-        if formats::is_trajectory(name) || others.contains(&name) {
+        let documents = [OUTCOME, SCENARIO, PLAN];
+        let is_other = documents.contains(&name) || PICTURES.contains(&name);
+        if formats::is_trajectory(name) || is_other {
             names.push(name.to_owned());
         }
     }

@@ -14,15 +14,18 @@ const STUDY: &str = "study.json";
 /// File with a member on each line, in the order in which they ended.
 const MEMBERS: &str = "members.ndjson";
 
+/// File with the answers.
+pub(in crate::cli) const ANSWERS: &str = "answers.json";
+
 /// Directory of a study.
-pub(super) struct StudyFolder(PathBuf);
+pub(in crate::cli) struct StudyFolder(PathBuf);
 
 impl StudyFolder {
     /// Opens the directory, or makes it.
     ///
     /// # Errors
     /// It can't be made.
-    pub(super) fn open(path: &Path) -> Result<Self, Failure> {
+    pub(in crate::cli) fn open(path: &Path) -> Result<Self, Failure> {
         fs::create_dir_all(path).map_err(|error| Failure::path("make", path, &error))?;
         Ok(Self(path.to_owned()))
     }
@@ -31,7 +34,7 @@ impl StudyFolder {
     ///
     /// # Errors
     /// The directory holds another study, or can't be used.
-    pub(super) fn begin(&self, study: &Study) -> Result<Vec<Member>, Failure> {
+    pub(in crate::cli) fn begin(&self, study: &Study) -> Result<Vec<Member>, Failure> {
         let path = self.0.join(STUDY);
         let members = match fs::read_to_string(&path) {
             Ok(text) => {
@@ -92,6 +95,30 @@ impl StudyFolder {
         appended.map_err(failed("write", &path))
     }
 
+    /// Keeps these members in place of those that were there.
+    ///
+    /// # Errors
+    /// The file can't be written; it is then as before.
+    pub(in crate::cli) fn keep_only(
+        &self,
+        members: impl IntoIterator<Item = Member>,
+    ) -> Result<(), Failure> {
+        let mut lines = String::new();
+        for member in members {
+            lines.push_str(&serde_json::to_string(&member)?);
+            lines.push('\n');
+        }
+        self.replace(MEMBERS, lines.as_bytes())
+    }
+
+    /// Replaces a file by these contents.
+    ///
+    /// # Errors
+    /// The file can't be written; it is then as before.
+    pub(in crate::cli) fn replace(&self, name: &str, contents: &[u8]) -> Result<(), Failure> {
+        Ok(files::replace(&self.0.join(name), contents)?)
+    }
+
     /// Writes the answers.
     ///
     /// # Errors
@@ -103,11 +130,11 @@ impl StudyFolder {
         answers: &Answers,
     ) -> Result<(), Failure> {
         let text = serde_json::to_string_pretty(answers)?;
-        files::replace(&self.0.join("answers.json"), text.as_bytes())?;
+        self.replace(ANSWERS, text.as_bytes())?;
         let text = serde_json::to_string_pretty(ensemble.study())?;
-        files::replace(&self.0.join(STUDY), text.as_bytes())?;
+        self.replace(STUDY, text.as_bytes())?;
         for (name, contents) in export::files(ensemble, members, answers)? {
-            files::replace(&self.0.join(name), &contents)?;
+            self.replace(&name, &contents)?;
         }
         Ok(())
     }

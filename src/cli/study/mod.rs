@@ -10,8 +10,8 @@ use super::failure::Failure;
 use super::interrupts::Interrupts;
 use super::machine::cores;
 use super::scenario_file;
-use folder::StudyFolder;
-use progress::MemberNotes;
+pub(super) use folder::{ANSWERS, StudyFolder};
+pub(super) use progress::MemberNotes;
 use scree::runs::Stop;
 use scree::studies::schedule::{Conclusion, conclusion};
 use scree::studies::{local, questions};
@@ -19,6 +19,7 @@ use scree_solver::scenario::{Scenario, ScenarioError};
 use scree_studies::{Answers, Ensemble, Member, MemberId, Study};
 use serde_json::Value;
 use std::collections::BTreeSet;
+pub(super) use table::answers as in_words_of;
 
 /// Computes a study, writes its files and prints its answers.
 ///

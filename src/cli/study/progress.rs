@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 const NOTE_PAUSE: Duration = Duration::from_secs(5);
 
 /// Notes on how many members have ended, and how long the others take.
-pub(super) struct MemberNotes {
+pub(in crate::cli) struct MemberNotes {
     quiet: Quiet,
     began: (Instant, u64),
     noted: Instant,
@@ -15,7 +15,7 @@ pub(super) struct MemberNotes {
 
 impl MemberNotes {
     /// Notes from now on, when so many members have ended.
-    pub(super) fn new(quiet: Quiet, done: u64) -> Self {
+    pub(in crate::cli) fn new(quiet: Quiet, done: u64) -> Self {
         let now = Instant::now();
         Self {
             quiet,
@@ -25,7 +25,7 @@ impl MemberNotes {
     }
 
     /// Notes that so many of all members have ended, if a note is due.
-    pub(super) fn show(&mut self, done: u64, all: u64) {
+    pub(in crate::cli) fn show(&mut self, done: u64, all: u64) {
         if self.noted.elapsed() < NOTE_PAUSE {
             return;
         }

@@ -7,7 +7,7 @@ use scree_studies::answers::{
 use scree_studies::{Answers, Needed, Question, Study};
 
 /// A paragraph on the members, and a table for each question.
-pub(super) fn answers(study: &Study, answers: &Answers) -> String {
+pub(in crate::cli) fn answers(study: &Study, answers: &Answers) -> String {
     let mut paragraphs = vec![members(answers)];
     if !answers.levels.is_empty() {
         paragraphs.push(levels(answers).trim_end().to_owned());
