@@ -1,7 +1,9 @@
-//! Commands that use a service elsewhere: `submit`, `watch`, `get` and `dismiss`.
+//! Commands that use a service elsewhere: `submit`, `watch`, `get`, `dismiss`, and `study` with
+//! `--url`.
 
 mod access;
 mod interruption;
+mod study;
 
 use crate::command::{Answer, Scene, Served, ask, json_file, scree, tiny, unstable};
 use serde_json::{Value, json};

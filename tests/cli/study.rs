@@ -6,7 +6,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 /// A study of the tiny scene.
-fn study() -> Value {
+pub(crate) fn study() -> Value {
     json!({
         "title": "a small study",
         "scenario": tiny(),

@@ -52,7 +52,7 @@ fn shells_and_manuals_learn_the_command_line() {
 
 #[test]
 fn arguments_not_understood_are_invalid_input() {
-    let wrong: [&[&dyn AsRef<std::ffi::OsStr>]; 10] = [
+    let wrong: [&[&dyn AsRef<std::ffi::OsStr>]; 11] = [
         &[],
         &[&"simulate"],
         &[&"run"],
@@ -61,6 +61,14 @@ fn arguments_not_understood_are_invalid_input() {
         &[&"run", &"a.json", &"--out", &"b", &"--format", &"xls"],
         &[&"submit"],
         &[&"get", &"--out", &"b"],
+        &[
+            &"study",
+            &"a.json",
+            &"--url",
+            &"http://a",
+            &"--threads",
+            &"1",
+        ],
         &[&"serve", &"--listen", &"somewhere"],
         &[&"bench", &"--only", &"s300k"],
     ];

@@ -30,6 +30,9 @@ const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("BUILD_COMMI
 const EXIT_CODES: &str = "Exit codes: 0 fine, 2 invalid input, 3 numerical failure, 4 a case failed, 130 Ctrl-C, \
      143 SIGTERM, 1 other.";
 
+const STUDY_BY_A_SERVICE: &str = "With any of the options of the service, the service computes the study. Ctrl-C then ends this \
+     command alone: the study goes on.";
+
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Start the HTTP service
@@ -42,7 +45,7 @@ pub(super) enum Command {
     Token(TokenOptions),
     /// Compute one scenario here, without the service
     Run(RunOptions),
-    /// Compute a study here: one scenario many times, with uncertain inputs
+    /// Compute a study, here or by a service: one scenario many times, with uncertain inputs
     Study(StudyOptions),
     /// Submit scenarios to a service, as jobs
     Submit(SubmitOptions),
@@ -206,6 +209,7 @@ pub(super) struct RunOptions {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = STUDY_BY_A_SERVICE)]
 pub(super) struct StudyOptions {
     /// Study, a JSON file; - reads standard input
     #[arg(value_name = "STUDY.json")]
@@ -219,10 +223,15 @@ pub(super) struct StudyOptions {
     pub(super) json: bool,
     /// Number of members computed at a time, each on one thread [default: all cores]; answers do
     /// not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(
+        long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024),
+        conflicts_with_all = ["url", "token_file", "token", "client_file", "patience"],
+    )]
     pub(super) threads: Option<u16>,
     #[command(flatten)]
     pub(super) quiet: Quiet,
+    #[command(flatten)]
+    pub(super) service: ServiceOptions,
 }
 
 #[derive(Debug, Args)]

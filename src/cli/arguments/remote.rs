@@ -36,6 +36,13 @@ pub(in crate::cli) struct ServiceOptions {
 }
 
 impl ServiceOptions {
+    /// True if one of them is given.
+    pub(in crate::cli) fn are_given(&self) -> bool {
+        let texts = self.url.is_some() || self.token.is_some();
+        let files = self.token_file.is_some() || self.client_file.is_some();
+        texts || files || self.patience.is_some()
+    }
+
     /// Longest time for which a request is repeated.
     pub(in crate::cli) fn patience(&self) -> Duration {
         Duration::from_secs(self.patience.unwrap_or(PATIENCE_S).into())

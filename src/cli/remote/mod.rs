@@ -17,11 +17,13 @@ mod refusal;
 mod secret_file;
 mod study;
 mod study_files;
+mod study_run;
 mod submit;
 mod transport;
 mod watch;
 
 pub(super) use dismiss::dismiss;
 pub(super) use get::get;
+pub(super) use study_run::study;
 pub(super) use submit::submit;
 pub(super) use watch::watch;

@@ -1,4 +1,4 @@
-//! `scree study`: one scenario computed many times in this process.
+//! `scree study`: one scenario computed many times, in this process or by a service.
 
 mod folder;
 mod progress;
@@ -9,6 +9,7 @@ use super::console;
 use super::failure::Failure;
 use super::interrupts::Interrupts;
 use super::machine::cores;
+use super::remote;
 use super::scenario_file;
 pub(super) use folder::{ANSWERS, StudyFolder};
 pub(super) use progress::MemberNotes;
@@ -27,6 +28,9 @@ pub(super) use table::answers as in_words_of;
 /// See [`Failure`]; members that had ended by then are in the directory, and are not computed
 /// again by the same command.
 pub(super) fn study(options: &StudyOptions) -> Result<(), Failure> {
+    if options.service.are_given() {
+        return remote::study(options);
+    }
     let text = scenario_file::read_text(&options.study)?;
     let mut study = read(&text, &scenario_file::name(&options.study))?;
     let folder = options.out.as_deref().map(StudyFolder::open).transpose()?;

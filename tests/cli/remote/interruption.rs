@@ -8,6 +8,7 @@ use std::thread::{self, JoinHandle};
 #[cfg(unix)]
 use {
     crate::command::{Served, long, scree},
+    crate::study::study,
     std::io::{BufRead, BufReader},
     std::process::{Child, Command, Stdio},
 };
@@ -216,4 +217,31 @@ fn a_command_that_is_stopped_leaves_the_job_running_until_it_is_dismissed() {
     let watched = remote.ask(&["watch", id]);
     assert_eq!(watched.code, Some(1), "{}", watched.stderr);
     assert!(watched.stderr.contains("dismissed"), "{}", watched.stderr);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_study_that_is_no_longer_followed_goes_on() {
+    let mut study = study();
+    study["scenario"] = long();
+    let remote = Remote::new(&study);
+    let (file, url) = (remote.scene.file(), remote.url());
+    let words = ["study", file.to_str().unwrap(), "--url", &url];
+    let mut following = Running::start(&url, &words);
+    let mut stderr = BufReader::new(following.0.stderr.take().unwrap());
+    let mut line = String::new();
+    stderr.read_line(&mut line).unwrap();
+    let id = line.trim().strip_prefix("study ").expect("an identifier");
+    signal(&following.0, "-TERM");
+    let (code, stdout, _) = following.end();
+    let rest = read_all(Some(stderr));
+    assert_eq!((code, stdout.as_str()), (Some(143), ""), "{rest}");
+    let how = format!("`scree watch {id} --url {url}`");
+    assert!(rest.contains(&how), "{rest}");
+
+    let got = remote.ask(&["get", id]);
+    assert!(got.stdout.starts_with("running, "), "{}", got.stdout);
+    assert_eq!(remote.ask(&["dismiss", id]).code, Some(0));
+    let got = remote.ask(&["get", id]);
+    assert!(got.stdout.starts_with("dismissed, "), "{}", got.stdout);
 }
