@@ -12,6 +12,8 @@ mod clients;
 mod disk;
 mod kills;
 mod load;
+#[cfg(unix)]
+mod machines;
 #[cfg(target_os = "linux")]
 mod saturation;
 mod served;

@@ -31,6 +31,8 @@ pub(crate) const PAUSE: Duration = Duration::from_millis(10);
 /// A directory with a database, and settings for services on it.
 pub(crate) struct Place {
     directory: TempDir,
+    /// URL of a database on a server, in place of a file in the directory.
+    server: Option<String>,
     settings: Vec<(&'static str, String)>,
 }
 
@@ -45,6 +47,7 @@ impl Place {
         let settings = settings.iter();
         Self {
             directory: TempDir::new().expect("a directory for the test"),
+            server: None,
             settings: settings
                 .map(|(key, value)| (*key, (*value).to_owned()))
                 .collect(),
@@ -92,22 +95,35 @@ impl Place {
         }
     }
 
+    /// The same place with a database on a server.
+    #[cfg(unix)]
+    pub(crate) fn on_server(mut self, url: &str) -> Self {
+        self.server = Some(url.to_owned());
+        self
+    }
+
+    /// The settings and the database as a program's environment.
+    pub(crate) fn environment<'a>(&self, command: &'a mut Command) -> &'a mut Command {
+        let database = match &self.server {
+            Some(url) => url.into(),
+            None => self.database().into_os_string(),
+        };
+        let settings = self.settings.iter();
+        command
+            .env("SCREE_DATABASE", database)
+            .envs(settings.map(|(key, value)| (*key, value.as_str())))
+    }
+
     fn command(&self) -> Command {
         self.command_of(&binary())
     }
 
     fn command_of(&self, program: &Path) -> Command {
         let mut command = Command::new(program);
-        command
+        self.environment(&mut command)
             .current_dir(self.path())
-            .args(["serve", "--listen", "127.0.0.1:0", "--database"])
-            .arg(self.database())
+            .args(["serve", "--listen", "127.0.0.1:0"])
             .env("SCREE_WORKERS__THREADS_PER_WORKER", "1")
-            .envs(
-                self.settings
-                    .iter()
-                    .map(|(key, value)| (*key, value.as_str())),
-            )
             .stdin(Stdio::null())
             .stdout(Stdio::piped());
         command

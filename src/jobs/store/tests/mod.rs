@@ -10,7 +10,7 @@ macro_rules! conformance {
         mod postgres {
             $(rule_of! {
                 crate::jobs::store::postgres::tests::open, $rule,
-                #[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+                #[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
             })*
         }
     };

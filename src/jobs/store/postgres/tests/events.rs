@@ -15,7 +15,7 @@ const JOBS: usize = 100;
 /// A follower reads while eight writers end jobs at the same time: it sees every event once, in the
 /// order of its job, and never one before another that it saw.
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn a_follower_misses_no_event() {
     let fixture = Fixture::new(open).await;
     for _ in 0..JOBS {
@@ -59,7 +59,7 @@ async fn end_all(store: &dyn StudyStore, owner: &str) {
 
 /// A worker and a follower elsewhere are told at once.
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn other_processes_are_told_of_news() {
     let directory = tempfile::tempdir().unwrap();
     let clock = || Arc::new(SystemClock::default());
@@ -86,7 +86,7 @@ async fn other_processes_are_told_of_news() {
 
 /// Of two services one leads, and the other once that has gone.
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn one_service_leads() {
     let directory = tempfile::tempdir().unwrap();
     let clock = || Arc::new(SystemClock::default());

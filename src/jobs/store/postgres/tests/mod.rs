@@ -1,5 +1,5 @@
 //! Rules of the PostgreSQL driver alone. Each test has a database of its own on the server that
-//! SCREE_TEST_POSTGRES names, where its user may make databases.
+//! TEST_POSTGRES_URL names, where its user may make databases.
 
 mod events;
 mod packs;
@@ -29,7 +29,7 @@ async fn open_one(directory: &Path, part: Part, clock: Arc<dyn Clock>) -> Postgr
 
 /// URL of the database of a test, which is made at the first call.
 async fn url(directory: &Path) -> String {
-    let server = std::env::var("SCREE_TEST_POSTGRES").expect("SCREE_TEST_POSTGRES");
+    let server = std::env::var("TEST_POSTGRES_URL").expect("TEST_POSTGRES_URL");
     let note = directory.join("database");
     let name = match fs::read_to_string(&note) {
         Ok(name) => name,

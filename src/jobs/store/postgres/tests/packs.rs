@@ -31,7 +31,7 @@ fn jobs(claims: &[Claim]) -> Vec<JobId> {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn a_pack_has_jobs_in_turn_as_far_as_their_work_fits() {
     let fixture = Fixture::new(open).await;
     let ids = submit(&fixture, &[70, 20, 20, 5, 500, 5]).await;
@@ -48,7 +48,7 @@ async fn a_pack_has_jobs_in_turn_as_far_as_their_work_fits() {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn a_lease_that_ran_out_before_its_job_began_is_no_failed_attempt() {
     let fixture = Fixture::new(open).await;
     let ids = submit(&fixture, &[1, 1, 1]).await;
@@ -68,7 +68,7 @@ async fn a_lease_that_ran_out_before_its_job_began_is_no_failed_attempt() {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn a_job_that_had_a_worker_before_comes_in_no_pack() {
     let fixture = Fixture::new(open).await;
     let ids = submit(&fixture, &[1, 1, 1]).await;
@@ -86,7 +86,7 @@ async fn a_job_that_had_a_worker_before_comes_in_no_pack() {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn a_worker_claims_no_job_that_it_has_no_memory_for() {
     let fixture = Fixture::new(open).await;
     let large = NewJob {

@@ -8,7 +8,7 @@ use sqlx::{AssertSqlSafe, Connection, PgConnection};
 use std::sync::Arc;
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn final_states_are_sinks_whatever_the_code_asks_for() {
     let fixture = Fixture::new(open).await;
     let id = fixture.submit().await;
@@ -31,7 +31,7 @@ async fn final_states_are_sinks_whatever_the_code_asks_for() {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn a_job_can_not_be_run_to_its_end_twice() {
     let fixture = Fixture::new(open).await;
     fixture.submit().await;
@@ -49,7 +49,7 @@ async fn a_job_can_not_be_run_to_its_end_twice() {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn a_worker_needs_the_schema_of_its_version() {
     let directory = tempfile::tempdir().unwrap();
     let url = url(directory.path()).await;
@@ -71,7 +71,7 @@ async fn a_worker_needs_the_schema_of_its_version() {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn a_server_that_is_gone_makes_the_database_unavailable() {
     let nowhere = "postgres://scree@127.0.0.1:1/scree";
     let clock = Arc::new(SystemClock::default());
@@ -81,7 +81,7 @@ async fn a_server_that_is_gone_makes_the_database_unavailable() {
 
 /// Sessions that the server has ended are replaced, and lose nothing that was acknowledged.
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, SCREE_TEST_POSTGRES"]
+#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
 async fn sessions_that_the_server_ends_are_replaced() {
     let directory = tempfile::tempdir().unwrap();
     let clock = Arc::new(SystemClock::default());
