@@ -1,1 +1,187 @@
-//! x
+//! The queue alone, with members that take no time: claims and ends by many workers at once, while
+//! the tables grow.
+
+use super::cluster::Server;
+use crate::{at_length, tell};
+use scree::jobs::clock::SystemClock;
+use scree::jobs::job::JobId;
+use scree::jobs::store::postgres::{Part, PostgresStore};
+use scree::jobs::store::{Claimant, JobStore, Pack, Room, Solver, Submission};
+use scree::jobs::submit::{Means, NewJob, validate};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use tokio::runtime::Runtime;
+
+const FINGERPRINT: &str = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
+
+/// Jobs claimed and ended for one measurement.
+const MEASURED: usize = 4_000;
+
+fn claimant(owner: &str, pack: Pack) -> Claimant {
+    Claimant {
+        owner: owner.to_owned(),
+        lease_duration: Duration::from_secs(30),
+        solver: Solver {
+            version: "1",
+            commit: "c",
+            instructions: "none",
+        },
+        up_for: Duration::from_secs(60),
+        pack,
+        memory_bytes: u64::MAX >> 1,
+    }
+}
+
+async fn open(url: &str, part: Part, connections: u32) -> Arc<PostgresStore> {
+    let clock = Arc::new(SystemClock::default());
+    Arc::new(
+        PostgresStore::open(url, part, connections, clock)
+            .await
+            .expect("a database"),
+    )
+}
+
+/// A job of the size that members of studies have.
+fn member() -> NewJob {
+    let means = Means {
+        threads_per_worker: 1,
+        point_steps: None,
+        memory_bytes: u64::MAX,
+    };
+    let scenario = crate::served::scene(1.0).to_string();
+    validate(&scenario, &means, Vec::new()).expect("a valid scenario")
+}
+
+async fn submit(store: &PostgresStore, member: &NewJob, count: usize) {
+    let room = Room {
+        queue: u32::MAX,
+        submitter: None,
+    };
+    for first in (0..count).step_by(1_000) {
+        let jobs: Vec<_> = (first..count.min(first + 1_000))
+            .map(|_| NewJob {
+                id: JobId::new(),
+                ..member.clone()
+            })
+            .collect();
+        let submission = Submission {
+            jobs: &jobs,
+            submitter: None,
+            key: None,
+            room,
+        };
+        JobStore::submit(store, &submission).await.expect("room");
+    }
+}
+
+/// Claims and ends jobs with all workers at once until so many have ended; returns jobs per second.
+async fn drain(workers: &[Arc<PostgresStore>], pack: Pack, count: usize) -> f64 {
+    let left = Arc::new(std::sync::atomic::AtomicUsize::new(count));
+    let began = Instant::now();
+    let tasks = workers.iter().enumerate().map(|(number, store)| {
+        let (store, left) = (Arc::clone(store), Arc::clone(&left));
+        let claimant = claimant(&format!("worker {number}"), pack);
+        tokio::spawn(async move {
+            while left.load(std::sync::atomic::Ordering::Relaxed) > 0 {
+                let claims = JobStore::claim(&*store, &claimant).await.expect("a claim");
+                if claims.is_empty() {
+                    return;
+                }
+                for claim in &claims {
+                    let ended = JobStore::succeed(&*store, claim.lease, "{}", FINGERPRINT);
+                    assert!(ended.await.expect("an end"));
+                }
+                let done = claims.len();
+                let subtract = |left: usize| Some(left.saturating_sub(done));
+                let order = std::sync::atomic::Ordering::Relaxed;
+                let _ = left.fetch_update(order, order, subtract);
+            }
+        })
+    });
+    for task in tasks.collect::<Vec<_>>() {
+        task.await.expect("a worker");
+    }
+    count as f64 / began.elapsed().as_secs_f64()
+}
+
+/// Rows from 1e3 to 1e6 (to 1e4 in the short form): the rate of claims and ends must not depend on
+/// them.
+#[test]
+#[ignore = "needs PostgreSQL; .ci/run runs it"]
+fn claims_do_not_slow_down_as_rows_become_many() {
+    let _turn = crate::turn();
+    let runtime = Runtime::new().expect("a runtime");
+    let server = Server::start();
+    let largest = at_length(10_000, 1_000_000);
+    runtime.block_on(async {
+        let service = open(&server.url, Part::Service, 8).await;
+        let mut workers = Vec::new();
+        for _ in 0..16 {
+            workers.push(open(&server.url, Part::Worker, 1).await);
+        }
+        let member = member();
+        let (mut rows, mut rates) = (0, Vec::new());
+        let mut target = 1_000;
+        while target <= largest {
+            // Half of the rows have ended, and half wait.
+            let new = target.saturating_sub(rows);
+            let began = Instant::now();
+            submit(&service, &member, new).await;
+            let submitted = new as f64 / began.elapsed().as_secs_f64();
+            drain(
+                &workers,
+                Pack {
+                    jobs: 32,
+                    work: u64::MAX >> 1,
+                },
+                new / 2,
+            )
+            .await;
+            rows = target;
+            let before = figures(&server.url);
+            submit(&service, &member, 2 * MEASURED).await;
+            let single = drain(&workers, Pack::SINGLE, MEASURED).await;
+            let packed = drain(
+                &workers,
+                Pack {
+                    jobs: 32,
+                    work: u64::MAX >> 1,
+                },
+                MEASURED,
+            )
+            .await;
+            rows += 2 * MEASURED;
+            rates.push(single);
+            tell(&format!(
+                "{target} rows: submitted {submitted:.0} a second; 16 workers claim and end \
+                 {single:.0} a second one by one, {packed:.0} in packs of 32; {before}"
+            ));
+            target *= 10;
+        }
+        let (least, most) = rates
+            .iter()
+            .fold((f64::MAX, 0.0_f64), |(least, most), rate| {
+                (least.min(*rate), most.max(*rate))
+            });
+        tell(&format!("slowest over fastest: {:.2}", least / most));
+        // The short form runs beside other work.
+        let bar = [0.5, 0.7][at_length(0, 1)];
+        assert!(least / most >= bar, "{rates:?}");
+    });
+}
+
+/// Sizes of tables and indexes, as the server tells them.
+fn figures(url: &str) -> String {
+    let text = std::process::Command::new("psql")
+        .args([url, "--tuples-only", "--no-align", "--command"])
+        .arg(
+            "SELECT 'tables ' || pg_size_pretty(sum(pg_table_size(oid))::bigint)
+                 || ', indexes ' || pg_size_pretty(sum(pg_indexes_size(oid))::bigint)
+             FROM pg_class WHERE relname IN ('jobs', 'events', 'attempts')",
+        )
+        .output();
+    text.map_or_else(
+        |_| "no psql".to_owned(),
+        |answer| String::from_utf8_lossy(&answer.stdout).trim().to_owned(),
+    )
+}

@@ -51,7 +51,7 @@ use std::time::Duration;
 use tempfile::TempDir;
 
 /// Duration of leases in these tests.
-const LEASE: Duration = Duration::from_secs(30);
+pub(super) const LEASE: Duration = Duration::from_secs(30);
 
 /// A clock that stands still until it is set.
 #[derive(Debug)]
@@ -94,7 +94,7 @@ pub(super) type Open = fn(PathBuf, Arc<dyn Clock>) -> Opening;
 /// A driver with an empty database.
 pub(super) struct Fixture {
     pub(super) store: Arc<dyn StudyStore>,
-    clock: Arc<SetClock>,
+    pub(super) clock: Arc<SetClock>,
     pub(super) directory: Arc<TempDir>,
     open: Open,
 }
@@ -163,7 +163,7 @@ impl Fixture {
         self.store.succeed(lease, "{}", FINGERPRINT).await.unwrap()
     }
 
-    async fn job(&self, id: JobId) -> Job {
+    pub(super) async fn job(&self, id: JobId) -> Job {
         self.store.job(id).await.unwrap().unwrap()
     }
 
@@ -172,7 +172,7 @@ impl Fixture {
     }
 
     /// Kinds of end of the attempts at a job; "" for one that continues.
-    async fn endings(&self, id: JobId) -> Vec<String> {
+    pub(super) async fn endings(&self, id: JobId) -> Vec<String> {
         let attempts = self.job(id).await.attempts;
         attempts
             .into_iter()
@@ -261,7 +261,7 @@ pub(super) fn results(count: u32) -> NewResults {
 }
 
 /// The same, with the run's state after the results.
-fn results_and_state(count: u32) -> NewResults {
+pub(super) fn results_and_state(count: u32) -> NewResults {
     let resume_point = ResumePoint {
         time_s: f64::from(count),
         samples: count as usize,

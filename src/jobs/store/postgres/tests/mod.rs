@@ -1,6 +1,7 @@
 //! Rules of the PostgreSQL driver alone. Each test has a database of its own on the server that
 //! TEST_POSTGRES_URL names, where its user may make databases.
 
+mod cut_off;
 mod events;
 mod packs;
 mod server;
