@@ -8,7 +8,9 @@ use scree::jobs::job::JobId;
 use scree::jobs::store::postgres::{Part, PostgresStore};
 use scree::jobs::store::{Claimant, JobStore, Pack, Room, Solver, Submission};
 use scree::jobs::submit::{Means, NewJob, validate};
+use std::process::{Command, Stdio};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 use tokio::runtime::Runtime;
 
@@ -76,13 +78,13 @@ async fn submit(store: &PostgresStore, member: &NewJob, count: usize) {
 
 /// Claims and ends jobs with all workers at once until so many have ended; returns jobs per second.
 async fn drain(workers: &[Arc<PostgresStore>], pack: Pack, count: usize) -> f64 {
-    let left = Arc::new(std::sync::atomic::AtomicUsize::new(count));
+    let left = Arc::new(AtomicUsize::new(count));
     let began = Instant::now();
     let tasks = workers.iter().enumerate().map(|(number, store)| {
         let (store, left) = (Arc::clone(store), Arc::clone(&left));
         let claimant = claimant(&format!("worker {number}"), pack);
         tokio::spawn(async move {
-            while left.load(std::sync::atomic::Ordering::Relaxed) > 0 {
+            while left.load(Ordering::Relaxed) > 0 {
                 let claims = JobStore::claim(&*store, &claimant).await.expect("a claim");
                 if claims.is_empty() {
                     return;
@@ -93,8 +95,7 @@ async fn drain(workers: &[Arc<PostgresStore>], pack: Pack, count: usize) -> f64 
                 }
                 let done = claims.len();
                 let subtract = |left: usize| Some(left.saturating_sub(done));
-                let order = std::sync::atomic::Ordering::Relaxed;
-                let _ = left.fetch_update(order, order, subtract);
+                let _ = left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, subtract);
             }
         })
     });
@@ -120,26 +121,17 @@ fn claims_do_not_slow_down_as_rows_become_many() {
             workers.push(open(&server.url, Part::Worker, 1).await);
         }
         let member = member();
-        let (mut rows, mut rates) = (0, Vec::new());
+        // One to copy.
+        submit(&service, &member, 1).await;
+        let (mut rows, mut rates) = (1, Vec::new());
         let mut target = 1_000;
         while target <= largest {
             // Half of the rows have ended, and half wait.
-            let new = target.saturating_sub(rows);
+            fill(&server.url, target - rows);
             let began = Instant::now();
-            submit(&service, &member, new).await;
-            let submitted = new as f64 / began.elapsed().as_secs_f64();
-            drain(
-                &workers,
-                Pack {
-                    jobs: 32,
-                    work: u64::MAX >> 1,
-                },
-                new / 2,
-            )
-            .await;
-            rows = target;
-            let before = figures(&server.url);
             submit(&service, &member, 2 * MEASURED).await;
+            let submitted = 2.0 * MEASURED as f64 / began.elapsed().as_secs_f64();
+            let before = figures(&server.url);
             let single = drain(&workers, Pack::SINGLE, MEASURED).await;
             let packed = drain(
                 &workers,
@@ -150,7 +142,7 @@ fn claims_do_not_slow_down_as_rows_become_many() {
                 MEASURED,
             )
             .await;
-            rows += 2 * MEASURED;
+            rows = target + 2 * MEASURED;
             rates.push(single);
             tell(&format!(
                 "{target} rows: submitted {submitted:.0} a second; 16 workers claim and end \
@@ -170,18 +162,51 @@ fn claims_do_not_slow_down_as_rows_become_many() {
     });
 }
 
+/// Adds rows like those of submitted jobs, and ends half of them as workers do.
+fn fill(url: &str, rows: usize) {
+    let statements = format!(
+        "INSERT INTO jobs (id, priority, planned_work, planned_memory_bytes, created_ms,
+                           created_operating_ms, scenario, title, bodies, scenario_hash, plan,
+                           solver_version)
+         SELECT gen_random_uuid(), priority, planned_work, planned_memory_bytes, created_ms,
+                created_operating_ms, scenario, title, bodies, scenario_hash, plan, solver_version
+         FROM (SELECT * FROM jobs LIMIT 1) AS one, generate_series(1, {rows});
+         UPDATE jobs SET status = 'running', started_ms = 1, attempt = 1, lease_token = 1,
+                lease_owner = 'x', lease_expires_operating_ms = 1
+         WHERE status = 'accepted' AND sequence % 2 = 0;
+         INSERT INTO attempts (job_id, attempt, owner, started_ms)
+         SELECT id, 1, 'x', 1 FROM jobs WHERE status = 'running';
+         UPDATE jobs SET status = 'successful', finished_ms = 2, ended_operating_ms = 2,
+                outcome = '{{}}', fingerprint = repeat('0', 64),
+                lease_owner = NULL, lease_expires_operating_ms = NULL
+         WHERE status = 'running';"
+    );
+    psql(url, &statements);
+}
+
 /// Sizes of tables and indexes, as the server tells them.
 fn figures(url: &str) -> String {
-    let text = std::process::Command::new("psql")
-        .args([url, "--tuples-only", "--no-align", "--command"])
-        .arg(
-            "SELECT 'tables ' || pg_size_pretty(sum(pg_table_size(oid))::bigint)
-                 || ', indexes ' || pg_size_pretty(sum(pg_indexes_size(oid))::bigint)
-             FROM pg_class WHERE relname IN ('jobs', 'events', 'attempts')",
-        )
-        .output();
-    text.map_or_else(
-        |_| "no psql".to_owned(),
-        |answer| String::from_utf8_lossy(&answer.stdout).trim().to_owned(),
+    psql(
+        url,
+        "SELECT 'tables ' || pg_size_pretty(sum(pg_table_size(oid))::bigint)
+             || ', indexes ' || pg_size_pretty(sum(pg_indexes_size(oid))::bigint)
+         FROM pg_class WHERE relname IN ('jobs', 'events', 'attempts')",
     )
+}
+
+fn psql(url: &str, statements: &str) -> String {
+    let answer = Command::new("psql")
+        .args([
+            url,
+            "--quiet",
+            "--tuples-only",
+            "--no-align",
+            "--set=ON_ERROR_STOP=1",
+        ])
+        .args(["--command", statements])
+        .stderr(Stdio::inherit())
+        .output()
+        .expect("psql, which comes with the server");
+    assert!(answer.status.success());
+    String::from_utf8_lossy(&answer.stdout).trim().to_owned()
 }
