@@ -13,17 +13,11 @@ use sqlx::PgConnection;
 /// Claims the first job in turn that no other transaction is claiming, and with it those behind it
 /// that no worker has had before, as long as they fit into the pack. One statement, so that a claim
 /// is one message to the server and back.
-const CLAIM: &str = "WITH first AS MATERIALIZED (
-         SELECT sequence, priority, planned_work, attempt FROM jobs
-         WHERE status = 'accepted' AND not_before_operating_ms <= $5
-           AND planned_memory_bytes <= $13
-           AND (failed_attempts = 0
-                OR $8 >= CASE WHEN failed_attempts = 1 THEN $9 ELSE $10 END)
-         ORDER BY priority, sequence LIMIT $11 FOR UPDATE SKIP LOCKED
-     ), pack AS (
+const CLAIM: &str = "WITH pack AS (
          SELECT sequence, row_number() OVER turn AS place, sum(planned_work) OVER turn AS work,
                 bool_and(attempt = 0) OVER turn AS fresh
-         FROM first WINDOW turn AS (ORDER BY priority, sequence ROWS UNBOUNDED PRECEDING)
+         FROM jobs WHERE sequence = ANY (ARRAY (SELECT first_jobs($5, $8, $9, $10, $13, $11)))
+         WINDOW turn AS (ORDER BY priority, sequence ROWS UNBOUNDED PRECEDING)
      ), claimed AS (
          UPDATE jobs
          SET status = 'running', started_ms = $1, solver_version = $2, attempt = attempt + 1,
