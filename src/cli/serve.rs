@@ -10,6 +10,10 @@ use std::io::IsTerminal;
 use std::path::Path;
 use tracing::level_filters::LevelFilter;
 
+/// Whether a log that can't be written is told on standard error. That is the log itself, so its
+/// reader has ended, or the connection to it: telling it would be a panic, and no job would be saved.
+const TELLS_ERRORS_OF_THE_LOG: bool = false;
+
 /// Configuration file that is read by default, if it exists.
 const USUAL_CONFIG: &str = "configs/service.toml";
 
@@ -97,6 +101,7 @@ pub(super) fn log_to_standard_error(level: LevelFilter) {
         // A file with colour codes can't be searched.
         .with_ansi(std::io::stderr().is_terminal())
         .with_max_level(level)
+        .log_internal_errors(TELLS_ERRORS_OF_THE_LOG)
         .init();
 }
 
@@ -106,5 +111,6 @@ fn log_as_json() {
         .json()
         .with_writer(std::io::stderr)
         .with_max_level(LevelFilter::INFO)
+        .log_internal_errors(TELLS_ERRORS_OF_THE_LOG)
         .init();
 }

@@ -48,6 +48,26 @@ fn it_tells_its_address_answers_and_stops_when_asked() {
     assert!(scene.path("test.db").is_file());
 }
 
+#[cfg(unix)]
+#[test]
+fn it_goes_on_and_stops_in_order_if_nobody_reads_its_log() {
+    let scene = Scene::new(&tiny());
+    let mut served = Served::start(&scene.path("test.db"), Stdio::piped());
+    drop(served.child.stderr.take());
+
+    for _ in 0..3 {
+        let mut stream = TcpStream::connect(&served.address).unwrap();
+        write!(stream, "GET /healthz HTTP/1.0\r\n\r\n").unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        assert!(answer.contains(" 200 "), "{answer}");
+    }
+    let id = served.child.id().to_string();
+    let killed = Command::new("kill").args(["-TERM", &id]).status().unwrap();
+    assert!(killed.success());
+    assert_eq!(served.child.wait().unwrap().code(), Some(0));
+}
+
 #[test]
 fn it_ends_with_the_input_of_the_program_that_started_it() {
     let scene = Scene::new(&tiny());
