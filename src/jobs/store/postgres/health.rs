@@ -17,7 +17,7 @@ impl PostgresStore {
     pub(super) async fn probe(&self) -> Answer<()> {
         let now = self.now().await?;
         let mut transaction = self.begin().await?;
-        for room in [&[0; PROBED_ROOM][..], &[]] {
+        for room in [&[0_u8; PROBED_ROOM][..], &[]] {
             sqlx::query(
                 "INSERT INTO probes (id, written_ms, room) VALUES (1, $1, $2)
                  ON CONFLICT (id) DO UPDATE SET written_ms = $1, room = $2",

@@ -23,6 +23,15 @@ conformance! {
     an_attempt_begins_at_its_saved_state_or_afresh
     a_job_handed_back_keeps_its_state_and_has_no_failed_attempt
     a_removal_is_the_last_event_of_a_job_and_the_only_one_left
+    a_database_that_can_be_read_and_written_says_so
+}
+
+async fn a_database_that_can_be_read_and_written_says_so(fixture: &Fixture) {
+    fixture.store.ping().await.unwrap();
+    for _ in 0..2 {
+        fixture.store.probe().await.unwrap();
+    }
+    fixture.store.maintain().await.unwrap();
 }
 
 async fn a_removal_is_the_last_event_of_a_job_and_the_only_one_left(fixture: &Fixture) {
