@@ -16,8 +16,7 @@ use tokio::time::sleep;
 /// Most connections of a process to the database, besides one that listens.
 const CONNECTIONS_AT_MOST: usize = 8;
 
-/// Time between two looks whether the queue is empty. It is when two of them find it so, since a job
-/// that has just been claimed is in neither place for a moment.
+/// Time between two looks whether the queue is empty.
 const LOOK_PAUSE: Duration = Duration::from_millis(500);
 
 /// Error at the start of a worker process.
@@ -48,20 +47,15 @@ pub struct WorkerProcess {
 }
 
 impl WorkerProcess {
-    /// Returns once no job waits, none runs here and no study runs.
+    /// Returns once no job waits or runs, here or elsewhere, and no study runs.
     pub async fn until_empty(&self) {
-        let mut times = 0;
-        while times < 2 {
+        loop {
+            match self.store.is_idle().await {
+                Ok(true) => return,
+                Ok(false) => {}
+                Err(error) => tracing::warn!(%error, "it is not known whether the queue is empty"),
+            }
             sleep(LOOK_PAUSE).await;
-            // In this order: a job that is claimed in between is seen to run.
-            let is_empty = match self.store.is_idle().await {
-                Ok(is_idle) => is_idle && self.pool.is_idle(),
-                Err(error) => {
-                    tracing::warn!(%error, "it is not known whether the queue is empty");
-                    false
-                }
-            };
-            times = if is_empty { times + 1 } else { 0 };
         }
     }
 

@@ -113,11 +113,6 @@ impl Pool {
         Ok(pool)
     }
 
-    /// True if no job runs in this process.
-    pub fn is_idle(&self) -> bool {
-        self.equipment.registry.runs().is_empty()
-    }
-
     /// Registry of the running jobs.
     pub fn registry(&self) -> Arc<RunningJobRegistry> {
         Arc::clone(&self.equipment.registry)

@@ -107,7 +107,7 @@ pub(super) struct WorkOptions {
     /// [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
-    /// Leave once no job waits and no study runs
+    /// Leave once no job waits or runs, here or elsewhere, and no study runs
     #[arg(long)]
     pub(super) until_empty: bool,
     /// Leave after this time; running jobs are saved and go on elsewhere

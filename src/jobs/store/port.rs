@@ -66,7 +66,8 @@ pub trait JobStore: Debug + Send + Sync {
     /// has begun is no failed attempt.
     async fn claim(&self, claimant: &Claimant) -> Answer<Vec<Claim>>;
 
-    /// True if no job waits and no study runs, which could make more.
+    /// True if no job waits or runs, and no study runs, which could make more. What runs may come
+    /// back into the queue.
     async fn is_idle(&self) -> Answer<bool>;
 
     /// Dismisses a job. A worker that runs it notices at its next write or

@@ -52,7 +52,7 @@ impl SqliteStore {
 
     pub(super) async fn is_idle(&self) -> Answer<bool> {
         let idle = sqlx::query_scalar(
-            "SELECT NOT EXISTS (SELECT 1 FROM jobs WHERE status = 'accepted')
+            "SELECT NOT EXISTS (SELECT 1 FROM jobs WHERE status IN ('accepted', 'running'))
                 AND NOT EXISTS (SELECT 1 FROM studies WHERE status = 'running')",
         );
         Ok(idle.fetch_one(self.readers.pool()).await?)
