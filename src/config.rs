@@ -153,14 +153,34 @@ impl ServiceConfig {
     /// # Errors
     /// A named file is missing, a key is unknown, or a value has the wrong type.
     pub fn load(file: Option<&Path>) -> Result<Self, ConfigError> {
+        Self::default().overridden(file)
+    }
+
+    /// The same for a worker process: many of them write to one database, over a network, so each
+    /// writes less often by default.
+    ///
+    /// # Errors
+    /// As for [`ServiceConfig::load`].
+    pub fn load_for_workers(file: Option<&Path>) -> Result<Self, ConfigError> {
+        let built_in = Self {
+            recording: Recording {
+                flush_interval_s: 5.0,
+                state_interval_s: 60.0,
+            },
+            ..Self::default()
+        };
+        built_in.overridden(file)
+    }
+
+    fn overridden(self, file: Option<&Path>) -> Result<Self, ConfigError> {
         // No keys: the first is the Python package's, the others are for clients.
         let others = ["binary", "token", "url"];
         let environment = Env::prefixed("SCREE_").ignore(&others).split("__");
-        Self::layered(file, environment)
+        self.layered(file, environment)
     }
 
-    fn layered(file: Option<&Path>, environment: impl Provider) -> Result<Self, ConfigError> {
-        let mut sources = Figment::from(Serialized::defaults(Self::default()));
+    fn layered(self, file: Option<&Path>, environment: impl Provider) -> Result<Self, ConfigError> {
+        let mut sources = Figment::from(Serialized::defaults(self));
         if let Some(path) = file {
             if !path.is_file() {
                 return Err(ConfigError::Missing(path.to_path_buf()));

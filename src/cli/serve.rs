@@ -58,7 +58,9 @@ async fn end_of_stdin() {
 }
 
 fn configuration(options: &ServeOptions) -> Result<ServiceConfig, Failure> {
-    let mut config = load(options.config.as_deref())?;
+    let file = configuration_file(options.config.as_deref());
+    let mut config =
+        ServiceConfig::load(file).map_err(|error| Failure::Input(error.to_string()))?;
     if let Some(listen) = options.listen {
         config.listen = listen;
     }
@@ -71,11 +73,10 @@ fn configuration(options: &ServeOptions) -> Result<ServiceConfig, Failure> {
     Ok(config)
 }
 
-/// The configuration of this file, or of the usual one.
-pub(super) fn load(file: Option<&Path>) -> Result<ServiceConfig, Failure> {
+/// The file of this name, or the usual one if it is there.
+pub(super) fn configuration_file(named: Option<&Path>) -> Option<&Path> {
     let usual = Path::new(USUAL_CONFIG);
-    let usual = usual.is_file().then_some(usual);
-    ServiceConfig::load(file.or(usual)).map_err(|error| Failure::Input(error.to_string()))
+    named.or(usual.is_file().then_some(usual))
 }
 
 /// Failure of the start of a service, by the person who can act on it.

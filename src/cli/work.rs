@@ -2,7 +2,7 @@
 
 use super::arguments::WorkOptions;
 use super::failure::Failure;
-use super::serve::{self, log};
+use super::serve::{configuration_file, log};
 use super::signals::Signals;
 use scree::config::ServiceConfig;
 use scree::machine::cores;
@@ -49,7 +49,9 @@ async fn end_of(time: Option<Duration>) {
 }
 
 fn configuration(options: &WorkOptions) -> Result<ServiceConfig, Failure> {
-    let mut config = serve::load(options.config.as_deref())?;
+    let file = configuration_file(options.config.as_deref());
+    let mut config =
+        ServiceConfig::load_for_workers(file).map_err(|error| Failure::Input(error.to_string()))?;
     if let Some(database) = &options.database {
         config.database = database.clone();
     }

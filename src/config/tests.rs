@@ -9,19 +9,23 @@ fn shipped() -> PathBuf {
 fn written(toml: &str) -> Result<ServiceConfig, ConfigError> {
     let file = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(file.path(), toml).unwrap();
-    ServiceConfig::layered(Some(file.path()), Toml::string(""))
+    ServiceConfig::default().layered(Some(file.path()), Toml::string(""))
 }
 
 #[test]
 fn the_shipped_file_says_what_is_built_in() {
-    let config = ServiceConfig::layered(Some(&shipped()), Toml::string("")).unwrap();
+    let config = ServiceConfig::default()
+        .layered(Some(&shipped()), Toml::string(""))
+        .unwrap();
     assert_eq!(config, ServiceConfig::default());
 }
 
 #[test]
 fn the_environment_wins_over_the_file() {
     let environment = Serialized::default("workers.count", 7);
-    let config = ServiceConfig::layered(Some(&shipped()), environment).unwrap();
+    let config = ServiceConfig::default()
+        .layered(Some(&shipped()), environment)
+        .unwrap();
     assert_eq!(config.workers.count, Some(7));
     assert_eq!(config.limits, ServiceConfig::default().limits);
 }

@@ -64,6 +64,7 @@ impl Worker {
     pub(crate) fn start(place: &Place, arguments: &[&str]) -> Self {
         let child = place
             .environment(&mut Command::new(binary()))
+            .current_dir(place.path())
             .args(["work", "--threads", "1"])
             .args(arguments)
             .stdin(Stdio::null())

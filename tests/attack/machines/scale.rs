@@ -6,8 +6,13 @@ use crate::{at_length, tell};
 use scree::jobs::clock::SystemClock;
 use scree::jobs::job::JobId;
 use scree::jobs::store::postgres::{Part, PostgresStore};
-use scree::jobs::store::{Claimant, JobStore, Pack, Room, Solver, Submission};
+use scree::jobs::store::{
+    AttemptStart, Claimant, JobStore, Lease, NewChunk, NewResults, Pack, Renewal, Room, Solver,
+    Submission,
+};
 use scree::jobs::submit::{Means, NewJob, validate};
+use scree::results::chunk::Block;
+use scree::runs::Progress;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -160,6 +165,65 @@ fn claims_do_not_slow_down_as_rows_become_many() {
         let bar = [0.5, 0.7][at_length(0, 1)];
         assert!(least / most >= bar, "{rates:?}");
     });
+}
+
+/// A worker alone takes members of a second, in packs of two, from the claim to the end: the time that
+/// it waits for the database.
+#[test]
+#[ignore = "needs PostgreSQL; .ci/run runs it"]
+fn the_queue_takes_less_than_a_hundredth_of_members_of_a_second() {
+    let _turn = crate::turn();
+    let runtime = Runtime::new().expect("a runtime");
+    let server = Server::start();
+    let jobs = at_length(100, 1_000);
+    let per_job_s = runtime.block_on(async {
+        let service = open(&server.url, Part::Service, 8).await;
+        submit(&service, &member(), jobs).await;
+        let worker = open(&server.url, Part::Worker, 2).await;
+        let pack = Pack {
+            jobs: 2,
+            work: u64::MAX >> 1,
+        };
+        let began = Instant::now();
+        for _ in 0..jobs / 2 {
+            let claims = JobStore::claim(&*worker, &claimant("alone", pack)).await;
+            for claim in claims.expect("a claim") {
+                run(&worker, claim.lease).await;
+            }
+        }
+        began.elapsed().as_secs_f64() / jobs as f64
+    });
+    tell(&format!(
+        "a member's claim (half a pack of two), begin, heartbeat, two writes of records and end: \
+         {:.2} ms",
+        1e3 * per_job_s
+    ));
+    assert!(per_job_s < 0.01, "{per_job_s} s");
+}
+
+/// What a worker asks of the database for a job that takes a second.
+async fn run(store: &PostgresStore, lease: Lease) {
+    let begun = JobStore::begin(store, lease, &AttemptStart::Afresh, 1);
+    assert!(begun.await.expect("a beginning"));
+    let progress = Progress::default();
+    let renewed = JobStore::renew(store, lease, Duration::from_secs(30), &progress);
+    assert_eq!(renewed.await.expect("a renewal"), Renewal::Held);
+    for samples in [100, 200] {
+        let results = NewResults {
+            chunks: vec![NewChunk {
+                body: 0,
+                first_sample: 0,
+                samples,
+                first_time_s: 0.0,
+                last_time_s: 1.0,
+                block: Block::seal_quickly(&vec![7; 85 * samples]).expect("a block"),
+            }],
+            ..NewResults::default()
+        };
+        assert!(JobStore::keep(store, lease, &results).await.expect("kept"));
+    }
+    let ended = JobStore::succeed(store, lease, "{}", FINGERPRINT);
+    assert!(ended.await.expect("an end"));
 }
 
 /// Adds rows like those of submitted jobs, and ends half of them as workers do.

@@ -1,11 +1,10 @@
-//! Work of one and of two worker processes on the members of a study, and what the queue costs.
+//! Work of one and of two worker processes on the members of a study.
 
 use super::cluster::{Server, Worker, front};
 use crate::client::{ask, get};
-use crate::served::{Served, binary, scene};
+use crate::served::{Served, scene};
 use crate::{at_length, tell};
 use serde_json::{Value, json};
-use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 const SETTINGS: [(&str, &str); 1] = [("SCREE_WORKERS__COUNT", "0")];
@@ -60,7 +59,7 @@ fn wall_time(front: &Served, study: &str, members: usize) -> f64 {
 #[ignore = "needs PostgreSQL; .ci/run runs it"]
 fn two_worker_processes_do_twice_the_work() {
     let _turn = crate::turn();
-    let members = at_length(24, 1_000);
+    let members = at_length(32, 1_024);
     let duration_s = [1.0, 3.0][at_length(0, 1)];
     let single = Server::start();
     let (one_s, one_wall_s) = run(&single, 1, members, duration_s);
@@ -79,42 +78,4 @@ fn two_worker_processes_do_twice_the_work() {
     if at_length(0, 1) == 1 {
         assert!(one_s / two_s >= 1.9);
     }
-}
-
-/// A study by one worker process, through service and database, and by `scree study` on one thread,
-/// which has neither; in turns.
-#[test]
-#[ignore = "needs PostgreSQL; .ci/run runs it"]
-fn the_queue_costs_little() {
-    let _turn = crate::turn();
-    let (members, duration_s) = (at_length(4, 60), [2.0, 15.0][at_length(0, 1)]);
-    let mut costs = Vec::new();
-    for _ in 0..at_length(1, 3) {
-        let alone_s = alone(members, duration_s);
-        let server = Server::start();
-        let (shared_s, wall_s) = run(&server, 1, members, duration_s);
-        costs.push(shared_s / alone_s - 1.0);
-        tell(&format!(
-            "{members} members of {:.2} s: {alone_s:.2} s by scree study, {shared_s:.2} s through \
-             PostgreSQL, {:+.2} %",
-            wall_s / members as f64,
-            100.0 * (shared_s / alone_s - 1.0)
-        ));
-    }
-    // The time of a single pair varies with the machine; a queue that doubles it would be seen.
-    assert!(costs.iter().all(|cost| *cost < 1.0), "{costs:?}");
-}
-
-fn alone(members: usize, duration_s: f64) -> f64 {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("study.json");
-    std::fs::write(&file, study(members, duration_s).to_string()).expect("writable");
-    let began = Instant::now();
-    let status = Command::new(binary())
-        .args(["study", "--quiet", "--threads", "1", "--json"])
-        .arg(&file)
-        .stdout(Stdio::null())
-        .status();
-    assert!(status.expect("the binary starts").success());
-    began.elapsed().as_secs_f64()
 }

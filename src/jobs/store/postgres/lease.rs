@@ -1,9 +1,9 @@
 //! Leases: their renewal, and the reclaiming of jobs from those who lost them.
 
-use super::PostgresStore;
 use super::ending::set_back_row;
 use super::error::Answer;
 use super::news::Subject;
+use super::{Now, PostgresStore};
 use crate::jobs::job::JobStatus;
 use crate::jobs::store::rows::{integer, job_status, lease, milliseconds};
 use crate::jobs::store::{FailedAttempt, Lease, Renewal};
@@ -48,6 +48,7 @@ impl PostgresStore {
     }
 
     pub(super) async fn reclaim_own(&self, owner: &str) -> Answer<usize> {
+        let now = self.now().await?;
         let mut transaction = self.begin().await?;
         let left: Vec<(String, i64, i64)> = sqlx::query_as(
             "SELECT id::text, attempt, lease_token FROM jobs
@@ -56,7 +57,7 @@ impl PostgresStore {
         .bind(owner)
         .fetch_all(&mut *transaction)
         .await?;
-        self.set_back(transaction, &left, &FailedAttempt::CutOff)
+        self.set_back(transaction, &left, (&FailedAttempt::CutOff, now))
             .await
     }
 
@@ -73,7 +74,7 @@ impl PostgresStore {
         .bind(now.operating_ms)
         .fetch_all(&mut *transaction)
         .await?;
-        self.set_back(transaction, &left, &FailedAttempt::Expired)
+        self.set_back(transaction, &left, (&FailedAttempt::Expired, now))
             .await
     }
 
@@ -81,12 +82,11 @@ impl PostgresStore {
         &self,
         mut transaction: Transaction<'static, Postgres>,
         left: &[(String, i64, i64)],
-        failed_attempt: &FailedAttempt,
+        (failed_attempt, now): (&FailedAttempt, Now),
     ) -> Answer<usize> {
         if left.is_empty() {
             return Ok(0);
         }
-        let now = self.now().await?;
         for (id, attempt, token) in left {
             let lease = lease(id, *attempt, *token)?;
             set_back_row(&mut transaction, lease, failed_attempt, now).await?;
