@@ -44,13 +44,15 @@ pub enum StartError {
 pub struct WorkerProcess {
     pool: Pool,
     store: Arc<dyn StudyStore>,
+    /// Memory that a job may have here.
+    memory_bytes: u64,
 }
 
 impl WorkerProcess {
     /// Returns once no job waits or runs, here or elsewhere, and no study runs.
     pub async fn until_empty(&self) {
         loop {
-            match self.store.is_idle().await {
+            match self.store.is_idle(self.memory_bytes).await {
                 Ok(true) => return,
                 Ok(false) => {}
                 Err(error) => tracing::warn!(%error, "it is not known whether the queue is empty"),
@@ -61,7 +63,7 @@ impl WorkerProcess {
 
     /// Saves running jobs, releases them into the queue, and returns once all is written.
     pub async fn stop(self) {
-        let Self { pool, store } = self;
+        let Self { pool, store, .. } = self;
         if let Err(error) = tokio::task::spawn_blocking(move || pool.stop()).await {
             tracing::error!(%error, "the workers did not stop as they should");
         }
@@ -90,10 +92,12 @@ pub async fn start(
     // One for each worker and the heartbeat, as far as they need them at the same time.
     let connections = (size.workers + 1).min(CONNECTIONS_AT_MOST) as u32;
     let store = database::open(config, Part::Worker, connections).await?;
+    let job_limits = JobLimits::new(&config.limits);
+    let memory_bytes = job_limits.memory_bytes;
     let start = PoolStart {
         size,
         name: database::name_of_process(config),
-        job_limits: JobLimits::new(&config.limits),
+        job_limits,
         left_running: Some(0),
         removes_old: false,
     };
@@ -101,7 +105,11 @@ pub async fn start(
     match Pool::start(Arc::clone(&store) as Arc<dyn JobStore>, config, start) {
         Ok(pool) => {
             tracing::info!(name, ?size, database = %config.database, "working");
-            Ok(WorkerProcess { pool, store })
+            Ok(WorkerProcess {
+                pool,
+                store,
+                memory_bytes,
+            })
         }
         Err(error) => {
             store.close().await;

@@ -73,7 +73,8 @@ CREATE TABLE jobs (
 
 -- Claiming asks for the oldest accepted job of the first priority.
 CREATE INDEX jobs_by_turn ON jobs (priority, sequence) WHERE status = 'accepted';
-CREATE INDEX jobs_running ON jobs (sequence) WHERE status = 'running';
+-- Running jobs by their processes: for leases that have run out.
+CREATE INDEX jobs_leased ON jobs (lease_owner) WHERE lease_owner IS NOT NULL;
 CREATE INDEX jobs_by_status ON jobs (status, sequence, created_ms);
 CREATE INDEX jobs_by_scenario ON jobs (scenario_hash, status);
 CREATE INDEX jobs_by_submitter ON jobs (submitter, status, priority) WHERE submitter IS NOT NULL;

@@ -9,10 +9,13 @@ use scree::machine::cores;
 use scree::worker_process::{self, StartError};
 use std::num::NonZeroUsize;
 use std::time::Duration;
-use tokio::time::sleep;
+use tokio::time::{sleep, timeout};
 
 /// Time to save running jobs by default: within the 30 s that most systems give a process.
 const GRACE_S: f64 = 20.0;
+
+/// Time for what is written last, after that to save running jobs.
+const LAST_WORDS: Duration = Duration::from_secs(5);
 
 /// Works until Ctrl-C or SIGTERM, the end of its time, or an empty queue where that is asked for.
 ///
@@ -24,7 +27,7 @@ pub(super) fn work(options: &WorkOptions) -> Result<(), Failure> {
     let threads = options.threads.map_or_else(cores, usize::from);
     let threads = NonZeroUsize::new(threads).unwrap_or(NonZeroUsize::MIN);
     let runtime = tokio::runtime::Runtime::new()?;
-    runtime.block_on(async {
+    let ended = runtime.block_on(async {
         // Signals sent before the handlers exist would be lost.
         let mut signals = Signals::listen()?;
         let process = worker_process::start(&config, threads).await;
@@ -35,9 +38,15 @@ pub(super) fn work(options: &WorkOptions) -> Result<(), Failure> {
             () = end_of(options.max_time) => "its time is over".to_owned(),
         };
         tracing::info!(why, "stopping");
-        process.stop().await;
+        // Without the database there is no end to what has to be written.
+        let longest = config.limits.drain_timeout() + LAST_WORDS;
+        if timeout(longest, process.stop()).await.is_err() {
+            tracing::error!("the database is out of reach: jobs go back when their leases run out");
+        }
         Ok(())
-    })
+    });
+    runtime.shutdown_background();
+    ended
 }
 
 /// Returns at the end of this time; never, if there is none.

@@ -39,7 +39,9 @@ impl Database {
         let reason = "allowed are the path of a file and the URL of a PostgreSQL database \
                       (postgres://user@host/name); a database in memory would lose every job, \
                       and a path is not written as a URI";
-        Err(not_allowed("database", format!("{name:?}"), reason))
+        // A URL of another kind may hold a password, too.
+        let shown = without_secrets(&name);
+        Err(not_allowed("database", format!("{shown:?}"), reason))
     }
 }
 
@@ -51,7 +53,8 @@ impl From<PathBuf> for Database {
 
 impl From<&str> for Database {
     fn from(text: &str) -> Self {
-        match SCHEMES.iter().any(|scheme| text.starts_with(scheme)) {
+        let begins = text.to_ascii_lowercase();
+        match SCHEMES.iter().any(|scheme| begins.starts_with(scheme)) {
             true => Self::Postgres(text.to_owned()),
             false => Self::File(text.into()),
         }
@@ -100,7 +103,7 @@ impl<'de> Deserialize<'de> for Database {
 fn without_secrets(url: &str) -> String {
     let url = url.split('?').next().unwrap_or_default();
     let Some((scheme, rest)) = url.split_once("://") else {
-        return String::new();
+        return url.to_owned();
     };
     let Some((login, place)) = rest.rsplit_once('@') else {
         return url.to_owned();

@@ -9,7 +9,7 @@ use crate::config::Retention;
 use std::io;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tracing::{error, info, warn};
 
 /// Most transactions at a heartbeat in which keys are forgotten: leases and the end of the service
@@ -35,10 +35,11 @@ impl LeaseHeartbeat {
             .name("keeper".to_owned())
             .spawn(move || {
                 let mut upkeep = Upkeep::default();
+                let mut outage = Outage::default();
                 // Nothing is ever sent: a closed channel marks the end.
                 while ended.recv_timeout(beat) == Err(RecvTimeoutError::Timeout) {
                     equipment.reclaim_former_jobs();
-                    renew_leases(&equipment);
+                    renew_leases(&equipment, &mut outage);
                     remove_old(&equipment);
                     upkeep.perform(&equipment);
                 }
@@ -63,7 +64,25 @@ impl Drop for LeaseHeartbeat {
     }
 }
 
-fn renew_leases(equipment: &Equipment) {
+/// Time without the database.
+#[derive(Debug, Default)]
+struct Outage {
+    last_seen: Option<Instant>,
+}
+
+impl Outage {
+    fn note(&mut self) {
+        self.last_seen = Some(Instant::now());
+    }
+
+    /// True if others may not have been able to renew their leases since: those look as if they had
+    /// run out, and are left for as long as a lease lasts.
+    fn is_recent(&self, lease: Duration) -> bool {
+        self.last_seen.is_some_and(|seen| seen.elapsed() < lease)
+    }
+}
+
+fn renew_leases(equipment: &Equipment, outage: &mut Outage) {
     for run in equipment.registry.runs() {
         let progress = run.board.read();
         let renewed = equipment
@@ -75,8 +94,18 @@ fn renew_leases(equipment: &Equipment) {
                 info!(id = %run.lease.job, ?renewal, "the job is not to go on");
                 run.control.raise();
             }
-            Err(error) => warn!(id = %run.lease.job, %error, "a lease can't be renewed now"),
+            Err(error) => {
+                warn!(id = %run.lease.job, %error, "a lease can't be renewed now");
+                outage.note();
+            }
         }
+    }
+    if outage.is_recent(equipment.queue.lease_duration()) {
+        // Without the database this fails, and the outage goes on.
+        if equipment.runtime.block_on(equipment.store.ping()).is_err() {
+            outage.note();
+        }
+        return;
     }
     match reclaim_expired(equipment) {
         Ok(0) => {}
@@ -84,7 +113,10 @@ fn renew_leases(equipment: &Equipment) {
             warn!(count, "took back jobs whose lease had run out");
             equipment.registry.announce();
         }
-        Err(error) => warn!(%error, "leases that ran out can't be looked for now"),
+        Err(error) => {
+            warn!(%error, "leases that ran out can't be looked for now");
+            outage.note();
+        }
     }
 }
 

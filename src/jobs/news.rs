@@ -1,7 +1,7 @@
 //! News of jobs: one task reads the events of the database and tells all who follow, who would
 //! otherwise each ask the database all the time.
 
-use super::store::{Event, JobStore, StoreError};
+use super::store::{EVENTS_AT_ONCE, Event, JobStore, StoreError};
 use std::sync::Arc;
 use tokio::sync::{broadcast, watch};
 use tokio::task::JoinHandle;
@@ -9,6 +9,9 @@ use tracing::warn;
 
 /// Pieces of news that a follower may be behind; one that is further behind asks the database.
 const BACKLOG: usize = 256;
+
+/// Number of events after which a piece of news is told, although there are more.
+const EVENTS_OF_NEWS: usize = 1_000;
 
 /// A piece of news.
 #[derive(Debug, Clone)]
@@ -73,7 +76,12 @@ async fn next(store: &dyn JobStore, last: &mut Option<i64>) -> Result<Vec<Event>
         let page = store.events(after, None).await?;
         let Some(newest) = page.last() else { break };
         after = newest.sequence;
+        let is_last = page.len() < EVENTS_AT_ONCE as usize;
         events.extend(page);
+        // What comes meanwhile comes with the next news: events that never end must not keep these.
+        if is_last || events.len() >= EVENTS_OF_NEWS {
+            break;
+        }
     }
     *last = Some(after);
     Ok(events)

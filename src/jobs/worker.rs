@@ -1,12 +1,14 @@
 //! One worker: claims jobs, runs them, and records their ends.
 
 use super::failure::Failure;
+use super::job_limits::Excess;
 use super::packs::Packs;
 use super::pool::Equipment;
 use super::recording::{KeepError, StoreSink};
 use super::running_jobs::RunningJobGuard;
 use super::store::{
     AttemptStart, Claim, Claimant, FailedAttempt, Lease, Pack, ResumePoint, Solver, StoreError,
+    StoreErrorKind,
 };
 use crate::runs::convergence_study::Runs;
 use crate::runs::{COMMIT, Run, RunControl, RunEnd, RunError, SavedRunError, Sink};
@@ -86,12 +88,15 @@ fn execute_all(equipment: &Equipment, claims: &[Claim], packs: &mut Packs) {
     let registered: Vec<_> = registered.collect();
     for (claim, guard) in claims.iter().zip(registered) {
         let began = Instant::now();
-        execute(equipment, claim, &guard);
-        packs.note(claim.planned_work, began.elapsed());
+        let result = execute(equipment, claim, &guard);
+        // Others took no time, or had a part of their work done before.
+        if matches!(result, JobResult::Successful(..)) && claim.lease.attempt == 1 {
+            packs.note(claim.planned_work, began.elapsed());
+        }
     }
 }
 
-fn execute(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) {
+fn execute(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResult {
     let lease = claim.lease;
     let _span = info_span!("job", id = %lease.job, attempt = lease.attempt).entered();
     guard.begin();
@@ -101,9 +106,10 @@ fn execute(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) {
         error!(%error, "the job's end can't be written now");
         if !equipment.registry.pause(RETRY_PAUSE) {
             // The row stays as it is, and the next start reclaims the job.
-            return;
+            break;
         }
     }
+    result
 }
 
 /// Returns a result whatever the run does, even if it panics.
@@ -161,10 +167,10 @@ fn run_to_end(
     let what = (scenario, control.threads().unwrap_or(1));
     if scenario.accuracy.takes_several_runs() {
         let ways: Ways<Runs> = (Runs::restored, Runs::afresh);
-        return set_up(equipment, lease, what, sink, ways)?.go(control, sink);
+        return set_up((equipment, control), lease, what, sink, ways)?.go(control, sink);
     }
     let ways: Ways<Run> = (Run::restored, Run::afresh);
-    set_up(equipment, lease, what, sink, ways)?.go(control, sink)
+    set_up((equipment, control), lease, what, sink, ways)?.go(control, sink)
 }
 
 /// Functions that make a run from its saved state, and at its start.
@@ -173,31 +179,58 @@ type Ways<T> = (
     fn(&Scenario, usize) -> Result<T, SetupError>,
 );
 
+/// Result of an operation of the store, which is repeated while the database is away, until the job is
+/// to stop: neither its saved state nor the attempt is given up for that.
+fn patiently<T, F: Future<Output = Result<T, StoreError>>>(
+    (equipment, control): (&Equipment, &RunControl),
+    operation: impl Fn() -> F,
+) -> Result<T, KeepError> {
+    loop {
+        let error = match equipment.runtime.block_on(operation()) {
+            Ok(result) => return Ok(result),
+            Err(error) => error,
+        };
+        match error.kind() {
+            StoreErrorKind::Damaged | StoreErrorKind::Defect => return Err(error.into()),
+            StoreErrorKind::Full | StoreErrorKind::Unavailable => {
+                warn!(%error, "the job waits for the database");
+            }
+        }
+        if control.is_raised() || !equipment.registry.pause(RETRY_PAUSE) {
+            return Err(KeepError::Stopped);
+        }
+    }
+}
+
 /// Records the start of the attempt.
 fn begin(
-    equipment: &Equipment,
+    (equipment, control): (&Equipment, &RunControl),
     lease: Lease,
     beginning: &AttemptStart,
     threads: usize,
 ) -> Result<(), RunError<KeepError>> {
-    let begun = equipment.store.begin(lease, beginning, threads);
-    match equipment.runtime.block_on(begun) {
+    let begun = patiently((equipment, control), || {
+        equipment.store.begin(lease, beginning, threads)
+    });
+    match begun {
         Ok(true) => Ok(()),
         Ok(false) => Err(RunError::Sink(KeepError::Lost)),
-        Err(error) => Err(RunError::Sink(error.into())),
+        Err(error) => Err(RunError::Sink(error)),
     }
 }
 
 /// The run restored from its saved state, or else at its start.
 fn set_up<T>(
-    equipment: &Equipment,
+    (equipment, control): (&Equipment, &RunControl),
     lease: Lease,
     (scenario, threads): (&Scenario, usize),
     sink: &mut StoreSink,
     (restore, afresh): Ways<T>,
 ) -> Result<T, RunError<KeepError>> {
     let from = |state: &[u8]| restore(scenario, threads, state);
-    if let Some((run, resume_point)) = restored(equipment, lease, from) {
+    let restored = restored((equipment, control), lease, from).map_err(RunError::Sink)?;
+    let equipment = (equipment, control);
+    if let Some((run, resume_point)) = restored {
         begin(equipment, lease, &AttemptStart::At(resume_point), threads)?;
         match sink.go_on_from(&resume_point, scenario.bodies.len()) {
             Ok(()) => {
@@ -216,28 +249,30 @@ fn set_up<T>(
 /// The run restored from its saved state. If the state can't be used, the reason
 /// is logged and the run starts over.
 fn restored<T>(
-    equipment: &Equipment,
+    (equipment, control): (&Equipment, &RunControl),
     lease: Lease,
     from: impl Fn(&[u8]) -> Result<T, SavedRunError>,
-) -> Option<(T, ResumePoint)> {
-    let stored = match equipment.runtime.block_on(equipment.store.state(lease.job)) {
-        Ok(stored) => stored?,
-        Err(error) => {
+) -> Result<Option<(T, ResumePoint)>, KeepError> {
+    let stored = match patiently((equipment, control), || equipment.store.state(lease.job)) {
+        Ok(Some(stored)) => stored,
+        Ok(None) => return Ok(None),
+        Err(KeepError::Store(error)) => {
             warn!(%error, "the saved state can't be read");
-            return None;
+            return Ok(None);
         }
+        Err(error) => return Err(error),
     };
     let run = match stored.unpack() {
         Ok(state) => from(&state).map_err(|error| error.to_string()),
         Err(error) => Err(error.to_string()),
     };
-    match run {
+    Ok(match run {
         Ok(run) => Some((run, stored.resume_point)),
         Err(reason) => {
             warn!(reason, "the saved state can't be used");
             None
         }
-    }
+    })
 }
 
 fn result_of_error(error: &RunError<KeepError>) -> JobResult {
@@ -251,6 +286,10 @@ fn result_of_error(error: &RunError<KeepError>) -> JobResult {
         }
         RunError::Sink(KeepError::Lost) => JobResult::Gone,
         RunError::Sink(KeepError::Stopped) => JobResult::Released,
+        // Of the machine at this moment, not of the scenario.
+        RunError::Sink(KeepError::Excess(excess @ Excess::NoMemory { .. })) => {
+            JobResult::AttemptFailed(excess.to_string())
+        }
         RunError::Sink(KeepError::Excess(excess)) => JobResult::Failed(Failure::excess(excess)),
         RunError::Sink(error) => JobResult::AttemptFailed(error.to_string()),
     }

@@ -20,6 +20,9 @@ use tracing::{info, warn};
 /// Longest time between two looks at the studies.
 const LOOK_PAUSE: Duration = Duration::from_secs(1);
 
+/// Members added in one transaction.
+const MEMBERS_ADDED_AT_ONCE: usize = 500;
+
 /// Reason why a study can't go on.
 #[derive(Debug, Error)]
 enum DriveError {
@@ -125,7 +128,11 @@ async fn advance(
         .map_err(|error| DriveError::Study(error.to_string()))?
     {
         Step::Members(members) => {
-            if studies.store.add_members(id, &members).await? > 0 {
+            let mut added = 0;
+            for some in members.chunks(MEMBERS_ADDED_AT_ONCE) {
+                added += studies.store.add_members(id, some).await?;
+            }
+            if added > 0 {
                 studies.jobs.announce();
                 // Members without a new job end without an event.
                 studies.changed.notify_one();

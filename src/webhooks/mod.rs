@@ -56,7 +56,12 @@ enum Sent {
     GivenUp,
     /// The service stops; it is sent after the next start.
     Stopping,
+    /// Another service leads by now; it sends it.
+    NotByThis,
 }
+
+/// True if this service, of those that share a database, tells.
+struct Leads(bool);
 
 impl Teller {
     async fn tell(mut self) {
@@ -67,7 +72,8 @@ impl Teller {
                 warn!(name = self.webhook.name, %error, "a webhook's place can't be read or noted now");
             }
             let pause = async {
-                if told.is_err() {
+                // One that does not lead is told by nobody when it does.
+                if !matches!(told, Ok(Leads(true))) {
                     sleep(Duration::from_secs(PAUSES_S[0])).await;
                 } else if matches!(
                     self.news.recv().await,
@@ -85,9 +91,9 @@ impl Teller {
 
     /// Tells all events after the last that was taken; a new receiver is told from now on.
     /// Of several services one tells.
-    async fn all_there_is(&self) -> Result<(), StoreError> {
+    async fn all_there_is(&self) -> Result<Leads, StoreError> {
         if !self.store.leads().await? {
-            return Ok(());
+            return Ok(Leads(false));
         }
         let last = self.store.last_event().await?;
         let noted = self.store.webhook_position(&self.webhook.name).await?;
@@ -99,11 +105,13 @@ impl Teller {
         loop {
             let events = self.store.events(position, None).await?;
             let Some(newest) = events.last().map(|event| event.sequence) else {
-                return Ok(());
+                return Ok(Leads(true));
             };
             for event in events.iter().filter(|event| self.is_told(event)) {
-                if self.send(event).await == Sent::Stopping {
-                    return Ok(());
+                match self.send(event).await? {
+                    Sent::Stopping => return Ok(Leads(true)),
+                    Sent::NotByThis => return Ok(Leads(false)),
+                    Sent::Taken | Sent::GivenUp => {}
                 }
                 self.note(event.sequence).await?;
             }
@@ -122,19 +130,22 @@ impl Teller {
     }
 
     /// Sends the message of an event until it is taken.
-    async fn send(&self, event: &Event) -> Sent {
+    async fn send(&self, event: &Event) -> Result<Sent, StoreError> {
         let name = &self.webhook.name;
         let Some(message) = Message::of(event) else {
-            return Sent::Taken;
+            return Ok(Sent::Taken);
         };
         let mut stopped = self.stopped.clone();
         let began = Instant::now();
         for attempt in 0.. {
+            if !self.store.leads().await? {
+                return Ok(Sent::NotByThis);
+            }
             match post::post(&self.webhook, &message).await {
-                Ok(()) => return Sent::Taken,
+                Ok(()) => return Ok(Sent::Taken),
                 Err(error) if began.elapsed() >= GIVEN_UP_AFTER => {
                     warn!(name, id = %event.job, %error, "a webhook's message is given up");
-                    return Sent::GivenUp;
+                    return Ok(Sent::GivenUp);
                 }
                 Err(error) => {
                     info!(name, id = %event.job, %error, "a webhook's message is sent again later");
@@ -143,9 +154,9 @@ impl Teller {
             let pause = PAUSES_S[PAUSES_S.len().min(attempt + 1) - 1];
             tokio::select! {
                 () = sleep(Duration::from_secs(pause)) => {}
-                _ = stopped.wait_for(|stopped| *stopped) => return Sent::Stopping,
+                _ = stopped.wait_for(|stopped| *stopped) => return Ok(Sent::Stopping),
             }
         }
-        Sent::GivenUp
+        Ok(Sent::GivenUp)
     }
 }

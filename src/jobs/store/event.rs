@@ -3,7 +3,7 @@
 use crate::jobs::job::{JobId, JobStatus};
 
 /// Largest number of events read at once.
-pub(super) const EVENTS_AT_ONCE: u32 = 100;
+pub const EVENTS_AT_ONCE: u32 = 100;
 
 /// Change of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -30,7 +30,7 @@ pub use claim::{Claim, Claimant, Dismissal, Lease, Pack, Renewal, Solver};
 pub use counts::JobCounts;
 pub use ending::{FailedAttempt, Returned, TOLERATED_SETBACKS};
 pub use error::{Cause, StoreError, StoreErrorKind};
-pub use event::{Change, Event};
+pub use event::{Change, EVENTS_AT_ONCE, Event};
 pub use keyed_request::{FormerRequest, KeptAnswer, Key, KeyRetention};
 pub use page::{JobPage, ListedJob, Page, Removal};
 pub use port::JobStore;

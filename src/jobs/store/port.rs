@@ -67,8 +67,9 @@ pub trait JobStore: Debug + Send + Sync {
     async fn claim(&self, claimant: &Claimant) -> Answer<Vec<Claim>>;
 
     /// True if no job waits or runs, and no study runs, which could make more. What runs may come
-    /// back into the queue.
-    async fn is_idle(&self) -> Answer<bool>;
+    /// back into the queue. Jobs that are left to others, who have more memory than this [bytes], do
+    /// not count as long as they wait.
+    async fn is_idle(&self, memory_bytes: u64) -> Answer<bool>;
 
     /// Dismisses a job. A worker that runs it notices at its next write or
     /// heartbeat; the caller notifies it sooner.
@@ -114,7 +115,8 @@ pub trait JobStore: Debug + Send + Sync {
     /// They may be claimed again at once. Returns their number.
     async fn reclaim_own(&self, owner: &str) -> Answer<usize>;
 
-    /// Reclaims jobs of other services whose lease has run out. Returns their number.
+    /// Reclaims jobs of other processes whose lease has run out, and those of this one that it can't
+    /// know of, since the answer to its claim got lost. Returns their number.
     ///
     /// Leases and waits are measured by time that passes, not by the time of day.
     async fn reclaim_expired(&self, owner: &str) -> Answer<usize>;

@@ -53,7 +53,7 @@ pub trait StudyStore: JobStore {
     ) -> Answer<Vec<ListedMember>>;
 
     /// Members of a study whose job has ended or been removed, and whose outcome is not noted
-    /// yet; at most a hundred.
+    /// yet; a number of them at a time.
     async fn ended_members(&self, study: StudyId) -> Answer<Vec<EndedMember>>;
 
     /// Notes outcomes of members, each once.

@@ -24,7 +24,7 @@ impl PostgresStore {
                  SET status = 'successful', finished_ms = $3, ended_operating_ms = $6,
                      outcome = $4, fingerprint = $5, fraction = 1, eta_s = NULL,
                      lease_owner = NULL, lease_expires_operating_ms = NULL
-                 WHERE id = $1::uuid AND lease_token = $2 AND status = 'running'
+                 WHERE id = $1::uuid AND lease_token = $2 AND lease_expires_operating_ms IS NOT NULL
                  RETURNING id, attempt
              ), ended AS (
                  UPDATE attempts SET ended_ms = $3, ending = 'successful'
@@ -93,7 +93,7 @@ pub(super) async fn set_back_row(
     let found: Option<(i64, bool, bool)> = sqlx::query_as(
         "SELECT failed_attempts, begun,
                 EXISTS (SELECT 1 FROM run_states WHERE job_id = $1::uuid AND attempt = $3)
-         FROM jobs WHERE id = $1::uuid AND lease_token = $2 AND status = 'running' FOR UPDATE",
+         FROM jobs WHERE id = $1::uuid AND lease_token = $2 AND lease_expires_operating_ms IS NOT NULL FOR UPDATE",
     )
     .bind(lease.job.to_string())
     .bind(lease.token)
@@ -141,7 +141,7 @@ async fn fail_row(
         "UPDATE jobs
          SET status = 'failed', finished_ms = $3, ended_operating_ms = $5, problem = $4,
              eta_s = NULL, lease_owner = NULL, lease_expires_operating_ms = NULL
-         WHERE id = $1::uuid AND lease_token = $2 AND status = 'running'",
+         WHERE id = $1::uuid AND lease_token = $2 AND lease_expires_operating_ms IS NOT NULL",
     )
     .bind(lease.job.to_string())
     .bind(lease.token)
@@ -171,7 +171,7 @@ async fn put_back_row(
              steps = CASE WHEN saved THEN steps ELSE 0 END,
              substeps = CASE WHEN saved THEN substeps ELSE 0 END
          FROM (SELECT EXISTS (SELECT 1 FROM run_states WHERE job_id = $1::uuid) AS saved) AS state
-         WHERE id = $1::uuid AND lease_token = $2 AND status = 'running'",
+         WHERE id = $1::uuid AND lease_token = $2 AND lease_expires_operating_ms IS NOT NULL",
     )
     .bind(lease.job.to_string())
     .bind(lease.token)

@@ -39,12 +39,12 @@ impl PostgresStore {
         Ok(last.fetch_one(&self.pool).await?)
     }
 
-    /// Numbers all events that have been written, in the order of their places. Those of one job
+    /// Numbers all events that had been written by now, in the order of their places. Those of one job
     /// are written one after the other, with its row locked, so they keep their order.
     async fn number_events(&self) -> Answer<()> {
         while self.has_events_to_number().await? {
             let mut transaction = self.begin_in_turn(Turn::Numbering).await?;
-            sqlx::query(
+            let numbered: i64 = sqlx::query_scalar(
                 "WITH new AS (
                      SELECT place, row_number() OVER (ORDER BY place) AS number FROM events
                      WHERE sequence IS NULL ORDER BY place LIMIT $1
@@ -54,12 +54,17 @@ impl PostgresStore {
                      RETURNING events.sequence
                  )
                  UPDATE last_event
-                 SET sequence = greatest(sequence, (SELECT max(numbered.sequence) FROM numbered))",
+                 SET sequence = greatest(sequence, (SELECT max(numbered.sequence) FROM numbered))
+                 RETURNING (SELECT count(*) FROM numbered)",
             )
             .bind(NUMBERED_AT_ONCE)
-            .execute(&mut *transaction)
+            .fetch_one(&mut *transaction)
             .await?;
             transaction.commit().await?;
+            // What comes meanwhile is left to the next reader, or this one would never end.
+            if numbered < NUMBERED_AT_ONCE {
+                break;
+            }
         }
         Ok(())
     }

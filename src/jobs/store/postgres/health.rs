@@ -38,9 +38,10 @@ impl PostgresStore {
     }
 
     pub(super) async fn running_jobs(&self) -> Answer<u64> {
-        let count: i64 = sqlx::query_scalar("SELECT count(*) FROM jobs WHERE status = 'running'")
-            .fetch_one(&self.pool)
-            .await?;
+        let count: i64 =
+            sqlx::query_scalar("SELECT count(*) FROM jobs WHERE lease_owner IS NOT NULL")
+                .fetch_one(&self.pool)
+                .await?;
         Ok(count.unsigned_abs())
     }
 

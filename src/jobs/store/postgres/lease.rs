@@ -11,6 +11,10 @@ use crate::runs::Progress;
 use sqlx::{Postgres, Transaction};
 use std::time::Duration;
 
+/// Time after the end of its lease for which a process leaves a job of its own to itself [ms]. By
+/// then it has renewed what it knows of: it is one whose claim got lost on the way.
+const LOST_CLAIM_MS: i64 = 60_000;
+
 impl PostgresStore {
     pub(super) async fn renew(
         &self,
@@ -26,7 +30,8 @@ impl PostgresStore {
                  point_steps_per_s = $7,
                  eta_s = CASE WHEN status = 'running' THEN $8 END,
                  lease_expires_operating_ms = CASE WHEN status = 'running' THEN $9 END
-             WHERE id = $1::uuid AND lease_token = $2 AND status IN ('running', 'dismissed')
+             WHERE id = $1::uuid AND lease_token = $2
+               AND (lease_expires_operating_ms IS NOT NULL OR status = 'dismissed')
              RETURNING status",
         )
         .bind(&id)
@@ -52,7 +57,7 @@ impl PostgresStore {
         let mut transaction = self.begin().await?;
         let left: Vec<(String, i64, i64)> = sqlx::query_as(
             "SELECT id::text, attempt, lease_token FROM jobs
-             WHERE status = 'running' AND lease_owner = $1 ORDER BY sequence FOR UPDATE",
+             WHERE lease_owner = $1 ORDER BY sequence FOR UPDATE",
         )
         .bind(owner)
         .fetch_all(&mut *transaction)
@@ -67,11 +72,13 @@ impl PostgresStore {
         // Those that others reclaim at this moment are left to them.
         let left: Vec<(String, i64, i64)> = sqlx::query_as(
             "SELECT id::text, attempt, lease_token FROM jobs
-             WHERE status = 'running' AND lease_owner <> $1
-               AND lease_expires_operating_ms <= $2 ORDER BY sequence FOR UPDATE SKIP LOCKED",
+             WHERE lease_owner IS NOT NULL
+               AND lease_expires_operating_ms <= CASE WHEN lease_owner = $1 THEN $3 ELSE $2 END
+             ORDER BY sequence FOR UPDATE SKIP LOCKED",
         )
         .bind(owner)
         .bind(now.operating_ms)
+        .bind(now.operating_ms - LOST_CLAIM_MS)
         .fetch_all(&mut *transaction)
         .await?;
         self.set_back(transaction, &left, (&FailedAttempt::Expired, now))

@@ -7,6 +7,10 @@
 //! did. What counts rows takes a [`Turn`]. Every commit reaches the disk of the server before it is
 //! acknowledged (`synchronous_commit`). Other processes are told of news by NOTIFY.
 //!
+//! A running job is one with a lease, which the table checks. Statements for one job ask for the
+//! lease, which no index has, and not for the state: of those that run the server believes at times
+//! that there are none, and would look through all that have run since it counted.
+//!
 //! [`JobStore`]: super::JobStore
 
 mod ending;
@@ -40,7 +44,7 @@ use crate::jobs::clock::Clock;
 use error::{Answer, PostgresError};
 use leader::Leader;
 use locks::Turn;
-use news::News;
+use news::{News, Subject};
 use operating_time::OperatingTime;
 use sqlx::postgres::{PgConnectOptions, PgPoolOptions};
 use sqlx::{ConnectOptions, Connection, PgPool, Postgres, Transaction};
@@ -58,9 +62,11 @@ const CONNECTION_PATIENCE: Duration = Duration::from_secs(5);
 /// none for nothing.
 const IDLE: Duration = Duration::from_secs(30);
 
-/// Settings of every session. A client that is cut off in a transaction must not keep its rows
+/// Settings of every session. The statements are made for this isolation, in which one that waited
+/// for a row sees what the other did. A client that is cut off in a transaction must not keep its rows
 /// locked until the server's own keepalives notice, which takes hours.
-const SESSION: [(&str, &str); 5] = [
+const SESSION: [(&str, &str); 6] = [
+    ("default_transaction_isolation", "read committed"),
     ("idle_in_transaction_session_timeout", "20s"),
     ("tcp_keepalives_idle", "10"),
     ("tcp_keepalives_interval", "5"),
@@ -75,6 +81,16 @@ pub enum Part {
     Service,
     /// A worker: it needs the schema of its version.
     Worker,
+}
+
+impl Part {
+    /// What it is told of: a worker follows no events.
+    fn subjects(self) -> &'static [Subject] {
+        match self {
+            Self::Service => &Subject::ALL,
+            Self::Worker => &[Subject::Queue],
+        }
+    }
 }
 
 /// One moment, by both clocks.
@@ -130,7 +146,7 @@ impl PostgresStore {
         }
         let operating_time = OperatingTime::resume(&pool, Arc::clone(&clock)).await?;
         Ok(Self {
-            news: News::start(&pool, options.clone()),
+            news: News::start(&pool, options.clone(), part.subjects()),
             leader: Leader::new(options),
             pool,
             clock,

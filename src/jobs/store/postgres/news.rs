@@ -32,7 +32,7 @@ pub(super) enum Subject {
 }
 
 impl Subject {
-    const ALL: [Self; 2] = [Self::Queue, Self::Events];
+    pub(super) const ALL: [Self; 2] = [Self::Queue, Self::Events];
 
     fn channel(self) -> &'static str {
         match self {
@@ -62,11 +62,16 @@ struct Outbox {
 }
 
 impl News {
-    pub(super) fn start(pool: &PgPool, options: PgConnectOptions) -> Self {
+    /// `subjects` are those that others tell this process of.
+    pub(super) fn start(
+        pool: &PgPool,
+        options: PgConnectOptions,
+        subjects: &'static [Subject],
+    ) -> Self {
         let heard = Arc::new(Heard([watch::Sender::new(0), watch::Sender::new(0)]));
         let outbox = Arc::new(Outbox::default());
         let tasks = [
-            tokio::spawn(listen(options, Arc::clone(&heard))),
+            tokio::spawn(listen(options, subjects, Arc::clone(&heard))),
             tokio::spawn(tell(pool.clone(), Arc::clone(&outbox))),
         ];
         Self {
@@ -118,9 +123,9 @@ impl Heard {
 }
 
 /// Listens as long as the process runs; a lost session is replaced.
-async fn listen(options: PgConnectOptions, heard: Arc<Heard>) {
+async fn listen(options: PgConnectOptions, subjects: &[Subject], heard: Arc<Heard>) {
     loop {
-        if let Err(error) = listen_once(&options, &heard).await {
+        if let Err(error) = listen_once(&options, subjects, &heard).await {
             tracing::debug!(%error, "no news can be heard now");
         }
         sleep(RETRY_PAUSE).await;
@@ -129,7 +134,11 @@ async fn listen(options: PgConnectOptions, heard: Arc<Heard>) {
     }
 }
 
-async fn listen_once(options: &PgConnectOptions, heard: &Heard) -> Result<(), sqlx::Error> {
+async fn listen_once(
+    options: &PgConnectOptions,
+    subjects: &[Subject],
+    heard: &Heard,
+) -> Result<(), sqlx::Error> {
     let pool = sqlx::postgres::PgPoolOptions::new()
         .max_connections(1)
         .idle_timeout(None)
@@ -137,7 +146,7 @@ async fn listen_once(options: &PgConnectOptions, heard: &Heard) -> Result<(), sq
         .connect_lazy_with(options.clone());
     let mut listener = PgListener::connect_with(&pool).await?;
     listener
-        .listen_all(Subject::ALL.map(Subject::channel))
+        .listen_all(subjects.iter().map(|subject| subject.channel()))
         .await?;
     heard.note_all();
     // `None`: the session was lost.

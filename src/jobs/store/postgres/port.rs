@@ -67,8 +67,8 @@ impl JobStore for PostgresStore {
         within(Self::claim(self, claimant)).await
     }
 
-    async fn is_idle(&self) -> Result<bool, StoreError> {
-        within(Self::is_idle(self)).await
+    async fn is_idle(&self, memory_bytes: u64) -> Result<bool, StoreError> {
+        within(Self::is_idle(self, memory_bytes)).await
     }
 
     async fn wait_for_jobs(&self) {
@@ -105,7 +105,12 @@ impl JobStore for PostgresStore {
         lease_duration: Duration,
         progress: &Progress,
     ) -> Result<Renewal, StoreError> {
-        within(Self::renew(self, lease, lease_duration, progress)).await
+        // One that is held up must not cost the leases that are renewed after it.
+        let renewal = within(Self::renew(self, lease, lease_duration, progress));
+        match timeout(lease_duration / 3, renewal).await {
+            Ok(renewal) => renewal,
+            Err(late) => Err(StoreError::Unavailable(late.into())),
+        }
     }
 
     async fn reclaim_own(&self, owner: &str) -> Result<usize, StoreError> {

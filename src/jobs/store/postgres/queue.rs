@@ -68,12 +68,17 @@ impl PostgresStore {
         Ok(dismissal)
     }
 
-    pub(super) async fn is_idle(&self) -> Answer<bool> {
+    pub(super) async fn is_idle(&self, memory_bytes: u64) -> Answer<bool> {
         let idle = sqlx::query_scalar(
-            "SELECT NOT EXISTS (SELECT 1 FROM jobs WHERE status IN ('accepted', 'running'))
+            "SELECT NOT EXISTS (SELECT 1 FROM jobs WHERE lease_owner IS NOT NULL)
+                AND NOT EXISTS (SELECT 1 FROM jobs
+                                WHERE status = 'accepted' AND planned_memory_bytes <= $1)
                 AND NOT EXISTS (SELECT 1 FROM studies WHERE status = 'running')",
         );
-        Ok(idle.fetch_one(&self.pool).await?)
+        Ok(idle
+            .bind(integer(memory_bytes))
+            .fetch_one(&self.pool)
+            .await?)
     }
 }
 

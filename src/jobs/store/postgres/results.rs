@@ -137,7 +137,8 @@ async fn keep_progress(
         "UPDATE jobs
          SET fraction = $3, simulated_time_s = $4, steps = $5, substeps = $6,
              point_steps_per_s = $7, eta_s = CASE WHEN status = 'running' THEN $8 END
-         WHERE id = $1::uuid AND lease_token = $2 AND status IN ('running', 'dismissed')
+         WHERE id = $1::uuid AND lease_token = $2
+               AND (lease_expires_operating_ms IS NOT NULL OR status = 'dismissed')
          RETURNING status",
     )
     .bind(&id)

@@ -42,7 +42,7 @@ impl PostgresStore {
         let mut transaction = self.begin().await?;
         let done = sqlx::query(
             "UPDATE jobs SET threads = $3, begun = true
-             WHERE id = $1::uuid AND lease_token = $2 AND status = 'running'",
+             WHERE id = $1::uuid AND lease_token = $2 AND lease_expires_operating_ms IS NOT NULL",
         )
         .bind(lease.job.to_string())
         .bind(lease.token)

@@ -1,16 +1,15 @@
 //! Studies: kept, enlarged, ended, removed.
 
-use super::PostgresStore;
 use super::error::Answer;
 use super::locks::Turn;
 use super::news::Subject;
-use super::queue::dismiss_row;
+use super::submission::text;
+use super::{Now, PostgresStore};
 use crate::jobs::job::JobId;
 use crate::jobs::store::page::REMOVED_AT_ONCE;
 use crate::jobs::store::rows::{self, StudyRow, counts, job_id, parse_study, study_status};
 use crate::jobs::store::{
-    Dismissal, Enlarged, NewStudy, Removal, Room, StudyDismissal, StudyEnd, StudyPage,
-    StudySubmitted,
+    Enlarged, NewStudy, Removal, Room, StudyDismissal, StudyEnd, StudyPage, StudySubmitted,
 };
 use crate::studies::study::{MemberCounts, StoredStudy, StudyId, StudyStatus};
 use sqlx::PgConnection;
@@ -46,7 +45,7 @@ impl PostgresStore {
         )
         .bind(study.id.to_string())
         .bind(now.wall_ms)
-        .bind(study.title)
+        .bind(text(study.title))
         .bind(study.document)
         .bind(study.submitter)
         .bind(study.key.map(|key| &key.text))
@@ -174,12 +173,7 @@ impl PostgresStore {
         .bind(problem)
         .execute(&mut *transaction)
         .await?;
-        let mut dismissed = Vec::new();
-        for job in jobs_of_no_other(&mut transaction, id).await? {
-            if dismiss_row(&mut transaction, job, now).await? == Dismissal::Dismissed {
-                dismissed.push(job);
-            }
-        }
+        let dismissed = dismiss_members(&mut transaction, id, now).await?;
         transaction.commit().await?;
         self.news.tell(&[Subject::Events]);
         Ok(StudyDismissal::Done(dismissed))
@@ -237,6 +231,12 @@ impl PostgresStore {
         .bind(i64::from(REMOVED_AT_ONCE))
         .fetch_all(&mut *transaction)
         .await?;
+        // Locked before it is asked who has them: a study that is taking one at this moment has it
+        // then.
+        sqlx::query("SELECT 1 FROM jobs WHERE id = ANY ($1::uuid[]) ORDER BY sequence FOR UPDATE")
+            .bind(&orphans)
+            .execute(&mut *transaction)
+            .await?;
         // One that a new study shares meanwhile stays, and so does one that was submitted by
         // itself.
         sqlx::query(
@@ -336,22 +336,61 @@ async fn is_changed(
     )
 }
 
-/// Jobs in the queue or running that were made for a study and that no other running one has, in
-/// the order in which all transactions lock them.
-async fn jobs_of_no_other(connection: &mut PgConnection, id: StudyId) -> Answer<Vec<JobId>> {
-    let ids: Vec<String> = sqlx::query_scalar(
-        "SELECT own.job_id::text FROM study_members AS own
-         JOIN jobs ON jobs.id = own.job_id
-         WHERE own.study = (SELECT sequence FROM studies WHERE id = $1::uuid)
-           AND own.outcome IS NULL
-           AND jobs.priority = 1 AND jobs.status IN ('accepted', 'running')
-           AND NOT EXISTS (SELECT 1 FROM study_members AS other
-                           JOIN studies ON studies.sequence = other.study
-                           WHERE other.job_id = own.job_id AND other.study <> own.study
-                             AND studies.status = 'running')
-         ORDER BY jobs.sequence",
-    )
+/// Jobs in the queue or running that were made for a study.
+macro_rules! jobs_of_study {
+    ($what:literal, $more:literal) => {
+        concat!(
+            "SELECT ",
+            $what,
+            " FROM study_members AS own
+             JOIN jobs ON jobs.id = own.job_id
+             WHERE own.study = (SELECT sequence FROM studies WHERE id = $1::uuid)
+               AND own.outcome IS NULL
+               AND jobs.priority = 1 AND jobs.status IN ('accepted', 'running') ",
+            $more
+        )
+    };
+}
+
+/// Dismisses jobs that were made for a study and that no other running one has; returns them. They
+/// are locked before it is asked who has them: a study that is taking one at this moment has it then.
+async fn dismiss_members(
+    connection: &mut PgConnection,
+    id: StudyId,
+    now: Now,
+) -> Answer<Vec<JobId>> {
+    sqlx::query(jobs_of_study!(
+        "jobs.sequence",
+        "ORDER BY jobs.sequence FOR UPDATE OF jobs"
+    ))
     .bind(id.to_string())
+    .execute(&mut *connection)
+    .await?;
+    let ids: Vec<String> = sqlx::query_scalar(concat!(
+        "WITH alone AS (",
+        jobs_of_study!(
+            "DISTINCT jobs.id",
+            "AND NOT EXISTS (SELECT 1 FROM study_members AS other
+                             JOIN studies ON studies.sequence = other.study
+                             WHERE other.job_id = own.job_id AND other.study <> own.study
+                               AND studies.status = 'running')"
+        ),
+        "), dismissed AS (
+             UPDATE jobs
+             SET status = 'dismissed', finished_ms = $2, ended_operating_ms = $3, eta_s = NULL,
+                 lease_owner = NULL, lease_expires_operating_ms = NULL
+             FROM alone WHERE jobs.id = alone.id RETURNING jobs.id, jobs.attempt
+         ), ended AS (
+             UPDATE attempts SET ended_ms = $2, ending = 'dismissed'
+             FROM dismissed
+             WHERE job_id = dismissed.id AND attempts.attempt = dismissed.attempt
+               AND ending IS NULL
+         )
+         SELECT id::text FROM dismissed"
+    ))
+    .bind(id.to_string())
+    .bind(now.wall_ms)
+    .bind(now.operating_ms)
     .fetch_all(connection)
     .await?;
     let ids: Result<_, _> = ids.iter().map(|id| job_id(id)).collect();

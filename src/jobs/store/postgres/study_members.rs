@@ -211,7 +211,7 @@ async fn job_of(
          WHERE scenario_hash = $1 AND submitter IS NOT DISTINCT FROM $2
            AND (status IN ('accepted', 'running') AND priority = 1
                 OR status = 'successful' AND solver_version = $3 AND solver_commit = $4)
-         ORDER BY (status = 'successful') DESC, sequence LIMIT 1 FOR SHARE",
+         ORDER BY (status = 'successful') DESC, sequence LIMIT 1 FOR KEY SHARE",
     )
     .bind(&job.scenario_hash)
     .bind(submitter)

@@ -114,6 +114,11 @@ impl Origin {
     }
 }
 
+/// A text as the server takes it: no text of its has a zero.
+pub(super) fn text(text: &str) -> String {
+    text.replace('\0', "\u{fffd}")
+}
+
 /// Puts a job into the queue, with its labels.
 pub(super) async fn insert(
     connection: &mut PgConnection,
@@ -136,7 +141,7 @@ pub(super) async fn insert(
     .bind(job.id.to_string())
     .bind(now.wall_ms)
     .bind(&job.scenario)
-    .bind(&job.title)
+    .bind(text(&job.title))
     .bind(integer(job.bodies as u64))
     .bind(job.solver_version)
     .bind(&job.scenario_hash)

@@ -57,7 +57,8 @@ impl JobStore for SqliteStore {
         Ok(Self::claim(self, claimant).await?)
     }
 
-    async fn is_idle(&self) -> Result<bool, StoreError> {
+    /// No job is left to others.
+    async fn is_idle(&self, _: u64) -> Result<bool, StoreError> {
         Ok(Self::is_idle(self).await?)
     }
 
