@@ -1,11 +1,15 @@
 //! Leases that run out while their workers don't notice.
 
+use super::studies::{new_member, new_study};
 use super::*;
 use crate::jobs::failure::Failure;
+use crate::studies::study::{StudyId, StudyStatus};
 
 conformance! {
     no_stale_worker_ever_writes
     a_job_is_claimed_by_one_of_many
+    a_study_that_ends_takes_no_job_from_one_that_is_taking_it
+    a_removed_study_takes_no_job_from_one_that_is_taking_it
 }
 
 /// Number of times that a lease is made to run out.
@@ -92,4 +96,78 @@ async fn a_job_is_claimed_by_one_of_many(fixture: &Fixture) {
     claimed.sort();
     submitted.sort();
     assert_eq!(claimed, submitted);
+}
+
+/// Number of times that two studies meet over the same jobs.
+const MEETINGS: u32 = 20;
+
+/// Members of a study, each with a scenario of its own.
+fn members() -> Vec<NewMember> {
+    let letters = ('a'..='t').map(String::from);
+    let member = |(number, letter): (u64, String)| new_member(number, &letter);
+    (0..).zip(letters).map(member).collect()
+}
+
+async fn running_study(store: &dyn StudyStore) -> StudyId {
+    let id = StudyId::new();
+    store.add_study(&new_study(id, "x")).await.unwrap();
+    id
+}
+
+/// Ends a study successfully.
+async fn end(store: &dyn StudyStore, id: StudyId) {
+    let end = StudyEnd {
+        status: StudyStatus::Successful,
+        problem: None,
+        document: None,
+    };
+    store.end_study(id, end).await.unwrap();
+}
+
+/// States of the jobs of a study's members.
+async fn statuses(store: &dyn StudyStore, id: StudyId) -> Vec<Option<JobStatus>> {
+    let members = store.members(id, (0, 0), 100).await.unwrap();
+    members.into_iter().map(|member| member.status).collect()
+}
+
+/// One study ends while another takes jobs that it has: what the other has in the end waits.
+async fn a_study_that_ends_takes_no_job_from_one_that_is_taking_it(fixture: &Fixture) {
+    for _ in 0..MEETINGS {
+        let store = &*fixture.store;
+        let (ends, takes) = (running_study(store).await, running_study(store).await);
+        store.add_members(ends, &members()).await.unwrap();
+        let (coming, ending) = (Arc::clone(&fixture.store), Arc::clone(&fixture.store));
+        let taking = tokio::spawn(async move { coming.add_members(takes, &members()).await });
+        let ended = tokio::spawn(async move { end(&*ending, ends).await });
+        assert_eq!(taking.await.unwrap().unwrap(), members().len());
+        ended.await.unwrap();
+        let statuses = statuses(store, takes).await;
+        assert_eq!(statuses, [Some(JobStatus::Accepted); 20]);
+        end(store, takes).await;
+    }
+}
+
+/// A study is removed while another takes jobs that it had: the other keeps them.
+async fn a_removed_study_takes_no_job_from_one_that_is_taking_it(fixture: &Fixture) {
+    let store = &*fixture.store;
+    for _ in 0..MEETINGS {
+        let gone = running_study(store).await;
+        store.add_members(gone, &members()).await.unwrap();
+        while let Some(lease) = fixture.try_claim("a").await {
+            fixture.succeed(lease).await;
+        }
+        end(store, gone).await;
+        store.remove_study(gone).await.unwrap();
+        let takes = running_study(store).await;
+        let (coming, removing) = (Arc::clone(&fixture.store), Arc::clone(&fixture.store));
+        let taking = tokio::spawn(async move { coming.add_members(takes, &members()).await });
+        let removed = tokio::spawn(async move { removing.remove_orphans().await });
+        assert_eq!(taking.await.unwrap().unwrap(), members().len());
+        removed.await.unwrap().unwrap();
+        let lost = statuses(store, takes).await.contains(&None);
+        assert!(!lost, "a member's job is gone");
+        end(store, takes).await;
+        store.remove_study(takes).await.unwrap();
+        while store.remove_orphans().await.unwrap() > 0 {}
+    }
 }

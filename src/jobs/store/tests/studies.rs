@@ -56,7 +56,7 @@ impl Fixture {
     }
 }
 
-fn new_study(id: StudyId, title: &str) -> NewStudy<'_> {
+pub(super) fn new_study(id: StudyId, title: &str) -> NewStudy<'_> {
     NewStudy {
         id,
         title,
@@ -72,7 +72,7 @@ fn room(queue: u32, submitter: Option<u32>) -> Room {
 }
 
 /// A member whose scenario is told from others by this letter.
-fn new_member(member: u64, scenario: &str) -> NewMember {
+pub(super) fn new_member(member: u64, scenario: &str) -> NewMember {
     let job = NewJob {
         scenario_hash: scenario.repeat(64),
         ..new_job()
