@@ -53,8 +53,14 @@ async fn tell(
     while !*stopped.borrow() {
         match next(store, &mut last).await {
             Ok(events) if events.is_empty() => {}
-            // Without a follower nobody misses it.
-            Ok(events) => drop(sender.send(News::Events(events.into()))),
+            Ok(events) => {
+                let are_more = events.len() >= EVENTS_OF_NEWS;
+                // Without a follower nobody misses it.
+                drop(sender.send(News::Events(events.into())));
+                if are_more {
+                    continue;
+                }
+            }
             Err(error) => warn!(%error, "events can't be read now"),
         }
         tokio::select! {
@@ -65,7 +71,7 @@ async fn tell(
     drop(sender.send(News::Closing));
 }
 
-/// All events after the last ones.
+/// The next events after the last ones: all, or so many that there may be more.
 async fn next(store: &dyn JobStore, last: &mut Option<i64>) -> Result<Vec<Event>, StoreError> {
     let mut after = match *last {
         Some(last) => last,

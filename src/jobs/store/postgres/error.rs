@@ -30,6 +30,11 @@ impl From<StoreError> for PostgresError {
 impl From<PostgresError> for StoreError {
     fn from(error: PostgresError) -> Self {
         match error {
+            PostgresError::Database(sqlx::Error::PoolTimedOut) => Self::Unavailable(
+                "the server gives no connection: is it running, in reach, and has it room for one \
+                 more (max_connections)?"
+                    .into(),
+            ),
             PostgresError::Database(error) => of_kind(kind(&error), error.into()),
             PostgresError::Content(error) => error,
         }

@@ -30,7 +30,7 @@ fn page_query(page: &Page) -> QueryBuilder<Postgres> {
     let mut query = QueryBuilder::new(
         "SELECT sequence, id::text AS id, status, title, created_ms, started_ms, finished_ms,
              fraction, simulated_time_s, steps, substeps, point_steps_per_s, eta_s,
-             (SELECT coalesce(json_agg(label ORDER BY label), '[]')::text FROM labels
+             (SELECT coalesce(json_agg(label ORDER BY label COLLATE \"C\"), '[]')::text FROM labels
               WHERE job_id = jobs.id) AS labels, CASE WHEN ",
     );
     query.push_bind(page.outcomes);

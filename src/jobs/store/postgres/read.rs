@@ -16,7 +16,7 @@ impl PostgresStore {
                     fraction, simulated_time_s, steps, substeps, point_steps_per_s, eta_s,
                     bodies, attempt, threads, solver_version, solver_commit, instructions,
                     scenario_hash, submitter, scenario, plan, outcome, fingerprint, problem,
-                    (SELECT coalesce(json_agg(label ORDER BY label), '[]')::text FROM labels
+                    (SELECT coalesce(json_agg(label ORDER BY label COLLATE \"C\"), '[]')::text FROM labels
                      WHERE job_id = jobs.id) AS labels
              FROM jobs WHERE id = $1::uuid",
         )
