@@ -8,8 +8,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::sync::watch;
 
-/// Time after which an idle worker looks for work without being woken, in case a job had to
-/// wait after a failed attempt.
+/// Time after which one of the idle workers looks for work without being woken, in case a job had
+/// to wait after a failed attempt.
 const IDLE_LOOK: Duration = Duration::from_secs(1);
 
 /// Registry of running jobs: workers wait in it for work, jobs are stopped through it, and share
@@ -19,12 +19,16 @@ pub struct RunningJobRegistry {
     cores: usize,
     state: Mutex<State>,
     changed: Condvar,
+    /// For idle workers alone, of whom one at a time is woken.
+    work: Condvar,
 }
 
 #[derive(Debug, Default)]
 struct State {
-    /// Number of jobs submitted so far.
-    submissions: u64,
+    /// True if there may be work that no worker has looked for.
+    is_news: bool,
+    /// Last look of an idle worker without news.
+    looked: Option<Instant>,
     /// True once jobs may be claimed.
     open: bool,
     /// When the service began to stop.
@@ -80,6 +84,7 @@ impl RunningJobRegistry {
             cores,
             state: Mutex::default(),
             changed: Condvar::new(),
+            work: Condvar::new(),
         }
     }
 
@@ -89,6 +94,7 @@ impl RunningJobRegistry {
             tracing::warn!(left_running, "the last service died under jobs: they go on");
         }
         self.state().open = true;
+        self.changed.notify_all();
         self.announce();
     }
 
@@ -103,10 +109,11 @@ impl RunningJobRegistry {
         !waited.unwrap_or_else(PoisonError::into_inner).is_closing()
     }
 
-    /// Notifies the workers of a submitted job.
+    /// Tells the workers that there may be work: one of them looks, and announces it to the next if
+    /// it finds some. So however many are idle, only one asks in vain.
     pub fn announce(&self) {
-        self.state().submissions += 1;
-        self.changed.notify_all();
+        self.state().is_news = true;
+        self.work.notify_one();
     }
 
     /// Asks a running job to stop, and returns a receiver that signals its end;
@@ -125,6 +132,7 @@ impl RunningJobRegistry {
             registered.run.control.ask(Stop::OnceSaved);
         }
         self.changed.notify_all();
+        self.work.notify_all();
     }
 
     /// Waits until no job runs any more, at most for this time.
@@ -179,18 +187,23 @@ impl RunningJobRegistry {
         closing.map_or(Duration::ZERO, |since| since.elapsed())
     }
 
-    /// Number of submissions so far; `None` once the registry is closed.
-    pub fn submissions(&self) -> Option<u64> {
-        let state = self.state();
-        (!state.is_closing()).then_some(state.submissions)
+    /// True once the service stops.
+    pub(super) fn is_closing(&self) -> bool {
+        self.state().is_closing()
     }
 
-    /// Waits for a submission after the `seen`-th, or for the registry to close.
-    pub(super) fn wait(&self, seen: u64) {
-        let state = self.state();
-        let idle = |state: &mut State| !state.is_closing() && state.submissions == seen;
-        // Woken or timed out, the worker looks for work in either case.
-        drop(self.changed.wait_timeout_while(state, IDLE_LOOK, idle));
+    /// Waits until this worker is to look for work, or until the registry closes.
+    pub(super) fn wait(&self) {
+        let mut state = self.state();
+        while !state.is_closing() && !std::mem::take(&mut state.is_news) {
+            let since = state.looked.map_or(IDLE_LOOK, |looked| looked.elapsed());
+            let Some(left) = IDLE_LOOK.checked_sub(since).filter(|left| !left.is_zero()) else {
+                state.looked = Some(Instant::now());
+                return;
+            };
+            let waited = self.work.wait_timeout(state, left);
+            (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        }
     }
 
     /// Registers a job that a worker has claimed; it takes no cores until it begins.
@@ -248,6 +261,7 @@ impl Drop for RunningJobGuard {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     fn lease() -> Lease {
         Lease {
@@ -286,7 +300,7 @@ mod tests {
         registry.close();
         assert_eq!(early.run.control.asked(), Stop::OnceSaved);
         assert!(registry.register(lease()).run.control.is_raised());
-        assert_eq!(registry.submissions(), None);
+        assert!(registry.is_closing());
     }
 
     #[test]
@@ -310,10 +324,36 @@ mod tests {
     #[test]
     fn a_submission_before_the_wait_is_not_slept_through() {
         let registry = RunningJobRegistry::of_cores(2);
-        let seen = registry.submissions().unwrap();
+        // The first look without news.
+        registry.wait();
         registry.announce();
         let began = Instant::now();
-        registry.wait(seen);
+        registry.wait();
         assert!(began.elapsed() < IDLE_LOOK);
+    }
+
+    #[test]
+    fn of_many_idle_workers_one_looks_at_a_time() {
+        let registry = RunningJobRegistry::of_cores(2);
+        let looks = AtomicUsize::new(0);
+        let began = Instant::now();
+        std::thread::scope(|scope| {
+            for _ in 0..8 {
+                scope.spawn(|| {
+                    while !registry.is_closing() {
+                        registry.wait();
+                        looks.fetch_add(1, Ordering::Relaxed);
+                    }
+                });
+            }
+            std::thread::sleep(IDLE_LOOK / 2);
+            registry.announce();
+            std::thread::sleep(IDLE_LOOK);
+            registry.close();
+        });
+        // The first, that of the announcement, one a pause, and that of each when it closes.
+        let pauses = began.elapsed().div_duration_f64(IDLE_LOOK) as usize;
+        let looks = looks.into_inner();
+        assert!((10..=2 + pauses + 8).contains(&looks), "{looks}");
     }
 }

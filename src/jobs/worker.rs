@@ -56,15 +56,19 @@ pub(super) fn work(equipment: &Equipment) {
     if !equipment.registry.wait_until_open() {
         return;
     }
-    while let Some(seen) = equipment.registry.submissions() {
+    while !equipment.registry.is_closing() {
         claimant.up_for = equipment.started.elapsed();
         claimant.pack = packs.next();
         match equipment.runtime.block_on(equipment.store.claim(&claimant)) {
-            Ok(claims) if claims.is_empty() => equipment.registry.wait(seen),
-            Ok(claims) => execute_all(equipment, &claims, &mut packs),
+            Ok(claims) if claims.is_empty() => equipment.registry.wait(),
+            Ok(claims) => {
+                // There may be more for another worker.
+                equipment.registry.announce();
+                execute_all(equipment, &claims, &mut packs);
+            }
             Err(error) => {
                 error!(%error, "no job can be claimed");
-                equipment.registry.wait(seen);
+                equipment.registry.wait();
             }
         }
     }

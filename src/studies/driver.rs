@@ -14,11 +14,14 @@ use scree_studies::Ensemble;
 use std::time::Duration;
 use thiserror::Error;
 use tokio::task::JoinHandle;
-use tokio::time::timeout;
+use tokio::time::{sleep, timeout};
 use tracing::{info, warn};
 
 /// Longest time between two looks at the studies.
 const LOOK_PAUSE: Duration = Duration::from_secs(1);
+
+/// Least time between two looks: each reads all members in work.
+const LEAST_PAUSE: Duration = Duration::from_millis(50);
 
 /// Members added in one transaction.
 const MEMBERS_ADDED_AT_ONCE: usize = 500;
@@ -51,6 +54,7 @@ async fn drive(studies: &StudyService) {
             Ok(false) => {}
             Err(error) => warn!(%error, "studies can't be driven now"),
         }
+        sleep(LEAST_PAUSE).await;
         // Members that end and studies that come are events; what is missed is seen a little later.
         if timeout(LOOK_PAUSE, studies.wait_for_news(&mut news)).await == Ok(false) {
             return;
