@@ -5,11 +5,10 @@ use super::{Part, PostgresStore, open, url};
 use crate::jobs::failure::Failure;
 use crate::jobs::store::tests::{FINGERPRINT, Fixture, LEASE, claimant, results_and_state};
 use crate::jobs::store::{AttemptStart, JobStore, Lease};
-use std::sync::Arc;
+use std::io::{Read, Write};
+use std::net::{Shutdown, TcpListener, TcpStream};
+use std::sync::{Arc, Condvar, Mutex};
 use std::time::Duration;
-use tokio::io::{AsyncReadExt, AsyncWriteExt};
-use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::watch;
 use tokio::task::JoinHandle;
 use tokio::time::sleep;
 
@@ -19,41 +18,57 @@ const RACES: u32 = 200;
 /// A network between a worker and its database that can stand still.
 struct Network {
     port: u16,
-    open: watch::Sender<bool>,
+    gate: Arc<Gate>,
+}
+
+#[derive(Default)]
+struct Gate {
+    is_shut: Mutex<bool>,
+    changed: Condvar,
 }
 
 impl Network {
     /// In front of the server at this address.
-    async fn to(server: String) -> Self {
-        let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+    fn to(server: String) -> Self {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let port = listener.local_addr().unwrap().port();
-        let (open, is_open) = watch::channel(true);
-        tokio::spawn(async move {
-            while let Ok((client, _)) = listener.accept().await {
-                let server = TcpStream::connect(&server).await.unwrap();
-                let (from_client, to_client) = client.into_split();
-                let (from_server, to_server) = server.into_split();
-                tokio::spawn(carry(from_client, to_server, is_open.clone()));
-                tokio::spawn(carry(from_server, to_client, is_open.clone()));
+        let gate = Arc::<Gate>::default();
+        let shared = Arc::clone(&gate);
+        // Its threads end with the process of the tests.
+        std::thread::spawn(move || {
+            while let Ok((client, _)) = listener.accept() {
+                let server = TcpStream::connect(&server).unwrap();
+                let ends = [(&client, &server), (&server, &client)];
+                for (from, to) in ends {
+                    let (from, to) = (from.try_clone().unwrap(), to.try_clone().unwrap());
+                    let gate = Arc::clone(&shared);
+                    std::thread::spawn(move || carry(from, to, &gate));
+                }
             }
         });
-        Self { port, open }
+        Self { port, gate }
+    }
+
+    fn shut(&self, is_shut: bool) {
+        *self.gate.is_shut.lock().unwrap() = is_shut;
+        self.gate.changed.notify_all();
     }
 }
 
-async fn carry(
-    mut from: impl AsyncReadExt + Unpin,
-    mut to: impl AsyncWriteExt + Unpin,
-    mut is_open: watch::Receiver<bool>,
-) {
+fn carry(mut from: TcpStream, mut to: TcpStream, gate: &Gate) {
     let mut bytes = vec![0; 1 << 16];
-    while let Ok(count @ 1..) = from.read(&mut bytes).await {
-        if is_open.wait_for(|open| *open).await.is_err()
-            || to.write_all(&bytes[..count]).await.is_err()
-        {
-            return;
+    while let Ok(count @ 1..) = from.read(&mut bytes) {
+        let is_shut = gate.is_shut.lock().unwrap();
+        drop(
+            gate.changed
+                .wait_while(is_shut, |is_shut| *is_shut)
+                .unwrap(),
+        );
+        if to.write_all(&bytes[..count]).is_err() {
+            break;
         }
     }
+    let _ = to.shutdown(Shutdown::Both);
 }
 
 /// Any kind of write of a worker; true if it was accepted.
@@ -75,7 +90,7 @@ async fn a_worker_that_was_cut_off_writes_nothing_stale() {
     let url = url(fixture.directory.path()).await;
     let (login, rest) = url.rsplit_once('@').unwrap();
     let (server, name) = rest.split_once('/').unwrap();
-    let network = Network::to(server.to_owned()).await;
+    let network = Network::to(server.to_owned());
     let through = format!("{login}@127.0.0.1:{}/{name}", network.port);
     let clock = fixture.clock.clone();
     let cut_off = PostgresStore::open(&through, Part::Worker, 2, clock).await;
@@ -89,7 +104,7 @@ async fn a_worker_that_was_cut_off_writes_nothing_stale() {
             .lease;
         assert_eq!(lease.job, id);
 
-        network.open.send_replace(false);
+        network.shut(true);
         let store = Arc::clone(&cut_off);
         let writing: JoinHandle<bool> =
             tokio::spawn(async move { write(&store, lease, race).await });
@@ -103,10 +118,10 @@ async fn a_worker_that_was_cut_off_writes_nothing_stale() {
         let results = results_and_state(5);
         assert!(fixture.store.keep(fresh, &results).await.unwrap());
         if race % 2 == 0 {
-            network.open.send_replace(true);
+            network.shut(false);
         }
         assert!(fixture.succeed(fresh).await);
-        network.open.send_replace(true);
+        network.shut(false);
         stale += u32::from(writing.await.unwrap());
 
         assert_eq!(fixture.job(id).await.outcome.unwrap().get(), "{}");
