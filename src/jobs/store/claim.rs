@@ -3,6 +3,10 @@
 use crate::jobs::job::{JobId, JobStatus};
 use std::time::Duration;
 
+/// Time after the end of its lease for which a process leaves a job of its own to itself [ms]. By
+/// then it has renewed what it knows of: it is one whose claim got lost on the way.
+pub(super) const LOST_CLAIM_MS: i64 = 60_000;
+
 /// Claimant of jobs, and the terms of its claims.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claimant {

@@ -5,15 +5,12 @@ use super::error::Answer;
 use super::news::Subject;
 use super::{Now, PostgresStore};
 use crate::jobs::job::JobStatus;
+use crate::jobs::store::claim::LOST_CLAIM_MS;
 use crate::jobs::store::rows::{integer, job_status, lease, milliseconds};
 use crate::jobs::store::{FailedAttempt, Lease, Renewal};
 use crate::runs::Progress;
 use sqlx::{Postgres, Transaction};
 use std::time::Duration;
-
-/// Time after the end of its lease for which a process leaves a job of its own to itself [ms]. By
-/// then it has renewed what it knows of: it is one whose claim got lost on the way.
-const LOST_CLAIM_MS: i64 = 60_000;
 
 impl PostgresStore {
     pub(super) async fn renew(

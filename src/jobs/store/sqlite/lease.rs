@@ -6,6 +6,7 @@ use super::error::Answer;
 use super::results::keep_progress;
 use super::size_limit::Purpose;
 use crate::jobs::job::JobStatus;
+use crate::jobs::store::claim::LOST_CLAIM_MS;
 use crate::jobs::store::rows::{lease, milliseconds};
 use crate::jobs::store::{FailedAttempt, Lease, Renewal};
 use crate::runs::Progress;
@@ -58,11 +59,12 @@ impl SqliteStore {
         let mut transaction = self.begin_write(Purpose::Upkeep).await?;
         let left: Vec<(String, i64, i64)> = sqlx::query_as(
             "SELECT id, attempt, lease_token FROM jobs
-             WHERE status = 'running' AND lease_owner <> ?1
-               AND lease_expires_operating_ms <= ?2 ORDER BY sequence",
+             WHERE status = 'running'
+               AND lease_expires_operating_ms <= iif(lease_owner = ?1, ?3, ?2) ORDER BY sequence",
         )
         .bind(owner)
         .bind(now.operating_ms)
+        .bind(now.operating_ms - LOST_CLAIM_MS)
         .fetch_all(&mut *transaction)
         .await?;
         for (id, attempt, token) in &left {

@@ -14,6 +14,7 @@ conformance! {
     a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed
     a_lease_that_is_renewed_does_not_run_out
     a_lease_that_ran_out_is_another_s_to_take
+    a_claim_whose_answer_got_lost_is_taken_back
     a_saved_job_whose_lease_ran_out_is_taken_at_once
     a_former_self_s_jobs_are_taken_back_at_once_and_no_others
     the_third_failed_attempt_in_a_row_is_the_last
@@ -32,6 +33,17 @@ async fn a_database_that_can_be_read_and_written_says_so(fixture: &Fixture) {
         fixture.store.probe().await.unwrap();
     }
     fixture.store.maintain().await.unwrap();
+}
+
+// Regression: a process that had no other beside it ran such a job for ever.
+async fn a_claim_whose_answer_got_lost_is_taken_back(fixture: &Fixture) {
+    let id = fixture.submit().await;
+    fixture.claim("a").await;
+    fixture.pass(LEASE + Duration::from_secs(59));
+    assert_eq!(fixture.store.reclaim_expired("a").await.unwrap(), 0);
+    fixture.pass(Duration::from_secs(1));
+    assert_eq!(fixture.store.reclaim_expired("a").await.unwrap(), 1);
+    assert_eq!(fixture.status(id).await, JobStatus::Accepted);
 }
 
 async fn a_removal_is_the_last_event_of_a_job_and_the_only_one_left(fixture: &Fixture) {

@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::jobs::failure::Failure;
+use crate::jobs::store::claim::LOST_CLAIM_MS;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use std::collections::BTreeMap;
@@ -185,7 +186,8 @@ impl Pair {
             }
             Event::TakeBackExpired(owner) => {
                 let expected = self.model.reclaim_expired(Why::Expired, |job, now| {
-                    job.owner != owner && job.expires_ms <= now
+                    let own = if job.owner == owner { LOST_CLAIM_MS } else { 0 };
+                    job.expires_ms + own <= now
                 });
                 let store = &self.fixture.store;
                 let taken = store.reclaim_expired(OWNERS[owner]).await;

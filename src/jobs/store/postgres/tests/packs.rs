@@ -2,7 +2,7 @@
 
 use super::open;
 use crate::jobs::job::{JobId, JobStatus};
-use crate::jobs::store::tests::{Fixture, LEASE, claimant, new_job, submission};
+use crate::jobs::store::tests::{Fixture, claimant, new_job, submission};
 use crate::jobs::store::{Claim, Claimant, FailedAttempt, Pack, StudyStore};
 use crate::jobs::submit::NewJob;
 use std::time::Duration;
@@ -113,17 +113,4 @@ async fn a_queue_of_jobs_that_others_have_memory_for_is_empty() {
     fixture.submit().await;
     assert!(!fixture.store.is_idle(1_000).await.unwrap());
     assert!(fixture.store.is_idle(999).await.unwrap());
-}
-
-#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-#[ignore = "needs a PostgreSQL server, TEST_POSTGRES_URL"]
-async fn a_claim_whose_answer_got_lost_is_taken_back() {
-    let fixture = Fixture::new(open).await;
-    let id = fixture.submit().await;
-    fixture.claim("a").await;
-    fixture.pass(LEASE + Duration::from_secs(59));
-    assert_eq!(fixture.store.reclaim_expired("a").await.unwrap(), 0);
-    fixture.pass(Duration::from_secs(1));
-    assert_eq!(fixture.store.reclaim_expired("a").await.unwrap(), 1);
-    assert_eq!(fixture.status(id).await, JobStatus::Accepted);
 }
