@@ -101,6 +101,9 @@ def a_host_that_is_not_there():
     print(f"{name}: a host that can't be reached is told, and the others work")
 
 
+# Whoever starts this in the background may have had it ignored, and what ignores it can't be told
+# to heed it by a program that it starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 until_empty()
 released("SIGTERM", lambda process: process.terminate(), 0)
 released("Ctrl-C", lambda process: os.killpg(process.pid, signal.SIGINT), 0)
