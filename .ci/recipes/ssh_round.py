@@ -4,6 +4,7 @@ asked to end, and lose the command that started them.
     ssh_round.py NAME URL DATABASE
 """
 
+import atexit
 import os
 import signal
 import subprocess
@@ -23,8 +24,8 @@ variables = os.environ | {"SCREE_DATABASE": database.replace("scree@", f"scree:{
 
 
 def start(*words: str) -> subprocess.Popen:
-    """The command in a group of its own, as a terminal would start it."""
-    return subprocess.Popen(
+    """The command in a group of its own, as a terminal would start it; a check that fails leaves none."""
+    process = subprocess.Popen(
         [COMMAND, *words],
         env=variables,
         text=True,
@@ -32,6 +33,15 @@ def start(*words: str) -> subprocess.Popen:
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
     )
+    atexit.register(end_group, process.pid)
+    return process
+
+
+def end_group(group: int):
+    try:
+        os.killpg(group, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
 
 
 def ended(process: subprocess.Popen, code: int) -> str:
