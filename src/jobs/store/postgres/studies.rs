@@ -272,19 +272,14 @@ async fn no_room(
     submitter: Option<&str>,
     room: Room,
 ) -> Answer<Option<StudySubmitted>> {
-    let (all, own): (i64, i64) = sqlx::query_as(
+    let running = sqlx::query_as(
         "SELECT count(*), count(*) FILTER (WHERE submitter = $1) FROM studies
          WHERE status = 'running'",
     )
     .bind(submitter)
     .fetch_one(connection)
     .await?;
-    let [all, own] = [all, own].map(|count| u32::try_from(count).unwrap_or(u32::MAX));
-    if all >= room.queue {
-        return Ok(Some(StudySubmitted::Full(all)));
-    }
-    let spent = room.submitter.is_some_and(|quota| own >= quota);
-    Ok(spent.then_some(StudySubmitted::QuotaSpent(own)))
+    Ok(room.beyond_studies(running))
 }
 
 async fn former_study(

@@ -3,9 +3,10 @@
 use super::error::Answer;
 use super::news::Subject;
 use super::studies::locked_status;
-use super::submission::{Origin, insert};
+use super::submission::insert;
 use super::{Now, PostgresStore};
 use crate::jobs::store::rows::{EndedRow, MemberRow, integer, member_outcome};
+use crate::jobs::store::submission::Origin;
 use crate::jobs::store::{EndedMember, ListedMember, MemberOutcome, MemberWork, NewMember};
 use crate::jobs::submit::NewJob;
 use crate::runs::COMMIT;

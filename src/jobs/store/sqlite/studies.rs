@@ -253,18 +253,14 @@ async fn no_room(
     submitter: Option<&str>,
     room: Room,
 ) -> Answer<Option<StudySubmitted>> {
-    let (all, own): (u32, u32) = sqlx::query_as(
+    let running = sqlx::query_as(
         "SELECT count(*), count(*) FILTER (WHERE submitter = ?1)
          FROM studies WHERE status = 'running'",
     )
     .bind(submitter)
     .fetch_one(&mut **transaction)
     .await?;
-    if all >= room.queue {
-        return Ok(Some(StudySubmitted::Full(all)));
-    }
-    let is_spent = room.submitter.is_some_and(|most| own >= most);
-    Ok(is_spent.then_some(StudySubmitted::QuotaSpent(own)))
+    Ok(room.beyond_studies(running))
 }
 
 /// The study of an earlier request with the same key.

@@ -3,9 +3,10 @@
 use super::error::Answer;
 use super::size_limit::Purpose;
 use super::studies::status_of;
-use super::submission::{Origin, insert};
+use super::submission::insert;
 use super::{Now, SqliteStore};
 use crate::jobs::store::rows::{EndedRow, MemberRow, integer, made_by_level, member_outcome};
+use crate::jobs::store::submission::Origin;
 use crate::jobs::store::{EndedMember, ListedMember, MemberOutcome, MemberWork, NewMember};
 use crate::jobs::submit::NewJob;
 use crate::runs::COMMIT;

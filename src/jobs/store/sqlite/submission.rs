@@ -6,6 +6,7 @@ use super::size_limit::Purpose;
 use super::{Now, SqliteStore};
 use crate::jobs::job::JobId;
 use crate::jobs::store::rows::{integer, job_id};
+use crate::jobs::store::submission::Origin;
 use crate::jobs::store::{Submission, Submitted};
 use crate::jobs::submit::NewJob;
 use sqlx::sqlite::SqliteConnection;
@@ -62,52 +63,23 @@ async fn no_room(
     connection: &mut SqliteConnection,
     submission: &Submission<'_>,
 ) -> Answer<Option<Submitted>> {
-    let coming = u32::try_from(submission.jobs.len()).unwrap_or(u32::MAX);
     // Members of studies take no place of a request's: only few of them wait at a time.
-    let waiting: u32 =
+    let waiting =
         sqlx::query_scalar("SELECT count(*) FROM jobs WHERE status = 'accepted' AND priority = 0")
             .fetch_one(&mut *connection)
             .await?;
-    if waiting.saturating_add(coming) > submission.room.queue {
-        return Ok(Some(Submitted::QueueFull(waiting)));
+    let full = submission.beyond_queue(waiting);
+    if full.is_some() || submission.room.submitter.is_none() {
+        return Ok(full);
     }
-    let Some(quota) = submission.room.submitter else {
-        return Ok(None);
-    };
-    let own: u32 = sqlx::query_scalar(
+    let own = sqlx::query_scalar(
         "SELECT count(*) FROM jobs
          WHERE submitter = ?1 AND status IN ('accepted', 'running') AND priority = 0",
     )
     .bind(submission.submitter)
     .fetch_one(connection)
     .await?;
-    Ok((own.saturating_add(coming) > quota).then_some(Submitted::QuotaSpent(own)))
-}
-
-/// Origin of a job.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Origin {
-    /// A request, by its number if it had an Idempotency-Key.
-    Request(Option<i64>),
-    /// A study, of which it is a member.
-    Study,
-}
-
-impl Origin {
-    fn keyed_request(self) -> Option<i64> {
-        match self {
-            Self::Request(number) => number,
-            Self::Study => None,
-        }
-    }
-
-    /// Jobs of a higher number wait until none of a lower one does.
-    fn priority(self) -> i64 {
-        match self {
-            Self::Request(_) => 0,
-            Self::Study => 1,
-        }
-    }
+    Ok(submission.beyond_quota(own))
 }
 
 pub(super) async fn insert(
