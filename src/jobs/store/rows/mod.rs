@@ -1,10 +1,11 @@
-//! Rows of the tables as every driver reads them, and their conversion. Whole numbers are 64 bits
+//! Rows of the tables as every driver selects and reads them, and their conversion. Whole numbers are 64 bits
 //! long in each database, so that one type of row serves all.
 
 mod attempts;
 mod events;
 mod jobs;
 mod keyed_requests;
+mod pages;
 mod records;
 mod studies;
 
@@ -12,6 +13,7 @@ pub(super) use attempts::AttemptRow;
 pub(super) use events::EventRow;
 pub(super) use jobs::{JobRow, ListedRow};
 pub(super) use keyed_requests::{KeyedRequestRow, identifiers_text, pack_answer, space};
+pub(super) use pages::{page_of, push_newest};
 pub(super) use records::{ChunkRow, SnapshotRow, StateRow, chunk_of, snapshot_of, state_of};
 pub(super) use studies::{
     EndedRow, MemberRow, StudyRow, counts, former_study, made_by_level, member_outcome,

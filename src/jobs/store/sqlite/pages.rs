@@ -2,28 +2,17 @@
 
 use super::SqliteStore;
 use super::error::Answer;
-use crate::jobs::job::JobStatus;
-use crate::jobs::store::page::{OUTCOME_BYTES, milliseconds_from};
-use crate::jobs::store::rows::ListedRow;
+use crate::jobs::store::rows::{ListedRow, page_of, push_newest};
 use crate::jobs::store::{JobPage, Page};
-use futures_util::TryStreamExt;
 use sqlx::{QueryBuilder, Sqlite};
 
 impl SqliteStore {
     pub(super) async fn page(&self, page: &Page) -> Answer<JobPage> {
         let mut query = page_query(page);
-        let mut rows = query
+        let rows = query
             .build_query_as::<ListedRow>()
             .fetch(self.readers.pool());
-        let (mut jobs, mut bytes) = (Vec::new(), 0);
-        while let Some(row) = rows.try_next().await? {
-            if jobs.len() == page.limit as usize || bytes >= OUTCOME_BYTES {
-                return Ok(JobPage { jobs, more: true });
-            }
-            bytes += row.outcome_bytes();
-            jobs.push(row.read()?);
-        }
-        Ok(JobPage { jobs, more: false })
+        page_of(rows, page).await
     }
 }
 
@@ -41,44 +30,21 @@ fn page_query(page: &Page) -> QueryBuilder<Sqlite> {
         if place > 0 {
             query.push(" UNION ALL ");
         }
-        push_state(&mut query, page, status);
+        // A limit is of a selection of its own.
+        query.push("SELECT sequence FROM (");
+        push_newest(&mut query, page, status);
+        query.push(")");
     }
     query.push(") ORDER BY sequence DESC LIMIT ");
     query.push_bind(i64::from(page.limit) + 1);
     query
 }
 
-/// The newest jobs of one state, from an index of their own: however many jobs there are, no more
-/// of a state are read than the page may have.
-fn push_state(query: &mut QueryBuilder<Sqlite>, page: &Page, status: JobStatus) {
-    query.push("SELECT sequence FROM (SELECT sequence FROM ");
-    match &page.label {
-        Some(label) => query.push("labels WHERE label = ").push_bind(label.clone()),
-        None => query.push("jobs WHERE true"),
-    };
-    query.push(" AND status = ").push_bind(status.word());
-    query
-        .push(" AND sequence < ")
-        .push_bind(page.before.unwrap_or(i64::MAX));
-    if let Some(time) = page.created_from {
-        query
-            .push(" AND created_ms >= ")
-            .push_bind(milliseconds_from(time));
-    }
-    if let Some(time) = page.created_to {
-        query
-            .push(" AND created_ms <= ")
-            .push_bind(time.as_millisecond());
-    }
-    query.push(" ORDER BY sequence DESC LIMIT ");
-    query.push_bind(i64::from(page.limit) + 1);
-    query.push(")");
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::jobs::clock::SystemClock;
+    use crate::jobs::job::JobStatus;
     use jiff::Timestamp;
     use sqlx::Row;
     use std::sync::Arc;
