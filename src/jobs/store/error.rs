@@ -65,6 +65,15 @@ pub enum StoreError {
 }
 
 impl StoreError {
+    /// Error of a database, of this kind.
+    pub(super) fn of_kind(kind: StoreErrorKind, cause: Cause) -> Self {
+        match kind {
+            StoreErrorKind::Full => Self::Full(cause),
+            StoreErrorKind::Unavailable => Self::Unavailable(cause),
+            StoreErrorKind::Damaged | StoreErrorKind::Defect => Self::Defect(cause),
+        }
+    }
+
     /// Kind of the error.
     pub fn kind(&self) -> StoreErrorKind {
         match self {

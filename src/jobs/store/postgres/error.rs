@@ -1,6 +1,6 @@
 //! Errors of the driver, and the kind of each for the port.
 
-use crate::jobs::store::{Cause, StoreError, StoreErrorKind};
+use crate::jobs::store::{StoreError, StoreErrorKind};
 use sqlx::migrate::MigrateError;
 
 /// Answer of the database, within this folder.
@@ -35,7 +35,7 @@ impl From<PostgresError> for StoreError {
                  more (max_connections)?"
                     .into(),
             ),
-            PostgresError::Database(error) => of_kind(kind(&error), error.into()),
+            PostgresError::Database(error) => Self::of_kind(kind(&error), error.into()),
             PostgresError::Content(error) => error,
         }
     }
@@ -50,15 +50,9 @@ pub(super) fn of_migration(error: MigrateError) -> StoreError {
     };
     match kind {
         StoreErrorKind::Damaged | StoreErrorKind::Defect => StoreError::Schema(error.into()),
-        StoreErrorKind::Full | StoreErrorKind::Unavailable => of_kind(kind, error.into()),
-    }
-}
-
-fn of_kind(kind: StoreErrorKind, cause: Cause) -> StoreError {
-    match kind {
-        StoreErrorKind::Full => StoreError::Full(cause),
-        StoreErrorKind::Unavailable => StoreError::Unavailable(cause),
-        StoreErrorKind::Damaged | StoreErrorKind::Defect => StoreError::Defect(cause),
+        StoreErrorKind::Full | StoreErrorKind::Unavailable => {
+            StoreError::of_kind(kind, error.into())
+        }
     }
 }
 

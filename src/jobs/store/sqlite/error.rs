@@ -1,6 +1,6 @@
 //! Errors of the driver, and the kind of each for the port.
 
-use crate::jobs::store::{Cause, StoreError, StoreErrorKind};
+use crate::jobs::store::{StoreError, StoreErrorKind};
 use sqlx::migrate::MigrateError;
 
 /// Answer of the database, within this folder.
@@ -30,7 +30,7 @@ impl From<StoreError> for SqliteError {
 impl From<SqliteError> for StoreError {
     fn from(error: SqliteError) -> Self {
         match error {
-            SqliteError::Database(error) => of_kind(kind(&error), error.into()),
+            SqliteError::Database(error) => Self::of_kind(kind(&error), error.into()),
             SqliteError::Content(error) => error,
         }
     }
@@ -64,15 +64,9 @@ pub(super) fn of_migration(error: MigrateError) -> StoreError {
     };
     match kind {
         StoreErrorKind::Damaged | StoreErrorKind::Defect => StoreError::Schema(error.into()),
-        StoreErrorKind::Full | StoreErrorKind::Unavailable => of_kind(kind, error.into()),
-    }
-}
-
-fn of_kind(kind: StoreErrorKind, cause: Cause) -> StoreError {
-    match kind {
-        StoreErrorKind::Full => StoreError::Full(cause),
-        StoreErrorKind::Unavailable => StoreError::Unavailable(cause),
-        StoreErrorKind::Damaged | StoreErrorKind::Defect => StoreError::Defect(cause),
+        StoreErrorKind::Full | StoreErrorKind::Unavailable => {
+            StoreError::of_kind(kind, error.into())
+        }
     }
 }
 
