@@ -3,10 +3,11 @@
 use super::ending::set_back_row;
 use super::error::Answer;
 use super::news::Subject;
+use super::results::keep_progress;
 use super::{Now, PostgresStore};
 use crate::jobs::job::JobStatus;
 use crate::jobs::store::claim::LOST_CLAIM_MS;
-use crate::jobs::store::rows::{integer, job_status, lease, milliseconds};
+use crate::jobs::store::rows::{lease, milliseconds};
 use crate::jobs::store::{FailedAttempt, Lease, Renewal};
 use crate::runs::Progress;
 use sqlx::{Postgres, Transaction};
@@ -20,29 +21,9 @@ impl PostgresStore {
         progress: &Progress,
     ) -> Answer<Renewal> {
         let now = self.now().await?;
-        let id = lease.job.to_string();
-        let word: Option<String> = sqlx::query_scalar(
-            "UPDATE jobs
-             SET fraction = $3, simulated_time_s = $4, steps = $5, substeps = $6,
-                 point_steps_per_s = $7,
-                 eta_s = CASE WHEN status = 'running' THEN $8 END,
-                 lease_expires_operating_ms = CASE WHEN status = 'running' THEN $9 END
-             WHERE id = $1::uuid AND lease_token = $2
-               AND (lease_expires_operating_ms IS NOT NULL OR status = 'dismissed')
-             RETURNING status",
-        )
-        .bind(&id)
-        .bind(lease.token)
-        .bind(progress.fraction)
-        .bind(progress.simulated_time_s)
-        .bind(integer(progress.steps))
-        .bind(integer(progress.substeps))
-        .bind(progress.point_steps_per_s)
-        .bind(progress.eta_s)
-        .bind(now.operating_ms + milliseconds(lease_duration))
-        .fetch_optional(&self.pool)
-        .await?;
-        Ok(match word.map(|word| job_status(&id, &word)).transpose()? {
+        let expires_ms = now.operating_ms + milliseconds(lease_duration);
+        let status = keep_progress(&self.pool, lease, progress, Some(expires_ms)).await?;
+        Ok(match status {
             Some(JobStatus::Running) => Renewal::Held,
             Some(_) => Renewal::Dismissed,
             None => Renewal::Lost,

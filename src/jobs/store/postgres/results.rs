@@ -11,12 +11,12 @@ use crate::results::chunk::{self, CHUNK_SAMPLES};
 use crate::results::columns::{Selection, TrajectoryColumns};
 use crate::results::flow::StoredSnapshot;
 use crate::runs::Progress;
-use sqlx::PgConnection;
+use sqlx::{PgConnection, PgExecutor};
 
 impl PostgresStore {
     pub(super) async fn keep(&self, lease: Lease, results: &NewResults) -> Answer<bool> {
         let mut transaction = self.begin().await?;
-        let status = keep_progress(&mut transaction, lease, &results.progress).await?;
+        let status = keep_progress(&mut *transaction, lease, &results.progress, None).await?;
         let Some(status) = status else {
             return Ok(false);
         };
@@ -125,18 +125,22 @@ impl PostgresStore {
     }
 }
 
-/// Stores the progress of a job that this lease still owns; returns whether the job
-/// runs or was dismissed meanwhile. Its row is locked until the transaction ends.
-async fn keep_progress(
-    connection: &mut PgConnection,
+/// Stores the progress of a job that this lease still owns, and renews the lease until this operating
+/// time if there is one; returns whether the job runs or was dismissed meanwhile. Its row is locked
+/// until the transaction ends.
+pub(super) async fn keep_progress(
+    executor: impl PgExecutor<'_>,
     lease: Lease,
     progress: &Progress,
+    expires_operating_ms: Option<i64>,
 ) -> Answer<Option<JobStatus>> {
     let id = lease.job.to_string();
     let word: Option<String> = sqlx::query_scalar(
         "UPDATE jobs
          SET fraction = $3, simulated_time_s = $4, steps = $5, substeps = $6,
-             point_steps_per_s = $7, eta_s = CASE WHEN status = 'running' THEN $8 END
+             point_steps_per_s = $7, eta_s = CASE WHEN status = 'running' THEN $8 END,
+             lease_expires_operating_ms =
+                 CASE WHEN status = 'running' THEN coalesce($9, lease_expires_operating_ms) END
          WHERE id = $1::uuid AND lease_token = $2
                AND (lease_expires_operating_ms IS NOT NULL OR status = 'dismissed')
          RETURNING status",
@@ -149,7 +153,8 @@ async fn keep_progress(
     .bind(integer(progress.substeps))
     .bind(progress.point_steps_per_s)
     .bind(progress.eta_s)
-    .fetch_optional(connection)
+    .bind(expires_operating_ms)
+    .fetch_optional(executor)
     .await?;
     Ok(word.map(|word| job_status(&id, &word)).transpose()?)
 }
