@@ -1,6 +1,6 @@
 //! A database server, and services and workers on it.
 
-use crate::served::{Place, Served, binary};
+use crate::served::{Place, binary};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use tempfile::TempDir;
@@ -97,9 +97,4 @@ impl Drop for Worker {
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
-}
-
-/// A service without workers.
-pub(crate) fn front(place: &Place) -> Served {
-    place.serve()
 }

@@ -2,7 +2,7 @@
 //! longer than their leases: nothing is lost, nothing runs to its end twice, and all results have the
 //! bits of an undisturbed run.
 
-use super::cluster::{Server, Worker, front};
+use super::cluster::{Server, Worker};
 use crate::client::{ask, get};
 use crate::served::{Place, Served, has_ended, scene};
 use crate::{at_length, tell};
@@ -54,7 +54,7 @@ impl Cluster {
     fn start() -> Self {
         let server = Server::start();
         let place = server.place(&SETTINGS);
-        let front = front(&place);
+        let front = place.serve();
         let workers = (0..WORKERS).map(|_| Worker::start(&place, &[])).collect();
         Self {
             front: Some(front),
@@ -110,7 +110,7 @@ impl Cluster {
             }
             "front" => {
                 self.front.take().expect("a front").kill();
-                self.front = Some(front(&self.place));
+                self.front = Some(self.place.serve());
             }
             "postmaster" => self.server.crash(),
             _ => {
@@ -181,7 +181,7 @@ fn a_worker_that_is_asked_to_leave_hands_its_job_to_another() {
     let _turn = crate::turn();
     let server = Server::start();
     let place = server.place(&SETTINGS);
-    let front = front(&place);
+    let front = place.serve();
     let job = front.submit(&scene(4.0));
     let first = Worker::start(&place, &[]);
     let simulated = |job: &Value| job["progress"]["simulated_time_s"].as_f64();
@@ -213,7 +213,7 @@ fn two_services_show_the_same_jobs() {
     let _turn = crate::turn();
     let server = Server::start();
     let place = server.place(&SETTINGS);
-    let (one, other) = (front(&place), front(&place));
+    let (one, other) = (place.serve(), place.serve());
     let _worker = Worker::start(&place, &[]);
     let study = serde_json::json!({
         "scenario": scene(0.2),

@@ -211,7 +211,7 @@ fn the_queue_takes_less_than_a_hundredth_of_members_of_a_second() {
     assert!(per_job_s < 0.01, "{per_job_s} s");
 }
 
-/// What a worker asks of the database for a job that takes a second.
+/// All that a worker asks of the database for a job that takes a second.
 async fn run(store: &PostgresStore, lease: Lease) {
     let begun = JobStore::begin(store, lease, &AttemptStart::Afresh, 1);
     assert!(begun.await.expect("a beginning"));

@@ -1,6 +1,6 @@
 //! Work of one and of two worker processes on the members of a study.
 
-use super::cluster::{Server, Worker, front};
+use super::cluster::{Server, Worker};
 use crate::client::{ask, get};
 use crate::served::{Served, scene};
 use crate::{at_length, tell};
@@ -22,7 +22,7 @@ fn study(members: usize, duration_s: f64) -> Value {
 /// Elapsed time of a study with so many worker processes, and wall time of its members together.
 fn run(server: &Server, workers: usize, members: usize, duration_s: f64) -> (f64, f64) {
     let place = server.place(&SETTINGS);
-    let front = front(&place);
+    let front = place.serve();
     let began = Instant::now();
     let workers: Vec<_> = (0..workers).map(|_| Worker::start(&place, &[])).collect();
     let document = study(members, duration_s).to_string();
