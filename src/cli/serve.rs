@@ -10,7 +10,7 @@ use std::io::IsTerminal;
 use std::path::Path;
 use tracing::level_filters::LevelFilter;
 
-/// Whether a log that can't be written is told on standard error. That is the log itself, so its
+/// Choice to tell on standard error of a log that can't be written. That is the log itself, so its
 /// reader has ended, or the connection to it: telling it would be a panic, and no job would be saved.
 const TELLS_ERRORS_OF_THE_LOG: bool = false;
 

@@ -49,7 +49,7 @@ pub(super) struct Equipment {
     pub(super) retention: Option<Retention>,
 }
 
-/// What a pool is given.
+/// Terms on which a pool is started.
 #[derive(Debug)]
 pub struct PoolStart {
     /// Size of the pool.

@@ -8,7 +8,7 @@ use crate::cli::console;
 use crate::cli::failure::Failure;
 use std::path::Path;
 
-/// Where the service is, and the token for it.
+/// Address of the service, and the token for it.
 pub(super) struct Connection {
     pub(super) address: Address,
     pub(super) token: Option<String>,
@@ -92,7 +92,7 @@ fn no_address() -> Failure {
     ))
 }
 
-/// What the client file can hold, in words.
+/// Keys of a client file, in words.
 pub(super) fn in_client_file(key: &str) -> String {
     match client_file::usual_path() {
         Some(path) => format!("`{key}` in {}", path.display()),

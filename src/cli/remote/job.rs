@@ -88,7 +88,7 @@ pub(super) fn in_words(outcome: &Outcome) -> String {
     }
 }
 
-/// What is known of a job that has not ended.
+/// Progress of a job that has not ended.
 pub(super) fn progress_in_words(job: &Job) -> String {
     match job.status.as_str() {
         "accepted" => "waits for a worker".to_owned(),

@@ -13,14 +13,14 @@ use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
 use uuid::Uuid;
 
-/// What is counted of a scenario.
+/// Part of a scenario whose bodies are counted.
 #[derive(Deserialize)]
 struct Scenario {
     #[serde(default)]
     bodies: Vec<IgnoredAny>,
 }
 
-/// What has a file of its own in an outcome.
+/// Parts of an outcome that have files of their own.
 #[derive(Deserialize)]
 struct Outcome {
     plan: Option<Box<RawValue>>,

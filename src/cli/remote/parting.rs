@@ -35,7 +35,7 @@ impl Parting {
         Ok(Self(words))
     }
 
-    /// What goes on from now on.
+    /// Sets what goes on from now on.
     pub(super) fn say(&self, what_goes_on: &str) {
         let mut words = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         *words = format!("; {what_goes_on}");

@@ -1,4 +1,4 @@
-//! What becomes of a request that gives nothing: no answer, a refusal, or another's answer.
+//! Failures of requests that give nothing: no answer, a refusal, or another's answer.
 
 use super::connection::in_client_file;
 use crate::cli::failure::Failure;

@@ -284,7 +284,7 @@ fn retry_after(answer: &Response<Body>) -> Option<Duration> {
     text.trim().parse().ok().map(Duration::from_secs)
 }
 
-/// Where another address leads to, which is for the user to judge.
+/// Address that an answer leads to, which is for the user to judge.
 fn moved_to(answer: &Response<Body>) -> Option<String> {
     let place = answer.headers().get(LOCATION)?.to_str().ok()?;
     let is_redirection = answer.status().is_redirection();

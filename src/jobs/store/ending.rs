@@ -46,7 +46,7 @@ pub(super) enum Consequence {
     Fails(Failure),
 }
 
-/// How far an attempt came before it failed.
+/// Progress of an attempt before it failed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reached {
     /// Its job waited in a pack.

@@ -4,7 +4,7 @@
 use super::error::Answer;
 use sqlx::{Postgres, Transaction};
 
-/// What is done by one transaction at a time.
+/// Work that one transaction does at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Turn {
     /// Submissions of jobs, which count those that wait.

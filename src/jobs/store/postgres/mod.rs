@@ -84,7 +84,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// What it is told of: a worker follows no events.
+    /// Subjects that it is told of: a worker follows no events.
     fn subjects(self) -> &'static [Subject] {
         match self {
             Self::Service => &Subject::ALL,

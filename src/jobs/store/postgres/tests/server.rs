@@ -1,4 +1,4 @@
-//! What the server itself enforces and plans, and what it may refuse.
+//! Rules that the server itself enforces, and its refusals.
 
 use super::{Part, PostgresStore, open, open_one, url};
 use crate::jobs::clock::SystemClock;
