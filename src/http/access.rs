@@ -1,7 +1,7 @@
 //! Access control: access tokens, their scopes, and the caller of a
 //! request.
 
-use super::ogc;
+use super::{ogc, page};
 use super::problem::Problem;
 use crate::config::{Scope, Token};
 use axum::extract::{FromRequestParts, Request, State};
@@ -12,15 +12,8 @@ use axum::response::{IntoResponse, Response};
 use std::net::{IpAddr, Ipv6Addr};
 use std::sync::Arc;
 
-/// Paths open without a token: they reveal nothing about jobs.
-const OPEN: [&str; 6] = [
-    "/",
-    "/page.js",
-    "/page.css",
-    "/healthz",
-    "/readyz",
-    "/openapi.json",
-];
+/// Paths open without a token besides those of the page: they reveal nothing about jobs.
+const OPEN: [&str; 3] = ["/healthz", "/readyz", "/openapi.json"];
 
 /// Address from which a request came.
 #[derive(Debug, Clone, Copy)]
@@ -169,7 +162,7 @@ pub(super) async fn check(State(gate): State<Gate>, mut request: Request, next: 
 
 /// True if the path is open without a token.
 pub(super) fn is_open(path: &str) -> bool {
-    OPEN.contains(&path) || ogc::is_description(path)
+    OPEN.contains(&path) || page::is_page(path) || ogc::is_description(path)
 }
 
 fn names_a_job(path: &str) -> bool {

@@ -1,6 +1,7 @@
 //! Protection of people who have a browser open beside the service: a page elsewhere must not
 //! speak to the service in their name, and what the service answers must not be run as a page.
 
+use super::page;
 use super::problem::Problem;
 use crate::config::{Authority, Host, Origin, ServiceConfig};
 use axum::extract::{Request, State};
@@ -10,12 +11,14 @@ use axum::response::{IntoResponse, Response};
 use std::sync::Arc;
 use tower_http::cors::CorsLayer;
 
-/// Policy of every answer but the page of the interface: nothing is loaded, and nobody frames it.
+/// Policy of every answer but the page for people: nothing is loaded, and nobody frames it.
 const NOTHING: HeaderValue = HeaderValue::from_static("default-src 'none'; frame-ancestors 'none'");
-/// Policy of the page of the interface: its own script, style and requests.
+/// Policy of the page for people: its own scripts, styles, pictures and requests. The script of a
+/// shared worker has the policy with which it is itself answered.
 const OWN: HeaderValue = HeaderValue::from_static(
-    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
-     base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; \
+     img-src 'self' blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; \
+     frame-ancestors 'none'",
 );
 const NOSNIFF: HeaderValue = HeaderValue::from_static("nosniff");
 
@@ -131,7 +134,7 @@ pub(super) async fn check(State(doors): State<Doors>, request: Request, next: Ne
 
 /// Adds the headers that keep an answer from being taken for something else.
 pub(super) async fn harden(request: Request, next: Next) -> Response {
-    let is_page = request.uri().path() == "/";
+    let is_page = page::is_page(request.uri().path());
     let mut response = next.run(request).await;
     let policy = if is_page { OWN } else { NOTHING };
     let headers = response.headers_mut();

@@ -27,6 +27,7 @@ mod metrics;
 mod named_job;
 mod ogc;
 mod operator;
+mod page;
 mod pieces;
 mod plans;
 mod problem;

@@ -9,7 +9,7 @@ use super::services::Services;
 use super::shares::{self, Shares};
 use super::static_text::StaticText;
 use super::{
-    batch, compression, contract, drawings, events, flow, jobs, listing, ogc, plans, studies,
+    batch, compression, contract, drawings, events, flow, jobs, listing, ogc, page, plans, studies,
     submission, system, trajectory,
 };
 use crate::config::ServiceConfig;
@@ -37,17 +37,14 @@ pub fn router(services: Services, config: &ServiceConfig) -> Router {
     let (router, contract) = documented(limits.request_timeout()).split_for_parts();
     let process = ogc::Process::of(&contract);
     let contract = StaticText::new("application/json", contract::text_of(&contract));
-    let page = StaticText::new("text/html; charset=utf-8", include_str!("page.html"));
-    let script = StaticText::new("text/javascript", include_str!("page.js"));
-    let style = StaticText::new("text/css", include_str!("page.css"));
     let body_timeout = limits.body_read_timeout();
     let body_bytes = limits.request_body_bytes;
     let router = router
         .route("/openapi.json", always(contract))
         .merge(ogc::beside_the_contract())
-        .route("/", always(page))
-        .route("/page.js", always(script))
-        .route("/page.css", always(style))
+        .route("/", get(page::page))
+        .route("/docs", get(page::page))
+        .route("/assets/{file}", get(page::page))
         .fallback(system::no_such_route)
         .method_not_allowed_fallback(system::wrong_method)
         .with_state(services)

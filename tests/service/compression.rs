@@ -45,7 +45,7 @@ async fn texts_are_compressed_as_the_client_accepts_and_their_tags_stay() {
         "/aerial.svg",
     ];
     let of_job = of_job.map(|part| format!("{job}{part}"));
-    let others = ["/openapi.json", "/page.js"].map(str::to_owned);
+    let others = ["/openapi.json", "/assets/app.js"].map(str::to_owned);
     for path in of_job.iter().chain(&others) {
         let plain = ask(&app, path, &[]).await;
         assert_eq!(header(&plain, "content-encoding"), None, "{path}");

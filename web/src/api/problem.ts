@@ -1,0 +1,32 @@
+import type { components } from "./contract";
+
+export type ProblemDocument = components["schemas"]["Problem"];
+export type FieldError = components["schemas"]["FieldError"];
+
+/** An answer of the service that is no success, or the lack of an answer (status 0). */
+export class ServiceProblem extends Error {
+  readonly status: number;
+  readonly document: Partial<ProblemDocument>;
+
+  constructor(status: number, document: Partial<ProblemDocument>) {
+    super(document.detail ?? document.title ?? `the service answered with status ${status}`);
+    this.name = "ServiceProblem";
+    this.status = status;
+    this.document = document;
+  }
+
+  /** All violations of the scenario's rules, each with the JSON pointer of its field. */
+  get violations(): FieldError[] {
+    return (this.document.errors as FieldError[] | undefined) ?? [];
+  }
+}
+
+/** Problem of an answer that is no success. */
+export async function problemOf(response: Response): Promise<ServiceProblem> {
+  const text = await response.text();
+  try {
+    return new ServiceProblem(response.status, JSON.parse(text) as Partial<ProblemDocument>);
+  } catch {
+    return new ServiceProblem(response.status, { detail: text.slice(0, 300) });
+  }
+}

@@ -1,0 +1,86 @@
+/** The stream of events of the service, read with `fetch`, since `EventSource` shows no token. */
+
+/** An event of the stream. */
+export type ServiceEvent =
+  | { kind: "status"; id: string; status: string; attempt: number }
+  | { kind: "removed"; id: string; attempt: number }
+  | { kind: "progress"; id: string; progress: unknown }
+  /** Earlier knowledge may be wrong: the stream broke off or the database was restored. */
+  | { kind: "reset" };
+
+/** Pause before the stream is opened again after it broke off [ms]. */
+const PAUSE_MS = 1_000;
+
+/** Reads the stream until the signal, and opens it again whenever it breaks off. */
+export async function follow(
+  url: string,
+  headers: Record<string, string>,
+  tell: (event: ServiceEvent) => void,
+  signal: AbortSignal,
+): Promise<void> {
+  let last: string | undefined;
+  while (!signal.aborted) {
+    try {
+      const resumed = last === undefined ? {} : { "Last-Event-ID": last };
+      const response = await fetch(url, { headers: { ...headers, ...resumed }, signal });
+      if (response.status === 401 || response.status === 403) return;
+      if (response.ok && response.body) {
+        // What happened while no stream was open is not told to a first one.
+        if (last === undefined) tell({ kind: "reset" });
+        for await (const message of messages(response.body)) {
+          last = message.id ?? last;
+          tell(eventOf(message));
+        }
+      }
+    } catch (error) {
+      if (signal.aborted) return;
+      if (!(error instanceof TypeError)) throw error;
+    }
+    await new Promise((resume) => setTimeout(resume, PAUSE_MS));
+  }
+}
+
+interface Message {
+  id?: string;
+  event: string;
+  data: string;
+}
+
+function eventOf({ event, data }: Message): ServiceEvent {
+  if (event === "reset") return { kind: "reset" };
+  return { kind: event, ...JSON.parse(data) } as ServiceEvent;
+}
+
+/** Messages of a body of server-sent events. */
+async function* messages(body: ReadableStream<Uint8Array>): AsyncGenerator<Message> {
+  const reader = body.pipeThrough(new TextDecoderStream() as ReadableWritablePair<string, Uint8Array>).getReader();
+  let rest = "";
+  try {
+    for (;;) {
+      const { done, value } = await reader.read();
+      if (done) return;
+      const blocks = (rest + value).split("\n\n");
+      rest = blocks.pop() ?? "";
+      for (const block of blocks) {
+        const message = parse(block);
+        if (message) yield message;
+      }
+    }
+  } finally {
+    // Otherwise the connection stays open after the reader has gone.
+    void reader.cancel();
+  }
+}
+
+/** A message from its lines; none for a comment. */
+export function parse(block: string): Message | undefined {
+  const message: Message = { event: "message", data: "" };
+  for (const line of block.split("\n")) {
+    const colon = line.indexOf(":");
+    const value = line.slice(colon + 1).replace(/^ /, "");
+    if (line.startsWith("id:")) message.id = value;
+    else if (line.startsWith("event:")) message.event = value;
+    else if (line.startsWith("data:")) message.data += value;
+  }
+  return message.data === "" ? undefined : message;
+}

@@ -1,0 +1,79 @@
+/**
+ * Shared worker that reads one stream of events for all open pages of this browser with the same
+ * token: ten pages cost the service as much as one.
+ */
+
+import { type ServiceEvent, follow } from "./stream";
+
+interface SharedWorkerScope {
+  onconnect: ((event: MessageEvent) => void) | null;
+}
+
+/** Message of a page: that it wants the events of a stream, said again as a sign of life, or leaves. */
+export type PageMessage = { url: string; headers: Record<string, string> } | "leave";
+
+/** Time after which a page that has said nothing is taken for closed [ms]; hidden pages have their
+ * timers slowed down to one call a minute. */
+const LONGEST_SILENCE_MS = 180_000;
+
+/** The pages that share a stream. */
+class SharedStream {
+  private readonly pages = new Map<MessagePort, number>();
+  private readonly end = new AbortController();
+  /** Last progress of each running job, for pages that come later. */
+  private readonly progress = new Map<string, ServiceEvent>();
+
+  constructor(url: string, headers: Record<string, string>) {
+    void follow(url, headers, (event) => this.tell(event), this.end.signal);
+  }
+
+  /** Adds a page, or notes that it is still there. */
+  join(page: MessagePort): void {
+    const isNew = !this.pages.has(page);
+    this.pages.set(page, Date.now());
+    if (!isNew) return;
+    page.postMessage({ kind: "reset" } satisfies ServiceEvent);
+    for (const event of this.progress.values()) page.postMessage(event);
+  }
+
+  leave(page: MessagePort): void {
+    this.pages.delete(page);
+  }
+
+  /** Leaves out closed pages; false once none is left and the stream has ended. */
+  goesOn(): boolean {
+    const oldest = Date.now() - LONGEST_SILENCE_MS;
+    for (const [page, seen] of this.pages) if (seen < oldest) this.pages.delete(page);
+    if (this.pages.size === 0) this.end.abort();
+    return this.pages.size > 0;
+  }
+
+  private tell(event: ServiceEvent): void {
+    if (event.kind === "progress") this.progress.set(event.id, event);
+    else if (event.kind !== "reset") this.progress.delete(event.id);
+    for (const page of this.pages.keys()) page.postMessage(event);
+  }
+}
+
+const streams = new Map<string, SharedStream>();
+
+function endUnused(): void {
+  for (const [key, stream] of streams) if (!stream.goesOn()) streams.delete(key);
+}
+
+(self as unknown as SharedWorkerScope).onconnect = ({ ports: [page] }) => {
+  if (!page) return;
+  page.onmessage = ({ data }: MessageEvent<PageMessage>) => {
+    if (data === "leave") {
+      for (const stream of streams.values()) stream.leave(page);
+      endUnused();
+      return;
+    }
+    const key = JSON.stringify(data);
+    const stream = streams.get(key) ?? new SharedStream(data.url, data.headers);
+    streams.set(key, stream);
+    stream.join(page);
+  };
+};
+
+setInterval(endUnused, LONGEST_SILENCE_MS / 6);

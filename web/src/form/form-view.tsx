@@ -1,0 +1,1 @@
+export function FormView() { return <h1>FormView</h1>; }

@@ -1,0 +1,1 @@
+export function JobsView() { return <h1>JobsView</h1>; }

@@ -1,0 +1,1 @@
+export function StudiesView() { return <h1>StudiesView</h1>; }

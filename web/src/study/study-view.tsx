@@ -1,0 +1,1 @@
+export function StudyView({ id }: { id: string }) { return <h1>{id}</h1>; }
