@@ -25,6 +25,25 @@ impl ToSchema for Archive {
     }
 }
 
+/// A stream of frames of the flow.
+pub(super) struct Frames;
+
+impl PartialSchema for Frames {
+    fn schema() -> RefOr<Schema> {
+        ObjectBuilder::new()
+            .schema_type(Type::String)
+            .format(Some(SchemaFormat::KnownFormat(KnownFormat::Binary)))
+            .description(Some("Snapshots of the flow in binary."))
+            .into()
+    }
+}
+
+impl ToSchema for Frames {
+    fn name() -> Cow<'static, str> {
+        Cow::Borrowed("FlowFrames")
+    }
+}
+
 /// A picture.
 pub(super) struct Svg;
 

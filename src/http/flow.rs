@@ -1,14 +1,15 @@
 //! Snapshots of the flow.
 
 use super::access::Caller;
-use super::archive::{Archive, attachment};
+use super::archive::{Archive, Frames, attachment};
 use super::etag;
 use super::named_job::{NamedJob, find};
-use super::pieces::Pieces;
+use super::pieces::{PieceError, Pieces, off_the_answering_threads};
 use super::problem::Problem;
 use super::query::Query;
-use crate::jobs::{ExportError, FlowExport, JobService};
+use crate::jobs::{ExportError, FlowExport, FlowFrames, JobService};
 use crate::results::flow::FlowDocument;
+use crate::results::frames;
 use axum::body::Bytes;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
@@ -32,6 +33,8 @@ struct FlowSchema {
     points: u64,
     /// Thinning factor: one in this many points is kept.
     thinning: u32,
+    /// Identifier of each kept point: the same material point has the same in all snapshots.
+    point_id: Vec<u32>,
     /// Position of each kept point [m].
     position_m: Vec<[f32; 3]>,
     /// Speed of each kept point [m/s].
@@ -40,8 +43,8 @@ struct FlowSchema {
 
 /// Get a snapshot of the flow
 ///
-/// The stored snapshot nearest to a time: position and speed of at most 5000
-/// points.
+/// The stored snapshot nearest to a time: position and speed of its points, of which the
+/// scenario sets the largest number (`flow_snapshot_points`).
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/flow",
@@ -80,6 +83,73 @@ pub(super) async fn flow(
         snapshot,
     };
     etag::json(&headers, &document)
+}
+
+/// Read snapshots of the flow in binary
+///
+/// The stored snapshots of a range of time in a compact form for looking, streamed one after the
+/// other, each point in ten bytes; what a snapshot holds is set by `flow_snapshots` and
+/// `flow_snapshot_points` of the scenario. Little-endian. The stream begins with the bytes
+/// `SCREEFLO`, its version (u32, 1) and the number of frames (u32). Each frame has `time_s` (f64),
+/// the number of points in the flow (u64), the number of points in the frame n (u32), the thinning
+/// factor (u32), origin and extent of the positions (f32 × 3 each) [m], the largest speed (f32)
+/// [m/s], four unused bytes, then five columns of n u16: rank, x, y, z, speed; and zeros up to a
+/// multiple of eight bytes. Position = origin + extent · x / 65535, speed = largest speed · speed /
+/// 65535. Points of the same rank in two frames are the same material point, and ranks ascend.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/flow.bin",
+    tag = "results",
+    params(
+        ("id" = String, Path, format = Uuid, description = "Identifier of the job"),
+        ("from_s" = Option<f64>, Query, description = "Only snapshots at this time or later [s]"),
+        ("to_s" = Option<f64>, Query, description = "Only snapshots at this time or earlier [s]"),
+    ),
+    responses(
+        (status = 200, description = "The frames so far", body = Frames, content_type = "application/vnd.scree.flow"),
+        (status = 404, description = "There is no such job", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn flow_frames(
+    State(jobs): State<JobService>,
+    caller: Caller,
+    NamedJob(id): NamedJob,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let mut query = Query::new(query.as_deref());
+    let (from_s, to_s) = query.time_range();
+    query.finish()?;
+    let job = find(&jobs, &caller, &id).await?.summary.id;
+    let frames = jobs.flow_frames(job, from_s, to_s).await?;
+    let stream = FrameStream {
+        head: Some(frames::stream_head(frames.remaining()).into()),
+        frames,
+    };
+    let kind = [(header::CONTENT_TYPE, frames::MEDIA_TYPE)];
+    Ok((kind, stream.into_begun_body().await?).into_response())
+}
+
+/// Body of the stream of frames: it holds one at a time.
+struct FrameStream {
+    /// Beginning of the stream, until it is sent.
+    head: Option<Bytes>,
+    frames: FlowFrames,
+}
+
+impl Pieces for FrameStream {
+    const NAME: &'static str = "frames";
+    type Error = PieceError;
+
+    async fn piece(&mut self) -> Result<Option<Bytes>, PieceError> {
+        if let Some(head) = self.head.take() {
+            return Ok(Some(head));
+        }
+        let Some(snapshot) = self.frames.next().await? else {
+            return Ok(None);
+        };
+        let frame = off_the_answering_threads(move || frames::frame(&snapshot)).await?;
+        Ok(Some(frame.into()))
+    }
 }
 
 /// Export flow, bodies and channel for ParaView

@@ -52,6 +52,19 @@ impl Query {
         number
     }
 
+    /// Start and end of a range of simulated time [s]: `from_s` and `to_s`.
+    pub(super) fn time_range(&mut self) -> (Option<f64>, Option<f64>) {
+        let from_s = self.number("from_s", "s");
+        let to_s = self.number("to_s", "s");
+        if let (Some(from_s), Some(to_s)) = (from_s, to_s)
+            && to_s < from_s
+        {
+            let rule = format!("x >= from_s = {from_s}");
+            self.refuse("to_s", &to_s.to_string(), &rule, Some("s"));
+        }
+        (from_s, to_s)
+    }
+
     /// A whole number in a range.
     pub(super) fn whole<T: FromStr + PartialOrd + Display>(
         &mut self,

@@ -88,6 +88,7 @@ fn documented(limit: Duration) -> OpenApiRouter<Services> {
         .routes(routes!(trajectory::trajectory_ndjson))
         .routes(routes!(trajectory::trajectory_npz))
         .routes(routes!(flow::flow))
+        .routes(routes!(flow::flow_frames))
         .routes(routes!(flow::flow_archive))
         .routes(routes!(drawings::aerial))
         .routes(routes!(drawings::motion))

@@ -219,15 +219,8 @@ async fn answer(
 
 fn read_part(mut query: Query) -> Result<Part, Problem> {
     let body = query.whole("body", 0..=u32::MAX).unwrap_or(0);
-    let from_s = query.number("from_s", "s");
-    let to_s = query.number("to_s", "s");
+    let (from_s, to_s) = query.time_range();
     let stride = query.whole("stride", 1..=u32::MAX).unwrap_or(1);
-    if let (Some(from_s), Some(to_s)) = (from_s, to_s)
-        && to_s < from_s
-    {
-        let rule = format!("x >= from_s = {from_s}");
-        query.refuse("to_s", &to_s.to_string(), &rule, Some("s"));
-    }
     let fields = query.choices("fields");
     query.finish()?;
     Ok(Part {

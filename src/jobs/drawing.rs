@@ -57,22 +57,30 @@ impl JobService {
     pub async fn drawing(&self, job: Job, picture: Picture) -> Result<Drawing, DrawError> {
         let outcome = job.outcome.ok_or(DrawError::NoOutcome)?;
         let id = job.summary.id;
+        let samples = self.samples(id, job.bodies, MOST_STATES).await?;
+        let snapshots = match picture {
+            Picture::Motion => Vec::new(),
+            Picture::Aerial => self.shown_snapshots(id, &samples).await?,
+        };
         Ok(Drawing {
             picture,
             scenario: job.scenario,
             outcome,
-            samples: self.samples(id, job.bodies, MOST_STATES).await?,
-            snapshots: match picture {
-                Picture::Motion => Vec::new(),
-                Picture::Aerial => self.all_snapshots(id).await?,
-            },
+            samples,
+            snapshots,
         })
     }
 
-    async fn all_snapshots(&self, job: JobId) -> Result<Vec<FlowSnapshot>, StoreError> {
+    /// The snapshots that the aerial view shows.
+    async fn shown_snapshots(
+        &self,
+        job: JobId,
+        samples: &[Sample],
+    ) -> Result<Vec<FlowSnapshot>, StoreError> {
+        let times_s = self.snapshot_times(job).await?;
         let mut snapshots = Vec::new();
-        for time_s in self.snapshot_times(job).await? {
-            snapshots.extend(self.snapshot(job, Some(time_s)).await?);
+        for shown in pictures::shown_instants(samples, &times_s) {
+            snapshots.extend(self.snapshot(job, Some(times_s[shown])).await?);
         }
         Ok(snapshots)
     }

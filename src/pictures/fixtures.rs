@@ -109,6 +109,7 @@ pub(super) fn empty_snapshot(time_s: f64) -> FlowSnapshot {
         time_s,
         points: 0,
         thinning: 1,
+        point_id: Vec::new(),
         position_m: Vec::new(),
         speed_m_s: Vec::new(),
     }
@@ -164,6 +165,7 @@ pub(super) fn scenario(bodies: Vec<Body>) -> Scenario {
         duration_s: 3.0,
         sample_interval_s: 0.01,
         flow_snapshots: 6,
+        flow_snapshot_points: 5_000,
         numerics: Numerics {
             cell_size_m: None,
             points_per_cell: 8,

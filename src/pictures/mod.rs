@@ -23,7 +23,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
-pub use aerial::aerial_view;
+pub use aerial::{aerial_view, shown_instants};
 pub use canvas::PictureError;
 pub use chart::{Axis, Chart, Curve, Scale};
 pub use motion::motion;

@@ -80,6 +80,9 @@ fn take_snapshot(hasher: &mut Hasher, snapshot: &FlowSnapshot) {
     take_f64s(hasher, &[snapshot.time_s]);
     hasher.update(&snapshot.points.to_le_bytes());
     hasher.update(&snapshot.thinning.to_le_bytes());
+    for id in &snapshot.point_id {
+        hasher.update(&id.to_le_bytes());
+    }
     for number in snapshot.position_m.iter().flatten() {
         hasher.update(&number.to_le_bytes());
     }
@@ -140,6 +143,7 @@ mod tests {
             time_s: 0.5,
             points: 2,
             thinning: 1,
+            point_id: vec![0, 1],
             position_m: vec![[0.0; 3], [1.0; 3]],
             speed_m_s: vec![0.0, 1.0],
         };

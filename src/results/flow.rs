@@ -5,8 +5,8 @@ use super::planes::{self, PlaneReader};
 use scree_solver::record::FlowSnapshot;
 use serde::Serialize;
 
-/// Bytes of one point before compression: three coordinates and a speed, f32.
-const BYTES_PER_POINT: usize = 4 * 4;
+/// Numbers of four bytes of one point before compression: three coordinates and a speed.
+const NUMBERS_PER_POINT: usize = 4;
 
 /// A stored snapshot: its block, and the data that the block does not hold.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,7 +19,9 @@ pub struct StoredSnapshot {
     pub thinning: u32,
     /// Points kept.
     pub kept: usize,
-    /// Their positions and speeds.
+    /// False for a snapshot of an older version, which has no identifiers.
+    pub has_identifiers: bool,
+    /// Their identifiers, positions and speeds.
     pub block: Block,
 }
 
@@ -30,7 +32,8 @@ impl StoredSnapshot {
     /// Only if the compressor is out of memory.
     pub fn pack(snapshot: &FlowSnapshot) -> Result<Self, BlockError> {
         let kept = snapshot.position_m.len();
-        let mut raw = Vec::with_capacity(kept * BYTES_PER_POINT);
+        let mut raw = Vec::with_capacity(kept * bytes_per_point(true));
+        planes::put_u32(&mut raw, &snapshot.point_id.iter().copied());
         for axis in 0..3 {
             planes::put_f32(
                 &mut raw,
@@ -43,6 +46,7 @@ impl StoredSnapshot {
             points: snapshot.points,
             thinning: snapshot.thinning,
             kept,
+            has_identifiers: true,
             block: Block::seal(&raw)?,
         })
     }
@@ -52,13 +56,19 @@ impl StoredSnapshot {
     /// # Errors
     /// [`BlockError`], if the block was not made by [`StoredSnapshot::pack`].
     pub fn unpack(&self) -> Result<FlowSnapshot, BlockError> {
-        let raw = self.block.open(self.kept * BYTES_PER_POINT)?;
+        let raw = self
+            .block
+            .open(self.kept * bytes_per_point(self.has_identifiers))?;
         self.read(&raw)
             .ok_or(BlockError::Contents { rows: self.kept })
     }
 
     fn read(&self, raw: &[u8]) -> Option<FlowSnapshot> {
         let mut reader = PlaneReader::new(raw, self.kept);
+        let point_id = match self.has_identifiers {
+            true => reader.u32s()?,
+            false => self.identifiers_in_order(),
+        };
         let (x, y, z) = (reader.f32s()?, reader.f32s()?, reader.f32s()?);
         let speed_m_s = reader.f32s()?;
         let position_m = (0..self.kept)
@@ -68,10 +78,22 @@ impl StoredSnapshot {
             time_s: self.time_s,
             points: self.points,
             thinning: self.thinning,
+            point_id,
             position_m,
             speed_m_s,
         })
     }
+
+    /// Identifiers of the points of an older version's snapshot, as if none had left the flow.
+    fn identifiers_in_order(&self) -> Vec<u32> {
+        let identifier = |place| place as u32 * self.thinning;
+        (0..self.kept).map(identifier).collect()
+    }
+}
+
+/// Bytes of one point before compression.
+fn bytes_per_point(has_identifiers: bool) -> usize {
+    4 * (NUMBERS_PER_POINT + usize::from(has_identifiers))
 }
 
 /// The flow document of the service: the job, and the snapshot.
@@ -93,6 +115,7 @@ mod tests {
             time_s: 0.6,
             points: 1234,
             thinning: 3,
+            point_id: (0..kept).map(|i| 3 * u32::from(i) + 900).collect(),
             position_m: (0..kept)
                 .map(|i| [f32::from(i), -f32::from(i), 0.1])
                 .collect(),
@@ -106,6 +129,23 @@ mod tests {
             let packed = StoredSnapshot::pack(&snapshot(kept)).unwrap();
             assert_eq!(packed.unpack().unwrap(), snapshot(kept));
         }
+    }
+
+    #[test]
+    fn a_snapshot_of_an_older_version_is_read_with_identifiers_in_order() {
+        let mut raw = Vec::new();
+        let told = snapshot(5);
+        for axis in 0..3 {
+            let coordinates = told.position_m.iter().map(|point| point[axis]);
+            planes::put_f32(&mut raw, &coordinates);
+        }
+        planes::put_f32(&mut raw, &told.speed_m_s.iter().copied());
+        let mut stored = StoredSnapshot::pack(&told).unwrap();
+        stored.block = Block::seal(&raw).unwrap();
+        stored.has_identifiers = false;
+        let read = stored.unpack().unwrap();
+        assert_eq!(read.point_id, [0, 3, 6, 9, 12]);
+        assert_eq!(read.position_m, told.position_m);
     }
 
     #[test]

@@ -6,6 +6,7 @@ pub mod chunk;
 pub mod columns;
 pub mod fingerprint;
 pub mod flow;
+pub mod frames;
 pub mod interpolation;
 pub mod numpy;
 mod planes;

@@ -12,6 +12,7 @@ mod contract;
 mod convergence_study;
 mod dismissal;
 mod ending;
+mod flow;
 mod following;
 mod http_basics;
 mod intake;

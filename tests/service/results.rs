@@ -143,41 +143,6 @@ async fn a_job_can_be_read_before_and_while_it_runs() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn the_flow_is_shown_at_the_nearest_snapshot() {
-    let app = TestApp::start().await;
-    let job = app.submit(&tiny_scene()).await;
-    app.wait_for_success(&job).await;
-    // Three snapshots over 0.05 s, both ends included.
-    for (query, expected_s) in [
-        ("?time_s=0.001", 0.0),
-        ("?time_s=0.03", 0.025),
-        ("?time_s=9", 0.05),
-        ("", 0.05),
-    ] {
-        let answer = app.get(&format!("{job}/flow{query}")).await;
-        assert_eq!(answer.status, StatusCode::OK);
-        let flow = answer.body;
-        let time_s = flow["time_s"].as_f64().unwrap();
-        // A snapshot is at the first end of a step at or after its time; a step
-        // of this scene takes less than 5 ms.
-        assert!(
-            (0.0..0.005).contains(&(time_s - expected_s)),
-            "{query}: {time_s}"
-        );
-        let points = flow["position_m"].as_array().unwrap();
-        assert_eq!(points.len(), flow["speed_m_s"].as_array().unwrap().len());
-        assert!(!points.is_empty() && points.len() <= 5000);
-        assert_eq!(flow["thinning"], 1);
-        assert_eq!(flow["points"], points.len());
-        assert_eq!(
-            format!("/v1/jobs/{}", flow["job_id"].as_str().unwrap()),
-            job
-        );
-    }
-    app.stop().await;
-}
-
-#[tokio::test(flavor = "multi_thread")]
 async fn bad_questions_are_answered_with_what_is_wrong_in_them() {
     let app = TestApp::start().await;
     let job = app.submit(&tiny_scene()).await;

@@ -90,23 +90,23 @@ pub struct Sample {
     pub bodies: Vec<BodySample>,
 }
 
-/// The flow at one instant, thinned to at most [`SNAPSHOT_POINTS`] points.
+/// The flow at one instant, thinned to the number of points that the scenario allows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlowSnapshot {
     /// Simulated time [s].
     pub time_s: f64,
     /// Points in the flow at that time; `position_m` contains every `thinning`-th.
     pub points: u64,
-    /// Number of points per kept point.
+    /// Number of points per kept point, the same in all snapshots of a run.
     pub thinning: u32,
+    /// Identifier of each kept point, ascending: the same material point has the same in all
+    /// snapshots of a run.
+    pub point_id: Vec<u32>,
     /// Position of each kept point [m].
     pub position_m: Vec<[f32; 3]>,
     /// Speed of each kept point [m/s].
     pub speed_m_s: Vec<f32>,
 }
-
-/// Largest number of points in a [`FlowSnapshot`].
-pub const SNAPSHOT_POINTS: usize = 5_000;
 
 /// Record that the recorder returns during a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

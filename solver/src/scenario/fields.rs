@@ -223,6 +223,7 @@ pub(super) const SECTIONS: [Section; 10] = [
             number(&DURATION).otherwise("twice the time at which the flow is expected to have come to rest, at least as long as every table of a prescribed motion; 3 without a flow"),
             number(&SAMPLE_INTERVAL).also(", and at most 500,000 samples of all bodies together"),
             whole(&FLOW_SNAPSHOTS),
+            whole(&FLOW_SNAPSHOT_POINTS),
             object("numerics").otherwise("all defaults"),
             object("accuracy").otherwise("all defaults"),
         ],

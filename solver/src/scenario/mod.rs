@@ -69,10 +69,19 @@ pub struct Scenario {
     /// Number of snapshots of the flow, evenly spread, both ends included, each at the end of the
     /// step that holds its time; 1: the start.
     pub flow_snapshots: u32,
+    /// Largest number of points in a snapshot of the flow, which is thinned evenly to it: the same
+    /// material points in all snapshots.
+    #[serde(default = "points_of_older_snapshots")]
+    pub flow_snapshot_points: u32,
     /// Numerical choices.
     pub numerics: Numerics,
     /// Accuracy asked of the answer.
     pub accuracy: Accuracy,
+}
+
+/// Points in a snapshot of scenarios that were stored before they said it.
+fn points_of_older_snapshots() -> u32 {
+    5_000
 }
 
 /// Incline and floor between two side walls. x runs downstream and is 0 at the foot of the

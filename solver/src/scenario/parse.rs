@@ -11,7 +11,9 @@ use super::fit;
 use super::node::Node;
 use super::reader::Object;
 use super::report::Report;
-use super::rules::{DURATION, FLOW_SNAPSHOTS, GRAVITY, SAMPLE_INTERVAL, VALUES};
+use super::rules::{
+    DURATION, FLOW_SNAPSHOT_POINTS, FLOW_SNAPSHOTS, GRAVITY, SAMPLE_INTERVAL, VALUES,
+};
 use super::sections::{read_channel, read_flow, read_numerics, read_title};
 use super::{Accuracy, Body, Channel, Flow, Numerics, Scenario, ScenarioError};
 use serde_json::Value;
@@ -72,6 +74,7 @@ struct Draft {
     duration_s: Option<f64>,
     sample_interval_s: Option<f64>,
     flow_snapshots: Option<u32>,
+    flow_snapshot_points: Option<u32>,
     numerics: Option<Numerics>,
     accuracy: Option<Accuracy>,
 }
@@ -98,6 +101,7 @@ impl Draft {
             duration_s: object.number_or(&DURATION, lasts),
             sample_interval_s: object.number(&SAMPLE_INTERVAL),
             flow_snapshots: object.count(&FLOW_SNAPSHOTS),
+            flow_snapshot_points: object.count(&FLOW_SNAPSHOT_POINTS),
             numerics: read_numerics(object),
             accuracy: read_accuracy(object),
         };
@@ -158,6 +162,7 @@ impl Draft {
             duration_s: self.duration_s?,
             sample_interval_s: self.sample_interval_s?,
             flow_snapshots: self.flow_snapshots?,
+            flow_snapshot_points: self.flow_snapshot_points?,
             numerics: self.numerics?,
             accuracy: self.accuracy?,
         })

@@ -75,7 +75,9 @@ pub(super) const SAMPLE_INTERVAL: Rule = Rule::new("sample_interval_s", closed(1
     .unit(SECOND)
     .default(0.01);
 pub(super) const FLOW_SNAPSHOTS: Rule =
-    Rule::new("flow_snapshots", closed(0.0, 200.0)).default(6.0);
+    Rule::new("flow_snapshots", closed(0.0, 200.0)).default(61.0);
+pub(super) const FLOW_SNAPSHOT_POINTS: Rule =
+    Rule::new("flow_snapshot_points", closed(1.0, 20_000.0)).default(5_000.0);
 
 pub(super) const INCLINATION: Rule = Rule::new("inclination_deg", closed(0.0, 89.0)).unit(DEGREE);
 pub(super) const INCLINE_LENGTH: Rule = metres("incline_length_m", 1e-3, 1e3);

@@ -44,6 +44,11 @@ pub(super) fn choose<'a>(samples: &[Sample], snapshots: &'a [FlowSnapshot]) -> V
     progress.spread(&times).into_iter().map(at).collect()
 }
 
+/// Indices of the times [s] that the aerial view shows of a run with these samples.
+pub fn shown_instants(samples: &[Sample], times_s: &[f64]) -> Vec<usize> {
+    Progress::of(samples).spread(times_s)
+}
+
 /// Progress of a run, measured partly in time and partly in the bodies' travel, so that most panels
 /// show motion.
 struct Progress {

@@ -12,6 +12,7 @@ use super::format::{plain, title};
 use super::palette::SpeedScale;
 use super::style::Styles;
 use super::surface;
+pub use instants::shown_instants;
 use layout::Layout;
 use panel::Scene;
 use plotters::prelude::*;

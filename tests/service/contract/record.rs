@@ -50,7 +50,7 @@ pub(super) async fn all(folder: &Path) {
     let trajectory = format!("{path}/trajectory");
     document("trajectory.json", &app.get(&trajectory).await.body);
     let mut flow = app.get(&format!("{path}/flow")).await.body;
-    for list in ["position_m", "speed_m_s"] {
+    for list in ["point_id", "position_m", "speed_m_s"] {
         flow[list].as_array_mut().unwrap().truncate(KEPT);
     }
     flow["thinning"] = json!(flow["points"].as_u64().unwrap() / KEPT as u64);

@@ -1,5 +1,4 @@
 use super::*;
-use crate::record::SNAPSHOT_POINTS;
 use crate::simulation::PreparedScene;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -74,23 +73,77 @@ fn snapshots_are_taken_at_the_end_of_their_step() {
     assert!(snapshots(&none).is_empty());
 }
 
+const BUDGET: usize = 1_000;
+
 #[test]
 fn snapshots_are_thinned_to_the_budget() {
     let fine = scenario(|scenario| {
         scenario["numerics"]["cell_size_m"] = 0.005.into();
         scenario["duration_s"] = 0.into();
+        scenario["flow_snapshot_points"] = BUDGET.into();
     });
     let (records, simulation, _) = records_of(&fine);
     let released = simulation.points().len();
-    assert!(released > 2 * SNAPSHOT_POINTS);
+    assert!(released > 2 * BUDGET);
     let taken = snapshots(&records);
     assert_eq!(taken[0].points, released as u64);
-    assert_eq!(
-        taken[0].thinning as usize,
-        released.div_ceil(SNAPSHOT_POINTS)
-    );
+    assert_eq!(taken[0].thinning as usize, released.div_ceil(BUDGET));
     let kept = taken[0].position_m.len();
-    assert!(kept <= SNAPSHOT_POINTS && kept > SNAPSHOT_POINTS / 2);
+    assert!(kept <= BUDGET && kept > BUDGET / 2);
+}
+
+/// The same identifier is the same material point, also after a slab has become the whole flow and
+/// after points have left through the open end: nothing moves farther than the fastest point could.
+#[test]
+fn snapshots_have_the_same_points() {
+    for bodies in [json!([]), scenario_bodies()] {
+        check_points_of_snapshots(&bodies);
+    }
+}
+
+fn scenario_bodies() -> Value {
+    json!([{"shape": {"cube": {"side_m": 0.02}}, "position": {"downstream_m": 0.03}}])
+}
+
+fn check_points_of_snapshots(bodies: &Value) {
+    let leaving = scenario(|scenario| {
+        scenario["channel"]["runout_length_m"] = 0.1.into();
+        scenario["channel"]["base_friction"] = 0.2.into();
+        scenario["bodies"] = bodies.clone();
+        scenario["numerics"] = json!({"cell_size_m": 0.01, "ending": "full"});
+        scenario["flow_snapshot_points"] = 300.into();
+        scenario["flow_snapshots"] = 41.into();
+        scenario["duration_s"] = 1.2.into();
+    });
+    let (records, ..) = records_of(&leaving);
+    let taken = snapshots(&records);
+    let first = taken[0].points;
+    let last = taken[taken.len() - 1];
+    assert!(
+        last.points < first && last.points > 0,
+        "{first} {}",
+        last.points
+    );
+    for pair in taken.windows(2) {
+        let (before, after) = (pair[0], pair[1]);
+        assert_eq!(before.thinning, after.thinning);
+        assert!(after.point_id.is_sorted_by(|a, b| a < b));
+        let speeds = before.speed_m_s.iter().chain(&after.speed_m_s);
+        let fastest = speeds.copied().fold(0.0, f32::max);
+        let farthest = 1.2 * fastest * (after.time_s - before.time_s) as f32 + 0.005;
+        let mut found = 0;
+        for (id, to) in after.point_id.iter().zip(&after.position_m) {
+            let Ok(place) = before.point_id.binary_search(id) else {
+                panic!("point {id} appears at {} s", after.time_s);
+            };
+            let way: f32 = (0..3)
+                .map(|k| (to[k] - before.position_m[place][k]).powi(2))
+                .sum();
+            assert!(way.sqrt() <= farthest, "point {id} moves {} m", way.sqrt());
+            found += 1;
+        }
+        assert!(found > 0);
+    }
 }
 
 // Forces are means since the last sample: a sliding cube's momentum changes by

@@ -112,10 +112,14 @@ impl PostgresStore {
         time_s: Option<f64>,
     ) -> Answer<Option<FlowSnapshot>> {
         let row: Option<SnapshotRow> = sqlx::query_as(
-            "SELECT time_s, points, thinning, kept, checksum, data FROM flow_snapshots
-             WHERE job_id = $1::uuid
-             ORDER BY CASE WHEN $2::float8 IS NULL THEN -time_s ELSE abs(time_s - $2) END, time_s
-             LIMIT 1",
+            // The nearest is found among the times alone: blocks are not sorted.
+            "SELECT time_s, points, thinning, kept, has_identifiers, checksum, data
+             FROM flow_snapshots
+             WHERE job_id = $1::uuid AND time_s = (
+                 SELECT time_s FROM flow_snapshots WHERE job_id = $1::uuid
+                 ORDER BY CASE WHEN $2::float8 IS NULL THEN -time_s ELSE abs(time_s - $2) END,
+                          time_s
+                 LIMIT 1)",
         )
         .bind(job.to_string())
         .bind(time_s)
@@ -200,11 +204,12 @@ async fn write_snapshots(
         .map(|one| &one.block.checksum[..])
         .collect();
     let data: Vec<&[u8]> = snapshots.iter().map(|one| &one.block.data[..]).collect();
+    let identified: Vec<bool> = snapshots.iter().map(|one| one.has_identifiers).collect();
     sqlx::query(
         "INSERT INTO flow_snapshots
-             (job_id, encoding, time_s, points, thinning, kept, checksum, data)
+             (job_id, encoding, time_s, points, thinning, kept, checksum, data, has_identifiers)
          SELECT $1::uuid, $2, * FROM unnest($3::float8[], $4::bigint[], $5::bigint[], $6::bigint[],
-                                            $7::bytea[], $8::bytea[])
+                                            $7::bytea[], $8::bytea[], $9::boolean[])
          -- Written again only if it is not known whether it was written.
          ON CONFLICT (job_id, time_s) DO NOTHING",
     )
@@ -216,6 +221,7 @@ async fn write_snapshots(
     .bind(numbers(|one| one.kept as u64))
     .bind(checksums)
     .bind(data)
+    .bind(identified)
     .execute(connection)
     .await?;
     Ok(())

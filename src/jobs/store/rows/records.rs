@@ -24,6 +24,7 @@ pub(in super::super) struct SnapshotRow {
     points: i64,
     thinning: i64,
     kept: i64,
+    has_identifiers: bool,
     checksum: Vec<u8>,
     data: Vec<u8>,
 }
@@ -61,6 +62,7 @@ impl SnapshotRow {
             points: self.points.unsigned_abs(),
             thinning: u32::try_from(self.thinning).map_err(|_| BlockError::Checksum)?,
             kept: length(self.kept),
+            has_identifiers: self.has_identifiers,
             block: block(self.checksum, self.data)?,
         };
         stored.unpack()

@@ -115,9 +115,12 @@ impl SqliteStore {
         time_s: Option<f64>,
     ) -> Answer<Option<FlowSnapshot>> {
         let row: Option<SnapshotRow> = sqlx::query_as(
-            "SELECT time_s, points, thinning, kept, checksum, data FROM flow_snapshots
-             WHERE job_id = ?1
-             ORDER BY iif(?2 IS NULL, -time_s, abs(time_s - ?2)), time_s LIMIT 1",
+            // The nearest is found among the times alone: blocks are not sorted.
+            "SELECT time_s, points, thinning, kept, has_identifiers, checksum, data
+             FROM flow_snapshots
+             WHERE job_id = ?1 AND time_s = (
+                 SELECT time_s FROM flow_snapshots WHERE job_id = ?1
+                 ORDER BY iif(?2 IS NULL, -time_s, abs(time_s - ?2)), time_s LIMIT 1)",
         )
         .bind(job.to_string())
         .bind(time_s)
@@ -188,8 +191,8 @@ async fn write_snapshot(
 ) -> Answer<()> {
     sqlx::query(
         "INSERT INTO flow_snapshots
-             (job_id, time_s, points, thinning, kept, encoding, checksum, data)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)
+             (job_id, time_s, points, thinning, kept, encoding, checksum, data, has_identifiers)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)
          -- Written again only if it is not known whether it was written.
          ON CONFLICT (job_id, time_s) DO NOTHING",
     )
@@ -201,6 +204,7 @@ async fn write_snapshot(
     .bind(chunk::ENCODING)
     .bind(&snapshot.block.checksum[..])
     .bind(&snapshot.block.data)
+    .bind(snapshot.has_identifiers)
     .execute(connection)
     .await?;
     Ok(())

@@ -237,6 +237,7 @@ pub(super) fn results(count: u32) -> NewResults {
         time_s: f64::from(count),
         points: 1,
         thinning: 1,
+        point_id: vec![0],
         position_m: vec![[1.0, 2.0, 3.0]],
         speed_m_s: vec![0.5],
     };
