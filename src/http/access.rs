@@ -1,8 +1,8 @@
 //! Access control: access tokens, their scopes, and the caller of a
 //! request.
 
-use super::{ogc, page};
 use super::problem::Problem;
+use super::{ogc, page};
 use crate::config::{Scope, Token};
 use axum::extract::{FromRequestParts, Request, State};
 use axum::http::request::Parts;

@@ -8,7 +8,7 @@ use super::query::Query;
 use super::shares::StreamRight;
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::{Change, Event, StoreError};
-use crate::jobs::{JobService, News};
+use crate::jobs::{JobService, News, RunningProgress};
 use crate::quota::InUse;
 use crate::runs::Progress;
 use axum::body::Bytes;
@@ -39,7 +39,8 @@ const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
 /// stream of one job begins with the job's first event and that of all jobs with the next one.
 /// The stream of one job ends with the job. While the job runs, its progress is told about once a
 /// second: `event: progress`, without an `id`, `data:` an object with `id` and the job's `progress`.
-/// No progress is replayed.
+/// With `progress=true` the stream of all jobs tells that of all running jobs. No progress is
+/// replayed.
 ///
 /// After a number that no event has had (the database was restored from a backup) the
 /// stream begins with `event: reset`, `id: 0`, `data:` an object with `after`, the number
@@ -52,6 +53,7 @@ const NUMBERS: RangeInclusive<i64> = 0..=i64::MAX;
     params(
         ("job" = Option<String>, Query, format = Uuid, description = "Only events of this job"),
         ("after" = Option<i64>, Query, minimum = 0, description = "Only events after this number"),
+        ("progress" = Option<bool>, Query, description = "Whether the progress of running jobs is told; unless given, only in the stream of one job"),
         ("Last-Event-ID" = Option<i64>, Header, minimum = 0, description = "The same; wins over `after`"),
     ),
     responses(
@@ -71,6 +73,7 @@ pub(super) async fn events(
     let mut query = Query::new(query.as_deref());
     let job: Option<JobId> = query.word("job", "a job's id", |text| text.parse().ok());
     let after = query.whole("after", NUMBERS);
+    let progress = query.word("progress", "true or false", |text| text.parse().ok());
     let seen = headers.get("last-event-id").and_then(|number| {
         let text = String::from_utf8_lossy(number.as_bytes());
         query.whole_of("Last-Event-ID", &text, &NUMBERS)
@@ -100,7 +103,7 @@ pub(super) async fn events(
         ready: first,
         news,
         has_ended: false,
-        progress: ToldProgress::new(),
+        progress: progress.unwrap_or(job.is_some()).then(ToldProgress::new),
         told: Instant::now(),
         _place: place,
     };
@@ -144,7 +147,8 @@ struct Follower {
     news: Receiver<News>,
     /// True once the end of the followed job is sent.
     has_ended: bool,
-    progress: ToldProgress,
+    /// Progress as told last, if it is wanted.
+    progress: Option<ToldProgress>,
     /// Time of the last piece.
     told: Instant,
     _place: InUse,
@@ -185,10 +189,8 @@ impl Follower {
                 continue;
             }
             let silent = self.told + LONGEST_SILENCE;
-            let next = match self.job {
-                Some(_) => silent.min(self.progress.due),
-                None => silent,
-            };
+            let due = self.progress.as_ref().map(|progress| progress.due);
+            let next = due.map_or(silent, |due| silent.min(due));
             match timeout_at(next, self.news.recv()).await {
                 Ok(Ok(News::Events(events))) => {
                     let wanted = |event: &&Event| {
@@ -199,7 +201,9 @@ impl Follower {
                 Ok(Ok(News::Closing) | Err(RecvError::Closed)) => return Ok(None),
                 Ok(Err(RecvError::Lagged(_))) => self.is_behind = true,
                 Err(_) => {
-                    if let Some(text) = self.progress.next(&self.jobs, self.job) {
+                    if let Some(progress) = &mut self.progress
+                        && let Some(text) = progress.next(&self.jobs, self.job).await
+                    {
                         return Ok(Some(text.into()));
                     }
                     if Instant::now() >= silent {
@@ -211,34 +215,45 @@ impl Follower {
     }
 }
 
-/// Progress of the followed job, as told last.
+/// Progress of the followed jobs, as told last.
 struct ToldProgress {
-    last: Option<Progress>,
+    last: RunningProgress,
     due: Instant,
 }
 
 impl ToldProgress {
     fn new() -> Self {
         Self {
-            last: None,
+            last: RunningProgress::new(),
             due: Instant::now() + PROGRESS_PAUSE,
         }
     }
 
-    /// The progress, if it is due and has changed.
-    fn next(&mut self, jobs: &JobService, job: Option<JobId>) -> Option<String> {
-        let job = job.filter(|_| Instant::now() >= self.due)?;
-        self.due = Instant::now() + PROGRESS_PAUSE;
-        let now = jobs.progress(job)?;
-        if self.last.replace(now) == Some(now) {
+    /// Events of all that has changed, if they are due.
+    async fn next(&mut self, jobs: &JobService, followed: Option<JobId>) -> Option<String> {
+        if Instant::now() < self.due {
             return None;
         }
-        let progress = serde_json::to_string(&now).ok()?;
-        // Without an id: the client goes on after the last change of state.
-        Some(format!(
-            "event: progress\ndata: {{\"id\":\"{job}\",\"progress\":{progress}}}\n\n"
-        ))
+        self.due = Instant::now() + PROGRESS_PAUSE;
+        let running = jobs.running_progress().await;
+        // A database that does not answer now may do so the next time.
+        let running = running.as_ref().as_ref().ok()?.iter();
+        let wanted = running.filter(|(job, _)| followed.is_none_or(|followed| followed == **job));
+        let now: RunningProgress = wanted.map(|(job, progress)| (*job, *progress)).collect();
+        let changed = now
+            .iter()
+            .filter(|(job, progress)| self.last.get(job) != Some(progress));
+        let text: String = changed.filter_map(progress_text).collect();
+        self.last = now;
+        (!text.is_empty()).then_some(text)
     }
+}
+
+/// Event of the progress of a job. Without an id: the client goes on after the last change of state.
+fn progress_text((job, progress): (&JobId, &Progress)) -> Option<String> {
+    let progress = serde_json::to_string(progress).ok()?;
+    let data = format!("{{\"id\":\"{job}\",\"progress\":{progress}}}");
+    Some(format!("event: progress\ndata: {data}\n\n"))
 }
 
 /// With this id, a client that is disconnected right afterwards begins at the first event.

@@ -7,10 +7,10 @@ use super::job::{Job, JobId, JobStatus};
 use super::news::{Followers, News};
 use super::recent::Recent;
 use super::running_jobs::RunningJobRegistry;
+use super::running_progress::RunningProgress;
 use super::store::{Dismissal, Event, JobCounts, JobPage, JobStore, Page, Removal, StoreError};
 use super::submit::{self, AffordableJob, Means, NewJob, ScenarioError};
 use crate::config::Limits;
-use crate::runs::Progress;
 use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
@@ -34,6 +34,7 @@ pub struct JobService {
     followers: Followers,
     counts: Arc<Recent<Result<JobCounts, StoreError>>>,
     probed: Arc<Recent<Result<(), StoreError>>>,
+    pub(super) running: Arc<Recent<Result<RunningProgress, StoreError>>>,
 }
 
 /// Reason why there is no plan.
@@ -80,6 +81,7 @@ impl JobService {
             means,
             counts: Arc::default(),
             probed: Arc::default(),
+            running: Arc::default(),
         }
     }
 
@@ -170,11 +172,6 @@ impl JobService {
     /// The store's own.
     pub async fn status(&self, id: JobId) -> Result<Option<JobStatus>, StoreError> {
         self.store.status(id).await
-    }
-
-    /// Progress of a job that this service runs now.
-    pub fn progress(&self, id: JobId) -> Option<Progress> {
-        self.registry.progress(id)
     }
 
     /// Waits until a job has ended or been removed, or until the time is over.

@@ -159,6 +159,36 @@ async fn a_follower_of_a_job_that_is_dismissed_and_removed_at_once_learns_of_its
     app.stop().await;
 }
 
+// All jobs in one stream: a page that lists jobs needs no other.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_stream_of_all_jobs_tells_progress_if_asked() {
+    let app = TestApp::start().await;
+    let job = app.submit(&endless_scene()).await;
+    app.wait(&job, is_running).await;
+    let streams = ["?progress=true", "?progress=false", ""];
+    let [told, silent, unasked] = streams.map(|query| app.url(&format!("/v1/events{query}")));
+    let (status, _) = events(&app, "?progress=1", None).await;
+    assert_eq!(status, StatusCode::UNPROCESSABLE_ENTITY);
+    let client = app.client.clone();
+    let read = async |url: String| client.get(url).send().await.unwrap().text().await;
+    let (told, silent, unasked, _directory) =
+        tokio::join!(read(told), read(silent), read(unasked), async {
+            tokio::time::sleep(Duration::from_millis(2500)).await;
+            app.delete(&job).await;
+            app.stop().await
+        });
+    let told = told.unwrap();
+    let id = job.rsplit('/').next().unwrap();
+    let progress = format!("event: progress\ndata: {{\"id\":\"{id}\",\"progress\":{{");
+    assert!(told.matches(&progress).count() >= 1, "{told}");
+    assert!(told.contains("\"status\":\"dismissed\""), "{told}");
+    for without in [silent, unasked] {
+        let without = without.unwrap();
+        assert!(!without.contains("progress"), "{without}");
+        assert!(without.contains("\"status\":\"dismissed\""), "{without}");
+    }
+}
+
 // The fraction grows, and no number is used up by it.
 #[tokio::test(flavor = "multi_thread")]
 async fn the_progress_of_a_running_job_is_told_every_second() {
@@ -265,7 +295,7 @@ async fn the_service_tells_of_itself() {
     let request_id = page.headers()["x-request-id"].to_str().unwrap().to_owned();
     assert_eq!(request_id.len(), 36);
     let page = page.text().await.unwrap();
-    assert!(page.contains("openapi.json"));
+    assert!(page.contains("assets/app.js"), "{page}");
     // The page must also work without internet access.
     assert!(
         !page.contains("http://") && !page.contains("https://"),
