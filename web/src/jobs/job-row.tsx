@@ -1,0 +1,72 @@
+import { memo } from "preact/compat";
+import { Link } from "wouter-preact";
+import { type JobSummary, api, data } from "../api/client";
+import { ConfirmButton } from "../parts/confirm-button";
+import { duration, figure, moment } from "../parts/format";
+import { hasEnded } from "./job-list";
+
+interface RowProps {
+  job: JobSummary;
+  isChosen: boolean;
+  choose: (id: string, isChosen: boolean) => void;
+  fail: (problem: unknown) => void;
+}
+
+/** A job in the list. */
+export const JobRow = memo(function JobRow({ job, isChosen, choose, fail }: RowProps) {
+  const title = job.title || "Untitled scenario";
+  const dismiss = () => data(api.DELETE("/v1/jobs/{id}", { params: { path: { id: job.id } } })).catch(fail);
+  const remove = () =>
+    data(api.DELETE("/v1/jobs/{id}", { params: { path: { id: job.id }, query: { remove: "ended" } } })).catch(fail);
+  return (
+    <li class="job-row" data-job={job.id}>
+      <input
+        type="checkbox"
+        aria-label={`Compare ${title}`}
+        checked={isChosen}
+        disabled={job.status !== "successful"}
+        onChange={(event) => choose(job.id, event.currentTarget.checked)}
+      />
+      <div class="job-title">
+        <Link href={`/jobs/${job.id}`}>{title}</Link>
+        <span class="quiet">
+          {[...job.labels, moment(job.created)].join(" · ")}
+        </span>
+      </div>
+      <div class="job-state">
+        <span class={`status ${job.status}`}>{job.status}</span>
+        <JobProgress job={job} />
+      </div>
+      <div class="job-actions">
+        <Link class="button" href={`/new?job=${job.id}`} aria-label={`Run ${title} again with changes`}>
+          Run again
+        </Link>
+        {hasEnded(job.status) ? (
+          <ConfirmButton label="Remove" question="Really remove it and its results?" act={() => void remove()} />
+        ) : (
+          <ConfirmButton label="Dismiss" question="Really stop it?" act={() => void dismiss()} />
+        )}
+      </div>
+    </li>
+  );
+});
+
+/** Progress of a running job, and the time that one which has ended took. */
+function JobProgress({ job }: { job: JobSummary }) {
+  if (job.status === "running") {
+    const percent = Math.floor(100 * job.progress.fraction);
+    return (
+      <>
+        <progress value={job.progress.fraction} aria-label="Progress" />
+        <span class="quiet">
+          {percent} %, {job.progress.eta_s === null ? "time left not known yet" : `about ${duration(job.progress.eta_s)} left`}
+        </span>
+      </>
+    );
+  }
+  if (job.status === "accepted") return <span class="quiet">waits for a worker</span>;
+  if (!job.started || !job.finished) return null;
+  const took = (Date.parse(job.finished) - Date.parse(job.started)) / 1000;
+  const reached = job.status === "successful" ? "" : `, ${figure(job.progress.simulated_time_s)} s simulated`;
+  return <span class="quiet">{`took ${duration(took)}${reached}`}</span>;
+}

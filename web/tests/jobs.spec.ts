@@ -1,0 +1,82 @@
+import { QUICK, SLOW, Service, expect, expectAccessible, expectNoSidewaysScroll, test } from "./service";
+
+for (const colorScheme of ["light", "dark"] as const) {
+  test(`the list is accessible, ${colorScheme}`, async ({ page, service }) => {
+    await service.run(QUICK);
+    await page.emulateMedia({ colorScheme });
+    await page.goto("/");
+    await expect(page.getByRole("link", { name: "Quick", exact: true }).first()).toBeVisible();
+    await expectAccessible(page);
+    await page.setViewportSize({ width: 360, height: 740 });
+    await expectNoSidewaysScroll(page);
+  });
+}
+
+test("a job is seen to come, to go on and to be dismissed and removed", async ({ page, service }) => {
+  await page.goto("/");
+  await expect(page.getByRole("heading", { name: "Jobs" })).toBeVisible();
+  const id = await service.submit(SLOW);
+  const row = page.locator(`[data-job="${id}"]`);
+  // By events alone: nobody loads the page anew.
+  await expect(row.getByText("running")).toBeVisible();
+  await expect(row.getByText(/about .* left/)).toBeVisible();
+  await row.getByRole("button", { name: "Dismiss" }).click();
+  await row.getByRole("button", { name: "Really stop it?" }).click();
+  await expect(row.getByText("dismissed")).toBeVisible();
+  await row.getByRole("button", { name: "Remove" }).click();
+  await row.getByRole("button", { name: "Really remove" }).click();
+  await expect(row).toHaveCount(0);
+  expect((await fetch(`${service.url}/v1/jobs/${id}`)).status).toBe(404);
+});
+
+test("a filter leaves out jobs of other states, and two successful jobs are compared", async ({ page, service }) => {
+  const [one, other] = [await service.run(QUICK), await service.run(QUICK)];
+  await page.goto("/");
+  await page.getByLabel("failed").check();
+  await expect(page.getByText("No job is like that.")).toBeVisible();
+  await page.getByRole("button", { name: "Show all" }).click();
+  await page.locator(`[data-job="${one}"]`).getByRole("checkbox").check();
+  await page.locator(`[data-job="${other}"]`).getByRole("checkbox").check();
+  await page.getByRole("link", { name: "Compare the two jobs" }).click();
+  await expect(page).toHaveURL(new RegExp(`#/compare/${one}/${other}`));
+});
+
+test("a list of 1,000 jobs scrolls without stutter", async ({ browser }) => {
+  const service = await Service.start();
+  try {
+    // The start alone: a thousand of them are soon computed.
+    const start = { ...QUICK, flow: null, duration_s: 0 };
+    const jobs = Array.from({ length: 100 }, (_, number) => ({ scenario: { ...start, title: `Start ${number}` } }));
+    for (let batch = 0; batch < 10; batch += 1) await service.post("/v1/batches", { jobs });
+    const waiting = () => service.get<{ jobs: unknown[] }>("/v1/jobs?status=accepted&status=running");
+    await expect.poll(async () => (await waiting()).jobs.length, { timeout: 60_000 }).toBe(0);
+    const page = await browser.newPage({ baseURL: service.url });
+    await page.goto("/");
+    const count = () => page.locator("[data-job]").count();
+    await expect.poll(async () => {
+      await page.mouse.wheel(0, 20_000);
+      return count();
+    }).toBe(1000);
+    const frames = (await page.evaluate(framesOfAScroll)).sort((a, b) => a - b);
+    const [middle, late, longest] = [0.5, 0.95, 1].map((share) => frames[Math.ceil(share * frames.length) - 1] ?? NaN);
+    console.log(`frames of a scroll through 1,000 jobs: median ${middle}, 95 % ${late}, longest ${longest} ms`);
+    expect(late).toBeLessThan(50);
+    await page.close();
+  } finally {
+    await service.stop();
+  }
+});
+
+/** Times between two frames while the page is scrolled from its end to its start [ms]. */
+async function framesOfAScroll(): Promise<number[]> {
+  const frame = () => new Promise<number>((resolve) => requestAnimationFrame(resolve));
+  const times: number[] = [];
+  let last = await frame();
+  for (let place = document.body.scrollHeight; place > 0; place -= 600) {
+    window.scrollTo(0, place);
+    const now = await frame();
+    times.push(now - last);
+    last = now;
+  }
+  return times;
+}
