@@ -7,20 +7,25 @@ import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
+/** Program whose service is tested. */
+export const BINARY = process.env["SCREE_BINARY"] ?? "../target/debug/scree";
+
 /** A running service. */
 export class Service {
   private constructor(
     readonly url: string,
-    private readonly process: ChildProcess,
+    private readonly child: ChildProcess,
     private readonly folder: string,
   ) {}
 
-  /** Starts a service with these options beside those of every test. */
-  static async start(...options: string[]): Promise<Service> {
+  /** Starts a service with these options beside those of every test, and these settings (`SCREE_…`). */
+  static async start(options: string[] = [], settings: Record<string, string> = {}): Promise<Service> {
     const folder = await mkdtemp(join(tmpdir(), "scree-page-"));
-    const binary = process.env["SCREE_BINARY"] ?? "../target/debug/scree";
     const listen = ["--listen", "127.0.0.1:0", "--database", join(folder, "scree.db")];
-    const child = spawn(binary, ["serve", ...listen, ...options], { stdio: ["ignore", "pipe", "ignore"] });
+    const child = spawn(BINARY, ["serve", ...listen, ...options], {
+      stdio: ["ignore", "pipe", "ignore"],
+      env: { ...process.env, ...settings },
+    });
     const url = await new Promise<string>((resolve, reject) => {
       let text = "";
       child.stdout.on("data", (piece: Buffer) => {
@@ -34,9 +39,17 @@ export class Service {
     return new Service(url, child, folder);
   }
 
+  /** Processor time that the service has used so far [s]. */
+  async processorTime(): Promise<number> {
+    const stat = await readFile(`/proc/${this.child.pid}/stat`, "utf8");
+    const [user, system] = stat.slice(stat.lastIndexOf(")")).split(" ").slice(12, 14).map(Number);
+    // In hundredths of a second, on every Linux.
+    return ((user ?? NaN) + (system ?? NaN)) / 100;
+  }
+
   async stop(): Promise<void> {
-    const ended = new Promise((resolve) => this.process.once("exit", resolve));
-    this.process.kill("SIGTERM");
+    const ended = new Promise((resolve) => this.child.once("exit", resolve));
+    this.child.kill("SIGTERM");
     await ended;
     await rm(this.folder, { recursive: true });
   }

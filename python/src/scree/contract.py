@@ -636,6 +636,12 @@ class FinerLevel(TypedDict):
     """
 
 
+FlowFrames: TypeAlias = bytes
+"""
+Snapshots of the flow in binary.
+"""
+
+
 class FlowSnapshot(TypedDict):
     """
     The flow at one instant.
@@ -644,6 +650,10 @@ class FlowSnapshot(TypedDict):
     job_id: str
     """
     The job.
+    """
+    point_id: List[int]
+    """
+    Identifier of each kept point: the same material point has the same in all snapshots.
     """
     points: int
     """
@@ -3333,6 +3343,11 @@ class Scenario(TypedDict):
     Default: twice the time at which the flow is expected to have come to rest, at least as long as every table of a prescribed motion; 3 without a flow.
     """
     flow: Optional[Flow]
+    flow_snapshot_points: NotRequired[int]
+    """
+    Largest number of points in a snapshot of the flow, which is thinned evenly to it: the same
+    material points in all snapshots.
+    """
     flow_snapshots: NotRequired[int]
     """
     Number of snapshots of the flow, evenly spread, both ends included, each at the end of the

@@ -32,17 +32,24 @@ export class JobList {
   state: ListState = { jobs: [], hasMore: false, isReading: true, problem: undefined };
   private cursor: string | null = null;
   private readonly looks = new Throttle(() => this.reading(() => this.look()), PAUSE_MS);
+  private readonly lookIfSeen = () => {
+    // Of many open pages one is seen: the others look once they are.
+    if (!document.hidden && this.isStale) this.looks.ask();
+  };
+  private isStale = false;
   private isClosed = false;
 
   constructor(
     private readonly filter: Filter,
     private readonly tell: (state: ListState) => void,
   ) {
+    document.addEventListener("visibilitychange", this.lookIfSeen);
     void this.readMore();
   }
 
   close(): void {
     this.isClosed = true;
+    document.removeEventListener("visibilitychange", this.lookIfSeen);
     this.looks.end();
   }
 
@@ -66,11 +73,16 @@ export class JobList {
         return;
       case "status":
         this.change(event.id, (job) => withStatus(job, event.status as JobStatus));
-        this.looks.ask();
+        this.lookSoon();
         return;
       case "reset":
-        this.looks.ask();
+        this.lookSoon();
     }
+  }
+
+  private lookSoon(): void {
+    this.isStale = true;
+    this.lookIfSeen();
   }
 
   private change(id: string, change: (job: JobSummary) => JobSummary): void {
@@ -81,6 +93,7 @@ export class JobList {
 
   /** Looks at the newest jobs. */
   private async look(): Promise<void> {
+    this.isStale = false;
     const page = await this.page(null);
     const newest = new Set(page.jobs.map((job) => job.id));
     if (!this.state.jobs.some((job) => newest.has(job.id))) {
