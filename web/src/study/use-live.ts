@@ -1,0 +1,52 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import { onTokenChange } from "../api/token";
+import { onServiceEvent } from "../events/events";
+import type { Answer } from "../parts/use-answer";
+import { Throttle } from "./throttle";
+
+/** Least time between two looks at a running study [ms]. */
+const LEAST_PAUSE_MS = 2_000;
+/** Time after which a look is due even if no event came: a study ends after its last job [ms]. */
+const LONGEST_PAUSE_MS = 5_000;
+
+/** What a reader of answers found, read again after events of jobs while it `goesOn`. */
+export function useLive<T>(read: (signal: AbortSignal) => Promise<T>, goesOn: (value: T) => boolean, depends: unknown[]): Answer<T> {
+  const [value, setValue] = useState<T>();
+  const [problem, setProblem] = useState<unknown>();
+  const again = useRef(() => {});
+  useEffect(() => {
+    const end = new AbortController();
+    let isOver = false;
+    const look = async () => {
+      try {
+        const found = await read(end.signal);
+        isOver = !goesOn(found);
+        setValue(() => found);
+        setProblem(undefined);
+      } catch (error) {
+        if (!end.signal.aborted) setProblem(error);
+      }
+    };
+    const throttle = new Throttle(look, LEAST_PAUSE_MS);
+    const ask = () => throttle.ask();
+    again.current = ask;
+    ask();
+    const askIfRunning = () => {
+      if (!isOver) ask();
+    };
+    const leaves = [
+      onTokenChange(ask),
+      onServiceEvent(({ kind }) => {
+        if (kind !== "progress") askIfRunning();
+      }),
+    ];
+    const backstop = setInterval(askIfRunning, LONGEST_PAUSE_MS);
+    return () => {
+      end.abort();
+      throttle.end();
+      clearInterval(backstop);
+      for (const leave of leaves) leave();
+    };
+  }, depends);
+  return { value, problem, again: () => again.current() };
+}
