@@ -19,11 +19,11 @@ export function AnswersView({ seen: { study: state, answers, members } }: { seen
   const soFar = state.status === "running" ? `So far: ${answers.members.finished + answers.members.failed} of ${state.members} members` : undefined;
   if (questions.length === 0) return <p>This study asks no questions; its members are below.</p>;
   return (
-    <>
+    <div class="answers">
       {questions.map((question, place) => {
         const answer = answers.answers[place];
         return (
-          <section key={place} class="card answer" aria-labelledby={`question-${place}`}>
+          <section key={place} class={`card answer${"rest" in question ? " whole" : ""}`} aria-labelledby={`question-${place}`}>
             <h2 id={`question-${place}`}>{title(question)}</h2>
             {soFar && <p class="so-far">{soFar}. This is not the final answer.</p>}
             {answer ? <OneAnswer question={question} answer={answer} {...shared} /> : <p class="quiet">No answer yet.</p>}
@@ -31,7 +31,7 @@ export function AnswersView({ seen: { study: state, answers, members } }: { seen
           </section>
         );
       })}
-    </>
+    </div>
   );
 }
 
