@@ -1,6 +1,6 @@
 /** The OpenAPI document of the service as the reference reads it. */
 
-import { type Schema as ContractSchema, request } from "../api/client";
+import type { Schema as ContractSchema } from "../api/client";
 
 /** A JSON Schema of the contract. */
 export interface Schema extends ContractSchema {
@@ -27,9 +27,14 @@ export interface Content {
   examples?: Record<string, { $ref?: string; value?: unknown }>;
 }
 
+export interface Header {
+  description?: string;
+  schema?: Schema;
+}
+
 export interface Answer {
   description: string;
-  headers?: Record<string, { description?: string; schema?: Schema }>;
+  headers?: Record<string, Header>;
   content?: Record<string, Content>;
 }
 
@@ -44,7 +49,8 @@ interface Operation {
   security?: Record<string, string[]>[];
 }
 
-interface Document {
+/** The OpenAPI document. */
+export interface Document {
   info: { title: string; version: string; description: string };
   tags: { name: string; description?: string }[];
   paths: Record<string, Record<string, Operation>>;
@@ -76,11 +82,6 @@ export interface Interface {
   schemas: [name: string, schema: Schema][];
   schema: (reference: string) => Schema | undefined;
   example: (content: Content) => unknown;
-}
-
-/** Reads the contract. */
-export async function readInterface(): Promise<Interface> {
-  return interfaceOf((await (await request("openapi.json")).json()) as Document);
 }
 
 /** The interface that a contract describes. */

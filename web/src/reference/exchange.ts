@@ -73,6 +73,7 @@ export async function eachMessage(body: ReadableStream<Uint8Array>, tell: (messa
     if (done) return;
     const blocks = (rest + value).split("\n\n");
     rest = blocks.pop() ?? "";
-    for (const block of blocks) if (block.trim() !== "") tell(block);
+    // Lines that begin with a colon only keep the connection open.
+    for (const block of blocks) if (/^[^:]/m.test(block)) tell(block);
   }
 }

@@ -1,15 +1,19 @@
 import { useMemo, useState } from "preact/hooks";
-import { ROOT } from "../api/client";
+import { ROOT, request } from "../api/client";
 import { ProblemNotice } from "../parts/problem-notice";
 import { useAnswer } from "../parts/use-answer";
 import { Beginning } from "./beginning";
-import { type Group, type Interface, type Schema, readInterface, schemaAnchor } from "./contract";
+import { type Document, type Group, type Interface, type Schema, interfaceOf, schemaAnchor } from "./contract";
 import { Anchor, Entry, Part } from "./entry";
 import { useAnchor } from "./opened";
 import { RequestView, paragraphs } from "./request-view";
 import { Fields, InterfaceContext } from "./schema-view";
 import { holds, textOfRequest, textOfSchema } from "./search";
 import { TokenField } from "./token-field";
+
+async function readInterface(): Promise<Interface> {
+  return interfaceOf((await (await request("openapi.json")).json()) as Document);
+}
 
 /** Reference of the interface, made of the service's own contract. */
 export function ReferencePage() {
@@ -45,7 +49,8 @@ function Reference({ whole }: { whole: Interface }) {
             <h1>{whole.info.title}: the interface</h1>
             {paragraphs(whole.info.description)}
             <p class="quiet">
-              Version {whole.info.version}. This page is made of <a href={`${ROOT}openapi.json`}>openapi.json</a>, the contract (OpenAPI 3.1).
+              Version {whole.info.version}. This page is made of <a href={`${ROOT}openapi.json`}>openapi.json</a>, the contract (OpenAPI 3.1). Every answer has the header{" "}
+              <code>X-Request-Id</code>, which the service's log has, too.
             </p>
             <Beginning />
             <h2>Requests</h2>

@@ -1,6 +1,6 @@
-import type { Answer, Interface, Request } from "./contract";
+import { type Answer, type Content, type Header, type Interface, type Request, schemaAnchor } from "./contract";
 import { Entry, Part } from "./entry";
-import { Facts, Fields, Kind } from "./schema-view";
+import { Facts, Fields, Kind, Prose } from "./schema-view";
 import { TryIt } from "./try-it";
 
 /** A request of the interface. */
@@ -33,6 +33,9 @@ function Contents({ request, whole }: { request: Request; whole: Interface }) {
           </section>
         ))}
       <h4>Answers</h4>
+      <p class="quiet">
+        Errors are <a href={`#${schemaAnchor("Problem")}`}>Problem</a> documents (<code>application/problem+json</code>).
+      </p>
       <ul class="answers">
         {Object.entries(responses).map(([status, answer]) => (
           <AnswerView key={status} status={status} answer={answer} whole={whole} />
@@ -45,7 +48,11 @@ function Contents({ request, whole }: { request: Request; whole: Interface }) {
 
 /** A description, which may have several paragraphs. */
 export function paragraphs(text: string | undefined) {
-  return text?.split("\n\n").map((paragraph) => <p key={paragraph}>{paragraph}</p>);
+  return text?.split("\n\n").map((paragraph) => (
+    <p key={paragraph}>
+      <Prose text={paragraph} />
+    </p>
+  ));
 }
 
 function Parameters({ parameters }: { parameters: NonNullable<Request["parameters"]> }) {
@@ -63,29 +70,38 @@ function Parameters({ parameters }: { parameters: NonNullable<Request["parameter
   );
 }
 
-function AnswerView({ status, answer: { description, headers, content }, whole }: { status: string; answer: Answer; whole: Interface }) {
+/** Header that every answer has; the page's beginning tells of it. */
+const EVERYWHERE = "X-Request-Id";
+
+function AnswerView({ status, answer, whole }: { status: string; answer: Answer; whole: Interface }) {
+  const headers = Object.entries(answer.headers ?? {}).filter(([name]) => name !== EVERYWHERE);
+  const isSuccess = status < "400";
   return (
     <li>
-      <strong class={status < "400" ? "good" : "bad"}>{status}</strong> {description}
-      {headers && <Part summary={`${Object.keys(headers).length === 1 ? "Header" : "Headers"}: ${Object.keys(headers).join(", ")}`}>{() => <Headers headers={headers} />}</Part>}
-      {Object.entries(content ?? {}).map(([type, one]) => {
-        const example = whole.example(one);
-        return (
-          <div key={type}>
-            <code>{type}</code> {one.schema && <Kind schema={one.schema} />}
-            {one.schema?.$ref && <Part summary="Fields of the answer">{() => <Fields schema={one.schema ?? {}} />}</Part>}
-            {example !== undefined && <Part summary="Example">{() => <Example value={example} />}</Part>}
-          </div>
-        );
-      })}
+      <strong class={isSuccess ? "good" : "bad"}>{status}</strong> <Prose text={answer.description} />
+      {headers.length > 0 && <Part summary={`${headers.length === 1 ? "Header" : "Headers"}: ${headers.map(([name]) => name).join(", ")}`}>{() => <Headers headers={headers} />}</Part>}
+      {Object.entries(answer.content ?? {}).map(([type, content]) => (
+        <ContentView key={type} type={type} content={content} example={whole.example(content)} isSuccess={isSuccess} />
+      ))}
     </li>
   );
 }
 
-function Headers({ headers }: { headers: NonNullable<Answer["headers"]> }) {
+/** Content of an answer. All errors are of one kind, which is named once. */
+function ContentView({ type, content: { schema }, example, isSuccess }: { type: string; content: Content; example: unknown; isSuccess: boolean }) {
+  return (
+    <div>
+      {isSuccess && <><code>{type}</code> {schema && <Kind schema={schema} />}</>}
+      {isSuccess && schema?.$ref && <Part summary="Fields of the answer">{() => <Fields schema={schema} />}</Part>}
+      {example !== undefined && <Part summary="Example">{() => <Example value={example} />}</Part>}
+    </div>
+  );
+}
+
+function Headers({ headers }: { headers: [name: string, header: Header][] }) {
   return (
     <ul class="fields">
-      {Object.entries(headers).map(([name, { description, schema }]) => (
+      {headers.map(([name, { description, schema }]) => (
         <li key={name}>
           <code>{name}</code> <span class="kind">{schema && <Kind schema={schema} />}</span> <Facts schema={schema ?? {}} description={description} />
         </li>

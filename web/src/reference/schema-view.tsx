@@ -1,6 +1,5 @@
-import type { ComponentChildren } from "preact";
+import { type ComponentChildren, createContext } from "preact";
 import { useContext } from "preact/hooks";
-import { createContext } from "preact";
 import { type Interface, type Schema, nameOfReference, schemaAnchor } from "./contract";
 import { Part } from "./entry";
 import { factsOf, kindOf } from "./schema-text";
@@ -24,6 +23,11 @@ export function Kind({ schema }: { schema: Schema }): ComponentChildren {
   return kindOf(schema);
 }
 
+/** A text of the contract, in which names stand between backticks. */
+export function Prose({ text }: { text: string }) {
+  return <>{text.split("`").map((piece, place) => (place % 2 === 1 ? <code key={place}>{piece}</code> : piece))}</>;
+}
+
 /** Facts about a value, and its description. */
 export function Facts({ schema, description }: { schema: Schema; description?: string | undefined }) {
   const facts = factsOf(schema);
@@ -31,7 +35,7 @@ export function Facts({ schema, description }: { schema: Schema; description?: s
   return (
     <>
       {facts.length > 0 && <span class="facts">{facts.join("; ")}</span>}
-      {said && <p>{said}</p>}
+      {said && <p><Prose text={said} /></p>}
     </>
   );
 }

@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { ROOT } from "../api/client";
-import { onTokenChange } from "../api/token";
+import { onTokenChange, token } from "../api/token";
 import { type Values, curlLine, streams } from "./asking";
 import { bodyOf } from "./bodies";
 import { type Interface, type Request, changesSomething } from "./contract";
@@ -17,13 +17,13 @@ export function TryIt({ request, whole }: { request: Request; whole: Interface }
   const [values, setValues] = useState<Values>({});
   const [body, setBody] = useState(() => bodyOf(request, whole));
   const exchange = useExchange(request);
-  const [, setHasToken] = useState(0);
-  useEffect(() => onTokenChange(() => setHasToken((round) => round + 1)), []);
+  const [hasToken, setHasToken] = useState(token() !== null);
+  useEffect(() => onTokenChange(() => setHasToken(token() !== null)), []);
   const root = location.origin + ROOT.replace(/\/$/, "");
   return (
     <>
       <h4>curl</h4>
-      <CopyLine line={curlLine(request, values, body, root)} name={`curl line of ${request.summary ?? request.id}`} />
+      <CopyLine line={curlLine(request, values, body, { root, hasToken })} name={`curl line of ${request.summary ?? request.id}`} />
       <h4>Try it</h4>
       <form
         onSubmit={(event) => {

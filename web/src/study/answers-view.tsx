@@ -23,7 +23,7 @@ export function AnswersView({ seen: { study: state, answers, members } }: { seen
       {questions.map((question, place) => {
         const answer = answers.answers[place];
         return (
-          <section key={place} class={`card answer${"rest" in question ? " whole" : ""}`} aria-labelledby={`question-${place}`}>
+          <section key={place} class={`card answer${"rest" in question || "sensitivity" in question ? " whole" : ""}`} aria-labelledby={`question-${place}`}>
             <h2 id={`question-${place}`}>{title(question)}</h2>
             {soFar && <p class="so-far">{soFar}. This is not the final answer.</p>}
             {answer ? <OneAnswer question={question} answer={answer} {...shared} /> : <p class="quiet">No answer yet.</p>}

@@ -24,7 +24,7 @@ export function MapDots({ rested, scale, onPoint }: { rested: Rested[]; scale: M
         return (
           <a key={one.member.member} href={`#/jobs/${one.member.job}`} tabIndex={number === 0 ? 0 : -1} aria-label={restedText(one)} data-number={number}>
             <circle class="grip" cx={x} cy={y} r={7} />
-            <circle class="place" cx={x} cy={y} r={2.4} />
+            <circle class="place" cx={x} cy={y} r={3} />
           </a>
         );
       }),
