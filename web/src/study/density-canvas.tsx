@@ -5,6 +5,9 @@ import { type MapScale, onMap } from "./scales";
 /** Opacity of the largest density, so that outlines and places stay visible on it. */
 const MOST_OPAQUE = 0.75;
 
+/** Least width of what is drawn [px]. */
+const THINNEST = 6;
+
 /** Density of resting places below the map, the more opaque the more probable. */
 export function DensityCanvas({ density, scale }: { density: RestDistribution["density"]; scale: MapScale }) {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -29,7 +32,10 @@ function paint(canvas: HTMLCanvasElement, density: RestDistribution["density"], 
   const [right, bottom] = onMap(scale, [x0 + (nx - 0.5) * dx, y0 - 0.5 * dy]);
   context.imageSmoothingEnabled = true;
   context.imageSmoothingQuality = "high";
-  context.drawImage(maskOf(density.density_per_m2, nx, ny), left, top, right - left, bottom - top);
+  // Bodies that rest on a line have a density without a width.
+  const [width, height] = [Math.max(right - left, THINNEST), Math.max(bottom - top, THINNEST)];
+  const [x, y] = [0.5 * (left + right - width), 0.5 * (top + bottom - height)];
+  context.drawImage(maskOf(density.density_per_m2, nx, ny), x, y, width, height);
   // The mask takes the theme's colour.
   context.globalCompositeOperation = "source-in";
   context.fillStyle = getComputedStyle(canvas).getPropertyValue("--accent");
