@@ -37,13 +37,25 @@ test("curl lines can be pasted into a shell", () => {
   expect(curlLine(request("submit"), {}, '{\n  "title": "it\'s"\n}', HERE)).toBe(
     `curl -H 'Content-Type: application/json' --data '{"title":"it'\\''s"}' 'http://here/v1/jobs'`,
   );
-  expect(curlLine(request("events"), {}, "", { ...HERE, hasToken: true })).toBe(`curl -N -H "Authorization: Bearer $SCREE_TOKEN" 'http://here/v1/events'`);
+  expect(curlLine(request("events"), {}, "", { ...HERE, hasToken: true })).toBe(
+    `curl -N -H "Authorization: Bearer $SCREE_TOKEN" 'http://here/v1/events'`,
+  );
   expect(curlLine(request("health"), {}, "", { ...HERE, hasToken: true })).not.toContain("Authorization");
 });
 
 test("requests that change something are told from those that do not", () => {
   const changing = whole.groups.flatMap(({ requests }) => requests.filter(changesSomething).map(({ id }) => id));
-  expect(changing).toEqual(expect.arrayContaining(["submit", "submit_batch", "dismiss", "submit_study", "enlarge_study", "dismiss_study", "execute"]));
+  expect(changing).toEqual(
+    expect.arrayContaining([
+      "submit",
+      "submit_batch",
+      "dismiss",
+      "submit_study",
+      "enlarge_study",
+      "dismiss_study",
+      "execute",
+    ]),
+  );
   expect(changing).not.toContain("plan");
   expect(changing).not.toContain("plan_study");
   expect(changing).not.toContain("list");

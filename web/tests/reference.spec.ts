@@ -2,7 +2,10 @@ import { readFile } from "node:fs/promises";
 import { QUICK, expect, expectAccessible, expectNoSidewaysScroll, test } from "./service";
 
 test("every request and document of the contract is there", async ({ page, service }) => {
-  const contract = await service.get<{ paths: Record<string, Record<string, { operationId: string }>>; components: { schemas: object } }>("/openapi.json");
+  const contract = await service.get<{
+    paths: Record<string, Record<string, { operationId: string }>>;
+    components: { schemas: object };
+  }>("/openapi.json");
   await page.goto("/docs");
   await expect(page.getByRole("heading", { level: 1, name: "Scree: the interface" })).toBeVisible();
   for (const [path, methods] of Object.entries(contract.paths))
@@ -21,7 +24,9 @@ test("the contract is shown without a noticeable pause", async ({ page }) => {
     () =>
       new Promise<number>((resolve) => {
         let most = 0;
-        new PerformanceObserver((list) => list.getEntries().forEach(({ duration }) => (most = Math.max(most, duration)))).observe({ type: "longtask", buffered: true });
+        new PerformanceObserver((list) =>
+          list.getEntries().forEach(({ duration }) => (most = Math.max(most, duration))),
+        ).observe({ type: "longtask", buffered: true });
         setTimeout(() => resolve(most), 500);
       }),
   );
@@ -89,7 +94,10 @@ test("binary answers are saved", async ({ page, service }) => {
   await entry.getByLabel(/^id/).fill(id);
   await entry.getByRole("button", { name: "Send", exact: true }).click();
   await expect(entry).toContainText(/[\d.]+ kB of application\/zip/);
-  const [download] = await Promise.all([page.waitForEvent("download"), entry.getByRole("button", { name: "Save as trajectory.npz" }).click()]);
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    entry.getByRole("button", { name: "Save as trajectory.npz" }).click(),
+  ]);
   expect((await readFile(await download.path())).subarray(0, 2).toString()).toBe("PK");
 });
 

@@ -13,8 +13,23 @@ import { directionOf, tornado } from "../src/study/sensitivity";
 import { Throttle } from "../src/study/throttle";
 
 function member(number: number, values: unknown[], displacement?: number): ListedMember {
-  const bodies = [{ rest_m: [0.1 * number, 0.01, 0], moving: number === 3, hit: true, buried_m: 0, quantities: displacement === undefined ? {} : { displacement_m: displacement } }];
-  return { level: 0, member: number, values, job: `job-${number}`, status: "successful", outcome: { finished: { quantities: { runout_m: number }, bodies } } };
+  const bodies = [
+    {
+      rest_m: [0.1 * number, 0.01, 0],
+      moving: number === 3,
+      hit: true,
+      buried_m: 0,
+      quantities: displacement === undefined ? {} : { displacement_m: displacement },
+    },
+  ];
+  return {
+    level: 0,
+    member: number,
+    values,
+    job: `job-${number}`,
+    status: "successful",
+    outcome: { finished: { quantities: { runout_m: number }, bodies } },
+  };
 }
 
 test("bounds of probabilities are those of Clopper and Pearson", () => {
@@ -29,9 +44,17 @@ test("bounds of probabilities are those of Clopper and Pearson", () => {
 
 test("an exceedance curve falls from 1 to 0 in steps at the values", () => {
   const steps = curve([3, 1, 2, 2], 0);
-  expect(steps.map(({ threshold, estimate }) => [threshold, estimate])).toEqual([[1, 1], [1, 0.75], [2, 0.25], [3, 0]]);
+  expect(steps.map(({ threshold, estimate }) => [threshold, estimate])).toEqual([
+    [1, 1],
+    [1, 0.75],
+    [2, 0.25],
+    [3, 0],
+  ]);
   expect(curve([], 5)).toEqual([]);
-  const many = curve(Array.from({ length: 5000 }, (_, place) => place), 0);
+  const many = curve(
+    Array.from({ length: 5000 }, (_, place) => place),
+    0,
+  );
   expect(many.length).toBeLessThan(500);
   expect(many.at(-1)?.estimate).toBe(0);
 });
@@ -46,16 +69,33 @@ test("members of unknown value widen both bounds", () => {
 
 test("distributions are told as sentences with units", () => {
   expect(sentence({ uniform: { from: 0.3, to: 0.45 } }, "")).toBe("Between 0.3 and 0.45, each value as likely.");
-  expect(sentence({ lognormal: { median: 0.008, p95: 0.01 } }, "m³")).toBe("Lognormal with median 0.008 m³; 19 of 20 draws are below 0.01 m³.");
+  expect(sentence({ lognormal: { median: 0.008, p95: 0.01 } }, "m³")).toBe(
+    "Lognormal with median 0.008 m³; 19 of 20 draws are below 0.01 m³.",
+  );
   expect(sentence({ normal: { mean: 1, sd: 0.2, truncate: { from: 0.5, to: 2 } } }, "m")).toBe(
     "Normal with mean 1 m and standard deviation 0.2 m, within 0.5 m and 2 m.",
   );
-  expect(sentence({ choice: { values: [{ value: "wet", weight: 3 }, { value: 2, weight: 1 }] } }, "")).toBe('One of "wet" (75 %), 2 (25 %).');
-  expect(sentence({ list: { values: [1, 2, 3, 4, 5, 6] } }, "°")).toBe("One of 6 numbers from 1 ° to 6 °, each as likely.");
+  expect(
+    sentence(
+      {
+        choice: {
+          values: [
+            { value: "wet", weight: 3 },
+            { value: 2, weight: 1 },
+          ],
+        },
+      },
+      "",
+    ),
+  ).toBe('One of "wet" (75 %), 2 (25 %).');
+  expect(sentence({ list: { values: [1, 2, 3, 4, 5, 6] } }, "°")).toBe(
+    "One of 6 numbers from 1 ° to 6 °, each as likely.",
+  );
 });
 
 test("densities have their peak where the distribution has its mode", () => {
-  const peak = (heights: { x: number; y: number }[]) => heights.reduce((best, point) => (point.y > best.y ? point : best)).x;
+  const peak = (heights: { x: number; y: number }[]) =>
+    heights.reduce((best, point) => (point.y > best.y ? point : best)).x;
   expect(peak(shape({ normal: { mean: 2, sd: 0.1 } })?.heights ?? [])).toBeCloseTo(2, 2);
   const lognormal = shape({ lognormal: { median: 1, p95: 2 } })?.heights ?? [];
   expect(peak(lognormal)).toBeCloseTo(Math.exp(-((Math.log(2) / 1.645) ** 2)), 1);
@@ -65,11 +105,25 @@ test("densities have their peak where the distribution has its mode", () => {
 test("names of inputs and units come from the keys", () => {
   expect(placeName("/bodies/0/position/lateral_m")).toBe("body 0, position, lateral");
   expect(placeName("/channel/base_friction")).toBe("channel, base friction");
-  expect([unitOf("peak_speed_m_s"), unitOf("volume_m3"), unitOf("yaw_deg"), unitOf("base_friction")]).toEqual(["m/s", "m³", "°", ""]);
+  expect([unitOf("peak_speed_m_s"), unitOf("volume_m3"), unitOf("yaw_deg"), unitOf("base_friction")]).toEqual([
+    "m/s",
+    "m³",
+    "°",
+    "",
+  ]);
 });
 
 test("a map has equal scales along both axes", () => {
-  for (const [x, y] of [[[0, 1], [-0.1, 0.1]], [[0, 0.1], [-2, 2]]] as [[number, number], [number, number]][]) {
+  for (const [x, y] of [
+    [
+      [0, 1],
+      [-0.1, 0.1],
+    ],
+    [
+      [0, 0.1],
+      [-2, 2],
+    ],
+  ] as [[number, number], [number, number]][]) {
     const scale = mapScale(x, y, 600);
     expect((scale.x[1] - scale.x[0]) / scale.width).toBeCloseTo((scale.y[1] - scale.y[0]) / scale.height, 9);
     expect(scale.x[0]).toBeLessThanOrEqual(x[0]);
@@ -89,21 +143,35 @@ test("round values lie in their range, and ranges hold their values", () => {
 });
 
 test("labels of regions keep apart, and what can't be placed is left to the legend", () => {
-  const ring = (radius: number): [number, number][] => Array.from({ length: 24 }, (_, turn) => [radius * Math.cos(turn / 4), radius * Math.sin(turn / 4)]);
+  const ring = (radius: number): [number, number][] =>
+    Array.from({ length: 24 }, (_, turn) => [radius * Math.cos(turn / 4), radius * Math.sin(turn / 4)]);
   const labels = labelsOf([50, 80, 84].map((radius) => ({ text: String(radius), corners: ring(radius) })));
   expect(labels.map(({ text }) => text)).toEqual(["50", "80", "84"]);
-  expect(labelsOf(Array.from({ length: 9 }, () => ({ text: "x", corners: [[1, 1]] as [number, number][] })))).toHaveLength(1);
+  expect(
+    labelsOf(Array.from({ length: 9 }, () => ({ text: "x", corners: [[1, 1]] as [number, number][] }))),
+  ).toHaveLength(1);
 });
 
 test("the ground of a map has the channel and the body's start", () => {
   const channel = { inclination_deg: 40, incline_length_m: 1, runout_length_m: 2 };
-  expect(groundOf({ channel, bodies: [{ shape: { cube: { side_m: 0.04 } } }] }, 0)).toEqual({ halfWidth: 0.1, ends: [-1, 2], hasFoot: true, start: [0.04, 0] });
+  expect(groundOf({ channel, bodies: [{ shape: { cube: { side_m: 0.04 } } }] }, 0)).toEqual({
+    halfWidth: 0.1,
+    ends: [-1, 2],
+    hasFoot: true,
+    start: [0.04, 0],
+  });
   expect(groundOf({ channel, bodies: [{ shape: { ball: {} } }] }, 0)?.start).toBeUndefined();
   expect(groundOf({}, 0)).toBeUndefined();
 });
 
 test("only draws of the inputs make probabilities", () => {
-  expect([0, 1, 2, 3, 4].map((index) => isDraw({ saltelli: { base_members: 2, seed: 1 } }, index, 2))).toEqual([true, true, false, false, true]);
+  expect([0, 1, 2, 3, 4].map((index) => isDraw({ saltelli: { base_members: 2, seed: 1 } }, index, 2))).toEqual([
+    true,
+    true,
+    false,
+    false,
+    true,
+  ]);
   expect(isDraw({ morris: { trajectories: 2, levels: 4, seed: 1 } }, 0, 2)).toBe(false);
   expect(isDraw({ sobol: { members: 2, seed: 1 } }, 1, 2)).toBe(true);
 });
@@ -118,7 +186,12 @@ test("quantities of members are those of a body or of the run", () => {
 });
 
 test("members are sorted by a column, those without a value last", () => {
-  const study = { scenario: {}, inputs: [{ pointer: "/channel/base_friction" }], design: { sobol: { members: 4, seed: 1 } }, questions: [{ mean: { quantity: "displacement_m", body: 0 } }] };
+  const study = {
+    scenario: {},
+    inputs: [{ pointer: "/channel/base_friction" }],
+    design: { sobol: { members: 4, seed: 1 } },
+    questions: [{ mean: { quantity: "displacement_m", body: 0 } }],
+  };
   const column = columns(study).find(({ title }) => title.includes("displacement"));
   if (!column) throw new Error("no such column");
   const members = [member(0, [1], 0.3), member(1, [2]), member(2, [3], 0.1)];
@@ -130,10 +203,15 @@ test("the largest sensitivity is on top, with its direction", () => {
   const estimate = (value: number) => ({ value, lower: value - 0.1, upper: value + 0.1 });
   const inputs = [0.1, 0.7].map((value) => ({ first_order: estimate(value), total: estimate(value + 0.05) }));
   const { rows, axis } = tornado({ sobol: { inputs, rows: 8, rows_left_out: 0 } }, ["unclear", "falls"]);
-  expect(rows.map(({ input, direction }) => [input, direction])).toEqual([[1, "falls"], [0, "unclear"]]);
+  expect(rows.map(({ input, direction }) => [input, direction])).toEqual([
+    [1, "falls"],
+    [0, "unclear"],
+  ]);
   expect(axis).toBe("share");
   const moment = (value: number) => ({ value, standard_error: 0.01 });
-  const effects = [{ mean: moment(-0.2), mean_size: moment(0.2), deviation: moment(0.05), effects: 6, effects_left_out: 0 }];
+  const effects = [
+    { mean: moment(-0.2), mean_size: moment(0.2), deviation: moment(0.05), effects: 6, effects_left_out: 0 },
+  ];
   expect(tornado({ elementary: { inputs: effects } }, []).rows[0]?.direction).toBe("falls");
 });
 

@@ -39,11 +39,17 @@ export function headersOf(request: Request, values: Values): Record<string, stri
 }
 
 /** Line for a shell that makes the same request; the token is left to the shell. */
-export function curlLine(request: Request, values: Values, body: string, { root, hasToken }: { root: string; hasToken: boolean }): string {
+export function curlLine(
+  request: Request,
+  values: Values,
+  body: string,
+  { root, hasToken }: { root: string; hasToken: boolean },
+): string {
   const parts = ["curl"];
   if (request.method !== "GET" && !(request.method === "POST" && body !== "")) parts.push(`-X ${request.method}`);
   if (streams(request)) parts.push("-N");
-  for (const [name, value] of Object.entries(headersOf(request, values))) parts.push(`-H ${quoted(`${name}: ${value}`)}`);
+  for (const [name, value] of Object.entries(headersOf(request, values)))
+    parts.push(`-H ${quoted(`${name}: ${value}`)}`);
   if (!request.isOpen && hasToken) parts.push('-H "Authorization: Bearer $SCREE_TOKEN"');
   if (body !== "") parts.push(`--data ${quoted(compact(body))}`);
   parts.push(quoted(root + pathOf(request, values)));

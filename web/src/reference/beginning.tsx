@@ -12,10 +12,30 @@ export function Beginning() {
       text: "The answer has the job's id. The job is on disk when it is sent.",
       line: `curl -H 'Content-Type: application/json' --data '${JSON.stringify(minimal)}' '${root}v1/jobs'`,
     },
-    { name: "Wait for the job", link: "show", text: "The answer comes when the job has ended, at the latest after 60 s.", line: `curl "${root}v1/jobs/$ID?wait=60s"` },
-    { name: "Read the outcome", link: "show", text: "The same document has the outcome: where each body ended up, and how far to trust it.", line: `curl "${root}v1/jobs/$ID" | jq .outcome` },
-    { name: "Read a trajectory", link: "trajectory", text: "Place, speed and forces of a body at each sample; also as JSON, NDJSON and NPZ.", line: `curl "${root}v1/jobs/$ID/trajectory.csv?body=0"` },
-    { name: "Read the flow", link: "flow", text: "The snapshot at or before a time; flow.zip has all of them for ParaView.", line: `curl "${root}v1/jobs/$ID/flow?time_s=0.5"` },
+    {
+      name: "Wait for the job",
+      link: "show",
+      text: "The answer comes when the job has ended, at the latest after 60 s.",
+      line: `curl "${root}v1/jobs/$ID?wait=60s"`,
+    },
+    {
+      name: "Read the outcome",
+      link: "show",
+      text: "The same document has the outcome: where each body ended up, and how far to trust it.",
+      line: `curl "${root}v1/jobs/$ID" | jq .outcome`,
+    },
+    {
+      name: "Read a trajectory",
+      link: "trajectory",
+      text: "Place, speed and forces of a body at each sample; also as JSON, NDJSON and NPZ.",
+      line: `curl "${root}v1/jobs/$ID/trajectory.csv?body=0"`,
+    },
+    {
+      name: "Read the flow",
+      link: "flow",
+      text: "The snapshot at or before a time; flow.zip has all of them for ParaView.",
+      line: `curl "${root}v1/jobs/$ID/flow?time_s=0.5"`,
+    },
   ];
   return (
     <section aria-labelledby="beginning">

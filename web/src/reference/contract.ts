@@ -109,7 +109,13 @@ export function interfaceOf(document: Document): Interface {
 }
 
 function requestOf(path: string, method: string, operation: Operation): Request {
-  return { ...operation, id: operation.operationId, method: method.toUpperCase(), path, isOpen: operation.security?.length === 0 };
+  return {
+    ...operation,
+    id: operation.operationId,
+    method: method.toUpperCase(),
+    path,
+    isOpen: operation.security?.length === 0,
+  };
 }
 
 /** Last part of a reference, the name of what it refers to. */

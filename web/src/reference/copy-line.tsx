@@ -8,8 +8,12 @@ export function CopyLine({ line, name }: { line: string; name: string }) {
   const copy = async () => setSaid((await copied(line, text.current)) ? "Copied" : "Selected: copy it with Ctrl+C");
   return (
     <div class="copy">
-      <pre ref={text} tabIndex={0} aria-label={name}>{line}</pre>
-      <button type="button" onClick={() => void copy()} aria-label={`Copy: ${name}`}>Copy</button>
+      <pre ref={text} tabIndex={0} aria-label={name}>
+        {line}
+      </pre>
+      <button type="button" onClick={() => void copy()} aria-label={`Copy: ${name}`}>
+        Copy
+      </button>
       <span role="status">{said}</span>
     </div>
   );

@@ -6,7 +6,15 @@ import { useContext, useEffect, useRef, useState } from "preact/hooks";
 export const Anchor = createContext({ anchor: "", count: 0 });
 
 /** An entry of the reference, whose contents are made when it is first opened. */
-export function Entry({ id, summary, children }: { id: string; summary: ComponentChildren; children: () => ComponentChildren }) {
+export function Entry({
+  id,
+  summary,
+  children,
+}: {
+  id: string;
+  summary: ComponentChildren;
+  children: () => ComponentChildren;
+}) {
   const { anchor, count } = useContext(Anchor);
   const element = useRef<HTMLDetailsElement>(null);
   const [isOpen, setIsOpen] = useState(anchor === id);
@@ -17,7 +25,13 @@ export function Entry({ id, summary, children }: { id: string; summary: Componen
     element.current?.querySelector("summary")?.focus({ preventScroll: true });
   }, [anchor, count]);
   return (
-    <details ref={element} id={id} class="entry" open={isOpen} onToggle={(event) => setIsOpen(event.currentTarget.open)}>
+    <details
+      ref={element}
+      id={id}
+      class="entry"
+      open={isOpen}
+      onToggle={(event) => setIsOpen(event.currentTarget.open)}
+    >
       <summary>{summary}</summary>
       {isOpen && <div class="contents">{children()}</div>}
     </details>

@@ -24,7 +24,12 @@ export interface Received {
 const LONGEST = 200_000;
 
 /** Sends a request with the token of this tab, whatever the answer's status. */
-export async function send(request: Request, values: Values, body: string, signal: AbortSignal): Promise<{ response: Response; began: number }> {
+export async function send(
+  request: Request,
+  values: Values,
+  body: string,
+  signal: AbortSignal,
+): Promise<{ response: Response; began: number }> {
   const headers = { ...headersOf(request, values), ...authorization() };
   const began = performance.now();
   const init = { method: request.method, headers, signal, ...(body === "" ? {} : { body }) };
@@ -64,7 +69,11 @@ function pretty(text: string, type: string): string {
 }
 
 /** Tells each message of a stream of events, as it was sent, until the signal or the end. */
-export async function eachMessage(body: ReadableStream<Uint8Array>, tell: (message: string) => void, signal: AbortSignal): Promise<void> {
+export async function eachMessage(
+  body: ReadableStream<Uint8Array>,
+  tell: (message: string) => void,
+  signal: AbortSignal,
+): Promise<void> {
   const reader = body.pipeThrough(new TextDecoderStream() as ReadableWritablePair<string, Uint8Array>).getReader();
   signal.addEventListener("abort", () => void reader.cancel().catch(() => {}));
   let rest = "";

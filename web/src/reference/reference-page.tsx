@@ -29,7 +29,14 @@ export function ReferencePage() {
           <a href={`${ROOT}openapi.json`}>openapi.json</a>
         </nav>
       </header>
-      {whole ? <Reference whole={whole} /> : <main><h1>The interface</h1>{problem ? <ProblemNotice problem={problem} /> : <p class="quiet">Reading openapi.json …</p>}</main>}
+      {whole ? (
+        <Reference whole={whole} />
+      ) : (
+        <main>
+          <h1>The interface</h1>
+          {problem ? <ProblemNotice problem={problem} /> : <p class="quiet">Reading openapi.json …</p>}
+        </main>
+      )}
     </>
   );
 }
@@ -38,7 +45,10 @@ function Reference({ whole }: { whole: Interface }) {
   const [sought, setSought] = useState("");
   const anchor = useAnchor();
   const groups = useMemo(() => filtered(whole.groups, sought), [whole, sought]);
-  const schemas = useMemo(() => whole.schemas.filter(([name, schema]) => holds(textOfSchema(name, schema), sought)), [whole, sought]);
+  const schemas = useMemo(
+    () => whole.schemas.filter(([name, schema]) => holds(textOfSchema(name, schema), sought)),
+    [whole, sought],
+  );
   const count = groups.reduce((sum, { requests }) => sum + requests.length, 0);
   return (
     <InterfaceContext.Provider value={whole}>
@@ -49,21 +59,28 @@ function Reference({ whole }: { whole: Interface }) {
             <h1>{whole.info.title}: the interface</h1>
             {paragraphs(whole.info.description)}
             <p class="quiet">
-              Version {whole.info.version}. This page is made of <a href={`${ROOT}openapi.json`}>openapi.json</a>, the contract (OpenAPI 3.1). Every answer has the header{" "}
-              <code>X-Request-Id</code>, which the service's log has, too.
+              Version {whole.info.version}. This page is made of <a href={`${ROOT}openapi.json`}>openapi.json</a>, the
+              contract (OpenAPI 3.1). Every answer has the header <code>X-Request-Id</code>, which the service's log
+              has, too.
             </p>
             <Beginning />
             <h2>Requests</h2>
             <TokenField />
             <label class="search">
-              Search requests and documents <input type="search" value={sought} onInput={(event) => setSought(event.currentTarget.value)} />
+              Search requests and documents{" "}
+              <input type="search" value={sought} onInput={(event) => setSought(event.currentTarget.value)} />
             </label>
             <p class="quiet" role="status">
-              {count} {count === 1 ? "request" : "requests"}, {schemas.length} {schemas.length === 1 ? "document" : "documents"}
+              {count} {count === 1 ? "request" : "requests"}, {schemas.length}{" "}
+              {schemas.length === 1 ? "document" : "documents"}
             </p>
-            {groups.map((group) => <GroupView key={group.name} group={group} whole={whole} />)}
+            {groups.map((group) => (
+              <GroupView key={group.name} group={group} whole={whole} />
+            ))}
             <h2 id="documents">Documents</h2>
-            {schemas.map(([name, schema]) => <SchemaEntry key={name} name={name} schema={schema} />)}
+            {schemas.map(([name, schema]) => (
+              <SchemaEntry key={name} name={name} schema={schema} />
+            ))}
           </main>
         </div>
       </Anchor.Provider>
@@ -72,7 +89,10 @@ function Reference({ whole }: { whole: Interface }) {
 }
 
 function filtered(groups: Group[], sought: string): Group[] {
-  const kept = groups.map((group) => ({ ...group, requests: group.requests.filter((request) => holds(textOfRequest(request), sought)) }));
+  const kept = groups.map((group) => ({
+    ...group,
+    requests: group.requests.filter((request) => holds(textOfRequest(request), sought)),
+  }));
   return kept.filter(({ requests }) => requests.length > 0);
 }
 
@@ -81,7 +101,9 @@ function GroupView({ group: { name, description, requests }, whole }: { group: G
     <section aria-labelledby={`group-${name}`}>
       <h3 id={`group-${name}`}>{name}</h3>
       <p>{description}</p>
-      {requests.map((request) => <RequestView key={request.id} request={request} whole={whole} />)}
+      {requests.map((request) => (
+        <RequestView key={request.id} request={request} whole={whole} />
+      ))}
     </section>
   );
 }
@@ -93,7 +115,13 @@ function SchemaEntry({ name, schema }: { name: string; schema: Schema }) {
         <>
           {paragraphs(schema.description)}
           <Fields schema={schema} />
-          <Part summary="As JSON Schema">{() => <pre tabIndex={0} aria-label={`JSON Schema of ${name}`}>{JSON.stringify(schema, null, 2)}</pre>}</Part>
+          <Part summary="As JSON Schema">
+            {() => (
+              <pre tabIndex={0} aria-label={`JSON Schema of ${name}`}>
+                {JSON.stringify(schema, null, 2)}
+              </pre>
+            )}
+          </Part>
         </>
       )}
     </Entry>
@@ -107,16 +135,26 @@ function Contents({ groups }: { groups: Group[] }) {
       <details open={isOpen} onToggle={(event) => setIsOpen(event.currentTarget.open)}>
         <summary>Contents</summary>
         <ul>
-          <li><a href="#beginning">To begin with</a></li>
+          <li>
+            <a href="#beginning">To begin with</a>
+          </li>
           {groups.map(({ name, requests }) => (
             <li key={name}>
               <a href={`#group-${name}`}>{name}</a>
               <ul>
-                {requests.map(({ id, summary, method, path }) => <li key={id}><a href={`#${id}`} title={`${method} ${path}`}>{summary}</a></li>)}
+                {requests.map(({ id, summary, method, path }) => (
+                  <li key={id}>
+                    <a href={`#${id}`} title={`${method} ${path}`}>
+                      {summary}
+                    </a>
+                  </li>
+                ))}
               </ul>
             </li>
           ))}
-          <li><a href="#documents">Documents</a></li>
+          <li>
+            <a href="#documents">Documents</a>
+          </li>
         </ul>
       </details>
     </nav>

@@ -7,10 +7,15 @@ import { TryIt } from "./try-it";
 export function RequestView({ request, whole }: { request: Request; whole: Interface }) {
   const summary = (
     <>
-      <code class={`method ${request.method.toLowerCase()}`}>{request.method}</code> <code class="path">{request.path}</code> <span>{request.summary}</span>
+      <code class={`method ${request.method.toLowerCase()}`}>{request.method}</code>{" "}
+      <code class="path">{request.path}</code> <span>{request.summary}</span>
     </>
   );
-  return <Entry id={request.id} summary={summary}>{() => <Contents request={request} whole={whole} />}</Entry>;
+  return (
+    <Entry id={request.id} summary={summary}>
+      {() => <Contents request={request} whole={whole} />}
+    </Entry>
+  );
 }
 
 function Contents({ request, whole }: { request: Request; whole: Interface }) {
@@ -19,7 +24,8 @@ function Contents({ request, whole }: { request: Request; whole: Interface }) {
     <>
       {paragraphs(description)}
       <p class="quiet">
-        <a href={`#${id}`}>Link to this request</a>. {isOpen ? "It needs no access token." : "It needs an access token where the service has any."}
+        <a href={`#${id}`}>Link to this request</a>.{" "}
+        {isOpen ? "It needs no access token." : "It needs an access token where the service has any."}
       </p>
       {parameters && <Parameters parameters={parameters} />}
       {requestBody &&
@@ -34,7 +40,8 @@ function Contents({ request, whole }: { request: Request; whole: Interface }) {
         ))}
       <h4>Answers</h4>
       <p class="quiet">
-        Errors are <a href={`#${schemaAnchor("Problem")}`}>Problem</a> documents (<code>application/problem+json</code>).
+        Errors are <a href={`#${schemaAnchor("Problem")}`}>Problem</a> documents (<code>application/problem+json</code>
+        ).
       </p>
       <ul class="answers">
         {Object.entries(responses).map(([status, answer]) => (
@@ -62,7 +69,11 @@ function Parameters({ parameters }: { parameters: NonNullable<Request["parameter
       <ul class="fields">
         {parameters.map(({ name, in: place, required, schema, description }) => (
           <li key={place + name}>
-            <code>{name}</code> <span class="kind">{place}, <Kind schema={schema} /></span> {required && <span class="needed">required</span>} <Facts schema={schema} description={description} />
+            <code>{name}</code>{" "}
+            <span class="kind">
+              {place}, <Kind schema={schema} />
+            </span>{" "}
+            {required && <span class="needed">required</span>} <Facts schema={schema} description={description} />
           </li>
         ))}
       </ul>
@@ -79,7 +90,11 @@ function AnswerView({ status, answer, whole }: { status: string; answer: Answer;
   return (
     <li>
       <strong class={isSuccess ? "good" : "bad"}>{status}</strong> <Prose text={answer.description} />
-      {headers.length > 0 && <Part summary={`${headers.length === 1 ? "Header" : "Headers"}: ${headers.map(([name]) => name).join(", ")}`}>{() => <Headers headers={headers} />}</Part>}
+      {headers.length > 0 && (
+        <Part summary={`${headers.length === 1 ? "Header" : "Headers"}: ${headers.map(([name]) => name).join(", ")}`}>
+          {() => <Headers headers={headers} />}
+        </Part>
+      )}
       {Object.entries(answer.content ?? {}).map(([type, content]) => (
         <ContentView key={type} type={type} content={content} example={whole.example(content)} isSuccess={isSuccess} />
       ))}
@@ -88,10 +103,24 @@ function AnswerView({ status, answer, whole }: { status: string; answer: Answer;
 }
 
 /** Content of an answer. All errors are of one kind, which is named once. */
-function ContentView({ type, content: { schema }, example, isSuccess }: { type: string; content: Content; example: unknown; isSuccess: boolean }) {
+function ContentView({
+  type,
+  content: { schema },
+  example,
+  isSuccess,
+}: {
+  type: string;
+  content: Content;
+  example: unknown;
+  isSuccess: boolean;
+}) {
   return (
     <div>
-      {isSuccess && <><code>{type}</code> {schema && <Kind schema={schema} />}</>}
+      {isSuccess && (
+        <>
+          <code>{type}</code> {schema && <Kind schema={schema} />}
+        </>
+      )}
       {isSuccess && schema?.$ref && <Part summary="Fields of the answer">{() => <Fields schema={schema} />}</Part>}
       {example !== undefined && <Part summary="Example">{() => <Example value={example} />}</Part>}
     </div>
@@ -103,7 +132,8 @@ function Headers({ headers }: { headers: [name: string, header: Header][] }) {
     <ul class="fields">
       {headers.map(([name, { description, schema }]) => (
         <li key={name}>
-          <code>{name}</code> <span class="kind">{schema && <Kind schema={schema} />}</span> <Facts schema={schema ?? {}} description={description} />
+          <code>{name}</code> <span class="kind">{schema && <Kind schema={schema} />}</span>{" "}
+          <Facts schema={schema ?? {}} description={description} />
         </li>
       ))}
     </ul>
@@ -111,5 +141,9 @@ function Headers({ headers }: { headers: [name: string, header: Header][] }) {
 }
 
 function Example({ value }: { value: unknown }) {
-  return <pre class="body" tabIndex={0} aria-label="Example">{typeof value === "string" ? value : JSON.stringify(value, null, 2)}</pre>;
+  return (
+    <pre class="body" tabIndex={0} aria-label="Example">
+      {typeof value === "string" ? value : JSON.stringify(value, null, 2)}
+    </pre>
+  );
 }

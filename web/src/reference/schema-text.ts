@@ -9,7 +9,11 @@ export function kindOf(schema: Schema): string {
   if (schema.oneOf) return schema.oneOf.map(kindOf).join(" or ");
   if (schema.allOf) return schema.allOf.map(kindOf).join(" with ");
   const types = [schema.type ?? (schema.properties ? "object" : "any")].flat();
-  return types.map((type) => (type === "array" ? `list of ${schema.items ? kindOf(schema.items) : "values"}` : withFormat(type, schema.format))).join(" or ");
+  return types
+    .map((type) =>
+      type === "array" ? `list of ${schema.items ? kindOf(schema.items) : "values"}` : withFormat(type, schema.format),
+    )
+    .join(" or ");
 }
 
 function withFormat(type: string, format: string | undefined): string {
@@ -19,11 +23,22 @@ function withFormat(type: string, format: string | undefined): string {
 /** Range of a value or of its length, such as `0 ≤ x ≤ 89`; empty without one. */
 export function rangeOf(schema: Schema): string {
   const { minimum, maximum, exclusiveMinimum, exclusiveMaximum, minItems, maxItems, maxLength } = schema;
-  const low = minimum !== undefined ? `${exact(minimum)} ≤ ` : exclusiveMinimum !== undefined ? `${exact(exclusiveMinimum)} < ` : "";
-  const high = maximum !== undefined ? ` ≤ ${exact(maximum)}` : exclusiveMaximum !== undefined ? ` < ${exact(exclusiveMaximum)}` : "";
+  const low =
+    minimum !== undefined
+      ? `${exact(minimum)} ≤ `
+      : exclusiveMinimum !== undefined
+        ? `${exact(exclusiveMinimum)} < `
+        : "";
+  const high =
+    maximum !== undefined
+      ? ` ≤ ${exact(maximum)}`
+      : exclusiveMaximum !== undefined
+        ? ` < ${exact(exclusiveMaximum)}`
+        : "";
   const parts = low || high ? [`${low}x${high}`] : [];
   if (minItems !== undefined && minItems === maxItems) parts.push(`${minItems} entries`);
-  else if (minItems !== undefined || maxItems !== undefined) parts.push(`${minItems ?? 0} to ${maxItems ?? "any number of"} entries`);
+  else if (minItems !== undefined || maxItems !== undefined)
+    parts.push(`${minItems ?? 0} to ${maxItems ?? "any number of"} entries`);
   if (maxLength !== undefined) parts.push(`at most ${maxLength} characters`);
   return parts.join(", ");
 }

@@ -19,7 +19,12 @@ export function Kind({ schema }: { schema: Schema }): ComponentChildren {
     return choices.map((choice, place) => [place > 0 && word, <Kind key={place} schema={choice} />]);
   }
   const isList = [schema.type].flat().includes("array");
-  if (isList && schema.items) return ["list of ", <Kind key="items" schema={schema.items} />, [schema.type].flat().includes("null") && " or null"];
+  if (isList && schema.items)
+    return [
+      "list of ",
+      <Kind key="items" schema={schema.items} />,
+      [schema.type].flat().includes("null") && " or null",
+    ];
   return kindOf(schema);
 }
 
@@ -35,7 +40,11 @@ export function Facts({ schema, description }: { schema: Schema; description?: s
   return (
     <>
       {facts.length > 0 && <span class="facts">{facts.join("; ")}</span>}
-      {said && <p><Prose text={said} /></p>}
+      {said && (
+        <p>
+          <Prose text={said} />
+        </p>
+      )}
     </>
   );
 }
@@ -74,7 +83,12 @@ function Choices({ parts, isChoice }: { parts: Schema[]; isChoice: boolean }) {
           <li key={place}>
             <Kind schema={part} />
             <Facts schema={part} />
-            {hasFields(part) && (part.$ref ? <Part summary="Its fields">{() => <Fields schema={part} />}</Part> : <Fields schema={part} />)}
+            {hasFields(part) &&
+              (part.$ref ? (
+                <Part summary="Its fields">{() => <Fields schema={part} />}</Part>
+              ) : (
+                <Fields schema={part} />
+              ))}
           </li>
         ))}
       </ul>
@@ -85,7 +99,11 @@ function Choices({ parts, isChoice }: { parts: Schema[]; isChoice: boolean }) {
 function Field({ name, schema, isRequired }: { name: string; schema: Schema; isRequired: boolean }) {
   return (
     <li>
-      <code>{name}</code> <span class="kind"><Kind schema={schema} /></span> {isRequired && <span class="needed">required</span>} <Facts schema={schema} />
+      <code>{name}</code>{" "}
+      <span class="kind">
+        <Kind schema={schema} />
+      </span>{" "}
+      {isRequired && <span class="needed">required</span>} <Facts schema={schema} />
       {hasFields(schema) && <Part summary={<>Fields of {name}</>}>{() => <Fields schema={schema} />}</Part>}
     </li>
   );

@@ -17,8 +17,14 @@ export function TokenField() {
         Access token <input name="token" type="password" autocomplete="off" required />
       </label>
       <button type="submit">Use it</button>
-      {has && <button type="button" onClick={() => setToken(null)}>Forget it</button>}
-      <span role="status">{has ? "Requests from this tab show a token." : "No token: enough for a service that asks for none."}</span>
+      {has && (
+        <button type="button" onClick={() => setToken(null)}>
+          Forget it
+        </button>
+      )}
+      <span role="status">
+        {has ? "Requests from this tab show a token." : "No token: enough for a service that asks for none."}
+      </span>
     </form>
   );
 }

@@ -23,7 +23,10 @@ export function TryIt({ request, whole }: { request: Request; whole: Interface }
   return (
     <>
       <h4>curl</h4>
-      <CopyLine line={curlLine(request, values, body, { root, hasToken })} name={`curl line of ${request.summary ?? request.id}`} />
+      <CopyLine
+        line={curlLine(request, values, body, { root, hasToken })}
+        name={`curl line of ${request.summary ?? request.id}`}
+      />
       <h4>Try it</h4>
       <form
         onSubmit={(event) => {
@@ -31,21 +34,37 @@ export function TryIt({ request, whole }: { request: Request; whole: Interface }
           void exchange.begin(values, body);
         }}
       >
-        {request.parameters && <ParameterFields parameters={request.parameters} values={values} onChange={setValues} named={whole.schema} />}
+        {request.parameters && (
+          <ParameterFields parameters={request.parameters} values={values} onChange={setValues} named={whole.schema} />
+        )}
         {request.requestBody && (
           <label>
             Body
-            <textarea class="code" rows={Math.min(16, body.split("\n").length + 1)} spellcheck={false} value={body} onInput={(event) => setBody(event.currentTarget.value)} />
+            <textarea
+              class="code"
+              rows={Math.min(16, body.split("\n").length + 1)}
+              spellcheck={false}
+              value={body}
+              onInput={(event) => setBody(event.currentTarget.value)}
+            />
           </label>
         )}
         <div class="actions">
           <button type="submit" class={changesSomething(request) ? "changing" : "primary"} disabled={exchange.isGoing}>
             {changesSomething(request) ? `Send: this changes something (${request.method})` : "Send"}
           </button>
-          {exchange.isGoing && <button type="button" onClick={exchange.stop}>Stop</button>}
+          {exchange.isGoing && (
+            <button type="button" onClick={exchange.stop}>
+              Stop
+            </button>
+          )}
         </div>
       </form>
-      {exchange.failure && <div class="notice problem" role="alert">{exchange.failure}</div>}
+      {exchange.failure && (
+        <div class="notice problem" role="alert">
+          {exchange.failure}
+        </div>
+      )}
       {exchange.events && <EventList events={exchange.events} isGoing={exchange.isGoing} />}
       {exchange.received && <ReceivedView received={exchange.received} name={fileName(request)} />}
     </>
@@ -62,9 +81,12 @@ function EventList({ events, isGoing }: { events: string[]; isGoing: boolean }) 
     <>
       <p role="status">
         {isGoing ? "The stream is open: " : "The stream is closed: "}
-        {events.length} {events.length === 1 ? "event" : "events"} so far{events.length >= MOST_EVENTS && ", the first of them"}.
+        {events.length} {events.length === 1 ? "event" : "events"} so far
+        {events.length >= MOST_EVENTS && ", the first of them"}.
       </p>
-      <pre class="body" tabIndex={0} aria-label="Events">{events.join("\n\n")}</pre>
+      <pre class="body" tabIndex={0} aria-label="Events">
+        {events.join("\n\n")}
+      </pre>
     </>
   );
 }
@@ -87,7 +109,8 @@ function useExchange(request: Request) {
       const sent = await send(request, values, body, own.signal);
       if (streams(request) && sent.response.status === 200 && sent.response.body) {
         setEvents([]);
-        const count = (message: string) => setEvents((before = []) => (before.length < MOST_EVENTS ? [...before, message] : before));
+        const count = (message: string) =>
+          setEvents((before = []) => (before.length < MOST_EVENTS ? [...before, message] : before));
         await eachMessage(sent.response.body, count, own.signal);
       } else setReceived(await receive(sent));
     } catch (error) {

@@ -26,7 +26,11 @@ function paint(canvas: HTMLCanvasElement, density: RestDistribution["density"], 
   if (!context) return;
   context.globalCompositeOperation = "source-over";
   context.clearRect(0, 0, canvas.width, canvas.height);
-  const { nodes: [nx = 0, ny = 0] = [], origin_m: [x0 = 0, y0 = 0] = [], spacing_m: [dx = 0, dy = 0] = [] } = density ?? {};
+  const {
+    nodes: [nx = 0, ny = 0] = [],
+    origin_m: [x0 = 0, y0 = 0] = [],
+    spacing_m: [dx = 0, dy = 0] = [],
+  } = density ?? {};
   if (!density || nx === 0 || ny === 0) return;
   const [left, top] = onMap(scale, [x0 - 0.5 * dx, y0 + (ny - 0.5) * dy]);
   const [right, bottom] = onMap(scale, [x0 + (nx - 0.5) * dx, y0 - 0.5 * dy]);

@@ -29,10 +29,15 @@ export function AnswerFiles({ id, place, question }: { id: string; place: number
     label,
   });
   if ("rest" in question) {
-    const files = [file("rest", "svg", "Picture (SVG)"), file("rest", "geojson", "Regions (GeoJSON)"), file("rest", "tif", "Density (GeoTIFF)")];
+    const files = [
+      file("rest", "svg", "Picture (SVG)"),
+      file("rest", "geojson", "Regions (GeoJSON)"),
+      file("rest", "tif", "Density (GeoTIFF)"),
+    ];
     return <Files id={id} files={files} name="Files of this map" />;
   }
-  if ("sensitivity" in question) return <Files id={id} files={[file("sensitivity", "svg", "Picture (SVG)")]} name="Files of this answer" />;
+  if ("sensitivity" in question)
+    return <Files id={id} files={[file("sensitivity", "svg", "Picture (SVG)")]} name="Files of this answer" />;
   return null;
 }
 

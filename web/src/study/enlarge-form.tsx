@@ -39,9 +39,17 @@ export function EnlargeForm({ state, again }: { state: StudyState; again: () => 
         >
           <label>
             {growth.name}, now {growth.now}{" "}
-            <input type="number" min={growth.now + 1} required value={size ?? growth.next} onInput={(event) => setSize(Number(event.currentTarget.value))} />
+            <input
+              type="number"
+              min={growth.now + 1}
+              required
+              value={size ?? growth.next}
+              onInput={(event) => setSize(Number(event.currentTarget.value))}
+            />
           </label>
-          <button type="submit" class="primary">Enlarge</button>
+          <button type="submit" class="primary">
+            Enlarge
+          </button>
         </form>
       )}
       <form
@@ -51,8 +59,15 @@ export function EnlargeForm({ state, again }: { state: StudyState; again: () => 
         }}
       >
         <label>
-          Other changes, as JSON: <code>design</code>, <code>questions</code>, <code>finer_levels</code>, <code>stop</code>, <code>accuracy</code>
-          <textarea class="code wide" rows={8} spellcheck={false} value={changes ?? questionsOf(state)} onInput={(event) => setChanges(event.currentTarget.value)} />
+          Other changes, as JSON: <code>design</code>, <code>questions</code>, <code>finer_levels</code>,{" "}
+          <code>stop</code>, <code>accuracy</code>
+          <textarea
+            class="code wide"
+            rows={8}
+            spellcheck={false}
+            value={changes ?? questionsOf(state)}
+            onInput={(event) => setChanges(event.currentTarget.value)}
+          />
         </label>
         <div class="actions">
           <button type="submit">Change the study</button>

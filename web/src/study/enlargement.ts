@@ -15,12 +15,22 @@ export interface Growth {
 export function growthOf(design: Design): Growth | undefined {
   if ("sobol" in design) {
     const { sobol } = design;
-    return { name: "Members (a power of two)", now: sobol.members, next: 2 * sobol.members, to: (members) => ({ sobol: { ...sobol, members } }) };
+    return {
+      name: "Members (a power of two)",
+      now: sobol.members,
+      next: 2 * sobol.members,
+      to: (members) => ({ sobol: { ...sobol, members } }),
+    };
   }
   if ("saltelli" in design) {
     const { saltelli } = design;
     const to = (base_members: number) => ({ saltelli: { ...saltelli, base_members } });
-    return { name: "Rows of the design (a power of two)", now: saltelli.base_members, next: 2 * saltelli.base_members, to };
+    return {
+      name: "Rows of the design (a power of two)",
+      now: saltelli.base_members,
+      next: 2 * saltelli.base_members,
+      to,
+    };
   }
   if ("morris" in design) {
     const { morris } = design;

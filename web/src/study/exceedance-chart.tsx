@@ -21,14 +21,22 @@ interface ChartProps {
 /** Exceedance curve with its band, and the thresholds that were asked for with their intervals. */
 export function ExceedanceChart({ title, unit, asked, values, unknown }: ChartProps) {
   const [box, width] = useWidth<HTMLDivElement>();
-  const range = useMemo(() => rangeOf([...(values ?? []), ...asked.map(({ threshold }) => threshold)], 0.06), [values, asked]);
+  const range = useMemo(
+    () => rangeOf([...(values ?? []), ...asked.map(({ threshold }) => threshold)], 0.06),
+    [values, asked],
+  );
   const steps = useMemo(() => (values ? curve(values, unknown) : []), [values, unknown]);
   const field = width - LEFT - RIGHT;
   return (
     <figure class="chart">
       <div ref={box}>
         {field > 40 && (
-          <svg width={width} height={TOP + HEIGHT + BELOW} role="img" aria-label={`Probability that ${title} exceeds a threshold; the table has the numbers`}>
+          <svg
+            width={width}
+            height={TOP + HEIGHT + BELOW}
+            role="img"
+            aria-label={`Probability that ${title} exceeds a threshold; the table has the numbers`}
+          >
             <g transform={`translate(${LEFT} ${TOP})`}>
               <Axes range={range} width={field} title={unit === "" ? "threshold" : `threshold [${unit}]`} />
               <Curve steps={steps} range={range} width={field} />
@@ -37,7 +45,9 @@ export function ExceedanceChart({ title, unit, asked, values, unknown }: ChartPr
           </svg>
         )}
       </div>
-      {values && values.length > 0 && <Reading title={title} unit={unit} range={range} values={values} unknown={unknown} />}
+      {values && values.length > 0 && (
+        <Reading title={title} unit={unit} range={range} values={values} unknown={unknown} />
+      )}
     </figure>
   );
 }
@@ -56,16 +66,22 @@ function Axes({ range, width, title }: { range: Range; width: number; title: str
       {roundValues([0, 1], 4).map((share) => (
         <g key={share}>
           <line x1={0} x2={width} y1={up(share)} y2={up(share)} />
-          <text x={-6} y={up(share) + 4} text-anchor="end">{percent(share)}</text>
+          <text x={-6} y={up(share) + 4} text-anchor="end">
+            {percent(share)}
+          </text>
         </g>
       ))}
       {roundValues(range, width / 90).map((value) => (
         <g key={value}>
           <line x1={across(value, range, width)} x2={across(value, range, width)} y1={0} y2={HEIGHT} />
-          <text x={across(value, range, width)} y={HEIGHT + 16} text-anchor="middle">{figure(value)}</text>
+          <text x={across(value, range, width)} y={HEIGHT + 16} text-anchor="middle">
+            {figure(value)}
+          </text>
         </g>
       ))}
-      <text x={width / 2} y={HEIGHT + 36} text-anchor="middle">{title}</text>
+      <text x={width / 2} y={HEIGHT + 36} text-anchor="middle">
+        {title}
+      </text>
     </g>
   );
 }
@@ -77,9 +93,19 @@ function Curve({ steps, range, width }: { steps: Step[]; range: Range; width: nu
     return [across(from, range, width), across(steps[place + 1]?.threshold ?? range[1], range, width)] as const;
   });
   const line = (of: (step: Step) => number) =>
-    steps.map((step, place) => ends[place]?.map((x) => `${x.toFixed(1)},${up(of(step)).toFixed(1)}`).join("L")).join("L");
+    steps
+      .map((step, place) => ends[place]?.map((x) => `${x.toFixed(1)},${up(of(step)).toFixed(1)}`).join("L"))
+      .join("L");
   const back = (of: (step: Step) => number) =>
-    steps.map((step, place) => [...(ends[place] ?? [])].reverse().map((x) => `${x.toFixed(1)},${up(of(step)).toFixed(1)}`).join("L")).reverse().join("L");
+    steps
+      .map((step, place) =>
+        [...(ends[place] ?? [])]
+          .reverse()
+          .map((x) => `${x.toFixed(1)},${up(of(step)).toFixed(1)}`)
+          .join("L"),
+      )
+      .reverse()
+      .join("L");
   return (
     <>
       <path class="band" d={`M${line(({ upper }) => upper)}L${back(({ lower }) => lower)}Z`} />
@@ -105,7 +131,13 @@ function Asked({ asked, range, width }: { asked: ChartProps["asked"]; range: Ran
 }
 
 /** Slider that reads the curve at any threshold. */
-function Reading({ title, unit, range, values, unknown }: Omit<ChartProps, "asked" | "values"> & { range: Range; values: number[] }) {
+function Reading({
+  title,
+  unit,
+  range,
+  values,
+  unknown,
+}: Omit<ChartProps, "asked" | "values"> & { range: Range; values: number[] }) {
   const id = useId();
   const [share, setShare] = useState(50);
   const threshold = range[0] + (share / 100) * (range[1] - range[0]);
@@ -114,7 +146,17 @@ function Reading({ title, unit, range, values, unknown }: Omit<ChartProps, "aske
   return (
     <figcaption>
       <label for={id}>Read the curve at another threshold</label>
-      <input id={id} class="wide" type="range" min="0" max="100" step="0.5" value={share} aria-valuetext={at} onInput={(event) => setShare(Number(event.currentTarget.value))} />
+      <input
+        id={id}
+        class="wide"
+        type="range"
+        min="0"
+        max="100"
+        step="0.5"
+        value={share}
+        aria-valuetext={at}
+        onInput={(event) => setShare(Number(event.currentTarget.value))}
+      />
       <output for={id}>
         {title} exceeds {at}: {percent(estimate)} ({percentRange(lower, upper)})
       </output>

@@ -21,7 +21,8 @@ export function InputsTable({ study }: { study: Study }) {
       </ul>
       {(study.correlations ?? []).map(({ inputs, rank }) => (
         <p key={String(inputs)}>
-          {inputs.map((input) => placeName(study.inputs[input]?.pointer ?? "")).join(" and ")} have a rank correlation of {figure(rank, 2)}.
+          {inputs.map((input) => placeName(study.inputs[input]?.pointer ?? "")).join(" and ")} have a rank correlation
+          of {figure(rank, 2)}.
         </p>
       ))}
       <p class="quiet">{designSentence(study)}</p>
@@ -38,7 +39,8 @@ export function designSentence({ design, stop, accuracy }: Study): string {
       `It is doubled until the area of the ${percent(region)} region changes by less than ${percent(area_changes_less_than)}, or there are ${max_members} members.`,
     );
   }
-  if (accuracy) sentences.push(`Members and finer levels are added until the mean is certain to ±${percent(accuracy.target)}.`);
+  if (accuracy)
+    sentences.push(`Members and finer levels are added until the mean is certain to ±${percent(accuracy.target)}.`);
   return sentences.join(" ");
 }
 
@@ -46,11 +48,11 @@ function kindOfDesign(design: Study["design"]): string {
   if ("sobol" in design) return `Design: ${design.sobol.members} Sobol' points, seed ${design.sobol.seed}.`;
   if ("latin_hypercube" in design)
     return `Design: Latin hypercube of ${design.latin_hypercube.members} members, seed ${design.latin_hypercube.seed}.`;
-  if ("saltelli" in design) return `Design: ${design.saltelli.base_members} rows after Saltelli, seed ${design.saltelli.seed}.`;
+  if ("saltelli" in design)
+    return `Design: ${design.saltelli.base_members} rows after Saltelli, seed ${design.saltelli.seed}.`;
   if ("morris" in design)
     return `Design: ${design.morris.trajectories} Morris trajectories on ${design.morris.levels} levels, seed ${design.morris.seed}.`;
   if ("full_factorial" in design) return "Design: all combinations of levels.";
   if ("one_at_a_time" in design) return "Design: one input after the other away from the median.";
   return `Design: ${design.explicit.members.length} members with given values.`;
 }
-

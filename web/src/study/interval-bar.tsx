@@ -1,5 +1,13 @@
 /** Interval and estimate of a probability on a line from 0 to 100 %; the text beside it says the same. */
-export function IntervalBar({ lower, upper, estimate }: { lower: number; upper: number; estimate: number | null | undefined }) {
+export function IntervalBar({
+  lower,
+  upper,
+  estimate,
+}: {
+  lower: number;
+  upper: number;
+  estimate: number | null | undefined;
+}) {
   const x = (share: number) => 4 + 152 * share;
   return (
     <svg class="interval" width="160" height="16" aria-hidden="true">

@@ -16,7 +16,13 @@ const NEEDED: Record<Schemas["Needed"], string> = {
 };
 
 /** Levels of cells of a multilevel study, and the accuracy it has reached. */
-export function LevelsTable({ answers, accuracy }: { answers: StudyAnswers; accuracy: Schemas["StudyAccuracy"] | null | undefined }) {
+export function LevelsTable({
+  answers,
+  accuracy,
+}: {
+  answers: StudyAnswers;
+  accuracy: Schemas["StudyAccuracy"] | null | undefined;
+}) {
   const levels = answers.levels ?? [];
   const reached = answers.accuracy;
   if (levels.length === 0 && !reached) return null;
@@ -30,18 +36,36 @@ export function LevelsTable({ answers, accuracy }: { answers: StudyAnswers; accu
           <table>
             <thead>
               <tr>
-                <th scope="col" class="number">Cell size [m]</th>
-                <th scope="col" class="number">Members</th>
-                <th scope="col" class="number">Finished</th>
-                <th scope="col" class="number">Point-steps of a member</th>
-                {has && <th scope="col" class="number">{titled(`Mean, ${nameOf(accuracy?.quantity ?? "")}`, unit)}</th>}
-                {has && <th scope="col" class="number">{titled("Adds ±", unit)}</th>}
+                <th scope="col" class="number">
+                  Cell size [m]
+                </th>
+                <th scope="col" class="number">
+                  Members
+                </th>
+                <th scope="col" class="number">
+                  Finished
+                </th>
+                <th scope="col" class="number">
+                  Point-steps of a member
+                </th>
+                {has && (
+                  <th scope="col" class="number">
+                    {titled(`Mean, ${nameOf(accuracy?.quantity ?? "")}`, unit)}
+                  </th>
+                )}
+                {has && (
+                  <th scope="col" class="number">
+                    {titled("Adds ±", unit)}
+                  </th>
+                )}
               </tr>
             </thead>
             <tbody>
               {levels.map((level, place) => (
                 <tr key={level.cell_size_m}>
-                  <th scope="row" class="number">{figure(level.cell_size_m)}</th>
+                  <th scope="row" class="number">
+                    {figure(level.cell_size_m)}
+                  </th>
                   <td class="number">{level.members}</td>
                   <td class="number">{level.finished}</td>
                   <td class="number">{figure(level.point_steps_per_member)}</td>
@@ -58,8 +82,12 @@ export function LevelsTable({ answers, accuracy }: { answers: StudyAnswers; accu
           <h3>Accuracy of the mean: {ofBody(accuracy.quantity, accuracy.body)}</h3>
           <MeanAnswer quantity={accuracy.quantity} answer={reached.mean} />
           <p>
-            Reached ±{percent(reached.reached)} of ±{percent(reached.target)} asked for. {NEEDED[reached.needed]} {figure(reached.point_steps)} point-steps so far
-            {reached.gain ? `; ${reached.one_level_members} members of the finest cells alone would take ${figure(reached.gain, 2)} times as many` : ""}.
+            Reached ±{percent(reached.reached)} of ±{percent(reached.target)} asked for. {NEEDED[reached.needed]}{" "}
+            {figure(reached.point_steps)} point-steps so far
+            {reached.gain
+              ? `; ${reached.one_level_members} members of the finest cells alone would take ${figure(reached.gain, 2)} times as many`
+              : ""}
+            .
           </p>
         </>
       )}

@@ -12,7 +12,9 @@ export function MapAxes({ scale }: { scale: MapScale }) {
         return (
           <g key={`x${value}`}>
             <line x1={left} x2={left} y1={0} y2={height} />
-            <text x={left} y={height + 15} text-anchor="middle">{figure(value)}</text>
+            <text x={left} y={height + 15} text-anchor="middle">
+              {figure(value)}
+            </text>
           </g>
         );
       })}
@@ -21,13 +23,19 @@ export function MapAxes({ scale }: { scale: MapScale }) {
         return (
           <g key={`y${value}`}>
             <line x1={0} x2={width} y1={top} y2={top} />
-            <text x={-6} y={top + 4} text-anchor="end">{figure(value)}</text>
+            <text x={-6} y={top + 4} text-anchor="end">
+              {figure(value)}
+            </text>
           </g>
         );
       })}
       <rect x={0} y={0} width={width} height={height} />
-      <text x={width / 2} y={height + 33} text-anchor="middle">x downstream [m]</text>
-      <text transform={`translate(-40 ${height / 2}) rotate(-90)`} text-anchor="middle">y across [m]</text>
+      <text x={width / 2} y={height + 33} text-anchor="middle">
+        x downstream [m]
+      </text>
+      <text transform={`translate(-40 ${height / 2}) rotate(-90)`} text-anchor="middle">
+        y across [m]
+      </text>
     </g>
   );
 }
@@ -37,7 +45,9 @@ export function MapGround({ ground, scale }: { ground: Ground; scale: MapScale }
   const { halfWidth, ends, hasFoot, start } = ground;
   const [left, right] = [Math.max(ends[0], scale.x[0]), Math.min(ends[1], scale.x[1])];
   const across = (x: number, name: string) =>
-    x >= scale.x[0] && x <= scale.x[1] ? <Line scale={scale} from={[x, -halfWidth]} to={[x, halfWidth]} name={name} /> : null;
+    x >= scale.x[0] && x <= scale.x[1] ? (
+      <Line scale={scale} from={[x, -halfWidth]} to={[x, halfWidth]} name={name} />
+    ) : null;
   return (
     <g class="ground">
       <Line scale={scale} from={[left, halfWidth]} to={[right, halfWidth]} name="wall" />
@@ -50,7 +60,17 @@ export function MapGround({ ground, scale }: { ground: Ground; scale: MapScale }
   );
 }
 
-function Line({ scale, from, to, name }: { scale: MapScale; from: [number, number]; to: [number, number]; name: string }) {
+function Line({
+  scale,
+  from,
+  to,
+  name,
+}: {
+  scale: MapScale;
+  from: [number, number];
+  to: [number, number];
+  name: string;
+}) {
   const [[x1, y1], [x2, y2]] = [onMap(scale, from), onMap(scale, to)];
   return <line class={name} x1={x1} y1={y1} x2={x2} y2={y2} />;
 }

@@ -15,14 +15,28 @@ export function restedText({ member, place: [x, y] }: Rested): string {
 }
 
 /** Resting places of the members, links to their jobs: one stop of the tab key, then arrow keys. */
-export function MapDots({ rested, scale, onPoint }: { rested: Rested[]; scale: MapScale; onPoint: (rested: Rested | undefined) => void }) {
+export function MapDots({
+  rested,
+  scale,
+  onPoint,
+}: {
+  rested: Rested[];
+  scale: MapScale;
+  onPoint: (rested: Rested | undefined) => void;
+}) {
   const group = useRef<SVGGElement>(null);
   const dots = useMemo(
     () =>
       rested.map((one, number) => {
         const [x, y] = onMap(scale, one.place);
         return (
-          <a key={one.member.member} href={`#/jobs/${one.member.job}`} tabIndex={number === 0 ? 0 : -1} aria-label={restedText(one)} data-number={number}>
+          <a
+            key={one.member.member}
+            href={`#/jobs/${one.member.job}`}
+            tabIndex={number === 0 ? 0 : -1}
+            aria-label={restedText(one)}
+            data-number={number}
+          >
             <circle class="grip" cx={x} cy={y} r={7} />
             <circle class="place" cx={x} cy={y} r={3} />
           </a>
@@ -50,7 +64,14 @@ function numberOf(target: EventTarget | null): number {
   return Number((target as Element | null)?.closest("[data-number]")?.getAttribute("data-number") ?? -1);
 }
 
-const STEPS: Record<string, number> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1, Home: -Infinity, End: Infinity };
+const STEPS: Record<string, number> = {
+  ArrowRight: 1,
+  ArrowDown: 1,
+  ArrowLeft: -1,
+  ArrowUp: -1,
+  Home: -Infinity,
+  End: Infinity,
+};
 
 /** Moves the focus to the next dot in the order of the list, and the one stop of the tab key with it. */
 function move(group: SVGGElement, event: KeyboardEvent): void {

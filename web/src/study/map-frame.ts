@@ -20,7 +20,10 @@ const WIDTH_OF_CHANNEL = 0.2;
 export function groundOf(scenario: unknown, body: number): Ground | undefined {
   const { channel, bodies } = scenario as {
     channel?: { incline_length_m?: number; runout_length_m?: number; width_m?: number; inclination_deg?: number };
-    bodies?: { shape?: Record<string, { side_m?: number; sides_m?: number[] }>; position?: { downstream_m?: number; lateral_m?: number } }[];
+    bodies?: {
+      shape?: Record<string, { side_m?: number; sides_m?: number[] }>;
+      position?: { downstream_m?: number; lateral_m?: number };
+    }[];
   };
   if (channel?.incline_length_m === undefined || channel.runout_length_m === undefined) return undefined;
   const { position, shape } = bodies?.[body] ?? {};
@@ -40,8 +43,14 @@ export function frameOf(rest: RestDistribution, places: Place[], ground: Ground 
   const corners = rest.regions.flatMap(({ polygons }) => polygons.flatMap(({ outer_m }) => outer_m as Place[]));
   const atoms = rest.atoms.map(({ place_m }) => place_m as Place);
   const all = [...corners, ...places, ...atoms, ...(ground?.start ? [ground.start] : [])];
-  const x = rangeOf(all.map(([x]) => x), 0.08);
-  const y = rangeOf(all.map(([, y]) => y), 0.08);
+  const x = rangeOf(
+    all.map(([x]) => x),
+    0.08,
+  );
+  const y = rangeOf(
+    all.map(([, y]) => y),
+    0.08,
+  );
   const half = 1.06 * (ground?.halfWidth ?? 0);
   return mapScale(x, [Math.min(y[0], -half), Math.max(y[1], half)], width);
 }
@@ -65,7 +74,10 @@ export function labelsOf(outlines: { text: string; corners: Place[] }[]): Label[
     for (let turn = 0; turn < DIRECTIONS.length; turn += 1) {
       const angle = DIRECTIONS[(number + turn) % DIRECTIONS.length] ?? 0;
       const at = furthest(corners, angle);
-      if (at && placed.every((other) => Math.abs(other.at[0] - at[0]) > APART[0] || Math.abs(other.at[1] - at[1]) > APART[1])) {
+      if (
+        at &&
+        placed.every((other) => Math.abs(other.at[0] - at[0]) > APART[0] || Math.abs(other.at[1] - at[1]) > APART[1])
+      ) {
         placed.push({ text, at });
         return;
       }
@@ -76,5 +88,8 @@ export function labelsOf(outlines: { text: string; corners: Place[] }[]): Label[
 
 function furthest(corners: Place[], angle: number): Place | undefined {
   const reach = ([x, y]: Place) => x * Math.cos(angle) + y * Math.sin(angle);
-  return corners.reduce<Place | undefined>((best, corner) => (best && reach(best) >= reach(corner) ? best : corner), undefined);
+  return corners.reduce<Place | undefined>(
+    (best, corner) => (best && reach(best) >= reach(corner) ? best : corner),
+    undefined,
+  );
 }

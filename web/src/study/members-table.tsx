@@ -76,11 +76,15 @@ function Rows({ state, members }: { state: StudyState; members: ListedMember[] }
         </table>
       </div>
       <nav class="actions" aria-label="Pages of members">
-        <button type="button" disabled={first === 0} onClick={() => setPage(first / ROWS - 1)}>Previous</button>
+        <button type="button" disabled={first === 0} onClick={() => setPage(first / ROWS - 1)}>
+          Previous
+        </button>
         <span aria-live="polite">
           {first + 1} to {Math.min(first + ROWS, rows.length)} of {rows.length}
         </span>
-        <button type="button" disabled={first + ROWS >= rows.length} onClick={() => setPage(first / ROWS + 1)}>Next</button>
+        <button type="button" disabled={first + ROWS >= rows.length} onClick={() => setPage(first / ROWS + 1)}>
+          Next
+        </button>
       </nav>
     </>
   );
@@ -93,8 +97,17 @@ function Head({ columns, order, onOrder }: { columns: Column[]; order: Order; on
         {columns.map(({ key, title, isNumber }) => {
           const isHere = order.column === key;
           return (
-            <th key={key} scope="col" class={isNumber ? "number" : ""} aria-sort={!isHere ? "none" : order.isDescending ? "descending" : "ascending"}>
-              <button type="button" class="sort" onClick={() => onOrder({ column: key, isDescending: isHere && !order.isDescending })}>
+            <th
+              key={key}
+              scope="col"
+              class={isNumber ? "number" : ""}
+              aria-sort={!isHere ? "none" : order.isDescending ? "descending" : "ascending"}
+            >
+              <button
+                type="button"
+                class="sort"
+                onClick={() => onOrder({ column: key, isDescending: isHere && !order.isDescending })}
+              >
                 {title}
                 <span aria-hidden="true">{!isHere ? "" : order.isDescending ? " ▼" : " ▲"}</span>
               </button>
@@ -124,7 +137,11 @@ function MemberRow({ member, columns }: { member: ListedMember; columns: Column[
               {value !== member.status && member.status !== null && ` ${value}`}
             </td>
           );
-        return <td key={column.key} class="number">{typeof value === "number" ? figure(value, 4) : (value ?? "–")}</td>;
+        return (
+          <td key={column.key} class="number">
+            {typeof value === "number" ? figure(value, 4) : (value ?? "–")}
+          </td>
+        );
       })}
     </tr>
   );

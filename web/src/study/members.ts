@@ -35,7 +35,12 @@ export function columns(study: Study): Column[] {
   }));
   return [
     { key: "member", title: "Member", isNumber: true, of: ({ member }) => member },
-    { key: "status", title: "State", isNumber: false, of: (member) => reasonOfFailure(member) ?? member.status ?? "waits" },
+    {
+      key: "status",
+      title: "State",
+      isNumber: false,
+      of: (member) => reasonOfFailure(member) ?? member.status ?? "waits",
+    },
     ...inputs,
     ...quantities,
   ];
@@ -54,7 +59,9 @@ function asked(study: Study): [quantity: string, body: number | undefined][] {
   for (const question of study.questions ?? []) {
     if ("rest" in question) for (const name of ["rest_x_m", "rest_y_m"]) add(name, question.rest.body);
     else if ("buried" in question) add("buried_m", question.buried.body);
-    else for (const { quantity, body } of Object.values(question) as { quantity: string; body?: number | null }[]) add(quantity, body);
+    else
+      for (const { quantity, body } of Object.values(question) as { quantity: string; body?: number | null }[])
+        add(quantity, body);
   }
   return [...found.values()];
 }
@@ -64,7 +71,8 @@ export function sorted(members: ListedMember[], column: Column, isDescending: bo
   const keyed = members.map((member) => ({ member, value: column.of(member) }));
   const sign = isDescending ? -1 : 1;
   keyed.sort((a, b) => {
-    if (a.value === undefined || b.value === undefined) return Number(a.value === undefined) - Number(b.value === undefined);
+    if (a.value === undefined || b.value === undefined)
+      return Number(a.value === undefined) - Number(b.value === undefined);
     return sign * compared(a.value, b.value) || a.member.member - b.member.member;
   });
   return keyed.map(({ member }) => member);

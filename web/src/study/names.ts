@@ -57,7 +57,10 @@ export function titled(name: string, unit: string): string {
 
 /** Name of a place in the scenario, such as `body 0, position, lateral`. */
 export function placeName(pointer: string): string {
-  const keys = pointer.split("/").slice(1).map((key) => key.replaceAll("~1", "/").replaceAll("~0", "~"));
+  const keys = pointer
+    .split("/")
+    .slice(1)
+    .map((key) => key.replaceAll("~1", "/").replaceAll("~0", "~"));
   const words: string[] = [];
   for (const key of keys) {
     const last = words.length - 1;

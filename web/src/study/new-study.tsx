@@ -19,8 +19,9 @@ export function NewStudy() {
     <div class="study">
       <h1>New study</h1>
       <p>
-        A study computes one scenario many times with uncertain inputs, and answers with probabilities. Begin with one of these, and change what you
-        like: an input is a place in the scenario, by its JSON pointer. <Link href="/studies">All studies</Link>
+        A study computes one scenario many times with uncertain inputs, and answers with probabilities. Begin with one
+        of these, and change what you like: an input is a place in the scenario, by its JSON pointer.{" "}
+        <Link href="/studies">All studies</Link>
       </p>
       <Presets onChoose={(preset) => setText(JSON.stringify(preset, null, 2))} />
       <div class="columns">

@@ -2,7 +2,10 @@
 
 /** Range of characters of the value at a pointer, or of the nearest value around it. */
 export function placeOfPointer(text: string, pointer: string): [from: number, to: number] | undefined {
-  const keys = pointer.split("/").slice(1).map((key) => key.replaceAll("~1", "/").replaceAll("~0", "~"));
+  const keys = pointer
+    .split("/")
+    .slice(1)
+    .map((key) => key.replaceAll("~1", "/").replaceAll("~0", "~"));
   try {
     return new Scanner(text).find(keys);
   } catch {

@@ -9,7 +9,12 @@ import { ofBody, unitOf } from "./names";
 import { percent, percentRange, probabilityText } from "./percent";
 
 /** Answer how likely a quantity exceeds thresholds: curve and table. */
-export function ExceedsAnswer({ asked, answer, draws, hasLevels }: AnswerProps & { asked: Schemas["ExceedsQuestion"]; answer: Schemas["Exceedance"][] }) {
+export function ExceedsAnswer({
+  asked,
+  answer,
+  draws,
+  hasLevels,
+}: AnswerProps & { asked: Schemas["ExceedsQuestion"]; answer: Schemas["Exceedance"][] }) {
   const { quantity, body } = asked;
   const unit = unitOf(quantity);
   const values = useMemo(() => valued(draws, quantity, body).map(({ value }) => value), [draws, quantity, body]);
@@ -18,22 +23,42 @@ export function ExceedsAnswer({ asked, answer, draws, hasLevels }: AnswerProps &
   const isWhole = counted !== undefined && values.length === counted.known;
   return (
     <>
-      <ExceedanceChart title={ofBody(quantity, body)} unit={unit} asked={answer} values={!hasLevels && isWhole ? values : undefined} unknown={counted?.unknown ?? 0} />
-      {hasLevels && <p class="quiet">No curve is drawn between the thresholds: the members' own values are those of coarse cells.</p>}
+      <ExceedanceChart
+        title={ofBody(quantity, body)}
+        unit={unit}
+        asked={answer}
+        values={!hasLevels && isWhole ? values : undefined}
+        unknown={counted?.unknown ?? 0}
+      />
+      {hasLevels && (
+        <p class="quiet">
+          No curve is drawn between the thresholds: the members' own values are those of coarse cells.
+        </p>
+      )}
       <div class="scroll" tabIndex={0} role="region" aria-label={`Thresholds of ${ofBody(quantity, body)}`}>
         <table>
           <thead>
             <tr>
-              <th scope="col" class="number">Threshold{unit === "" ? "" : ` [${unit}]`}</th>
-              <th scope="col" class="number">Probability</th>
-              <th scope="col" class="number">95 % interval</th>
-              <th scope="col" class="number">Members above</th>
+              <th scope="col" class="number">
+                Threshold{unit === "" ? "" : ` [${unit}]`}
+              </th>
+              <th scope="col" class="number">
+                Probability
+              </th>
+              <th scope="col" class="number">
+                95 % interval
+              </th>
+              <th scope="col" class="number">
+                Members above
+              </th>
             </tr>
           </thead>
           <tbody>
             {answer.map(({ threshold, probability }) => (
               <tr key={threshold}>
-                <th scope="row" class="number">{figure(threshold, 4)}</th>
+                <th scope="row" class="number">
+                  {figure(threshold, 4)}
+                </th>
                 <td class="number">{percent(probability.estimate)}</td>
                 <td class="number">{percentRange(probability.lower, probability.upper)}</td>
                 <td class="number">{counts(probability)}</td>
@@ -50,7 +75,8 @@ export function ExceedsAnswer({ asked, answer, draws, hasLevels }: AnswerProps &
 export function BuriedAnswer({ answer }: { answer: Probability }) {
   return (
     <p class="result">
-      <strong>{probabilityText(answer)}</strong> <IntervalBar {...answer} estimate={answer.estimate} /> {counts(answer)} members; 95 % interval.
+      <strong>{probabilityText(answer)}</strong> <IntervalBar {...answer} estimate={answer.estimate} /> {counts(answer)}{" "}
+      members; 95 % interval.
     </p>
   );
 }

@@ -8,7 +8,13 @@ import { percent, probabilityText } from "./percent";
 import { RestMap } from "./rest-map";
 
 /** Answer where a body comes to rest: map, and table of the regions. */
-export function RestAnswer({ body, rest, study, draws, hasLevels }: AnswerProps & { body: number; rest: RestDistribution }) {
+export function RestAnswer({
+  body,
+  rest,
+  study,
+  draws,
+  hasLevels,
+}: AnswerProps & { body: number; rest: RestDistribution }) {
   const rested = useMemo(() => restedOf(draws, body), [draws, body]);
   const ground = useMemo(() => groundOf(study.scenario, body), [study, body]);
   return (
@@ -18,11 +24,15 @@ export function RestAnswer({ body, rest, study, draws, hasLevels }: AnswerProps 
       ) : (
         <RestMap body={body} rest={rest} rested={rested} ground={ground} />
       )}
-      {hasLevels && <p class="quiet">The dots are resting places in the coarsest cells; the regions are corrected to the finest.</p>}
+      {hasLevels && (
+        <p class="quiet">The dots are resting places in the coarsest cells; the regions are corrected to the finest.</p>
+      )}
       {rest.regions.length > 0 && <RegionTable body={body} rest={rest} />}
       <ul>
         {rest.too_few_members_for.length > 0 && (
-          <li>Too few members for the regions of {rest.too_few_members_for.map((share) => percent(share)).join(", ")}.</li>
+          <li>
+            Too few members for the regions of {rest.too_few_members_for.map((share) => percent(share)).join(", ")}.
+          </li>
         )}
         {rest.moving > 0 && <li>{rest.moving} still moved when their run ended: their places are not known.</li>}
         {rest.atoms.map(({ place_m: [x, y], share, members }) => (
@@ -57,16 +67,26 @@ function RegionTable({ body, rest }: { body: number; rest: RestDistribution }) {
         <caption class="hidden">Regions that hold body {body} at rest</caption>
         <thead>
           <tr>
-            <th scope="col" class="number">Probability</th>
-            <th scope="col" class="number">Area [m²]</th>
-            <th scope="col" class="number">Standard error [m²]</th>
-            <th scope="col" class="number">Members within (95 % interval)</th>
+            <th scope="col" class="number">
+              Probability
+            </th>
+            <th scope="col" class="number">
+              Area [m²]
+            </th>
+            <th scope="col" class="number">
+              Standard error [m²]
+            </th>
+            <th scope="col" class="number">
+              Members within (95 % interval)
+            </th>
           </tr>
         </thead>
         <tbody>
           {rest.regions.map((region) => (
             <tr key={region.probability}>
-              <th scope="row" class="number">{percent(region.probability)}</th>
+              <th scope="row" class="number">
+                {percent(region.probability)}
+              </th>
               <td class="number">{figure(region.area_m2)}</td>
               <td class="number">{figure(region.area_standard_error_m2, 2)}</td>
               <td class="number">{probabilityText(region.members)}</td>

@@ -30,7 +30,15 @@ export function RestMap({ body, rest, rested, ground }: MapProps) {
   const [pointed, setPointed] = useState<Rested>();
   const field = width - LEFT - RIGHT;
   const scale = useMemo(
-    () => (field > 40 ? frameOf(rest, rested.map(({ place }) => place), ground, field) : undefined),
+    () =>
+      field > 40
+        ? frameOf(
+            rest,
+            rested.map(({ place }) => place),
+            ground,
+            field,
+          )
+        : undefined,
     [rest, rested, ground, field],
   );
   const regions = useMemo(() => inner(rest.regions), [rest]);
@@ -41,7 +49,12 @@ export function RestMap({ body, rest, rested, ground }: MapProps) {
         {scale && (
           <>
             <DensityCanvas density={rest.density} scale={scale} />
-            <svg width={width} height={TOP + scale.height + BELOW} role="group" aria-label={`Map of where body ${body} comes to rest, seen from above`}>
+            <svg
+              width={width}
+              height={TOP + scale.height + BELOW}
+              role="group"
+              aria-label={`Map of where body ${body} comes to rest, seen from above`}
+            >
               <g transform={`translate(${LEFT} ${TOP})`}>
                 <MapAxes scale={scale} />
                 <Outlines regions={regions} scale={scale} />
@@ -54,7 +67,11 @@ export function RestMap({ body, rest, rested, ground }: MapProps) {
           </>
         )}
       </div>
-      <figcaption class="quiet">{pointed ? `${restedText(pointed)}. Press it for its job.` : "Point at a dot, or step through them with the arrow keys, for its member."}</figcaption>
+      <figcaption class="quiet">
+        {pointed
+          ? `${restedText(pointed)}. Press it for its job.`
+          : "Point at a dot, or step through them with the arrow keys, for its member."}
+      </figcaption>
     </figure>
   );
 }
@@ -76,7 +93,11 @@ function Outlines({ regions, scale }: { regions: Region[]; scale: MapScale }) {
 
 function outline(region: Region, scale: MapScale): string {
   const ring = (corners: number[][]) => {
-    const places = corners.map((corner) => onMap(scale, corner as Place).map((px) => px.toFixed(1)).join(","));
+    const places = corners.map((corner) =>
+      onMap(scale, corner as Place)
+        .map((px) => px.toFixed(1))
+        .join(","),
+    );
     return `M${places.join("L")}Z`;
   };
   return region.polygons.map(({ outer_m, holes_m }) => [outer_m, ...holes_m].map(ring).join("")).join("");
@@ -90,7 +111,9 @@ function Labels({ regions, scale }: { regions: Region[]; scale: MapScale }) {
   return (
     <g class="labels" aria-hidden="true">
       {labelsOf(outlines).map(({ text, at: [x, y] }) => (
-        <text key={text} x={Math.min(x, scale.width - 18)} y={y + 4} text-anchor="middle">{text}</text>
+        <text key={text} x={Math.min(x, scale.width - 18)} y={y + 4} text-anchor="middle">
+          {text}
+        </text>
       ))}
     </g>
   );
@@ -104,7 +127,9 @@ function Atoms({ rest, scale }: { rest: RestDistribution; scale: MapScale }) {
         return (
           <g key={String(place_m)}>
             <circle cx={x} cy={y} r={8} />
-            <text x={x + 11} y={y - 6}>{percent(share)}</text>
+            <text x={x + 11} y={y - 6}>
+              {percent(share)}
+            </text>
           </g>
         );
       })}
@@ -118,14 +143,37 @@ function Legend({ regions, rest }: { regions: Region[]; rest: RestDistribution }
     <ul class="legend">
       {regions.map((region, number) => (
         <li key={region.probability}>
-          <svg width="30" height="12" aria-hidden="true"><line class={`region style-${number % STYLES}`} x1="1" x2="29" y1="6" y2="6" /></svg>
+          <svg width="30" height="12" aria-hidden="true">
+            <line class={`region style-${number % STYLES}`} x1="1" x2="29" y1="6" y2="6" />
+          </svg>
           {percent(region.probability)}
         </li>
       ))}
-      {most !== undefined && <li><span class="shade" aria-hidden="true" /> density, 0 to {figure(most)} per m²</li>}
-      <li><svg width="12" height="12" aria-hidden="true"><circle class="place" cx="6" cy="6" r="3" /></svg> a member</li>
-      <li><svg width="16" height="16" aria-hidden="true"><path class="start" d="M1,8h14M8,1v14" /></svg> at the start</li>
-      {rest.atoms.length > 0 && <li><svg width="18" height="18" aria-hidden="true"><circle class="atom" cx="9" cy="9" r="7" /></svg> many at one place</li>}
+      {most !== undefined && (
+        <li>
+          <span class="shade" aria-hidden="true" /> density, 0 to {figure(most)} per m²
+        </li>
+      )}
+      <li>
+        <svg width="12" height="12" aria-hidden="true">
+          <circle class="place" cx="6" cy="6" r="3" />
+        </svg>{" "}
+        a member
+      </li>
+      <li>
+        <svg width="16" height="16" aria-hidden="true">
+          <path class="start" d="M1,8h14M8,1v14" />
+        </svg>{" "}
+        at the start
+      </li>
+      {rest.atoms.length > 0 && (
+        <li>
+          <svg width="18" height="18" aria-hidden="true">
+            <circle class="atom" cx="9" cy="9" r="7" />
+          </svg>{" "}
+          many at one place
+        </li>
+      )}
     </ul>
   );
 }

@@ -24,7 +24,8 @@ export function roundValues([from, to]: Range, count: number): number[] {
   const step = [1, 2, 5, 10].map((digit) => digit * power).find((step) => step >= rough * 0.999) ?? 10 * power;
   const first = Math.ceil(from / step - 1e-9);
   const values: number[] = [];
-  for (let place = first; place * step <= to + 1e-9 * step; place += 1) values.push(Number((place * step).toPrecision(12)));
+  for (let place = first; place * step <= to + 1e-9 * step; place += 1)
+    values.push(Number((place * step).toPrecision(12)));
   return values;
 }
 

@@ -40,7 +40,9 @@ export function tornado(measures: SensitivityMeasures, directions: Direction[]):
     return {
       bars: ["alone (first order)", "with all interactions (total)"],
       axis: "share",
-      rows: ranked(inputs.map((index, input) => ({ input, bars: [index.first_order, index.total], direction: direction(input) }))),
+      rows: ranked(
+        inputs.map((index, input) => ({ input, bars: [index.first_order, index.total], direction: direction(input) })),
+      ),
       basis: `From ${rows} rows of the design${leftOut(rows_left_out)}.`,
     };
   }
@@ -83,7 +85,12 @@ export function directionOfEffect(mean: number, meanSize: number): Direction {
 }
 
 /** Directions in which a quantity follows the inputs, by the rank correlation with each. */
-export function directions(members: ListedMember[], inputs: number, quantity: string, body: number | null | undefined): Direction[] {
+export function directions(
+  members: ListedMember[],
+  inputs: number,
+  quantity: string,
+  body: number | null | undefined,
+): Direction[] {
   return Array.from({ length: inputs }, (_, input) => {
     const pairs = members.flatMap((member) => {
       const [x, y] = [member.values[input], quantityOf(member, quantity, body)];
@@ -105,7 +112,7 @@ export function directionOf(pairs: (readonly [number, number])[]): Direction {
 function ranks(values: number[]): number[] {
   const order = values.map((value, place) => ({ value, place })).sort((a, b) => a.value - b.value);
   const found = new Array<number>(values.length).fill(0);
-  for (let from = 0; from < order.length; ) {
+  for (let from = 0; from < order.length;) {
     let to = from;
     while (order[to + 1]?.value === order[from]?.value) to += 1;
     for (let place = from; place <= to; place += 1) found[order[place]?.place ?? 0] = 0.5 * (from + to);

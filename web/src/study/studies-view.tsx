@@ -28,14 +28,21 @@ export function StudiesView() {
   return (
     <div class="study">
       <h1>Studies</h1>
-      <p>Where does it end up, how probably, and what does that depend on? A study computes one scenario many times with uncertain inputs.</p>
+      <p>
+        Where does it end up, how probably, and what does that depend on? A study computes one scenario many times with
+        uncertain inputs.
+      </p>
       <div class="actions">
-        <Link href="/studies/new" class="button primary">New study</Link>
+        <Link href="/studies/new" class="button primary">
+          New study
+        </Link>
         <label>
           State{" "}
           <select value={status} onChange={(event) => setStatus(event.currentTarget.value)}>
             <option value="">all</option>
-            {STATES.map((state) => <option key={state}>{state}</option>)}
+            {STATES.map((state) => (
+              <option key={state}>{state}</option>
+            ))}
           </select>
         </label>
       </div>
@@ -44,8 +51,16 @@ export function StudiesView() {
       {page && <StudyList page={page} isFirst={cursors.length === 0} isFiltered={status !== ""} />}
       {page && (cursors.length > 0 || page.next_cursor) && (
         <nav class="actions" aria-label="Pages of studies">
-          <button type="button" disabled={cursors.length === 0} onClick={() => setCursors(cursors.slice(0, -1))}>Newer</button>
-          <button type="button" disabled={!page.next_cursor} onClick={() => page.next_cursor && setCursors([...cursors, page.next_cursor])}>Older</button>
+          <button type="button" disabled={cursors.length === 0} onClick={() => setCursors(cursors.slice(0, -1))}>
+            Newer
+          </button>
+          <button
+            type="button"
+            disabled={!page.next_cursor}
+            onClick={() => page.next_cursor && setCursors([...cursors, page.next_cursor])}
+          >
+            Older
+          </button>
         </nav>
       )}
     </div>
@@ -53,7 +68,12 @@ export function StudiesView() {
 }
 
 function StudyList({ page: { studies }, isFirst, isFiltered }: { page: Page; isFirst: boolean; isFiltered: boolean }) {
-  if (studies.length === 0) return <p class="quiet">{isFiltered || !isFirst ? "No study is in this state." : "There are no studies yet. Begin with a new one."}</p>;
+  if (studies.length === 0)
+    return (
+      <p class="quiet">
+        {isFiltered || !isFirst ? "No study is in this state." : "There are no studies yet. Begin with a new one."}
+      </p>
+    );
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label="Studies, newest first">
       <table>
@@ -61,11 +81,17 @@ function StudyList({ page: { studies }, isFirst, isFiltered }: { page: Page; isF
           <tr>
             <th scope="col">Study</th>
             <th scope="col">State</th>
-            <th scope="col" class="number">Members ended</th>
+            <th scope="col" class="number">
+              Members ended
+            </th>
             <th scope="col">Submitted</th>
           </tr>
         </thead>
-        <tbody>{studies.map((study) => <StudyRow key={study.id} study={study} />)}</tbody>
+        <tbody>
+          {studies.map((study) => (
+            <StudyRow key={study.id} study={study} />
+          ))}
+        </tbody>
       </table>
     </div>
   );
@@ -74,10 +100,18 @@ function StudyList({ page: { studies }, isFirst, isFiltered }: { page: Page; isF
 function StudyRow({ study: { id, title, status, members, members_ended, created } }: { study: StudySummary }) {
   return (
     <tr>
-      <th scope="row" class="title"><Link href={`/studies/${id}`}>{title || "Untitled study"}</Link></th>
-      <td><span class={`status ${status}`}>{status}</span></td>
-      <td class="number">{members_ended} of {members}</td>
-      <td><time dateTime={created}>{moment(created)}</time></td>
+      <th scope="row" class="title">
+        <Link href={`/studies/${id}`}>{title || "Untitled study"}</Link>
+      </th>
+      <td>
+        <span class={`status ${status}`}>{status}</span>
+      </td>
+      <td class="number">
+        {members_ended} of {members}
+      </td>
+      <td>
+        <time dateTime={created}>{moment(created)}</time>
+      </td>
     </tr>
   );
 }

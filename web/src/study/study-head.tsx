@@ -12,7 +12,9 @@ export function StudyHead({ seen, again }: { seen: SeenStudy; again: () => void 
     <header>
       <h1>{study.title || "Untitled study"}</h1>
       <p>
-        <span class={`status ${study.status}`}>{study.status}</span>{" "}
+        <span class={`status ${study.status}`} role="status">
+          {study.status}
+        </span>{" "}
         <span class="quiet">
           submitted {moment(study.created)}
           {study.finished && `, ended ${moment(study.finished)}`}
@@ -38,10 +40,17 @@ function MemberProgress({ seen: { study, answers } }: { seen: SeenStudy }) {
   const going = Math.max(0, study.members_made - ended);
   return (
     <div class={isRunning ? "notice warning" : ""}>
-      <p aria-live="polite">
-        {isRunning && <strong>So far: {ended} of {study.members} members. </strong>}
-        {finished} of {study.members} members finished, {failed} failed
-        {isRunning && `, ${going} run or wait, ${Math.max(0, study.members - study.members_made)} are not made yet`}.
+      <p>
+        {isRunning ? (
+          <strong>
+            So far: {ended} of {study.members} members.{" "}
+          </strong>
+        ) : (
+          `${finished} of ${study.members} members finished, ${failed} failed`
+        )}
+        {isRunning &&
+          `${finished} finished, ${failed} failed, ${going} run or wait, ${Math.max(0, study.members - study.members_made)} are not made yet`}
+        .
       </p>
       {isRunning && <progress aria-label="Members that have ended" max={study.members} value={ended} />}
       {failures.length > 0 && (
@@ -78,11 +87,15 @@ function Endings({ id, isRunning, again }: { id: string; isRunning: boolean; aga
       <div class="actions">
         {isAsking ? (
           <>
-            <span>{isRunning ? "Stop this study and its members?" : "Remove this study, its answers and its members' jobs?"}</span>
+            <span>
+              {isRunning ? "Stop this study and its members?" : "Remove this study, its answers and its members' jobs?"}
+            </span>
             <button type="button" class="primary" ref={(button) => button?.focus()} onClick={() => void end()}>
               {isRunning ? "Yes, dismiss it" : "Yes, remove it"}
             </button>
-            <button type="button" onClick={() => setIsAsking(false)}>No</button>
+            <button type="button" onClick={() => setIsAsking(false)}>
+              No
+            </button>
           </>
         ) : (
           <button type="button" onClick={() => setIsAsking(true)}>

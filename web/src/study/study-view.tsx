@@ -38,7 +38,11 @@ function OneStudy({ id }: { id: string }) {
       <AnswersView seen={seen} />
       <LevelsTable answers={answers} accuracy={state.study.accuracy} />
       <InputsTable study={state.study} />
-      <MembersTable state={state} coarsest={members} cellSizes={(answers.levels ?? []).map(({ cell_size_m }) => cell_size_m)} />
+      <MembersTable
+        state={state}
+        coarsest={members}
+        cellSizes={(answers.levels ?? []).map(({ cell_size_m }) => cell_size_m)}
+      />
       <section aria-labelledby="files-title">
         <h2 id="files-title">Files</h2>
         <StudyFiles id={state.id} />

@@ -9,25 +9,46 @@ import { type Bar, type Direction, type Row, directions, tornado } from "./sensi
 const WIDTH = 260;
 const ROW = 14;
 
-const WORDS: Record<Direction, string> = { rises: "↗ rises with it", falls: "↘ falls with it", unclear: "no clear direction" };
+const WORDS: Record<Direction, string> = {
+  rises: "↗ rises with it",
+  falls: "↘ falls with it",
+  unclear: "no clear direction",
+};
 
 /** Answer which inputs a quantity depends on: a tornado whose rows have their numbers beside the bars. */
-export function TornadoChart({ asked, measures, study, draws }: AnswerProps & { asked: { quantity: string; body?: number | null }; measures: SensitivityMeasures | null | undefined }) {
+export function TornadoChart({
+  asked,
+  measures,
+  study,
+  draws,
+}: AnswerProps & {
+  asked: { quantity: string; body?: number | null };
+  measures: SensitivityMeasures | null | undefined;
+}) {
   const { quantity, body } = asked;
   const chart = useMemo(
     () => (measures ? tornado(measures, directions(draws, study.inputs.length, quantity, body)) : undefined),
     [measures, draws, study, quantity, body],
   );
   if (!chart) return <p>The quantity does not vary, or too few members have it.</p>;
-  const most = Math.max(...chart.rows.flatMap(({ bars }) => bars.map(({ value, upper }) => Math.max(value, upper))), 1e-12);
+  const most = Math.max(
+    ...chart.rows.flatMap(({ bars }) => bars.map(({ value, upper }) => Math.max(value, upper))),
+    1e-12,
+  );
   const scale = chart.axis === "share" ? Math.max(1, most) : 1.05 * most;
-  const unit = chart.axis === "share" ? "share of the variance" : `change over the input's range${unitOf(quantity) === "" ? "" : ` [${unitOf(quantity)}]`}`;
+  const unit =
+    chart.axis === "share"
+      ? "share of the variance"
+      : `change over the input's range${unitOf(quantity) === "" ? "" : ` [${unitOf(quantity)}]`}`;
   return (
     <>
       <ul class="legend">
         {chart.bars.map((name, place) => (
           <li key={name}>
-            <svg width="14" height="12" aria-hidden="true"><rect class={`bar bar-${chart.bars.length - 1 - place}`} width="14" height="12" /></svg> {name}
+            <svg width="14" height="12" aria-hidden="true">
+              <rect class={`bar bar-${chart.bars.length - 1 - place}`} width="14" height="12" />
+            </svg>{" "}
+            {name}
           </li>
         ))}
       </ul>
@@ -37,17 +58,33 @@ export function TornadoChart({ asked, measures, study, draws }: AnswerProps & { 
             <tr>
               <th scope="col">Input</th>
               <th scope="col">
-                <span class="hidden">Bars: </span>{unit}
+                <span class="hidden">Bars: </span>
+                {unit}
                 <Ruler scale={scale} />
               </th>
-              {chart.bars.map((name) => <th key={name} scope="col" class="number">{name}</th>)}
+              {chart.bars.map((name) => (
+                <th key={name} scope="col" class="number">
+                  {name}
+                </th>
+              ))}
               <th scope="col">The quantity</th>
             </tr>
           </thead>
-          <tbody>{chart.rows.map((row) => <InputRow key={row.input} row={row} name={placeName(study.inputs[row.input]?.pointer ?? "")} scale={scale} />)}</tbody>
+          <tbody>
+            {chart.rows.map((row) => (
+              <InputRow
+                key={row.input}
+                row={row}
+                name={placeName(study.inputs[row.input]?.pointer ?? "")}
+                scale={scale}
+              />
+            ))}
+          </tbody>
         </table>
       </div>
-      <p class="quiet">{chart.basis} {chart.axis === "share" ? "Lines are 95 % intervals." : "Lines are standard errors."}</p>
+      <p class="quiet">
+        {chart.basis} {chart.axis === "share" ? "Lines are 95 % intervals." : "Lines are standard errors."}
+      </p>
     </>
   );
 }
@@ -56,7 +93,9 @@ function Ruler({ scale }: { scale: number }) {
   return (
     <svg class="ruler" width={WIDTH} height="18" aria-hidden="true">
       {[0, 0.5, 1].map((share) => (
-        <text key={share} x={share * WIDTH} y="14" text-anchor={share === 0 ? "start" : share === 1 ? "end" : "middle"}>{figure(share * scale, 2)}</text>
+        <text key={share} x={share * WIDTH} y="14" text-anchor={share === 0 ? "start" : share === 1 ? "end" : "middle"}>
+          {figure(share * scale, 2)}
+        </text>
       ))}
     </svg>
   );
@@ -66,8 +105,14 @@ function InputRow({ row, name, scale }: { row: Row; name: string; scale: number 
   return (
     <tr>
       <th scope="row">{name}</th>
-      <td><Bars row={row} scale={scale} /></td>
-      {row.bars.map((bar, place) => <td key={place} class="number">{barText(bar)}</td>)}
+      <td>
+        <Bars row={row} scale={scale} />
+      </td>
+      {row.bars.map((bar, place) => (
+        <td key={place} class="number">
+          {barText(bar)}
+        </td>
+      ))}
       <td class={`direction ${row.direction}`}>{WORDS[row.direction]}</td>
     </tr>
   );
@@ -83,7 +128,10 @@ function Bars({ row: { bars, direction }, scale }: { row: Row; scale: number }) 
         return (
           <g key={place}>
             <rect class={`bar bar-${bars.length - 1 - place}`} x="0" y={middle - 5} width={x(value)} height="10" />
-            <path class="whisker" d={`M${x(lower)},${middle}H${x(upper)}M${x(lower)},${middle - 3}v6M${x(upper)},${middle - 3}v6`} />
+            <path
+              class="whisker"
+              d={`M${x(lower)},${middle}H${x(upper)}M${x(lower)},${middle - 3}v6M${x(upper)},${middle - 3}v6`}
+            />
           </g>
         );
       })}

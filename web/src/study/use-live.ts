@@ -1,4 +1,5 @@
 import { useEffect, useRef, useState } from "preact/hooks";
+import { ServiceProblem } from "../api/problem";
 import { onTokenChange } from "../api/token";
 import { onServiceEvent } from "../events/events";
 import type { Answer } from "../parts/use-answer";
@@ -9,8 +10,19 @@ const LEAST_PAUSE_MS = 2_000;
 /** Time after which a look is due even if no event came: a study ends after its last job [ms]. */
 const LONGEST_PAUSE_MS = 5_000;
 
+/** Answers that asking again does not change: no token, not the reader's, not there. */
+const FINAL = [401, 403, 404];
+
+function isFinal(problem: unknown): boolean {
+  return problem instanceof ServiceProblem && FINAL.includes(problem.status);
+}
+
 /** What a reader of answers found, read again after events of jobs while it `goesOn`. */
-export function useLive<T>(read: (signal: AbortSignal) => Promise<T>, goesOn: (value: T) => boolean, depends: unknown[]): Answer<T> {
+export function useLive<T>(
+  read: (signal: AbortSignal) => Promise<T>,
+  goesOn: (value: T) => boolean,
+  depends: unknown[],
+): Answer<T> {
   const [value, setValue] = useState<T>();
   const [problem, setProblem] = useState<unknown>();
   const again = useRef(() => {});
@@ -24,7 +36,9 @@ export function useLive<T>(read: (signal: AbortSignal) => Promise<T>, goesOn: (v
         setValue(() => found);
         setProblem(undefined);
       } catch (error) {
-        if (!end.signal.aborted) setProblem(error);
+        if (end.signal.aborted) return;
+        isOver = isFinal(error);
+        setProblem(error);
       }
     };
     const throttle = new Throttle(look, LEAST_PAUSE_MS);

@@ -4,22 +4,36 @@ import { ofBody, titled, unitOf } from "./names";
 import { percent } from "./percent";
 
 /** Answer of quantiles: a table. */
-export function QuantilesAnswer({ asked, answer }: { asked: Schemas["QuantilesQuestion"]; answer: Schemas["Quantile"][] }) {
+export function QuantilesAnswer({
+  asked,
+  answer,
+}: {
+  asked: Schemas["QuantilesQuestion"];
+  answer: Schemas["Quantile"][];
+}) {
   const unit = unitOf(asked.quantity);
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={`Quantiles of ${ofBody(asked.quantity, asked.body)}`}>
       <table>
         <thead>
           <tr>
-            <th scope="col" class="number">Quantile</th>
-            <th scope="col" class="number">{titled("Value", unit)}</th>
-            <th scope="col" class="number">{titled("95 % interval", unit)}</th>
+            <th scope="col" class="number">
+              Quantile
+            </th>
+            <th scope="col" class="number">
+              {titled("Value", unit)}
+            </th>
+            <th scope="col" class="number">
+              {titled("95 % interval", unit)}
+            </th>
           </tr>
         </thead>
         <tbody>
           {answer.map(({ probability, estimate, lower, upper }) => (
             <tr key={probability}>
-              <th scope="row" class="number">{percent(probability)}</th>
+              <th scope="row" class="number">
+                {percent(probability)}
+              </th>
               <td class="number">{figure(estimate, 4)}</td>
               <td class="number">{bounds(lower, upper)}</td>
             </tr>
