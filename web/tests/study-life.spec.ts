@@ -15,6 +15,7 @@ test("a running study is marked as such, follows its members, and is dismissed a
   await page.goto(`/#/studies/${id}`);
   await expect(page.getByText("So far: 0 of 32 members. This is not the final answer.").first()).toBeVisible();
   await expect(page.getByText(/So far: [1-9]\d* of 32 members\. This/).first()).toBeVisible({ timeout: 40_000 });
+  await expect(page.locator(".chart .line").first()).toBeVisible();
   await page.getByRole("button", { name: "Dismiss …" }).click();
   await expect(page.getByRole("button", { name: "Yes, dismiss it" })).toBeFocused();
   await page.keyboard.press("Enter");

@@ -63,7 +63,7 @@ function up(share: number): number {
 function Axes({ range, width, title }: { range: Range; width: number; title: string }) {
   return (
     <g class="axes">
-      {roundValues([0, 1], 4).map((share) => (
+      {roundValues([0, 1], 5).map((share) => (
         <g key={share}>
           <line x1={0} x2={width} y1={up(share)} y2={up(share)} />
           <text x={-6} y={up(share) + 4} text-anchor="end">

@@ -5,6 +5,7 @@ import type { AnswerProps } from "./answer-props";
 import { type Probability, valued } from "./documents";
 import { ExceedanceChart } from "./exceedance-chart";
 import { IntervalBar } from "./interval-bar";
+import { MOST_MEMBERS } from "./member-pages";
 import { ofBody, unitOf } from "./names";
 import { percent, percentRange, probabilityText } from "./percent";
 
@@ -12,15 +13,17 @@ import { percent, percentRange, probabilityText } from "./percent";
 export function ExceedsAnswer({
   asked,
   answer,
+  members,
   draws,
   hasLevels,
 }: AnswerProps & { asked: Schemas["ExceedsQuestion"]; answer: Schemas["Exceedance"][] }) {
   const { quantity, body } = asked;
   const unit = unitOf(quantity);
   const values = useMemo(() => valued(draws, quantity, body).map(({ value }) => value), [draws, quantity, body]);
-  const counted = answer[0]?.probability;
-  // Members that were not made yet, or that the page has not read, are no part of its curve.
-  const isWhole = counted !== undefined && values.length === counted.known;
+  const { known = 0, unknown = 0 } = answer[0]?.probability ?? {};
+  // While a study runs, the members that were read may be ahead of the answer.
+  const others = Math.max(0, known + unknown - values.length);
+  const isWhole = members.length < MOST_MEMBERS;
   return (
     <>
       <ExceedanceChart
@@ -28,8 +31,9 @@ export function ExceedsAnswer({
         unit={unit}
         asked={answer}
         values={!hasLevels && isWhole ? values : undefined}
-        unknown={counted?.unknown ?? 0}
+        unknown={others}
       />
+      {!isWhole && <p class="quiet">No curve is drawn, as this page does not read that many members.</p>}
       {hasLevels && (
         <p class="quiet">
           No curve is drawn between the thresholds: the members' own values are those of coarse cells.

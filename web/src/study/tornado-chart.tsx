@@ -3,6 +3,7 @@ import { figure } from "../parts/format";
 import type { AnswerProps } from "./answer-props";
 import type { SensitivityMeasures } from "./documents";
 import { ofBody, placeName, unitOf } from "./names";
+import { roundValues } from "./scales";
 import { type Bar, type Direction, type Row, directions, tornado } from "./sensitivity";
 
 /** Size of the bars [px]. */
@@ -92,11 +93,16 @@ export function TornadoChart({
 function Ruler({ scale }: { scale: number }) {
   return (
     <svg class="ruler" width={WIDTH} height="18" aria-hidden="true">
-      {[0, 0.5, 1].map((share) => (
-        <text key={share} x={share * WIDTH} y="14" text-anchor={share === 0 ? "start" : share === 1 ? "end" : "middle"}>
-          {figure(share * scale, 2)}
-        </text>
-      ))}
+      {roundValues([0, scale], 3).map((value) => {
+        const x = (value / scale) * WIDTH;
+        // Numbers at the ends stay within the picture.
+        const anchor = x < 10 ? "start" : x > WIDTH - 10 ? "end" : "middle";
+        return (
+          <text key={value} x={x} y="14" text-anchor={anchor}>
+            {figure(value, 2)}
+          </text>
+        );
+      })}
     </svg>
   );
 }

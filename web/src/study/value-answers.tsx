@@ -47,8 +47,8 @@ export function QuantilesAnswer({
 function bounds(lower: number | null | undefined, upper: number | null | undefined): string {
   const [isLow, isHigh] = [lower ?? null, upper ?? null].map((bound) => bound !== null);
   if (!isLow && !isHigh) return "too few members for bounds";
-  if (!isLow) return `no lower bound to ${figure(upper, 4)}`;
-  if (!isHigh) return `${figure(lower, 4)} to no upper bound`;
+  if (!isLow) return `no lower bound, up to ${figure(upper, 4)}`;
+  if (!isHigh) return `from ${figure(lower, 4)}, no upper bound`;
   return `${figure(lower, 4)} to ${figure(upper, 4)}`;
 }
 
