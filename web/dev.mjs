@@ -27,6 +27,8 @@ const server = createServer(async (asked, answer) => {
   delete headers.origin;
   const passed = request(new URL(asked.url, service), { method: asked.method, headers }, (got) => {
     answer.writeHead(got.statusCode, got.headers);
+    // A stream of events may have nothing to tell for a while.
+    answer.flushHeaders();
     got.pipe(answer);
   });
   passed.on("error", () => answer.destroy());

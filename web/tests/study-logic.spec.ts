@@ -10,7 +10,7 @@ import { placeName, unitOf } from "../src/study/names";
 import { placeOfPointer } from "../src/study/place-of-pointer";
 import { mapScale, onMap, rangeOf, roundValues } from "../src/study/scales";
 import { directionOf, tornado } from "../src/study/sensitivity";
-import { Throttle } from "../src/study/throttle";
+import { Throttle } from "../src/parts/throttle";
 
 function member(number: number, values: unknown[], displacement?: number): ListedMember {
   const bodies = [

@@ -7,7 +7,7 @@ import type { StudyState } from "./documents";
 import { placeOfPointer } from "./place-of-pointer";
 import { PlanNotice } from "./plan-notice";
 import { PRESETS } from "./presets";
-import { uniqueKey } from "./unique-key";
+import { uniqueKey } from "../parts/unique-key";
 import { useStudyPlan } from "./use-study-plan";
 
 /** Form for a new study: its document, checked and planned while it is written. */

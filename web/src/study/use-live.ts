@@ -3,7 +3,7 @@ import { ServiceProblem } from "../api/problem";
 import { onTokenChange } from "../api/token";
 import { onServiceEvent } from "../events/events";
 import type { Answer } from "../parts/use-answer";
-import { Throttle } from "./throttle";
+import { Throttle } from "../parts/throttle";
 
 /** Least time between two looks at a running study [ms]. */
 const LEAST_PAUSE_MS = 2_000;
