@@ -2,9 +2,9 @@
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Link, Route, Router, Switch, useLocation } from "wouter-preact";
-import { useHashLocation } from "wouter-preact/use-hash-location";
 import { ROOT } from "./api/client";
 import { JobsView } from "./jobs/jobs-view";
+import { useHashLocation, useHashSearch } from "./parts/hash-location";
 import { lazily } from "./parts/lazily";
 import { TokenDialog } from "./parts/token-dialog";
 
@@ -16,7 +16,7 @@ const StudyView = lazily(() => import("./study/study-view").then((part) => part.
 
 export function App() {
   return (
-    <Router hook={useHashLocation}>
+    <Router hook={useHashLocation} searchHook={useHashSearch}>
       <a class="skip" href="#main" onClick={focusMain}>
         Skip to the content
       </a>

@@ -7,12 +7,15 @@ export type FieldError = components["schemas"]["FieldError"];
 export class ServiceProblem extends Error {
   readonly status: number;
   readonly document: Partial<ProblemDocument>;
+  /** Seconds after which the service wants to be asked again, if it says so. */
+  readonly retryAfterS: number | undefined;
 
-  constructor(status: number, document: Partial<ProblemDocument>) {
+  constructor(status: number, document: Partial<ProblemDocument>, retryAfterS?: number) {
     super(document.detail ?? document.title ?? `the service answered with status ${status}`);
     this.name = "ServiceProblem";
     this.status = status;
     this.document = document;
+    this.retryAfterS = retryAfterS;
   }
 
   /** All violations of the scenario's rules, each with the JSON pointer of its field. */
@@ -24,9 +27,11 @@ export class ServiceProblem extends Error {
 /** Problem of an answer that is no success. */
 export async function problemOf(response: Response): Promise<ServiceProblem> {
   const text = await response.text();
+  const seconds = Number(response.headers.get("Retry-After") ?? NaN);
+  const retryAfterS = Number.isFinite(seconds) ? seconds : undefined;
   try {
-    return new ServiceProblem(response.status, JSON.parse(text) as Partial<ProblemDocument>);
+    return new ServiceProblem(response.status, JSON.parse(text) as Partial<ProblemDocument>, retryAfterS);
   } catch {
-    return new ServiceProblem(response.status, { detail: text.slice(0, 300) });
+    return new ServiceProblem(response.status, { detail: text.slice(0, 300) }, retryAfterS);
   }
 }
