@@ -1,0 +1,83 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import { type JsonObject, isObject, parentOf, same } from "./document";
+import { type TextError, readText, written } from "./json-text";
+
+interface JsonEditorProps {
+  document: JsonObject;
+  onDocument: (document: JsonObject) => void;
+  /** Text that could not be read, to begin with. */
+  broken: string | undefined;
+  onBroken: (text: string | undefined) => void;
+  /** Place to go to. */
+  goTo: { pointer: string } | undefined;
+}
+
+/** The scenario as text. What is no JSON leaves the document as it was. */
+export function JsonEditor({ document, onDocument, broken, onBroken, goTo }: JsonEditorProps) {
+  const [typed, setTyped] = useState<string>(broken ?? written(document));
+  const area = useRef<HTMLTextAreaElement>(null);
+  const read = readText(typed);
+  const error = read.error ?? notAnObject(typed, read.value);
+  const text = error || same(read.value, document) ? typed : written(document);
+  const input = (text: string) => {
+    setTyped(text);
+    const { value } = readText(text);
+    onBroken(isObject(value) ? undefined : text);
+    if (isObject(value)) onDocument(value);
+  };
+  useEffect(() => {
+    if (goTo && area.current) select(area.current, goTo.pointer);
+  }, [goTo]);
+  return (
+    <div class="json-editor">
+      <label for="json-text">The scenario as JSON</label>
+      <p class="help" id="json-help">
+        What is left out has its default. The fields and the drawing follow the text.
+      </p>
+      <textarea
+        id="json-text"
+        ref={area}
+        class="code"
+        rows={30}
+        spellcheck={false}
+        value={text}
+        aria-describedby="json-help json-wrong"
+        aria-invalid={error !== undefined}
+        onInput={({ currentTarget }) => input(currentTarget.value)}
+      />
+      <div id="json-wrong" role="status">
+        {error && (
+          <p class="violation">
+            Line {error.line}, column {error.column}: {error.message}.{" "}
+            <button type="button" class="link" onClick={() => area.current && put(area.current, [error.offset, error.offset])}>
+              Go there
+            </button>
+          </p>
+        )}
+      </div>
+    </div>
+  );
+}
+
+function notAnObject(text: string, value: unknown): TextError | undefined {
+  if (isObject(value as JsonObject)) return undefined;
+  return { line: 1, column: 1, offset: 0, message: text.trim() === "" ? "there is nothing here" : "a scenario is an object, { … }" };
+}
+
+/** Selects the value at a pointer, or what it is missing from. */
+function select(area: HTMLTextAreaElement, pointer: string): void {
+  const { places } = readText(area.value);
+  let here = pointer;
+  while (here !== "" && !places.has(here)) here = parentOf(here);
+  const [start, end] = places.get(here) ?? [0, 0];
+  put(area, here === pointer ? [start, end] : [start, start + 1]);
+}
+
+/** Puts the selection there, in the middle of what is seen. */
+function put(area: HTMLTextAreaElement, [start, end]: [number, number]): void {
+  area.focus();
+  area.setSelectionRange(start, end);
+  const line = area.value.slice(0, start).split("\n").length;
+  const height = Number.parseFloat(getComputedStyle(area).lineHeight) || 20;
+  area.scrollTop = Math.max(0, (line - 10) * height);
+}

@@ -1,0 +1,105 @@
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
+import { changed, isObject, at, member } from "./document";
+import type { BodyMoves } from "./draggable-body";
+import { useForm } from "./form-context";
+import { type Zoom, framesOf } from "./frame";
+import { snapped } from "./outline";
+import { type PlacedBody, type Scene, sceneText } from "./scene";
+import type { Vec3 } from "./vectors";
+import { SideView, TopView } from "./views";
+
+/** Most bodies that have their numbers beside them. */
+const NUMBERED = 40;
+
+/** Drawings of the scene at its start, from the side and from above. */
+export function SceneFigure() {
+  const { scene } = useForm();
+  const figure = useRef<HTMLElement>(null);
+  const width = useWidth(figure);
+  return (
+    <figure class="scene" ref={figure}>
+      {scene ? width > 0 && <Views scene={scene} width={width} /> : <p class="notice">The drawing appears once the channel has an inclination, an incline length and a run-out length.</p>}
+    </figure>
+  );
+}
+
+function Views({ scene, width }: { scene: Scene; width: number }) {
+  const { reveal } = useForm();
+  const [zoom, setZoom] = useState<Zoom>("channel");
+  const held = useRef<ReturnType<typeof framesOf>>();
+  const [said, setSaid] = useState("");
+  const move = useMove(scene, setSaid);
+  // A frame round the bodies would follow the one that is dragged.
+  const frames = held.current ?? framesOf(scene, zoom, width);
+  const moves: BodyMoves = {
+    step: frames.step,
+    isNumbered: scene.bodies.length <= NUMBERED,
+    move: (body, to, isLifted, edit) => move(body, to, isLifted, edit, frames.step),
+    hold: (isHeld) => (held.current = isHeld ? frames : undefined),
+    pick: (index) => reveal(member("/bodies", index)),
+  };
+  return (
+    <>
+      <ZoomChoice zoom={zoom} setZoom={setZoom} isOf={scene.bodies.length > 0} />
+      <SideView scene={scene} frame={frames.side} moves={moves} />
+      <TopView scene={scene} frame={frames.top} moves={moves} />
+      <figcaption>
+        <p>{sceneText(scene)}</p>
+        {scene.missing.length > 0 && <p class="violation">Not drawn, since its shape is incomplete: body {scene.missing.slice(0, 5).join(", ")}.</p>}
+        {scene.bodies.length > 0 && (
+          <p class="quiet">
+            Drag a body to move it, by {frames.step} m at a time, or select it and use the arrow keys. With Shift, or Page Up, it is lifted off the bed.
+          </p>
+        )}
+      </figcaption>
+      <p class="hidden" aria-live="polite">
+        {said}
+      </p>
+    </>
+  );
+}
+
+function ZoomChoice({ zoom, setZoom, isOf }: { zoom: Zoom; setZoom: (zoom: Zoom) => void; isOf: boolean }) {
+  if (!isOf) return null;
+  return (
+    <div class="choice" role="group" aria-label="Part that is shown">
+      {(["channel", "bodies"] as const).map((part) => (
+        <button key={part} type="button" aria-pressed={zoom === part} onClick={() => setZoom(part)}>
+          {part === "channel" ? "Whole channel" : "Around the bodies"}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** Moves a body in the document, within the channel and by whole steps. */
+function useMove(scene: Scene, say: (text: string) => void) {
+  const { document, replace } = useForm();
+  return (body: PlacedBody, to: Vec3, isLifted: boolean, edit: string, step: number) => {
+    const { incline, runout, width } = scene.channel;
+    const within = (value: number, low: number, high: number) => snapped(Math.min(high, Math.max(low, value)), step);
+    const pointer = member("/bodies", body.index);
+    const position: Record<string, number> = {};
+    if (to[0] !== body.centre[0]) position["downstream_m"] = within(to[0], -incline, runout);
+    if (to[1] !== body.centre[1]) position["lateral_m"] = within(to[1], -width / 2, width / 2);
+    if (isLifted && to[2] !== body.centre[2]) position["elevation_m"] = within(to[2], 0, Infinity);
+    const before = at(document, `${pointer}/position`);
+    const next = { ...(isObject(before) ? before : {}), ...position };
+    replace(changed(document, `${pointer}/position`, next), edit);
+    say(`Body ${body.index}: ${Object.entries(position).map(([key, value]) => `${key.replace("_m", "")} ${value} m`).join(", ")}`);
+  };
+}
+
+/** Width of an element [px], as it changes. */
+function useWidth(element: { current: HTMLElement | null }): number {
+  const [width, setWidth] = useState(0);
+  useLayoutEffect(() => {
+    const { current } = element;
+    if (!current) return;
+    setWidth(current.clientWidth);
+    const observer = new ResizeObserver(() => setWidth(current.clientWidth));
+    observer.observe(current);
+    return () => observer.disconnect();
+  }, []);
+  return width;
+}

@@ -1,0 +1,33 @@
+import { api, data } from "../api/client";
+import { type Answer, useAnswer } from "../parts/use-answer";
+import type { JsonObject } from "./document";
+import { type Draft, readDraft } from "./draft";
+import { PRESETS, presetOf } from "./presets";
+import { type Schemas, resolved, withoutDefaults } from "./schema";
+
+/** Scenario that the form of an address begins with: its draft, or what the address names. */
+export function useSource(search: string, schemas: Schemas | undefined): Answer<{ search: string; draft: Draft }> {
+  return useAnswer(async () => {
+    // Without schemas there is no form yet, and the answer is asked for again.
+    if (!schemas) return { search: "\n", draft: { document: {}, original: {}, from: "" } };
+    return { search, draft: readDraft(search) ?? (await sourceOf(new URLSearchParams(search), schemas)) };
+  }, [search, schemas]);
+}
+
+async function sourceOf(query: URLSearchParams, schemas: Schemas): Promise<Draft> {
+  const job = query.get("job");
+  if (job !== null) return { ...whole(await scenarioOf(job, schemas)), from: `job ${job.slice(0, 8)}` };
+  const name = query.get("preset");
+  const preset = name === null ? PRESETS[0] : presetOf(name);
+  if (!preset) throw new Error(`There is no example "${name}". Choose one of the list, or begin with an empty address.`);
+  return { ...whole(preset.scenario), from: "the example" };
+}
+
+const whole = (document: JsonObject) => ({ document, original: document });
+
+/** Scenario of a job without the defaults that the service has filled in. */
+async function scenarioOf(id: string, schemas: Schemas): Promise<JsonObject> {
+  const job = await data(api.GET("/v1/jobs/{id}", { params: { path: { id } } }));
+  const scenario = resolved({ $ref: "#/components/schemas/Scenario" }, schemas);
+  return withoutDefaults(job.scenario as unknown as JsonObject, scenario, schemas) as JsonObject;
+}
