@@ -13,6 +13,9 @@ interface ViewProps {
 /** Pixels between two marks of an axis. */
 const APART = { x: 64, v: 32 };
 
+/** Room for the name of the horizontal axis at its end [px]. */
+const NAMED = 45;
+
 /** A drawing to scale with its axes [m]. */
 export function View({ frame, label, vertical, children }: ViewProps) {
   const width = frame.width + MARGIN.left + MARGIN.right;
@@ -25,7 +28,7 @@ export function View({ frame, label, vertical, children }: ViewProps) {
       <g class="axes" transform={`translate(${MARGIN.left} ${MARGIN.top})`} aria-hidden="true">
         <rect width={frame.width} height={frame.height} />
         <Marks frame={frame} />
-        <text x={frame.width} y={frame.height + 32} text-anchor="end">
+        <text x={frame.width} y={frame.height + 16} text-anchor="end">
           x [m]
         </text>
         <text x={-MARGIN.left + 2} y={9}>
@@ -47,9 +50,11 @@ function Marks({ frame }: { frame: Frame }) {
         return (
           <g key={value}>
             <path d={`M${x} ${height}v4`} />
-            <text x={x} y={height + 16} text-anchor="middle">
-              {signed(value)}
-            </text>
+            {x < width - NAMED && (
+              <text x={x} y={height + 16} text-anchor="middle">
+                {signed(value)}
+              </text>
+            )}
           </g>
         );
       })}
@@ -58,7 +63,7 @@ function Marks({ frame }: { frame: Frame }) {
         return (
           <g key={value}>
             <path d={`M0 ${y}h-4`} />
-            {y > 14 && (
+            {y > 16 && (
               <text x={-7} y={y + 4} text-anchor="end">
                 {signed(value)}
               </text>

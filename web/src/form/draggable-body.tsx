@@ -73,6 +73,7 @@ export function DraggableBody({ body, centre, outline, frame, moves, isSide }: D
     >
       <circle class="target" cx={x} cy={y} r={FINGER} />
       <polygon points={pointsOf(frame, outline)} />
+      <title>{`Body ${body.index}, ${body.solid.text}`}</title>
       {moves.isNumbered && <Number index={body.index} outline={outline} frame={frame} place={[x, y]} />}
     </g>
   );

@@ -19,7 +19,7 @@ export interface Frame {
 }
 
 /** Margins of a view, where the axes are [px]. */
-export const MARGIN = { left: 44, right: 12, top: 12, bottom: 38 };
+export const MARGIN = { left: 44, right: 12, top: 10, bottom: 22 };
 
 /** Largest heights of the drawings [px]. */
 const TALLEST = { side: 270, top: 180 };

@@ -7,6 +7,7 @@ const ESSENTIAL: Record<string, string[]> = {
   Scenario: ["channel", "flow", "bodies", "duration_s", "title"],
   Channel: ["inclination_deg", "incline_length_m", "runout_length_m", "width_m"],
   Flow: ["volume_m3", "release"],
+  Position: ["downstream_m", "lateral_m", "elevation_m"],
   Body: ["shape", "position", "yaw_deg", "fixed"],
 };
 

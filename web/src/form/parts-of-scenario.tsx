@@ -79,7 +79,7 @@ export function NullableField(props: FieldProps) {
 }
 
 /** Check box of an object that may be there or not; unchecked and checked again it is as before. */
-export function Presence({ pointer, schema, isRequired }: FieldProps) {
+export function Presence({ pointer, isRequired }: FieldProps) {
   const { document, edit } = useForm();
   const value = at(document, pointer);
   const before = useRef<Json>();
@@ -95,7 +95,6 @@ export function Presence({ pointer, schema, isRequired }: FieldProps) {
         />{" "}
         There is a {labelOf(tokens(pointer).at(-1) ?? "").toLowerCase()}
       </label>
-      <p class="help">{described(schema).help.replace(/;? ?null: no flow\.?/, "")}</p>
       <Former pointer={pointer} />
       <Violations pointer={pointer} />
     </div>

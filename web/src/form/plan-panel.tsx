@@ -3,7 +3,7 @@ import { duration, figure, size } from "../parts/format";
 import { ProblemNotice } from "../parts/problem-notice";
 import { useForm } from "./form-context";
 import type { PlanState } from "./use-plan";
-import { fieldName } from "./words";
+import { fieldName, sentence } from "./words";
 
 /** What the run would compute, leave out and take. */
 export function PlanPanel({ plan }: { plan: PlanState }) {
@@ -40,7 +40,7 @@ function PlanOf({ planned }: { planned: Planned }) {
       </p>
       {(plan.hints ?? []).map((hint) => (
         <p class="notice warning" key={hint.field + hint.detail}>
-          {hint.detail} <FieldLink pointer={hint.field} />
+          {sentence(hint.detail)} <FieldLink pointer={hint.field} />
         </p>
       ))}
       {taken.length > 0 && <Reductions title={`Saved work: ${taken.length} ${taken.length === 1 ? "reduction" : "reductions"}`} choices={taken} />}
@@ -78,7 +78,7 @@ function Reductions({ title, choices }: { title: string; choices: Schemas["Choic
       <ul class="reductions">
         {choices.map(({ what, why, error, taken, decided_by: pointer }) => (
           <li key={what}>
-            <strong>{what.charAt(0).toUpperCase() + what.slice(1)}</strong>: {why}. {taken && <span class="quiet">Error: {error}. </span>}
+            <strong>{sentence(what)}</strong> {sentence(why)} {taken && <span class="quiet">Error: {error}. </span>}
             {pointer != null && <FieldLink pointer={pointer} />}
           </li>
         ))}

@@ -92,16 +92,20 @@ export interface RegularSolid {
   inradius: number;
 }
 
+/** Solids whose edge along y is the downstream one of the face they lie on, as the solver lays them;
+ * that of the others is upstream. Which of them it is follows from the order of its hull's edges. */
+const DOWNSTREAM = new Set(["dodecahedron"]);
+
 const lying = new Map<string, RegularSolid>();
 
-/** Regular solid of this name that lies on a face, one edge of which, upstream, runs along y. */
+/** Regular solid of this name that lies on a face, one edge of which runs along y. */
 export function regularSolid(name: string): RegularSolid | undefined {
   const [standing, edge] = REGULAR[name] ?? [];
   if (!standing || !edge) return undefined;
   const known = lying.get(name);
   if (known) return known;
   const { normal, loop } = facesOf(standing)[0]!;
-  const along = unit(minus(loop[1]!, loop[0]!));
+  const along = times(DOWNSTREAM.has(name) ? -1 : 1, unit(minus(loop[1]!, loop[0]!)));
   const up = times(-1, normal);
   const downstream = cross(along, up);
   const vertices = standing.map((v) => times(1 / edge, [dot(downstream, v), dot(along, v), dot(up, v)]));

@@ -4,21 +4,29 @@ import type { BodyMoves } from "./draggable-body";
 import { useForm } from "./form-context";
 import { type Zoom, framesOf } from "./frame";
 import { snapped } from "./outline";
-import { type PlacedBody, type Scene, sceneText } from "./scene";
+import { type PlacedBody, type Scene, extentOf, sceneText } from "./scene";
 import type { Vec3 } from "./vectors";
 import { SideView, TopView } from "./views";
 
 /** Most bodies that have their numbers beside them. */
 const NUMBERED = 40;
 
+/** Size of bodies below which numbers of several would cover each other [px]. */
+const SMALLEST_NUMBERED = 18;
+
 /** Drawings of the scene at its start, from the side and from above. */
 export function SceneFigure() {
   const { scene } = useForm();
   const figure = useRef<HTMLElement>(null);
   const width = useWidth(figure);
+  // While a number is being typed the channel may be incomplete: the drawing stays.
+  const latest = useRef(scene);
+  if (scene) latest.current = scene;
+  const drawn = latest.current;
   return (
-    <figure class="scene" ref={figure}>
-      {scene ? width > 0 && <Views scene={scene} width={width} /> : <p class="notice">The drawing appears once the channel has an inclination, an incline length and a run-out length.</p>}
+    <figure class={scene ? "scene" : "scene outdated"} ref={figure}>
+      {!scene && <p class="notice">The channel can't be drawn as it is: it needs an inclination below 90°, an incline length and a run-out length.</p>}
+      {drawn && width > 0 && <Views scene={drawn} width={width} />}
     </figure>
   );
 }
@@ -33,7 +41,7 @@ function Views({ scene, width }: { scene: Scene; width: number }) {
   const frames = held.current ?? framesOf(scene, zoom, width);
   const moves: BodyMoves = {
     step: frames.step,
-    isNumbered: scene.bodies.length <= NUMBERED,
+    isNumbered: hasRoomForNumbers(scene, frames.side.scale),
     move: (body, to, isLifted, edit) => move(body, to, isLifted, edit, frames.step),
     hold: (isHeld) => (held.current = isHeld ? frames : undefined),
     pick: (index) => reveal(member("/bodies", index)),
@@ -57,6 +65,11 @@ function Views({ scene, width }: { scene: Scene; width: number }) {
       </p>
     </>
   );
+}
+
+function hasRoomForNumbers({ bodies }: Scene, scale: number): boolean {
+  if (bodies.length < 2) return true;
+  return bodies.length <= NUMBERED && scale * Math.max(...bodies.map(extentOf)) > SMALLEST_NUMBERED / 2;
 }
 
 function ZoomChoice({ zoom, setZoom, isOf }: { zoom: Zoom; setZoom: (zoom: Zoom) => void; isOf: boolean }) {

@@ -140,7 +140,8 @@ export function sceneText({ channel, release, bodies }: Scene): string {
   const flow = release
     ? `The release holds ${release.volume} m³: ${release.height} m thick and ${round(release.front - release.back)} m long, its front ${round(-release.front)} m before the foot.`
     : "There is no flow.";
+  const sizes = bodies.length > 0 && bodies.length <= 3 ? `: ${bodies.map(({ solid }) => solid.text).join("; ")}` : "";
   const fixed = bodies.filter(({ isFixed }) => isFixed).length;
   const count = bodies.length === 1 ? "1 body" : `${bodies.length} bodies`;
-  return `${slope} ${flow} ${count}${fixed > 0 ? `, ${fixed} of them fixed` : ""}.`;
+  return `${slope} ${flow} ${count}${fixed > 0 ? `, ${fixed} of them fixed` : ""}${sizes}.`;
 }

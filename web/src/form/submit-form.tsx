@@ -2,8 +2,9 @@ import { useRef, useState } from "preact/hooks";
 import { useLocation } from "wouter-preact";
 import { ServiceProblem } from "../api/problem";
 import { ProblemNotice } from "../parts/problem-notice";
+import { type Attempt, attemptFor, isPassing } from "./attempt";
 import { useForm } from "./form-context";
-import { type Attempt, attemptFor, isPassing, submit } from "./submission";
+import { submit } from "./submission";
 
 /** Characters of a label. */
 const LABEL = "[A-Za-z0-9._:=\\/\\-]{1,64}";

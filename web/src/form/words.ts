@@ -38,9 +38,15 @@ export interface Described {
 export function described(schema: Schema): Described {
   const [help = "", fallback] = (schema.description ?? "").split(/\s*\bDefault: /);
   const unit = unitOf(schema);
-  const text = help.replace(/\s+/g, " ").replaceAll("`", "");
+  const text = help.replace(/\s+/g, " ").replaceAll("`", "").replace("null:", "left empty:");
   const plain = unit === undefined ? text : text.replace(` [${unit}]`, "");
   return { help: plain, fallback: fallback?.replace(/\s+/g, " ").replaceAll("`", "").replace(/\.$/, "") };
+}
+
+/** Words of the service as a sentence. */
+export function sentence(text: string): string {
+  const whole = text.charAt(0).toUpperCase() + text.slice(1);
+  return /[.:]$/.test(whole) ? whole : `${whole}.`;
 }
 
 /** Range of a number in words: `0 to 89`, `above 0, at most 0.9`. */
