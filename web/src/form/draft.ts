@@ -8,6 +8,8 @@ export interface Draft {
   original: JsonObject;
   /** What the original is, as "the example". */
   from: string;
+  /** True if the original is of a file, and not what the address names. */
+  isOfFile: boolean;
 }
 
 const keyOf = (address: string) => `scree-draft ${address}`;

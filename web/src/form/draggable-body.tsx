@@ -60,7 +60,8 @@ export function DraggableBody({ body, centre, outline, frame, moves, isSide }: D
   return (
     <g
       class={body.isFixed ? "body fixed" : "body"}
-      tabIndex={0}
+      // An SVG attribute: its case matters.
+      tabindex={0}
       role="button"
       aria-label={`Body ${body.index}, ${body.solid.text}, x ${figure(body.centre[0])} m, ${isSide ? `z ${figure(body.centre[2])}` : `y ${figure(body.centre[1])}`} m`}
       aria-keyshortcuts="ArrowLeft ArrowRight ArrowUp ArrowDown PageUp PageDown"

@@ -1,4 +1,4 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { type JsonObject, isObject, same } from "./document";
 import { type Draft, keepDraft } from "./draft";
 import { FormContext } from "./form-context";
@@ -26,7 +26,8 @@ interface EditorProps {
 /** Fields or text of a scenario, its drawings, and its plan. */
 export function Editor({ address, begin, schemas, preset }: EditorProps) {
   const [history, setHistory] = useState(() => beginHistory(begin.document));
-  const [{ original, from }, setOrigin] = useState({ original: begin.original, from: begin.from });
+  const [origin, setOrigin] = useState<Omit<Draft, "document">>(begin);
+  const { original, from } = origin;
   const [isText, setIsText] = useState(false);
   const [broken, setBroken] = useState<string>();
   const [goTo, setGoTo] = useState<{ pointer: string }>();
@@ -44,13 +45,13 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
       return isText;
     },
   });
-  const forget = useDraft(address, { document, original, from });
+  const forget = useDraft(address, document, origin);
   const readFile = async (file: File) => {
     const text = await file.text();
     const { value } = readText(text);
     if (isObject(value)) {
       replace(value, "");
-      setOrigin({ original: value, from: file.name });
+      setOrigin({ original: value, from: file.name, isOfFile: true });
     }
     setBroken(isObject(value) ? undefined : text);
     setIsText((isText) => isText || !isObject(value));
@@ -93,12 +94,13 @@ function obstacleOf(violations: number, isBroken: boolean): string | undefined {
 }
 
 /** Keeps the draft while it is changed; returns the means to forget it. */
-function useDraft(address: string, draft: Draft): () => void {
+function useDraft(address: string, document: JsonObject, { original, from, isOfFile }: Omit<Draft, "document">): () => void {
   const isForgotten = useRef(false);
-  const { document, original, from } = draft;
-  useEffect(() => {
-    if (!isForgotten.current) keepDraft(address, same(document, original) && from !== "" && !from.endsWith(".json") ? undefined : draft);
-  }, [address, document, original, from]);
+  // Before the page can be left.
+  useLayoutEffect(() => {
+    const isNew = isOfFile || !same(document, original);
+    if (!isForgotten.current) keepDraft(address, isNew ? { document, original, from, isOfFile } : undefined);
+  }, [address, document, original]);
   return () => {
     isForgotten.current = true;
     keepDraft(address, undefined);

@@ -11,6 +11,8 @@ import type { Schemas } from "./schema";
 export interface FormState {
   schemas: Schemas;
   document: JsonObject;
+  /** What the form began with. */
+  original: JsonObject;
   scene: Scene | undefined;
   violations: FieldError[];
   differences: Difference[];

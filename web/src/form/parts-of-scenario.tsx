@@ -80,9 +80,9 @@ export function NullableField(props: FieldProps) {
 
 /** Check box of an object that may be there or not; unchecked and checked again it is as before. */
 export function Presence({ pointer, isRequired }: FieldProps) {
-  const { document, edit } = useForm();
+  const { document, original, edit } = useForm();
   const value = at(document, pointer);
-  const before = useRef<Json>();
+  const before = useRef<Json | undefined>(at(original, pointer));
   if (isObject(value)) before.current = value;
   return (
     <div class="presence">
@@ -91,7 +91,7 @@ export function Presence({ pointer, isRequired }: FieldProps) {
           id={elementId(pointer)}
           type="checkbox"
           checked={isObject(value)}
-          onChange={({ currentTarget: { checked } }) => edit(pointer, checked ? (before.current ?? {}) : isRequired ? null : undefined)}
+          onChange={({ currentTarget: { checked } }) => edit(pointer, checked ? (isObject(before.current) ? before.current : {}) : isRequired ? null : undefined)}
         />{" "}
         There is a {labelOf(tokens(pointer).at(-1) ?? "").toLowerCase()}
       </label>
@@ -156,6 +156,8 @@ export function ListField({ pointer, schema }: FieldProps) {
   const add = (copied?: number) => {
     edit(pointer, withItem(list, copied, items.name ?? "", scene));
     setOpen(member(pointer, copied === undefined ? list.length : copied + 1), true);
+    // What is open of a short list stays open when it is no longer short.
+    if (list.length <= FEW) for (let index = 0; index < list.length; index += 1) setOpen(member(pointer, index), true);
   };
   return (
     <div class="list wide" id={elementId(pointer)} tabIndex={-1}>
@@ -163,7 +165,7 @@ export function ListField({ pointer, schema }: FieldProps) {
       {list.length === 0 && <p class="quiet">There are none yet.</p>}
       <div class={list.length > LONG ? "items long" : "items"}>
         {list.map((item, index) => (
-          <Item key={index} pointer={member(pointer, index)} title={`${name} ${index}`} item={item} schema={items} isOpenAtFirst={list.length <= 2} isFull={isFull} onCopy={() => add(index)} onRemove={() => edit(pointer, withoutItem(list, index))} />
+          <Item key={index} pointer={member(pointer, index)} title={`${name} ${index}`} item={item} schema={items} isOpenAtFirst={list.length <= FEW} isFull={isFull} onCopy={() => add(index)} onRemove={() => edit(pointer, withoutItem(list, index))} />
         ))}
       </div>
       <div class="actions">
@@ -177,6 +179,9 @@ export function ListField({ pointer, schema }: FieldProps) {
     </div>
   );
 }
+
+/** Number of items that are open at first. */
+const FEW = 2;
 
 /** Number of items above which a list scrolls by itself. */
 const LONG = 12;

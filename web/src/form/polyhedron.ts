@@ -93,7 +93,7 @@ export interface RegularSolid {
 }
 
 /** Solids whose edge along y is the downstream one of the face they lie on, as the solver lays them;
- * that of the others is upstream. Which of them it is follows from the order of its hull's edges. */
+ * that of the others is upstream. Tests hold this against the service. */
 const DOWNSTREAM = new Set(["dodecahedron"]);
 
 const lying = new Map<string, RegularSolid>();

@@ -33,6 +33,7 @@ export function useFormState({ schemas, document, original, violations, replace,
   return {
     schemas,
     document,
+    original,
     scene,
     violations,
     differences: differing,

@@ -9,7 +9,7 @@ import { type Schemas, resolved, withoutDefaults } from "./schema";
 export function useSource(search: string, schemas: Schemas | undefined): Answer<{ search: string; draft: Draft }> {
   return useAnswer(async () => {
     // Without schemas there is no form yet, and the answer is asked for again.
-    if (!schemas) return { search: "\n", draft: { document: {}, original: {}, from: "" } };
+    if (!schemas) return { search: "\n", draft: { document: {}, original: {}, from: "", isOfFile: false } };
     return { search, draft: readDraft(search) ?? (await sourceOf(new URLSearchParams(search), schemas)) };
   }, [search, schemas]);
 }
@@ -23,7 +23,7 @@ async function sourceOf(query: URLSearchParams, schemas: Schemas): Promise<Draft
   return { ...whole(preset.scenario), from: "the example" };
 }
 
-const whole = (document: JsonObject) => ({ document, original: document });
+const whole = (document: JsonObject) => ({ document, original: document, isOfFile: false });
 
 /** Scenario of a job without the defaults that the service has filled in. */
 async function scenarioOf(id: string, schemas: Schemas): Promise<JsonObject> {
