@@ -10,7 +10,9 @@ const pages = { "/": "index.html", "/docs": "docs.html" };
 
 /** Policy of the page, asked of the service, so that what works here works there. */
 const policy = await new Promise((resolve, reject) => {
-  request(service, (answer) => resolve(answer.headers["content-security-policy"])).on("error", reject).end();
+  request(service, (answer) => resolve(answer.headers["content-security-policy"]))
+    .on("error", reject)
+    .end();
 });
 
 const server = createServer(async (asked, answer) => {

@@ -56,7 +56,19 @@ test("what is wrong with a text is told by line and column", () => {
 });
 
 test("written text reads as the same value, lists of numbers in one line", () => {
-  const value = { a: [1, 2, 3], b: { c: [], d: {} }, e: [{ f: [[1, 2], [3, 4]] }], g: "\"" };
+  const value = {
+    a: [1, 2, 3],
+    b: { c: [], d: {} },
+    e: [
+      {
+        f: [
+          [1, 2],
+          [3, 4],
+        ],
+      },
+    ],
+    g: '"',
+  };
   expect(readText(written(value)).value).toEqual(value);
   expect(written(value)).toContain('"a": [1, 2, 3]');
 });
@@ -82,7 +94,16 @@ test("steps and marks are round numbers", () => {
 });
 
 test("an outline is swept by the disc", () => {
-  const xs = outlineOf([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]], 0.25).map(([x]) => x);
+  const xs = outlineOf(
+    [
+      [0, 0],
+      [1, 0],
+      [1, 1],
+      [0, 1],
+      [0.5, 0.5],
+    ],
+    0.25,
+  ).map(([x]) => x);
   expect([Math.min(...xs), Math.max(...xs)]).toEqual([-0.25, 1.25]);
 });
 

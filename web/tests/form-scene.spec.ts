@@ -28,15 +28,28 @@ const SHAPES: [string, JsonObject][] = [
 function bodies(inclination: number, position: JsonObject): JsonObject {
   const turns: JsonObject[] = [{}, { yaw_deg: 25 }, { orientation: [0.9, 0.3, 0.1, Math.sqrt(1 - 0.81 - 0.1)] }];
   const list = SHAPES.flatMap(([, shape]) => turns.map((turn) => ({ shape, position, ...turn })));
-  return { channel: { inclination_deg: inclination, incline_length_m: 2, runout_length_m: 2, width_m: 4 }, flow: null, bodies: list };
+  return {
+    channel: { inclination_deg: inclination, incline_length_m: 2, runout_length_m: 2, width_m: 4 },
+    flow: null,
+    bodies: list,
+  };
 }
 
 /** Bounds that the service gives for a field of each body. */
 async function boundsOf(service: Service, document: JsonObject, key: string): Promise<Map<number, number[]>> {
-  const answer = await fetch(`${service.url}/v1/plans`, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(document) });
+  const answer = await fetch(`${service.url}/v1/plans`, {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(document),
+  });
   const { errors } = (await answer.json()) as { errors: { pointer: string; allowed: string }[] };
   const own = errors.filter(({ pointer }) => pointer.endsWith(`/position/${key}`));
-  return new Map(own.map(({ pointer, allowed }) => [Number(pointer.split("/")[2]), (allowed.match(/-?\d+(\.\d+)?/g) ?? []).map(Number)]));
+  return new Map(
+    own.map(({ pointer, allowed }) => [
+      Number(pointer.split("/")[2]),
+      (allowed.match(/-?\d+(\.\d+)?/g) ?? []).map(Number),
+    ]),
+  );
 }
 
 function reachOf(scene: Scene, index: number, axis: 0 | 1): [number, number] {
@@ -47,7 +60,10 @@ function reachOf(scene: Scene, index: number, axis: 0 | 1): [number, number] {
 
 test("bodies reach as far downstream and across as the service says", async ({ service }) => {
   const schemas = await schemasOf(service);
-  for (const [key, axis] of [["downstream_m", 0], ["lateral_m", 1]] as const) {
+  for (const [key, axis] of [
+    ["downstream_m", 0],
+    ["lateral_m", 1],
+  ] as const) {
     const document = bodies(0, { [key]: 99 });
     const scene = sceneOf(document, schemas)!;
     const bounds = await boundsOf(service, document, key);
@@ -88,12 +104,23 @@ test("a body on the incline is turned with it, and touches it", async ({ service
 
 test("a polyhedron is drawn about its centre of mass", async ({ service }) => {
   const schemas = await schemasOf(service);
-  const vertices_m = [[5, 5, 5], [5.04, 5, 5], [5, 5.04, 5], [5, 5, 5.04]];
-  const document: JsonObject = { ...(await scenario("minimal") as JsonObject), bodies: [{ shape: { polyhedron: { vertices_m } } }] };
+  const vertices_m = [
+    [5, 5, 5],
+    [5.04, 5, 5],
+    [5, 5.04, 5],
+    [5, 5, 5.04],
+  ];
+  const document: JsonObject = {
+    ...((await scenario("minimal")) as JsonObject),
+    bodies: [{ shape: { polyhedron: { vertices_m } } }],
+  };
   const [body] = sceneOf(document, schemas)!.bodies;
   expect(body?.centre[0]).toBeCloseTo(0.04 * Math.SQRT2, 9);
   expect(body?.centre[2]).toBeCloseTo(0.01, 9);
-  const flat: JsonObject = { ...document, bodies: [{ shape: { polyhedron: { vertices_m: vertices_m.map(([x = 0, y = 0]) => [x, y, 0]) } } }] };
+  const flat: JsonObject = {
+    ...document,
+    bodies: [{ shape: { polyhedron: { vertices_m: vertices_m.map(([x = 0, y = 0]) => [x, y, 0]) } } }],
+  };
   expect(sceneOf(flat, schemas)?.missing).toEqual([0]);
 });
 
@@ -110,9 +137,19 @@ test("the release has the volume and the thickness of the scenario", async ({ se
 test("an incomplete scenario has no scene, and odd values break nothing", async ({ service }) => {
   const schemas = await schemasOf(service);
   const minimal = (await scenario("minimal")) as JsonObject;
-  const odd: [string, Json][] = [["/channel/inclination_deg", "4x"], ["/channel", 5], ["/channel/width_m", -1], ["/channel/inclination_deg", 95]];
-  for (const [pointer, value] of odd) expect(sceneOf(editedDocument(minimal, pointer, value, schemas), schemas)).toBeUndefined();
-  for (const value of [5, "x", [null, 3, "x", { shape: 5 }, { shape: { cube: null } }, { shape: { moon: {} } }]] as Json[]) {
+  const odd: [string, Json][] = [
+    ["/channel/inclination_deg", "4x"],
+    ["/channel", 5],
+    ["/channel/width_m", -1],
+    ["/channel/inclination_deg", 95],
+  ];
+  for (const [pointer, value] of odd)
+    expect(sceneOf(editedDocument(minimal, pointer, value, schemas), schemas)).toBeUndefined();
+  for (const value of [
+    5,
+    "x",
+    [null, 3, "x", { shape: 5 }, { shape: { cube: null } }, { shape: { moon: {} } }],
+  ] as Json[]) {
     expect(sceneOf({ ...minimal, bodies: value }, schemas)?.bodies).toEqual([]);
   }
   expect(sceneOf({ ...minimal, flow: null }, schemas)?.release).toBeUndefined();
@@ -131,7 +168,9 @@ test("a job's scenario without its defaults is what was submitted, but for compu
 
 test("emptied objects go unless they must be there", async ({ service }) => {
   const schemas = await schemasOf(service);
-  expect(editedDocument(QUICK as JsonObject, "/numerics/cell_size_m", undefined, schemas)).not.toHaveProperty("numerics");
+  expect(editedDocument(QUICK as JsonObject, "/numerics/cell_size_m", undefined, schemas)).not.toHaveProperty(
+    "numerics",
+  );
   const shapeless = editedDocument(QUICK as JsonObject, "/bodies/0/shape/cube/side_m", undefined, schemas);
   expect(shapeless["bodies"]).toEqual([{ shape: { cube: {} } }]);
 });
@@ -142,7 +181,10 @@ test("a target chooses the cells, and is taken away without a trace", async ({ s
   expect(asked).not.toHaveProperty("numerics");
   expect(asked["accuracy"]).toEqual({ target: 0.05, quantity: "displacement_m" });
   expect(asking(asked, "off", schemas)).not.toHaveProperty("accuracy");
-  expect(asking({ ...QUICK, bodies: [] } as JsonObject, 0.05, schemas)["accuracy"]).toEqual({ target: 0.05, quantity: "runout_m" });
+  expect(asking({ ...QUICK, bodies: [] } as JsonObject, 0.05, schemas)["accuracy"]).toEqual({
+    target: 0.05,
+    quantity: "runout_m",
+  });
 });
 
 test("a further body stands clear of the others", async ({ service }) => {
@@ -150,7 +192,10 @@ test("a further body stands clear of the others", async ({ service }) => {
   let document = (await scenario("minimal")) as JsonObject;
   for (let round = 0; round < 4; round += 1) {
     const list = document["bodies"] as Json[];
-    document = { ...document, bodies: withItem(list, round % 2 === 0 ? 0 : undefined, "Body", sceneOf(document, schemas)) };
+    document = {
+      ...document,
+      bodies: withItem(list, round % 2 === 0 ? 0 : undefined, "Body", sceneOf(document, schemas)),
+    };
   }
   await service.post("/v1/plans", document);
 });
@@ -173,9 +218,26 @@ test("labels, ranges and defaults come from the schema", async ({ service }) => 
 test("every field of the contract has a kind", async ({ service }) => {
   const schemas = await schemasOf(service);
   const kinds = (name: string) =>
-    Object.fromEntries(Object.entries(schemas[name]?.properties ?? {}).map(([key, schema]) => [key, kindOf(resolved(schema, schemas), schemas)]));
-  expect(kinds("Scenario")).toMatchObject({ channel: "object", flow: "object", bodies: "list", duration_s: "number", title: "text" });
-  expect(kinds("Body")).toMatchObject({ shape: "variants", motion: "variants", velocity_m_s: "vector", orientation: "vector", fixed: "flag" });
+    Object.fromEntries(
+      Object.entries(schemas[name]?.properties ?? {}).map(([key, schema]) => [
+        key,
+        kindOf(resolved(schema, schemas), schemas),
+      ]),
+    );
+  expect(kinds("Scenario")).toMatchObject({
+    channel: "object",
+    flow: "object",
+    bodies: "list",
+    duration_s: "number",
+    title: "text",
+  });
+  expect(kinds("Body")).toMatchObject({
+    shape: "variants",
+    motion: "variants",
+    velocity_m_s: "vector",
+    orientation: "vector",
+    fixed: "flag",
+  });
   expect(kinds("Numerics")).toMatchObject({ precision: "names", threads: "number" });
   expect(kinds("Polyhedron")).toEqual({ vertices_m: "json" });
 });

@@ -18,7 +18,9 @@ const plan = (page: Page) => page.getByRole("region", { name: /What the run will
 
 /** Sets a file as if it were chosen. */
 async function choose(page: Page, name: string, text: string): Promise<void> {
-  await page.getByLabel("Scenario file").setInputFiles({ name, mimeType: "application/json", buffer: Buffer.from(text) });
+  await page
+    .getByLabel("Scenario file")
+    .setInputFiles({ name, mimeType: "application/json", buffer: Buffer.from(text) });
 }
 
 test("a first visit begins with an example, and one click runs it", async ({ page, service }) => {
@@ -36,7 +38,10 @@ test("a first visit begins with an example, and one click runs it", async ({ pag
   expect(request.headers()["idempotency-key"]).toMatch(/^[\da-f]{32}$/);
   await expect(page).toHaveURL(/#\/jobs\/[\da-f-]{36}$/);
   const id = page.url().split("/").at(-1);
-  expect(await service.get(`/v1/jobs/${id}`)).toMatchObject({ labels: ["first-visit"], scenario: { duration_s: 0.01 } });
+  expect(await service.get(`/v1/jobs/${id}`)).toMatchObject({
+    labels: ["first-visit"],
+    scenario: { duration_s: 0.01 },
+  });
   await page.goto("/#/new");
   await expect(page.getByLabel("Duration")).toHaveValue("");
 });
@@ -61,7 +66,10 @@ test("all examples can be planned", async ({ page }) => {
   test.setTimeout(180_000);
   await page.goto("/#/new");
   await expect(page.getByLabel("Begin with")).toBeVisible();
-  const names = await page.getByLabel("Begin with").locator("option").evaluateAll((options) => options.map((option) => (option as HTMLOptionElement).value));
+  const names = await page
+    .getByLabel("Begin with")
+    .locator("option")
+    .evaluateAll((options) => options.map((option) => (option as HTMLOptionElement).value));
   expect(names.length).toBe(12);
   for (const name of names) {
     await page.goto(`/#/new?preset=${name}`);
@@ -122,7 +130,15 @@ test("changes are undone, redone, and survive a reload", async ({ page }) => {
 
 test("violations are at their fields, and links lead to folded ones", async ({ page }) => {
   await page.goto("/#/new");
-  await choose(page, "bad.json", JSON.stringify({ ...QUICK, channel: { ...QUICK.channel, inclination_deg: 95, depth: 1 }, numerics: { courant: 2 } }));
+  await choose(
+    page,
+    "bad.json",
+    JSON.stringify({
+      ...QUICK,
+      channel: { ...QUICK.channel, inclination_deg: 95, depth: 1 },
+      numerics: { courant: 2 },
+    }),
+  );
   const inclination = page.getByLabel("Inclination");
   await expect(inclination).toHaveAttribute("aria-invalid", "true");
   await expect(inclination).toHaveAccessibleDescription(/inclination_deg is 95, outside/);
@@ -140,7 +156,9 @@ test("violations are at their fields, and links lead to folded ones", async ({ p
   await page.getByRole("button", { name: "Numerics › Courant" }).click();
   const text = page.getByLabel("The scenario as JSON");
   await expect(text).toBeFocused();
-  expect(await text.evaluate((area: HTMLTextAreaElement) => area.value.slice(area.selectionStart, area.selectionEnd))).toBe("2");
+  expect(
+    await text.evaluate((area: HTMLTextAreaElement) => area.value.slice(area.selectionStart, area.selectionEnd)),
+  ).toBe("2");
 });
 
 test("a scenario that breaks rules is refused with them", async ({ page }) => {
@@ -266,7 +284,11 @@ test("a scenario without a flow and one without bodies are shown", async ({ page
   await expect(page.getByLabel("Volume")).toHaveValue("0.01");
   await page.getByRole("button", { name: "Remove Body 0" }).click();
   await expect(page.locator("figcaption")).toContainText("0 bodies");
-  await expect(plan(page).getByText(/material points/).first()).toBeVisible();
+  await expect(
+    plan(page)
+      .getByText(/material points/)
+      .first(),
+  ).toBeVisible();
 });
 
 test("hundreds of bodies stay quick", async ({ page }) => {
@@ -307,10 +329,27 @@ test("a field that a later version adds appears by itself", async ({ page }) => 
   await page.route("**/openapi.json", async (route) => {
     const contract = await (await route.fetch()).json();
     const { Channel, Body, Shape, Scenario } = contract.components.schemas;
-    Channel.properties.roughness_m = { type: "number", description: "Roughness of the bed [m].", default: 0.01, minimum: 0, maximum: 1, "x-unit": "m" };
+    Channel.properties.roughness_m = {
+      type: "number",
+      description: "Roughness of the bed [m].",
+      default: 0.01,
+      minimum: 0,
+      maximum: 1,
+      "x-unit": "m",
+    };
     Body.properties.paint = { type: "string", enum: ["red", "green"], description: "Its paint." };
-    Shape.oneOf.push({ type: "object", required: ["cone"], properties: { cone: { type: "object", required: ["height_m"], properties: { height_m: { type: "number", "x-unit": "m" } } } } });
-    Scenario.properties.weather = { type: "object", properties: { rain_m_s: { type: "number", "x-unit": "m/s" } }, description: "Weather." };
+    Shape.oneOf.push({
+      type: "object",
+      required: ["cone"],
+      properties: {
+        cone: { type: "object", required: ["height_m"], properties: { height_m: { type: "number", "x-unit": "m" } } },
+      },
+    });
+    Scenario.properties.weather = {
+      type: "object",
+      properties: { rain_m_s: { type: "number", "x-unit": "m/s" } },
+      description: "Weather.",
+    };
     await route.fulfill({ json: contract });
   });
   await page.goto("/#/new");
@@ -342,12 +381,20 @@ test("one plan is asked for at a time, and a busy service is asked again", async
     most = Math.max(most, running);
     if (asked === 1) {
       running -= 1;
-      return route.fulfill({ status: 429, headers: { "Retry-After": "1" }, contentType: "application/problem+json", body: '{"title":"Busy","status":429,"detail":"too many"}' });
+      return route.fulfill({
+        status: 429,
+        headers: { "Retry-After": "1" },
+        contentType: "application/problem+json",
+        body: '{"title":"Busy","status":429,"detail":"too many"}',
+      });
     }
     const answer = await route.fetch().catch(() => undefined);
     await new Promise((resolve) => setTimeout(resolve, 800));
     if (!answer) return;
-    await route.fulfill({ response: answer }).then(() => (running -= 1), () => undefined);
+    await route.fulfill({ response: answer }).then(
+      () => (running -= 1),
+      () => undefined,
+    );
   });
   await page.goto("/#/new");
   await expect(page.getByText("asked again in 1 s")).toBeVisible();
@@ -371,7 +418,9 @@ test("a submission that got no answer is repeated under the same name", async ({
     keys.push(route.request().headers()["idempotency-key"]);
     const answer = await route.fetch();
     // The first answer is lost on its way.
-    return keys.length === 1 ? route.fulfill({ status: 503, headers: { "Retry-After": "2" }, body: "" }) : route.fulfill({ response: answer });
+    return keys.length === 1
+      ? route.fulfill({ status: 503, headers: { "Retry-After": "2" }, body: "" })
+      : route.fulfill({ response: answer });
   });
   await page.getByRole("button", { name: "Run it" }).click();
   await expect(page.getByText("Try again in 2 s.")).toBeVisible();
@@ -409,7 +458,10 @@ test("nothing scrolls sideways at 360 px", async ({ page }) => {
   for (const more of await page.getByText(/^More: /).all()) await more.click();
   for (const more of await plan(page).locator("summary").all()) await more.click();
   await expectNoSidewaysScroll(page);
-  const [figure, inclination] = [(await page.locator("figure").boundingBox())!, (await page.getByLabel("Inclination").boundingBox())!];
+  const [figure, inclination] = [
+    (await page.locator("figure").boundingBox())!,
+    (await page.getByLabel("Inclination").boundingBox())!,
+  ];
   expect(figure.y).toBeLessThan(inclination.y);
   await page.getByRole("button", { name: "JSON", exact: true }).click();
   await expectNoSidewaysScroll(page);

@@ -14,9 +14,13 @@ test("the first view is small and soon there", async ({ page }) => {
   client.on("Network.loadingFinished", (finished) => (bytes += finished.encodedDataLength));
   await page.goto("/");
   await expect(page.getByText("There are no jobs yet.")).toBeVisible();
-  const painted = await page.waitForFunction(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime);
+  const painted = await page.waitForFunction(
+    () => performance.getEntriesByName("first-contentful-paint")[0]?.startTime,
+  );
   const shown = (await painted.jsonValue()) ?? NaN;
-  const listed = await page.evaluate(() => Math.max(...performance.getEntriesByType("resource").map((one) => (one as PerformanceResourceTiming).responseEnd)));
+  const listed = await page.evaluate(() =>
+    Math.max(...performance.getEntriesByType("resource").map((one) => (one as PerformanceResourceTiming).responseEnd)),
+  );
   console.log(`first view: ${shown.toFixed(0)} ms, last answer after ${listed.toFixed(0)} ms, ${bytes} bytes`);
   expect(bytes).toBeGreaterThan(1_000);
   expect(bytes).toBeLessThan(LARGEST_BYTES);
@@ -29,7 +33,11 @@ test("all views are reached by the keyboard", async ({ page }) => {
   await expect(page.getByText("Skip to the content")).toBeFocused();
   await page.keyboard.press("Enter");
   await expect(page.locator("#main")).toBeFocused();
-  for (const [link, address] of [["New scenario", "#/new"], ["Studies", "#/studies"], ["Jobs", "#/"]] as const) {
+  for (const [link, address] of [
+    ["New scenario", "#/new"],
+    ["Studies", "#/studies"],
+    ["Jobs", "#/"],
+  ] as const) {
     await page.getByRole("navigation").getByRole("link", { name: link }).press("Enter");
     await expect(page).toHaveURL(new RegExp(`${address}$`));
     await expect(page.locator("#main")).toBeFocused();
@@ -63,7 +71,11 @@ test("a service with tokens is used with one, which is kept in the tab alone", a
     await expect(page.getByText("There are no jobs yet.")).toBeVisible();
     await page.reload();
     await expect(page.getByText("There are no jobs yet.")).toBeVisible();
-    expect(await page.evaluate(() => [sessionStorage.length > 0, localStorage.length, document.cookie])).toEqual([true, 0, ""]);
+    expect(await page.evaluate(() => [sessionStorage.length > 0, localStorage.length, document.cookie])).toEqual([
+      true,
+      0,
+      "",
+    ]);
     const other = await context.newPage();
     await other.goto("/");
     await expect(other.getByRole("dialog")).toBeVisible();

@@ -24,7 +24,10 @@ test.setTimeout(600_000);
 test("pictures of every view", async ({ page, service }) => {
   for (const view of await views(service)) {
     for (const colorScheme of ["light", "dark"] as const) {
-      for (const [width, viewport] of [["wide", WIDE], ["narrow", NARROW]] as const) {
+      for (const [width, viewport] of [
+        ["wide", WIDE],
+        ["narrow", NARROW],
+      ] as const) {
         await page.emulateMedia({ colorScheme });
         await page.setViewportSize(viewport);
         await page.goto("about:blank");

@@ -120,7 +120,8 @@ export const test = base.extend<{ quiet: void }, { service: Service }>({
       page.on("pageerror", (error) => errors.push(String(error)));
       page.on("console", (message) => {
         // An answer that is no success is shown by the page itself.
-        if (message.type() === "error" && !message.text().startsWith("Failed to load resource")) errors.push(message.text());
+        if (message.type() === "error" && !message.text().startsWith("Failed to load resource"))
+          errors.push(message.text());
       });
       page.on("request", (request) => {
         if (!/^(http:\/\/127\.0\.0\.1|data:|blob:)/.test(request.url())) errors.push(`asked ${request.url()}`);

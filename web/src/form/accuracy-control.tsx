@@ -26,7 +26,9 @@ export function AccuracyControl() {
         aria-valuetext={nameOfAsked(asked)}
         aria-invalid={violationsWithin(violations, "/accuracy").length > 0}
         aria-describedby={`help:${pointer} wrong:${pointer}`}
-        onInput={({ currentTarget }) => replace(asking(document, STOPS[Number(currentTarget.value)] ?? "off", schemas), pointer)}
+        onInput={({ currentTarget }) =>
+          replace(asking(document, STOPS[Number(currentTarget.value)] ?? "off", schemas), pointer)
+        }
       />
       <div class="ends" aria-hidden="true">
         <span>off</span>
@@ -59,7 +61,8 @@ function nameOfAsked(asked: Asked): string {
 function costOf(asked: Asked): string {
   if (asked === "off") return "One run. The answer says nothing about its error.";
   const shown = "The plan shows what they take.";
-  if (asked === "error_bars") return `Coarser runs before that of the answer give each quantity an uncertainty interval. ${shown}`;
+  if (asked === "error_bars")
+    return `Coarser runs before that of the answer give each quantity an uncertainty interval. ${shown}`;
   return `Runs with ever smaller cells until the interval is that narrow, or the budget is spent; cells half as large take about ten times as long. The target chooses the cell size. ${shown}`;
 }
 
@@ -95,7 +98,9 @@ function Quantity() {
           id={elementId("/accuracy/body")}
           value={String(body ?? 0)}
           aria-describedby="wrong:/accuracy/body"
-          onChange={({ currentTarget }) => edit("/accuracy/body", currentTarget.value === "0" ? undefined : Number(currentTarget.value))}
+          onChange={({ currentTarget }) =>
+            edit("/accuracy/body", currentTarget.value === "0" ? undefined : Number(currentTarget.value))
+          }
         >
           {Array.from({ length: Math.max(1, count, typeof body === "number" ? body + 1 : 0) }, (_, index) => (
             <option key={index} value={String(index)}>

@@ -24,5 +24,7 @@ export function attemptFor(scenario: unknown, label: string, before: Attempt | u
 
 /** True if the same request may still be answered otherwise, so that its key is kept. */
 export function isPassing(problem: unknown): boolean {
-  return !(problem instanceof ServiceProblem) || [0, 401, 408, 409, 429].includes(problem.status) || problem.status >= 500;
+  return (
+    !(problem instanceof ServiceProblem) || [0, 401, 408, 409, 429].includes(problem.status) || problem.status >= 500
+  );
 }

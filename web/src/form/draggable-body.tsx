@@ -44,7 +44,11 @@ export function DraggableBody({ body, centre, outline, frame, moves, isSide }: D
     if (event.button !== 0) return;
     event.currentTarget.setPointerCapture(event.pointerId);
     moves.hold(true);
-    drag.current = { from: [event.clientX, event.clientY], centre: body.centre, name: `drag ${body.index} ${event.timeStamp}` };
+    drag.current = {
+      from: [event.clientX, event.clientY],
+      centre: body.centre,
+      name: `drag ${body.index} ${event.timeStamp}`,
+    };
   };
   const follow = (event: PointerEvent) => {
     if (!drag.current) return;
@@ -86,7 +90,13 @@ function Number({ index, outline, frame, place }: { index: number; outline: Plac
   const highest = Math.min(...tops);
   const hasRoom = Math.max(...tops) - highest > 18;
   return (
-    <text class={hasRoom ? "number inside" : "number"} x={place[0]} y={hasRoom ? place[1] + 4 : highest - 3} text-anchor="middle" aria-hidden="true">
+    <text
+      class={hasRoom ? "number inside" : "number"}
+      x={place[0]}
+      y={hasRoom ? place[1] + 4 : highest - 3}
+      text-anchor="middle"
+      aria-hidden="true"
+    >
       {index}
     </text>
   );
@@ -106,7 +116,12 @@ function onKey(event: KeyboardEvent, body: PlacedBody, moves: BodyMoves, isSide:
   const step = moves.step * (event.shiftKey ? 10 : 1);
   const upwards = isSide || isLift;
   if (upwards && dv !== 0 && !isLift && !body.isElevated) return;
-  moves.move(body, shifted(body.centre, dx * step, dv * step, upwards), upwards && (isLift || body.isElevated), `key ${body.index}`);
+  moves.move(
+    body,
+    shifted(body.centre, dx * step, dv * step, upwards),
+    upwards && (isLift || body.isElevated),
+    `key ${body.index}`,
+  );
 }
 
 /** Moves by key: downstream, up or across, and whether it lifts. */

@@ -8,7 +8,12 @@ import { solidOf } from "./solid";
 
 /** The document with this value; a field that is taken away takes objects with it that it leaves
  * empty, as long as leaving them out means the same. */
-export function editedDocument(document: JsonObject, pointer: string, value: Json | undefined, schemas: Schemas): JsonObject {
+export function editedDocument(
+  document: JsonObject,
+  pointer: string,
+  value: Json | undefined,
+  schemas: Schemas,
+): JsonObject {
   let next = changed(document, pointer, value);
   if (value !== undefined) return next;
   for (let here = parentOf(pointer); here !== "" && isSpare(next, here, schemas); here = parentOf(here)) {
@@ -34,7 +39,14 @@ export function shapeOf(name: string, before: Json | undefined): JsonObject {
     cube: { side_m: size },
     box: { sides_m: [size, size, size] },
     regular: { solid: "dodecahedron", size_m: round(size / 2.8) },
-    polyhedron: { vertices_m: [[-half, -half, 0], [half, -half, 0], [0, half, 0], [0, 0, size]] },
+    polyhedron: {
+      vertices_m: [
+        [-half, -half, 0],
+        [half, -half, 0],
+        [0, half, 0],
+        [0, 0, size],
+      ],
+    },
     ball: { radius_m: half },
     capsule: { radius_m: size / 4, length_m: size },
   };

@@ -33,7 +33,8 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
   const [goTo, setGoTo] = useState<{ pointer: string }>();
   const document = history.present;
   const plan = usePlan(document);
-  const replace = (document: JsonObject, edit: string) => setHistory((history) => edited(history, document, edit, Date.now()));
+  const replace = (document: JsonObject, edit: string) =>
+    setHistory((history) => edited(history, document, edit, Date.now()));
   const state = useFormState({
     schemas,
     document,
@@ -61,7 +62,10 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
   return (
     <FormContext.Provider value={state}>
       <div class={dropping.isOver ? "scenario-form dropping" : "scenario-form"} {...dropping.handlers}>
-        <p class="lead">Describe a channel, a flow that is released in it, and the bodies in its way. The drawing and the expected time follow what you enter; then run it.</p>
+        <p class="lead">
+          Describe a channel, a flow that is released in it, and the bodies in its way. The drawing and the expected
+          time follow what you enter; then run it.
+        </p>
         <Toolbar
           preset={preset}
           isText={isText}
@@ -74,12 +78,26 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
         <div class="edit">
           <ViolationList />
           <DifferenceList from={from} />
-          {isText ? <JsonEditor key={broken === undefined ? "" : "file"} document={document} onDocument={(next) => replace(next, "text")} broken={broken} onBroken={setBroken} goTo={goTo} /> : <Sections />}
+          {isText ? (
+            <JsonEditor
+              key={broken === undefined ? "" : "file"}
+              document={document}
+              onDocument={(next) => replace(next, "text")}
+              broken={broken}
+              onBroken={setBroken}
+              goTo={goTo}
+            />
+          ) : (
+            <Sections />
+          )}
         </div>
         <div class="beside">
           <SceneFigure />
           <div class="card outlook">
-            <SubmitForm obstacle={obstacleOf(plan.violations.length, isText && broken !== undefined)} onSubmitted={forget} />
+            <SubmitForm
+              obstacle={obstacleOf(plan.violations.length, isText && broken !== undefined)}
+              onSubmitted={forget}
+            />
             <PlanPanel plan={plan} />
           </div>
         </div>
@@ -94,7 +112,11 @@ function obstacleOf(violations: number, isBroken: boolean): string | undefined {
 }
 
 /** Keeps the draft while it is changed; returns the means to forget it. */
-function useDraft(address: string, document: JsonObject, { original, from, isOfFile }: Omit<Draft, "document">): () => void {
+function useDraft(
+  address: string,
+  document: JsonObject,
+  { original, from, isOfFile }: Omit<Draft, "document">,
+): () => void {
   const isForgotten = useRef(false);
   // Before the page can be left.
   useLayoutEffect(() => {

@@ -43,7 +43,13 @@ function PlainField({ pointer, schema, isRequired, kind }: FieldProps & { kind: 
   const props = { pointer, schema, value, input, isRequired };
   if (kind === "flag") return <FlagField {...props} />;
   return (
-    <FieldFrame pointer={pointer} schema={schema} isRequired={isRequired} isWide={kind === "vector" || kind === "json"} isGroup={kind === "vector"}>
+    <FieldFrame
+      pointer={pointer}
+      schema={schema}
+      isRequired={isRequired}
+      isWide={kind === "vector" || kind === "json"}
+      isGroup={kind === "vector"}
+    >
       {kind === "number" && <NumberInput {...props} />}
       {kind === "text" && <TextInput {...props} />}
       {kind === "names" && <NamesInput {...props} />}
@@ -103,7 +109,8 @@ export function FieldFrame({ isWide = false, isGroup = false, children, ...field
 export function FieldTexts({ pointer, schema, isRequired }: FieldProps) {
   const { help, fallback } = described(schema);
   const range = rangeOf(schema.type === "array" ? (schema.items ?? {}) : schema);
-  const shown = isRequired || fallback === undefined || fallback === "all defaults" ? undefined : `Left empty: ${fallback}.`;
+  const shown =
+    isRequired || fallback === undefined || fallback === "all defaults" ? undefined : `Left empty: ${fallback}.`;
   return (
     <>
       <p class="help" id={`help:${pointer}`}>

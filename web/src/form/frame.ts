@@ -90,5 +90,11 @@ export function onPage({ low, high, scale }: Frame, [x, v]: Place): Place {
 
 /** Points of an SVG polygon. */
 export function pointsOf(frame: Frame, places: Place[]): string {
-  return places.map((place) => onPage(frame, place).map((part) => part.toFixed(2)).join(",")).join(" ");
+  return places
+    .map((place) =>
+      onPage(frame, place)
+        .map((part) => part.toFixed(2))
+        .join(","),
+    )
+    .join(" ");
 }

@@ -50,7 +50,14 @@ function NumberBox({ value, onValue, ...attributes }: NumberBoxProps) {
 /** Input of one number. */
 export function NumberInput({ pointer, schema, value, input, isRequired }: PlainProps) {
   const { edit } = useForm();
-  return <NumberBox {...input} value={value} placeholder={placeholderOf(schema, isRequired)} onValue={(value) => edit(pointer, value)} />;
+  return (
+    <NumberBox
+      {...input}
+      value={value}
+      placeholder={placeholderOf(schema, isRequired)}
+      onValue={(value) => edit(pointer, value)}
+    />
+  );
 }
 
 /** Input of a line of text. */
@@ -72,7 +79,8 @@ export function NamesInput({ pointer, schema, value, input, isRequired }: PlainP
   const { edit } = useForm();
   const names = (schema.enum ?? []).map(String);
   const isKnown = value === undefined || value === null || names.includes(String(value));
-  const fallback = typeof schema.default === "string" ? `default: ${nameOf(schema.default)}` : isRequired ? "choose one" : "none";
+  const fallback =
+    typeof schema.default === "string" ? `default: ${nameOf(schema.default)}` : isRequired ? "choose one" : "none";
   return (
     <select
       {...input}
@@ -115,7 +123,9 @@ export function VectorInput({ pointer, schema, value, input, isRequired }: Plain
   const fallback = Array.isArray(schema.default) ? (schema.default as Json[]) : undefined;
   const given = Array.isArray(value) ? value : undefined;
   const setPart = (index: number, part: Json | undefined) => {
-    const parts = axes.map((_, at) => (at === index ? (part ?? null) : (given?.[at] ?? (given ? null : (fallback?.[at] ?? null)))));
+    const parts = axes.map((_, at) =>
+      at === index ? (part ?? null) : (given?.[at] ?? (given ? null : (fallback?.[at] ?? null))),
+    );
     edit(pointer, parts.every((part) => part === null) ? undefined : parts);
   };
   return (

@@ -49,7 +49,11 @@ export function JsonEditor({ document, onDocument, broken, onBroken, goTo }: Jso
         {error && (
           <p class="violation">
             Line {error.line}, column {error.column}: {error.message}.{" "}
-            <button type="button" class="link" onClick={() => area.current && put(area.current, [error.offset, error.offset])}>
+            <button
+              type="button"
+              class="link"
+              onClick={() => area.current && put(area.current, [error.offset, error.offset])}
+            >
               Go there
             </button>
           </p>
@@ -61,7 +65,12 @@ export function JsonEditor({ document, onDocument, broken, onBroken, goTo }: Jso
 
 function notAnObject(text: string, value: unknown): TextError | undefined {
   if (isObject(value as JsonObject)) return undefined;
-  return { line: 1, column: 1, offset: 0, message: text.trim() === "" ? "there is nothing here" : "a scenario is an object, { … }" };
+  return {
+    line: 1,
+    column: 1,
+    offset: 0,
+    message: text.trim() === "" ? "there is nothing here" : "a scenario is an object, { … }",
+  };
 }
 
 /** Selects the value at a pointer, or what it is missing from. */

@@ -10,13 +10,26 @@ import { solidOf } from "./solid";
 import { described, labelOf } from "./words";
 
 /** Fields of an object, the less common ones folded. */
-export function ObjectFields({ pointer, schema, omitted = [] }: { pointer: string; schema: FieldSchema; omitted?: string[] }) {
+export function ObjectFields({
+  pointer,
+  schema,
+  omitted = [],
+}: {
+  pointer: string;
+  schema: FieldSchema;
+  omitted?: string[];
+}) {
   const { essential, rest } = arranged(schema, omitted);
   return (
     <>
       <FieldGrid pointer={pointer} schema={schema} keys={essential} />
       {rest.length > 0 && (
-        <Group name={`${pointer}#more`} title={<MoreTitle keys={rest} schema={schema} />} pointers={rest.map((key) => member(pointer, key))} class="more">
+        <Group
+          name={`${pointer}#more`}
+          title={<MoreTitle keys={rest} schema={schema} />}
+          pointers={rest.map((key) => member(pointer, key))}
+          class="more"
+        >
           {() => <FieldGrid pointer={pointer} schema={schema} keys={rest} />}
         </Group>
       )}
@@ -91,7 +104,9 @@ export function Presence({ pointer, isRequired }: FieldProps) {
           id={elementId(pointer)}
           type="checkbox"
           checked={isObject(value)}
-          onChange={({ currentTarget: { checked } }) => edit(pointer, checked ? (isObject(before.current) ? before.current : {}) : isRequired ? null : undefined)}
+          onChange={({ currentTarget: { checked } }) =>
+            edit(pointer, checked ? (isObject(before.current) ? before.current : {}) : isRequired ? null : undefined)
+          }
         />{" "}
         There is a {labelOf(tokens(pointer).at(-1) ?? "").toLowerCase()}
       </label>
@@ -113,7 +128,12 @@ export function VariantsField(props: FieldProps) {
   return (
     <div class="variants wide">
       <FieldFrame {...props}>
-        <select id={elementId(pointer)} value={String(index)} onChange={({ currentTarget }) => choose(Number(currentTarget.value))} aria-describedby={`help:${pointer} wrong:${pointer}`}>
+        <select
+          id={elementId(pointer)}
+          value={String(index)}
+          onChange={({ currentTarget }) => choose(Number(currentTarget.value))}
+          aria-describedby={`help:${pointer} wrong:${pointer}`}
+        >
           {(index < 0 || !isRequired) && <option value="-1">{isRequired ? "choose one" : "none"}</option>}
           {variants.map((variant, index) => (
             <option key={index} value={String(index)}>
@@ -165,7 +185,17 @@ export function ListField({ pointer, schema }: FieldProps) {
       {list.length === 0 && <p class="quiet">There are none yet.</p>}
       <div class={list.length > LONG ? "items long" : "items"}>
         {list.map((item, index) => (
-          <Item key={index} pointer={member(pointer, index)} title={`${name} ${index}`} item={item} schema={items} isOpenAtFirst={list.length <= FEW} isFull={isFull} onCopy={() => add(index)} onRemove={() => edit(pointer, withoutItem(list, index))} />
+          <Item
+            key={index}
+            pointer={member(pointer, index)}
+            title={`${name} ${index}`}
+            item={item}
+            schema={items}
+            isOpenAtFirst={list.length <= FEW}
+            isFull={isFull}
+            onCopy={() => add(index)}
+            onRemove={() => edit(pointer, withoutItem(list, index))}
+          />
         ))}
       </div>
       <div class="actions">

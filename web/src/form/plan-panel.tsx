@@ -16,7 +16,9 @@ export function PlanPanel({ plan }: { plan: PlanState }) {
           {isAsking ? "being planned …" : ""}
         </span>
       </h2>
-      {waitS !== undefined && <p class="notice warning">The service is busy or does not answer. It is asked again in {waitS} s.</p>}
+      {waitS !== undefined && (
+        <p class="notice warning">The service is busy or does not answer. It is asked again in {waitS} s.</p>
+      )}
       {problem !== undefined && <ProblemNotice problem={problem} />}
       {violations.length > 0 && <p>There is no plan as long as fields break the rules.</p>}
       {planned && <PlanOf planned={planned} />}
@@ -43,8 +45,18 @@ function PlanOf({ planned }: { planned: Planned }) {
           {sentence(hint.detail)} <FieldLink pointer={hint.field} />
         </p>
       ))}
-      {taken.length > 0 && <Reductions title={`Saved work: ${taken.length} ${taken.length === 1 ? "reduction" : "reductions"}`} choices={taken} />}
-      {others.length > 0 && <Reductions title={`Not used: ${others.length} ${others.length === 1 ? "reduction" : "reductions"}`} choices={others} />}
+      {taken.length > 0 && (
+        <Reductions
+          title={`Saved work: ${taken.length} ${taken.length === 1 ? "reduction" : "reductions"}`}
+          choices={taken}
+        />
+      )}
+      {others.length > 0 && (
+        <Reductions
+          title={`Not used: ${others.length} ${others.length === 1 ? "reduction" : "reductions"}`}
+          choices={others}
+        />
+      )}
       {runs.length > 0 && <RefinementRuns runs={runs} />}
       <Numbers planned={planned} />
     </>
@@ -129,7 +141,10 @@ function RefinementRuns({ runs }: { runs: Planned["refinement_runs"] }) {
 
 function Numbers({ planned: { plan, wall_time: time } }: { planned: Planned }) {
   const { cost } = plan;
-  const stages = cost.stages.map(({ share, points, expected_substeps: substeps }) => `${share}: ${points.toLocaleString("en")} points, ${substeps.toLocaleString("en")} sub-steps`);
+  const stages = cost.stages.map(
+    ({ share, points, expected_substeps: substeps }) =>
+      `${share}: ${points.toLocaleString("en")} points, ${substeps.toLocaleString("en")} sub-steps`,
+  );
   const rows: [string, string][] = [
     ["Material points", cost.points.toLocaleString("en")],
     ["Cell size", millimetres(cost.cell_size_m)],

@@ -83,7 +83,11 @@ function signs([x, y, z]: Vec3): Vec3[] {
 }
 
 function cyclic([x, y, z]: Vec3): Vec3[] {
-  return [[x, y, z], [y, z, x], [z, x, y]].flatMap((place) => signs(place as Vec3));
+  return [
+    [x, y, z],
+    [y, z, x],
+    [z, x, y],
+  ].flatMap((place) => signs(place as Vec3));
 }
 
 /** A regular solid about its centre, for edges of length 1. */

@@ -25,7 +25,12 @@ export function SceneFigure() {
   const drawn = latest.current;
   return (
     <figure class={scene ? "scene" : "scene outdated"} ref={figure}>
-      {!scene && <p class="notice">The channel can't be drawn as it is: it needs an inclination below 90°, an incline length and a run-out length.</p>}
+      {!scene && (
+        <p class="notice">
+          The channel can't be drawn as it is: it needs an inclination below 90°, an incline length and a run-out
+          length.
+        </p>
+      )}
       {drawn && width > 0 && <Views scene={drawn} width={width} />}
     </figure>
   );
@@ -53,10 +58,15 @@ function Views({ scene, width }: { scene: Scene; width: number }) {
       <TopView scene={scene} frame={frames.top} moves={moves} />
       <figcaption>
         <p>{sceneText(scene)}</p>
-        {scene.missing.length > 0 && <p class="violation">Not drawn, since its shape is incomplete: body {scene.missing.slice(0, 5).join(", ")}.</p>}
+        {scene.missing.length > 0 && (
+          <p class="violation">
+            Not drawn, since its shape is incomplete: body {scene.missing.slice(0, 5).join(", ")}.
+          </p>
+        )}
         {scene.bodies.length > 0 && (
           <p class="quiet">
-            Drag a body to move it, by {frames.step} m at a time, or select it and use the arrow keys. With Shift, or Page Up, it is lifted off the bed.
+            Drag a body to move it, by {frames.step} m at a time, or select it and use the arrow keys. With Shift, or
+            Page Up, it is lifted off the bed.
           </p>
         )}
       </figcaption>
@@ -99,7 +109,11 @@ function useMove(scene: Scene, say: (text: string) => void) {
     const before = at(document, `${pointer}/position`);
     const next = { ...(isObject(before) ? before : {}), ...position };
     replace(changed(document, `${pointer}/position`, next), edit);
-    say(`Body ${body.index}: ${Object.entries(position).map(([key, value]) => `${key.replace("_m", "")} ${value} m`).join(", ")}`);
+    say(
+      `Body ${body.index}: ${Object.entries(position)
+        .map(([key, value]) => `${key.replace("_m", "")} ${value} m`)
+        .join(", ")}`,
+    );
   };
 }
 

@@ -17,13 +17,17 @@ export function Sections() {
   const sections = [...essential, ...rest].filter((key) => !single(key));
   return (
     <>
-      {sections.filter((key) => essential.includes(key)).map((key) => (
-        <Section key={key} name={key} scenario={scenario} isOpenAtFirst />
-      ))}
+      {sections
+        .filter((key) => essential.includes(key))
+        .map((key) => (
+          <Section key={key} name={key} scenario={scenario} isOpenAtFirst />
+        ))}
       <Singles title="Time and title" keys={essential.filter(single)} scenario={scenario} isOpenAtFirst />
-      {sections.filter((key) => rest.includes(key)).map((key) => (
-        <Section key={key} name={key} scenario={scenario} isOpenAtFirst={false} />
-      ))}
+      {sections
+        .filter((key) => rest.includes(key))
+        .map((key) => (
+          <Section key={key} name={key} scenario={scenario} isOpenAtFirst={false} />
+        ))}
       <Singles title="More settings" keys={rest.filter(single)} scenario={scenario} isOpenAtFirst={false} />
     </>
   );
@@ -51,7 +55,13 @@ function Section({ name, scenario, isOpenAtFirst }: SectionProps) {
   const props = { pointer, schema, isRequired: scenario.required?.includes(name) ?? false };
   const value = at(document, pointer);
   return (
-    <Group name={pointer} title={<h2>{sectionTitle(name, value)}</h2>} pointers={[pointer]} isOpenAtFirst={isOpenAtFirst} class="section">
+    <Group
+      name={pointer}
+      title={<h2>{sectionTitle(name, value)}</h2>}
+      pointers={[pointer]}
+      isOpenAtFirst={isOpenAtFirst}
+      class="section"
+    >
       {() => (
         <div id={kind === "list" || schema.isNullable ? undefined : elementId(pointer)} tabIndex={-1}>
           {kind === "list" && <ListField {...props} />}
@@ -59,7 +69,9 @@ function Section({ name, scenario, isOpenAtFirst }: SectionProps) {
           {kind === "object" && schema.isNullable && <Presence {...props} />}
           {kind === "object" && !schema.isNullable && <Violations pointer={pointer} />}
           {pointer in CONTROLLED && <AccuracyControl />}
-          {kind === "object" && (!schema.isNullable || isObject(value)) && <ObjectFields pointer={pointer} schema={schema} omitted={CONTROLLED[pointer] ?? []} />}
+          {kind === "object" && (!schema.isNullable || isObject(value)) && (
+            <ObjectFields pointer={pointer} schema={schema} omitted={CONTROLLED[pointer] ?? []} />
+          )}
         </div>
       )}
     </Group>
@@ -80,7 +92,13 @@ interface SinglesProps {
 function Singles({ title, keys, scenario, isOpenAtFirst }: SinglesProps) {
   if (keys.length === 0) return null;
   return (
-    <Group name={`#${title}`} title={<h2>{title}</h2>} pointers={keys.map((key) => member("", key))} isOpenAtFirst={isOpenAtFirst} class="section">
+    <Group
+      name={`#${title}`}
+      title={<h2>{title}</h2>}
+      pointers={keys.map((key) => member("", key))}
+      isOpenAtFirst={isOpenAtFirst}
+      class="section"
+    >
       {() => <FieldGrid pointer="" schema={scenario} keys={keys} />}
     </Group>
   );

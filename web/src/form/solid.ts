@@ -67,14 +67,24 @@ const MAKERS: Record<string, Maker> = {
   },
   ball({ radius_m }) {
     const radius = positive(radius_m);
-    return radius === undefined ? undefined : { core: [[0, 0, 0]], radius, reach: 2 * radius, text: `ball, radius ${radius} m` };
+    return radius === undefined
+      ? undefined
+      : { core: [[0, 0, 0]], radius, reach: 2 * radius, text: `ball, radius ${radius} m` };
   },
   capsule({ radius_m, length_m }) {
     const [radius, whole] = [positive(radius_m), positive(length_m)];
     if (radius === undefined || whole === undefined) return undefined;
     const half = Math.max(0, whole / 2 - radius);
     const text = `capsule ${whole} m, radius ${radius} m`;
-    return { core: [[-half, 0, 0], [half, 0, 0]], radius, reach: whole, text };
+    return {
+      core: [
+        [-half, 0, 0],
+        [half, 0, 0],
+      ],
+      radius,
+      reach: whole,
+      text,
+    };
   },
 };
 

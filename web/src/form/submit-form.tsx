@@ -46,7 +46,16 @@ export function SubmitForm({ obstacle, onSubmitted }: SubmitFormProps) {
         </button>
         <label>
           <span>Label</span>
-          <input type="text" value={label} pattern={LABEL} maxLength={64} title="Letters, digits and . _ : = / -" placeholder="optional" autocomplete="off" onInput={({ currentTarget }) => setLabel(currentTarget.value)} />
+          <input
+            type="text"
+            value={label}
+            pattern={LABEL}
+            maxLength={64}
+            title="Letters, digits and . _ : = / -"
+            placeholder="optional"
+            autocomplete="off"
+            onInput={({ currentTarget }) => setLabel(currentTarget.value)}
+          />
         </label>
       </div>
       <p class="help" id="obstacle">
@@ -64,7 +73,8 @@ function Refused({ problem }: { problem: unknown }) {
       <ProblemNotice problem={problem} />
       {isPassing(problem) && (
         <p class="help">
-          {seconds !== undefined ? `Try again in ${seconds} s.` : "Try again."} The job is made once, even if the first attempt did arrive.
+          {seconds !== undefined ? `Try again in ${seconds} s.` : "Try again."} The job is made once, even if the first
+          attempt did arrive.
         </p>
       )}
     </>

@@ -44,7 +44,7 @@ export function useFormState({ schemas, document, original, violations, replace,
     reveal: (pointer) => {
       if (revealElsewhere(pointer)) return;
       const opened = groupsRound(pointer, document, schemas).map((group) => [group, true]);
-      setOpenGroups((open) => ({ ...open, ...Object.fromEntries(opened) as Record<string, boolean> }));
+      setOpenGroups((open) => ({ ...open, ...(Object.fromEntries(opened) as Record<string, boolean>) }));
       setSought({ pointer });
     },
   };

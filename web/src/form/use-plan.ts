@@ -22,7 +22,13 @@ export interface PlanState {
   waitS: number | undefined;
 }
 
-const NOTHING: PlanState = { planned: undefined, violations: [], problem: undefined, isAsking: false, waitS: undefined };
+const NOTHING: PlanState = {
+  planned: undefined,
+  violations: [],
+  problem: undefined,
+  isAsking: false,
+  waitS: undefined,
+};
 
 /** Asks for the plan of the document after each change. One request is in progress at a time. */
 export function usePlan(document: JsonObject): PlanState {
@@ -40,7 +46,13 @@ export function usePlan(document: JsonObject): PlanState {
       setState((state) => ({ ...state, isAsking: true, waitS: undefined }));
       const { waitS, ...answer } = await answerTo(text, end.signal);
       if (end.signal.aborted) return;
-      setState((state) => ({ ...NOTHING, planned: waitS === undefined ? undefined : state.planned, violations: waitS === undefined ? [] : state.violations, waitS, ...answer }));
+      setState((state) => ({
+        ...NOTHING,
+        planned: waitS === undefined ? undefined : state.planned,
+        violations: waitS === undefined ? [] : state.violations,
+        waitS,
+        ...answer,
+      }));
       if (waitS !== undefined) again = setTimeout(() => void ask(), 1000 * waitS);
     };
     const first = setTimeout(() => void ask(), pause);
@@ -63,7 +75,8 @@ async function answerTo(text: string, signal: AbortSignal): Promise<Partial<Plan
   } catch (problem) {
     if (!(problem instanceof ServiceProblem)) return { problem };
     const isBusy = [0, 429, 503].includes(problem.status);
-    if (isBusy) return { problem: problem.status === 0 ? problem : undefined, waitS: problem.retryAfterS ?? NO_ANSWER_S };
+    if (isBusy)
+      return { problem: problem.status === 0 ? problem : undefined, waitS: problem.retryAfterS ?? NO_ANSWER_S };
     return problem.violations.length > 0 ? { violations: problem.violations } : { problem };
   }
 }

@@ -19,7 +19,8 @@ async function sourceOf(query: URLSearchParams, schemas: Schemas): Promise<Draft
   if (job !== null) return { ...whole(await scenarioOf(job, schemas)), from: `job ${job.slice(0, 8)}` };
   const name = query.get("preset");
   const preset = name === null ? PRESETS[0] : presetOf(name);
-  if (!preset) throw new Error(`There is no example "${name}". Choose one of the list, or begin with an empty address.`);
+  if (!preset)
+    throw new Error(`There is no example "${name}". Choose one of the list, or begin with an empty address.`);
   return { ...whole(preset.scenario), from: "the example" };
 }
 

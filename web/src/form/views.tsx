@@ -33,7 +33,17 @@ export function SideView({ scene: { channel, release, bodies }, frame, moves }: 
       {bodies.map((body) => {
         const core = body.core.map(([x, , z]): Place => [x, z]);
         const centre: Place = [body.centre[0], body.centre[2]];
-        return <DraggableBody key={body.index} body={body} centre={centre} outline={outlineOf(core, body.solid.radius)} frame={frame} moves={moves} isSide />;
+        return (
+          <DraggableBody
+            key={body.index}
+            body={body}
+            centre={centre}
+            outline={outlineOf(core, body.solid.radius)}
+            frame={frame}
+            moves={moves}
+            isSide
+          />
+        );
       })}
     </View>
   );
@@ -73,7 +83,10 @@ function Thickness({ release, channel, frame }: { release: Release; channel: Cha
   const middle = (release.back + release.front) / 2;
   const { height } = release;
   const foot: Place = [middle, bedAt(channel, middle)];
-  const end: Place = [foot[0] + height * Math.sin(channel.inclination), foot[1] + height * Math.cos(channel.inclination)];
+  const end: Place = [
+    foot[0] + height * Math.sin(channel.inclination),
+    foot[1] + height * Math.cos(channel.inclination),
+  ];
   const [[x0, y0], [x1, y1]] = [onPage(frame, foot), onPage(frame, end)];
   return (
     <g class="dimension">
@@ -88,7 +101,13 @@ function Thickness({ release, channel, frame }: { release: Release; channel: Cha
 /** View from above, x–y. */
 export function TopView({ scene: { channel, release, bodies }, frame, moves }: SceneViewProps) {
   const half = channel.width / 2;
-  const box = (from: number, to: number) => pointsOf(frame, [[from, half], [to, half], [to, -half], [from, -half]]);
+  const box = (from: number, to: number) =>
+    pointsOf(frame, [
+      [from, half],
+      [to, half],
+      [to, -half],
+      [from, -half],
+    ]);
   const [left, upper] = onPage(frame, [-channel.incline, half]);
   const [right, lower] = onPage(frame, [channel.runout, -half]);
   const [footX, middleY] = onPage(frame, [0, 0]);
@@ -103,7 +122,17 @@ export function TopView({ scene: { channel, release, bodies }, frame, moves }: S
       {bodies.map((body) => {
         const core = body.core.map(([x, y]): Place => [x, y]);
         const centre: Place = [body.centre[0], body.centre[1]];
-        return <DraggableBody key={body.index} body={body} centre={centre} outline={outlineOf(core, body.solid.radius)} frame={frame} moves={moves} isSide={false} />;
+        return (
+          <DraggableBody
+            key={body.index}
+            body={body}
+            centre={centre}
+            outline={outlineOf(core, body.solid.radius)}
+            frame={frame}
+            moves={moves}
+            isSide={false}
+          />
+        );
       })}
     </View>
   );

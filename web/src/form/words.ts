@@ -53,8 +53,18 @@ export function sentence(text: string): string {
 export function rangeOf(schema: Schema): string | undefined {
   const { minimum, maximum, exclusiveMinimum, exclusiveMaximum } = schema;
   if (minimum !== undefined && maximum !== undefined) return `${figure(minimum)} to ${figure(maximum)}`;
-  const low = minimum !== undefined ? `at least ${figure(minimum)}` : exclusiveMinimum !== undefined ? `above ${figure(exclusiveMinimum)}` : undefined;
-  const high = maximum !== undefined ? `at most ${figure(maximum)}` : exclusiveMaximum !== undefined ? `below ${figure(exclusiveMaximum)}` : undefined;
+  const low =
+    minimum !== undefined
+      ? `at least ${figure(minimum)}`
+      : exclusiveMinimum !== undefined
+        ? `above ${figure(exclusiveMinimum)}`
+        : undefined;
+  const high =
+    maximum !== undefined
+      ? `at most ${figure(maximum)}`
+      : exclusiveMaximum !== undefined
+        ? `below ${figure(exclusiveMaximum)}`
+        : undefined;
   return [low, high].filter((part) => part !== undefined).join(", ") || undefined;
 }
 

@@ -1,1 +1,3 @@
-export function CompareView({ ids }: { ids: [string, string] }) { return <h1>{ids}</h1>; }
+export function CompareView({ ids }: { ids: [string, string] }) {
+  return <h1>{ids}</h1>;
+}

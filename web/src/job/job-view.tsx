@@ -1,1 +1,3 @@
-export function JobView({ id }: { id: string }) { return <h1>{id}</h1>; }
+export function JobView({ id }: { id: string }) {
+  return <h1>{id}</h1>;
+}

@@ -29,9 +29,7 @@ export const JobRow = memo(function JobRow({ job, isChosen, choose, fail }: RowP
       />
       <div class="job-title">
         <Link href={`/jobs/${job.id}`}>{title}</Link>
-        <span class="quiet">
-          {[...job.labels, moment(job.created)].join(" · ")}
-        </span>
+        <span class="quiet">{[...job.labels, moment(job.created)].join(" · ")}</span>
       </div>
       <div class="job-state">
         <span class={`status ${job.status}`}>{job.status}</span>
@@ -59,7 +57,8 @@ function JobProgress({ job }: { job: JobSummary }) {
       <>
         <progress value={job.progress.fraction} aria-label="Progress" />
         <span class="quiet">
-          {percent} %, {job.progress.eta_s === null ? "time left not known yet" : `about ${duration(job.progress.eta_s)} left`}
+          {percent} %,{" "}
+          {job.progress.eta_s === null ? "time left not known yet" : `about ${duration(job.progress.eta_s)} left`}
         </span>
       </>
     );

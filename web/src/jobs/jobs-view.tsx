@@ -93,8 +93,7 @@ function List({ state, chosen, choose, fail, isFiltered }: ListProps) {
     return (
       <p class="card">
         {isFiltered ? "No job is like that. " : "There are no jobs yet. "}
-        <Link href="/new">Begin with one of the examples</Link>, or send a scenario by{" "}
-        <a href="docs">the interface</a>.
+        <Link href="/new">Begin with one of the examples</Link>, or send a scenario by <a href="docs">the interface</a>.
       </p>
     );
   }
