@@ -1,0 +1,146 @@
+/** Trajectories of a job's bodies, read so that no more samples come than a picture shows. */
+
+import { type Job, type Trajectory, api, data } from "../../api/client";
+import type { Quaternion, Vector } from "../shape/vector";
+
+/** Motion of a body: a pose at each sample. */
+export interface Poses {
+  body: number;
+  time: number[];
+  position: Vector[];
+  orientation: Quaternion[];
+  /** Share of the body's height below the surface of the flow at the last sample, 0..1. */
+  lastSubmergence: number;
+}
+
+/** Quantities of a body against time, for curves. */
+export interface Curves {
+  body: number;
+  time: number[];
+  displacement: number[];
+  speed: number[];
+  submergence: number[];
+  flowForce: number[];
+  contactForce: number[];
+}
+
+type Columns = Trajectory["columns"];
+type Field = keyof Columns;
+
+/** Most samples of a body, and of all bodies of a scene together. */
+const MOST_SAMPLES = 2_000;
+const MOST_OF_SCENE = 40_000;
+/** Requests under way at a time. */
+const AT_ONCE = 4;
+
+/** One sample in how many is read, so that at most `most` of a run of this length come. */
+export function strideFor(simulated: number, interval: number, most: number): number {
+  return Math.max(1, Math.ceil((simulated / interval + 2) / Math.max(1, most)));
+}
+
+/** Simulated time that a job has records of [s]. */
+export function recordedTime(job: Job): number {
+  return job.status === "successful" ? (job.outcome?.ended_early?.time_s ?? job.progress.simulated_time_s) : job.progress.simulated_time_s;
+}
+
+/** Poses of all bodies. */
+export async function readPoses(job: Job, signal: AbortSignal): Promise<Poses[]> {
+  const bodies = job.scenario.bodies.length;
+  const most = Math.min(MOST_SAMPLES, Math.floor(MOST_OF_SCENE / Math.max(1, bodies)));
+  const fields: Field[] = ["time_s", "position_m", "orientation", "submerged_fraction"];
+  return inTurn(bodies, async (body) => posesOf(body, await read(job, body, fields, most, signal)));
+}
+
+/** Curves of one body. */
+export async function readCurves(job: Job, body: number, signal: AbortSignal): Promise<Curves> {
+  const fields: Field[] = ["time_s", "position_m", "velocity_m_s", "submerged_fraction", "flow_force_n", "wall_force_n", "body_force_n"];
+  return curvesOf(body, await read(job, body, fields, MOST_SAMPLES, signal));
+}
+
+async function read(job: Job, body: number, fields: Field[], most: number, signal: AbortSignal): Promise<Columns> {
+  const stride = strideFor(recordedTime(job), job.scenario.sample_interval_s, most);
+  const query = { body, stride, fields };
+  const params = { path: { id: job.id }, query } as { path: { id: string }; query: object };
+  const querySerializer = () => `body=${body}&stride=${stride}&fields=${fields.join(",")}`;
+  const answer = await data<Trajectory>(api.GET("/v1/jobs/{id}/trajectory", { params, querySerializer, signal }) as Promise<{ data?: Trajectory }>);
+  return answer.columns;
+}
+
+/** Results for 0, 1, … in order, a few asked for at a time. */
+async function inTurn<T>(count: number, ask: (place: number) => Promise<T>): Promise<T[]> {
+  const results = new Array<T>(count);
+  let next = 0;
+  const work = async () => {
+    while (next < count) {
+      const place = next++;
+      results[place] = await ask(place);
+    }
+  };
+  await Promise.all(Array.from({ length: Math.min(AT_ONCE, count) }, work));
+  return results;
+}
+
+function posesOf(body: number, { time_s = [], position_m = [], orientation = [], submerged_fraction = [] }: Columns): Poses {
+  const lastSubmergence = submerged_fraction[submerged_fraction.length - 1] ?? 0;
+  return { body, time: time_s, position: position_m as unknown as Vector[], orientation: orientation as unknown as Quaternion[], lastSubmergence };
+}
+
+/** Curves from the columns of a trajectory. */
+export function curvesOf(body: number, columns: Columns): Curves {
+  const norm = (v: number[] | undefined) => Math.hypot(...(v ?? [0]));
+  const position = columns.position_m ?? [];
+  const [x0 = 0, y0 = 0] = position[0] ?? [];
+  const walls = columns.wall_force_n ?? [];
+  return {
+    body,
+    time: columns.time_s ?? [],
+    displacement: position.map(([x = 0, y = 0]) => Math.hypot(x - x0, y - y0)),
+    speed: (columns.velocity_m_s ?? []).map(norm),
+    submergence: (columns.submerged_fraction ?? []).map((share) => 100 * share),
+    flowForce: (columns.flow_force_n ?? []).map(norm),
+    contactForce: walls.map((force, place) => norm(force.map((value, axis) => value + (columns.body_force_n?.[place]?.[axis] ?? 0)))),
+  };
+}
+
+/** Index of the last sample that is not after a time. */
+export function sampleAt(times: ArrayLike<number>, time: number): number {
+  let low = 0;
+  let high = times.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((times[middle] ?? 0) <= time) low = middle + 1;
+    else high = middle;
+  }
+  return Math.max(0, low - 1);
+}
+
+/** A value at a time, linear between samples. */
+export function valueAt(times: ArrayLike<number>, values: ArrayLike<number>, time: number): number | undefined {
+  const place = sampleAt(times, time);
+  const [a, b] = [values[place], values[place + 1]];
+  if (a === undefined || b === undefined) return a;
+  const span = (times[place + 1] ?? 0) - (times[place] ?? 0);
+  return a + (b - a) * Math.min(1, Math.max(0, span > 0 ? (time - (times[place] ?? 0)) / span : 0));
+}
+
+/** Place and orientation at a time: linear, and along the shorter great arc. */
+export function poseAt({ time: times, position, orientation }: Poses, time: number): { position: Vector; orientation: Quaternion } | undefined {
+  const place = sampleAt(times, time);
+  const [p, q] = [position[place], orientation[place]];
+  if (!p || !q) return undefined;
+  const [p1, q1] = [position[place + 1] ?? p, orientation[place + 1] ?? q];
+  const span = (times[place + 1] ?? 0) - (times[place] ?? 0);
+  const share = span > 0 ? Math.min(1, Math.max(0, (time - (times[place] ?? 0)) / span)) : 0;
+  const mixed = (axis: 0 | 1 | 2) => p[axis] + (p1[axis] - p[axis]) * share;
+  return { position: [mixed(0), mixed(1), mixed(2)], orientation: between(q, q1, share) };
+}
+
+function between(a: Quaternion, b: Quaternion, share: number): Quaternion {
+  const cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+  const angle = Math.acos(Math.min(1, Math.abs(cosine)));
+  const sine = Math.sin(angle);
+  const [s, t] = sine < 1e-6 ? [1 - share, share] : [Math.sin((1 - share) * angle) / sine, Math.sin(share * angle) / sine];
+  const sign = cosine < 0 ? -1 : 1;
+  const mixed = (k: 0 | 1 | 2 | 3) => s * a[k] + sign * t * b[k];
+  return [mixed(0), mixed(1), mixed(2), mixed(3)];
+}

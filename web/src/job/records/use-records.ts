@@ -1,0 +1,57 @@
+/** Records of a job as its view needs them. */
+
+import { useEffect, useState } from "preact/hooks";
+import type { Job } from "../../api/client";
+import { onTokenChange } from "../../api/token";
+import { type Answer, useAnswer } from "../../parts/use-answer";
+import type { FlowFrame } from "../flow/decoder";
+import { readFrames } from "../flow/frames";
+import { type Curves, type Poses, readCurves, readPoses } from "./trajectories";
+
+/** Changes whenever there is enough new to read a job's records again: at its end, and twenty times on the way. */
+function epochOf(job: Job | undefined): string {
+  if (!job || job.status === "accepted") return "";
+  return job.status === "running" ? `running ${Math.floor(20 * job.progress.fraction)}` : job.status;
+}
+
+/** Poses of all bodies of a job that has started. */
+export function usePoses(job: Job | undefined): Answer<Poses[]> {
+  const epoch = epochOf(job);
+  return useAnswer(async (signal) => (job && epoch ? readPoses(job, signal) : []), [job?.id, epoch]);
+}
+
+/** Curves of the chosen bodies. */
+export function useCurves(job: Job, bodies: readonly number[]): Answer<Curves[]> {
+  return useAnswer((signal) => Promise.all(bodies.map((body) => readCurves(job, body, signal))), [job.id, epochOf(job), bodies.join(" ")]);
+}
+
+/** Frames of a job's flow, how many of how many are there, and what went wrong. */
+export interface Frames {
+  frames: FlowFrame[] | undefined;
+  read: number;
+  of: number;
+  problem: unknown;
+}
+
+/** Frames of the flow; none for a job without flow. */
+export function useFrames(job: Job | undefined): Frames {
+  const [state, setState] = useState<Frames>({ frames: undefined, read: 0, of: 0, problem: undefined });
+  const [round, setRound] = useState(0);
+  const epoch = epochOf(job);
+  useEffect(() => onTokenChange(() => setRound((round) => round + 1)), []);
+  useEffect(() => {
+    if (!job || !epoch || job.scenario.flow === null) return;
+    const end = new AbortController();
+    const tell = (read: number, of: number) => setState((before) => ({ ...before, read, of }));
+    readFrames(job.id, tell, end.signal).then(
+      (frames) => setState({ frames, read: frames.length, of: frames.length, problem: undefined }),
+      (problem: unknown) => {
+        if (!end.signal.aborted) setState((before) => ({ ...before, problem }));
+      },
+    );
+    return () => end.abort();
+  }, [job?.id, epoch, round]);
+  return job?.scenario.flow === null ? { ...state, frames: NONE } : state;
+}
+
+const NONE: FlowFrame[] = [];

@@ -1,0 +1,29 @@
+/** Vectors and unit quaternions [w, x, y, z] as plain arrays. */
+
+export type Vector = readonly [number, number, number];
+export type Quaternion = readonly [number, number, number, number];
+
+export const plus = (a: Vector, b: Vector, times = 1): Vector => [a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]];
+export const minus = (a: Vector, b: Vector): Vector => plus(a, b, -1);
+export const scaled = (a: Vector, by: number): Vector => [a[0] * by, a[1] * by, a[2] * by];
+export const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a: Vector, b: Vector): Vector => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
+export const length = (a: Vector): number => Math.hypot(...a);
+export const unit = (a: Vector): Vector => scaled(a, 1 / (length(a) || 1));
+
+/** Turns a vector by a unit quaternion: v + 2 u × (u × v + w v). */
+export function turned([w, x, y, z]: Quaternion, v: Vector): Vector {
+  const axis: Vector = [x, y, z];
+  return plus(v, cross(axis, plus(cross(axis, v), v, w)), 2);
+}
+
+/** Unit vector on the arc from one to the other. */
+export function slerp(a: Vector, b: Vector, share: number): Vector {
+  const angle = Math.acos(Math.min(1, Math.max(-1, dot(a, b))));
+  if (angle < 1e-9) return a;
+  return plus(scaled(a, Math.sin((1 - share) * angle) / Math.sin(angle)), b, Math.sin(share * angle) / Math.sin(angle));
+}
