@@ -7,7 +7,7 @@ export function figure(value: number | null | undefined, digits = 3): string {
   const size = Math.abs(value);
   if (size >= 1e6 || size < 1e-4) {
     const [mantissa = "", exponent = "0"] = value.toExponential(digits - 1).split("e");
-    return `${Number(mantissa)}·10${superscript(Number(exponent))}`;
+    return `${Number(mantissa)}·10${superscript(Number(exponent))}`.replace("-", "−");
   }
   return String(Number(value.toPrecision(digits))).replace("-", "−");
 }

@@ -57,15 +57,16 @@ export class AerialPainter {
   paint(context: CanvasRenderingContext2D, frame: Frame, time: number, theme: Theme): void {
     context.fillStyle = theme.paper;
     context.fillRect(0, 0, frame.width, frame.height);
-    paintChannel(context, frame, this.content, theme);
+    paintGround(context, frame, this.content, theme);
     this.paintFlow(context, frame, time);
+    paintWalls(context, frame, this.content, theme);
     paintAxis(context, frame, this.content, theme);
     for (const poses of this.content.poses) paintTrail(context, frame, poses, time, theme);
     for (const poses of this.content.poses) paintBody(context, frame, this.content, poses, time, theme);
   }
 
   /** The topmost point in each square as large as the points' distance. */
-  private paintFlow(context: CanvasRenderingContext2D, { scale, left, middle }: Frame, time: number): void {
+  private paintFlow(context: CanvasRenderingContext2D, { scale, left, middle, width }: Frame, time: number): void {
     const { frames, cellSize, scenario, topSpeed } = this.content;
     const between = framesAt(frames, time);
     if (!between) return;
@@ -75,40 +76,55 @@ export class AerialPainter {
     }
     const spacing = keptSpacing(cellSize, scenario.numerics?.points_per_cell ?? 8, between.first.thinning);
     const bin = Math.max(1.5, 1.15 * spacing * scale);
-    const top = new Map<number, { z: number; speed: number }>();
+    const half = (scenario.channel.width_m / 2) * scale;
+    context.save();
+    context.beginPath();
+    context.rect(0, middle - half, width, 2 * half);
+    context.clip();
+    const top = new Map<number, { x: number; y: number; z: number; speed: number }>();
     eachPoint(between, this.pair, (x, y, z, speed) => {
       const key = Math.floor((left + x * scale) / bin) + 65_536 * Math.floor((middle - y * scale) / bin);
       const there = top.get(key);
-      if (!there) top.set(key, { z, speed });
-      else if (z > there.z) Object.assign(there, { z, speed });
+      if (!there || z > there.z) top.set(key, { x, y, z, speed });
     });
-    for (const [key, { speed }] of top) {
-      const row = Math.floor(key / 65_536);
+    // Larger than a square, since points do not lie in the middle of theirs.
+    const side = 1.4 * bin;
+    for (const { x, y, speed } of top.values()) {
       context.fillStyle = viridis(speed / topSpeed);
-      context.fillRect((key - 65_536 * row) * bin, row * bin, bin + 0.5, bin + 0.5);
+      context.fillRect(left + x * scale - side / 2, middle - y * scale - side / 2, side, side);
     }
+    context.restore();
   }
 }
 
-function paintChannel(context: CanvasRenderingContext2D, frame: Frame, { scenario, region }: AerialContent, theme: Theme): void {
-  const { channel } = scenario;
+/** Corners of the channel's part of the picture. */
+function corners(frame: Frame, { scenario, region }: AerialContent): [number, number, number, number] {
   const at = placeOn(frame);
-  const half = channel.width_m / 2;
-  const end = Math.min(channel.runout_length_m, region.high[0]);
-  const [x0, y0] = at(region.low[0], half);
-  const [x1, y1] = at(end, -half);
+  const half = scenario.channel.width_m / 2;
+  return [...at(region.low[0], half), ...at(Math.min(scenario.channel.runout_length_m, region.high[0]), -half)];
+}
+
+function paintGround(context: CanvasRenderingContext2D, frame: Frame, content: AerialContent, theme: Theme): void {
+  const [x0, y0, x1, y1] = corners(frame, content);
   context.fillStyle = theme.raised;
   context.fillRect(x0, y0, x1 - x0, y1 - y0);
+}
+
+function paintWalls(context: CanvasRenderingContext2D, frame: Frame, content: AerialContent, theme: Theme): void {
+  const { channel } = content.scenario;
+  const { low, high } = content.region;
+  const [x0, y0, x1, y1] = corners(frame, content);
   context.strokeStyle = theme.ground;
   context.lineWidth = 2;
   line(context, [x0, y0], [x1, y0]);
   line(context, [x0, y1], [x1, y1]);
-  if (region.low[0] <= -channel.incline_length_m) line(context, [x0, y0], [x0, y1]);
+  if (low[0] <= -channel.incline_length_m) line(context, [x0, y0], [x0, y1]);
   context.lineWidth = 1;
   context.setLineDash([2, 3]);
-  if (end >= channel.runout_length_m) line(context, [x1, y0], [x1, y1]);
+  if (high[0] >= channel.runout_length_m) line(context, [x1, y0], [x1, y1]);
   context.setLineDash([6, 4]);
-  if (region.low[0] < 0) line(context, at(0, half), at(0, -half));
+  const [foot] = placeOn(frame)(0, 0);
+  if (low[0] < 0 && high[0] > 0) line(context, [foot, y0], [foot, y1]);
   context.setLineDash([]);
 }
 

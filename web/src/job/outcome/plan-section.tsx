@@ -24,7 +24,7 @@ function Choices({ plan }: { plan: Schemas["Plan"] }) {
         </p>
       ))}
       <div class="scroll" tabIndex={0} role="region" aria-label="Reductions">
-        <table>
+        <table class="choices">
           <thead>
             <tr>
               <th>Reduction</th>

@@ -1,6 +1,6 @@
 import { figure } from "../../parts/format";
 import type { Clock } from "./clock";
-import { useClock } from "./use-clock";
+import { READING_MS, useClock } from "./use-clock";
 
 const RATES: [number, string][] = [
   [0.1, "1/10 of real speed"],
@@ -14,7 +14,7 @@ const RATES: [number, string][] = [
 
 /** Buttons and slider of a replay. */
 export function Transport({ clock }: { clock: Clock }) {
-  const time = useClock(clock, 50);
+  const time = useClock(clock, READING_MS);
   const label = clock.isPlaying ? "Pause" : "Play";
   return (
     <div class="transport" role="group" aria-label="Replay">

@@ -2,7 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import type { Clock } from "./clock";
 
 /** Pause between two changes of numbers that nobody could read faster [ms]. */
-const READING_MS = 150;
+export const READING_MS = 120;
 
 /** Shows a clock again at its changes, while it runs no more often than `pause` allows. */
 export function useClock(clock: Clock, pause = 0): number {

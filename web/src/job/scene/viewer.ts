@@ -115,8 +115,8 @@ export class SceneViewer {
 
   private readonly drawInMotion = (now: number) => {
     this.asked = 0;
-    this.draw(this.pace.ratio);
     this.pace.note(now);
+    this.draw(this.pace.ratio);
     this.canvas.dataset["frames"] = String(this.pace.frames);
     this.onFrame?.(this.pace.rate);
     clearTimeout(this.still);
