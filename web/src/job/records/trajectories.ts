@@ -1,6 +1,6 @@
-/** Trajectories of a job's bodies, read so that no more samples come than a picture shows. */
+/** Trajectories of bodies: values and poses at any time. */
 
-import { type Job, type Trajectory, api, data } from "../../api/client";
+import type { Job, Trajectory } from "../../api/client";
 import type { Quaternion, Vector } from "../shape/vector";
 
 /** Motion of a body: a pose at each sample. */
@@ -24,14 +24,8 @@ export interface Curves {
   contactForce: number[];
 }
 
-type Columns = Trajectory["columns"];
-type Field = keyof Columns;
-
-/** Most samples of a body, and of all bodies of a scene together. */
-const MOST_SAMPLES = 2_000;
-const MOST_OF_SCENE = 40_000;
-/** Requests under way at a time. */
-const AT_ONCE = 4;
+/** Columns of a trajectory as the service tells them. */
+export type Columns = Trajectory["columns"];
 
 /** One sample in how many is read, so that at most `most` of a run of this length come. */
 export function strideFor(simulated: number, interval: number, most: number): number {
@@ -43,44 +37,8 @@ export function recordedTime(job: Job): number {
   return job.status === "successful" ? (job.outcome?.ended_early?.time_s ?? job.progress.simulated_time_s) : job.progress.simulated_time_s;
 }
 
-/** Poses of all bodies. */
-export async function readPoses(job: Job, signal: AbortSignal): Promise<Poses[]> {
-  const bodies = job.scenario.bodies.length;
-  const most = Math.min(MOST_SAMPLES, Math.floor(MOST_OF_SCENE / Math.max(1, bodies)));
-  const fields: Field[] = ["time_s", "position_m", "orientation", "submerged_fraction"];
-  return inTurn(bodies, async (body) => posesOf(body, await read(job, body, fields, most, signal)));
-}
-
-/** Curves of one body. */
-export async function readCurves(job: Job, body: number, signal: AbortSignal): Promise<Curves> {
-  const fields: Field[] = ["time_s", "position_m", "velocity_m_s", "submerged_fraction", "flow_force_n", "wall_force_n", "body_force_n"];
-  return curvesOf(body, await read(job, body, fields, MOST_SAMPLES, signal));
-}
-
-async function read(job: Job, body: number, fields: Field[], most: number, signal: AbortSignal): Promise<Columns> {
-  const stride = strideFor(recordedTime(job), job.scenario.sample_interval_s, most);
-  const query = { body, stride, fields };
-  const params = { path: { id: job.id }, query } as { path: { id: string }; query: object };
-  const querySerializer = () => `body=${body}&stride=${stride}&fields=${fields.join(",")}`;
-  const answer = await data<Trajectory>(api.GET("/v1/jobs/{id}/trajectory", { params, querySerializer, signal }) as Promise<{ data?: Trajectory }>);
-  return answer.columns;
-}
-
-/** Results for 0, 1, … in order, a few asked for at a time. */
-async function inTurn<T>(count: number, ask: (place: number) => Promise<T>): Promise<T[]> {
-  const results = new Array<T>(count);
-  let next = 0;
-  const work = async () => {
-    while (next < count) {
-      const place = next++;
-      results[place] = await ask(place);
-    }
-  };
-  await Promise.all(Array.from({ length: Math.min(AT_ONCE, count) }, work));
-  return results;
-}
-
-function posesOf(body: number, { time_s = [], position_m = [], orientation = [], submerged_fraction = [] }: Columns): Poses {
+/** Poses from the columns of a trajectory. */
+export function posesOf(body: number, { time_s = [], position_m = [], orientation = [], submerged_fraction = [] }: Columns): Poses {
   const lastSubmergence = submerged_fraction[submerged_fraction.length - 1] ?? 0;
   return { body, time: time_s, position: position_m as unknown as Vector[], orientation: orientation as unknown as Quaternion[], lastSubmergence };
 }

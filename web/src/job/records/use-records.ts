@@ -5,8 +5,9 @@ import type { Job } from "../../api/client";
 import { onTokenChange } from "../../api/token";
 import { type Answer, useAnswer } from "../../parts/use-answer";
 import type { FlowFrame } from "../flow/decoder";
-import { readFrames } from "../flow/frames";
-import { type Curves, type Poses, readCurves, readPoses } from "./trajectories";
+import { readFrames } from "../flow/read-frames";
+import { readCurves, readPoses } from "./read-trajectories";
+import type { Curves, Poses } from "./trajectories";
 
 /** Changes whenever there is enough new to read a job's records again: at its end, and twenty times on the way. */
 function epochOf(job: Job | undefined): string {

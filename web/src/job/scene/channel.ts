@@ -11,6 +11,7 @@ import {
   type Material,
   Mesh,
   MeshBasicMaterial,
+  SRGBColorSpace,
   Sprite,
   SpriteMaterial,
   type Texture,
@@ -116,7 +117,9 @@ export class Channel {
     const sprite = new Sprite(this.keep(new SpriteMaterial({ map: texture, depthTest: false })));
     const size = 0.22 * step;
     sprite.scale.set((size * texture.image.width) / texture.image.height, size, 1);
-    sprite.position.set(x, -this.half - 0.8 * size, this.height(x));
+    // Left of the incline, below the floor: neither lies on the flow.
+    sprite.center.set(x < 0 ? 1 : 0.5, x < 0 ? 0.8 : 1);
+    sprite.position.set(x, -this.half - 0.3 * size, this.height(x));
     this.group.add(sprite);
   }
 
@@ -152,5 +155,7 @@ function textOf(text: string, colour: string): CanvasTexture<HTMLCanvasElement> 
     context.fillStyle = colour;
     context.fillText(text, 4, 44);
   }
-  return new CanvasTexture(canvas);
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  return texture;
 }
