@@ -191,7 +191,7 @@ test("hundreds of bodies are shown, six of them as curves at first", async ({ pa
   const boxes = page.getByRole("group", { name: "Bodies" }).getByRole("checkbox");
   await expect(boxes).toHaveCount(250);
   await expect(page.getByRole("group", { name: "Bodies" }).getByRole("checkbox", { checked: true })).toHaveCount(6);
-  await expect(page.getByText("238 more bodies are in the table below.")).toBeVisible();
+  await expect(page.getByText("242 more bodies are in the table below.")).toBeVisible();
   await boxes.nth(200).check();
   await expect(page.getByRole("region", { name: "Values at the time of the replay" }).getByRole("rowheader", { name: "200" })).toBeVisible();
   await expect(page.getByRole("region", { name: /^Quantities: Body/ })).toHaveCount(3);

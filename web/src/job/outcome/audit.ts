@@ -34,7 +34,7 @@ export function auditOf(outcome: Outcome): AuditFigure[] {
   const figures = FIGURES.map(({ key, name, meaning, from }) => judged(name, meaning, conservation[key], from));
   const made = outcome.bodies.flatMap(({ energy }) => (energy ? [energy.made_share] : []));
   if (made.length > 0) {
-    figures.push(judged("Energy made in bodies", "largest energy that nothing accounts for, over the energy that moves the body", Math.max(...made)));
+    figures.push(judged("Energy made in bodies", "largest energy that nothing accounts for, over the energy that moves the body; 1e-5 is usual, and above 0.01 the run ends", Math.max(...made)));
   }
   return figures;
 }

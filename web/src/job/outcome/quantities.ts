@@ -67,8 +67,8 @@ export function intervalText(interval: Interval | undefined): string {
 
 /** What the kind of an interval says. */
 export const BASIS: Record<Schemas["Basis"], string> = {
-  converging: "the values of finer cells go one way",
-  scattered: "the values of finer cells scatter",
+  converging: "the runs' values go one way",
+  scattered: "the runs' values scatter",
   same: "all runs gave the same value",
   one_refinement_run: "one refinement run alone",
   sometimes_happened: "some runs did not have it",

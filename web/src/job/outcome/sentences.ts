@@ -6,7 +6,7 @@ import { figure } from "../../parts/format";
 type BodyOutcome = Schemas["BodyOutcome"];
 
 /** Most bodies that have a sentence each; of more the table tells. */
-const MOST_SENTENCES = 12;
+const MOST_SENTENCES = 8;
 
 /** What happened, in sentences: to each body, with its last submergence (0..1) once known, and to the flow. */
 export function sentencesOf(job: Job, submergence: readonly number[] = []): string[] {

@@ -40,7 +40,7 @@ export function lookAt(camera: PerspectiveCamera, region: Region, from: Vector3)
 
 /** Rounds in which what is seen moves to the middle of the picture. */
 const CENTRINGS = 4;
-const MARGIN = 1.08;
+const MARGIN = 1.12;
 
 /** Distance from which all corners are within the picture. */
 function distanceFor(corners: Vector3[], centre: Vector3, axes: { back: Vector3; right: Vector3; up: Vector3 }, tangent: number, aspect: number): number {

@@ -115,7 +115,7 @@ export class Channel {
   private label(x: number, step: number): void {
     const texture = this.keep(textOf(x === 0 ? "0 m" : `${figure(x)} m`, this.theme.ink));
     const sprite = new Sprite(this.keep(new SpriteMaterial({ map: texture, depthTest: false })));
-    const size = 0.22 * step;
+    const size = 0.17 * step;
     sprite.scale.set((size * texture.image.width) / texture.image.height, size, 1);
     // Left of the incline, below the floor: neither lies on the flow.
     sprite.center.set(x < 0 ? 1 : 0.5, x < 0 ? 0.8 : 1);
