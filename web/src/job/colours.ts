@@ -23,9 +23,17 @@ export const VIRIDIS: readonly (readonly [number, number, number])[] = [
   [253, 231, 37],
 ];
 
+/** Colours of the scale that are told apart. */
+const LEVELS = 128;
+const SCALE = Array.from({ length: LEVELS }, (_, level) => mixed(level / (LEVELS - 1)));
+
 /** Colour of a share of the scale, 0..1. */
 export function viridis(share: number): string {
-  const at = Math.min(1, Math.max(0, share)) * (VIRIDIS.length - 1);
+  return SCALE[Math.round(Math.min(1, Math.max(0, share)) * (LEVELS - 1))] ?? "#440154";
+}
+
+function mixed(share: number): string {
+  const at = share * (VIRIDIS.length - 1);
   const low = Math.min(VIRIDIS.length - 2, Math.floor(at));
   const [a, b] = [VIRIDIS[low] ?? [0, 0, 0], VIRIDIS[low + 1] ?? [0, 0, 0]];
   const channel = (k: 0 | 1 | 2) => Math.round(a[k] + (b[k] - a[k]) * (at - low));

@@ -29,7 +29,11 @@ export function useJob(id: string): LiveJob {
       }),
     [id],
   );
-  const job = answer.value;
+  // An ended job is asked for again after a reset, but does not change: pictures need not be made again.
+  const kept = useRef<Job>();
+  const isSame = kept.current?.finished && kept.current.finished === answer.value?.finished;
+  const job = isSame ? kept.current : answer.value;
+  kept.current = job;
   const isRunning = job?.status === "running";
   return { ...answer, value: job && isRunning && progress ? { ...job, progress } : job, isRemoved };
 }

@@ -26,6 +26,10 @@ const MARGIN = { left: 44, right: 12, top: 10, bottom: 34 };
 /** Lowest and highest part of the page that the channel takes [px]. */
 const LEAST_HEIGHT = 90;
 const MOST_HEIGHT = 460;
+/** Sides of the squares of which the topmost point is drawn, and of its mark, over the points' distance:
+ * marks that overlap, or the bed would show between them. */
+const SQUARE = 0.6;
+const DOT = 1.8;
 /** Numbers stand on bodies if they are no more than this. */
 const MOST_NUMBERED = 40;
 
@@ -65,7 +69,7 @@ export class AerialPainter {
     for (const poses of this.content.poses) paintBody(context, frame, this.content, poses, time, theme);
   }
 
-  /** The topmost point in each square as large as the points' distance. */
+  /** The topmost point in each of many small squares. */
   private paintFlow(context: CanvasRenderingContext2D, { scale, left, middle, width }: Frame, time: number): void {
     const { frames, cellSize, scenario, topSpeed } = this.content;
     const between = framesAt(frames, time);
@@ -75,7 +79,8 @@ export class AerialPainter {
       this.of = between;
     }
     const spacing = keptSpacing(cellSize, scenario.numerics?.points_per_cell ?? 8, between.first.thinning);
-    const bin = Math.max(1.5, 1.15 * spacing * scale);
+    const bin = Math.max(1.5, SQUARE * spacing * scale);
+    const side = Math.max(bin + 0.5, DOT * spacing * scale);
     const half = (scenario.channel.width_m / 2) * scale;
     context.save();
     context.beginPath();
@@ -87,9 +92,8 @@ export class AerialPainter {
       const there = top.get(key);
       if (!there || z > there.z) top.set(key, { x, y, z, speed });
     });
-    // Larger than a square, since points do not lie in the middle of theirs.
-    const side = 1.4 * bin;
-    for (const { x, y, speed } of top.values()) {
+    // Lowest first, so that higher points hide lower ones.
+    for (const { x, y, speed } of [...top.values()].sort((a, b) => a.z - b.z)) {
       context.fillStyle = viridis(speed / topSpeed);
       context.fillRect(left + x * scale - side / 2, middle - y * scale - side / 2, side, side);
     }

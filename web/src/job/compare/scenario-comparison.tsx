@@ -37,6 +37,24 @@ export function ScenarioComparison({ first, second }: { first: Scenario; second:
   );
 }
 
+/** Longest value that stands in its cell as a whole. */
+const LONGEST = 80;
+
 function shown(value: unknown) {
-  return value === undefined ? <span class="quiet">not there</span> : <code>{JSON.stringify(value)}</code>;
+  if (value === undefined) return <span class="quiet">not there</span>;
+  const text = JSON.stringify(value);
+  if (text.length <= LONGEST) return <code>{text}</code>;
+  return (
+    <details>
+      <summary>{Array.isArray(value) ? `${value.length} entries` : summaryOf(value)}</summary>
+      <pre>{JSON.stringify(value, null, 2)}</pre>
+    </details>
+  );
+}
+
+/** What a long value is: of a body its shape. */
+function summaryOf(value: unknown): string {
+  if (typeof value !== "object" || value === null) return `${String(value).slice(0, LONGEST)} …`;
+  const [kind] = Object.keys((value as { shape?: object }).shape ?? {});
+  return kind ? `a body: ${kind}` : `${Object.keys(value).length} fields`;
 }
