@@ -60,6 +60,8 @@ test("examples are reached by address and by choice, each keeps its draft", asyn
   await expect(page.getByLabel("Title")).toHaveValue(/baffles/);
   await page.goto("/#/new?preset=moon");
   await expect(page.getByRole("alert")).toContainText('no example "moon"');
+  await page.getByRole("link", { name: "Begin with an example" }).click();
+  await expect(page.getByLabel("Inclination")).toHaveValue("40");
 });
 
 test("all examples can be planned", async ({ page }) => {
@@ -231,6 +233,33 @@ test("a body is dragged with the mouse in both views", async ({ page }) => {
   await page.getByRole("button", { name: "Undo" }).click();
   await page.getByRole("button", { name: "Undo" }).click();
   expect((await documentOf(page))["bodies"][0]).not.toHaveProperty("position");
+});
+
+test("a body is dragged with a finger", async ({ page }) => {
+  await page.goto("/#/new");
+  const cube = above(page).getByRole("button", body(0));
+  const { x, y, width, height } = (await cube.boundingBox())!;
+  const client = await page.context().newCDPSession(page);
+  const touch = (type: "touchStart" | "touchMove" | "touchEnd", dx: number) =>
+    client.send("Input.dispatchTouchEvent", {
+      type,
+      touchPoints: type === "touchEnd" ? [] : [{ x: x + width / 2 + dx, y: y + height / 2 }],
+    });
+  await touch("touchStart", 0);
+  for (const dx of [20, 50, 80]) await touch("touchMove", dx);
+  await touch("touchEnd", 80);
+  expect((await documentOf(page))["bodies"][0].position.downstream_m).toBeGreaterThan(0.3);
+});
+
+test("text that can't be read is not run", async ({ page }) => {
+  await page.goto("/#/new");
+  await page.getByRole("button", { name: "JSON", exact: true }).click();
+  await page.getByLabel("The scenario as JSON").fill("{");
+  await expect(page.getByRole("button", { name: "Run it" })).toBeDisabled();
+  await page.getByLabel("The scenario as JSON").fill("[]");
+  await expect(page.getByText(/a scenario is an object/)).toBeVisible();
+  await page.getByRole("button", { name: "Fields", exact: true }).click();
+  await expect(page.getByRole("button", { name: "Run it" })).toBeEnabled();
 });
 
 test("a body is moved with keys, and lifted", async ({ page }) => {

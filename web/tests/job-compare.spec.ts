@@ -5,7 +5,12 @@ let second = "";
 test.beforeAll(async ({ service }) => {
   const accuracy = { error_bars: true };
   first = await service.run({ ...QUICK, title: "Light", accuracy });
-  second = await service.run({ ...QUICK, title: "Heavy", accuracy, bodies: [{ ...QUICK.bodies[0], density_kg_m3: 4000 }] });
+  second = await service.run({
+    ...QUICK,
+    title: "Heavy",
+    accuracy,
+    bodies: [{ ...QUICK.bodies[0], density_kg_m3: 4000 }],
+  });
 });
 
 test("another job is chosen and compared", async ({ page, service }) => {

@@ -12,8 +12,26 @@ function decoded(bytes: Uint8Array, pieces: number): FlowFrame[] {
 }
 
 const LEAVING: PlainFrame[] = [
-  { time: 0, ranks: [0, 1, 5], positions: [[0, 0, 0], [1, 0, 0], [2, 1, 4]], speeds: [0, 1, 2] },
-  { time: 1, ranks: [1, 5, 9], positions: [[3, 0, 0], [2, 1, 0], [9, 9, 9]], speeds: [2, 2, 4] },
+  {
+    time: 0,
+    ranks: [0, 1, 5],
+    positions: [
+      [0, 0, 0],
+      [1, 0, 0],
+      [2, 1, 4],
+    ],
+    speeds: [0, 1, 2],
+  },
+  {
+    time: 1,
+    ranks: [1, 5, 9],
+    positions: [
+      [3, 0, 0],
+      [2, 1, 0],
+      [9, 9, 9],
+    ],
+    speeds: [2, 2, 4],
+  },
 ];
 
 test("frames are the same however the stream is cut", () => {
@@ -46,7 +64,9 @@ test("what is no stream of frames is refused with its reason", () => {
     copy.writeUInt32LE(value, at);
     return copy;
   };
-  expect(() => decoded(new TextEncoder().encode('{"type":"urn:scree:problem"}'), 4)).toThrow("do not begin as flow frames do");
+  expect(() => decoded(new TextEncoder().encode('{"type":"urn:scree:problem"}'), 4)).toThrow(
+    "do not begin as flow frames do",
+  );
   expect(() => decoded(spoilt(8, 2), 1)).toThrow("version is 2");
   expect(() => decoded(spoilt(16 + 16, 4_000_000_000), 9)).toThrow("says that it has 4000000000 points");
   expect(() => decoded(spoilt(16 + 20, 0), 9)).toThrow("thinning of 0");

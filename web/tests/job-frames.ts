@@ -19,7 +19,14 @@ export function encoded(frames: PlainFrame[]): Buffer {
   return Buffer.concat([head, ...frames.map(frameBytes)]);
 }
 
-function frameBytes({ time, ranks, positions, speeds, thinning = 1, points = ranks.length * thinning }: PlainFrame): Buffer {
+function frameBytes({
+  time,
+  ranks,
+  positions,
+  speeds,
+  thinning = 1,
+  points = ranks.length * thinning,
+}: PlainFrame): Buffer {
   const bytes = Buffer.alloc(56 + 8 * Math.ceil((10 * ranks.length) / 8));
   bytes.writeDoubleLE(time, 0);
   bytes.writeBigUInt64LE(BigInt(points), 8);
@@ -31,13 +38,16 @@ function frameBytes({ time, ranks, positions, speeds, thinning = 1, points = ran
   const fastest = speeds.reduce((a, b) => Math.max(a, b), 0);
   const finite = (value = 0) => (Number.isFinite(value) ? value : 0);
   [...low, ...extent, fastest].forEach((value, place) => bytes.writeFloatLE(finite(value), 24 + 4 * place));
-  const share = (value: number, from: number, length: number) => (length > 0 ? Math.round((65_535 * (value - from)) / length) : 0);
+  const share = (value: number, from: number, length: number) =>
+    length > 0 ? Math.round((65_535 * (value - from)) / length) : 0;
   const planes = [
     ranks,
     ...axes.map((values, axis) => values.map((value) => share(value, low[axis] ?? 0, extent[axis] ?? 0))),
     speeds.map((speed) => share(speed, 0, fastest)),
   ];
-  planes.forEach((plane, place) => plane.forEach((value, k) => bytes.writeUInt16LE(value, 56 + 2 * (place * ranks.length + k))));
+  planes.forEach((plane, place) =>
+    plane.forEach((value, k) => bytes.writeUInt16LE(value, 56 + 2 * (place * ranks.length + k))),
+  );
   return bytes;
 }
 

@@ -61,7 +61,10 @@ test("the scene is seen from four places, turned by keys, and saved", async ({ p
     seen.add((await picture(page)).toString("base64"));
   }
   expect(seen.size).toBe(6);
-  const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save picture" }).click()]);
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("button", { name: "Save picture" }).click(),
+  ]);
   const png = await readFile(await download.path());
   expect(png.subarray(1, 4).toString()).toBe("PNG");
   expect(png.length).toBeGreaterThan(5_000);

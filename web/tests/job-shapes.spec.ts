@@ -19,8 +19,21 @@ test("a rounded cube has its width and the volume of the rounded solid", () => {
 test("all surfaces are closed and look outwards", () => {
   const shapes = [
     { box: { sides_m: [0.04, 0.02, 0.03] } },
-    ...["tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedron"].map((solid) => ({ regular: { solid, size_m: 0.03 } })),
-    { polyhedron: { vertices_m: [[10, 0, 0], [10.05, 0, 0], [10.05, 0.03, 0], [10, 0.03, 0], [10.01, 0.005, 0.02], [10.04, 0.005, 0.025]] } },
+    ...["tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedron"].map((solid) => ({
+      regular: { solid, size_m: 0.03 },
+    })),
+    {
+      polyhedron: {
+        vertices_m: [
+          [10, 0, 0],
+          [10.05, 0, 0],
+          [10.05, 0.03, 0],
+          [10, 0.03, 0],
+          [10.01, 0.005, 0.02],
+          [10.04, 0.005, 0.025],
+        ],
+      },
+    },
     { ball: { radius_m: 0.02 } },
     { capsule: { radius_m: 0.01, length_m: 0.06 } },
   ];

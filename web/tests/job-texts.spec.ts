@@ -25,20 +25,42 @@ test("an outcome is told in sentences", () => {
   expect(bodySentence(0, MOVED, 0.371)).toBe(
     "Body 0 began to move at 0.412 s, reached 1.62 m/s at 0.62 s and came to rest at 0.94 s, 0.413 m from its start, 37 % submerged.",
   );
-  expect(bodySentence(1, { ...MOVED, stop_time_s: null })).toContain("and still moved when the run ended, 0.413 m from its start.");
+  expect(bodySentence(1, { ...MOVED, stop_time_s: null })).toContain(
+    "and still moved when the run ended, 0.413 m from its start.",
+  );
   expect(bodySentence(2, { ...MOVED, burial_depth_m: 0.012 }, 1)).toContain(", 12 mm below the surface of the flow.");
-  expect(bodySentence(3, { ...MOVED, onset_time_s: null })).toBe("Body 3 was reached by the flow at 0.4 s and did not move.");
-  expect(bodySentence(4, { ...MOVED, onset_time_s: null, first_contact_time_s: null })).toBe("Body 4 was not reached by the flow and did not move.");
+  expect(bodySentence(3, { ...MOVED, onset_time_s: null })).toBe(
+    "Body 3 was reached by the flow at 0.4 s and did not move.",
+  );
+  expect(bodySentence(4, { ...MOVED, onset_time_s: null, first_contact_time_s: null })).toBe(
+    "Body 4 was not reached by the flow and did not move.",
+  );
 });
 
 test("the audit doubts from the documented bounds on", () => {
   const conservation = {
-    mass_error: 0, points_lost: 0, momentum_residual: 9e-9, angular_momentum_residual: 9e-9, energy_residual: 0, max_overlap_ratio: 0.29,
-    max_body_overlap_ratio: 0.006, penetration_corrections: 0, angular_momentum_from_shifting: 0, points_outflow: 3,
+    mass_error: 0,
+    points_lost: 0,
+    momentum_residual: 9e-9,
+    angular_momentum_residual: 9e-9,
+    energy_residual: 0,
+    max_overlap_ratio: 0.29,
+    max_body_overlap_ratio: 0.006,
+    penetration_corrections: 0,
+    angular_momentum_from_shifting: 0,
+    points_outflow: 3,
   };
-  const outcome = (changes: Partial<typeof conservation>) => ({ conservation: { ...conservation, ...changes }, bodies: [] }) as unknown as Parameters<typeof auditOf>[0];
+  const outcome = (changes: Partial<typeof conservation>) =>
+    ({ conservation: { ...conservation, ...changes }, bodies: [] }) as unknown as Parameters<typeof auditOf>[0];
   expect(verdictOf(auditOf(outcome({})))).toMatch(/^Yes/);
-  for (const changes of [{ mass_error: -1e-9 }, { points_lost: 1 }, { momentum_residual: 1e-6 }, { energy_residual: 0.02 }, { max_overlap_ratio: 1 }, { max_body_overlap_ratio: 0.9 }]) {
+  for (const changes of [
+    { mass_error: -1e-9 },
+    { points_lost: 1 },
+    { momentum_residual: 1e-6 },
+    { energy_residual: 0.02 },
+    { max_overlap_ratio: 1 },
+    { max_body_overlap_ratio: 0.9 },
+  ]) {
     const figures = auditOf(outcome(changes));
     expect(figures.filter(({ isFine }) => isFine === false).length, JSON.stringify(changes)).toBe(1);
     expect(verdictOf(figures)).toMatch(/^With care/);
@@ -46,8 +68,18 @@ test("the audit doubts from the documented bounds on", () => {
 });
 
 test("intervals are told by their ends, and compared where both are closed", () => {
-  const interval = (low: number | null, high: number | null) => ({ low, high, value: 1, order: null, basis: "scattered" as const });
-  expect([interval(1, 2), interval(1, null), interval(null, null)].map(intervalText)).toEqual(["1 to 2", "from 1", "none"]);
+  const interval = (low: number | null, high: number | null) => ({
+    low,
+    high,
+    value: 1,
+    order: null,
+    basis: "scattered" as const,
+  });
+  expect([interval(1, 2), interval(1, null), interval(null, null)].map(intervalText)).toEqual([
+    "1 to 2",
+    "from 1",
+    "none",
+  ]);
   expect(overlap(interval(1, 2), interval(1.5, 3))).toBe(true);
   expect(overlap(interval(1, 2), interval(2.5, 3))).toBe(false);
   expect(overlap(interval(1, null), interval(2.5, 3))).toBeUndefined();
@@ -64,10 +96,14 @@ test("differences of documents are named by JSON pointers", () => {
 });
 
 test("recipes hold any title, and never a token", () => {
-  const scenario = { title: `it's "5 $HOME" \\ \`x\` é`, flow: null, bodies: [], fixed: true } as unknown as Parameters<typeof curlRecipe>[1];
+  const scenario = { title: `it's "5 $HOME" \\ \`x\` é`, flow: null, bodies: [], fixed: true } as unknown as Parameters<
+    typeof curlRecipe
+  >[1];
   const curl = curlRecipe("http://127.0.0.1:1/", scenario, true);
   expect(curl).toContain(`"Authorization: Bearer $SCREE_TOKEN"`);
-  const echoed = execFileSync("sh", ["-c", curl.replace(/^curl/, "printf '%s\\n'")], { env: { SCREE_TOKEN: "t" } }).toString();
+  const echoed = execFileSync("sh", ["-c", curl.replace(/^curl/, "printf '%s\\n'")], {
+    env: { SCREE_TOKEN: "t" },
+  }).toString();
   expect(echoed).toContain(JSON.stringify(scenario));
   const program = `import json; print(json.dumps(${pythonLiteral(scenario)}))`;
   expect(JSON.parse(execFileSync("python3", ["-c", program]).toString())).toEqual(scenario);
@@ -80,7 +116,19 @@ test("values and poses lie between samples", () => {
   expect([0.5, 5].map((time) => valueAt([0, 1, 2], [0, 10, 20], time))).toEqual([5, 20]);
   const half = Math.SQRT1_2;
   // The second quaternion is the same turn with its sign changed: the way is the shorter one.
-  const poses = { body: 0, time: [0, 1], position: [[0, 0, 0], [2, 0, 0]] as [number, number, number][], orientation: [[1, 0, 0, 0], [-half, 0, 0, -half]] as [number, number, number, number][], lastSubmergence: 0 };
+  const poses = {
+    body: 0,
+    time: [0, 1],
+    position: [
+      [0, 0, 0],
+      [2, 0, 0],
+    ] as [number, number, number][],
+    orientation: [
+      [1, 0, 0, 0],
+      [-half, 0, 0, -half],
+    ] as [number, number, number, number][],
+    lastSubmergence: 0,
+  };
   const pose = poseAt(poses, 0.5);
   expect(pose?.position).toEqual([1, 0, 0]);
   expect(pose?.orientation[0]).toBeCloseTo(Math.cos(Math.PI / 8), 9);
@@ -89,8 +137,30 @@ test("values and poses lie between samples", () => {
 });
 
 test("curves are the sizes of vectors, and as few samples as are seen", () => {
-  const curves = curvesOf(0, { time_s: [0, 1], position_m: [[1, 0, 0], [4, 4, 9]], velocity_m_s: [[0, 0, 0], [0, 3, 4]], wall_force_n: [[0, 0, 1], [0, 0, 1]], body_force_n: [[0, 0, 0], [0, 0, -1]] });
-  expect([curves.displacement, curves.speed, curves.contactForce]).toEqual([[0, 5], [0, 5], [1, 0]]);
+  const curves = curvesOf(0, {
+    time_s: [0, 1],
+    position_m: [
+      [1, 0, 0],
+      [4, 4, 9],
+    ],
+    velocity_m_s: [
+      [0, 0, 0],
+      [0, 3, 4],
+    ],
+    wall_force_n: [
+      [0, 0, 1],
+      [0, 0, 1],
+    ],
+    body_force_n: [
+      [0, 0, 0],
+      [0, 0, -1],
+    ],
+  });
+  expect([curves.displacement, curves.speed, curves.contactForce]).toEqual([
+    [0, 5],
+    [0, 5],
+    [1, 0],
+  ]);
   expect([strideFor(1, 0.01, 2000), strideFor(40, 0.01, 2000), strideFor(3600, 0.01, 2000)]).toEqual([1, 3, 181]);
 });
 

@@ -38,7 +38,9 @@ test.describe("a successful job", () => {
 
   test("tells what happened, with intervals and a verdict", async ({ page, service }) => {
     await open(page, id, "Quick");
-    const { outcome } = await service.get<{ outcome: { bodies: { displacement_m: number; error_bars: { displacement_m: { low: number } } }[] } }>(`/v1/jobs/${id}`);
+    const { outcome } = await service.get<{
+      outcome: { bodies: { displacement_m: number; error_bars: { displacement_m: { low: number } } }[] };
+    }>(`/v1/jobs/${id}`);
     await expect(page.getByText(/^Body 0 began to move at .* submerged\.$/)).toBeVisible();
     const row = page.getByRole("region", { name: "Quantities: Body 0" }).getByRole("row", { name: /^Displacement/ });
     await expect(row).toContainText(String(Number(outcome.bodies[0]?.displacement_m.toPrecision(4))));
@@ -58,7 +60,10 @@ test.describe("a successful job", () => {
     await plot.click({ position: { x: 200, y: 50 } });
     await expect(table).not.toContainText(/At 0\.(299|300|301) s/);
     const line = page.locator(".clock-line").nth(1);
-    expect((await line.boundingBox())?.x).toBeCloseTo(((await page.locator(".plot .u-over").nth(1).boundingBox())?.x ?? 0) + 199, -1);
+    expect((await line.boundingBox())?.x).toBeCloseTo(
+      ((await page.locator(".plot .u-over").nth(1).boundingBox())?.x ?? 0) + 199,
+      -1,
+    );
   });
 
   test("zooms all plots by dragging in one, and goes back", async ({ page }) => {
@@ -92,12 +97,18 @@ test.describe("a successful job", () => {
       ["trajectory-0.csv", "trajectory.csv?body=0"],
       ["aerial.svg", "aerial.svg"],
     ] as const) {
-      const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: file }).click()]);
+      const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        page.getByRole("button", { name: file }).click(),
+      ]);
       expect(download.suggestedFilename()).toBe(file);
       const expected = Buffer.from(await (await fetch(`${service.url}/v1/jobs/${id}/${path}`)).arrayBuffer());
       expect(expected.equals(await readFile(await download.path()))).toBe(true);
     }
-    const [scenario] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "scenario.json" }).click()]);
+    const [scenario] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "scenario.json" }).click(),
+    ]);
     expect(JSON.parse((await readFile(await scenario.path())).toString())).toMatchObject({ title: "Quick" });
   });
 
@@ -193,7 +204,9 @@ test("hundreds of bodies are shown, six of them as curves at first", async ({ pa
   await expect(page.getByRole("group", { name: "Bodies" }).getByRole("checkbox", { checked: true })).toHaveCount(6);
   await expect(page.getByText("242 more bodies are in the table below.")).toBeVisible();
   await boxes.nth(200).check();
-  await expect(page.getByRole("region", { name: "Values at the time of the replay" }).getByRole("rowheader", { name: "200" })).toBeVisible();
+  await expect(
+    page.getByRole("region", { name: "Values at the time of the replay" }).getByRole("rowheader", { name: "200" }),
+  ).toBeVisible();
   await expect(page.getByRole("region", { name: /^Quantities: Body/ })).toHaveCount(3);
   await expect(page.locator(".scene canvas")).toHaveAttribute("data-frames", /\d+/);
   await page.getByRole("button", { name: "Show all 250 bodies" }).click();

@@ -1,6 +1,7 @@
+import { memo } from "preact/compat";
 import { useRef } from "preact/hooks";
 import { type Frame, onPage, pointsOf } from "./frame";
-import type { Place } from "./outline";
+import { type Place, outlineOf } from "./outline";
 import type { PlacedBody } from "./scene";
 import type { Vec3 } from "./vectors";
 
@@ -8,8 +9,6 @@ import type { Vec3 } from "./vectors";
 export interface BodyMoves {
   /** Step of a move [m]. */
   step: number;
-  /** True if bodies have their numbers beside them. */
-  isNumbered: boolean;
   /** Moves a body; one that is lifted leaves the bed. */
   move: (body: PlacedBody, to: Vec3, isLifted: boolean, edit: string) => void;
   /** Keeps the frame as it is while a body is dragged. */
@@ -18,12 +17,17 @@ export interface BodyMoves {
   pick: (index: number) => void;
 }
 
+/** The moves of the latest drawing, under one reference for all of them. */
+export interface MovesReference {
+  current: BodyMoves;
+}
+
 interface DraggableBodyProps {
   body: PlacedBody;
-  centre: Place;
-  outline: Place[];
   frame: Frame;
-  moves: BodyMoves;
+  moves: MovesReference;
+  /** True if bodies have their numbers beside them. */
+  isNumbered: boolean;
   isSide: boolean;
 }
 
@@ -36,14 +40,25 @@ interface Drag {
   name: string;
 }
 
-/** A body that is moved with mouse, finger or arrow keys. */
-export function DraggableBody({ body, centre, outline, frame, moves, isSide }: DraggableBodyProps) {
+/** A body that is moved with mouse, finger or arrow keys; drawn anew if it or the frame changed. */
+export const DraggableBody = memo(function DraggableBody({
+  body,
+  frame,
+  moves,
+  isNumbered,
+  isSide,
+}: DraggableBodyProps) {
   const drag = useRef<Drag>();
-  const [x, y] = onPage(frame, centre);
+  const across = isSide ? 2 : 1;
+  const outline = outlineOf(
+    body.core.map((vertex): Place => [vertex[0], vertex[across]]),
+    body.solid.radius,
+  );
+  const [x, y] = onPage(frame, [body.centre[0], body.centre[across]]);
   const start = (event: PointerEvent & { currentTarget: SVGGElement }) => {
     if (event.button !== 0) return;
     event.currentTarget.setPointerCapture(event.pointerId);
-    moves.hold(true);
+    moves.current.hold(true);
     drag.current = {
       from: [event.clientX, event.clientY],
       centre: body.centre,
@@ -55,11 +70,11 @@ export function DraggableBody({ body, centre, outline, frame, moves, isSide }: D
     const { from, centre, name } = drag.current;
     const [dx, dv] = [(event.clientX - from[0]) / frame.scale, (from[1] - event.clientY) / frame.scale];
     if (Math.hypot(event.clientX - from[0], event.clientY - from[1]) < 2) return;
-    moves.move(body, shifted(centre, dx, dv, isSide), isSide && (event.shiftKey || body.isElevated), name);
+    moves.current.move(body, shifted(centre, dx, dv, isSide), isSide && (event.shiftKey || body.isElevated), name);
   };
   const end = () => {
     drag.current = undefined;
-    moves.hold(false);
+    moves.current.hold(false);
   };
   return (
     <g
@@ -69,31 +84,34 @@ export function DraggableBody({ body, centre, outline, frame, moves, isSide }: D
       role="button"
       aria-label={`Body ${body.index}, ${body.solid.text}, x ${figure(body.centre[0])} m, ${isSide ? `z ${figure(body.centre[2])}` : `y ${figure(body.centre[1])}`} m`}
       aria-keyshortcuts="ArrowLeft ArrowRight ArrowUp ArrowDown PageUp PageDown"
+      // Else the finger scrolls the page: touch-action does not reach into a drawing.
+      onTouchStart={(event) => event.preventDefault()}
       onPointerDown={start}
       onPointerMove={follow}
       onPointerUp={end}
       onPointerCancel={end}
-      onDblClick={() => moves.pick(body.index)}
-      onKeyDown={(event) => onKey(event, body, moves, isSide)}
+      onDblClick={() => moves.current.pick(body.index)}
+      onKeyDown={(event) => onKey(event, body, moves.current, isSide)}
     >
       <circle class="target" cx={x} cy={y} r={FINGER} />
       <polygon points={pointsOf(frame, outline)} />
       <title>{`Body ${body.index}, ${body.solid.text}`}</title>
-      {moves.isNumbered && <Number index={body.index} outline={outline} frame={frame} place={[x, y]} />}
+      {isNumbered && <Number index={body.index} outline={outline} frame={frame} place={[x, y]} />}
     </g>
   );
-}
+});
 
-/** Number of a body: on it if there is room, else above it. */
+/** Number of a body: on it if there is room, else above or below it. */
 function Number({ index, outline, frame, place }: { index: number; outline: Place[]; frame: Frame; place: Place }) {
   const tops = outline.map((corner) => onPage(frame, corner)[1]);
-  const highest = Math.min(...tops);
-  const hasRoom = Math.max(...tops) - highest > 18;
+  const [highest, lowest] = [Math.min(...tops), Math.max(...tops)];
+  const hasRoom = lowest - highest > 18;
+  const beside = highest > 13 ? highest - 3 : lowest + 12;
   return (
     <text
       class={hasRoom ? "number inside" : "number"}
       x={place[0]}
-      y={hasRoom ? place[1] + 4 : highest - 3}
+      y={hasRoom ? place[1] + 4 : beside}
       text-anchor="middle"
       aria-hidden="true"
     >

@@ -58,6 +58,7 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
     setIsText((isText) => isText || !isObject(value));
   };
   const dropping = useDrop((file) => void readFile(file));
+  const isBroken = isText && broken !== undefined;
   const isChanged = !same(document, original);
   return (
     <FormContext.Provider value={state}>
@@ -95,7 +96,8 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
           <SceneFigure />
           <div class="card outlook">
             <SubmitForm
-              obstacle={obstacleOf(plan.violations.length, isText && broken !== undefined)}
+              obstacle={obstacleOf(plan.violations.length, isBroken)}
+              isBlocked={isBroken}
               onSubmitted={forget}
             />
             <PlanPanel plan={plan} />
@@ -107,7 +109,7 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
 }
 
 function obstacleOf(violations: number, isBroken: boolean): string | undefined {
-  if (isBroken) return "The text is no JSON yet: what would run is its last correct state.";
+  if (isBroken) return "The text is no JSON yet. The plan is that of its last correct state.";
   return violations > 0 ? "It will be refused until no rule is broken." : undefined;
 }
 

@@ -6,16 +6,13 @@ import { useAnswer } from "../parts/use-answer";
 import { Editor } from "./editor";
 import "./form.css";
 import { PRESETS } from "./presets";
+import type { Schemas } from "./schema";
 import { useSource } from "./use-source";
 
 /** Form of a new scenario. */
 export function FormView() {
-  const search = useSearch();
   const contract = useAnswer(readContract, []);
   const schemas = contract.value?.components.schemas;
-  const source = useSource(search, schemas);
-  const problem = contract.problem ?? source.problem;
-  const begin = source.value;
   useEffect(() => {
     document.title = "New scenario – Scree";
     return () => {
@@ -25,19 +22,26 @@ export function FormView() {
   return (
     <>
       <h1>New scenario</h1>
-      {problem !== undefined && (
-        <>
-          <ProblemNotice problem={problem} />
-          <p>
-            <a href="#/new">Begin with an example</a>
-          </p>
-        </>
-      )}
-      {problem === undefined && schemas && begin?.search === search ? (
-        <Editor key={search} address={search} begin={begin.draft} schemas={schemas} preset={presetIn(search)} />
-      ) : (
-        problem === undefined && <p class="quiet">Reading …</p>
-      )}
+      {contract.problem !== undefined && !schemas && <ProblemNotice problem={contract.problem} />}
+      {schemas ? <Begun schemas={schemas} /> : contract.problem === undefined && <p class="quiet">Reading …</p>}
+    </>
+  );
+}
+
+/** The editor, once what it begins with is known. */
+function Begun({ schemas }: { schemas: Schemas }) {
+  const search = useSearch();
+  const { value: source, problem } = useSource(search, schemas);
+  if (source?.search === search) {
+    return <Editor key={search} address={search} begin={source.draft} schemas={schemas} preset={presetIn(search)} />;
+  }
+  if (problem === undefined) return <p class="quiet">Reading …</p>;
+  return (
+    <>
+      <ProblemNotice problem={problem} />
+      <p>
+        <a href="#/new">Begin with an example</a>
+      </p>
     </>
   );
 }

@@ -36,6 +36,8 @@ export function SceneFigure() {
   );
 }
 
+const NO_MOVES: BodyMoves = { step: 1, move: () => undefined, hold: () => undefined, pick: () => undefined };
+
 function Views({ scene, width }: { scene: Scene; width: number }) {
   const { reveal } = useForm();
   const [zoom, setZoom] = useState<Zoom>("channel");
@@ -43,19 +45,20 @@ function Views({ scene, width }: { scene: Scene; width: number }) {
   const [said, setSaid] = useState("");
   const move = useMove(scene, setSaid);
   // A frame round the bodies would follow the one that is dragged.
-  const frames = held.current ?? framesOf(scene, zoom, width);
-  const moves: BodyMoves = {
+  const frames = useSame(held.current ?? framesOf(scene, zoom, width));
+  const moves = useRef<BodyMoves>(NO_MOVES);
+  moves.current = {
     step: frames.step,
-    isNumbered: hasRoomForNumbers(scene, frames.side.scale),
     move: (body, to, isLifted, edit) => move(body, to, isLifted, edit, frames.step),
     hold: (isHeld) => (held.current = isHeld ? frames : undefined),
     pick: (index) => reveal(member("/bodies", index)),
   };
+  const isNumbered = hasRoomForNumbers(scene, frames.side.scale);
   return (
     <>
       <ZoomChoice zoom={zoom} setZoom={setZoom} isOf={scene.bodies.length > 0} />
-      <SideView scene={scene} frame={frames.side} moves={moves} />
-      <TopView scene={scene} frame={frames.top} moves={moves} />
+      <SideView scene={scene} frame={frames.side} moves={moves} isNumbered={isNumbered} />
+      <TopView scene={scene} frame={frames.top} moves={moves} isNumbered={isNumbered} />
       <figcaption>
         <p>{sceneText(scene)}</p>
         {scene.missing.length > 0 && (
@@ -115,6 +118,13 @@ function useMove(scene: Scene, say: (text: string) => void) {
         .join(", ")}`,
     );
   };
+}
+
+/** The value of before as long as it is equal, so that what is drawn with it stays. */
+function useSame<T>(value: T): T {
+  const latest = useRef(value);
+  if (JSON.stringify(latest.current) !== JSON.stringify(value)) latest.current = value;
+  return latest.current;
 }
 
 /** Width of an element [px], as it changes. */

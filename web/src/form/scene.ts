@@ -52,12 +52,12 @@ export function sceneOf(document: JsonObject, schemas: Schemas): Scene | undefin
   if (!channel) return undefined;
   const list = at(document, "/bodies");
   const bodies = Array.isArray(list) ? list : [];
-  const placed = bodies.map((body, index) => placedBody(body, index, channel));
+  const places = bodies.map((body, index) => placedBody(body, index, channel));
   return {
     channel,
     release: releaseOf(document, channel, schemas),
-    bodies: placed.filter((body) => body !== undefined),
-    missing: bodies.map((_, index) => index).filter((index) => placed[index] === undefined),
+    bodies: places.filter((body) => body !== undefined),
+    missing: bodies.map((_, index) => index).filter((index) => places[index] === undefined),
   };
 }
 
@@ -91,8 +91,22 @@ export function bedAt({ inclination }: Channel, x: number): number {
   return x < 0 ? -x * Math.tan(inclination) : 0;
 }
 
+const placed = new WeakMap<JsonObject, { channel: string; index: number; as: PlacedBody | undefined }>();
+
+/** Body in its place: the same one as long as neither body nor channel change, so that hundreds are
+ * drawn anew only where they moved. */
 function placedBody(body: Json, index: number, channel: Channel): PlacedBody | undefined {
-  const solid = isObject(body) ? solidOf(body["shape"], body["sphero_radius_m"]) : undefined;
+  if (!isObject(body)) return undefined;
+  const name = JSON.stringify(channel);
+  const known = placed.get(body);
+  if (known?.channel === name && known.index === index) return known.as;
+  const as = placeBody(body, index, channel);
+  placed.set(body, { channel: name, index, as });
+  return as;
+}
+
+function placeBody(body: JsonObject, index: number, channel: Channel): PlacedBody | undefined {
+  const solid = solidOf(body["shape"], body["sphero_radius_m"]);
   if (!solid) return undefined;
   const place = (key: string) => {
     const value = at(body, `/position/${key}`);

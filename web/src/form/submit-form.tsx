@@ -12,11 +12,13 @@ const LABEL = "[A-Za-z0-9._:=\\/\\-]{1,64}";
 interface SubmitFormProps {
   /** Why the scenario can't be run as it is; undefined if it can. */
   obstacle: string | undefined;
+  /** True if what would run is not what is shown. */
+  isBlocked: boolean;
   onSubmitted: () => void;
 }
 
 /** Button that runs the scenario, with an optional label. */
-export function SubmitForm({ obstacle, onSubmitted }: SubmitFormProps) {
+export function SubmitForm({ obstacle, isBlocked, onSubmitted }: SubmitFormProps) {
   const { document } = useForm();
   const [, navigate] = useLocation();
   const [label, setLabel] = useState("");
@@ -41,7 +43,7 @@ export function SubmitForm({ obstacle, onSubmitted }: SubmitFormProps) {
   return (
     <form class="submit" onSubmit={(event) => void send(event)}>
       <div class="actions">
-        <button type="submit" class="primary" disabled={isSending} aria-describedby="obstacle">
+        <button type="submit" class="primary" disabled={isSending || isBlocked} aria-describedby="obstacle">
           {isSending ? "Submitting …" : "Run it"}
         </button>
         <label>

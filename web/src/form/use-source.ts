@@ -6,12 +6,10 @@ import { PRESETS, presetOf } from "./presets";
 import { type Schemas, resolved, withoutDefaults } from "./schema";
 
 /** Scenario that the form of an address begins with: its draft, or what the address names. */
-export function useSource(search: string, schemas: Schemas | undefined): Answer<{ search: string; draft: Draft }> {
+export function useSource(search: string, schemas: Schemas): Answer<{ search: string; draft: Draft }> {
   return useAnswer(async () => {
-    // Without schemas there is no form yet, and the answer is asked for again.
-    if (!schemas) return { search: "\n", draft: { document: {}, original: {}, from: "", isOfFile: false } };
     return { search, draft: readDraft(search) ?? (await sourceOf(new URLSearchParams(search), schemas)) };
-  }, [search, schemas]);
+  }, [search]);
 }
 
 async function sourceOf(query: URLSearchParams, schemas: Schemas): Promise<Draft> {

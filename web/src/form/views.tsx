@@ -1,17 +1,18 @@
 import { View } from "./axes";
-import { type BodyMoves, DraggableBody } from "./draggable-body";
+import { DraggableBody, type MovesReference } from "./draggable-body";
 import { type Frame, onPage, pointsOf } from "./frame";
-import { type Place, outlineOf } from "./outline";
+import type { Place } from "./outline";
 import { type Channel, type Release, type Scene, bedAt } from "./scene";
 
 interface SceneViewProps {
   scene: Scene;
   frame: Frame;
-  moves: BodyMoves;
+  moves: MovesReference;
+  isNumbered: boolean;
 }
 
 /** View from the side, x–z. */
-export function SideView({ scene: { channel, release, bodies }, frame, moves }: SceneViewProps) {
+export function SideView({ scene: { channel, release, bodies }, frame, moves, isNumbered }: SceneViewProps) {
   const far = frame.low[1] - 1;
   const bed: Place[] = [
     [-channel.incline, bedAt(channel, -channel.incline)],
@@ -30,21 +31,9 @@ export function SideView({ scene: { channel, release, bodies }, frame, moves }: 
       <path class="open-end" d={`M${endX} ${endY}V0`} />
       <Inclination channel={channel} frame={frame} />
       {release && <Thickness release={release} channel={channel} frame={frame} />}
-      {bodies.map((body) => {
-        const core = body.core.map(([x, , z]): Place => [x, z]);
-        const centre: Place = [body.centre[0], body.centre[2]];
-        return (
-          <DraggableBody
-            key={body.index}
-            body={body}
-            centre={centre}
-            outline={outlineOf(core, body.solid.radius)}
-            frame={frame}
-            moves={moves}
-            isSide
-          />
-        );
-      })}
+      {bodies.map((body) => (
+        <DraggableBody key={body.index} body={body} frame={frame} moves={moves} isNumbered={isNumbered} isSide />
+      ))}
     </View>
   );
 }
@@ -99,7 +88,7 @@ function Thickness({ release, channel, frame }: { release: Release; channel: Cha
 }
 
 /** View from above, x–y. */
-export function TopView({ scene: { channel, release, bodies }, frame, moves }: SceneViewProps) {
+export function TopView({ scene: { channel, release, bodies }, frame, moves, isNumbered }: SceneViewProps) {
   const half = channel.width / 2;
   const box = (from: number, to: number) =>
     pointsOf(frame, [
@@ -119,21 +108,16 @@ export function TopView({ scene: { channel, release, bodies }, frame, moves }: S
       <path class="centre" d={`M${left} ${middleY}H${right}`} />
       <path class="open-end" d={`M${footX} ${upper}V${lower}M${right} ${upper}V${lower}`} />
       <path class="wall" d={`M${right} ${upper}H${left}V${lower}H${right}`} />
-      {bodies.map((body) => {
-        const core = body.core.map(([x, y]): Place => [x, y]);
-        const centre: Place = [body.centre[0], body.centre[1]];
-        return (
-          <DraggableBody
-            key={body.index}
-            body={body}
-            centre={centre}
-            outline={outlineOf(core, body.solid.radius)}
-            frame={frame}
-            moves={moves}
-            isSide={false}
-          />
-        );
-      })}
+      {bodies.map((body) => (
+        <DraggableBody
+          key={body.index}
+          body={body}
+          frame={frame}
+          moves={moves}
+          isNumbered={isNumbered}
+          isSide={false}
+        />
+      ))}
     </View>
   );
 }

@@ -9,7 +9,10 @@ import { ScenarioComparison } from "./compare/scenario-comparison";
 
 /** View of two jobs side by side. */
 export function CompareView({ ids: [one, other] }: { ids: [string, string] }) {
-  const { value, problem } = useAnswer((signal) => Promise.all([one, other].map((id) => read(id, signal))), [one, other]);
+  const { value, problem } = useAnswer(
+    (signal) => Promise.all([one, other].map((id) => read(id, signal))),
+    [one, other],
+  );
   const [first, second] = value ?? [];
   return (
     <article class="compare">

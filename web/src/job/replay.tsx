@@ -21,8 +21,16 @@ export function useContent(job: Job | undefined, poses: Poses[] | undefined, flo
     if (!job || !poses) return undefined;
     const frames = flow.frames ?? [];
     const { scenario } = job;
-    const cellSize = job.outcome?.cost.cell_size_m ?? job.plan?.cost.cell_size_m ?? scenario.numerics?.cell_size_m ?? 0.01;
-    return { scenario, poses, frames, cellSize, topSpeed: topSpeed(frames), region: regionOf(scenario, poses ?? NO_POSES, frames) };
+    const cellSize =
+      job.outcome?.cost.cell_size_m ?? job.plan?.cost.cell_size_m ?? scenario.numerics?.cell_size_m ?? 0.01;
+    return {
+      scenario,
+      poses,
+      frames,
+      cellSize,
+      topSpeed: topSpeed(frames),
+      region: regionOf(scenario, poses ?? NO_POSES, frames),
+    };
   }, [job?.id, poses, flow.frames, job?.outcome]);
 }
 
@@ -35,7 +43,12 @@ export function Replay({ content, flow, clock }: { content: AerialContent; flow:
       <h2 id="replay">Replay</h2>
       <div class="replay-head">
         <div class="choice" role="group" aria-label="View">
-          <button type="button" aria-pressed={!isFlat && !hasFailed} disabled={hasFailed} onClick={() => setIsFlat(false)}>
+          <button
+            type="button"
+            aria-pressed={!isFlat && !hasFailed}
+            disabled={hasFailed}
+            onClick={() => setIsFlat(false)}
+          >
             3D
           </button>
           <button type="button" aria-pressed={isFlat || hasFailed} onClick={() => setIsFlat(true)}>
@@ -44,7 +57,9 @@ export function Replay({ content, flow, clock }: { content: AerialContent; flow:
         </div>
         {content.frames.length > 0 && <SpeedScale top={content.topSpeed} />}
       </div>
-      {hasFailed && <p class="notice warning">This browser shows no 3D pictures (WebGL), so here is the view from above.</p>}
+      {hasFailed && (
+        <p class="notice warning">This browser shows no 3D pictures (WebGL), so here is the view from above.</p>
+      )}
       {isFlat || hasFailed ? (
         <AerialView content={content} clock={clock} name="Replay" />
       ) : (
@@ -59,7 +74,12 @@ export function Replay({ content, flow, clock }: { content: AerialContent; flow:
 function FlowNote({ flow, content }: { flow: Frames; content: AerialContent }) {
   if (flow.problem) return <ProblemNotice problem={flow.problem} />;
   if (content.scenario.flow === null) return <p class="quiet">This scenario has no flow.</p>;
-  if (!flow.frames) return <p class="quiet">{flow.of > 0 ? `Reading the flow: ${flow.read} of ${flow.of} instants …` : "Reading the flow …"}</p>;
+  if (!flow.frames)
+    return (
+      <p class="quiet">
+        {flow.of > 0 ? `Reading the flow: ${flow.read} of ${flow.of} instants …` : "Reading the flow …"}
+      </p>
+    );
   const [first] = flow.frames;
   if (!first) return <p class="quiet">No instants of the flow are stored.</p>;
   const kept = first.thinning > 1 ? `; one in ${first.thinning} of the ${first.points} material points is kept` : "";

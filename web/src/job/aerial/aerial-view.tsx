@@ -47,7 +47,11 @@ export function SpeedScale({ top }: { top: number }) {
   return (
     <div class="speed-scale">
       <span>0</span>
-      <span class="viridis" role="img" aria-label={`Colours of the flow's speed from 0, dark, to ${figure(top)} m/s, yellow`} />
+      <span
+        class="viridis"
+        role="img"
+        aria-label={`Colours of the flow's speed from 0, dark, to ${figure(top)} m/s, yellow`}
+      />
       <span>{figure(top)} m/s and more</span>
       <span class="quiet">speed of the flow</span>
     </div>

@@ -48,7 +48,13 @@ export function frameOf({ low, high }: Region, width: number): Frame {
   const scale = Math.min((width - MARGIN.left - MARGIN.right) / long, MOST_HEIGHT / wide);
   const inner = Math.max(LEAST_HEIGHT, wide * scale);
   const left = MARGIN.left + (width - MARGIN.left - MARGIN.right - long * scale) / 2 - low[0] * scale;
-  return { scale, width, left, height: inner + MARGIN.top + MARGIN.bottom, middle: MARGIN.top + inner / 2 + ((high[1] + low[1]) / 2) * scale };
+  return {
+    scale,
+    width,
+    left,
+    height: inner + MARGIN.top + MARGIN.bottom,
+    middle: MARGIN.top + inner / 2 + ((high[1] + low[1]) / 2) * scale,
+  };
 }
 
 /** Draws at a time; it keeps what two neighbouring frames have in common. */
@@ -132,14 +138,23 @@ function paintWalls(context: CanvasRenderingContext2D, frame: Frame, content: Ae
   context.setLineDash([]);
 }
 
-function paintAxis(context: CanvasRenderingContext2D, frame: Frame, { region, scenario }: AerialContent, theme: Theme): void {
+function paintAxis(
+  context: CanvasRenderingContext2D,
+  frame: Frame,
+  { region, scenario }: AerialContent,
+  theme: Theme,
+): void {
   const at = placeOn(frame);
   const half = scenario.channel.width_m / 2;
   context.fillStyle = theme.quiet;
   context.font = "12px system-ui, sans-serif";
   context.textAlign = "center";
   const base = at(0, -half)[1] + 16;
-  for (const x of multiples(niceStep(region.high[0] - region.low[0], Math.max(3, frame.width / 110)), region.low[0], region.high[0])) {
+  for (const x of multiples(
+    niceStep(region.high[0] - region.low[0], Math.max(3, frame.width / 110)),
+    region.low[0],
+    region.high[0],
+  )) {
     context.fillText(x === 0 ? "0 m, foot" : `${figure(x)} m`, at(x, 0)[0], base);
     line(context, [at(x, 0)[0], base - 16], [at(x, 0)[0], base - 12]);
   }
@@ -160,7 +175,14 @@ function paintTrail(context: CanvasRenderingContext2D, frame: Frame, poses: Pose
   context.stroke();
 }
 
-function paintBody(context: CanvasRenderingContext2D, frame: Frame, { scenario, poses: all }: AerialContent, poses: Poses, time: number, theme: Theme): void {
+function paintBody(
+  context: CanvasRenderingContext2D,
+  frame: Frame,
+  { scenario, poses: all }: AerialContent,
+  poses: Poses,
+  time: number,
+  theme: Theme,
+): void {
   const given = scenario.bodies[poses.body];
   const pose = poseAt(poses, time);
   if (!given || !pose) return;

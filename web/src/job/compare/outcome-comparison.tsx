@@ -17,7 +17,8 @@ export function OutcomeComparison({ first, second }: { first: Outcome; second: O
       <h2 id="outcomes">Outcomes</h2>
       {first.bodies.length !== second.bodies.length && (
         <p class="notice">
-          The first job has {first.bodies.length} bodies, the second {second.bodies.length}; those with the same number are compared.
+          The first job has {first.bodies.length} bodies, the second {second.bodies.length}; those with the same number
+          are compared.
         </p>
       )}
       {groups.length === 0 && <p>The jobs have neither a body nor a flow in common.</p>}
@@ -25,7 +26,10 @@ export function OutcomeComparison({ first, second }: { first: Outcome; second: O
         <GroupTable key={group.name} {...group} hasIntervals={hasIntervals} />
       ))}
       {!hasIntervals && groups.length > 0 && (
-        <p class="quiet">Not both jobs have uncertainty intervals, so nothing tells whether a difference is more than the error of the cells.</p>
+        <p class="quiet">
+          Not both jobs have uncertainty intervals, so nothing tells whether a difference is more than the error of the
+          cells.
+        </p>
       )}
     </section>
   );

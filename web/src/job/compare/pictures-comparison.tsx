@@ -69,7 +69,8 @@ function Aerials({ first, second, clock }: { first: Job; second: Job; clock: Clo
 function alike(one: AerialContent | undefined, other: AerialContent | undefined): (AerialContent | undefined)[] {
   if (!one || !other) return [one, other];
   const topSpeed = Math.max(one.topSpeed, other.topSpeed);
-  const end = (of: (...values: number[]) => number, key: keyof Region, axis: 0 | 1 | 2) => of(one.region[key][axis], other.region[key][axis]);
+  const end = (of: (...values: number[]) => number, key: keyof Region, axis: 0 | 1 | 2) =>
+    of(one.region[key][axis], other.region[key][axis]);
   const region: Region = {
     low: [end(Math.min, "low", 0), end(Math.min, "low", 1), end(Math.min, "low", 2)],
     high: [end(Math.max, "high", 0), end(Math.max, "high", 1), end(Math.max, "high", 2)],

@@ -40,7 +40,12 @@ export interface FramePair {
 /** Matches two frames. A point of one frame alone stands still where it is. */
 export function pairOf({ first, second }: Pick<Between, "first" | "second">): FramePair {
   const most = first.kept + (first === second ? 0 : second.kept);
-  const pair = { count: 0, start: new Uint16Array(4 * most), end: new Uint16Array(4 * most), presence: new Uint8Array(most) };
+  const pair = {
+    count: 0,
+    start: new Uint16Array(4 * most),
+    end: new Uint16Array(4 * most),
+    presence: new Uint8Array(most),
+  };
   const isSame = first.thinning === second.thinning;
   let a = 0;
   let b = 0;

@@ -16,15 +16,58 @@ export interface AuditFigure {
 type Key = keyof Schemas["Conservation"];
 
 const FIGURES: { key: Key; name: string; meaning: string; from?: number }[] = [
-  { key: "mass_error", name: "Mass balance", meaning: "relative error of the mass that is there or has left", from: 1e-9 },
-  { key: "points_lost", name: "Points lost", meaning: "material points that vanished other than through the open end", from: 1 },
-  { key: "momentum_residual", name: "Momentum balance", meaning: "largest relative difference between the momentum and what all forces brought in", from: 1e-6 },
-  { key: "angular_momentum_residual", name: "Angular momentum balance", meaning: "the same of the angular momentum", from: 1e-6 },
-  { key: "energy_residual", name: "Energy", meaning: "largest relative rise of mechanical energy: above 0, energy was made", from: 0.02 },
-  { key: "max_overlap_ratio", name: "Overlap of flow and bodies", meaning: "deepest point in a body, over the sum of point radius and sphero radius", from: 1 },
-  { key: "max_body_overlap_ratio", name: "Overlap of bodies", meaning: "deepest overlap of a body with a wall or a body, over the sphero radius", from: 0.9 },
-  { key: "penetration_corrections", name: "Penetration corrections", meaning: "times a material point had to be put out of a body" },
-  { key: "angular_momentum_from_shifting", name: "Angular momentum from redistribution", meaning: "relative angular momentum that shifting points created; not part of the balance above" },
+  {
+    key: "mass_error",
+    name: "Mass balance",
+    meaning: "relative error of the mass that is there or has left",
+    from: 1e-9,
+  },
+  {
+    key: "points_lost",
+    name: "Points lost",
+    meaning: "material points that vanished other than through the open end",
+    from: 1,
+  },
+  {
+    key: "momentum_residual",
+    name: "Momentum balance",
+    meaning: "largest relative difference between the momentum and what all forces brought in",
+    from: 1e-6,
+  },
+  {
+    key: "angular_momentum_residual",
+    name: "Angular momentum balance",
+    meaning: "the same of the angular momentum",
+    from: 1e-6,
+  },
+  {
+    key: "energy_residual",
+    name: "Energy",
+    meaning: "largest relative rise of mechanical energy: above 0, energy was made",
+    from: 0.02,
+  },
+  {
+    key: "max_overlap_ratio",
+    name: "Overlap of flow and bodies",
+    meaning: "deepest point in a body, over the sum of point radius and sphero radius",
+    from: 1,
+  },
+  {
+    key: "max_body_overlap_ratio",
+    name: "Overlap of bodies",
+    meaning: "deepest overlap of a body with a wall or a body, over the sphero radius",
+    from: 0.9,
+  },
+  {
+    key: "penetration_corrections",
+    name: "Penetration corrections",
+    meaning: "times a material point had to be put out of a body",
+  },
+  {
+    key: "angular_momentum_from_shifting",
+    name: "Angular momentum from redistribution",
+    meaning: "relative angular momentum that shifting points created; not part of the balance above",
+  },
   { key: "points_outflow", name: "Points that left", meaning: "material points that left through the open end" },
 ];
 
@@ -34,7 +77,13 @@ export function auditOf(outcome: Outcome): AuditFigure[] {
   const figures = FIGURES.map(({ key, name, meaning, from }) => judged(name, meaning, conservation[key], from));
   const made = outcome.bodies.flatMap(({ energy }) => (energy ? [energy.made_share] : []));
   if (made.length > 0) {
-    figures.push(judged("Energy made in bodies", "largest energy that nothing accounts for, over the energy that moves the body; 1e-5 is usual, and above 0.01 the run ends", Math.max(...made)));
+    figures.push(
+      judged(
+        "Energy made in bodies",
+        "largest energy that nothing accounts for, over the energy that moves the body; 1e-5 is usual, and above 0.01 the run ends",
+        Math.max(...made),
+      ),
+    );
   }
   return figures;
 }

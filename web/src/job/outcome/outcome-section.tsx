@@ -17,8 +17,10 @@ export function Story({ job, submergence }: { job: Job; submergence: readonly nu
       ))}
       {early && (
         <p class="quiet">
-          The run ended at {figure(early.time_s)} s, since {early.reason}; the rest could have moved a body by no more than {figure(1000 * early.body_bound_m, 2)} mm
-          {early.front_bound_m !== null && ` and the front by no more than ${figure(1000 * early.front_bound_m, 2)} mm`}.
+          The run ended at {figure(early.time_s)} s, since {early.reason}; the rest could have moved a body by no more
+          than {figure(1000 * early.body_bound_m, 2)} mm
+          {early.front_bound_m !== null && ` and the front by no more than ${figure(1000 * early.front_bound_m, 2)} mm`}
+          .
         </p>
       )}
       {warnings.map((warning) => (
@@ -38,7 +40,10 @@ export function Quantities({ outcome }: { outcome: Outcome }) {
   const [isWhole, setIsWhole] = useState(false);
   const bodies = outcome.bodies.map((body, place) => ({ name: `Body ${place}`, quantities: bodyQuantities(body) }));
   const flow = flowQuantities(outcome);
-  const groups = [...(isWhole ? bodies : bodies.slice(0, BODIES_AT_FIRST)), ...(flow.length > 0 ? [{ name: "Flow", quantities: flow }] : [])];
+  const groups = [
+    ...(isWhole ? bodies : bodies.slice(0, BODIES_AT_FIRST)),
+    ...(flow.length > 0 ? [{ name: "Flow", quantities: flow }] : []),
+  ];
   const hasIntervals = groups.some(({ quantities }) => quantities.some(({ interval }) => interval));
   return (
     <section aria-labelledby="numbers">
@@ -64,7 +69,15 @@ export function Quantities({ outcome }: { outcome: Outcome }) {
   );
 }
 
-function QuantityTable({ name, quantities, hasIntervals }: { name: string; quantities: Quantity[]; hasIntervals: boolean }) {
+function QuantityTable({
+  name,
+  quantities,
+  hasIntervals,
+}: {
+  name: string;
+  quantities: Quantity[];
+  hasIntervals: boolean;
+}) {
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={`Quantities: ${name}`}>
       <table>
@@ -110,8 +123,8 @@ function AccuracyNote({ report }: { report: NonNullable<Outcome["accuracy"]> }) 
         </p>
       )}
       <p class="quiet">
-        An interval holds what cells and softened grains change, not what the model leaves out. Behind the intervals are {runs.length} runs, with cells of{" "}
-        {runs.map((run) => `${figure(1000 * run.cell_size_m)} mm`).join(", ")}.
+        An interval holds what cells and softened grains change, not what the model leaves out. Behind the intervals are{" "}
+        {runs.length} runs, with cells of {runs.map((run) => `${figure(1000 * run.cell_size_m)} mm`).join(", ")}.
       </p>
     </>
   );
@@ -124,7 +137,8 @@ export function Audit({ outcome }: { outcome: Outcome }) {
     <section aria-labelledby="trust">
       <h2 id="trust">May I trust it?</h2>
       <p>
-        <strong>{verdictOf(figures)}</strong> The audit says that the equations were solved, not that they are the right ones.
+        <strong>{verdictOf(figures)}</strong> The audit says that the equations were solved, not that they are the right
+        ones.
       </p>
       <div class="scroll" tabIndex={0} role="region" aria-label="Conservation audit">
         <table class="audit">

@@ -14,7 +14,15 @@ export interface Quantity {
   interval: Interval | undefined;
 }
 
-type BodyKey = "first_contact_time_s" | "onset_time_s" | "peak_speed_m_s" | "peak_speed_time_s" | "stop_time_s" | "displacement_m" | "path_length_m" | "burial_depth_m";
+type BodyKey =
+  | "first_contact_time_s"
+  | "onset_time_s"
+  | "peak_speed_m_s"
+  | "peak_speed_time_s"
+  | "stop_time_s"
+  | "displacement_m"
+  | "path_length_m"
+  | "burial_depth_m";
 
 const BODY: [BodyKey, string, string][] = [
   ["first_contact_time_s", "First contact", "s"],

@@ -15,7 +15,11 @@ export function sentencesOf(job: Job, submergence: readonly number[] = []): stri
   const bodies = outcome.bodies.flatMap((body, place) => {
     const given = scenario.bodies[place];
     if (given?.fixed) return [];
-    return [given?.motion ? `Body ${place} moved as prescribed, ${figure(body.displacement_m)} m from its start.` : bodySentence(place, body, submergence[place])];
+    return [
+      given?.motion
+        ? `Body ${place} moved as prescribed, ${figure(body.displacement_m)} m from its start.`
+        : bodySentence(place, body, submergence[place]),
+    ];
   });
   const told = bodies.slice(0, MOST_SENTENCES);
   const more = bodies.length - told.length;

@@ -18,7 +18,12 @@ export function Transport({ clock }: { clock: Clock }) {
   const label = clock.isPlaying ? "Pause" : "Play";
   return (
     <div class="transport" role="group" aria-label="Replay">
-      <button type="button" class="play" onClick={() => (clock.isPlaying ? clock.pause() : clock.play())} disabled={clock.end <= 0}>
+      <button
+        type="button"
+        class="play"
+        onClick={() => (clock.isPlaying ? clock.pause() : clock.play())}
+        disabled={clock.end <= 0}
+      >
         {label}
       </button>
       <input
@@ -34,7 +39,11 @@ export function Transport({ clock }: { clock: Clock }) {
       <output class="time">
         {time.toFixed(3)} s <span class="quiet">of {clock.end.toFixed(3)} s</span>
       </output>
-      <select aria-label="Speed" value={clock.rate} onChange={(event) => clock.setRate(Number(event.currentTarget.value))}>
+      <select
+        aria-label="Speed"
+        value={clock.rate}
+        onChange={(event) => clock.setRate(Number(event.currentTarget.value))}
+      >
         {RATES.map(([rate, name]) => (
           <option key={rate} value={rate}>
             {name}
@@ -42,7 +51,12 @@ export function Transport({ clock }: { clock: Clock }) {
         ))}
       </select>
       <label class="inline">
-        <input type="checkbox" checked={clock.loops} onChange={(event) => clock.setLoops(event.currentTarget.checked)} /> Loop
+        <input
+          type="checkbox"
+          checked={clock.loops}
+          onChange={(event) => clock.setLoops(event.currentTarget.checked)}
+        />{" "}
+        Loop
       </label>
     </div>
   );

@@ -54,7 +54,11 @@ function BodyChoice({ job, bodies, setBodies }: Choice) {
       <legend>Bodies</legend>
       {job.scenario.bodies.map((body, place) => (
         <label key={place} class="inline">
-          <input type="checkbox" checked={bodies.includes(place)} onChange={(event) => toggle(place, event.currentTarget.checked)} />
+          <input
+            type="checkbox"
+            checked={bodies.includes(place)}
+            onChange={(event) => toggle(place, event.currentTarget.checked)}
+          />
           <span class="swatch" style={{ background: bodyColour(place, isDark) }} />
           {place}
           {body.fixed ? " (fixed)" : ""}

@@ -80,7 +80,12 @@ function bindMouse(plot: uPlot, { clock, onRange }: PlotContent): void {
 }
 
 function optionsOf({ name, unit, curves, marks, width, theme, syncKey }: PlotContent): uPlot.Options {
-  const axis = { stroke: theme.quiet, grid: { stroke: theme.line, width: 1 }, ticks: { stroke: theme.line, width: 1 }, font: "12px system-ui, sans-serif" };
+  const axis = {
+    stroke: theme.quiet,
+    grid: { stroke: theme.line, width: 1 },
+    ticks: { stroke: theme.line, width: 1 },
+    font: "12px system-ui, sans-serif",
+  };
   return {
     width,
     height: HEIGHT,
@@ -94,7 +99,10 @@ function optionsOf({ name, unit, curves, marks, width, theme, syncKey }: PlotCon
     cursor: {
       y: false,
       drag: { x: true, y: false, setScale: false },
-      sync: { key: syncKey, filters: { pub: (type) => type === "mousemove" || type === "mouseleave", sub: () => true } },
+      sync: {
+        key: syncKey,
+        filters: { pub: (type) => type === "mousemove" || type === "mouseleave", sub: () => true },
+      },
       bind: { dblclick: () => null },
     },
     hooks: {
@@ -115,7 +123,14 @@ function optionsOf({ name, unit, curves, marks, width, theme, syncKey }: PlotCon
 }
 
 function seriesOf({ name, colour, dash }: Curve): uPlot.Series {
-  return { label: name, stroke: colour, width: 1.75, spanGaps: true, points: { show: false }, ...(dash ? { dash } : {}) };
+  return {
+    label: name,
+    stroke: colour,
+    width: 1.75,
+    spanGaps: true,
+    points: { show: false },
+    ...(dash ? { dash } : {}),
+  };
 }
 
 /** Range of an axis that begins at 0, with room above. */

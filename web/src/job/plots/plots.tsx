@@ -25,7 +25,10 @@ export function Plots({ plots, clock, syncKey }: { plots: PlotSpec[]; clock: Clo
   const zoom = (factor: number) => {
     const [from, to] = range ?? [0, clock.end];
     const half = ((to - from) * factor) / 2;
-    const middle = Math.min(clock.end - Math.min(half, clock.end / 2), Math.max(Math.min(half, clock.end / 2), clock.time));
+    const middle = Math.min(
+      clock.end - Math.min(half, clock.end / 2),
+      Math.max(Math.min(half, clock.end / 2), clock.time),
+    );
     setRange(2 * half >= clock.end ? undefined : [middle - half, middle + half]);
   };
   return (
@@ -41,7 +44,9 @@ export function Plots({ plots, clock, syncKey }: { plots: PlotSpec[]; clock: Clo
           Whole run
         </button>
         <span class="quiet" aria-live="polite">
-          {range ? `${range[0].toFixed(3)} s to ${range[1].toFixed(3)} s` : "Drag across a plot to zoom; click to go to a time."}
+          {range
+            ? `${range[0].toFixed(3)} s to ${range[1].toFixed(3)} s`
+            : "Drag across a plot to zoom; click to go to a time."}
         </span>
       </div>
       <div class="plots">
@@ -67,7 +72,17 @@ function Plot({ name, unit, curves, marks, range, setRange, clock, syncKey }: Pl
   const show = (to: Range | undefined) => plot.current?.setScale("x", { min: to?.[0] ?? 0, max: to?.[1] ?? clock.end });
   useEffect(() => {
     if (!element.current || width < 80) return;
-    plot.current = plotIn(element.current, { name, unit, curves, marks, width, theme, clock, syncKey, onRange: setRange });
+    plot.current = plotIn(element.current, {
+      name,
+      unit,
+      curves,
+      marks,
+      width,
+      theme,
+      clock,
+      syncKey,
+      onRange: setRange,
+    });
     show(range);
     return () => plot.current?.destroy();
   }, [curves, marks, width, theme]);

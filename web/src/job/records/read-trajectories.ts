@@ -21,7 +21,15 @@ export async function readPoses(job: Job, signal: AbortSignal): Promise<Poses[]>
 
 /** Curves of one body. */
 export async function readCurves(job: Job, body: number, signal: AbortSignal): Promise<Curves> {
-  const fields: Field[] = ["time_s", "position_m", "velocity_m_s", "submerged_fraction", "flow_force_n", "wall_force_n", "body_force_n"];
+  const fields: Field[] = [
+    "time_s",
+    "position_m",
+    "velocity_m_s",
+    "submerged_fraction",
+    "flow_force_n",
+    "wall_force_n",
+    "body_force_n",
+  ];
   return curvesOf(body, await read(job, body, fields, MOST_SAMPLES, signal));
 }
 

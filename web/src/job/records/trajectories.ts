@@ -34,13 +34,24 @@ export function strideFor(simulated: number, interval: number, most: number): nu
 
 /** Simulated time that a job has records of [s]. */
 export function recordedTime(job: Job): number {
-  return job.status === "successful" ? (job.outcome?.ended_early?.time_s ?? job.progress.simulated_time_s) : job.progress.simulated_time_s;
+  return job.status === "successful"
+    ? (job.outcome?.ended_early?.time_s ?? job.progress.simulated_time_s)
+    : job.progress.simulated_time_s;
 }
 
 /** Poses from the columns of a trajectory. */
-export function posesOf(body: number, { time_s = [], position_m = [], orientation = [], submerged_fraction = [] }: Columns): Poses {
+export function posesOf(
+  body: number,
+  { time_s = [], position_m = [], orientation = [], submerged_fraction = [] }: Columns,
+): Poses {
   const lastSubmergence = submerged_fraction[submerged_fraction.length - 1] ?? 0;
-  return { body, time: time_s, position: position_m as unknown as Vector[], orientation: orientation as unknown as Quaternion[], lastSubmergence };
+  return {
+    body,
+    time: time_s,
+    position: position_m as unknown as Vector[],
+    orientation: orientation as unknown as Quaternion[],
+    lastSubmergence,
+  };
 }
 
 /** Curves from the columns of a trajectory. */
@@ -56,7 +67,9 @@ export function curvesOf(body: number, columns: Columns): Curves {
     speed: (columns.velocity_m_s ?? []).map(norm),
     submergence: (columns.submerged_fraction ?? []).map((share) => 100 * share),
     flowForce: (columns.flow_force_n ?? []).map(norm),
-    contactForce: walls.map((force, place) => norm(force.map((value, axis) => value + (columns.body_force_n?.[place]?.[axis] ?? 0)))),
+    contactForce: walls.map((force, place) =>
+      norm(force.map((value, axis) => value + (columns.body_force_n?.[place]?.[axis] ?? 0))),
+    ),
   };
 }
 
@@ -82,7 +95,10 @@ export function valueAt(times: ArrayLike<number>, values: ArrayLike<number>, tim
 }
 
 /** Place and orientation at a time: linear, and along the shorter great arc. */
-export function poseAt({ time: times, position, orientation }: Poses, time: number): { position: Vector; orientation: Quaternion } | undefined {
+export function poseAt(
+  { time: times, position, orientation }: Poses,
+  time: number,
+): { position: Vector; orientation: Quaternion } | undefined {
   const place = sampleAt(times, time);
   const [p, q] = [position[place], orientation[place]];
   if (!p || !q) return undefined;
@@ -97,7 +113,8 @@ function between(a: Quaternion, b: Quaternion, share: number): Quaternion {
   const cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
   const angle = Math.acos(Math.min(1, Math.abs(cosine)));
   const sine = Math.sin(angle);
-  const [s, t] = sine < 1e-6 ? [1 - share, share] : [Math.sin((1 - share) * angle) / sine, Math.sin(share * angle) / sine];
+  const [s, t] =
+    sine < 1e-6 ? [1 - share, share] : [Math.sin((1 - share) * angle) / sine, Math.sin(share * angle) / sine];
   const sign = cosine < 0 ? -1 : 1;
   const mixed = (k: 0 | 1 | 2 | 3) => s * a[k] + sign * t * b[k];
   return [mixed(0), mixed(1), mixed(2), mixed(3)];

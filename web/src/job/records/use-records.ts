@@ -23,7 +23,10 @@ export function usePoses(job: Job | undefined): Answer<Poses[]> {
 
 /** Curves of the chosen bodies. */
 export function useCurves(job: Job, bodies: readonly number[]): Answer<Curves[]> {
-  return useAnswer((signal) => Promise.all(bodies.map((body) => readCurves(job, body, signal))), [job.id, epochOf(job), bodies.join(" ")]);
+  return useAnswer(
+    (signal) => Promise.all(bodies.map((body) => readCurves(job, body, signal))),
+    [job.id, epochOf(job), bodies.join(" ")],
+  );
 }
 
 /** Frames of a job's flow, how many of how many are there, and what went wrong. */

@@ -95,7 +95,13 @@ function geometryOf({ positions, normals, triangles, core }: Surface): BufferGeo
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
   geometry.setAttribute("normal", new Float32BufferAttribute(normals, 3));
-  geometry.setAttribute("color", new Float32BufferAttribute(shades.flatMap((shade) => [shade, shade, shade]), 3));
+  geometry.setAttribute(
+    "color",
+    new Float32BufferAttribute(
+      shades.flatMap((shade) => [shade, shade, shade]),
+      3,
+    ),
+  );
   geometry.setIndex(triangles);
   return geometry;
 }

@@ -26,7 +26,8 @@ export function lookAt(camera: PerspectiveCamera, region: Region, from: Vector3)
   const centre = new Vector3(...region.low).add(new Vector3(...region.high)).multiplyScalar(0.5);
   let distance = distanceFor(corners, centre, { back, right, up }, tangent, camera.aspect);
   for (let round = 0; round < CENTRINGS; round += 1) {
-    for (const axis of [right, up]) centre.addScaledVector(axis, offset(corners, centre, back, axis, distance) * distance);
+    for (const axis of [right, up])
+      centre.addScaledVector(axis, offset(corners, centre, back, axis, distance) * distance);
     distance = distanceFor(corners, centre, { back, right, up }, tangent, camera.aspect);
   }
   distance *= MARGIN;
@@ -43,10 +44,19 @@ const CENTRINGS = 4;
 const MARGIN = 1.12;
 
 /** Distance from which all corners are within the picture. */
-function distanceFor(corners: Vector3[], centre: Vector3, axes: { back: Vector3; right: Vector3; up: Vector3 }, tangent: number, aspect: number): number {
+function distanceFor(
+  corners: Vector3[],
+  centre: Vector3,
+  axes: { back: Vector3; right: Vector3; up: Vector3 },
+  tangent: number,
+  aspect: number,
+): number {
   const needed = corners.map((corner) => {
     const arm = corner.clone().sub(centre);
-    return arm.dot(axes.back) + Math.max(Math.abs(arm.dot(axes.right)) / (tangent * aspect), Math.abs(arm.dot(axes.up)) / tangent);
+    return (
+      arm.dot(axes.back) +
+      Math.max(Math.abs(arm.dot(axes.right)) / (tangent * aspect), Math.abs(arm.dot(axes.up)) / tangent)
+    );
   });
   return Math.max(...needed, 1e-6);
 }

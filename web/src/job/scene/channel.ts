@@ -74,17 +74,27 @@ export class Channel {
   }
 
   private bed(above: number): Corner[] {
-    const rows = this.stations().map((x): Corner[] => [-this.half, this.half].map((y) => [x, y, this.height(x) + above]));
+    const rows = this.stations().map((x): Corner[] =>
+      [-this.half, this.half].map((y) => [x, y, this.height(x) + above]),
+    );
     return quads(rows);
   }
 
   private wall(y: number, height: number): Corner[] {
-    return quads(this.stations().map((x): Corner[] => [[x, y, this.height(x)], [x, y, this.height(x) + height]]));
+    return quads(
+      this.stations().map((x): Corner[] => [
+        [x, y, this.height(x)],
+        [x, y, this.height(x) + height],
+      ]),
+    );
   }
 
   private back(height: number): Corner[] {
     const low = this.height(this.from);
-    return quads([[-this.half, this.half].map((y): Corner => [this.from, y, low]), [-this.half, this.half].map((y): Corner => [this.from, y, low + height])]);
+    return quads([
+      [-this.half, this.half].map((y): Corner => [this.from, y, low]),
+      [-this.half, this.half].map((y): Corner => [this.from, y, low + height]),
+    ]);
   }
 
   private grid(step: number, above: number): Corner[] {
@@ -93,7 +103,10 @@ export class Channel {
     const along = multiples(step, -this.half, this.half).flatMap((y) =>
       stations.slice(1).flatMap((x, k): Corner[] => {
         const before = stations[k] ?? x;
-        return [[before, y, this.height(before) + above], [x, y, this.height(x) + above]];
+        return [
+          [before, y, this.height(before) + above],
+          [x, y, this.height(x) + above],
+        ];
       }),
     );
     return [...across, ...along];
@@ -104,12 +117,20 @@ export class Channel {
   }
 
   private surface(corners: Corner[], colour: string, opacity: number): void {
-    const material = new MeshBasicMaterial({ color: colourOf(colour), side: DoubleSide, transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
+    const material = new MeshBasicMaterial({
+      color: colourOf(colour),
+      side: DoubleSide,
+      transparent: opacity < 1,
+      opacity,
+      depthWrite: opacity === 1,
+    });
     this.group.add(new Mesh(this.geometry(corners), this.keep(material)));
   }
 
   private lines(corners: Corner[], colour: string): void {
-    this.group.add(new LineSegments(this.geometry(corners), this.keep(new LineBasicMaterial({ color: colourOf(colour) }))));
+    this.group.add(
+      new LineSegments(this.geometry(corners), this.keep(new LineBasicMaterial({ color: colourOf(colour) }))),
+    );
   }
 
   private label(x: number, step: number): void {

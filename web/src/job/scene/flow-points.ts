@@ -71,7 +71,10 @@ export class FlowPoints {
       // As they are: the shader writes sRGB.
       colours: { value: VIRIDIS.map(([r, g, b]) => new Vector3(r / 255, g / 255, b / 255)) },
     };
-    this.points = new Points(new BufferGeometry(), new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms }));
+    this.points = new Points(
+      new BufferGeometry(),
+      new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms }),
+    );
     this.points.frustumCulled = false;
   }
 

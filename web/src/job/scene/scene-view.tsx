@@ -41,7 +41,12 @@ export function SceneView({ content, clock, fail }: { content: AerialContent; cl
             {CAMERAS[name].name}
           </button>
         ))}
-        <button type="button" onClick={() => void viewer?.picture().then((blob) => blob && save(blob, `scene-${clock.time.toFixed(3)}s.png`))}>
+        <button
+          type="button"
+          onClick={() =>
+            void viewer?.picture().then((blob) => blob && save(blob, `scene-${clock.time.toFixed(3)}s.png`))
+          }
+        >
           Save picture
         </button>
         <span class="quiet hint">Drag to turn, right button to move, wheel to zoom.</span>
@@ -61,7 +66,8 @@ function FrameRate({ viewer }: { viewer: SceneViewer | undefined }) {
   }, [viewer, isShown]);
   return (
     <label class="frame-rate">
-      <input type="checkbox" checked={isShown} onChange={(event) => setIsShown(event.currentTarget.checked)} /> Frame rate
+      <input type="checkbox" checked={isShown} onChange={(event) => setIsShown(event.currentTarget.checked)} /> Frame
+      rate
       {isShown && <span> {rate} /s</span>}
     </label>
   );

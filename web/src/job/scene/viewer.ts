@@ -44,7 +44,11 @@ export class SceneViewer {
     private readonly canvas: HTMLCanvasElement,
     private readonly clock: Clock,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: devicePixelRatio < 1.5 && !isSoftware(), powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({
+      canvas,
+      antialias: devicePixelRatio < 1.5 && !isSoftware(),
+      powerPreference: "high-performance",
+    });
     this.pace = new Pace(Math.min(devicePixelRatio, MOST_PIXEL_RATIO));
     this.camera.up.set(0, 0, 1);
     const sun = new DirectionalLight(0xffffff, 2.2);
@@ -145,7 +149,10 @@ export class SceneViewer {
       this.ask();
     });
     views.observe(this.canvas);
-    this.ends.push(() => sizes.disconnect(), () => views.disconnect());
+    this.ends.push(
+      () => sizes.disconnect(),
+      () => views.disconnect(),
+    );
   }
 
   private readonly zoomByKey = ({ key }: KeyboardEvent) => {

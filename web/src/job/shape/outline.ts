@@ -6,7 +6,11 @@ import { type Quaternion, type Vector, turned } from "./vector";
 const CIRCLE_POINTS = 24;
 
 /** Outline of a body seen from above [m], anticlockwise: the hull of its turned core, widened by its radius. */
-export function outlineFromAbove({ core, radius }: Surface, position: Vector, orientation: Quaternion): [number, number][] {
+export function outlineFromAbove(
+  { core, radius }: Surface,
+  position: Vector,
+  orientation: Quaternion,
+): [number, number][] {
   const points = core.flatMap((corner) => {
     const [x, y] = turned(orientation, corner);
     return Array.from({ length: CIRCLE_POINTS }, (_, step): [number, number] => {

@@ -55,7 +55,9 @@ export function within(planes: readonly Plane[]): Polytope {
   const corners = cornersOf(planes);
   const near = 1e-6 * sizeOf(corners);
   const faces = planes.map(({ normal, offset }) => {
-    const on = [...corners.keys()].filter((place) => Math.abs(dot(normal, corners[place] ?? normal) - offset) < 10 * near);
+    const on = [...corners.keys()].filter(
+      (place) => Math.abs(dot(normal, corners[place] ?? normal) - offset) < 10 * near,
+    );
     return { normal, loop: aroundNormal(corners, on, normal) };
   });
   return { corners, faces: faces.filter(({ loop }) => loop.length >= 3) };
@@ -90,7 +92,10 @@ function meeting(a: Plane, b: Plane, c: Plane, along: Vector): Vector | undefine
 /** Corners of a face in the order of their angle about its normal. */
 function aroundNormal(corners: readonly Vector[], on: number[], normal: Vector): number[] {
   const places = on.map((place) => corners[place] ?? normal);
-  const centre = scaled(places.reduce((sum, place) => plus(sum, place), [0, 0, 0] as Vector), 1 / (places.length || 1));
+  const centre = scaled(
+    places.reduce((sum, place) => plus(sum, place), [0, 0, 0] as Vector),
+    1 / (places.length || 1),
+  );
   const first = unit(minus(places[0] ?? normal, centre));
   const second = cross(normal, first);
   const angle = (place: number) => {

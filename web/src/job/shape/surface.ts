@@ -44,7 +44,14 @@ function made({ cube, box, regular, polyhedron, ball, capsule }: AnyShape, radiu
   if (ball) return swept([[0, 0, 0]], ball.radius_m, steps);
   if (capsule) {
     const half = capsule.length_m / 2 - capsule.radius_m;
-    return swept([[-half, 0, 0], [half, 0, 0]], capsule.radius_m, steps);
+    return swept(
+      [
+        [-half, 0, 0],
+        [half, 0, 0],
+      ],
+      capsule.radius_m,
+      steps,
+    );
   }
   let corners: Vector[];
   if (regular) corners = regularCorners(regular.solid, regular.size_m);
@@ -85,7 +92,11 @@ class Builder {
   }
 
   triangle(a = 0, b = 0, c = 0): void {
-    const at = (values: number[], place: number): Vector => [values[3 * place] ?? 0, values[3 * place + 1] ?? 0, values[3 * place + 2] ?? 0];
+    const at = (values: number[], place: number): Vector => [
+      values[3 * place] ?? 0,
+      values[3 * place + 1] ?? 0,
+      values[3 * place + 2] ?? 0,
+    ];
     const [p, q, r] = [a, b, c].map((place) => at(this.surface.positions, place)) as [Vector, Vector, Vector];
     const facing = cross(minus(q, p), minus(r, p));
     const outwards = plus(plus(at(this.surface.normals, a), at(this.surface.normals, b)), at(this.surface.normals, c));
@@ -105,7 +116,11 @@ function swept(core: Vector[], radius: number, steps: number): Surface {
     const row = (corner: Vector) =>
       Array.from({ length: 2 * parts + 1 }, (_, turn) => {
         const about = (turn / parts) * Math.PI;
-        return builder.add(corner, [-Math.cos(along), Math.sin(along) * Math.cos(about), Math.sin(along) * Math.sin(about)]);
+        return builder.add(corner, [
+          -Math.cos(along),
+          Math.sin(along) * Math.cos(about),
+          Math.sin(along) * Math.sin(about),
+        ]);
       });
     rows.push(row(2 * step <= parts ? first : last));
     if (2 * step === parts) rows.push(row(last));
@@ -131,7 +146,8 @@ function rounded(core: Polytope, radius: number, steps: number): Surface {
   }
   for (const [key, [one, other]] of edges) {
     const ends = key.split(" ").map((corner) => core.corners[Number(corner)]);
-    if (one && other) builder.grid(ends.map((end) => arc(one, other, steps).map((normal) => builder.add(end ?? one, normal))));
+    if (one && other)
+      builder.grid(ends.map((end) => arc(one, other, steps).map((normal) => builder.add(end ?? one, normal))));
   }
   for (const [corner, about] of normals.entries()) cap(builder, core.corners[corner] ?? [0, 0, 0], about, steps);
   return builder.surface;
@@ -159,7 +175,11 @@ function cap(builder: Builder, corner: Vector, normals: Vector[], steps: number)
 
 /** The surface about its centre of mass, with its volume. */
 function centred(surface: Surface): Surface {
-  const at = (place: number): Vector => [surface.positions[3 * place] ?? 0, surface.positions[3 * place + 1] ?? 0, surface.positions[3 * place + 2] ?? 0];
+  const at = (place: number): Vector => [
+    surface.positions[3 * place] ?? 0,
+    surface.positions[3 * place + 1] ?? 0,
+    surface.positions[3 * place + 2] ?? 0,
+  ];
   let volume = 0;
   let moment: Vector = [0, 0, 0];
   for (let k = 0; k < surface.triangles.length; k += 3) {

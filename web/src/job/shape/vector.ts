@@ -3,7 +3,11 @@
 export type Vector = readonly [number, number, number];
 export type Quaternion = readonly [number, number, number, number];
 
-export const plus = (a: Vector, b: Vector, times = 1): Vector => [a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]];
+export const plus = (a: Vector, b: Vector, times = 1): Vector => [
+  a[0] + times * b[0],
+  a[1] + times * b[1],
+  a[2] + times * b[2],
+];
 export const minus = (a: Vector, b: Vector): Vector => plus(a, b, -1);
 export const scaled = (a: Vector, by: number): Vector => [a[0] * by, a[1] * by, a[2] * by];
 export const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -22,7 +22,9 @@ export function Downloads({ job }: { job: Job }) {
     ...(job.outcome ? [{ document: job.outcome, file: "outcome.json", about: "outcome" }] : []),
     ...(bodies > 0 ? [{ path: `${root}/motion.svg`, file: "motion.svg", about: "displacement and speed, drawn" }] : []),
     { path: `${root}/aerial.svg`, file: "aerial.svg", about: "from above, drawn" },
-    ...(hasFlow || bodies > 0 ? [{ path: `${root}/flow.zip`, file: "flow.zip", about: "flow and bodies for ParaView" }] : []),
+    ...(hasFlow || bodies > 0
+      ? [{ path: `${root}/flow.zip`, file: "flow.zip", about: "flow and bodies for ParaView" }]
+      : []),
     ...(hasFlow ? [{ path: `${root}/flow.bin`, file: "flow.bin", about: "frames of the flow, binary" }] : []),
   ];
   const trajectories: Download[] = [".csv", ".npz", ".ndjson", ""].map((ending) => ({
