@@ -192,7 +192,7 @@ test("bodies are added, copied, reshaped and removed", async ({ page }) => {
 
 test("vectors, lists and prescribed motions can be entered", async ({ page }) => {
   await page.goto("/#/new");
-  await page.getByText(/^More: angular velocity/).click();
+  await page.getByText(/^More: density, sphero radius/).click();
   const velocity = page.getByRole("group", { name: "Velocity", exact: true });
   await velocity.getByLabel("x").fill("-2");
   expect((await documentOf(page))["bodies"][0].velocity_m_s).toEqual([-2, 0, 0]);
@@ -385,7 +385,7 @@ test("a field that a later version adds appears by itself", async ({ page }) => 
   await page.getByText(/^More: base friction/).click();
   await page.getByLabel("Roughness").fill("0.02");
   await expect(page.getByText("channel.roughness_m is not a known field.").first()).toBeVisible();
-  await page.getByText(/^More: angular velocity/).click();
+  await page.getByText(/^More: density, sphero radius/).click();
   await page.getByLabel("Paint").selectOption("green");
   await page.getByLabel("Shape").selectOption({ label: "Cone" });
   await page.getByLabel("Height").last().fill("0.5");

@@ -110,7 +110,7 @@ export function FieldTexts({ pointer, schema, isRequired }: FieldProps) {
   const { help, fallback } = described(schema);
   const range = rangeOf(schema.type === "array" ? (schema.items ?? {}) : schema);
   const shown =
-    isRequired || fallback === undefined || fallback === "all defaults" ? undefined : `Left empty: ${fallback}.`;
+    isRequired || fallback === undefined || schema.default !== undefined ? undefined : `Left empty: ${fallback}.`;
   return (
     <>
       <p class="help" id={`help:${pointer}`}>

@@ -11,6 +11,13 @@ const ESSENTIAL: Record<string, string[]> = {
   Body: ["shape", "position", "yaw_deg", "fixed"],
 };
 
+/** Order of the fields of an object that are not named above, or of all if none are. */
+const ORDER: Record<string, string[]> = {
+  Body: ["density_kg_m3", "sphero_radius_m", "orientation", "velocity_m_s", "angular_velocity_rad_s", "motion"],
+  Material: ["bulk_density_kg_m3", "grain_density_kg_m3", "grain_diameter_m", "static_friction", "limiting_friction"],
+  Numerics: ["cell_size_m", "points_per_cell", "precision", "symmetry", "approach", "ending"],
+};
+
 /** Fields of the scenario that have a control of their own, by the pointer of their object. */
 export const CONTROLLED: Record<string, string[]> = {
   "/accuracy": ["error_bars", "target", "quantity", "body"],
@@ -20,10 +27,13 @@ export const CONTROLLED: Record<string, string[]> = {
 export function arranged(schema: FieldSchema, omitted: string[] = []): { essential: string[]; rest: string[] } {
   const keys = Object.keys(schema.properties ?? {}).filter((key) => !omitted.includes(key));
   const wanted = ESSENTIAL[schema.name ?? ""];
-  if (!wanted) return { essential: requiredFirst(keys, schema), rest: [] };
+  if (!wanted) return { essential: inOrder(keys, schema), rest: [] };
   return {
     essential: wanted.filter((key) => keys.includes(key)),
-    rest: keys.filter((key) => !wanted.includes(key)),
+    rest: inOrder(
+      keys.filter((key) => !wanted.includes(key)),
+      schema,
+    ),
   };
 }
 
@@ -33,6 +43,9 @@ export function isEssential(key: string, schema: FieldSchema | undefined): boole
   return !wanted || wanted.includes(key);
 }
 
-function requiredFirst(keys: string[], { required = [] }: FieldSchema): string[] {
-  return [...keys.filter((key) => required.includes(key)), ...keys.filter((key) => !required.includes(key))];
+/** Keys in the order of their object; what must be given comes first, what has no place last. */
+function inOrder(keys: string[], { required = [], name = "" }: FieldSchema): string[] {
+  const order = [...required, ...(ORDER[name] ?? [])];
+  const place = (key: string) => (order.includes(key) ? order.indexOf(key) : order.length);
+  return [...keys].sort((one, other) => place(one) - place(other));
 }

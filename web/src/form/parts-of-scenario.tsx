@@ -142,7 +142,11 @@ export function VariantsField(props: FieldProps) {
           ))}
         </select>
       </FieldFrame>
-      {chosen && <VariantFields pointer={pointer} variant={chosen} />}
+      {chosen && (
+        <div class="variant">
+          <VariantFields pointer={pointer} variant={chosen} />
+        </div>
+      )}
     </div>
   );
 }
