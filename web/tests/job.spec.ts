@@ -170,7 +170,7 @@ test("a failed job tells why and what to do", async ({ page }) => {
   const folder = await mkdtemp(join(tmpdir(), "scree-limits-"));
   const config = join(folder, "service.toml");
   await writeFile(config, "[limits]\njob_wall_time_s = 1\n");
-  const service = await Service.start("--config", config);
+  const service = await Service.start(["--config", config]);
   try {
     const id = await service.submit(SLOW);
     await service.get(`/v1/jobs/${id}?wait=30s`);
