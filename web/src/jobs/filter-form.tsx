@@ -36,6 +36,14 @@ export function FilterForm({ filter, change }: { filter: Filter; change: (filter
         to
         <input type="date" value={filter.to} onChange={text("to")} />
       </label>
+      <label class="members">
+        <input
+          type="checkbox"
+          checked={filter.members}
+          onChange={(event) => change({ ...filter, members: event.currentTarget.checked })}
+        />{" "}
+        Members of studies
+      </label>
       <button type="button" onClick={() => change(ALL)}>
         Show all
       </button>

@@ -1,6 +1,6 @@
 /** Filter of the list of jobs. */
 
-import type { JobStatus } from "../api/client";
+import type { JobStatus, JobSummary } from "../api/client";
 
 export const STATUSES: readonly JobStatus[] = ["accepted", "running", "successful", "failed", "dismissed"];
 
@@ -11,9 +11,25 @@ export interface Filter {
   /** First and last day of acceptance, as `2026-11-30`, in the reader's time zone. */
   from: string;
   to: string;
+  /** True if members of studies are listed, too. */
+  members: boolean;
 }
 
-export const ALL: Filter = { statuses: [], label: "", from: "", to: "" };
+export const ALL: Filter = { statuses: [], label: "", from: "", to: "", members: false };
+
+/** Beginning of the label that tells the study of a job. */
+const STUDY = "study:";
+
+/** Identifier of the study whose member a job is. */
+export function studyOf(job: JobSummary): string | undefined {
+  return job.labels.find((label) => label.startsWith(STUDY))?.slice(STUDY.length);
+}
+
+/** The read jobs that a filter shows. */
+export function shown(jobs: JobSummary[], filter: Filter): JobSummary[] {
+  // A label asked for may be that of a study.
+  return filter.members || filter.label !== "" ? jobs : jobs.filter((job) => studyOf(job) === undefined);
+}
 
 /** Parameters of the request for the jobs of a filter. */
 export function query(filter: Filter) {

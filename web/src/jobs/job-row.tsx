@@ -3,6 +3,7 @@ import { Link } from "wouter-preact";
 import { type JobSummary, api, data } from "../api/client";
 import { ConfirmButton } from "../parts/confirm-button";
 import { duration, figure, moment } from "../parts/format";
+import { studyOf } from "./filter";
 import { hasEnded } from "./job-list";
 
 interface RowProps {
@@ -15,6 +16,8 @@ interface RowProps {
 /** A job in the list. */
 export const JobRow = memo(function JobRow({ job, isChosen, choose, fail }: RowProps) {
   const title = job.title || "Untitled scenario";
+  const study = studyOf(job);
+  const labels = study === undefined ? job.labels : [];
   const dismiss = () => data(api.DELETE("/v1/jobs/{id}", { params: { path: { id: job.id } } })).catch(fail);
   const remove = () =>
     data(api.DELETE("/v1/jobs/{id}", { params: { path: { id: job.id }, query: { remove: "ended" } } })).catch(fail);
@@ -29,7 +32,14 @@ export const JobRow = memo(function JobRow({ job, isChosen, choose, fail }: RowP
       />
       <div class="job-title">
         <Link href={`/jobs/${job.id}`}>{title}</Link>
-        <span class="quiet">{[...job.labels, moment(job.created)].join(" · ")}</span>
+        <span class="quiet">
+          {study !== undefined && (
+            <>
+              member of <Link href={`/studies/${study}`}>a study</Link> ·{" "}
+            </>
+          )}
+          {[...labels, moment(job.created)].join(" · ")}
+        </span>
       </div>
       <div class="job-state">
         <span class={`status ${job.status}`}>{job.status}</span>
