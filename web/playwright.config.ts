@@ -2,6 +2,7 @@ import { defineConfig } from "@playwright/test";
 
 export default defineConfig({
   testDir: "tests",
+  snapshotPathTemplate: "tests/pictures/{arg}{ext}",
   // The machine's cores are the solver's, too.
   workers: 1,
   timeout: 60_000,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// may be output of a command.
 const ENDINGS: [&str; 5] = [".md", ".rs", ".svg", ".toml", ".sql"];
 /// Folders that are not part of the project.
-const SKIPPED: [&str; 2] = ["target", ".git"];
+const SKIPPED: [&str; 3] = ["target", ".git", "node_modules"];
 
 fn files_under(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());

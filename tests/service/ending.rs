@@ -54,8 +54,8 @@ fn a_body_that_stands_alone_needs_no_more_than_a_tenth_of_a_second() {
     assert_eq!((ended.body_bound_m, ended.front_bound_m), (0.0, None));
     // Rest time of a cube of 4 cm, at the end of a millisecond.
     assert!(ended.time_s > 0.094 && ended.time_s < 0.098, "{ended:?}");
-    // Time 0, every hundredth of a second, and the end.
-    assert_eq!((counted.samples, counted.snapshots), (11, 2));
+    // Time 0, every hundredth of a second, and the end; time 0, every sixtieth, and the end.
+    assert_eq!((counted.samples, counted.snapshots), (11, 7));
     assert_eq!(counted.last.fraction, 1.0);
     let (full, counted) = run(&scene, "full");
     assert_eq!((full.ended_early, counted.samples), (None, 101));

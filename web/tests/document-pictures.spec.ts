@@ -1,5 +1,5 @@
 /**
- * Pictures of every view for the documents: `PICTURES=../docs/pictures/page npm test -- pictures`, with the
+ * Pictures of every view for the documents: `PICTURES=../docs/pictures/page npm test -- document-pictures`, with the
  * binary of a release build.
  */
 
