@@ -73,7 +73,7 @@ pub(super) async fn events(
     let mut query = Query::new(query.as_deref());
     let job: Option<JobId> = query.word("job", "a job's id", |text| text.parse().ok());
     let after = query.whole("after", NUMBERS);
-    let progress = query.word("progress", "true or false", |text| text.parse().ok());
+    let progress = query.truth("progress");
     let seen = headers.get("last-event-id").and_then(|number| {
         let text = String::from_utf8_lossy(number.as_bytes());
         query.whole_of("Last-Event-ID", &text, &NUMBERS)

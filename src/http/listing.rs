@@ -33,6 +33,9 @@ pub(super) struct PageParameters {
     status: Option<Vec<JobStatus>>,
     /// Only jobs with this label.
     label: Option<String>,
+    /// Whether members of studies are listed.
+    #[param(default = true)]
+    members: Option<bool>,
     /// Only jobs accepted at this time or later (RFC 3339).
     #[param(format = DateTime)]
     created_from: Option<String>,
@@ -116,6 +119,7 @@ pub(super) fn read_page(query: &mut Query) -> Page {
     Page {
         statuses: statuses.unwrap_or_else(|| JobStatus::ALL.to_vec()),
         label: query.word("label", LABEL_RULE, label),
+        members: query.truth("members").unwrap_or(true),
         created_from,
         created_to,
         before: query.word("cursor", "the next_cursor of another page", cursor::read),

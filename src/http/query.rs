@@ -113,6 +113,11 @@ impl Query {
         word
     }
 
+    /// Whether something is so: `true` or `false`.
+    pub(super) fn truth(&mut self, name: &str) -> Option<bool> {
+        self.word(name, "true or false", |text| text.parse().ok())
+    }
+
     /// All texts of a parameter that may be repeated.
     pub(super) fn all<T>(
         &mut self,

@@ -25,6 +25,7 @@ impl JobService {
             statuses: vec![JobStatus::Running],
             limit: MOST_JOBS,
             label: None,
+            members: true,
             created_from: None,
             created_to: None,
             before: None,

@@ -47,6 +47,12 @@ export class Service {
     return ((user ?? NaN) + (system ?? NaN)) / 100;
   }
 
+  /** Requests that the service has answered so far. */
+  async requests(): Promise<number> {
+    const text = await (await fetch(`${this.url}/metrics`)).text();
+    return Number(/^scree_request_seconds_count (\d+)/m.exec(text)?.[1]);
+  }
+
   async stop(): Promise<void> {
     const ended = new Promise((resolve) => this.child.once("exit", resolve));
     this.child.kill("SIGTERM");

@@ -11,6 +11,8 @@ pub struct Page {
     pub statuses: Vec<JobStatus>,
     /// Only jobs with this label.
     pub label: Option<String>,
+    /// True if members of studies are wanted, too.
+    pub members: bool,
     /// Only jobs accepted at this time or later.
     pub created_from: Option<Timestamp>,
     /// Only jobs accepted at this time or earlier.

@@ -41,6 +41,13 @@ pub(in super::super) fn push_newest<DB: Database>(
         Some(label) => query.push("labels WHERE label = ").push_bind(label.clone()),
         None => query.push("jobs WHERE true"),
     };
+    match (page.members, &page.label) {
+        (true, _) => {}
+        (false, None) => drop(query.push(" AND priority = 0")),
+        (false, Some(_)) => {
+            query.push(" AND (SELECT priority FROM jobs WHERE jobs.id = job_id) = 0");
+        }
+    }
     query
         .push(" AND status = ")
         .push_bind(status.word().to_owned());

@@ -57,10 +57,16 @@ mod tests {
         let clock = Arc::new(SystemClock::default());
         let store = SqliteStore::open_with(&path, None, clock).await.unwrap();
         let time = Some(Timestamp::UNIX_EPOCH);
-        for (label, created_from) in [(None, None), (None, time), (Some("a".to_owned()), time)] {
+        for (label, members, created_from) in [
+            (None, true, None),
+            (None, true, time),
+            (None, false, time),
+            (Some("a".to_owned()), true, time),
+        ] {
             let page = Page {
                 statuses: vec![JobStatus::Accepted, JobStatus::Failed],
                 label: label.clone(),
+                members,
                 created_from,
                 created_to: created_from,
                 before: None,
@@ -72,6 +78,7 @@ mod tests {
             let rows = explained.fetch_all(store.readers.pool()).await.unwrap();
             let plan: Vec<String> = rows.iter().map(|row| row.get("detail")).collect();
             let by_state = match label {
+                None if !members => "COVERING INDEX jobs_without_members (status=? AND sequence<?)",
                 None => "COVERING INDEX jobs_by_status (status=? AND sequence<?)",
                 Some(_) => "COVERING INDEX labels_by_status (label=? AND status=? AND sequence<?)",
             };

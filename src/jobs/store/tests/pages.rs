@@ -3,6 +3,7 @@
 use super::*;
 
 conformance! {
+    members_of_studies_are_left_out_if_they_are_not_wanted
     pages_have_what_they_are_asked_for_newest_first
     a_page_ends_where_its_outcomes_are_large
 }
@@ -37,6 +38,7 @@ fn any() -> Page {
     Page {
         statuses: JobStatus::ALL.to_vec(),
         label: None,
+        members: true,
         created_from: None,
         created_to: None,
         before: None,
@@ -104,6 +106,26 @@ async fn pages_have_what_they_are_asked_for_newest_first(fixture: &Fixture) {
         ..any()
     };
     assert_eq!(fixture.pages(&all, &page).await, [[5, 1]]);
+}
+
+async fn members_of_studies_are_left_out_if_they_are_not_wanted(fixture: &Fixture) {
+    let study = fixture.study("a study").await;
+    let mut all = Vec::new();
+    for number in 0..3 {
+        all.push(fixture.submit_labelled().await);
+        let scenario = format!("{{\"number\": {number}}}");
+        all.push(fixture.add(study, number, &scenario).await);
+    }
+    let page = Page { limit: 2, ..any() };
+    assert_eq!(fixture.pages(&all, &page).await, [[5, 4], [3, 2], [1, 0]]);
+    for label in [None, Some("odd".to_owned())] {
+        let page = Page {
+            members: false,
+            label,
+            ..page.clone()
+        };
+        assert_eq!(fixture.pages(&all, &page).await, [vec![4, 2], vec![0]]);
+    }
 }
 
 async fn a_page_ends_where_its_outcomes_are_large(fixture: &Fixture) {

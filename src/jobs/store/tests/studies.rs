@@ -22,14 +22,14 @@ conformance! {
 }
 
 impl Fixture {
-    async fn study(&self, title: &str) -> StudyId {
+    pub(super) async fn study(&self, title: &str) -> StudyId {
         let id = StudyId::new();
         let submitted = self.store.add_study(&new_study(id, title)).await.unwrap();
         assert_eq!(submitted, StudySubmitted::Accepted);
         id
     }
 
-    async fn add(&self, study: StudyId, member: u64, scenario: &str) -> JobId {
+    pub(super) async fn add(&self, study: StudyId, member: u64, scenario: &str) -> JobId {
         let members = [new_member(member, scenario)];
         let added = self.store.add_members(study, &members).await.unwrap();
         assert_eq!(added, 1);
