@@ -68,7 +68,8 @@ async function* messages(body: ReadableStream<Uint8Array>): AsyncGenerator<Messa
     }
   } finally {
     // Otherwise the connection stays open after the reader has gone.
-    void reader.cancel();
+    // Of a request that was given up there is nothing left to cancel.
+    reader.cancel().catch(() => undefined);
   }
 }
 

@@ -20,6 +20,8 @@ const LONGEST_SILENCE_MS = 180_000;
 class SharedStream {
   private readonly pages = new Map<MessagePort, number>();
   private readonly end = new AbortController();
+  /** Whether the stream has begun, which is told to all by a reset of its own. */
+  private hasBegun = false;
   /** Last progress of each running job, for pages that come later. */
   private readonly progress = new Map<string, ServiceEvent>();
 
@@ -32,7 +34,7 @@ class SharedStream {
     const isNew = !this.pages.has(page);
     this.pages.set(page, Date.now());
     if (!isNew) return;
-    page.postMessage({ kind: "reset" } satisfies ServiceEvent);
+    if (this.hasBegun) page.postMessage({ kind: "reset" } satisfies ServiceEvent);
     for (const event of this.progress.values()) page.postMessage(event);
   }
 
@@ -49,6 +51,7 @@ class SharedStream {
   }
 
   private tell(event: ServiceEvent): void {
+    this.hasBegun = true;
     if (event.kind === "progress") this.progress.set(event.id, event);
     else if (event.kind !== "reset") this.progress.delete(event.id);
     for (const page of this.pages.keys()) page.postMessage(event);

@@ -2,6 +2,7 @@
 
 import { type JobStatus, type JobSummary, type Progress, api, data } from "../api/client";
 import type { ServiceEvent } from "../events/stream";
+import { hasEnded } from "../parts/status";
 import { Throttle } from "../parts/throttle";
 import { type Filter, query } from "./filter";
 
@@ -18,13 +19,6 @@ export interface ListState {
   hasMore: boolean;
   isReading: boolean;
   problem: unknown;
-}
-
-const ENDED: ReadonlySet<JobStatus> = new Set(["successful", "failed", "dismissed"] as const);
-
-/** True for a job that has ended. */
-export function hasEnded(status: JobStatus): boolean {
-  return ENDED.has(status);
 }
 
 /** Jobs that meet a filter, newest first. */

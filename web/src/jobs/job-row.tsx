@@ -3,8 +3,8 @@ import { Link } from "wouter-preact";
 import { type JobSummary, api, data } from "../api/client";
 import { ConfirmButton } from "../parts/confirm-button";
 import { duration, figure, moment } from "../parts/format";
+import { hasEnded } from "../parts/status";
 import { studyOf } from "./filter";
-import { hasEnded } from "./job-list";
 
 interface RowProps {
   job: JobSummary;

@@ -39,6 +39,12 @@ export function recordedTime(job: Job): number {
     : job.progress.simulated_time_s;
 }
 
+/** Columns with later ones behind them. */
+export function appended(columns: Columns, later: Columns): Columns {
+  const fields = Object.keys({ ...columns, ...later }) as (keyof Columns)[];
+  return Object.fromEntries(fields.map((field) => [field, [...(columns[field] ?? []), ...(later[field] ?? [])]]));
+}
+
 /** Poses from the columns of a trajectory. */
 export function posesOf(
   body: number,

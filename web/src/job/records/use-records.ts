@@ -1,12 +1,12 @@
 /** Records of a job as its view needs them. */
 
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useMemo, useState } from "preact/hooks";
 import type { Job } from "../../api/client";
 import { onTokenChange } from "../../api/token";
 import { type Answer, useAnswer } from "../../parts/use-answer";
 import type { FlowFrame } from "../flow/decoder";
-import { readFrames } from "../flow/read-frames";
-import { readCurves, readPoses } from "./read-trajectories";
+import { FrameReader } from "../flow/read-frames";
+import { TrajectoryReader } from "./read-trajectories";
 import type { Curves, Poses } from "./trajectories";
 
 /** Changes whenever there is enough new to read a job's records again: at its end, and twenty times on the way. */
@@ -18,15 +18,14 @@ function epochOf(job: Job | undefined): string {
 /** Poses of all bodies of a job that has started. */
 export function usePoses(job: Job | undefined): Answer<Poses[]> {
   const epoch = epochOf(job);
-  return useAnswer(async (signal) => (job && epoch ? readPoses(job, signal) : []), [job?.id, epoch]);
+  const reader = useMemo(() => new TrajectoryReader(), [job?.id]);
+  return useAnswer(async (signal) => (job && epoch ? reader.readPoses(job, signal) : []), [job?.id, epoch]);
 }
 
 /** Curves of the chosen bodies. */
 export function useCurves(job: Job, bodies: readonly number[]): Answer<Curves[]> {
-  return useAnswer(
-    (signal) => Promise.all(bodies.map((body) => readCurves(job, body, signal))),
-    [job.id, epochOf(job), bodies.join(" ")],
-  );
+  const reader = useMemo(() => new TrajectoryReader(), [job.id]);
+  return useAnswer((signal) => reader.readCurves(job, bodies, signal), [job.id, epochOf(job), bodies.join(" ")]);
 }
 
 /** Frames of a job's flow, how many of how many are there, and what went wrong. */
@@ -42,12 +41,13 @@ export function useFrames(job: Job | undefined): Frames {
   const [state, setState] = useState<Frames>({ frames: undefined, read: 0, of: 0, problem: undefined });
   const [round, setRound] = useState(0);
   const epoch = epochOf(job);
+  const reader = useMemo(() => new FrameReader(), [job?.id]);
   useEffect(() => onTokenChange(() => setRound((round) => round + 1)), []);
   useEffect(() => {
     if (!job || !epoch || job.scenario.flow === null) return;
     const end = new AbortController();
     const tell = (read: number, of: number) => setState((before) => ({ ...before, read, of }));
-    readFrames(job.id, tell, end.signal).then(
+    reader.read(job, tell, end.signal).then(
       (frames) => setState({ frames, read: frames.length, of: frames.length, problem: undefined }),
       (problem: unknown) => {
         if (!end.signal.aborted) setState((before) => ({ ...before, problem }));
