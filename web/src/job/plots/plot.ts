@@ -22,12 +22,18 @@ export interface Mark {
   value: number;
 }
 
+/** Curves of a plot, and the events marked on them. */
+export interface Plotted {
+  curves: Curve[];
+  marks: Mark[];
+}
+
 /** What a plot shows, and whom it tells. */
 export interface PlotContent {
   name: string;
   unit: string;
-  curves: Curve[];
-  marks: Mark[];
+  /** What is shown now: it may be replaced by curves of the same names. */
+  plotted: { current: Plotted };
   width: number;
   theme: Theme;
   clock: Clock;
@@ -42,10 +48,8 @@ const LEAST_DRAG = 6;
 
 /** Makes a plot in an element; it follows the clock until `destroy`. */
 export function plotIn(element: HTMLElement, content: PlotContent): uPlot {
-  const { curves, clock } = content;
-  const tables = curves.map(({ time, values }): uPlot.AlignedData => [time, values]);
-  const joined = tables.length > 0 ? uPlot.join(tables) : ([[0, 1]] as uPlot.AlignedData);
-  const plot = new uPlot(optionsOf(content), joined, element);
+  const { plotted, clock } = content;
+  const plot = new uPlot(optionsOf(content), tableOf(plotted.current.curves), element);
   const line = document.createElement("div");
   line.className = "clock-line";
   plot.over.append(line);
@@ -60,6 +64,12 @@ export function plotIn(element: HTMLElement, content: PlotContent): uPlot {
   follow();
   bindMouse(plot, content);
   return plot;
+}
+
+/** Curves in one table, with the times of all. */
+export function tableOf(curves: Curve[]): uPlot.AlignedData {
+  const tables = curves.map(({ time, values }): uPlot.AlignedData => [time, values]);
+  return tables.length > 0 ? uPlot.join(tables) : ([[0, 1]] as uPlot.AlignedData);
 }
 
 function bindMouse(plot: uPlot, { clock, onRange }: PlotContent): void {
@@ -79,7 +89,7 @@ function bindMouse(plot: uPlot, { clock, onRange }: PlotContent): void {
   });
 }
 
-function optionsOf({ name, unit, curves, marks, width, theme, syncKey }: PlotContent): uPlot.Options {
+function optionsOf({ name, unit, plotted, width, theme, syncKey }: PlotContent): uPlot.Options {
   const axis = {
     stroke: theme.quiet,
     grid: { stroke: theme.line, width: 1 },
@@ -95,7 +105,7 @@ function optionsOf({ name, unit, curves, marks, width, theme, syncKey }: PlotCon
       { ...axis, size: 28, values: (_, values) => values.map((value) => figure(value, 6)) },
       { ...axis, size: 56, values: (_, values) => values.map((value) => figure(value, 4)) },
     ],
-    series: [{}, ...curves.map((curve) => seriesOf(curve))],
+    series: [{}, ...plotted.current.curves.map((curve) => seriesOf(curve))],
     cursor: {
       y: false,
       drag: { x: true, y: false, setScale: false },
@@ -108,7 +118,7 @@ function optionsOf({ name, unit, curves, marks, width, theme, syncKey }: PlotCon
     hooks: {
       draw: [
         (plot) => {
-          for (const mark of marks) draw(plot, mark, theme);
+          for (const mark of plotted.current.marks) draw(plot, mark, theme);
         },
       ],
       ready: [

@@ -4,14 +4,12 @@ import type uPlot from "uplot";
 import type { Clock } from "../playback/clock";
 import { useTheme } from "../use-theme";
 import { useWidth } from "../use-width";
-import { type Curve, type Mark, plotIn } from "./plot";
+import { type Plotted, plotIn, tableOf } from "./plot";
 
 /** A quantity against time for all curves. */
-export interface PlotSpec {
+export interface PlotSpec extends Plotted {
   name: string;
   unit: string;
-  curves: Curve[];
-  marks: Mark[];
 }
 
 type Range = [number, number];
@@ -69,23 +67,36 @@ function Plot({ name, unit, curves, marks, range, setRange, clock, syncKey }: Pl
   const [element, width] = useWidth<HTMLDivElement>();
   const plot = useRef<uPlot>();
   const theme = useTheme();
+  const plotted = useRef<Plotted>({ curves, marks });
+  plotted.current = { curves, marks };
+  const drawn = useRef<Plotted["curves"]>();
+  const names = curves.map(({ name, colour }) => name + colour).join(" ");
   const show = (to: Range | undefined) => plot.current?.setScale("x", { min: to?.[0] ?? 0, max: to?.[1] ?? clock.end });
   useEffect(() => {
     if (!element.current || width < 80) return;
     plot.current = plotIn(element.current, {
       name,
       unit,
-      curves,
-      marks,
+      plotted,
       width,
       theme,
       clock,
       syncKey,
       onRange: setRange,
     });
+    drawn.current = curves;
     show(range);
-    return () => plot.current?.destroy();
-  }, [curves, marks, width, theme]);
+    return () => {
+      plot.current?.destroy();
+      plot.current = undefined;
+    };
+  }, [names, width, theme]);
+  useEffect(() => {
+    // Only what is drawn is exchanged: a plot that was made again would lose a drag that has begun.
+    if (drawn.current !== curves) plot.current?.setData(tableOf(curves), false);
+    drawn.current = curves;
+    show(range);
+  }, [curves, marks, clock.end]);
   useEffect(() => show(range), [range?.[0], range?.[1]]);
   return (
     <figure class="plot">
