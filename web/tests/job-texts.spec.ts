@@ -35,6 +35,9 @@ test("an outcome is told in sentences", () => {
   expect(bodySentence(4, { ...MOVED, onset_time_s: null, first_contact_time_s: null })).toBe(
     "Body 4 was not reached by the flow and did not move.",
   );
+  expect(bodySentence(5, { ...MOVED, onset_time_s: null, first_contact_time_s: null }, 0, false)).toBe(
+    "Body 5 did not move.",
+  );
 });
 
 test("the audit doubts from the documented bounds on", () => {

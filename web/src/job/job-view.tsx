@@ -50,6 +50,7 @@ function Records({ job }: { job: Job }) {
       {job.outcome && <Story job={job} submergence={submergence} />}
       {!job.outcome && hasStarted && <p class="quiet">{soFar(job)}</p>}
       {poses.problem ? <ProblemNotice problem={poses.problem} /> : null}
+      {hasStarted && !content && !poses.problem && <p class="quiet">Reading the trajectories …</p>}
       {hasStarted && content && <Replay content={content} flow={flow} clock={clock} />}
       {hasStarted && job.scenario.bodies.length > 0 && <CurvesSection job={job} clock={clock} />}
       {job.outcome && <Quantities outcome={job.outcome} />}

@@ -1,5 +1,6 @@
 import { useMemo, useState } from "preact/hooks";
 import { type Job } from "../api/client";
+import { figure } from "../parts/format";
 import { lazily } from "../parts/lazily";
 import { ProblemNotice } from "../parts/problem-notice";
 import { AerialView, SpeedScale } from "./aerial/aerial-view";
@@ -82,10 +83,14 @@ function FlowNote({ flow, content }: { flow: Frames; content: AerialContent }) {
     );
   const [first] = flow.frames;
   if (!first) return <p class="quiet">No instants of the flow are stored.</p>;
+  if (flow.frames.every(({ kept }) => kept === 0)) return <p class="quiet">The flow has no material points.</p>;
   const kept = first.thinning > 1 ? `; one in ${first.thinning} of the ${first.points} material points is kept` : "";
   return (
     <p class="quiet">
-      The flow is stored at {flow.frames.length} instants, between which the points are interpolated{kept}.
+      {flow.frames.length === 1
+        ? `The flow is stored at one instant, ${figure(first.time)} s`
+        : `The flow is stored at ${flow.frames.length} instants, between which the points are interpolated`}
+      {kept}.
     </p>
   );
 }

@@ -18,7 +18,7 @@ export function sentencesOf(job: Job, submergence: readonly number[] = []): stri
     return [
       given?.motion
         ? `Body ${place} moved as prescribed, ${figure(body.displacement_m)} m from its start.`
-        : bodySentence(place, body, submergence[place]),
+        : bodySentence(place, body, submergence[place], scenario.flow !== null),
     ];
   });
   const told = bodies.slice(0, MOST_SENTENCES);
@@ -28,8 +28,8 @@ export function sentencesOf(job: Job, submergence: readonly number[] = []): stri
 }
 
 /** What happened to a free body. */
-export function bodySentence(place: number, body: BodyOutcome, submergence = 0): string {
-  if (body.onset_time_s === null) return `Body ${place} ${stoodStill(body)}.`;
+export function bodySentence(place: number, body: BodyOutcome, submergence = 0, hasFlow = true): string {
+  if (body.onset_time_s === null) return `Body ${place} ${hasFlow ? stoodStill(body) : "did not move"}.`;
   const parts = [`began to move at ${figure(body.onset_time_s)} s`];
   if (body.peak_speed_time_s !== null) {
     parts.push(`reached ${figure(body.peak_speed_m_s)} m/s at ${figure(body.peak_speed_time_s)} s`);

@@ -81,8 +81,9 @@ export class FlowPoints {
   /** Shows the flow at a time, in a picture half as high as so many pixels. */
   show(time: number, halfHeight: number): void {
     const between = framesAt(this.frames, time);
-    this.points.visible = between !== undefined;
-    if (!between) return;
+    // A flow may have no points, and then there is nothing to make room for.
+    this.points.visible = between !== undefined && between.first.kept + between.second.kept > 0;
+    if (!between || !this.points.visible) return;
     if (this.shown?.first !== between.first || this.shown.second !== between.second) this.upload(between);
     this.uniform("share").value = between.share;
     this.uniform("pixels").value = halfHeight;
