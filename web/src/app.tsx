@@ -4,6 +4,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { Link, Route, Router, Switch, useLocation } from "wouter-preact";
 import { ROOT } from "./api/client";
 import { JobsView } from "./jobs/jobs-view";
+import { ConnectionNotice } from "./parts/connection-notice";
 import { useHashLocation, useHashSearch } from "./parts/hash-location";
 import { lazily } from "./parts/lazily";
 import { TokenDialog } from "./parts/token-dialog";
@@ -21,6 +22,7 @@ export function App() {
         Skip to the content
       </a>
       <Header />
+      <ConnectionNotice />
       <Main />
       <TokenDialog />
     </Router>
@@ -82,6 +84,9 @@ function Main() {
         <Route path="/studies/:id">{({ id }) => <StudyView key={id} id={id ?? ""} />}</Route>
         <Route>
           <h1>There is no such view</h1>
+          <p>
+            <Link href="/">All jobs</Link>
+          </p>
         </Route>
       </Switch>
     </main>

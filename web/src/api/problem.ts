@@ -24,6 +24,15 @@ export class ServiceProblem extends Error {
   }
 }
 
+/** Pause before a service that says nothing else is asked again [ms]. */
+const PAUSE_MS = 5_000;
+
+/** Pause after which a request that only reads may succeed [ms]; undefined if it would fail again. */
+export function pauseBefore(problem: unknown): number | undefined {
+  if (!(problem instanceof ServiceProblem) || ![0, 429, 502, 503, 504].includes(problem.status)) return undefined;
+  return problem.retryAfterS === undefined ? PAUSE_MS : 1_000 * problem.retryAfterS;
+}
+
 /** Problem of an answer that is no success. */
 export async function problemOf(response: Response): Promise<ServiceProblem> {
   const text = await response.text();

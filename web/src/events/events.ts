@@ -2,10 +2,11 @@
 
 import { ROOT } from "../api/client";
 import { authorization, onTokenChange } from "../api/token";
-import { type ServiceEvent, follow } from "./stream";
+import { type ServiceEvent, type StreamMessage, follow } from "./stream";
 import type { PageMessage } from "./worker";
 
 const listeners = new Set<(event: ServiceEvent) => void>();
+const connectionListeners = new Set<(isLost: boolean) => void>();
 let close: (() => void) | undefined;
 
 /** Time between two signs of life to the shared worker [ms]. */
@@ -18,13 +19,23 @@ export function onServiceEvent(listener: (event: ServiceEvent) => void): () => v
   return () => listeners.delete(listener);
 }
 
+/** Calls back when the stream of events breaks off or is open again; returns the end of that. */
+export function onConnection(listener: (isLost: boolean) => void): () => void {
+  connectionListeners.add(listener);
+  return () => connectionListeners.delete(listener);
+}
+
 onTokenChange(() => {
   close?.();
   close = listeners.size > 0 ? open() : undefined;
 });
 
-function tell(event: ServiceEvent): void {
-  for (const listener of listeners) listener(event);
+function tell(message: StreamMessage): void {
+  if (message.kind === "connected" || message.kind === "lost") {
+    for (const listener of connectionListeners) listener(message.kind === "lost");
+  } else {
+    for (const listener of listeners) listener(message);
+  }
 }
 
 function open(): () => void {
@@ -36,7 +47,7 @@ function open(): () => void {
     return () => end.abort();
   }
   const worker = new SharedWorker(`${ROOT}assets/events.js`, { type: "module", name: "scree-events" });
-  worker.port.onmessage = ({ data }: MessageEvent<ServiceEvent>) => tell(data);
+  worker.port.onmessage = ({ data }: MessageEvent<StreamMessage>) => tell(data);
   const join = () => worker.port.postMessage({ url, headers } satisfies PageMessage);
   join();
   const signs = setInterval(join, SIGN_OF_LIFE_MS);

@@ -8,6 +8,12 @@ export type ServiceEvent =
   /** Earlier knowledge may be wrong: the stream broke off or the database was restored. */
   | { kind: "reset" };
 
+/** Whether the stream is open, told when that changes. */
+export type Connection = { kind: "connected" } | { kind: "lost" };
+
+/** What is told of a stream. */
+export type StreamMessage = ServiceEvent | Connection;
+
 /** Pause before the stream is opened again after it broke off [ms]. */
 const PAUSE_MS = 1_000;
 
@@ -15,7 +21,7 @@ const PAUSE_MS = 1_000;
 export async function follow(
   url: string,
   headers: Record<string, string>,
-  tell: (event: ServiceEvent) => void,
+  tell: (message: StreamMessage) => void,
   signal: AbortSignal,
 ): Promise<void> {
   let last: string | undefined;
@@ -25,6 +31,7 @@ export async function follow(
       const response = await fetch(url, { headers: { ...headers, ...resumed }, signal });
       if (response.status === 401 || response.status === 403) return;
       if (response.ok && response.body) {
+        tell({ kind: "connected" });
         // What happened while no stream was open is not told to a first one.
         if (last === undefined) tell({ kind: "reset" });
         for await (const message of messages(response.body)) {
@@ -36,6 +43,8 @@ export async function follow(
       if (signal.aborted) return;
       if (!(error instanceof TypeError)) throw error;
     }
+    if (signal.aborted) return;
+    tell({ kind: "lost" });
     await new Promise((resume) => setTimeout(resume, PAUSE_MS));
   }
 }

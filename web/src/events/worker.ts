@@ -3,7 +3,7 @@
  * token: ten pages cost the service as much as one.
  */
 
-import { type ServiceEvent, follow } from "./stream";
+import { type Connection, type ServiceEvent, type StreamMessage, follow } from "./stream";
 
 interface SharedWorkerScope {
   onconnect: ((event: MessageEvent) => void) | null;
@@ -22,6 +22,7 @@ class SharedStream {
   private readonly end = new AbortController();
   /** Whether the stream has begun, which is told to all by a reset of its own. */
   private hasBegun = false;
+  private connection: Connection | undefined;
   /** Last progress of each running job, for pages that come later. */
   private readonly progress = new Map<string, ServiceEvent>();
 
@@ -35,6 +36,7 @@ class SharedStream {
     this.pages.set(page, Date.now());
     if (!isNew) return;
     if (this.hasBegun) page.postMessage({ kind: "reset" } satisfies ServiceEvent);
+    if (this.connection) page.postMessage(this.connection);
     for (const event of this.progress.values()) page.postMessage(event);
   }
 
@@ -50,11 +52,16 @@ class SharedStream {
     return this.pages.size > 0;
   }
 
-  private tell(event: ServiceEvent): void {
+  private tell(message: StreamMessage): void {
+    if (message.kind === "connected" || message.kind === "lost") this.connection = message;
+    else this.note(message);
+    for (const page of this.pages.keys()) page.postMessage(message);
+  }
+
+  private note(event: ServiceEvent): void {
     this.hasBegun = true;
     if (event.kind === "progress") this.progress.set(event.id, event);
     else if (event.kind !== "reset") this.progress.delete(event.id);
-    for (const page of this.pages.keys()) page.postMessage(event);
   }
 }
 

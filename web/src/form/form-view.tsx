@@ -1,8 +1,8 @@
-import { useEffect } from "preact/hooks";
 import { useSearch } from "wouter-preact";
 import { readContract } from "../api/client";
 import { ProblemNotice } from "../parts/problem-notice";
 import { useAnswer } from "../parts/use-answer";
+import { useTitle } from "../parts/use-title";
 import { Editor } from "./editor";
 import "./form.css";
 import { PRESETS } from "./presets";
@@ -13,12 +13,7 @@ import { useSource } from "./use-source";
 export function FormView() {
   const contract = useAnswer(readContract, []);
   const schemas = contract.value?.components.schemas;
-  useEffect(() => {
-    document.title = "New scenario – Scree";
-    return () => {
-      document.title = "Scree";
-    };
-  }, []);
+  useTitle("New scenario");
   return (
     <>
       <h1>New scenario</h1>

@@ -3,6 +3,7 @@ import { Link } from "wouter-preact";
 import { type Job, api, data } from "../api/client";
 import { ProblemNotice } from "../parts/problem-notice";
 import { useAnswer } from "../parts/use-answer";
+import { useTitle } from "../parts/use-title";
 import { OutcomeComparison } from "./compare/outcome-comparison";
 import { PicturesComparison } from "./compare/pictures-comparison";
 import { ScenarioComparison } from "./compare/scenario-comparison";
@@ -14,6 +15,7 @@ export function CompareView({ ids: [one, other] }: { ids: [string, string] }) {
     [one, other],
   );
   const [first, second] = value ?? [];
+  useTitle("Two jobs compared");
   return (
     <article class="compare">
       <h1>Two jobs compared</h1>

@@ -3,6 +3,7 @@ import { useEffect, useMemo } from "preact/hooks";
 import { Link } from "wouter-preact";
 import type { Job } from "../api/client";
 import { ProblemNotice } from "../parts/problem-notice";
+import { useTitle } from "../parts/use-title";
 import { FailureNotice } from "./head/failure";
 import { Head } from "./head/head";
 import { Audit, Quantities, Story } from "./outcome/outcome-section";
@@ -19,8 +20,9 @@ import { useJob } from "./use-job";
 /** View of one job: how far it is, what came out, whether to trust it, and how to take it along. */
 export function JobView({ id }: { id: string }) {
   const { value: job, problem, again, isRemoved } = useJob(id);
+  useTitle(job?.scenario.title || "Job");
   if (isRemoved) return <Gone />;
-  if (!job) return problem ? <ProblemNotice problem={problem} /> : <p class="quiet">Reading the job …</p>;
+  if (!job) return <NotRead problem={problem} />;
   return (
     <article class="job">
       <Head job={job} again={again} />
@@ -63,6 +65,18 @@ function soFar({ status, progress }: Job): string {
   const time = `${progress.simulated_time_s.toFixed(3)} s`;
   if (status === "running") return `What has been computed so far, up to ${time}, is shown below and grows.`;
   return `The run ended at ${time} without an outcome; what it had recorded is shown below.`;
+}
+
+function NotRead({ problem }: { problem: unknown }) {
+  return (
+    <>
+      <h1>Job</h1>
+      {problem ? <ProblemNotice problem={problem} /> : <p class="quiet">Reading the job …</p>}
+      <p>
+        <Link href="/">All jobs</Link>
+      </p>
+    </>
+  );
 }
 
 function Gone() {

@@ -1,6 +1,7 @@
 /** List of jobs: read page by page, and kept up to date by the events of the service. */
 
 import { type JobStatus, type JobSummary, type Progress, api, data } from "../api/client";
+import { pauseBefore } from "../api/problem";
 import type { ServiceEvent } from "../events/stream";
 import { hasEnded } from "../parts/status";
 import { Throttle } from "../parts/throttle";
@@ -30,6 +31,7 @@ export class JobList {
     // Of many open pages one is seen: the others look once they are.
     if (!document.hidden && this.isStale) this.looks.ask();
   };
+  private later: ReturnType<typeof setTimeout> | undefined;
   private isStale = false;
   private isClosed = false;
 
@@ -45,6 +47,7 @@ export class JobList {
     this.isClosed = true;
     document.removeEventListener("visibilitychange", this.lookIfSeen);
     this.looks.end();
+    clearTimeout(this.later);
   }
 
   /** Reads the next page of older jobs. */
@@ -115,6 +118,9 @@ export class JobList {
       this.set({ isReading: false, problem: undefined });
     } catch (problem) {
       this.set({ isReading: false, problem });
+      const pause = pauseBefore(problem);
+      clearTimeout(this.later);
+      if (pause !== undefined && !this.isClosed) this.later = setTimeout(() => this.lookSoon(), pause);
     }
   }
 

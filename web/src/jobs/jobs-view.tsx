@@ -6,6 +6,7 @@ import type { JobSummary } from "../api/client";
 import { onTokenChange } from "../api/token";
 import { onServiceEvent } from "../events/events";
 import { ProblemNotice } from "../parts/problem-notice";
+import { useTitle } from "../parts/use-title";
 import { ALL, type Filter, query, shown } from "./filter";
 import { FilterForm } from "./filter-form";
 import { JobList, type ListState } from "./job-list";
@@ -13,6 +14,7 @@ import { JobRow } from "./job-row";
 import "./jobs.css";
 
 export function JobsView() {
+  useTitle("Jobs");
   const [filter, setFilter] = useState<Filter>(ALL);
   const [state, more] = useJobList(filter);
   const jobs = useMemo(() => (state ? shown(state.jobs, filter) : []), [state?.jobs, filter]);
@@ -39,7 +41,7 @@ export function JobsView() {
       {state && (
         <List state={state} jobs={jobs} chosen={chosen} choose={choose} fail={setProblem} isFiltered={filter !== ALL} />
       )}
-      {state?.hasMore && <More read={more} />}
+      {state?.hasMore && <More read={more} isEager={state.problem === undefined} />}
     </>
   );
 }
@@ -113,10 +115,11 @@ function List({ state, jobs, chosen, choose, fail, isFiltered }: ListProps) {
   );
 }
 
-/** End of the list: reads more as soon as it is seen, or by its button. */
-function More({ read }: { read: () => void }) {
+/** End of the list: reads more as soon as it is seen, unless that has just failed, or by its button. */
+function More({ read, isEager }: { read: () => void; isEager: boolean }) {
   const end = useRef<HTMLDivElement>(null);
   useEffect(() => {
+    if (!isEager) return;
     const seen = new IntersectionObserver(([entry]) => entry?.isIntersecting && read(), { rootMargin: "600px" });
     if (end.current) seen.observe(end.current);
     return () => seen.disconnect();

@@ -1,4 +1,5 @@
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
+import { pauseBefore } from "../api/problem";
 import { onTokenChange } from "../api/token";
 
 /** An answer of the service that a view waits for, and the means to ask again. */
@@ -8,7 +9,10 @@ export interface Answer<T> {
   again: () => void;
 }
 
-/** Asks on first show, whenever `depends` change, after a change of the token, and by `again`. */
+/**
+ * Asks on first show, whenever `depends` change, after a change of the token, by `again`, and once
+ * more after a while if the service was busy or did not answer.
+ */
 export function useAnswer<T>(ask: (signal: AbortSignal) => Promise<T>, depends: unknown[]): Answer<T> {
   const [value, setValue] = useState<T>();
   const [problem, setProblem] = useState<unknown>();
@@ -19,6 +23,7 @@ export function useAnswer<T>(ask: (signal: AbortSignal) => Promise<T>, depends: 
   useEffect(() => onTokenChange(again), []);
   useEffect(() => {
     const end = new AbortController();
+    let later: ReturnType<typeof setTimeout> | undefined;
     asking.current(end.signal).then(
       (answer) => {
         if (end.signal.aborted) return;
@@ -26,10 +31,16 @@ export function useAnswer<T>(ask: (signal: AbortSignal) => Promise<T>, depends: 
         setProblem(undefined);
       },
       (error: unknown) => {
-        if (!end.signal.aborted) setProblem(error);
+        if (end.signal.aborted) return;
+        setProblem(error);
+        const pause = pauseBefore(error);
+        if (pause !== undefined) later = setTimeout(again, pause);
       },
     );
-    return () => end.abort();
+    return () => {
+      end.abort();
+      clearTimeout(later);
+    };
   }, [round, ...depends]);
   return { value, problem, again };
 }

@@ -3,6 +3,7 @@ import { Link } from "wouter-preact";
 import type { Schemas } from "../api/client";
 import { moment } from "../parts/format";
 import { ProblemNotice } from "../parts/problem-notice";
+import { useTitle } from "../parts/use-title";
 import type { StudySummary } from "./documents";
 import { TaggedAnswer } from "./tagged";
 import { useLive } from "./use-live";
@@ -14,6 +15,7 @@ const STATES = ["running", "successful", "failed", "dismissed"] as const;
 
 /** View of all studies, newest first, a page at a time. */
 export function StudiesView() {
+  useTitle("Studies");
   const [status, setStatus] = useState("");
   /** Cursors of the pages up to the one that is shown. */
   const [cursors, setCursors] = useState<string[]>([]);

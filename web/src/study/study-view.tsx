@@ -1,5 +1,6 @@
 import { Link } from "wouter-preact";
 import { ProblemNotice } from "../parts/problem-notice";
+import { useTitle } from "../parts/use-title";
 import { AnswersView } from "./answers-view";
 import { StudyFiles } from "./downloads";
 import { EnlargeForm } from "./enlarge-form";
@@ -18,6 +19,7 @@ export function StudyView({ id }: { id: string }) {
 
 function OneStudy({ id }: { id: string }) {
   const { value: seen, problem, again } = useStudy(id);
+  useTitle(seen?.study.study.title || "Study");
   if (!seen) {
     return (
       <>

@@ -1,8 +1,7 @@
 /** Records of a job as its view needs them. */
 
-import { useEffect, useMemo, useState } from "preact/hooks";
+import { useMemo, useState } from "preact/hooks";
 import type { Job } from "../../api/client";
-import { onTokenChange } from "../../api/token";
 import { type Answer, useAnswer } from "../../parts/use-answer";
 import type { FlowFrame } from "../flow/decoder";
 import { FrameReader } from "../flow/read-frames";
@@ -38,24 +37,17 @@ export interface Frames {
 
 /** Frames of the flow; none for a job without flow. */
 export function useFrames(job: Job | undefined): Frames {
-  const [state, setState] = useState<Frames>({ frames: undefined, read: 0, of: 0, problem: undefined });
-  const [round, setRound] = useState(0);
+  const [count, setCount] = useState({ read: 0, of: 0 });
   const epoch = epochOf(job);
   const reader = useMemo(() => new FrameReader(), [job?.id]);
-  useEffect(() => onTokenChange(() => setRound((round) => round + 1)), []);
-  useEffect(() => {
-    if (!job || !epoch || job.scenario.flow === null) return;
-    const end = new AbortController();
-    const tell = (read: number, of: number) => setState((before) => ({ ...before, read, of }));
-    reader.read(job, tell, end.signal).then(
-      (frames) => setState({ frames, read: frames.length, of: frames.length, problem: undefined }),
-      (problem: unknown) => {
-        if (!end.signal.aborted) setState((before) => ({ ...before, problem }));
-      },
-    );
-    return () => end.abort();
-  }, [job?.id, epoch, round]);
-  return job?.scenario.flow === null ? { ...state, frames: NONE } : state;
+  const { value, problem } = useAnswer(
+    async (signal) => {
+      if (!job || !epoch) return undefined;
+      return job.scenario.flow === null ? NONE : reader.read(job, (read, of) => setCount({ read, of }), signal);
+    },
+    [job?.id, epoch],
+  );
+  return { frames: value, ...count, problem };
 }
 
 const NONE: FlowFrame[] = [];
