@@ -143,6 +143,7 @@ test("a running job shows its progress as it comes, and can be dismissed and rem
   await expect(page.getByText(/so far, up to/)).toBeVisible();
   await expectAccessible(page);
   await page.getByRole("button", { name: "Dismiss" }).click();
+  await page.getByRole("button", { name: "Really stop it?" }).click();
   await expect(page.getByText(/without an outcome; what it had recorded/)).toBeVisible();
   await expect(page.locator("h1")).toContainText("dismissed");
   await page.getByRole("button", { name: "Remove …" }).click();
@@ -164,6 +165,9 @@ test("a job removed elsewhere says so", async ({ page, service }) => {
 test("an unknown job is a problem in words", async ({ page }) => {
   await page.goto("/#/jobs/01890000-0000-7000-8000-000000000000");
   await expect(page.getByRole("alert")).toBeVisible();
+  await expect(page.getByRole("heading", { level: 1, name: "Job" })).toBeVisible();
+  await page.getByRole("link", { name: "All jobs" }).click();
+  await expect(page.getByRole("heading", { level: 1, name: "Jobs" })).toBeVisible();
 });
 
 test("a failed job tells why and what to do", async ({ page }) => {

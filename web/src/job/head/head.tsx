@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { Link, useLocation } from "wouter-preact";
 import { type Job, api } from "../../api/client";
+import { ConfirmButton } from "../../parts/confirm-button";
 import { duration, figure, moment } from "../../parts/format";
 import { ProblemNotice } from "../../parts/problem-notice";
 import { CompareDialog } from "./compare-dialog";
@@ -68,11 +69,7 @@ function Actions({ job, again }: { job: Job; again: () => void }) {
   return (
     <>
       <div class="actions">
-        {isLive && (
-          <button type="button" onClick={() => void end({}, again)}>
-            Dismiss
-          </button>
-        )}
+        {isLive && <ConfirmButton label="Dismiss" question="Really stop it?" act={() => void end({}, again)} />}
         <Link href={`/new?job=${job.id}`} class="button">
           Run again with changes
         </Link>
