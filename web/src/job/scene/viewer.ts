@@ -165,8 +165,15 @@ export class SceneViewer {
   };
 }
 
+let software: boolean | undefined;
+
 /** Whether pictures are made without a graphics card, where smoothed edges cost too much. */
 function isSoftware(): boolean {
+  return (software ??= findSoftware());
+}
+
+/** Looks once, since a browser makes but a few contexts. */
+function findSoftware(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");
   const names = context?.getExtension("WEBGL_debug_renderer_info");
   const name = String(names ? context?.getParameter(names.UNMASKED_RENDERER_WEBGL) : "");
