@@ -52,3 +52,22 @@ test("a comparison with an unknown job, or of unequal scenes, does not break", a
   await expect(page.getByText(/has 1 bodies, the second 0|first job has 1/)).toBeVisible();
   await expect(page.getByRole("region", { name: "Comparison: Flow" })).toBeVisible();
 });
+
+test("a comparison of many bodies shows some of them first", async ({ page, service }) => {
+  const bodies = (side_m: number) =>
+    Array.from({ length: 30 }, (_, k) => ({
+      shape: { cube: { side_m } },
+      position: { downstream_m: 0.05 + 0.02 * Math.floor(k / 5), lateral_m: -0.04 + 0.02 * (k % 5) },
+    }));
+  const scene = { ...QUICK, flow: null, duration_s: 0.05 };
+  const first = await service.run({ ...scene, bodies: bodies(0.01) });
+  const second = await service.run({ ...scene, bodies: bodies(0.012) });
+  await page.goto(`/#/compare/${first}/${second}`);
+  const fields = page.getByRole("region", { name: "Differing fields" }).getByRole("row");
+  await expect(fields).toHaveCount(21);
+  await page.getByRole("button", { name: /^Show all \d+ differences$/ }).click();
+  expect(await fields.count()).toBeGreaterThan(30);
+  await expect(page.getByRole("region", { name: /^Comparison: Body/ })).toHaveCount(3);
+  await page.getByRole("button", { name: "Show all 30 bodies" }).click();
+  await expect(page.getByRole("region", { name: /^Comparison: Body/ })).toHaveCount(30);
+});

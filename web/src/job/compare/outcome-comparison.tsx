@@ -1,3 +1,4 @@
+import { useState } from "preact/hooks";
 import type { Outcome } from "../../api/client";
 import { figure } from "../../parts/format";
 import { type Quantity, bodyQuantities, flowQuantities, intervalText, overlap } from "../outcome/quantities";
@@ -8,9 +9,15 @@ interface Group {
   rows: [Quantity, Quantity][];
 }
 
+/** Bodies shown before "Show all". */
+const BODIES_AT_FIRST = 3;
+
 /** Outcomes of two jobs beside each other. */
 export function OutcomeComparison({ first, second }: { first: Outcome; second: Outcome }) {
+  const [isWhole, setIsWhole] = useState(false);
   const groups = groupsOf(first, second);
+  const bodies = groups.filter(({ name }) => name !== FLOW);
+  const shownGroups = isWhole ? groups : [...bodies.slice(0, BODIES_AT_FIRST), ...groups.slice(bodies.length)];
   const hasIntervals = groups.some(({ rows }) => rows.some(([a, b]) => a.interval && b.interval));
   return (
     <section aria-labelledby="outcomes">
@@ -22,9 +29,14 @@ export function OutcomeComparison({ first, second }: { first: Outcome; second: O
         </p>
       )}
       {groups.length === 0 && <p>The jobs have neither a body nor a flow in common.</p>}
-      {groups.map((group) => (
+      {shownGroups.map((group) => (
         <GroupTable key={group.name} {...group} hasIntervals={hasIntervals} />
       ))}
+      {bodies.length > BODIES_AT_FIRST && (
+        <button type="button" aria-expanded={isWhole} onClick={() => setIsWhole(!isWhole)}>
+          {isWhole ? `Show the first ${BODIES_AT_FIRST} bodies` : `Show all ${bodies.length} bodies`}
+        </button>
+      )}
       {!hasIntervals && groups.length > 0 && (
         <p class="quiet">
           Not both jobs have uncertainty intervals, so nothing tells whether a difference is more than the error of the
@@ -35,13 +47,15 @@ export function OutcomeComparison({ first, second }: { first: Outcome; second: O
   );
 }
 
+const FLOW = "Flow";
+
 function groupsOf(first: Outcome, second: Outcome): Group[] {
   const groups = first.bodies.flatMap((body, place): Group[] => {
     const other = second.bodies[place];
     return other ? [{ name: `Body ${place}`, rows: paired(bodyQuantities(body), bodyQuantities(other)) }] : [];
   });
   const flow = paired(flowQuantities(first), flowQuantities(second));
-  return flow.length > 0 ? [...groups, { name: "Flow", rows: flow }] : groups;
+  return flow.length > 0 ? [...groups, { name: FLOW, rows: flow }] : groups;
 }
 
 function paired(first: Quantity[], second: Quantity[]): [Quantity, Quantity][] {

@@ -1,9 +1,15 @@
+import { useState } from "preact/hooks";
 import type { Scenario } from "../../api/client";
 import { differencesOf } from "./differences";
 
+/** Rows shown before "Show all". */
+const ROWS_AT_FIRST = 20;
+
 /** Fields in which two scenarios differ. */
 export function ScenarioComparison({ first, second }: { first: Scenario; second: Scenario }) {
+  const [isWhole, setIsWhole] = useState(false);
   const differences = differencesOf(first, second);
+  const rows = isWhole ? differences : differences.slice(0, ROWS_AT_FIRST);
   return (
     <section aria-labelledby="scenarios">
       <h2 id="scenarios">Scenarios</h2>
@@ -20,7 +26,7 @@ export function ScenarioComparison({ first, second }: { first: Scenario; second:
               </tr>
             </thead>
             <tbody>
-              {differences.map(({ pointer, first, second }) => (
+              {rows.map(({ pointer, first, second }) => (
                 <tr key={pointer}>
                   <th scope="row">
                     <code>{pointer}</code>
@@ -32,6 +38,11 @@ export function ScenarioComparison({ first, second }: { first: Scenario; second:
             </tbody>
           </table>
         </div>
+      )}
+      {differences.length > ROWS_AT_FIRST && (
+        <button type="button" aria-expanded={isWhole} onClick={() => setIsWhole(!isWhole)}>
+          {isWhole ? `Show the first ${ROWS_AT_FIRST} differences` : `Show all ${differences.length} differences`}
+        </button>
       )}
     </section>
   );
