@@ -495,3 +495,14 @@ test("nothing scrolls sideways at 360 px", async ({ page }) => {
   await page.getByRole("button", { name: "JSON", exact: true }).click();
   await expectNoSidewaysScroll(page);
 });
+
+test("on a narrow window a button leads to what runs the scenario", async ({ page }) => {
+  await page.setViewportSize({ width: 360, height: 740 });
+  await page.goto("/#/new");
+  await page.getByRole("button", { name: "Go to the run" }).click();
+  const run = page.getByRole("button", { name: "Run it", exact: true });
+  await expect(run).toBeFocused();
+  await expect(run).toBeInViewport();
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await expect(page.getByRole("button", { name: "Go to the run" })).toBeHidden();
+});

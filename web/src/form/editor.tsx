@@ -11,6 +11,7 @@ import { SceneFigure } from "./scene-figure";
 import type { Schemas } from "./schema";
 import { Sections } from "./sections";
 import { SubmitForm } from "./submit-form";
+import { ToRun } from "./to-run";
 import { Toolbar } from "./toolbar";
 import { useFormState } from "./use-form-state";
 import { usePlan } from "./use-plan";
@@ -76,6 +77,7 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
           startOver={isChanged ? () => replace(original, "") : undefined}
           readFile={(file) => void readFile(file)}
         />
+        <ToRun planned={plan.planned} />
         <div class="edit">
           <ViolationList />
           <DifferenceList from={from} />
