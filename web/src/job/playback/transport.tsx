@@ -36,9 +36,9 @@ export function Transport({ clock }: { clock: Clock }) {
         aria-valuetext={`${figure(time)} s of ${figure(clock.end)} s`}
         onInput={(event) => clock.setTime(Number(event.currentTarget.value))}
       />
-      <output class="time">
+      <span class="time">
         {time.toFixed(3)} s <span class="quiet">of {clock.end.toFixed(3)} s</span>
-      </output>
+      </span>
       <select
         aria-label="Speed"
         value={clock.rate}
