@@ -1,4 +1,5 @@
 import type { Page } from "@playwright/test";
+import { readFile } from "node:fs/promises";
 import { QUICK, expect, test } from "./service";
 
 /** A scene that is computed for some seconds, so that its page sees it grow. */
@@ -80,4 +81,29 @@ test("a drag that zooms outlasts new samples", async ({ page, service }) => {
   await page.mouse.move(box.x + 160, (moved?.y ?? 0) + 60, { steps: 4 });
   await page.mouse.up();
   await expect(page.getByText(/^0\.\d{3} s to 0\.\d{3} s$/)).toBeVisible();
+});
+
+test("the picture of a running job keeps all that happens in view, and its time is not read out", async ({
+  page,
+  service,
+}) => {
+  const id = await service.submit(SECONDS);
+  await open(page, id, "Seconds");
+  await expect(page.getByText(/stored at \d+ instants/)).toBeVisible();
+  await expect(page.locator("[aria-live]:has(.time), [role=status]:has(.time), output.time")).toHaveCount(0);
+  await expect(page.getByRole("heading", { name: "What happened" })).toBeVisible({ timeout: 40_000 });
+  const head = Buffer.from(await (await fetch(`${service.url}/v1/jobs/${id}/flow.bin`)).arrayBuffer());
+  await expect(page.getByText(`stored at ${head.readUInt32LE(12)} instants`)).toBeVisible();
+  const picture = async () => {
+    const [download] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Save picture" }).click(),
+    ]);
+    return (await readFile(await download.path())).toString("base64");
+  };
+  const followed = await picture();
+  await page.getByRole("button", { name: "Oblique" }).click();
+  expect((await picture()) === followed).toBe(true);
+  await page.getByRole("button", { name: "Above", exact: true }).click();
+  expect((await picture()) === followed).toBe(false);
 });

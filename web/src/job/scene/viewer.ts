@@ -36,6 +36,8 @@ export class SceneViewer {
   private asked = 0;
   private still: ReturnType<typeof setTimeout> | undefined;
   private isInView = true;
+  /** The view that follows what happens, until it is moved by hand. */
+  private followed: CameraName | undefined = "free";
   /** Called after each picture with the rate of late [1/s]. */
   onFrame: ((rate: number) => void) | undefined;
 
@@ -57,14 +59,15 @@ export class SceneViewer {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.listenToKeyEvents(canvas);
     this.controls.addEventListener("change", this.ask);
+    this.controls.addEventListener("start", () => (this.followed = undefined));
     this.ends.push(clock.onChange(this.ask));
     this.watchSize();
     canvas.addEventListener("keydown", this.zoomByKey);
+    canvas.addEventListener("keydown", this.stopFollowing);
   }
 
-  /** Replaces what is shown; the camera stays unless it is the first content. */
+  /** Replaces what is shown; the camera stays where it has been moved to, or else shows all that happens. */
   show(content: AerialContent, theme: Theme): void {
-    const isFirst = this.content === undefined;
     const { scenario, frames, poses, cellSize, topSpeed, region } = content;
     this.clear();
     const perCell = scenario.numerics?.points_per_cell ?? 8;
@@ -76,12 +79,13 @@ export class SceneViewer {
     this.scene.add(this.parts.channel.group, this.parts.flow.points, this.parts.bodies.group);
     this.scene.background = colourOf(theme.paper);
     this.content = content;
-    if (isFirst) this.look("free");
+    if (this.followed) this.look(this.followed);
     this.ask();
   }
 
   look(name: CameraName): void {
     if (!this.content) return;
+    this.followed = name;
     this.controls.target.copy(lookAt(this.camera, this.content.region, CAMERAS[name].from));
     this.controls.update();
     this.ask();
@@ -98,6 +102,7 @@ export class SceneViewer {
     clearTimeout(this.still);
     for (const end of this.ends) end();
     this.canvas.removeEventListener("keydown", this.zoomByKey);
+    this.canvas.removeEventListener("keydown", this.stopFollowing);
     this.controls.dispose();
     this.clear();
     this.renderer.dispose();
@@ -154,6 +159,10 @@ export class SceneViewer {
       () => views.disconnect(),
     );
   }
+
+  private readonly stopFollowing = ({ key }: KeyboardEvent) => {
+    if (/^(Arrow|[+=-]$)/.test(key)) this.followed = undefined;
+  };
 
   private readonly zoomByKey = ({ key }: KeyboardEvent) => {
     const factor = { "+": 0.85, "=": 0.85, "-": 1 / 0.85 }[key];
