@@ -29,6 +29,7 @@ export async function follow(
     try {
       const resumed = last === undefined ? {} : { "Last-Event-ID": last };
       const response = await fetch(url, { headers: { ...headers, ...resumed }, signal });
+      // Asking again with the same token changes nothing.
       if (response.status === 401 || response.status === 403) return;
       if (response.ok && response.body) {
         tell({ kind: "connected" });
@@ -39,9 +40,9 @@ export async function follow(
           tell(eventOf(message));
         }
       }
-    } catch (error) {
+    } catch {
+      // Broken off, or not to be read: begun again, after the last event that was read.
       if (signal.aborted) return;
-      if (!(error instanceof TypeError)) throw error;
     }
     if (signal.aborted) return;
     tell({ kind: "lost" });
@@ -62,22 +63,26 @@ function eventOf({ event, data }: Message): ServiceEvent {
 
 /** Messages of a body of server-sent events. */
 async function* messages(body: ReadableStream<Uint8Array>): AsyncGenerator<Message> {
+  for await (const block of blocks(body)) {
+    const message = parse(block);
+    if (message) yield message;
+  }
+}
+
+/** Blocks of lines between blank lines, as they come; a proxy may have changed the ends of lines. */
+export async function* blocks(body: ReadableStream<Uint8Array>): AsyncGenerator<string> {
   const reader = body.pipeThrough(new TextDecoderStream() as ReadableWritablePair<string, Uint8Array>).getReader();
   let rest = "";
   try {
     for (;;) {
       const { done, value } = await reader.read();
       if (done) return;
-      const blocks = (rest + value).split("\n\n");
-      rest = blocks.pop() ?? "";
-      for (const block of blocks) {
-        const message = parse(block);
-        if (message) yield message;
-      }
+      const found = (rest + value).replaceAll("\r\n", "\n").split("\n\n");
+      rest = found.pop() ?? "";
+      yield* found;
     }
   } finally {
-    // Otherwise the connection stays open after the reader has gone.
-    // Of a request that was given up there is nothing left to cancel.
+    // Otherwise the connection stays open after the reader has gone; one that broke off has closed.
     reader.cancel().catch(() => undefined);
   }
 }
@@ -85,12 +90,12 @@ async function* messages(body: ReadableStream<Uint8Array>): AsyncGenerator<Messa
 /** A message from its lines; none for a comment. */
 export function parse(block: string): Message | undefined {
   const message: Message = { event: "message", data: "" };
+  const data: string[] = [];
   for (const line of block.split("\n")) {
-    const colon = line.indexOf(":");
-    const value = line.slice(colon + 1).replace(/^ /, "");
+    const value = line.slice(line.indexOf(":") + 1).replace(/^ /, "");
     if (line.startsWith("id:")) message.id = value;
     else if (line.startsWith("event:")) message.event = value;
-    else if (line.startsWith("data:")) message.data += value;
+    else if (line.startsWith("data:")) data.push(value);
   }
-  return message.data === "" ? undefined : message;
+  return data.length === 0 ? undefined : { ...message, data: data.join("\n") };
 }

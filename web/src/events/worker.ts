@@ -26,14 +26,15 @@ class SharedStream {
   /** Last progress of each running job, for pages that come later. */
   private readonly progress = new Map<string, ServiceEvent>();
 
-  constructor(url: string, headers: Record<string, string>) {
-    void follow(url, headers, (event) => this.tell(event), this.end.signal);
+  constructor(url: string, headers: Record<string, string>, ended: () => void) {
+    void follow(url, headers, (event) => this.tell(event), this.end.signal).finally(ended);
   }
 
   /** Adds a page, or notes that it is still there. */
   join(page: MessagePort): void {
     const isNew = !this.pages.has(page);
     this.pages.set(page, Date.now());
+    // The opening of the stream is told to all pages that are there by then.
     if (!isNew) return;
     if (this.hasBegun) page.postMessage({ kind: "reset" } satisfies ServiceEvent);
     if (this.connection) page.postMessage(this.connection);
@@ -61,7 +62,8 @@ class SharedStream {
   private note(event: ServiceEvent): void {
     this.hasBegun = true;
     if (event.kind === "progress") this.progress.set(event.id, event);
-    else if (event.kind !== "reset") this.progress.delete(event.id);
+    else if (event.kind === "reset") this.progress.clear();
+    else this.progress.delete(event.id);
   }
 }
 
@@ -69,6 +71,11 @@ const streams = new Map<string, SharedStream>();
 
 function endUnused(): void {
   for (const [key, stream] of streams) if (!stream.goesOn()) streams.delete(key);
+}
+
+/** Leaves out a stream that was refused: the next sign of life of a page opens it again. */
+function forget(key: string, stream: SharedStream): void {
+  if (streams.get(key) === stream) streams.delete(key);
 }
 
 (self as unknown as SharedWorkerScope).onconnect = ({ ports: [page] }) => {
@@ -80,7 +87,7 @@ function endUnused(): void {
       return;
     }
     const key = JSON.stringify(data);
-    const stream = streams.get(key) ?? new SharedStream(data.url, data.headers);
+    const stream = streams.get(key) ?? new SharedStream(data.url, data.headers, () => forget(key, stream));
     streams.set(key, stream);
     stream.join(page);
   };

@@ -2,6 +2,7 @@
 
 import { ROOT } from "../api/client";
 import { authorization } from "../api/token";
+import { blocks } from "../events/stream";
 import { type Values, headersOf, pathOf } from "./asking";
 import type { Request } from "./contract";
 
@@ -68,21 +69,8 @@ function pretty(text: string, type: string): string {
   }
 }
 
-/** Tells each message of a stream of events, as it was sent, until the signal or the end. */
-export async function eachMessage(
-  body: ReadableStream<Uint8Array>,
-  tell: (message: string) => void,
-  signal: AbortSignal,
-): Promise<void> {
-  const reader = body.pipeThrough(new TextDecoderStream() as ReadableWritablePair<string, Uint8Array>).getReader();
-  signal.addEventListener("abort", () => void reader.cancel().catch(() => {}));
-  let rest = "";
-  for (;;) {
-    const { done, value } = await reader.read();
-    if (done) return;
-    const blocks = (rest + value).split("\n\n");
-    rest = blocks.pop() ?? "";
-    // Lines that begin with a colon only keep the connection open.
-    for (const block of blocks) if (/^[^:]/m.test(block)) tell(block);
-  }
+/** Tells each message of a stream of events, as it was sent, until its end; a request that is stopped throws. */
+export async function eachMessage(body: ReadableStream<Uint8Array>, tell: (message: string) => void): Promise<void> {
+  // Lines that begin with a colon only keep the connection open.
+  for await (const block of blocks(body)) if (/^[^:]/m.test(block)) tell(block);
 }

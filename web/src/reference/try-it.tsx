@@ -111,7 +111,7 @@ function useExchange(request: Request) {
         setEvents([]);
         const count = (message: string) =>
           setEvents((before = []) => (before.length < MOST_EVENTS ? [...before, message] : before));
-        await eachMessage(sent.response.body, count, own.signal);
+        await eachMessage(sent.response.body, count);
       } else setReceived(await receive(sent));
     } catch (error) {
       if (!own.signal.aborted) setFailure(error instanceof TypeError ? "The service does not answer." : String(error));
