@@ -21,5 +21,10 @@ export function useAnchor(): { anchor: string; count: number } {
 }
 
 function current(): string {
-  return decodeURIComponent(location.hash.slice(1));
+  try {
+    return decodeURIComponent(location.hash.slice(1));
+  } catch {
+    // An address of somebody's own, such as `#%`.
+    return "";
+  }
 }
