@@ -82,3 +82,30 @@ async function framesOfAScroll(): Promise<number[]> {
   }
   return times;
 }
+
+test("a list that cannot be read on is asked for again by its button alone", async ({ page, service }) => {
+  const start = { ...QUICK, flow: null, duration_s: 0, title: "One of many" };
+  await service.post("/v1/batches", { jobs: Array.from({ length: 100 }, () => ({ scenario: start })) });
+  await service.submit(start);
+  let asked = 0;
+  await page.route(/cursor=/, (route) => {
+    asked += 1;
+    return route.fulfill({ status: 503, contentType: "application/problem+json", body: '{"title":"Busy"}' });
+  });
+  await page.goto("/");
+  await page.getByRole("button", { name: "Show older jobs" }).scrollIntoViewIfNeeded();
+  await expect(page.getByText("Busy").first()).toBeVisible();
+  await page.waitForTimeout(1_000);
+  expect(asked).toBe(1);
+  await page.unroute(/cursor=/);
+  await page.getByRole("button", { name: "Show older jobs" }).click();
+  await expect(page.getByText("Busy")).toHaveCount(0);
+});
+
+test("a day that is being typed breaks nothing", async ({ page }) => {
+  await page.goto("/");
+  await page.getByLabel("Accepted from").fill("275760-12-31");
+  await expect(page.getByRole("heading", { name: "Jobs" })).toBeVisible();
+  await page.getByLabel("Accepted from").fill("2099-01-01");
+  await expect(page.getByText("No job is like that.")).toBeVisible();
+});

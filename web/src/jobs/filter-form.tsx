@@ -1,6 +1,9 @@
 import type { JobStatus } from "../api/client";
 import { ALL, type Filter, STATUSES } from "./filter";
 
+/** Last day that can be typed: years have four digits in the interface. */
+const LAST_DAY = "9999-12-31";
+
 /** Form of the filter of the list. */
 export function FilterForm({ filter, change }: { filter: Filter; change: (filter: Filter) => void }) {
   const toggle = (status: JobStatus, isWanted: boolean) => {
@@ -30,11 +33,11 @@ export function FilterForm({ filter, change }: { filter: Filter; change: (filter
       </label>
       <label>
         Accepted from
-        <input type="date" value={filter.from} onChange={text("from")} />
+        <input type="date" max={LAST_DAY} value={filter.from} onChange={text("from")} />
       </label>
       <label>
         to
-        <input type="date" value={filter.to} onChange={text("to")} />
+        <input type="date" max={LAST_DAY} value={filter.to} onChange={text("to")} />
       </label>
       <label class="members">
         <input

@@ -33,12 +33,16 @@ export function shown(jobs: JobSummary[], filter: Filter): JobSummary[] {
 
 /** Parameters of the request for the jobs of a filter. */
 export function query(filter: Filter) {
-  const start = (day: string) => new Date(`${day}T00:00:00`).toISOString();
-  const end = (day: string) => new Date(`${day}T23:59:59.999`).toISOString();
   return {
     ...(filter.statuses.length > 0 && { status: filter.statuses }),
     ...(filter.label !== "" && { label: filter.label }),
-    ...(filter.from !== "" && { created_from: start(filter.from) }),
-    ...(filter.to !== "" && { created_to: end(filter.to) }),
+    ...(isDay(filter.from) && { created_from: new Date(`${filter.from}T00:00:00`).toISOString() }),
+    ...(isDay(filter.to) && { created_to: new Date(`${filter.to}T23:59:59.999`).toISOString() }),
   };
+}
+
+/** True for a day with a year of four digits: while it is typed, it may have more, and the limit of a field does
+ * not keep them out. */
+function isDay(text: string): boolean {
+  return /^\d{4}-\d\d-\d\d$/.test(text);
 }

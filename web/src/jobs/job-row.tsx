@@ -10,6 +10,7 @@ interface RowProps {
   job: JobSummary;
   isChosen: boolean;
   choose: (id: string, isChosen: boolean) => void;
+  /** Tells what went wrong; undefined at a new attempt. */
   fail: (problem: unknown) => void;
 }
 
@@ -18,9 +19,10 @@ export const JobRow = memo(function JobRow({ job, isChosen, choose, fail }: RowP
   const title = job.title || "Untitled scenario";
   const study = studyOf(job);
   const labels = study === undefined ? job.labels : [];
-  const dismiss = () => data(api.DELETE("/v1/jobs/{id}", { params: { path: { id: job.id } } })).catch(fail);
-  const remove = () =>
-    data(api.DELETE("/v1/jobs/{id}", { params: { path: { id: job.id }, query: { remove: "ended" } } })).catch(fail);
+  const end = (query: { remove?: "ended" }) => {
+    fail(undefined);
+    data(api.DELETE("/v1/jobs/{id}", { params: { path: { id: job.id }, query } })).catch(fail);
+  };
   return (
     <li class="job-row" data-job={job.id}>
       <input
@@ -50,9 +52,13 @@ export const JobRow = memo(function JobRow({ job, isChosen, choose, fail }: RowP
           Run again
         </Link>
         {hasEnded(job.status) ? (
-          <ConfirmButton label="Remove" question="Really remove it and its results?" act={() => void remove()} />
+          <ConfirmButton
+            label="Remove"
+            question="Really remove it and its results?"
+            act={() => end({ remove: "ended" })}
+          />
         ) : (
-          <ConfirmButton label="Dismiss" question="Really stop it?" act={() => void dismiss()} />
+          <ConfirmButton label="Dismiss" question="Really stop it?" act={() => end({})} />
         )}
       </div>
     </li>
