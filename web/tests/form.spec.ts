@@ -251,6 +251,25 @@ test("a body is dragged with a finger", async ({ page }) => {
   expect((await documentOf(page))["bodies"][0].position.downstream_m).toBeGreaterThan(0.3);
 });
 
+test("text is typed on while it is no JSON, and begun anew", async ({ page }) => {
+  await page.goto("/#/new");
+  await page.getByRole("button", { name: "JSON", exact: true }).click();
+  const text = page.getByLabel("The scenario as JSON");
+  const before = await text.inputValue();
+  await text.focus();
+  await page.keyboard.press("Control+Home");
+  await page.keyboard.type("x y");
+  await expect(text).toBeFocused();
+  await expect(text).toHaveValue(`x y${before}`);
+  for (let typed = 0; typed < 3; typed += 1) await page.keyboard.press("Backspace");
+  await expect(text).toBeFocused();
+  await expect(text).toHaveValue(before);
+  await page.keyboard.type("x");
+  await page.getByRole("button", { name: "Start over" }).click();
+  await expect(text).toHaveValue(before);
+  await expect(page.getByRole("button", { name: "Run it" })).toBeEnabled();
+});
+
 test("text that can't be read is not run", async ({ page }) => {
   await page.goto("/#/new");
   await page.getByRole("button", { name: "JSON", exact: true }).click();

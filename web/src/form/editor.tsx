@@ -31,6 +31,8 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
   const { original, from } = origin;
   const [isText, setIsText] = useState(false);
   const [broken, setBroken] = useState<string>();
+  /** Counts texts that come from elsewhere than the editor of the text, which begins anew with each. */
+  const [opened, setOpened] = useState(0);
   const [goTo, setGoTo] = useState<{ pointer: string }>();
   const document = history.present;
   const plan = usePlan(document);
@@ -48,19 +50,27 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
     },
   });
   const forget = useDraft(address, document, origin);
+  const open = (text: string | undefined) => {
+    setBroken(text);
+    setOpened((opened) => opened + 1);
+  };
   const readFile = async (file: File) => {
-    const text = await file.text();
+    const text = await textOf(file);
     const { value } = readText(text);
     if (isObject(value)) {
       replace(value, "");
       setOrigin({ original: value, from: file.name, isOfFile: true });
     }
-    setBroken(isObject(value) ? undefined : text);
+    open(isObject(value) ? undefined : text);
     setIsText((isText) => isText || !isObject(value));
   };
   const dropping = useDrop((file) => void readFile(file));
   const isBroken = isText && broken !== undefined;
   const isChanged = !same(document, original);
+  const startOver = () => {
+    replace(original, "");
+    open(undefined);
+  };
   return (
     <FormContext.Provider value={state}>
       <div class={dropping.isOver ? "scenario-form dropping" : "scenario-form"} {...dropping.handlers}>
@@ -74,7 +84,7 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
           setIsText={setIsText}
           undo={history.past.length > 0 ? () => setHistory(undone) : undefined}
           redo={history.future.length > 0 ? () => setHistory(redone) : undefined}
-          startOver={isChanged ? () => replace(original, "") : undefined}
+          startOver={isChanged || isBroken ? startOver : undefined}
           readFile={(file) => void readFile(file)}
         />
         <ToRun planned={plan.planned} />
@@ -83,7 +93,7 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
           <DifferenceList from={from} />
           {isText ? (
             <JsonEditor
-              key={broken === undefined ? "" : "file"}
+              key={opened}
               document={document}
               onDocument={(next) => replace(next, "text")}
               broken={broken}
@@ -108,6 +118,15 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
       </div>
     </FormContext.Provider>
   );
+}
+
+/** Text of a file; empty if it cannot be read, which the editor says. */
+async function textOf(file: File): Promise<string> {
+  try {
+    return await file.text();
+  } catch {
+    return "";
+  }
 }
 
 function obstacleOf(violations: number, isBroken: boolean): string | undefined {
