@@ -4,7 +4,8 @@ import { expect, test } from "@playwright/test";
 import { at, changed, differences, same } from "../src/form/document";
 import { begin, edited, redone, undone } from "../src/form/history";
 import { readText, written } from "../src/form/json-text";
-import { marks, outlineOf, roundBelow, snapped } from "../src/form/outline";
+import { outlineOf } from "../src/geometry/outline";
+import { marks, roundBelow, snapped } from "../src/parts/round-values";
 import { attemptFor, newKey } from "../src/form/attempt";
 
 test("a change leaves the rest as it was and keeps the order of keys", () => {

@@ -149,6 +149,7 @@ test("an incomplete scenario has no scene, and odd values break nothing", async 
     5,
     "x",
     [null, 3, "x", { shape: 5 }, { shape: { cube: null } }, { shape: { moon: {} } }],
+    [{ shape: { toString: {} } }, { shape: { regular: { solid: "constructor", size_m: 1 } } }],
   ] as Json[]) {
     expect(sceneOf({ ...minimal, bodies: value }, schemas)?.bodies).toEqual([]);
   }

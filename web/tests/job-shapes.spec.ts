@@ -1,7 +1,8 @@
 import { expect, test } from "@playwright/test";
-import { outlineFromAbove } from "../src/job/shape/outline";
-import { type Surface, surfaceOf } from "../src/job/shape/surface";
-import { type Vector, cross, dot, minus } from "../src/job/shape/vector";
+import { solidOf } from "../src/form/solid";
+import { outlineFromAbove } from "../src/geometry/outline";
+import { type Surface, surfaceOf } from "../src/geometry/surface";
+import { type Vector, cross, dot, length, minus } from "../src/geometry/vectors";
 
 const extent = (values: number[]) => Math.max(...values) - Math.min(...values);
 const along = ({ positions }: Surface, axis: number) => positions.filter((_, place) => place % 3 === axis);
@@ -70,6 +71,27 @@ test("regular solids lie on a face with an edge along y upstream", () => {
   const upstream = Math.min(...base.map(([x]) => x));
   expect(base.filter(([x]) => x < upstream + 1e-6).length).toBe(2);
   expect(extent(base.map(([, y]) => y))).toBeCloseTo(0.04, 3);
+});
+
+test("a shape is the same solid in the form, which is held against the service, and in a replay", () => {
+  const shapes = [
+    { cube: { side_m: 0.04 } },
+    { box: { sides_m: [0.04, 0.02, 0.03] } },
+    ...["tetrahedron", "octahedron", "dodecahedron", "icosahedron"].map((solid) => ({
+      regular: { solid, size_m: 0.03 },
+    })),
+    { capsule: { radius_m: 0.01, length_m: 0.06 } },
+  ];
+  for (const shape of shapes) {
+    const solid = solidOf(shape, 0.001);
+    const { core, radius } = surfaceOf({ shape, sphero_radius_m: 0.001 });
+    expect(radius, JSON.stringify(shape)).toBe(solid?.radius);
+    expect(core.length, JSON.stringify(shape)).toBe(solid?.core.length);
+    for (const corner of core) {
+      const apart = Math.min(...(solid?.core ?? []).map((other) => length(minus(corner, other))));
+      expect(apart, JSON.stringify(shape)).toBeLessThan(1e-9);
+    }
+  }
 });
 
 test("an outline from above is turned with its body", () => {

@@ -5,7 +5,7 @@ import { auditOf, verdictOf } from "../src/job/outcome/audit";
 import { intervalText, overlap } from "../src/job/outcome/quantities";
 import { bodySentence } from "../src/job/outcome/sentences";
 import { curvesOf, poseAt, sampleAt, strideFor, valueAt } from "../src/job/records/trajectories";
-import { multiples, niceStep } from "../src/job/region";
+import { multiples, niceStep } from "../src/parts/round-values";
 import { Pace } from "../src/job/scene/pace";
 import { curlRecipe, pythonLiteral, pythonRecipe } from "../src/job/take/recipes";
 

@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
+import { marks } from "../parts/round-values";
 import { type Frame, MARGIN, onPage } from "./frame";
-import { marks } from "./outline";
 
 interface ViewProps {
   frame: Frame;

@@ -1,16 +1,16 @@
 import { memo } from "preact/compat";
 import { useRef } from "preact/hooks";
+import { type Place, outlineOf } from "../geometry/outline";
+import type { Vector } from "../geometry/vectors";
 import { type Frame, onPage, pointsOf } from "./frame";
-import { type Place, outlineOf } from "./outline";
 import type { PlacedBody } from "./scene";
-import type { Vec3 } from "./vectors";
 
 /** What moving a body does. */
 export interface BodyMoves {
   /** Step of a move [m]. */
   step: number;
   /** Moves a body; one that is lifted leaves the bed. */
-  move: (body: PlacedBody, to: Vec3, isLifted: boolean, edit: string) => void;
+  move: (body: PlacedBody, to: Vector, isLifted: boolean, edit: string) => void;
   /** Keeps the frame as it is while a body is dragged. */
   hold: (isHeld: boolean) => void;
   /** Goes to the fields of a body. */
@@ -36,7 +36,7 @@ const FINGER = 14;
 
 interface Drag {
   from: Place;
-  centre: Vec3;
+  centre: Vector;
   name: string;
 }
 
@@ -96,13 +96,13 @@ export const DraggableBody = memo(function DraggableBody({
       <circle class="target" cx={x} cy={y} r={FINGER} />
       <polygon points={pointsOf(frame, outline)} />
       <title>{`Body ${body.index}, ${body.solid.text}`}</title>
-      {isNumbered && <Number index={body.index} outline={outline} frame={frame} place={[x, y]} />}
+      {isNumbered && <BodyNumber index={body.index} outline={outline} frame={frame} place={[x, y]} />}
     </g>
   );
 });
 
 /** Number of a body: on it if there is room, else above or below it. */
-function Number({ index, outline, frame, place }: { index: number; outline: Place[]; frame: Frame; place: Place }) {
+function BodyNumber({ index, outline, frame, place }: { index: number; outline: Place[]; frame: Frame; place: Place }) {
   const tops = outline.map((corner) => onPage(frame, corner)[1]);
   const [highest, lowest] = [Math.min(...tops), Math.max(...tops)];
   const hasRoom = lowest - highest > 18;
@@ -120,7 +120,7 @@ function Number({ index, outline, frame, place }: { index: number; outline: Plac
   );
 }
 
-function shifted([x, y, z]: Vec3, dx: number, dv: number, isSide: boolean): Vec3 {
+function shifted([x, y, z]: Vector, dx: number, dv: number, isSide: boolean): Vector {
   return isSide ? [x + dx, y, z + dv] : [x + dx, y + dv, z];
 }
 

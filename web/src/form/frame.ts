@@ -1,6 +1,7 @@
 /** Frames of the two views: the part of the scene that they show, and its scale. */
 
-import { type Place, roundBelow } from "./outline";
+import type { Place } from "../geometry/outline";
+import { roundBelow } from "../parts/round-values";
 import { type Scene, bedAt, extentOf } from "./scene";
 
 /** Part of the scene that is shown. */

@@ -1,11 +1,11 @@
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
+import type { Vector } from "../geometry/vectors";
+import { snapped } from "../parts/round-values";
 import { changed, isObject, at, member } from "./document";
 import type { BodyMoves } from "./draggable-body";
 import { useForm } from "./form-context";
 import { type Zoom, framesOf } from "./frame";
-import { snapped } from "./outline";
 import { type PlacedBody, type Scene, extentOf, sceneText } from "./scene";
-import type { Vec3 } from "./vectors";
 import { SideView, TopView } from "./views";
 
 /** Most bodies that have their numbers beside them. */
@@ -101,7 +101,7 @@ function ZoomChoice({ zoom, setZoom, isOf }: { zoom: Zoom; setZoom: (zoom: Zoom)
 /** Moves a body in the document, within the channel and by whole steps. */
 function useMove(scene: Scene, say: (text: string) => void) {
   const { document, replace } = useForm();
-  return (body: PlacedBody, to: Vec3, isLifted: boolean, edit: string, step: number) => {
+  return (body: PlacedBody, to: Vector, isLifted: boolean, edit: string, step: number) => {
     const { incline, runout, width } = scene.channel;
     const within = (value: number, low: number, high: number) => snapped(Math.min(high, Math.max(low, value)), step);
     const pointer = member("/bodies", body.index);

@@ -1,9 +1,9 @@
 /** The scene of a scenario at its start: what the views draw. */
 
+import { type Quaternion, type Vector, dot, length, minus, plus, product, rotation, turned } from "../geometry/vectors";
 import { type Json, type JsonObject, at, isObject } from "./document";
 import { type Schemas, schemaAt } from "./schema";
 import { type Solid, positive, solidOf } from "./solid";
-import { type Quaternion, type Vec3, add, dot, length, product, rotation, times, turned } from "./vectors";
 
 /** Incline and floor. */
 export interface Channel {
@@ -28,9 +28,9 @@ export interface Release {
 /** A body in its place. */
 export interface PlacedBody {
   index: number;
-  centre: Vec3;
+  centre: Vector;
   /** Places of the core's vertices [m]. */
-  core: Vec3[];
+  core: Vector[];
   solid: Solid;
   /** True if its elevation is given, so that it may hang in the air. */
   isElevated: boolean;
@@ -117,8 +117,8 @@ function placeBody(body: JsonObject, index: number, channel: Channel): PlacedBod
   const inclination = x < 0 ? channel.inclination : 0;
   const turn = turnOf(body, inclination);
   const given = place("elevation_m");
-  const centre: Vec3 = [x, y, given ?? restingElevation(solid, turn, x, inclination)];
-  const core = solid.core.map((vertex) => add(centre, turned(turn, vertex)));
+  const centre: Vector = [x, y, given ?? restingElevation(solid, turn, x, inclination)];
+  const core = solid.core.map((vertex) => plus(centre, turned(turn, vertex)));
   return { index, centre, core, solid, isElevated: given !== undefined, isFixed: at(body, "/fixed") === true };
 }
 
@@ -127,7 +127,7 @@ function turnOf(body: Json, inclination: number): Quaternion {
   const given = at(body, "/orientation");
   if (Array.isArray(given) && given.length === 4 && given.every((part) => typeof part === "number")) {
     const norm = Math.hypot(...given);
-    if (norm > 0) return given.map((part) => part / norm) as Quaternion;
+    if (norm > 0) return given.map((part) => part / norm) as unknown as Quaternion;
   }
   const yaw = at(body, "/yaw_deg");
   const degrees = typeof yaw === "number" ? yaw : 0;
@@ -136,14 +136,14 @@ function turnOf(body: Json, inclination: number): Quaternion {
 
 /** Elevation of the centre of a body that touches the bed under it. */
 function restingElevation(solid: Solid, turn: Quaternion, x: number, inclination: number): number {
-  const normal: Vec3 = [Math.sin(inclination), 0, Math.cos(inclination)];
+  const normal: Vector = [Math.sin(inclination), 0, Math.cos(inclination)];
   const depths = solid.core.map((vertex) => -dot(normal, turned(turn, vertex)));
   return (Math.max(...depths) + solid.radius - x * normal[0]) / normal[2];
 }
 
 /** Largest distance of a place of a body from its centre [m]. */
 export function extentOf({ core, centre, solid }: PlacedBody): number {
-  return Math.max(...core.map((vertex) => length(add(vertex, times(-1, centre))))) + solid.radius;
+  return Math.max(...core.map((vertex) => length(minus(vertex, centre)))) + solid.radius;
 }
 
 /** What is drawn, in words. */

@@ -1,12 +1,13 @@
 /** Solids of bodies in body axes, from the shapes of a scenario. */
 
+import { centreOf, facesOf } from "../geometry/polyhedron";
+import { regularSolid } from "../geometry/regular";
+import { type Vector, length, minus, scaled } from "../geometry/vectors";
 import { type Json, isObject } from "./document";
-import { centreOf, facesOf, regularSolid } from "./polyhedron";
-import { type Vec3, length, minus, times } from "./vectors";
 
 /** A core about the centre of mass, swept by a ball. */
 export interface Solid {
-  core: Vec3[];
+  core: Vector[];
   radius: number;
   /** Length by which a body is placed clear of the foot of the incline, if nothing else is said [m]. */
   reach: number;
@@ -23,16 +24,16 @@ export function positive(value: Json | undefined): number | undefined {
 }
 
 /** The vector, if it is one of numbers. */
-export function vectorOf(value: Json | undefined): Vec3 | undefined {
+export function vectorOf(value: Json | undefined): Vector | undefined {
   const isVector = Array.isArray(value) && value.length === 3 && value.every((part) => typeof part === "number");
-  return isVector ? (value as Vec3) : undefined;
+  return isVector ? (value as unknown as Vector) : undefined;
 }
 
 /** Solid of a shape; undefined if its dimensions make none, or the shape is not known. */
 export function solidOf(shape: Json | undefined, givenRadius: Json | undefined): Solid | undefined {
   const [name, size] = isObject(shape) ? (Object.entries(shape)[0] ?? []) : [];
   if (name === undefined || !isObject(size)) return undefined;
-  return MAKERS[name]?.(size, positive(givenRadius));
+  return Object.hasOwn(MAKERS, name) ? MAKERS[name]?.(size, positive(givenRadius)) : undefined;
 }
 
 type Maker = (size: { [key: string]: Json }, radius: number | undefined) => Solid | undefined;
@@ -53,9 +54,9 @@ const MAKERS: Record<string, Maker> = {
     if (edge === undefined || !regular) return undefined;
     const inradius = regular.inradius * edge;
     const rounding = rounded(radius, 2 * inradius);
-    const vertices = regular.vertices.map((vertex) => times(edge, vertex));
+    const vertices = regular.vertices.map((vertex) => scaled(vertex, edge));
     // Planes at equal distances from the centre move inwards by a change of scale.
-    const core = vertices.map((vertex) => times(1 - rounding / inradius, vertex));
+    const core = vertices.map((vertex) => scaled(vertex, 1 - rounding / inradius));
     return { core, radius: rounding, reach: farthest(vertices), text: `${String(solid)}, edges ${edge} m` };
   },
   polyhedron({ vertices_m }) {
@@ -91,10 +92,10 @@ const MAKERS: Record<string, Maker> = {
 /** Most vertices of a polyhedron that are drawn, those that the service takes. */
 const MOST_VERTICES = 32;
 
-const hulls = new WeakMap<Json[], Vec3[] | undefined>();
+const hulls = new WeakMap<Json[], Vector[] | undefined>();
 
 /** The points about the centre of mass of their hull, once for each list. */
-function hullOf(list: Json[], points: Vec3[]): Vec3[] | undefined {
+function hullOf(list: Json[], points: Vector[]): Vector[] | undefined {
   if (!hulls.has(list)) {
     const faces = points.length < 4 ? [] : facesOf(points);
     const centre = centreOf(faces);
@@ -103,10 +104,10 @@ function hullOf(list: Json[], points: Vec3[]): Vec3[] | undefined {
   return hulls.get(list);
 }
 
-function cuboid(sides: Vec3, given: number | undefined, text: string): Solid {
+function cuboid(sides: Vector, given: number | undefined, text: string): Solid {
   const radius = rounded(given, Math.min(...sides));
-  const [x, y, z] = sides.map((side) => side / 2 - radius) as Vec3;
-  const core = [-1, 1].flatMap((a) => [-1, 1].flatMap((b) => [-1, 1].map((c): Vec3 => [a * x, b * y, c * z])));
+  const [x, y, z] = sides.map((side) => side / 2 - radius) as unknown as Vector;
+  const core = [-1, 1].flatMap((a) => [-1, 1].flatMap((b) => [-1, 1].map((c): Vector => [a * x, b * y, c * z])));
   return { core, radius, reach: Math.max(...sides), text };
 }
 
@@ -115,6 +116,6 @@ function rounded(given: number | undefined, thickness: number): number {
   return Math.min(given ?? thickness / THICKNESS_PER_RADIUS, thickness / 2);
 }
 
-function farthest(vertices: Vec3[]): number {
+function farthest(vertices: Vector[]): number {
   return Math.max(...vertices.flatMap((a) => vertices.map((b) => length(minus(a, b)))));
 }

@@ -1,7 +1,7 @@
+import type { Place } from "../geometry/outline";
 import { View } from "./axes";
 import { DraggableBody, type MovesReference } from "./draggable-body";
 import { type Frame, onPage, pointsOf } from "./frame";
-import type { Place } from "./outline";
 import { type Channel, type Release, type Scene, bedAt } from "./scene";
 
 interface SceneViewProps {

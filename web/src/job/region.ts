@@ -3,8 +3,8 @@
 import type { Scenario } from "../api/client";
 import type { FlowFrame } from "./flow/decoder";
 import type { Poses } from "./records/trajectories";
-import { surfaceOf } from "./shape/surface";
-import { length } from "./shape/vector";
+import { surfaceOf } from "../geometry/surface";
+import { length } from "../geometry/vectors";
 
 /** A box along the axes [m]. */
 export interface Region {
@@ -43,19 +43,4 @@ function include({ low, high }: Region, from: readonly number[], to: readonly nu
     low[axis] = Math.min(low[axis], (from[axis] ?? 0) - reach);
     high[axis] = Math.max(high[axis], (to[axis] ?? 0) + reach);
   }
-}
-
-/** Distance of grid lines: about so many on a length, at 1, 2 or 5 times a power of ten. */
-export function niceStep(length: number, about: number): number {
-  const rough = length / about;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].find((step) => step * power >= rough * 0.999) ?? 10;
-  return Number((step * power).toPrecision(1));
-}
-
-/** Multiples of a step within a range. */
-export function multiples(step: number, from: number, to: number): number[] {
-  const first = Math.ceil(from / step - 1e-9);
-  const count = Math.floor(to / step + 1e-9) - first + 1;
-  return Array.from({ length: Math.max(0, count) }, (_, k) => Number(((first + k) * step).toPrecision(12)));
 }

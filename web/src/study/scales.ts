@@ -1,5 +1,6 @@
 /** Scales of pictures: ranges, round values, and maps with equal scales along both axes. */
 
+import { multiples, niceStep } from "../parts/round-values";
 import type { Place } from "./documents";
 
 export type Range = [from: number, to: number];
@@ -17,16 +18,9 @@ export function rangeOf(values: number[], margin: number): Range {
   return [low - beyond, high + beyond];
 }
 
-/** About so many round values in a range. */
+/** Round values in a range: at most about so many. */
 export function roundValues([from, to]: Range, count: number): number[] {
-  const rough = (to - from) / Math.max(1, count);
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((digit) => digit * power).find((step) => step >= rough * 0.999) ?? 10 * power;
-  const first = Math.ceil(from / step - 1e-9);
-  const values: number[] = [];
-  for (let place = first; place * step <= to + 1e-9 * step; place += 1)
-    values.push(Number((place * step).toPrecision(12)));
-  return values;
+  return multiples(niceStep(to - from, Math.max(1, count)), from, to);
 }
 
 /** Ranges of a map on equal scales, and its height [px]. */

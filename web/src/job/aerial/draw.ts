@@ -1,15 +1,16 @@
 /** Picture of flow and bodies from above, at one time. */
 
 import type { Scenario } from "../../api/client";
+import { outlineFromAbove } from "../../geometry/outline";
+import { surfaceOf } from "../../geometry/surface";
+import { turned } from "../../geometry/vectors";
 import { figure } from "../../parts/format";
+import { multiples, niceStep } from "../../parts/round-values";
 import { bodyColour, viridis } from "../colours";
 import type { FlowFrame } from "../flow/decoder";
 import { type Between, type FramePair, eachPoint, framesAt, keptSpacing, pairOf } from "../flow/frames";
 import { type Poses, poseAt, sampleAt } from "../records/trajectories";
-import { type Region, multiples, niceStep } from "../region";
-import { outlineFromAbove } from "../shape/outline";
-import { surfaceOf } from "../shape/surface";
-import { turned } from "../shape/vector";
+import type { Region } from "../region";
 import type { Theme } from "../use-theme";
 
 /** What a picture from above shows. */

@@ -1,7 +1,7 @@
 /** Trajectories of bodies: values and poses at any time. */
 
 import type { Job, Trajectory } from "../../api/client";
-import type { Quaternion, Vector } from "../shape/vector";
+import type { Quaternion, Vector } from "../../geometry/vectors";
 
 /** Motion of a body: a pose at each sample. */
 export interface Poses {

@@ -16,7 +16,7 @@ import {
 import type { Scenario } from "../../api/client";
 import { bodyColour } from "../colours";
 import { type Poses, poseAt, sampleAt } from "../records/trajectories";
-import { type Surface, surfaceOf } from "../shape/surface";
+import { type Surface, surfaceOf } from "../../geometry/surface";
 import { colourOf } from "./flow-points";
 
 const ONE = new Vector3(1, 1, 1);

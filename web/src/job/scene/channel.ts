@@ -18,7 +18,8 @@ import {
 } from "three";
 import type { Scenario } from "../../api/client";
 import { figure } from "../../parts/format";
-import { type Region, multiples, niceStep } from "../region";
+import { multiples, niceStep } from "../../parts/round-values";
+import type { Region } from "../region";
 import type { Theme } from "../use-theme";
 import { colourOf } from "./flow-points";
 

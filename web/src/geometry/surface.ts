@@ -1,8 +1,8 @@
 /** Surfaces of bodies: of a convex core, swept by a sphere. */
 
 import { type Polytope, eroded, hullPlanes, within } from "./polytope";
-import { regularCorners } from "./regular";
-import { type Vector, cross, dot, minus, plus, scaled, slerp, unit } from "./vector";
+import { regularSolid } from "./regular";
+import { type Vector, cross, dot, minus, plus, scaled, slerp, total, unit } from "./vectors";
 
 /** Shape of a body as a scenario has it. */
 export interface BodyShape {
@@ -54,16 +54,18 @@ function made({ cube, box, regular, polyhedron, ball, capsule }: AnyShape, radiu
     );
   }
   let corners: Vector[];
-  if (regular) corners = regularCorners(regular.solid, regular.size_m);
-  else if (polyhedron) corners = polyhedron.vertices_m.map(([x = 0, y = 0, z = 0]) => [x, y, z]);
-  else {
-    const [x = 1, y = 1, z = 1] = box ? box.sides_m : Array<number>(3).fill(cube?.side_m ?? 1);
-    corners = regularCorners("cube", 1).map(([a, b, c]) => [a * x, b * y, c * z]);
-  }
+  if (polyhedron) corners = polyhedron.vertices_m.map(([x = 0, y = 0, z = 0]) => [x, y, z]);
+  else if (regular) corners = cornersOf(regular.solid, Array<number>(3).fill(regular.size_m));
+  else corners = cornersOf("cube", box?.sides_m ?? Array<number>(3).fill(cube?.side_m ?? 0));
   // Planes about a corner: far from the origin they would lose digits.
   const [first = [0, 0, 0]] = corners;
   const planes = hullPlanes(corners.map((corner) => minus(corner, first)));
   return rounded(within(eroded(planes, radius)), radius, steps);
+}
+
+/** Corners of a regular solid with edges of length 1, stretched; none of a solid or a size that is not known. */
+function cornersOf(solid: string, [x = 0, y = 0, z = 0]: number[]): Vector[] {
+  return regularSolid(solid)?.vertices.map(([a, b, c]): Vector => [a * x, b * y, c * z]) ?? [];
 }
 
 class Builder {
@@ -99,7 +101,7 @@ class Builder {
     ];
     const [p, q, r] = [a, b, c].map((place) => at(this.surface.positions, place)) as [Vector, Vector, Vector];
     const facing = cross(minus(q, p), minus(r, p));
-    const outwards = plus(plus(at(this.surface.normals, a), at(this.surface.normals, b)), at(this.surface.normals, c));
+    const outwards = total([a, b, c].map((place) => at(this.surface.normals, place)));
     if (dot(facing, facing) === 0) return;
     this.surface.triangles.push(...(dot(facing, outwards) >= 0 ? [a, b, c] : [a, c, b]));
   }
@@ -159,7 +161,7 @@ function arc(from: Vector, to: Vector, steps: number): Vector[] {
 
 /** The spherical polygon between the normals of the faces that meet in a corner. */
 function cap(builder: Builder, corner: Vector, normals: Vector[], steps: number): void {
-  const middle = unit(normals.reduce((sum, normal) => plus(sum, normal), [0, 0, 0] as Vector));
+  const middle = unit(total(normals));
   const [first = middle] = normals;
   const side = unit(minus(first, scaled(middle, dot(first, middle))));
   const angle = (normal: Vector) => Math.atan2(dot(normal, cross(middle, side)), dot(normal, side));
@@ -186,7 +188,7 @@ function centred(surface: Surface): Surface {
     const [a, b, c] = [0, 1, 2].map((corner) => at(surface.triangles[k + corner] ?? 0)) as [Vector, Vector, Vector];
     const part = dot(a, cross(b, c)) / 6;
     volume += part;
-    moment = plus(moment, plus(plus(a, b), c), part / 4);
+    moment = plus(moment, total([a, b, c]), part / 4);
   }
   const centre = scaled(moment, 1 / (volume || 1));
   const positions = surface.positions.map((value, place) => value - (centre[place % 3] ?? 0));

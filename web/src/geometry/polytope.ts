@@ -1,6 +1,7 @@
-/** Convex polyhedra by their planes: hull of points, erosion, corners and faces. */
+/** Convex polyhedra by their planes: erosion, corners and faces. */
 
-import { type Vector, cross, dot, length, minus, plus, scaled, unit } from "./vector";
+import { facesOf } from "./polyhedron";
+import { type Vector, cross, dot, length, minus, plus, scaled, total, unit } from "./vectors";
 
 /** The half space n · x ≤ d. */
 export interface Plane {
@@ -14,30 +15,9 @@ export interface Polytope {
   faces: { normal: Vector; loop: number[] }[];
 }
 
-/** Size below which features are one, over the size of the whole. */
-const SAME = 1e-5;
-
-/** Planes of the convex hull of a few points: of all planes through three those with all on one side. */
+/** Planes of the faces of the convex hull of a few points. */
 export function hullPlanes(points: readonly Vector[]): Plane[] {
-  const planes: Plane[] = [];
-  const near = SAME * sizeOf(points);
-  for (const [i, a] of points.entries()) {
-    for (let j = i + 1; j < points.length; j += 1) {
-      for (let k = j + 1; k < points.length; k += 1) {
-        const normal = cross(minus(points[j] ?? a, a), minus(points[k] ?? a, a));
-        if (length(normal) > near * near) add(planes, points, unit(normal), dot(unit(normal), a), near);
-      }
-    }
-  }
-  return planes;
-}
-
-function add(planes: Plane[], points: readonly Vector[], normal: Vector, offset: number, near: number): void {
-  const heights = points.map((point) => dot(normal, point) - offset);
-  const isUpper = heights.every((height) => height <= near);
-  if (!isUpper && !heights.every((height) => height >= -near)) return;
-  const plane = isUpper ? { normal, offset } : { normal: scaled(normal, -1), offset: -offset };
-  if (!planes.some((other) => dot(other.normal, plane.normal) > 1 - 1e-8)) planes.push(plane);
+  return facesOf(points).map(({ normal, loop }) => ({ normal, offset: dot(normal, loop[0] ?? normal) }));
 }
 
 function sizeOf(points: readonly Vector[]): number {
@@ -92,10 +72,7 @@ function meeting(a: Plane, b: Plane, c: Plane, along: Vector): Vector | undefine
 /** Corners of a face in the order of their angle about its normal. */
 function aroundNormal(corners: readonly Vector[], on: number[], normal: Vector): number[] {
   const places = on.map((place) => corners[place] ?? normal);
-  const centre = scaled(
-    places.reduce((sum, place) => plus(sum, place), [0, 0, 0] as Vector),
-    1 / (places.length || 1),
-  );
+  const centre = scaled(total(places), 1 / (places.length || 1));
   const first = unit(minus(places[0] ?? normal, centre));
   const second = cross(normal, first);
   const angle = (place: number) => {

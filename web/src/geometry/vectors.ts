@@ -1,6 +1,9 @@
-/** Vectors and unit quaternions [w, x, y, z] as plain arrays. */
+/** Vectors, unit vectors and rotations as plain arrays. */
 
+/** A vector or place [m]. */
 export type Vector = readonly [number, number, number];
+
+/** A unit quaternion, scalar first. */
 export type Quaternion = readonly [number, number, number, number];
 
 export const plus = (a: Vector, b: Vector, times = 1): Vector => [
@@ -19,9 +22,22 @@ export const cross = (a: Vector, b: Vector): Vector => [
 export const length = (a: Vector): number => Math.hypot(...a);
 export const unit = (a: Vector): Vector => scaled(a, 1 / (length(a) || 1));
 
-/** Turns a vector by a unit quaternion: v + 2 u × (u × v + w v). */
-export function turned([w, x, y, z]: Quaternion, v: Vector): Vector {
-  const axis: Vector = [x, y, z];
+/** Sum of vectors. */
+export const total = (vectors: readonly Vector[]): Vector =>
+  vectors.reduce((sum, one) => plus(sum, one), [0, 0, 0] as Vector);
+
+/** Rotation by an angle [rad] about a unit axis. */
+export function rotation(axis: Vector, angle: number): Quaternion {
+  return [Math.cos(angle / 2), ...scaled(axis, Math.sin(angle / 2))];
+}
+
+/** Rotation that makes `second` first and then `first`. */
+export function product([a, ...u]: Quaternion, [b, ...v]: Quaternion): Quaternion {
+  return [a * b - dot(u, v), ...plus(plus(scaled(v, a), u, b), cross(u, v))];
+}
+
+/** Vector turned by a rotation: v + 2 u × (u × v + w v). */
+export function turned([w, ...axis]: Quaternion, v: Vector): Vector {
   return plus(v, cross(axis, plus(cross(axis, v), v, w)), 2);
 }
 

@@ -1,4 +1,6 @@
-/** Outlines of bodies in a view, and the marks of its axes. */
+/** Outlines of bodies in a view. */
+
+import { type Quaternion, type Vector, turned } from "./vectors";
 
 /** A place in a view [m]. */
 export type Place = [number, number];
@@ -17,6 +19,19 @@ export function outlineOf(core: Place[], radius: number): Place[] {
     }),
   );
   return convexHull(swept);
+}
+
+/** Outline from above of a core swept by a ball, turned and in its place [m]. */
+export function outlineFromAbove(
+  { core, radius }: { core: readonly Vector[]; radius: number },
+  position: Vector,
+  orientation: Quaternion,
+): Place[] {
+  const places = core.map((corner): Place => {
+    const [x, y] = turned(orientation, corner);
+    return [position[0] + x, position[1] + y];
+  });
+  return outlineOf(places, radius);
 }
 
 /** Convex hull, counter-clockwise (Andrew's monotone chain). */
@@ -39,25 +54,4 @@ function chain(sorted: Place[]): Place[] {
 
 function turn(a: Place, b: Place, c: Place): number {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-/** Largest of 1, 2, 5 times a power of ten that is not above the value. */
-export function roundBelow(value: number): number {
-  const power = 10 ** Math.floor(Math.log10(value));
-  const factor = [5, 2, 1].find((factor) => factor * power <= value * (1 + 1e-9)) ?? 1;
-  return factor * power;
-}
-
-/** The value on the nearest multiple of a step, without digits that come of rounding. */
-export function snapped(value: number, step: number): number {
-  const digits = Math.max(0, -Math.floor(Math.log10(step)));
-  return Number((Math.round(value / step) * step).toFixed(digits));
-}
-
-/** Marks of an axis between two values: about `count` of them. */
-export function marks(low: number, high: number, count: number): number[] {
-  const step = roundBelow((high - low) / Math.max(1, count)) || 1;
-  const first = Math.ceil(low / step - 1e-9);
-  const last = Math.floor(high / step + 1e-9);
-  return Array.from({ length: last - first + 1 }, (_, index) => snapped((first + index) * step, step));
 }
