@@ -1,9 +1,9 @@
 /** The scenario document and its text, without a page. */
 
 import { expect, test } from "@playwright/test";
-import { at, changed, differences, same } from "../src/form/document";
+import { at, changed, differences, same } from "../src/parts/json-document";
 import { begin, edited, redone, undone } from "../src/form/history";
-import { readText, written } from "../src/form/json-text";
+import { readText, written } from "../src/parts/json-text";
 import { outlineOf } from "../src/geometry/outline";
 import { marks, roundBelow, snapped } from "../src/parts/round-values";
 import { attemptFor, newKey } from "../src/form/attempt";

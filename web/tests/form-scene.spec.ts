@@ -1,7 +1,7 @@
 /** What is drawn lies where the service puts it. */
 
 import type { Contract } from "../src/api/client";
-import type { Json, JsonObject } from "../src/form/document";
+import type { Json, JsonObject } from "../src/parts/json-document";
 import { asking, editedDocument, withItem } from "../src/form/editing";
 import { framesOf } from "../src/form/frame";
 import { type Scene, sceneOf } from "../src/form/scene";

@@ -7,7 +7,7 @@ import { curve, exceeding } from "../src/study/exceedance";
 import { groundOf, labelsOf } from "../src/study/map-frame";
 import { columns, sorted } from "../src/study/members";
 import { placeName, unitOf } from "../src/study/names";
-import { placeOfPointer } from "../src/study/place-of-pointer";
+import { rangeOfValue } from "../src/parts/text-area";
 import { mapScale, onMap, rangeOf, roundValues } from "../src/study/scales";
 import { directionOf, tornado } from "../src/study/sensitivity";
 import { Throttle } from "../src/parts/throttle";
@@ -225,13 +225,13 @@ test("a direction is clear only beyond chance", () => {
 
 test("a pointer leads to its place in the text", () => {
   const text = '{"a": [1, {"b/c": "x\\"}", "d": {}}], "e": -2.5e3}';
-  const at = (pointer: string) => text.slice(...(placeOfPointer(text, pointer) ?? [0, 0]));
+  const at = (pointer: string) => text.slice(...rangeOfValue(text, pointer));
   expect(at("/a/1/b~1c")).toBe('"x\\"}"');
   expect(at("/a/0")).toBe("1");
   expect(at("/e")).toBe("-2.5e3");
-  expect(at("/a/1/d/missing")).toBe("{}");
+  expect(at("/a/1/d/missing")).toBe("{");
   expect(at("")).toBe(text);
-  expect(placeOfPointer('{"a": [', "/a/0")).toBeUndefined();
+  expect(rangeOfValue('{"a": [', "/a/0")).toEqual([0, 1]);
 });
 
 test("designs grow where the service can enlarge them", () => {

@@ -1,4 +1,4 @@
-import { at } from "./document";
+import { at } from "../parts/json-document";
 import { type Asked, askedOf, asking } from "./editing";
 import { Violations } from "./field";
 import { elementId, useForm, violationsWithin } from "./form-context";

@@ -1,6 +1,6 @@
 /** Drafts that survive a reload: one for each address of the form, in the session storage. */
 
-import type { JsonObject } from "./document";
+import type { JsonObject } from "../parts/json-document";
 
 /** A scenario that is being written, and where it began. */
 export interface Draft {

@@ -1,7 +1,7 @@
 /** Changes of the scenario document that keep it as short as its author would write it. */
 
 import { snapped } from "../parts/round-values";
-import { type Json, type JsonObject, at, changed, isObject, member, parentOf, tokens } from "./document";
+import { type Json, type JsonObject, at, changed, isObject, member, parentOf, tokens } from "../parts/json-document";
 import type { Scene } from "./scene";
 import { type Schemas, schemaAt } from "./schema";
 import { solidOf } from "./solid";

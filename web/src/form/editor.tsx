@@ -1,10 +1,10 @@
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
-import { type JsonObject, isObject, same } from "./document";
+import { type JsonObject, isObject, same } from "../parts/json-document";
 import { type Draft, keepDraft } from "./draft";
 import { FormContext } from "./form-context";
 import { begin as beginHistory, edited, redone, undone } from "./history";
 import { JsonEditor } from "./json-editor";
-import { readText } from "./json-text";
+import { readText } from "../parts/json-text";
 import { DifferenceList, ViolationList } from "./lists";
 import { PlanPanel } from "./plan-panel";
 import { SceneFigure } from "./scene-figure";

@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import { at, tokens } from "./document";
+import { at, tokens } from "../parts/json-document";
 import { elementId, useForm, violationsWithin } from "./form-context";
 import { FlagInput, JsonInput, NamesInput, NumberInput, TextInput, VectorInput } from "./inputs";
 import { ListField, NullableField, ObjectField, VariantsField } from "./parts-of-scenario";

@@ -3,7 +3,7 @@
 import { createContext } from "preact";
 import { useContext } from "preact/hooks";
 import type { FieldError } from "../api/problem";
-import type { Difference, Json, JsonObject } from "./document";
+import type { Difference, Json, JsonObject } from "../parts/json-document";
 import type { Scene } from "./scene";
 import type { Schemas } from "./schema";
 

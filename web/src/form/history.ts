@@ -1,6 +1,6 @@
 /** States of the scenario document to go back and forth between. */
 
-import { type JsonObject, same } from "./document";
+import { type JsonObject, same } from "../parts/json-document";
 
 /** A document with those before and after it. */
 export interface History {

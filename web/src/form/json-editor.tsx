@@ -1,6 +1,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { type JsonObject, isObject, parentOf, same } from "./document";
-import { type TextError, readText, written } from "./json-text";
+import { type JsonObject, isObject, same } from "../parts/json-document";
+import { type TextError, readText, written } from "../parts/json-text";
+import { selectRange, selectValue } from "../parts/text-area";
 
 interface JsonEditorProps {
   document: JsonObject;
@@ -26,7 +27,7 @@ export function JsonEditor({ document, onDocument, broken, onBroken, goTo }: Jso
     if (isObject(value)) onDocument(value);
   };
   useEffect(() => {
-    if (goTo && area.current) select(area.current, goTo.pointer);
+    if (goTo && area.current) selectValue(area.current, goTo.pointer);
   }, [goTo]);
   return (
     <div class="json-editor">
@@ -52,7 +53,7 @@ export function JsonEditor({ document, onDocument, broken, onBroken, goTo }: Jso
             <button
               type="button"
               class="link"
-              onClick={() => area.current && put(area.current, [error.offset, error.offset])}
+              onClick={() => area.current && selectRange(area.current, [error.offset, error.offset])}
             >
               Go there
             </button>
@@ -71,22 +72,4 @@ function notAnObject(text: string, value: unknown): TextError | undefined {
     offset: 0,
     message: text.trim() === "" ? "there is nothing here" : "a scenario is an object, { … }",
   };
-}
-
-/** Selects the value at a pointer, or what it is missing from. */
-function select(area: HTMLTextAreaElement, pointer: string): void {
-  const { places } = readText(area.value);
-  let here = pointer;
-  while (here !== "" && !places.has(here)) here = parentOf(here);
-  const [start, end] = places.get(here) ?? [0, 0];
-  put(area, here === pointer ? [start, end] : [start, start + 1]);
-}
-
-/** Puts the selection there, in the middle of what is seen. */
-function put(area: HTMLTextAreaElement, [start, end]: [number, number]): void {
-  area.focus();
-  area.setSelectionRange(start, end);
-  const line = area.value.slice(0, start).split("\n").length;
-  const height = Number.parseFloat(getComputedStyle(area).lineHeight) || 20;
-  area.scrollTop = Math.max(0, (line - 10) * height);
 }

@@ -1,5 +1,5 @@
 import { useRef } from "preact/hooks";
-import { type Json, at, isObject, member, tokens } from "./document";
+import { type Json, at, isObject, member, tokens } from "../parts/json-document";
 import { shapeOf, withItem, withoutItem } from "./editing";
 import { Field, FieldFrame, type FieldProps, Former, Violations } from "./field";
 import { elementId, useForm } from "./form-context";

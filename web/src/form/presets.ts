@@ -12,7 +12,7 @@ import sourcePaper from "../../../configs/scenarios/source_paper.json";
 import sourcePaperAskew from "../../../configs/scenarios/source_paper_askew.json";
 import spinningCube from "../../../configs/scenarios/spinning_cube.json";
 import tenCubes from "../../../configs/scenarios/ten_cubes.json";
-import type { JsonObject } from "./document";
+import type { JsonObject } from "../parts/json-document";
 
 /** A scenario to begin with. */
 export interface Preset {

@@ -1,7 +1,7 @@
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Vector } from "../geometry/vectors";
 import { snapped } from "../parts/round-values";
-import { changed, isObject, at, member } from "./document";
+import { changed, isObject, at, member } from "../parts/json-document";
 import type { BodyMoves } from "./draggable-body";
 import { useForm } from "./form-context";
 import { type Zoom, framesOf } from "./frame";

@@ -1,7 +1,7 @@
 /** The scene of a scenario at its start: what the views draw. */
 
 import { type Quaternion, type Vector, dot, length, minus, plus, product, rotation, turned } from "../geometry/vectors";
-import { type Json, type JsonObject, at, isObject } from "./document";
+import { type Json, type JsonObject, at, isObject } from "../parts/json-document";
 import { type Schemas, schemaAt } from "./schema";
 import { type Solid, positive, solidOf } from "./solid";
 

@@ -1,7 +1,7 @@
 /** Fields of the scenario, from the JSON Schemas of the contract. */
 
 import type { Schema } from "../api/client";
-import { type Json, type JsonObject, isObject, tokens } from "./document";
+import { type Json, type JsonObject, isObject, tokens } from "../parts/json-document";
 
 /** Schemas of the contract, by name. */
 export type Schemas = Record<string, Schema>;

@@ -3,7 +3,7 @@
 import { centreOf, facesOf } from "../geometry/polyhedron";
 import { regularSolid } from "../geometry/regular";
 import { type Vector, length, minus, scaled } from "../geometry/vectors";
-import { type Json, isObject } from "./document";
+import { type Json, isObject } from "../parts/json-document";
 
 /** A core about the centre of mass, swept by a ball. */
 export interface Solid {

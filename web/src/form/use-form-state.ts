@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { FieldError } from "../api/problem";
-import { type JsonObject, at, differences, isObject, parentOf, prefixes, tokens } from "./document";
+import { type JsonObject, at, differences, isObject, parentOf, prefixes, tokens } from "../parts/json-document";
 import { editedDocument } from "./editing";
 import { type FormState, elementId } from "./form-context";
 import { isEssential } from "./layout";

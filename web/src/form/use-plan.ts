@@ -2,7 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { type Planned, request } from "../api/client";
 import { type FieldError, ServiceProblem } from "../api/problem";
 import { onTokenChange } from "../api/token";
-import type { JsonObject } from "./document";
+import type { JsonObject } from "../parts/json-document";
 
 /** Time without a change after which the plan is asked for [ms]. */
 const PAUSE_MS = 500;

@@ -1,6 +1,6 @@
 import { api, data } from "../api/client";
 import { type Answer, useAnswer } from "../parts/use-answer";
-import type { JsonObject } from "./document";
+import type { JsonObject } from "../parts/json-document";
 import { type Draft, readDraft } from "./draft";
 import { PRESETS, presetOf } from "./presets";
 import { type Schemas, resolved, withoutDefaults } from "./schema";

@@ -2,7 +2,7 @@
 
 import type { Schema } from "../api/client";
 import { figure } from "../parts/format";
-import { type Json, type JsonObject, prefixes, tokens } from "./document";
+import { type Json, type JsonObject, prefixes, tokens } from "../parts/json-document";
 import { type FieldSchema, type Schemas, schemaAt, unitOf } from "./schema";
 
 /** Units as keys end with, for keys whose schema names no unit. */

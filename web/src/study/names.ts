@@ -1,5 +1,7 @@
 /** Names of quantities and inputs as people read them, with the units that their keys carry. */
 
+import { tokens } from "../parts/json-document";
+
 const UNITS: [suffix: string, unit: string][] = [
   ["_rad_s", "rad/s"],
   ["_m_s2", "m/s²"],
@@ -57,12 +59,8 @@ export function titled(name: string, unit: string): string {
 
 /** Name of a place in the scenario, such as `body 0, position, lateral`. */
 export function placeName(pointer: string): string {
-  const keys = pointer
-    .split("/")
-    .slice(1)
-    .map((key) => key.replaceAll("~1", "/").replaceAll("~0", "~"));
   const words: string[] = [];
-  for (const key of keys) {
+  for (const key of tokens(pointer)) {
     const last = words.length - 1;
     if (/^\d+$/.test(key) && last >= 0) words[last] = `${words[last]?.replace(/ies$/, "y")} ${key}`;
     else words.push(withoutUnit(key));
@@ -72,5 +70,5 @@ export function placeName(pointer: string): string {
 
 /** Last key of a pointer, whose name carries the unit. */
 export function lastKey(pointer: string): string {
-  return pointer.slice(pointer.lastIndexOf("/") + 1);
+  return tokens(pointer).at(-1) ?? "";
 }

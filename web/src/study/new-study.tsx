@@ -3,11 +3,11 @@ import { Link, useLocation } from "wouter-preact";
 import { request } from "../api/client";
 import { ServiceProblem } from "../api/problem";
 import { ProblemNotice } from "../parts/problem-notice";
+import { selectValue } from "../parts/text-area";
+import { uniqueKey } from "../parts/unique-key";
 import type { StudyState } from "./documents";
-import { placeOfPointer } from "./place-of-pointer";
 import { PlanNotice } from "./plan-notice";
 import { PRESETS } from "./presets";
-import { uniqueKey } from "../parts/unique-key";
 import { useStudyPlan } from "./use-study-plan";
 
 /** Form for a new study: its document, checked and planned while it is written. */
@@ -40,7 +40,10 @@ export function NewStudy() {
           />
         </div>
         <div id="study-plan">
-          <PlanNotice checked={checked} onPointer={(pointer) => editor.current && select(editor.current, pointer)} />
+          <PlanNotice
+            checked={checked}
+            onPointer={(pointer) => editor.current && selectValue(editor.current, pointer)}
+          />
           <Submit text={text} isAllowed={checked.plan !== undefined && !checked.isChecking} />
         </div>
       </div>
@@ -94,15 +97,4 @@ function Submit({ text, isAllowed }: { text: string; isAllowed: boolean }) {
       {problem !== undefined && <ProblemNotice problem={problem} />}
     </>
   );
-}
-
-/** Selects the value at a pointer, and scrolls to it. */
-function select(editor: HTMLTextAreaElement, pointer: string): void {
-  const place = placeOfPointer(editor.value, pointer);
-  if (!place) return;
-  editor.focus();
-  editor.setSelectionRange(...place);
-  const line = editor.value.slice(0, place[0]).split("\n").length;
-  const lineHeight = editor.scrollHeight / editor.value.split("\n").length;
-  editor.scrollTop = Math.max(0, (line - 4) * lineHeight);
 }

@@ -1,6 +1,6 @@
 /** JSON text with the place of each value, and the line and column of what is wrong with it. */
 
-import { type Json, type JsonObject, member } from "./document";
+import { type Json, type JsonObject, member } from "./json-document";
 
 /** First error of a text. Lines and columns count from 1. */
 export interface TextError {
