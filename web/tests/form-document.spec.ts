@@ -6,7 +6,8 @@ import { begin, edited, redone, undone } from "../src/form/history";
 import { readText, written } from "../src/parts/json-text";
 import { outlineOf } from "../src/geometry/outline";
 import { marks, roundBelow, snapped } from "../src/parts/round-values";
-import { attemptFor, newKey } from "../src/form/attempt";
+import { uniqueKey } from "../src/parts/unique-key";
+import { attemptFor } from "../src/form/attempt";
 
 test("a change leaves the rest as it was and keeps the order of keys", () => {
   const before = { a: { b: 1, c: [1, { d: 2 }] }, e: null };
@@ -113,5 +114,5 @@ test("a submission keeps its key while it is the same", () => {
   expect(attemptFor({ a: 1 }, "", first)).toBe(first);
   expect(attemptFor({ a: 2 }, "", first).key).not.toBe(first.key);
   expect(attemptFor({ a: 1 }, "x", first).path).toBe("v1/jobs?label=x");
-  expect(newKey()).toMatch(/^[\da-f]{32}$/);
+  expect(uniqueKey()).toMatch(/^[\da-f]{32}$/);
 });

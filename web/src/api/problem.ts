@@ -3,6 +3,10 @@ import type { components } from "./contract";
 export type ProblemDocument = components["schemas"]["Problem"];
 export type FieldError = components["schemas"]["FieldError"];
 
+/** Time after which a service that does not say when is asked again, and the least time [s]. */
+const NO_ANSWER_S = 5;
+const LEAST_PAUSE_S = 1;
+
 /** An answer of the service that is no success, or the lack of an answer (status 0). */
 export class ServiceProblem extends Error {
   readonly status: number;
@@ -24,13 +28,17 @@ export class ServiceProblem extends Error {
   }
 }
 
-/** Pause before a service that says nothing else is asked again [ms]. */
-const PAUSE_MS = 5_000;
+/** True if the same request may still be answered otherwise, so that its key is kept. */
+export function isPassing(problem: unknown): boolean {
+  return (
+    !(problem instanceof ServiceProblem) || [0, 401, 408, 409, 429].includes(problem.status) || problem.status >= 500
+  );
+}
 
-/** Pause after which a request that only reads may succeed [ms]; undefined if it would fail again. */
-export function pauseBefore(problem: unknown): number | undefined {
+/** Seconds after which a service that is busy or does not answer is asked again; undefined of any other problem. */
+export function pauseAfter(problem: unknown): number | undefined {
   if (!(problem instanceof ServiceProblem) || ![0, 429, 502, 503, 504].includes(problem.status)) return undefined;
-  return problem.retryAfterS === undefined ? PAUSE_MS : 1_000 * problem.retryAfterS;
+  return Math.max(LEAST_PAUSE_S, problem.retryAfterS ?? NO_ANSWER_S);
 }
 
 /** Problem of an answer that is no success. */

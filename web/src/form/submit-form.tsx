@@ -1,8 +1,8 @@
 import { useRef, useState } from "preact/hooks";
 import { useLocation } from "wouter-preact";
-import { ServiceProblem } from "../api/problem";
+import { ServiceProblem, isPassing } from "../api/problem";
 import { ProblemNotice } from "../parts/problem-notice";
-import { type Attempt, attemptFor, isPassing } from "./attempt";
+import { type Attempt, attemptFor } from "./attempt";
 import { useForm } from "./form-context";
 import { submit } from "./submission";
 

@@ -1,14 +1,11 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { type Planned, request } from "../api/client";
-import { type FieldError, ServiceProblem } from "../api/problem";
+import { type FieldError, ServiceProblem, pauseAfter } from "../api/problem";
 import { onTokenChange } from "../api/token";
 import type { JsonObject } from "../parts/json-document";
 
 /** Time without a change after which the plan is asked for [ms]. */
 const PAUSE_MS = 500;
-
-/** Time after which a service that does not answer is asked again [s]. */
-const NO_ANSWER_S = 5;
 
 /** What the service says about the scenario. */
 export interface PlanState {
@@ -74,9 +71,8 @@ async function answerTo(text: string, signal: AbortSignal): Promise<Partial<Plan
     return { planned: (await answer.json()) as Planned };
   } catch (problem) {
     if (!(problem instanceof ServiceProblem)) return { problem };
-    const isBusy = [0, 429, 503].includes(problem.status);
-    if (isBusy)
-      return { problem: problem.status === 0 ? problem : undefined, waitS: problem.retryAfterS ?? NO_ANSWER_S };
+    const waitS = pauseAfter(problem);
+    if (waitS !== undefined) return { problem: problem.status === 0 ? problem : undefined, waitS };
     return problem.violations.length > 0 ? { violations: problem.violations } : { problem };
   }
 }

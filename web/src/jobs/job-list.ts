@@ -1,7 +1,7 @@
 /** List of jobs: read page by page, and kept up to date by the events of the service. */
 
 import { type JobStatus, type JobSummary, type Progress, api, data } from "../api/client";
-import { pauseBefore } from "../api/problem";
+import { pauseAfter } from "../api/problem";
 import type { ServiceEvent } from "../events/stream";
 import { hasEnded } from "../parts/status";
 import { Throttle } from "../parts/throttle";
@@ -118,9 +118,9 @@ export class JobList {
       this.set({ isReading: false, problem: undefined });
     } catch (problem) {
       this.set({ isReading: false, problem });
-      const pause = pauseBefore(problem);
+      const pauseS = pauseAfter(problem);
       clearTimeout(this.later);
-      if (pause !== undefined && !this.isClosed) this.later = setTimeout(() => this.lookSoon(), pause);
+      if (pauseS !== undefined && !this.isClosed) this.later = setTimeout(() => this.lookSoon(), 1_000 * pauseS);
     }
   }
 

@@ -1,5 +1,5 @@
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
-import { pauseBefore } from "../api/problem";
+import { pauseAfter } from "../api/problem";
 import { onTokenChange } from "../api/token";
 
 /** An answer of the service that a view waits for, and the means to ask again. */
@@ -33,8 +33,8 @@ export function useAnswer<T>(ask: (signal: AbortSignal) => Promise<T>, depends: 
       (error: unknown) => {
         if (end.signal.aborted) return;
         setProblem(error);
-        const pause = pauseBefore(error);
-        if (pause !== undefined) later = setTimeout(again, pause);
+        const pauseS = pauseAfter(error);
+        if (pauseS !== undefined) later = setTimeout(again, 1_000 * pauseS);
       },
     );
     return () => {

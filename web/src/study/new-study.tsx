@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Link, useLocation } from "wouter-preact";
 import { request } from "../api/client";
-import { ServiceProblem } from "../api/problem";
+import { isPassing } from "../api/problem";
 import { ProblemNotice } from "../parts/problem-notice";
 import { selectValue } from "../parts/text-area";
 import { uniqueKey } from "../parts/unique-key";
@@ -82,7 +82,7 @@ function Submit({ text, isAllowed }: { text: string; isAllowed: boolean }) {
       const answer = await request("v1/studies", { method: "POST", headers, body: text });
       navigate(`/studies/${((await answer.json()) as StudyState).id}`);
     } catch (error) {
-      if (error instanceof ServiceProblem && error.status !== 0) key.current = uniqueKey();
+      if (!isPassing(error)) key.current = uniqueKey();
       setProblem(error);
       setIsSending(false);
     }

@@ -1,5 +1,7 @@
 import { useEffect, useState } from "preact/hooks";
 import { type Schemas, request } from "../api/client";
+import { pauseAfter } from "../api/problem";
+import { onTokenChange } from "../api/token";
 
 export type PlannedStudy = Schemas["PlannedStudy"];
 
@@ -15,9 +17,11 @@ export interface CheckedStudy {
   problem?: unknown;
 }
 
-/** Checks a text, and plans the study that it is, whenever typing pauses. */
+/** Checks a text, and plans the study that it is, whenever typing pauses; a busy service is asked again. */
 export function useStudyPlan(text: string): CheckedStudy {
   const [checked, setChecked] = useState<CheckedStudy>({ isChecking: false });
+  const [round, setRound] = useState(0);
+  useEffect(() => onTokenChange(() => setRound((round) => round + 1)), []);
   useEffect(() => {
     const fault = faultOf(text);
     if (fault !== undefined) {
@@ -25,21 +29,32 @@ export function useStudyPlan(text: string): CheckedStudy {
       return;
     }
     const end = new AbortController();
+    const check = async () => {
+      const [answer, pauseS] = await answerTo(text, end.signal);
+      if (end.signal.aborted) return;
+      setChecked({ isChecking: false, ...answer });
+      if (pauseS !== undefined) timer = setTimeout(() => void check(), 1000 * pauseS);
+    };
     setChecked((before) => ({ ...before, isChecking: true }));
-    const timer = setTimeout(() => {
-      planOf(text, end.signal).then(
-        (plan) => setChecked({ isChecking: false, plan }),
-        (problem: unknown) => {
-          if (!end.signal.aborted) setChecked({ isChecking: false, problem });
-        },
-      );
-    }, PAUSE_MS);
+    let timer = setTimeout(() => void check(), PAUSE_MS);
     return () => {
       clearTimeout(timer);
       end.abort();
     };
-  }, [text]);
+  }, [text, round]);
   return checked;
+}
+
+/** What the service says, and the pause after which a busy one is asked again [s]. */
+async function answerTo(
+  text: string,
+  signal: AbortSignal,
+): Promise<[answer: Omit<CheckedStudy, "isChecking">, pauseS?: number | undefined]> {
+  try {
+    return [{ plan: await planOf(text, signal) }];
+  } catch (problem) {
+    return [{ problem }, pauseAfter(problem)];
+  }
 }
 
 async function planOf(text: string, signal: AbortSignal): Promise<PlannedStudy> {
