@@ -1,4 +1,4 @@
-import { useEffect, useMemo, useState } from "preact/hooks";
+import { useMemo, useState } from "preact/hooks";
 import { Link } from "wouter-preact";
 import type { Schemas } from "../api/client";
 import { moment } from "../parts/format";
@@ -26,7 +26,10 @@ export function StudiesView() {
     return (signal: AbortSignal) => page.read(signal);
   }, [status, cursor]);
   const { value: page, problem } = useLive(read, () => true, [read]);
-  useEffect(() => setCursors([]), [status]);
+  const choose = (status: string) => {
+    setStatus(status);
+    setCursors([]);
+  };
   return (
     <div class="study">
       <h1>Studies</h1>
@@ -40,7 +43,7 @@ export function StudiesView() {
         </Link>
         <label>
           State{" "}
-          <select value={status} onChange={(event) => setStatus(event.currentTarget.value)}>
+          <select value={status} onChange={(event) => choose(event.currentTarget.value)}>
             <option value="">all</option>
             {STATES.map((state) => (
               <option key={state}>{state}</option>

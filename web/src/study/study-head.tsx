@@ -1,4 +1,4 @@
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { useLocation } from "wouter-preact";
 import { data, api } from "../api/client";
 import { moment } from "../parts/format";
@@ -69,6 +69,8 @@ function MemberProgress({ seen: { study, answers } }: { seen: SeenStudy }) {
 function Endings({ id, isRunning, again }: { id: string; isRunning: boolean; again: () => void }) {
   const [, navigate] = useLocation();
   const [isAsking, setIsAsking] = useState(false);
+  const yes = useRef<HTMLButtonElement>(null);
+  useEffect(() => yes.current?.focus(), [isAsking]);
   const [problem, setProblem] = useState<unknown>();
   const end = async () => {
     setProblem(undefined);
@@ -90,7 +92,7 @@ function Endings({ id, isRunning, again }: { id: string; isRunning: boolean; aga
             <span>
               {isRunning ? "Stop this study and its members?" : "Remove this study, its answers and its members' jobs?"}
             </span>
-            <button type="button" class="primary" ref={(button) => button?.focus()} onClick={() => void end()}>
+            <button type="button" class="primary" ref={yes} onClick={() => void end()}>
               {isRunning ? "Yes, dismiss it" : "Yes, remove it"}
             </button>
             <button type="button" onClick={() => setIsAsking(false)}>

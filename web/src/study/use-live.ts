@@ -32,6 +32,7 @@ export function useLive<T>(
     const look = async () => {
       try {
         const found = await read(end.signal);
+        if (end.signal.aborted) return;
         isOver = !goesOn(found);
         setValue(() => found);
         setProblem(undefined);
@@ -45,20 +46,23 @@ export function useLive<T>(
     const ask = () => throttle.ask();
     again.current = ask;
     ask();
-    const askIfRunning = () => {
-      if (!isOver) ask();
+    // Of many open pages one is seen: the others look once they are.
+    const askIfSeen = () => {
+      if (!isOver && !document.hidden) ask();
     };
     const leaves = [
       onTokenChange(ask),
       onServiceEvent(({ kind }) => {
-        if (kind !== "progress") askIfRunning();
+        if (kind !== "progress") askIfSeen();
       }),
     ];
-    const backstop = setInterval(askIfRunning, LONGEST_PAUSE_MS);
+    const backstop = setInterval(askIfSeen, LONGEST_PAUSE_MS);
+    document.addEventListener("visibilitychange", askIfSeen);
     return () => {
       end.abort();
       throttle.end();
       clearInterval(backstop);
+      document.removeEventListener("visibilitychange", askIfSeen);
       for (const leave of leaves) leave();
     };
   }, depends);

@@ -36,7 +36,7 @@ async function* piecesOf(response: Response): AsyncGenerator<Uint8Array> {
       yield piece.value;
     }
   } finally {
-    // Of a request that was given up there is nothing left to cancel.
+    // One that broke off has closed.
     reader?.cancel().catch(() => undefined);
   }
 }
