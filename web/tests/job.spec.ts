@@ -116,7 +116,7 @@ test.describe("a successful job", () => {
     await context.grantPermissions(["clipboard-read", "clipboard-write"]);
     await open(page, id, "Quick");
     await page.getByRole("button", { name: "Copy the lines for curl" }).click();
-    await expect(page.getByText("copied", { exact: true })).toBeVisible();
+    await expect(page.getByText("Copied", { exact: true })).toBeVisible();
     const lines = await page.evaluate(() => navigator.clipboard.readText());
     expect(lines).toContain(`${service.url}/v1/jobs`);
     const body = /--data-binary '(.*)'$/s.exec(lines)?.[1] ?? "";

@@ -6,7 +6,8 @@ import { growthOf } from "../src/study/enlargement";
 import { curve, exceeding } from "../src/study/exceedance";
 import { groundOf, labelsOf } from "../src/study/map-frame";
 import { columns, sorted } from "../src/study/members";
-import { placeName, unitOf } from "../src/study/names";
+import { unitOfKey } from "../src/parts/words";
+import { placeName } from "../src/study/names";
 import { rangeOfValue } from "../src/parts/text-area";
 import { mapScale, onMap, rangeOf, roundValues } from "../src/study/scales";
 import { directionOf, tornado } from "../src/study/sensitivity";
@@ -105,12 +106,12 @@ test("densities have their peak where the distribution has its mode", () => {
 test("names of inputs and units come from the keys", () => {
   expect(placeName("/bodies/0/position/lateral_m")).toBe("body 0, position, lateral");
   expect(placeName("/channel/base_friction")).toBe("channel, base friction");
-  expect([unitOf("peak_speed_m_s"), unitOf("volume_m3"), unitOf("yaw_deg"), unitOf("base_friction")]).toEqual([
-    "m/s",
-    "m³",
-    "°",
-    "",
-  ]);
+  expect([
+    unitOfKey("peak_speed_m_s"),
+    unitOfKey("volume_m3"),
+    unitOfKey("yaw_deg"),
+    unitOfKey("base_friction"),
+  ]).toEqual(["m/s", "m³", "°", ""]);
 });
 
 test("a map has equal scales along both axes", () => {

@@ -1,9 +1,10 @@
 import type { Planned, Schemas } from "../api/client";
 import { duration, figure, size } from "../parts/format";
 import { ProblemNotice } from "../parts/problem-notice";
+import { sentence } from "../parts/words";
 import { useForm } from "./form-context";
 import type { PlanState } from "./use-plan";
-import { fieldName, sentence } from "./words";
+import { fieldName } from "./words";
 
 /** What the run would compute, leave out and take. */
 export function PlanPanel({ plan }: { plan: PlanState }) {

@@ -1,6 +1,7 @@
-import { useLayoutEffect, useRef, useState } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import type { Vector } from "../geometry/vectors";
 import { snapped } from "../parts/round-values";
+import { useWidth } from "../parts/use-width";
 import { changed, isObject, at, member } from "../parts/json-document";
 import type { BodyMoves } from "./draggable-body";
 import { useForm } from "./form-context";
@@ -17,8 +18,7 @@ const SMALLEST_NUMBERED = 18;
 /** Drawings of the scene at its start, from the side and from above. */
 export function SceneFigure() {
   const { scene } = useForm();
-  const figure = useRef<HTMLElement>(null);
-  const width = useWidth(figure);
+  const [figure, width] = useWidth<HTMLElement>();
   // While a number is being typed the channel may be incomplete: the drawing stays.
   const latest = useRef(scene);
   if (scene) latest.current = scene;
@@ -125,18 +125,4 @@ function useSame<T>(value: T): T {
   const latest = useRef(value);
   if (JSON.stringify(latest.current) !== JSON.stringify(value)) latest.current = value;
   return latest.current;
-}
-
-/** Width of an element [px], as it changes. */
-function useWidth(element: { current: HTMLElement | null }): number {
-  const [width, setWidth] = useState(0);
-  useLayoutEffect(() => {
-    const { current } = element;
-    if (!current) return;
-    setWidth(current.clientWidth);
-    const observer = new ResizeObserver(() => setWidth(current.clientWidth));
-    observer.observe(current);
-    return () => observer.disconnect();
-  }, []);
-  return width;
 }

@@ -3,10 +3,8 @@
 import type { Schema } from "../api/client";
 import { figure } from "../parts/format";
 import { type Json, type JsonObject, prefixes, tokens } from "../parts/json-document";
+import { wordsOfKey } from "../parts/words";
 import { type FieldSchema, type Schemas, schemaAt, unitOf } from "./schema";
-
-/** Units as keys end with, for keys whose schema names no unit. */
-const ENDINGS = /_(m_s2|m_s|rad_s|kg_m3|m3|deg|kg|pa|m|s)$/;
 
 /** A unit as it is written at the end of keys: `m/s²` is `m_s2`. */
 function ending(unit: string): string {
@@ -24,7 +22,7 @@ export function labelOf(key: string, unit?: string): string {
 
 /** Name of one of several values, as of a quantity: its key in words. */
 export function nameOf(value: unknown): string {
-  return String(value).replace(ENDINGS, "").replaceAll("_", " ");
+  return wordsOfKey(String(value));
 }
 
 /** A description taken apart. */
@@ -41,12 +39,6 @@ export function described(schema: Schema): Described {
   const text = help.replace(/\s+/g, " ").replaceAll("`", "").replace("null:", "left empty:");
   const plain = unit === undefined ? text : text.replace(` [${unit}]`, "");
   return { help: plain, fallback: fallback?.replace(/\s+/g, " ").replaceAll("`", "").replace(/\.$/, "") };
-}
-
-/** Words of the service as a sentence. */
-export function sentence(text: string): string {
-  const whole = text.charAt(0).toUpperCase() + text.slice(1);
-  return /[.:]$/.test(whole) ? whole : `${whole}.`;
 }
 
 /** Range of a number in words: `0 to 89`, `above 0, at most 0.9`. */

@@ -8,7 +8,7 @@ export function saveFile(contents: Blob, name: string): void {
   link.download = name;
   link.click();
   // The browser reads the address after the click.
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+  setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }
 
 /** Saves an answer of the service as a file; a plain link would not show the token. */

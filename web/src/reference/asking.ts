@@ -1,5 +1,6 @@
 /** A request made of what a reader has filled in: its address, its headers, and the curl line. */
 
+import { shellWord } from "../parts/shell";
 import type { Parameter, Request } from "./contract";
 
 /** Values of the parameters by their place and name; empty: left out. */
@@ -49,10 +50,10 @@ export function curlLine(
   if (request.method !== "GET" && !(request.method === "POST" && body !== "")) parts.push(`-X ${request.method}`);
   if (streams(request)) parts.push("-N");
   for (const [name, value] of Object.entries(headersOf(request, values)))
-    parts.push(`-H ${quoted(`${name}: ${value}`)}`);
+    parts.push(`-H ${shellWord(`${name}: ${value}`)}`);
   if (!request.isOpen && hasToken) parts.push('-H "Authorization: Bearer $SCREE_TOKEN"');
-  if (body !== "") parts.push(`--data ${quoted(compact(body))}`);
-  parts.push(quoted(root + pathOf(request, values)));
+  if (body !== "") parts.push(`--data ${shellWord(compact(body))}`);
+  parts.push(shellWord(root + pathOf(request, values)));
   return parts.join(" ");
 }
 
@@ -67,8 +68,4 @@ function compact(body: string): string {
   } catch {
     return body;
   }
-}
-
-function quoted(text: string): string {
-  return `'${text.replaceAll("'", `'\\''`)}'`;
 }

@@ -1,5 +1,6 @@
 import { ROOT } from "../api/client";
 import minimal from "../../../configs/scenarios/minimal.json";
+import { shellWord } from "../parts/shell";
 import { CopyLine } from "./copy-line";
 
 /** Five steps from a scenario to its results. */
@@ -10,7 +11,7 @@ export function Beginning() {
       name: "Submit a scenario",
       link: "submit",
       text: "The answer has the job's id. The job is on disk when it is sent.",
-      line: `curl -H 'Content-Type: application/json' --data '${JSON.stringify(minimal)}' '${root}v1/jobs'`,
+      line: `curl -H 'Content-Type: application/json' --data ${shellWord(JSON.stringify(minimal))} ${shellWord(`${root}v1/jobs`)}`,
     },
     {
       name: "Wait for the job",

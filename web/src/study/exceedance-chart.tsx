@@ -1,10 +1,10 @@
 import { useId, useMemo, useState } from "preact/hooks";
 import { figure } from "../parts/format";
+import { useWidth } from "../parts/use-width";
 import type { Schemas } from "../api/client";
 import { type Step, curve, exceeding } from "./exceedance";
 import { percent, percentRange } from "./percent";
 import { type Range, rangeOf, roundValues } from "./scales";
-import { useWidth } from "./use-width";
 
 const HEIGHT = 230;
 const [LEFT, RIGHT, TOP, BELOW] = [52, 14, 8, 42];

@@ -2,7 +2,8 @@ import { figure } from "../parts/format";
 import type { Study } from "./documents";
 import { DensityCurve } from "./density-curve";
 import { sentence } from "./distributions";
-import { lastKey, placeName, unitOf } from "./names";
+import { unitOfKey } from "../parts/words";
+import { lastKey, placeName } from "./names";
 import { percent } from "./percent";
 
 /** Uncertain inputs, each with its distribution as a sentence and as a curve. */
@@ -14,7 +15,7 @@ export function InputsTable({ study }: { study: Study }) {
         {study.inputs.map(({ pointer, distribution }) => (
           <li key={pointer} class="card">
             <strong>{placeName(pointer)}</strong> <code>{pointer}</code>
-            <p>{sentence(distribution, unitOf(lastKey(pointer)))}</p>
+            <p>{sentence(distribution, unitOfKey(lastKey(pointer)))}</p>
             <DensityCurve distribution={distribution} />
           </li>
         ))}

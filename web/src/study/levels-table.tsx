@@ -1,6 +1,7 @@
 import { figure } from "../parts/format";
 import type { StudyAnswers } from "./documents";
-import { nameOf, ofBody, titled, unitOf } from "./names";
+import { unitOfKey } from "../parts/words";
+import { nameOf, ofBody, titled } from "./names";
 import { percent } from "./percent";
 import { MeanAnswer } from "./value-answers";
 import type { Schemas } from "../api/client";
@@ -26,7 +27,7 @@ export function LevelsTable({
   const levels = answers.levels ?? [];
   const reached = answers.accuracy;
   if (levels.length === 0 && !reached) return null;
-  const unit = unitOf(accuracy?.quantity ?? "");
+  const unit = unitOfKey(accuracy?.quantity ?? "");
   const has = (reached?.levels.length ?? 0) > 0;
   return (
     <section aria-labelledby="levels-title">

@@ -2,7 +2,8 @@
 
 import type { ListedMember, Study } from "./documents";
 import { quantityOf, reasonOfFailure } from "./documents";
-import { lastKey, nameOf, placeName, titled, unitOf } from "./names";
+import { unitOfKey } from "../parts/words";
+import { lastKey, nameOf, placeName, titled } from "./names";
 
 /** A column of the table. */
 export interface Column {
@@ -23,13 +24,13 @@ export interface Order {
 export function columns(study: Study): Column[] {
   const inputs = study.inputs.map(({ pointer }, input) => ({
     key: `input ${input}`,
-    title: titled(placeName(pointer), unitOf(lastKey(pointer))),
+    title: titled(placeName(pointer), unitOfKey(lastKey(pointer))),
     isNumber: true,
     of: (member: ListedMember) => shown(member.values[input]),
   }));
   const quantities = asked(study).map(([quantity, body]) => ({
     key: `${quantity} ${body}`,
-    title: titled(body === undefined ? nameOf(quantity) : `body ${body}: ${nameOf(quantity)}`, unitOf(quantity)),
+    title: titled(body === undefined ? nameOf(quantity) : `body ${body}: ${nameOf(quantity)}`, unitOfKey(quantity)),
     isNumber: true,
     of: (member: ListedMember) => quantityOf(member, quantity, body),
   }));

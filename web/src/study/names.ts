@@ -1,22 +1,7 @@
-/** Names of quantities and inputs as people read them, with the units that their keys carry. */
+/** Names of quantities and inputs as people read them. */
 
 import { tokens } from "../parts/json-document";
-
-const UNITS: [suffix: string, unit: string][] = [
-  ["_rad_s", "rad/s"],
-  ["_m_s2", "m/s²"],
-  ["_m_s", "m/s"],
-  ["_kg_m3", "kg/m³"],
-  ["_m3", "m³"],
-  ["_m2", "m²"],
-  ["_deg", "°"],
-  ["_pa", "Pa"],
-  ["_kg", "kg"],
-  ["_nm", "N m"],
-  ["_n", "N"],
-  ["_s", "s"],
-  ["_m", "m"],
-];
+import { wordsOfKey } from "../parts/words";
 
 const NAMES: Record<string, string> = {
   rest_x_m: "resting place downstream",
@@ -32,19 +17,9 @@ const NAMES: Record<string, string> = {
   wall_s: "wall time",
 };
 
-/** Unit of the key of a quantity; empty without one. */
-export function unitOf(key: string): string {
-  return UNITS.find(([suffix]) => key.endsWith(suffix))?.[1] ?? "";
-}
-
-function withoutUnit(key: string): string {
-  const suffix = UNITS.find(([suffix]) => key.endsWith(suffix))?.[0] ?? "";
-  return key.slice(0, key.length - suffix.length).replaceAll("_", " ");
-}
-
 /** Name of a quantity, such as `peak speed`. */
 export function nameOf(quantity: string): string {
-  return NAMES[quantity] ?? withoutUnit(quantity);
+  return NAMES[quantity] ?? wordsOfKey(quantity);
 }
 
 /** Name of a quantity of a body, or of the whole run. */
@@ -63,7 +38,7 @@ export function placeName(pointer: string): string {
   for (const key of tokens(pointer)) {
     const last = words.length - 1;
     if (/^\d+$/.test(key) && last >= 0) words[last] = `${words[last]?.replace(/ies$/, "y")} ${key}`;
-    else words.push(withoutUnit(key));
+    else words.push(wordsOfKey(key));
   }
   return words.join(", ");
 }

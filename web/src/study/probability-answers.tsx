@@ -6,7 +6,8 @@ import { type Probability, valued } from "./documents";
 import { ExceedanceChart } from "./exceedance-chart";
 import { IntervalBar } from "./interval-bar";
 import { MOST_MEMBERS } from "./member-pages";
-import { ofBody, unitOf } from "./names";
+import { unitOfKey } from "../parts/words";
+import { ofBody } from "./names";
 import { percent, percentRange, probabilityText } from "./percent";
 
 /** Answer how likely a quantity exceeds thresholds: curve and table. */
@@ -18,7 +19,7 @@ export function ExceedsAnswer({
   hasLevels,
 }: AnswerProps & { asked: Schemas["ExceedsQuestion"]; answer: Schemas["Exceedance"][] }) {
   const { quantity, body } = asked;
-  const unit = unitOf(quantity);
+  const unit = unitOfKey(quantity);
   const values = useMemo(() => valued(draws, quantity, body).map(({ value }) => value), [draws, quantity, body]);
   const { known = 0, unknown = 0 } = answer[0]?.probability ?? {};
   // While a study runs, the members that were read may be ahead of the answer.

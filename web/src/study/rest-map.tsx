@@ -1,5 +1,6 @@
 import { useMemo, useState } from "preact/hooks";
 import { figure } from "../parts/format";
+import { useWidth } from "../parts/use-width";
 import { DensityCanvas } from "./density-canvas";
 import type { Place, Region, RestDistribution } from "./documents";
 import { MapAxes, MapGround } from "./map-axes";
@@ -7,7 +8,6 @@ import { MapDots, type Rested, restedText } from "./map-dots";
 import { type Ground, frameOf, labelsOf } from "./map-frame";
 import { percent } from "./percent";
 import { type MapScale, onMap } from "./scales";
-import { useWidth } from "./use-width";
 
 /** Room for numbers and titles of the axes [px]. */
 const LEFT = 58;

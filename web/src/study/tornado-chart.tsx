@@ -2,7 +2,8 @@ import { useMemo } from "preact/hooks";
 import { figure } from "../parts/format";
 import type { AnswerProps } from "./answer-props";
 import type { SensitivityMeasures } from "./documents";
-import { ofBody, placeName, unitOf } from "./names";
+import { unitOfKey } from "../parts/words";
+import { ofBody, placeName } from "./names";
 import { roundValues } from "./scales";
 import { type Bar, type Direction, type Row, directions, tornado } from "./sensitivity";
 
@@ -40,7 +41,7 @@ export function TornadoChart({
   const unit =
     chart.axis === "share"
       ? "share of the variance"
-      : `change over the input's range${unitOf(quantity) === "" ? "" : ` [${unitOf(quantity)}]`}`;
+      : `change over the input's range${unitOfKey(quantity) === "" ? "" : ` [${unitOfKey(quantity)}]`}`;
   return (
     <>
       <ul class="legend">

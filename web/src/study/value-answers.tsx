@@ -1,6 +1,7 @@
 import type { Schemas } from "../api/client";
 import { figure } from "../parts/format";
-import { ofBody, titled, unitOf } from "./names";
+import { unitOfKey } from "../parts/words";
+import { ofBody, titled } from "./names";
 import { percent } from "./percent";
 
 /** Answer of quantiles: a table. */
@@ -11,7 +12,7 @@ export function QuantilesAnswer({
   asked: Schemas["QuantilesQuestion"];
   answer: Schemas["Quantile"][];
 }) {
-  const unit = unitOf(asked.quantity);
+  const unit = unitOfKey(asked.quantity);
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={`Quantiles of ${ofBody(asked.quantity, asked.body)}`}>
       <table>
@@ -55,7 +56,7 @@ function bounds(lower: number | null | undefined, upper: number | null | undefin
 /** Answer of a mean, with sampling and numerical error. */
 export function MeanAnswer({ quantity, answer }: { quantity: string; answer: Schemas["StudyMean"] }) {
   const { estimate, lower, upper, sampling_error, numerical_error, known, unknown } = answer;
-  const unit = unitOf(quantity);
+  const unit = unitOfKey(quantity);
   const of = (value: number | null | undefined, digits = 4) => `${figure(value, digits)} ${unit}`.trim();
   if (estimate === null || estimate === undefined) return <p>Too few members for a mean: {known} known.</p>;
   return (

@@ -1,8 +1,8 @@
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { figure } from "../../parts/format";
+import { useWidth } from "../../parts/use-width";
 import type { Clock } from "../playback/clock";
 import { useTheme } from "../use-theme";
-import { useWidth } from "../use-width";
 import { type AerialContent, AerialPainter, frameOf } from "./draw";
 
 /** Flow and bodies from above, at the time of the clock. */

@@ -1,5 +1,6 @@
-import type { Job } from "../../api/client";
 import { Link } from "wouter-preact";
+import type { Job } from "../../api/client";
+import { sentence } from "../../parts/words";
 
 /** What to do about each kind of failure. */
 const HINTS: Record<string, string> = {
@@ -45,9 +46,4 @@ export function FailureNotice({ problem, id }: { problem: NonNullable<Job["probl
       </p>
     </section>
   );
-}
-
-function sentence(text: string): string {
-  const begun = text.charAt(0).toUpperCase() + text.slice(1);
-  return /[.!?]$/.test(begun) ? begun : `${begun}.`;
 }

@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import type { Job, Outcome } from "../../api/client";
 import { figure } from "../../parts/format";
+import { sentence } from "../../parts/words";
 import { auditOf, verdictOf } from "./audit";
 import { BASIS, type Quantity, bodyQuantities, flowQuantities, intervalText } from "./quantities";
 import { sentencesOf } from "./sentences";
@@ -12,8 +13,8 @@ export function Story({ job, submergence }: { job: Job; submergence: readonly nu
   return (
     <section aria-labelledby="story">
       <h2 id="story">What happened</h2>
-      {sentencesOf(job, submergence).map((sentence) => (
-        <p key={sentence}>{sentence}</p>
+      {sentencesOf(job, submergence).map((text) => (
+        <p key={text}>{text}</p>
       ))}
       {early && (
         <p class="quiet">
@@ -25,7 +26,7 @@ export function Story({ job, submergence }: { job: Job; submergence: readonly nu
       )}
       {warnings.map((warning) => (
         <p key={warning} class="notice warning">
-          {warning.charAt(0).toUpperCase() + warning.slice(1)}.
+          {sentence(warning)}
         </p>
       ))}
     </section>

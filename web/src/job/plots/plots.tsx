@@ -1,9 +1,9 @@
 import "uplot/dist/uPlot.min.css";
 import { useEffect, useRef, useState } from "preact/hooks";
 import type uPlot from "uplot";
+import { useWidth } from "../../parts/use-width";
 import type { Clock } from "../playback/clock";
 import { useTheme } from "../use-theme";
-import { useWidth } from "../use-width";
 import { type Plotted, plotIn, tableOf } from "./plot";
 
 /** A quantity against time for all curves. */

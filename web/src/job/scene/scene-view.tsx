@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { AerialContent } from "../aerial/draw";
 import type { Clock } from "../playback/clock";
-import { save } from "../take/downloads";
+import { saveFile } from "../../parts/save-file";
 import { useTheme } from "../use-theme";
 import { CAMERAS, type CameraName } from "./cameras";
 import { SceneViewer } from "./viewer";
@@ -44,7 +44,7 @@ export function SceneView({ content, clock, fail }: { content: AerialContent; cl
         <button
           type="button"
           onClick={() =>
-            void viewer?.picture().then((blob) => blob && save(blob, `scene-${clock.time.toFixed(3)}s.png`))
+            void viewer?.picture().then((blob) => blob && saveFile(blob, `scene-${clock.time.toFixed(3)}s.png`))
           }
         >
           Save picture

@@ -2,6 +2,7 @@ import { useState } from "preact/hooks";
 import { type Job, request } from "../../api/client";
 import { size } from "../../parts/format";
 import { ProblemNotice } from "../../parts/problem-notice";
+import { saveFile } from "../../parts/save-file";
 
 interface Download {
   /** Path below the service's root; of a document of this page none. */
@@ -69,7 +70,7 @@ function DownloadItem({ download }: { download: Download }) {
   const start = async () => {
     setProblem(undefined);
     try {
-      save(await fetched(download, setRead), download.file);
+      saveFile(await fetched(download, setRead), download.file);
     } catch (error) {
       setProblem(error);
       setRead(undefined);
@@ -108,15 +109,4 @@ async function fetched({ path, document }: Download, tell: (bytes: number) => vo
     tell(bytes);
   }
   return new Blob(pieces, { type: response.headers.get("Content-Type") ?? "application/octet-stream" });
-}
-
-/** Hands a file to the browser to save. */
-export function save(blob: Blob, name: string): void {
-  const url = URL.createObjectURL(blob);
-  const link = document.createElement("a");
-  link.href = url;
-  link.download = name;
-  link.click();
-  // The browser reads it after the click.
-  setTimeout(() => URL.revokeObjectURL(url), 60_000);
 }

@@ -1,6 +1,7 @@
-import { useState } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import { ROOT, type Scenario } from "../../api/client";
 import { token } from "../../api/token";
+import { copyText } from "../../parts/copy-text";
 import { curlRecipe, pythonRecipe } from "./recipes";
 
 /** Command and program that make the same job. */
@@ -25,11 +26,8 @@ export function Recipes({ scenario }: { scenario: Scenario }) {
 
 function Recipe({ title, text }: { title: string; text: string }) {
   const [said, setSaid] = useState("");
-  const copy = () =>
-    navigator.clipboard.writeText(text).then(
-      () => setSaid("copied"),
-      () => setSaid("the browser does not allow it: select the text"),
-    );
+  const lines = useRef<HTMLPreElement>(null);
+  const copy = async () => setSaid((await copyText(text, lines.current)) ? "Copied" : "Selected: copy it with Ctrl+C");
   return (
     <div class="card">
       <div class="actions">
@@ -39,7 +37,7 @@ function Recipe({ title, text }: { title: string; text: string }) {
         </button>
         <span role="status">{said}</span>
       </div>
-      <pre class="recipe" tabIndex={0} role="region" aria-label={`Lines for ${title}`}>
+      <pre ref={lines} class="recipe" tabIndex={0} role="region" aria-label={`Lines for ${title}`}>
         {text}
       </pre>
     </div>

@@ -1,6 +1,7 @@
 /** Command and program that make the same job, for those who go on without this page. */
 
 import type { Scenario } from "../../api/client";
+import { shellWord } from "../../parts/shell";
 
 /** A shell command that submits a scenario to a service. The token is never written out. */
 export function curlRecipe(service: string, scenario: Scenario, needsToken: boolean): string {
@@ -21,11 +22,6 @@ export function pythonRecipe(service: string, scenario: Scenario, needsToken: bo
     `job = scree.run(scenario, url=${JSON.stringify(service.replace(/\/$/, ""))}${token})`,
     "print(job.outcome)",
   ].join("\n");
-}
-
-/** A word of the shell in single quotes, whatever it holds. */
-export function shellWord(text: string): string {
-  return `'${text.replaceAll("'", `'\\''`)}'`;
 }
 
 /** A JSON value as a Python literal. */
