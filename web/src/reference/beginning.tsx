@@ -34,7 +34,7 @@ export function Beginning() {
     {
       name: "Read the flow",
       link: "flow",
-      text: "The snapshot at or before a time; flow.zip has all of them for ParaView.",
+      text: "The snapshot nearest to a time; flow.zip has all of them for ParaView.",
       line: `curl "${root}v1/jobs/$ID/flow?time_s=0.5"`,
     },
   ];
