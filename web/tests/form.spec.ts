@@ -1,27 +1,7 @@
 /** The form of a new scenario. */
 
-import type { Page } from "@playwright/test";
-import { QUICK, expect, expectAccessible, expectNoSidewaysScroll, scenario, test } from "./service";
-
-/** The scenario that the form holds. */
-async function documentOf(page: Page): Promise<Record<string, any>> {
-  await page.getByRole("button", { name: "JSON", exact: true }).click();
-  const text = await page.getByLabel("The scenario as JSON").inputValue();
-  await page.getByRole("button", { name: "Fields", exact: true }).click();
-  return JSON.parse(text);
-}
-
-const side = (page: Page) => page.getByRole("group", { name: "View from the side" });
-const above = (page: Page) => page.getByRole("group", { name: "View from above" });
-const body = (index: number) => ({ name: new RegExp(`^Body ${index},`) });
-const plan = (page: Page) => page.getByRole("region", { name: /What the run will take/ });
-
-/** Sets a file as if it were chosen. */
-async function choose(page: Page, name: string, text: string): Promise<void> {
-  await page
-    .getByLabel("Scenario file")
-    .setInputFiles({ name, mimeType: "application/json", buffer: Buffer.from(text) });
-}
+import { body, choose, documentOf, plan, side } from "./form-page";
+import { QUICK, expect, expectAccessible, expectNoSidewaysScroll, test } from "./service";
 
 test("a first visit begins with an example, and one click runs it", async ({ page, service }) => {
   await page.goto("/#/new");
@@ -94,42 +74,6 @@ test("a job is run again with changes, which are shown", async ({ page, service 
   await expect(page.getByRole("alert")).toBeVisible();
 });
 
-test("fields and text are two views of one scenario", async ({ page }) => {
-  await page.goto("/#/new");
-  await page.getByLabel("Incline length").fill("1.50");
-  await expect(page.getByLabel("Incline length")).toHaveValue("1.50");
-  await page.getByRole("button", { name: "JSON", exact: true }).click();
-  const text = page.getByLabel("The scenario as JSON");
-  await expect(text).toHaveValue(/"incline_length_m": 1.5,/);
-  await text.fill((await text.inputValue()).replace("1.5", "1.6"));
-  await expect(page.locator("figcaption")).toContainText("1.6 m long");
-  const good = await text.inputValue();
-  await text.fill('{\n  "channel": {\n    "inclination_deg": 4 5\n  }\n}');
-  await expect(page.getByText(/^Line 3, column 26: expected a comma/)).toBeVisible();
-  await expect(text).toHaveAttribute("aria-invalid", "true");
-  await expect(page.locator("figcaption")).toContainText("1.6 m long");
-  await text.fill(good.replace("1.6", "1.7"));
-  await page.getByRole("button", { name: "Fields", exact: true }).click();
-  await expect(page.getByLabel("Incline length")).toHaveValue("1.7");
-});
-
-test("changes are undone, redone, and survive a reload", async ({ page }) => {
-  await page.goto("/#/new");
-  await page.getByLabel("Inclination").fill("41");
-  await page.getByLabel("Volume").fill("0.02");
-  await page.getByRole("button", { name: "Undo" }).click();
-  await expect(page.getByLabel("Volume")).toHaveValue("0.01");
-  await page.getByRole("button", { name: "Undo" }).click();
-  await expect(page.getByLabel("Inclination")).toHaveValue("40");
-  await expect(page.getByRole("button", { name: "Undo" })).toBeDisabled();
-  await page.getByRole("button", { name: "Redo" }).click();
-  await page.getByRole("button", { name: "Redo" }).click();
-  await expect(page.getByLabel("Volume")).toHaveValue("0.02");
-  await page.reload();
-  await expect(page.getByLabel("Inclination")).toHaveValue("41");
-  await expect(page.getByLabel("Volume")).toHaveValue("0.02");
-});
-
 test("violations are at their fields, and links lead to folded ones", async ({ page }) => {
   await page.goto("/#/new");
   await choose(
@@ -172,24 +116,6 @@ test("a scenario that breaks rules is refused with them", async ({ page }) => {
   await expect(page).toHaveURL(/#\/new$/);
 });
 
-test("bodies are added, copied, reshaped and removed", async ({ page }) => {
-  await page.goto("/#/new");
-  await page.getByLabel("Shape").selectOption({ label: "Capsule" });
-  await expect(page.getByRole("textbox", { name: "Radius", exact: false }).first()).toHaveValue("0.01");
-  await expect(side(page).getByRole("button", { name: /capsule 0.04 m/ })).toBeVisible();
-  await page.getByRole("button", { name: "Duplicate Body 0" }).click();
-  await page.getByRole("button", { name: "Add a body" }).click();
-  await expect(page.getByText("Bodies (3)")).toBeVisible();
-  await expect(plan(page).getByText(/of computing/)).toBeVisible();
-  await page.getByRole("button", { name: "Remove Body 0" }).click();
-  const { bodies } = await documentOf(page);
-  expect(bodies.map(({ shape }: { shape: object }) => Object.keys(shape)[0])).toEqual(["capsule", "cube"]);
-  await page.getByRole("button", { name: "Remove Body 1" }).click();
-  await page.getByRole("button", { name: "Remove Body 0" }).click();
-  await expect(page.getByText("There are none yet.")).toBeVisible();
-  expect((await documentOf(page))["bodies"]).toEqual([]);
-});
-
 test("vectors, lists and prescribed motions can be entered", async ({ page }) => {
   await page.goto("/#/new");
   await page.getByText(/^More: density, sphero radius/).click();
@@ -209,95 +135,6 @@ test("vectors, lists and prescribed motions can be entered", async ({ page }) =>
   expect((await documentOf(page))["bodies"][0].motion).toEqual({});
   await page.getByLabel("Motion", { exact: true }).selectOption({ label: "none" });
   expect((await documentOf(page))["bodies"][0]).not.toHaveProperty("motion");
-});
-
-test("a body is dragged with the mouse in both views", async ({ page }) => {
-  await page.goto("/#/new");
-  const cube = above(page).getByRole("button", body(0));
-  const { x, y, width, height } = (await cube.boundingBox())!;
-  await page.mouse.move(x + width / 2, y + height / 2);
-  await page.mouse.down();
-  await page.mouse.move(x + width / 2 + 60, y + height / 2 - 8, { steps: 5 });
-  await page.mouse.up();
-  const [moved] = (await documentOf(page))["bodies"];
-  expect(moved.position.downstream_m).toBeGreaterThan(0.2);
-  expect(moved.position.lateral_m).toBeGreaterThan(0.02);
-  expect((moved.position.downstream_m * 1000) % 5).toBeCloseTo(0, 6);
-  await expect(page.getByLabel("Downstream")).toHaveValue(String(moved.position.downstream_m));
-  const inSide = (await side(page).getByRole("button", body(0)).boundingBox())!;
-  await page.mouse.move(inSide.x + inSide.width / 2, inSide.y + inSide.height / 2);
-  await page.mouse.down();
-  await page.mouse.move(inSide.x, inSide.y - 30, { steps: 5 });
-  await page.mouse.up();
-  expect((await documentOf(page))["bodies"][0].position).not.toHaveProperty("elevation_m");
-  await page.getByRole("button", { name: "Undo" }).click();
-  await page.getByRole("button", { name: "Undo" }).click();
-  expect((await documentOf(page))["bodies"][0]).not.toHaveProperty("position");
-});
-
-test("a body is dragged with a finger", async ({ page }) => {
-  await page.goto("/#/new");
-  const cube = above(page).getByRole("button", body(0));
-  const { x, y, width, height } = (await cube.boundingBox())!;
-  const client = await page.context().newCDPSession(page);
-  const touch = (type: "touchStart" | "touchMove" | "touchEnd", dx: number) =>
-    client.send("Input.dispatchTouchEvent", {
-      type,
-      touchPoints: type === "touchEnd" ? [] : [{ x: x + width / 2 + dx, y: y + height / 2 }],
-    });
-  await touch("touchStart", 0);
-  for (const dx of [20, 50, 80]) await touch("touchMove", dx);
-  await touch("touchEnd", 80);
-  expect((await documentOf(page))["bodies"][0].position.downstream_m).toBeGreaterThan(0.3);
-});
-
-test("text is typed on while it is no JSON, and begun anew", async ({ page }) => {
-  await page.goto("/#/new");
-  await page.getByRole("button", { name: "JSON", exact: true }).click();
-  const text = page.getByLabel("The scenario as JSON");
-  const before = await text.inputValue();
-  await text.focus();
-  await page.keyboard.press("Control+Home");
-  await page.keyboard.type("x y");
-  await expect(text).toBeFocused();
-  await expect(text).toHaveValue(`x y${before}`);
-  for (let typed = 0; typed < 3; typed += 1) await page.keyboard.press("Backspace");
-  await expect(text).toBeFocused();
-  await expect(text).toHaveValue(before);
-  await page.keyboard.type("x");
-  await page.getByRole("button", { name: "Start over" }).click();
-  await expect(text).toHaveValue(before);
-  await expect(page.getByRole("button", { name: "Run it" })).toBeEnabled();
-});
-
-test("text that can't be read is not run", async ({ page }) => {
-  await page.goto("/#/new");
-  await page.getByRole("button", { name: "JSON", exact: true }).click();
-  await page.getByLabel("The scenario as JSON").fill("{");
-  await expect(page.getByRole("button", { name: "Run it" })).toBeDisabled();
-  await page.getByLabel("The scenario as JSON").fill("[]");
-  await expect(page.getByText(/a scenario is an object/)).toBeVisible();
-  await page.getByRole("button", { name: "Fields", exact: true }).click();
-  await expect(page.getByRole("button", { name: "Run it" })).toBeEnabled();
-});
-
-test("a body is moved with keys, and lifted", async ({ page }) => {
-  await page.goto("/#/new");
-  const cube = side(page).getByRole("button", body(0));
-  await cube.focus();
-  await page.keyboard.press("ArrowRight");
-  await page.keyboard.press("Shift+ArrowRight");
-  await page.keyboard.press("ArrowUp");
-  expect((await documentOf(page))["bodies"][0].position).toEqual({ downstream_m: 0.095 });
-  await cube.focus();
-  await page.keyboard.press("PageUp");
-  await page.keyboard.press("ArrowUp");
-  expect((await documentOf(page))["bodies"][0].position).toEqual({ downstream_m: 0.095, elevation_m: 0.03 });
-  await above(page).getByRole("button", body(0)).focus();
-  await page.keyboard.press("ArrowUp");
-  await expect(page.locator("[aria-live]").filter({ hasText: "lateral 0.005 m" })).toBeAttached();
-  await page.keyboard.press("Enter");
-  await expect(page.locator('[id="field:/bodies/0"]')).toBeFocused();
 });
 
 test("the slider asks for intervals and targets", async ({ page }) => {
@@ -320,57 +157,6 @@ test("the slider asks for intervals and targets", async ({ page }) => {
   await slider.focus();
   await page.keyboard.press("Home");
   expect(await documentOf(page)).not.toHaveProperty("accuracy");
-});
-
-test("a scenario without a flow and one without bodies are shown", async ({ page }) => {
-  await page.goto("/#/new");
-  await page.getByLabel("There is a flow").uncheck();
-  await expect(page.locator("figcaption")).toContainText("There is no flow.");
-  await expect(plan(page).getByText(/Bodies alone/)).toBeVisible();
-  expect((await documentOf(page))["flow"]).toBeNull();
-  await page.getByLabel("There is a flow").check();
-  await expect(page.getByLabel("Volume")).toHaveValue("0.01");
-  await page.getByRole("button", { name: "Remove Body 0" }).click();
-  await expect(page.locator("figcaption")).toContainText("0 bodies");
-  await expect(
-    plan(page)
-      .getByText(/material points/)
-      .first(),
-  ).toBeVisible();
-});
-
-test("hundreds of bodies stay quick", async ({ page }) => {
-  const bodies = Array.from({ length: 256 }, (_, index) => ({
-    shape: { cube: { side_m: 0.01 } },
-    position: { downstream_m: 0.1 + 0.02 * Math.floor(index / 8), lateral_m: -0.07 + 0.02 * (index % 8) },
-  }));
-  await page.goto("/#/new");
-  await choose(page, "many.json", JSON.stringify({ ...(await scenario("minimal")), bodies }));
-  await expect(page.getByText("Bodies (256)")).toBeVisible();
-  await expect(page.getByRole("button", { name: "Add a body" })).toBeDisabled();
-  const began = Date.now();
-  await page.getByLabel("Inclination").pressSequentially("12345");
-  expect(Date.now() - began).toBeLessThan(3000);
-  await expectNoSidewaysScroll(page);
-});
-
-test("a file that is no JSON is shown with its error, a good one with its name", async ({ page }) => {
-  await page.goto("/#/new");
-  await choose(page, "broken.json", '{"channel": }');
-  await expect(page.getByText(/Line 1, column 13/)).toBeVisible();
-  await expect(page.getByLabel("The scenario as JSON")).toHaveValue('{"channel": }');
-  await page.getByRole("button", { name: "Fields", exact: true }).click();
-  const data = await page.evaluateHandle((text) => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([text], "quick.json", { type: "application/json" }));
-    return transfer;
-  }, JSON.stringify(QUICK));
-  await page.locator(".scenario-form").dispatchEvent("drop", { dataTransfer: data });
-  await expect(page.getByLabel("Title")).toHaveValue("Quick");
-  await page.getByLabel("Title").fill("Quicker");
-  await expect(page.getByText("1 field differs from quick.json")).toBeVisible();
-  await page.reload();
-  await expect(page.getByLabel("Title")).toHaveValue("Quicker");
 });
 
 test("a field that a later version adds appears by itself", async ({ page }) => {

@@ -3,6 +3,7 @@ import { View } from "./axes";
 import { DraggableBody, type MovesReference } from "./draggable-body";
 import { type Frame, onPage, pointsOf } from "./frame";
 import { type Channel, type Release, type Scene, bedAt } from "./scene";
+import "./views.css";
 
 interface SceneViewProps {
   scene: Scene;
