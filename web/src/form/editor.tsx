@@ -1,10 +1,8 @@
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
-import { type JsonObject, isObject, same } from "../parts/json-document";
+import { type JsonObject, same } from "../parts/json-document";
 import { type Draft, keepDraft } from "./draft";
 import { FormContext } from "./form-context";
-import { begin as beginHistory, edited, redone, undone } from "./history";
 import { JsonEditor } from "./json-editor";
-import { readText } from "../parts/json-text";
 import { DifferenceList, ViolationList } from "./lists";
 import { PlanPanel } from "./plan-panel";
 import { SceneFigure } from "./scene-figure";
@@ -14,7 +12,8 @@ import { SubmitForm } from "./submit-form";
 import { ToRun } from "./to-run";
 import { Toolbar } from "./toolbar";
 import { useFormState } from "./use-form-state";
-import { usePlan } from "./use-plan";
+import { type PlanState, usePlan } from "./use-plan";
+import { useWriting } from "./use-writing";
 
 interface EditorProps {
   /** Address of the form, whose draft this is. */
@@ -26,51 +25,24 @@ interface EditorProps {
 
 /** Fields or text of a scenario, its drawings, and its plan. */
 export function Editor({ address, begin, schemas, preset }: EditorProps) {
-  const [history, setHistory] = useState(() => beginHistory(begin.document));
-  const [origin, setOrigin] = useState<Omit<Draft, "document">>(begin);
-  const { original, from } = origin;
-  const [isText, setIsText] = useState(false);
-  const [broken, setBroken] = useState<string>();
-  /** Counts texts that come from elsewhere than the editor of the text, which begins anew with each. */
-  const [opened, setOpened] = useState(0);
+  const writing = useWriting(begin);
+  const { history, document, origin, text, replace } = writing;
   const [goTo, setGoTo] = useState<{ pointer: string }>();
-  const document = history.present;
   const plan = usePlan(document);
-  const replace = (document: JsonObject, edit: string) =>
-    setHistory((history) => edited(history, document, edit, Date.now()));
   const state = useFormState({
     schemas,
     document,
-    original,
+    original: origin.original,
     violations: plan.violations,
     replace,
     revealElsewhere: (pointer) => {
-      if (isText) setGoTo({ pointer });
-      return isText;
+      if (text.isShown) setGoTo({ pointer });
+      return text.isShown;
     },
   });
   const forget = useDraft(address, document, origin);
-  const open = (text: string | undefined) => {
-    setBroken(text);
-    setOpened((opened) => opened + 1);
-  };
-  const readFile = async (file: File) => {
-    const text = await textOf(file);
-    const { value } = readText(text);
-    if (isObject(value)) {
-      replace(value, "");
-      setOrigin({ original: value, from: file.name, isOfFile: true });
-    }
-    open(isObject(value) ? undefined : text);
-    setIsText((isText) => isText || !isObject(value));
-  };
-  const dropping = useDrop((file) => void readFile(file));
-  const isBroken = isText && broken !== undefined;
-  const isChanged = !same(document, original);
-  const startOver = () => {
-    replace(original, "");
-    open(undefined);
-  };
+  const dropping = useDrop((file) => void writing.readFile(file));
+  const isBroken = text.isShown && text.broken !== undefined;
   return (
     <FormContext.Provider value={state}>
       <div class={dropping.isOver ? "scenario-form dropping" : "scenario-form"} {...dropping.handlers}>
@@ -80,53 +52,51 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
         </p>
         <Toolbar
           preset={preset}
-          isText={isText}
-          setIsText={setIsText}
-          undo={history.past.length > 0 ? () => setHistory(undone) : undefined}
-          redo={history.future.length > 0 ? () => setHistory(redone) : undefined}
-          startOver={isChanged || isBroken ? startOver : undefined}
-          readFile={(file) => void readFile(file)}
+          isText={text.isShown}
+          setIsText={text.show}
+          undo={history.past.length > 0 ? writing.undo : undefined}
+          redo={history.future.length > 0 ? writing.redo : undefined}
+          startOver={isBroken || !same(document, origin.original) ? writing.startOver : undefined}
+          readFile={(file) => void writing.readFile(file)}
         />
         <ToRun planned={plan.planned} />
         <div class="edit">
           <ViolationList />
-          <DifferenceList from={from} />
-          {isText ? (
+          <DifferenceList from={origin.from} />
+          {text.isShown ? (
             <JsonEditor
-              key={opened}
+              key={text.opened}
               document={document}
               onDocument={(next) => replace(next, "text")}
-              broken={broken}
-              onBroken={setBroken}
+              broken={text.broken}
+              onBroken={text.setBroken}
               goTo={goTo}
             />
           ) : (
             <Sections />
           )}
         </div>
-        <div class="beside">
-          <SceneFigure />
-          <div class="card outlook">
-            <SubmitForm
-              obstacle={obstacleOf(plan.violations.length, isBroken)}
-              isBlocked={isBroken}
-              onSubmitted={forget}
-            />
-            <PlanPanel plan={plan} />
-          </div>
-        </div>
+        <Beside plan={plan} isBroken={isBroken} onSubmitted={forget} />
       </div>
     </FormContext.Provider>
   );
 }
 
-/** Text of a file; empty if it cannot be read, which the editor says. */
-async function textOf(file: File): Promise<string> {
-  try {
-    return await file.text();
-  } catch {
-    return "";
-  }
+/** Drawings of the scene, the plan, and the button that runs it. */
+function Beside({ plan, isBroken, onSubmitted }: { plan: PlanState; isBroken: boolean; onSubmitted: () => void }) {
+  return (
+    <div class="beside">
+      <SceneFigure />
+      <div class="card outlook">
+        <SubmitForm
+          obstacle={obstacleOf(plan.violations.length, isBroken)}
+          isBlocked={isBroken}
+          onSubmitted={onSubmitted}
+        />
+        <PlanPanel plan={plan} />
+      </div>
+    </div>
+  );
 }
 
 function obstacleOf(violations: number, isBroken: boolean): string | undefined {

@@ -1,8 +1,8 @@
 import { useState } from "preact/hooks";
 import { type Json, same } from "../parts/json-document";
+import { readText, written } from "../parts/json-text";
 import type { PlainProps } from "./field";
 import { useForm } from "./form-context";
-import { readText, written } from "../parts/json-text";
 import { nameOf, placeholderOf } from "./words";
 
 const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;

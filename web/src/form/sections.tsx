@@ -1,5 +1,5 @@
-import { AccuracyControl } from "./accuracy-control";
 import { type Json, at, isObject, member } from "../parts/json-document";
+import { AccuracyControl } from "./accuracy-control";
 import { Field, Violations } from "./field";
 import { elementId, useForm } from "./form-context";
 import { Group } from "./group";

@@ -1,10 +1,10 @@
 /** The part of the channel where something happens. */
 
 import type { Scenario } from "../api/client";
-import type { FlowFrame } from "./flow/decoder";
-import type { Poses } from "./records/trajectories";
 import { surfaceOf } from "../geometry/surface";
 import { length } from "../geometry/vectors";
+import type { FlowFrame } from "./flow/decoder";
+import type { Poses } from "./records/trajectories";
 
 /** A box along the axes [m]. */
 export interface Region {

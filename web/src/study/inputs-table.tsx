@@ -1,8 +1,8 @@
 import { figure } from "../parts/format";
+import { unitOfKey } from "../parts/words";
 import type { Study } from "./documents";
 import { DensityCurve } from "./density-curve";
 import { sentence } from "./distributions";
-import { unitOfKey } from "../parts/words";
 import { lastKey, placeName } from "./names";
 import { percent } from "./percent";
 

@@ -1,10 +1,10 @@
 import { figure } from "../parts/format";
-import type { StudyAnswers } from "./documents";
 import { unitOfKey } from "../parts/words";
+import type { Schemas } from "../api/client";
+import type { StudyAnswers } from "./documents";
 import { nameOf, ofBody, titled } from "./names";
 import { percent } from "./percent";
 import { MeanAnswer } from "./value-answers";
-import type { Schemas } from "../api/client";
 
 const NEEDED: Record<Schemas["Needed"], string> = {
   nothing: "The target is met.",
@@ -17,65 +17,16 @@ const NEEDED: Record<Schemas["Needed"], string> = {
 };
 
 /** Levels of cells of a multilevel study, and the accuracy it has reached. */
-export function LevelsTable({
-  answers,
-  accuracy,
-}: {
-  answers: StudyAnswers;
-  accuracy: Schemas["StudyAccuracy"] | null | undefined;
-}) {
+export function LevelsTable({ answers, accuracy }: LevelsProps) {
   const levels = answers.levels ?? [];
   const reached = answers.accuracy;
   if (levels.length === 0 && !reached) return null;
-  const unit = unitOfKey(accuracy?.quantity ?? "");
-  const has = (reached?.levels.length ?? 0) > 0;
   return (
     <section aria-labelledby="levels-title">
       <h2 id="levels-title">Levels of cells</h2>
       {levels.length > 0 && (
         <div class="scroll" tabIndex={0} role="region" aria-label="Levels of cells">
-          <table>
-            <thead>
-              <tr>
-                <th scope="col" class="number">
-                  Cell size [m]
-                </th>
-                <th scope="col" class="number">
-                  Members
-                </th>
-                <th scope="col" class="number">
-                  Finished
-                </th>
-                <th scope="col" class="number">
-                  Point-steps of a member
-                </th>
-                {has && (
-                  <th scope="col" class="number">
-                    {titled(`Mean, ${nameOf(accuracy?.quantity ?? "")}`, unit)}
-                  </th>
-                )}
-                {has && (
-                  <th scope="col" class="number">
-                    {titled("Adds ±", unit)}
-                  </th>
-                )}
-              </tr>
-            </thead>
-            <tbody>
-              {levels.map((level, place) => (
-                <tr key={level.cell_size_m}>
-                  <th scope="row" class="number">
-                    {figure(level.cell_size_m)}
-                  </th>
-                  <td class="number">{level.members}</td>
-                  <td class="number">{level.finished}</td>
-                  <td class="number">{figure(level.point_steps_per_member)}</td>
-                  {has && <td class="number">{figure(reached?.levels[place]?.mean, 4)}</td>}
-                  {has && <td class="number">{figure(reached?.levels[place]?.standard_deviation, 3)}</td>}
-                </tr>
-              ))}
-            </tbody>
-          </table>
+          <Levels answers={answers} accuracy={accuracy} />
         </div>
       )}
       {reached && accuracy && (
@@ -93,5 +44,47 @@ export function LevelsTable({
         </>
       )}
     </section>
+  );
+}
+
+interface LevelsProps {
+  answers: StudyAnswers;
+  accuracy: Schemas["StudyAccuracy"] | null | undefined;
+}
+
+function Levels({ answers: { levels = [], accuracy: reached }, accuracy }: LevelsProps) {
+  const quantity = accuracy?.quantity ?? "";
+  const means = reached?.levels ?? [];
+  const titles = ["Cell size [m]", "Members", "Finished", "Point-steps of a member"];
+  if (means.length > 0) {
+    const unit = unitOfKey(quantity);
+    titles.push(titled(`Mean, ${nameOf(quantity)}`, unit), titled("Adds ±", unit));
+  }
+  return (
+    <table>
+      <thead>
+        <tr>
+          {titles.map((title) => (
+            <th key={title} scope="col" class="number">
+              {title}
+            </th>
+          ))}
+        </tr>
+      </thead>
+      <tbody>
+        {levels.map((level, place) => (
+          <tr key={level.cell_size_m}>
+            <th scope="row" class="number">
+              {figure(level.cell_size_m)}
+            </th>
+            <td class="number">{level.members}</td>
+            <td class="number">{level.finished}</td>
+            <td class="number">{figure(level.point_steps_per_member)}</td>
+            {means.length > 0 && <td class="number">{figure(means[place]?.mean, 4)}</td>}
+            {means.length > 0 && <td class="number">{figure(means[place]?.standard_deviation, 3)}</td>}
+          </tr>
+        ))}
+      </tbody>
+    </table>
   );
 }

@@ -1,8 +1,8 @@
 /** Members of a study as the rows of a table: their columns, and their order. */
 
+import { unitOfKey } from "../parts/words";
 import type { ListedMember, Study } from "./documents";
 import { quantityOf, reasonOfFailure } from "./documents";
-import { unitOfKey } from "../parts/words";
 import { lastKey, nameOf, placeName, titled } from "./names";
 
 /** A column of the table. */

@@ -1,13 +1,13 @@
 import { useMemo } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { figure } from "../parts/format";
+import { unitOfKey } from "../parts/words";
 import type { AnswerProps } from "./answer-props";
 import { type Probability, valued } from "./documents";
 import { ExceedanceChart } from "./exceedance-chart";
 import { IntervalBar } from "./interval-bar";
 import { MOST_MEMBERS } from "./member-pages";
-import { unitOfKey } from "../parts/words";
-import { ofBody } from "./names";
+import { ofBody, titled } from "./names";
 import { percent, percentRange, probabilityText } from "./percent";
 
 /** Answer how likely a quantity exceeds thresholds: curve and table. */
@@ -40,39 +40,45 @@ export function ExceedsAnswer({
           No curve is drawn between the thresholds: the members' own values are those of coarse cells.
         </p>
       )}
-      <div class="scroll" tabIndex={0} role="region" aria-label={`Thresholds of ${ofBody(quantity, body)}`}>
-        <table>
-          <thead>
-            <tr>
-              <th scope="col" class="number">
-                Threshold{unit === "" ? "" : ` [${unit}]`}
-              </th>
-              <th scope="col" class="number">
-                Probability
-              </th>
-              <th scope="col" class="number">
-                95 % interval
-              </th>
-              <th scope="col" class="number">
-                Members above
-              </th>
-            </tr>
-          </thead>
-          <tbody>
-            {answer.map(({ threshold, probability }) => (
-              <tr key={threshold}>
-                <th scope="row" class="number">
-                  {figure(threshold, 4)}
-                </th>
-                <td class="number">{percent(probability.estimate)}</td>
-                <td class="number">{percentRange(probability.lower, probability.upper)}</td>
-                <td class="number">{counts(probability)}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
+      <Thresholds title={ofBody(quantity, body)} unit={unit} answer={answer} />
     </>
+  );
+}
+
+function Thresholds({ title, unit, answer }: { title: string; unit: string; answer: Schemas["Exceedance"][] }) {
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label={`Thresholds of ${title}`}>
+      <table>
+        <thead>
+          <tr>
+            <th scope="col" class="number">
+              {titled("Threshold", unit)}
+            </th>
+            <th scope="col" class="number">
+              Probability
+            </th>
+            <th scope="col" class="number">
+              95 % interval
+            </th>
+            <th scope="col" class="number">
+              Members above
+            </th>
+          </tr>
+        </thead>
+        <tbody>
+          {answer.map(({ threshold, probability }) => (
+            <tr key={threshold}>
+              <th scope="row" class="number">
+                {figure(threshold, 4)}
+              </th>
+              <td class="number">{percent(probability.estimate)}</td>
+              <td class="number">{percentRange(probability.lower, probability.upper)}</td>
+              <td class="number">{counts(probability)}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
   );
 }
 

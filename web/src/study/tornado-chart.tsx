@@ -1,9 +1,9 @@
 import { useMemo } from "preact/hooks";
 import { figure } from "../parts/format";
+import { unitOfKey } from "../parts/words";
 import type { AnswerProps } from "./answer-props";
 import type { SensitivityMeasures } from "./documents";
-import { unitOfKey } from "../parts/words";
-import { ofBody, placeName } from "./names";
+import { ofBody, placeName, titled } from "./names";
 import { roundValues } from "./scales";
 import { type Bar, type Direction, type Row, directions, tornado } from "./sensitivity";
 
@@ -39,39 +39,13 @@ export function TornadoChart({
   );
   const scale = chart.axis === "share" ? Math.max(1, most) : 1.05 * most;
   const unit =
-    chart.axis === "share"
-      ? "share of the variance"
-      : `change over the input's range${unitOfKey(quantity) === "" ? "" : ` [${unitOfKey(quantity)}]`}`;
+    chart.axis === "share" ? "share of the variance" : titled("change over the input's range", unitOfKey(quantity));
   return (
     <>
-      <ul class="legend">
-        {chart.bars.map((name, place) => (
-          <li key={name}>
-            <svg width="14" height="12" aria-hidden="true">
-              <rect class={`bar bar-${chart.bars.length - 1 - place}`} width="14" height="12" />
-            </svg>{" "}
-            {name}
-          </li>
-        ))}
-      </ul>
+      <Legend bars={chart.bars} />
       <div class="scroll" tabIndex={0} role="region" aria-label={`What ${ofBody(quantity, body)} depends on`}>
         <table class="tornado">
-          <thead>
-            <tr>
-              <th scope="col">Input</th>
-              <th scope="col">
-                <span class="hidden">Bars: </span>
-                {unit}
-                <Ruler scale={scale} />
-              </th>
-              {chart.bars.map((name) => (
-                <th key={name} scope="col" class="number">
-                  {name}
-                </th>
-              ))}
-              <th scope="col">The quantity</th>
-            </tr>
-          </thead>
+          <Head bars={chart.bars} unit={unit} scale={scale} />
           <tbody>
             {chart.rows.map((row) => (
               <InputRow
@@ -88,6 +62,42 @@ export function TornadoChart({
         {chart.basis} {chart.axis === "share" ? "Lines are 95 % intervals." : "Lines are standard errors."}
       </p>
     </>
+  );
+}
+
+function Legend({ bars }: { bars: string[] }) {
+  return (
+    <ul class="legend">
+      {bars.map((name, place) => (
+        <li key={name}>
+          <svg width="14" height="12" aria-hidden="true">
+            <rect class={`bar bar-${bars.length - 1 - place}`} width="14" height="12" />
+          </svg>{" "}
+          {name}
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+function Head({ bars, unit, scale }: { bars: string[]; unit: string; scale: number }) {
+  return (
+    <thead>
+      <tr>
+        <th scope="col">Input</th>
+        <th scope="col">
+          <span class="hidden">Bars: </span>
+          {unit}
+          <Ruler scale={scale} />
+        </th>
+        {bars.map((name) => (
+          <th key={name} scope="col" class="number">
+            {name}
+          </th>
+        ))}
+        <th scope="col">The quantity</th>
+      </tr>
+    </thead>
   );
 }
 
