@@ -25,17 +25,13 @@ export function studyOf(job: JobSummary): string | undefined {
   return job.labels.find((label) => label.startsWith(STUDY))?.slice(STUDY.length);
 }
 
-/** The read jobs that a filter shows. */
-export function shown(jobs: JobSummary[], filter: Filter): JobSummary[] {
-  // A label asked for may be that of a study.
-  return filter.members || filter.label !== "" ? jobs : jobs.filter((job) => studyOf(job) === undefined);
-}
-
 /** Parameters of the request for the jobs of a filter. */
 export function query(filter: Filter) {
   return {
     ...(filter.statuses.length > 0 && { status: filter.statuses }),
     ...(filter.label !== "" && { label: filter.label }),
+    // A label asked for may be that of a study.
+    ...(filter.label === "" && !filter.members && { members: false }),
     ...(isDay(filter.from) && { created_from: new Date(`${filter.from}T00:00:00`).toISOString() }),
     ...(isDay(filter.to) && { created_to: new Date(`${filter.to}T23:59:59.999`).toISOString() }),
   };

@@ -1,13 +1,12 @@
 /** View of the jobs. */
 
-import { useCallback, useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { Link } from "wouter-preact";
-import type { JobSummary } from "../api/client";
 import { onTokenChange } from "../api/token";
 import { onServiceEvent } from "../events/events";
 import { ProblemNotice } from "../parts/problem-notice";
 import { useTitle } from "../parts/use-title";
-import { ALL, type Filter, query, shown } from "./filter";
+import { ALL, type Filter } from "./filter";
 import { FilterForm } from "./filter-form";
 import { JobList, type ListState } from "./job-list";
 import { JobRow } from "./job-row";
@@ -17,7 +16,6 @@ export function JobsView() {
   useTitle("Jobs");
   const [filter, setFilter] = useState<Filter>(ALL);
   const [state, more] = useJobList(filter);
-  const jobs = useMemo(() => (state ? shown(state.jobs, filter) : []), [state?.jobs, filter]);
   const [chosen, setChosen] = useState<string[]>([]);
   const [problem, setProblem] = useState<unknown>();
   const choose = useCallback((id: string, isChosen: boolean) => {
@@ -35,12 +33,10 @@ export function JobsView() {
       <div class="actions">
         <CompareLink chosen={chosen} />
         <span class="quiet" role="status">
-          {state && counted(state, jobs.length)}
+          {state && counted(state)}
         </span>
       </div>
-      {state && (
-        <List state={state} jobs={jobs} chosen={chosen} choose={choose} fail={setProblem} isFiltered={filter !== ALL} />
-      )}
+      {state && <List state={state} chosen={chosen} choose={choose} fail={setProblem} isFiltered={filter !== ALL} />}
       {state?.hasMore && <More read={more} isEager={state.problem === undefined} />}
     </>
   );
@@ -60,19 +56,17 @@ function useJobList(filter: Filter): [ListState | undefined, () => void] {
       leave();
       current.close();
     };
-    // What is hidden is read all the same.
-  }, [JSON.stringify(query(filter)), round]);
+  }, [filter, round]);
   const more = useCallback(() => {
     if (list.current && !list.current.state.isReading) void list.current.readMore();
   }, []);
   return [state, more];
 }
 
-function counted(state: ListState, count: number): string {
-  const hidden = state.jobs.length - count;
-  const members = hidden === 0 ? "" : `; ${hidden} members of studies are not shown`;
-  if (count === 0) return members.slice(2);
-  return `${state.hasMore ? "The newest " : ""}${count} ${count === 1 ? "job" : "jobs"}${members}`;
+function counted(state: ListState): string {
+  const count = state.jobs.length;
+  if (count === 0) return "";
+  return `${state.hasMore ? "The newest " : ""}${count} ${count === 1 ? "job" : "jobs"}`;
 }
 
 function CompareLink({ chosen }: { chosen: string[] }) {
@@ -89,16 +83,15 @@ function CompareLink({ chosen }: { chosen: string[] }) {
 
 interface ListProps {
   state: ListState;
-  jobs: JobSummary[];
   chosen: string[];
   choose: (id: string, isChosen: boolean) => void;
   fail: (problem: unknown) => void;
   isFiltered: boolean;
 }
 
-function List({ state, jobs, chosen, choose, fail, isFiltered }: ListProps) {
-  if (jobs.length === 0) {
-    if (state.isReading || state.hasMore || state.problem !== undefined) return null;
+function List({ state, chosen, choose, fail, isFiltered }: ListProps) {
+  if (state.jobs.length === 0) {
+    if (state.isReading || state.problem !== undefined) return null;
     return (
       <p class="card">
         {isFiltered ? "No job is like that. " : "There are no jobs yet. "}
@@ -108,7 +101,7 @@ function List({ state, jobs, chosen, choose, fail, isFiltered }: ListProps) {
   }
   return (
     <ul class="jobs">
-      {jobs.map((job) => (
+      {state.jobs.map((job) => (
         <JobRow key={job.id} job={job} isChosen={chosen.includes(job.id)} choose={choose} fail={fail} />
       ))}
     </ul>

@@ -1,0 +1,1 @@
+async function n(e,t){let r=navigator.clipboard;if(r)try{return await r.writeText(e),!0}catch{}return t&&getSelection()?.selectAllChildren(t),document.execCommand("copy")}function l(e){return`'${e.replaceAll("'","'\\''")}'`}export{n as a,l as b};

@@ -1,1 +1,0 @@
-import{C as t,D as i,j as r,k as p}from"./chunk-VDN7RFOJ.js";function b(n){let e;return function(u){let[,a]=r(e!==void 0),[s,m]=r();return p(()=>{e||n().then(o=>{e=o,a(!0)},o=>m(o))},[]),s?t(i,{problem:s}):e?t(e,{...u}):t("p",{class:"quiet",children:"Reading \u2026"})}}var f=new Set(["successful","failed","dismissed"]);function C(n){return f.has(n)}export{C as a,b};

@@ -1,1 +1,0 @@
-import{C as t,D as i,j as o,k as p}from"./chunk-VDN7RFOJ.js";function d(m){let e;return function(u){let[,f]=o(e!==void 0),[r,s]=o();return p(()=>{e||m().then(n=>{e=n,f(!0)},n=>s(n))},[]),r?t(i,{problem:r}):e?t(e,{...u}):t("p",{class:"quiet",children:"Reading \u2026"})}}export{d as a};

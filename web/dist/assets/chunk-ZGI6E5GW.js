@@ -1,4 +1,0 @@
-async function u(s,e,t,i){let n;for(;!i.aborted;){try{let a=await fetch(s,{headers:{...e,...n===void 0?{}:{"Last-Event-ID":n}},signal:i});if(a.status===401||a.status===403)return;if(a.ok&&a.body){n===void 0&&t({kind:"reset"});for await(let o of c(a.body))n=o.id??n,t(d(o))}}catch(r){if(i.aborted)return;if(!(r instanceof TypeError))throw r}await new Promise(r=>setTimeout(r,1e3))}}function d({event:s,data:e}){return s==="reset"?{kind:"reset"}:{kind:s,...JSON.parse(e)}}async function*c(s){let e=s.pipeThrough(new TextDecoderStream).getReader(),t="";try{for(;;){let{done:i,value:n}=await e.read();if(i)return;let r=(t+n).split(`
-
-`);t=r.pop()??"";for(let a of r){let o=f(a);o&&(yield o)}}}finally{e.cancel()}}function f(s){let e={event:"message",data:""};for(let t of s.split(`
-`)){let i=t.indexOf(":"),n=t.slice(i+1).replace(/^ /,"");t.startsWith("id:")?e.id=n:t.startsWith("event:")?e.event=n:t.startsWith("data:")&&(e.data+=n)}return e.data===""?void 0:e}export{u as a};
