@@ -4,8 +4,8 @@ import type { Contract } from "../src/api/client";
 import type { Json, JsonObject } from "../src/parts/json-document";
 import { asking, editedDocument, withItem } from "../src/form/editing";
 import { framesOf } from "../src/form/frame";
-import { type Scene, sceneOf } from "../src/form/scene";
-import { type Schemas, kindOf, resolved, schemaAt, withoutDefaults } from "../src/form/schema";
+import { type Scene, sceneOf } from "../src/scenario/scene";
+import { type Schemas, kindOf, resolved, schemaAt, withoutDefaults } from "../src/scenario/schema";
 import { described, fieldName, labelOf, placeholderOf, rangeOf } from "../src/form/words";
 import { QUICK, type Service, expect, scenario, test } from "./service";
 

@@ -1,5 +1,5 @@
 import { expect, test } from "@playwright/test";
-import { solidOf } from "../src/form/solid";
+import { solidOf } from "../src/scenario/solid";
 import { outlineFromAbove } from "../src/geometry/outline";
 import { type Surface, surfaceOf } from "../src/geometry/surface";
 import { type Vector, cross, dot, length, minus } from "../src/geometry/vectors";

@@ -1,4 +1,6 @@
 import { expect, test } from "@playwright/test";
+import { readFile } from "node:fs/promises";
+import type { Contract } from "../src/api/client";
 import { lowerBound, upperBound } from "../src/study/binomial";
 import { sentence, shape } from "../src/study/distributions";
 import { type ListedMember, isDraw, quantityOf, restingPlace } from "../src/study/documents";
@@ -153,16 +155,19 @@ test("labels of regions keep apart, and what can't be placed is left to the lege
   ).toHaveLength(1);
 });
 
-test("the ground of a map has the channel and the body's start", () => {
+test("the ground of a map has the channel and the body's start", async () => {
+  const { schemas } = (JSON.parse(await readFile("../api/openapi.json", "utf8")) as Contract).components;
   const channel = { inclination_deg: 40, incline_length_m: 1, runout_length_m: 2 };
-  expect(groundOf({ channel, bodies: [{ shape: { cube: { side_m: 0.04 } } }] }, 0)).toEqual({
+  expect(groundOf({ channel, bodies: [{ shape: { cube: { side_m: 0.04 } } }] }, 0, schemas)).toEqual({
     halfWidth: 0.1,
     ends: [-1, 2],
     hasFoot: true,
     start: [0.04, 0],
   });
-  expect(groundOf({ channel, bodies: [{ shape: { ball: {} } }] }, 0)?.start).toBeUndefined();
-  expect(groundOf({}, 0)).toBeUndefined();
+  expect(groundOf({ channel, bodies: [{ shape: { ball: {} } }] }, 0, schemas)?.start).toBeUndefined();
+  const askew = [{ shape: { ball: { radius_m: 0.02 } }, position: { downstream_m: 1, lateral_m: -0.1 } }];
+  expect(groundOf({ channel, bodies: askew }, 0, schemas)?.start).toEqual([1, -0.1]);
+  expect(groundOf({}, 0, schemas)).toBeUndefined();
 });
 
 test("only draws of the inputs make probabilities", () => {

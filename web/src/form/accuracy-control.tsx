@@ -1,8 +1,8 @@
 import { at } from "../parts/json-document";
+import { resolved, schemaAt } from "../scenario/schema";
 import { type Asked, askedOf, asking } from "./editing";
 import { Violations } from "./field";
 import { elementId, useForm, violationsWithin } from "./form-context";
-import { resolved, schemaAt } from "./schema";
 import { nameOf } from "./words";
 
 /** Stops of the slider: no interval, intervals, and targets from 20 % to 1 %. */

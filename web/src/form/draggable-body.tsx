@@ -2,8 +2,8 @@ import { memo } from "preact/compat";
 import { useRef } from "preact/hooks";
 import { type Place, outlineOf } from "../geometry/outline";
 import type { Vector } from "../geometry/vectors";
+import type { PlacedBody } from "../scenario/scene";
 import { type Frame, onPage, pointsOf } from "./frame";
-import type { PlacedBody } from "./scene";
 
 /** What moving a body does. */
 export interface BodyMoves {

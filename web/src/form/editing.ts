@@ -2,9 +2,9 @@
 
 import { snapped } from "../parts/round-values";
 import { type Json, type JsonObject, at, changed, isObject, member, parentOf, tokens } from "../parts/json-document";
-import type { Scene } from "./scene";
-import { type Schemas, schemaAt } from "./schema";
-import { solidOf } from "./solid";
+import type { Scene } from "../scenario/scene";
+import { type Schemas, schemaAt } from "../scenario/schema";
+import { solidOf } from "../scenario/solid";
 
 /** The document with this value; a field that is taken away takes objects with it that it leaves
  * empty, as long as leaving them out means the same. */

@@ -1,12 +1,12 @@
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { type JsonObject, same } from "../parts/json-document";
+import type { Schemas } from "../scenario/schema";
 import { type Draft, keepDraft } from "./draft";
 import { FormContext } from "./form-context";
 import { JsonEditor } from "./json-editor";
 import { DifferenceList, ViolationList } from "./lists";
 import { PlanPanel } from "./plan-panel";
 import { SceneFigure } from "./scene-figure";
-import type { Schemas } from "./schema";
 import { Sections } from "./sections";
 import { SubmitForm } from "./submit-form";
 import { ToRun } from "./to-run";

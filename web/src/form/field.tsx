@@ -1,9 +1,9 @@
 import type { ComponentChildren } from "preact";
 import { at, tokens } from "../parts/json-document";
+import { type FieldSchema, type Kind, kindOf, unitOf } from "../scenario/schema";
 import { elementId, useForm, violationsWithin } from "./form-context";
 import { FlagInput, JsonInput, NamesInput, NumberInput, TextInput, VectorInput } from "./inputs";
 import { ListField, NullableField, ObjectField, VariantsField } from "./parts-of-scenario";
-import { type FieldSchema, type Kind, kindOf, unitOf } from "./schema";
 import { described, labelOf, rangeOf, valueText } from "./words";
 
 /** A field's place, schema, and whether it must be given. */

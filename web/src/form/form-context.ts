@@ -4,8 +4,8 @@ import { createContext } from "preact";
 import { useContext } from "preact/hooks";
 import type { FieldError } from "../api/problem";
 import type { Difference, Json, JsonObject } from "../parts/json-document";
-import type { Scene } from "./scene";
-import type { Schemas } from "./schema";
+import type { Scene } from "../scenario/scene";
+import type { Schemas } from "../scenario/schema";
 
 /** The scenario, what is wrong with it, and the means to change it. */
 export interface FormState {

@@ -3,10 +3,10 @@ import { readContract } from "../api/client";
 import { ProblemNotice } from "../parts/problem-notice";
 import { useAnswer } from "../parts/use-answer";
 import { useTitle } from "../parts/use-title";
+import type { Schemas } from "../scenario/schema";
 import { Editor } from "./editor";
 import "./form.css";
 import { PRESETS } from "./presets";
-import type { Schemas } from "./schema";
 import { useSource } from "./use-source";
 
 /** Form of a new scenario. */

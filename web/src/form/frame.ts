@@ -2,7 +2,7 @@
 
 import type { Place } from "../geometry/outline";
 import { roundBelow } from "../parts/round-values";
-import { type Scene, bedAt, extentOf } from "./scene";
+import { type Scene, bedAt, extentOf } from "../scenario/scene";
 
 /** Part of the scene that is shown. */
 export type Zoom = "channel" | "bodies";

@@ -1,6 +1,6 @@
 /** Order and grouping of the fields. What is not named here is shown all the same, folded. */
 
-import type { FieldSchema } from "./schema";
+import type { FieldSchema } from "../scenario/schema";
 
 /** Fields that are always shown, by the name of their object's schema, in this order. */
 const ESSENTIAL: Record<string, string[]> = {

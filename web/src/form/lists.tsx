@@ -1,6 +1,6 @@
+import { schemaAt, unitOf } from "../scenario/schema";
 import { useForm } from "./form-context";
 import { FieldLink } from "./plan-panel";
-import { schemaAt, unitOf } from "./schema";
 import { valueText } from "./words";
 
 /** Most violations and differences that are listed at once. */

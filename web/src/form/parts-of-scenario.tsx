@@ -1,12 +1,12 @@
 import { useRef } from "preact/hooks";
 import { type Json, at, isObject, member, tokens } from "../parts/json-document";
+import { type FieldSchema, type Variant, resolved, unitOf, variantOf, variantsOf } from "../scenario/schema";
+import { solidOf } from "../scenario/solid";
 import { shapeOf, withItem, withoutItem } from "./editing";
 import { Field, FieldFrame, type FieldProps, Former, Violations } from "./field";
 import { elementId, useForm } from "./form-context";
 import { Group } from "./group";
 import { arranged } from "./layout";
-import { type FieldSchema, type Variant, resolved, unitOf, variantOf, variantsOf } from "./schema";
-import { solidOf } from "./solid";
 import { described, labelOf } from "./words";
 
 /** Fields of an object, the less common ones folded. */

@@ -3,10 +3,10 @@ import type { Vector } from "../geometry/vectors";
 import { snapped } from "../parts/round-values";
 import { useWidth } from "../parts/use-width";
 import { changed, isObject, at, member } from "../parts/json-document";
+import { type PlacedBody, type Scene, extentOf, sceneText } from "../scenario/scene";
 import type { BodyMoves } from "./draggable-body";
 import { useForm } from "./form-context";
 import { type Zoom, framesOf } from "./frame";
-import { type PlacedBody, type Scene, extentOf, sceneText } from "./scene";
 import { SideView, TopView } from "./views";
 
 /** Most bodies that have their numbers beside them. */

@@ -1,11 +1,11 @@
 import { type Json, at, isObject, member } from "../parts/json-document";
+import { type FieldSchema, type Schemas, kindOf, resolved } from "../scenario/schema";
 import { AccuracyControl } from "./accuracy-control";
 import { Field, Violations } from "./field";
 import { elementId, useForm } from "./form-context";
 import { Group } from "./group";
 import { CONTROLLED, arranged } from "./layout";
 import { FieldGrid, ListField, ObjectFields, Presence } from "./parts-of-scenario";
-import { type FieldSchema, type Schemas, kindOf, resolved } from "./schema";
 import { labelOf } from "./words";
 
 /** All fields of the scenario: one section for each object, and one for single fields. */

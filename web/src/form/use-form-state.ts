@@ -1,11 +1,11 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { FieldError } from "../api/problem";
 import { type JsonObject, at, differences, isObject, parentOf, prefixes, tokens } from "../parts/json-document";
+import { sceneOf } from "../scenario/scene";
+import { type Schemas, resolved, schemaAt } from "../scenario/schema";
 import { editedDocument } from "./editing";
 import { type FormState, elementId } from "./form-context";
 import { isEssential } from "./layout";
-import { sceneOf } from "./scene";
-import { type Schemas, resolved, schemaAt } from "./schema";
 import { groupsOf } from "./sections";
 
 interface Given {

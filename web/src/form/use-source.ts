@@ -1,9 +1,9 @@
 import { api, data } from "../api/client";
 import { type Answer, useAnswer } from "../parts/use-answer";
 import type { JsonObject } from "../parts/json-document";
+import { type Schemas, resolved, withoutDefaults } from "../scenario/schema";
 import { type Draft, readDraft } from "./draft";
 import { PRESETS, presetOf } from "./presets";
-import { type Schemas, resolved, withoutDefaults } from "./schema";
 
 /** Scenario that the form of an address begins with: its draft, or what the address names. */
 export function useSource(search: string, schemas: Schemas): Answer<{ search: string; draft: Draft }> {

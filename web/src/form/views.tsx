@@ -1,8 +1,8 @@
 import type { Place } from "../geometry/outline";
+import { type Channel, type Release, type Scene, bedAt } from "../scenario/scene";
 import { View } from "./axes";
 import { DraggableBody, type MovesReference } from "./draggable-body";
 import { type Frame, onPage, pointsOf } from "./frame";
-import { type Channel, type Release, type Scene, bedAt } from "./scene";
 import "./views.css";
 
 interface SceneViewProps {

@@ -4,7 +4,7 @@ import type { Schema } from "../api/client";
 import { figure } from "../parts/format";
 import { type Json, type JsonObject, prefixes, tokens } from "../parts/json-document";
 import { wordsOfKey } from "../parts/words";
-import { type FieldSchema, type Schemas, schemaAt, unitOf } from "./schema";
+import { type FieldSchema, type Schemas, schemaAt, unitOf } from "../scenario/schema";
 
 /** A unit as it is written at the end of keys: `m/s²` is `m_s2`. */
 function ending(unit: string): string {

@@ -1,5 +1,8 @@
 /** What a map of resting places shows beside them: channel, start, and its ranges. */
 
+import type { JsonObject } from "../parts/json-document";
+import { sceneOf } from "../scenario/scene";
+import type { Schemas } from "../scenario/schema";
 import type { Place, RestDistribution } from "./documents";
 import { type MapScale, type Range, mapScale, rangeOf } from "./scales";
 
@@ -14,27 +17,17 @@ export interface Ground {
   start: Place | undefined;
 }
 
-const WIDTH_OF_CHANNEL = 0.2;
-
-/** Ground of a scenario; none if it does not have what every scenario has. */
-export function groundOf(scenario: unknown, body: number): Ground | undefined {
-  const { channel, bodies } = scenario as {
-    channel?: { incline_length_m?: number; runout_length_m?: number; width_m?: number; inclination_deg?: number };
-    bodies?: {
-      shape?: Record<string, { side_m?: number; sides_m?: number[] }>;
-      position?: { downstream_m?: number; lateral_m?: number };
-    }[];
-  };
-  if (channel?.incline_length_m === undefined || channel.runout_length_m === undefined) return undefined;
-  const { position, shape } = bodies?.[body] ?? {};
-  // The default place is a side's length away from the foot.
-  const side = shape?.["cube"]?.side_m ?? Math.max(...(shape?.["box"]?.sides_m ?? [Number.NaN]));
-  const downstream = position?.downstream_m ?? side;
+/** Ground of a scenario; none if it lacks what every scenario has. */
+export function groundOf(scenario: JsonObject, body: number, schemas: Schemas): Ground | undefined {
+  const scene = sceneOf(scenario, schemas);
+  if (!scene) return undefined;
+  const { incline, runout, width, inclination } = scene.channel;
+  const [x, y] = scene.bodies.find(({ index }) => index === body)?.centre ?? [];
   return {
-    halfWidth: 0.5 * (channel.width_m ?? WIDTH_OF_CHANNEL),
-    ends: [-channel.incline_length_m, channel.runout_length_m],
-    hasFoot: (channel.inclination_deg ?? 0) > 0,
-    start: Number.isFinite(downstream) ? [downstream, position?.lateral_m ?? 0] : undefined,
+    halfWidth: 0.5 * width,
+    ends: [-incline, runout],
+    hasFoot: inclination > 0,
+    start: x !== undefined && y !== undefined ? [x, y] : undefined,
   };
 }
 

@@ -1,5 +1,8 @@
 import { useMemo } from "preact/hooks";
+import { readContract } from "../api/client";
 import { figure } from "../parts/format";
+import type { JsonObject } from "../parts/json-document";
+import { useAnswer } from "../parts/use-answer";
 import { type RestDistribution, restingPlace } from "./documents";
 import type { AnswerProps } from "./answer-props";
 import type { Rested } from "./map-dots";
@@ -16,7 +19,11 @@ export function RestAnswer({
   hasLevels,
 }: AnswerProps & { body: number; rest: RestDistribution }) {
   const rested = useMemo(() => restedOf(draws, body), [draws, body]);
-  const ground = useMemo(() => groundOf(study.scenario, body), [study, body]);
+  const { value: contract } = useAnswer(readContract, []);
+  const ground = useMemo(
+    () => contract && groundOf(study.scenario as JsonObject, body, contract.components.schemas),
+    [study, body, contract],
+  );
   return (
     <>
       {rested.length === 0 && rest.regions.length === 0 ? (
