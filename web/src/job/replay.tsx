@@ -1,11 +1,11 @@
 import { useMemo, useState } from "preact/hooks";
-import { type Job } from "../api/client";
+import type { Job } from "../api/client";
 import { figure } from "../parts/format";
 import { lazily } from "../parts/lazily";
 import { ProblemNotice } from "../parts/problem-notice";
 import { AerialView, SpeedScale } from "./aerial/aerial-view";
 import type { AerialContent } from "./aerial/draw";
-import { topSpeed } from "./flow/frames";
+import { keptSpacing, topSpeed } from "./flow/frames";
 import type { Clock } from "./playback/clock";
 import { Transport } from "./playback/transport";
 import type { Poses } from "./records/trajectories";
@@ -13,8 +13,6 @@ import type { Frames } from "./records/use-records";
 import { regionOf } from "./region";
 
 const SceneView = lazily(() => import("./scene/scene-view").then((part) => part.SceneView));
-
-const NO_POSES: Poses[] = [];
 
 /** What pictures of a job show, once its records are there. */
 export function useContent(job: Job | undefined, poses: Poses[] | undefined, flow: Frames): AerialContent | undefined {
@@ -24,13 +22,15 @@ export function useContent(job: Job | undefined, poses: Poses[] | undefined, flo
     const { scenario } = job;
     const cellSize =
       job.outcome?.cost.cell_size_m ?? job.plan?.cost.cell_size_m ?? scenario.numerics?.cell_size_m ?? 0.01;
+    // A job's scenario has every default; its type is that of one that is submitted.
+    const perCell = scenario.numerics?.points_per_cell ?? 8;
     return {
       scenario,
       poses,
       frames,
-      cellSize,
+      spacing: (thinning: number) => keptSpacing(cellSize, perCell, thinning),
       topSpeed: topSpeed(frames),
-      region: regionOf(scenario, poses ?? NO_POSES, frames),
+      region: regionOf(scenario, poses, frames),
     };
   }, [job?.id, poses, flow.frames, job?.outcome]);
 }

@@ -8,7 +8,7 @@ import { figure } from "../../parts/format";
 import { multiples, niceStep } from "../../parts/round-values";
 import { bodyColour, viridis } from "../colours";
 import type { FlowFrame } from "../flow/decoder";
-import { type Between, type FramePair, eachPoint, framesAt, keptSpacing, pairOf } from "../flow/frames";
+import { type Between, type FramePair, eachPoint, framesAt, pairOf } from "../flow/frames";
 import { type Poses, poseAt, sampleAt } from "../records/trajectories";
 import type { Region } from "../region";
 import type { Theme } from "../use-theme";
@@ -18,7 +18,8 @@ export interface AerialContent {
   scenario: Scenario;
   poses: Poses[];
   frames: FlowFrame[];
-  cellSize: number;
+  /** Distance between neighbouring kept points of a thinning [m]. */
+  spacing: (thinning: number) => number;
   topSpeed: number;
   region: Region;
 }
@@ -78,14 +79,14 @@ export class AerialPainter {
 
   /** The topmost point in each of many small squares. */
   private paintFlow(context: CanvasRenderingContext2D, { scale, left, middle, width }: Frame, time: number): void {
-    const { frames, cellSize, scenario, topSpeed } = this.content;
+    const { frames, spacing: spacingOf, scenario, topSpeed } = this.content;
     const between = framesAt(frames, time);
     if (!between) return;
     if (!this.pair || this.of?.first !== between.first || this.of.second !== between.second) {
       this.pair = pairOf(between);
       this.of = between;
     }
-    const spacing = keptSpacing(cellSize, scenario.numerics?.points_per_cell ?? 8, between.first.thinning);
+    const spacing = spacingOf(between.first.thinning);
     const bin = Math.max(1.5, SQUARE * spacing * scale);
     const side = Math.max(bin + 0.5, DOT * spacing * scale);
     const half = (scenario.channel.width_m / 2) * scale;

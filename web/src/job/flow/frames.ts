@@ -107,7 +107,7 @@ export function topSpeed(frames: FlowFrame[]): number {
   return roundUp(speeds[Math.floor(speeds.length * COVERED)] ?? 0);
 }
 
-/** The next of 1, 2, 2.5, 5 times a power of ten. */
+/** The next round number of one digit, or of 1.5 and 2.5, times a power of ten. */
 export function roundUp(value: number): number {
   if (!(value > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(value));

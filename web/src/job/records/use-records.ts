@@ -8,15 +8,21 @@ import { FrameReader } from "../flow/read-frames";
 import { TrajectoryReader } from "./read-trajectories";
 import type { Curves, Poses } from "./trajectories";
 
-/** Changes whenever there is enough new to read a job's records again: at its end, and twenty times on the way. */
-function epochOf(job: Job | undefined): string {
+/** Times that records are read while a job runs, fewer if that takes more requests than so many. */
+const READINGS = 20;
+const MOST_REQUESTS = 400;
+
+/** Changes whenever there is enough new to read a job's records again, which takes so many requests: at its end, and
+ * some times on the way. */
+function epochOf(job: Job | undefined, requests = 1): string {
   if (!job || job.status === "accepted") return "";
-  return job.status === "running" ? `running ${Math.floor(20 * job.progress.fraction)}` : job.status;
+  const readings = Math.max(1, Math.min(READINGS, Math.floor(MOST_REQUESTS / requests)));
+  return job.status === "running" ? `running ${Math.floor(readings * job.progress.fraction)}` : job.status;
 }
 
 /** Poses of all bodies of a job that has started. */
 export function usePoses(job: Job | undefined): Answer<Poses[]> {
-  const epoch = epochOf(job);
+  const epoch = epochOf(job, job?.scenario.bodies.length);
   const reader = useMemo(() => new TrajectoryReader(), [job?.id]);
   return useAnswer(async (signal) => (job && epoch ? reader.readPoses(job, signal) : []), [job?.id, epoch]);
 }
@@ -24,7 +30,8 @@ export function usePoses(job: Job | undefined): Answer<Poses[]> {
 /** Curves of the chosen bodies. */
 export function useCurves(job: Job, bodies: readonly number[]): Answer<Curves[]> {
   const reader = useMemo(() => new TrajectoryReader(), [job.id]);
-  return useAnswer((signal) => reader.readCurves(job, bodies, signal), [job.id, epochOf(job), bodies.join(" ")]);
+  const epoch = epochOf(job, bodies.length);
+  return useAnswer((signal) => reader.readCurves(job, bodies, signal), [job.id, epoch, bodies.join(" ")]);
 }
 
 /** Frames of a job's flow, how many of how many are there, and what went wrong. */

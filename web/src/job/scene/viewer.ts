@@ -3,7 +3,6 @@
 import { AmbientLight, DirectionalLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { AerialContent } from "../aerial/draw";
-import { keptSpacing } from "../flow/frames";
 import type { Clock } from "../playback/clock";
 import type { Theme } from "../use-theme";
 import { Bodies } from "./bodies";
@@ -68,11 +67,10 @@ export class SceneViewer {
 
   /** Replaces what is shown; the camera stays where it has been moved to, or else shows all that happens. */
   show(content: AerialContent, theme: Theme): void {
-    const { scenario, frames, poses, cellSize, topSpeed, region } = content;
+    const { scenario, frames, poses, spacing, topSpeed, region } = content;
     this.clear();
-    const perCell = scenario.numerics?.points_per_cell ?? 8;
     this.parts = {
-      flow: new FlowPoints(frames, (thinning) => keptSpacing(cellSize, perCell, thinning), topSpeed),
+      flow: new FlowPoints(frames, spacing, topSpeed),
       bodies: new Bodies(scenario, poses, theme.isDark),
       channel: new Channel(scenario, region, theme),
     };
