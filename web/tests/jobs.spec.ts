@@ -1,4 +1,5 @@
 import { QUICK, SLOW, Service, expect, expectAccessible, expectNoSidewaysScroll, test } from "./service";
+import { STUDY, finished } from "./study-scenes";
 
 for (const colorScheme of ["light", "dark"] as const) {
   test(`the list is accessible, ${colorScheme}`, async ({ page, service }) => {
@@ -62,7 +63,8 @@ test("a list of 1,000 jobs scrolls without stutter", async ({ browser }) => {
     const frames = (await page.evaluate(framesOfAScroll)).sort((a, b) => a - b);
     const [middle, late, longest] = [0.5, 0.95, 1].map((share) => frames[Math.ceil(share * frames.length) - 1] ?? NaN);
     console.log(`frames of a scroll through 1,000 jobs: median ${middle}, 95 % ${late}, longest ${longest} ms`);
-    expect(late).toBeLessThan(50);
+    // Less than four pictures of a screen with 60 a second.
+    expect(late).toBeLessThan(66);
     await page.close();
   } finally {
     await service.stop();
@@ -86,7 +88,10 @@ async function framesOfAScroll(): Promise<number[]> {
 test("a list that cannot be read on is asked for again by its button alone", async ({ page, service }) => {
   const start = { ...QUICK, flow: null, duration_s: 0, title: "One of many" };
   await service.post("/v1/batches", { jobs: Array.from({ length: 100 }, () => ({ scenario: start })) });
-  await service.submit(start);
+  await service.run(start);
+  // Events of jobs are a reason to ask again.
+  const waiting = () => service.get<{ jobs: unknown[] }>("/v1/jobs?status=accepted&status=running");
+  await expect.poll(async () => (await waiting()).jobs.length).toBe(0);
   let asked = 0;
   await page.route(/cursor=/, (route) => {
     asked += 1;
@@ -108,4 +113,18 @@ test("a day that is being typed breaks nothing", async ({ page }) => {
   await expect(page.getByRole("heading", { name: "Jobs" })).toBeVisible();
   await page.getByLabel("Accepted from").fill("2099-01-01");
   await expect(page.getByText("No job is like that.")).toBeVisible();
+});
+
+test("members of studies are listed when they are asked for", async ({ page, service }) => {
+  const own = await service.run(QUICK);
+  const study = await finished(service, { ...STUDY, design: { sobol: { members: 4, seed: 7 } }, questions: [] });
+  await page.goto("/");
+  await expect(page.locator(`[data-job="${own}"]`)).toBeVisible();
+  const members = page.locator(".job-row", { has: page.locator(`a[href="#/studies/${study}"]`) });
+  await expect(members).toHaveCount(0);
+  await page.getByLabel("Members of studies").check();
+  await expect(members).toHaveCount(4);
+  await page.getByLabel("Members of studies").uncheck();
+  await page.getByRole("textbox", { name: "Label" }).fill(`study:${study}`);
+  await expect(members).toHaveCount(4);
 });
