@@ -32,6 +32,8 @@ export class JobList {
     if (!document.hidden && this.isStale) this.looks.ask();
   };
   private later: ReturnType<typeof setTimeout> | undefined;
+  /** Requests in progress: a look at the newest jobs and one for older ones may be at the same time. */
+  private readings = 0;
   private isStale = false;
   private isClosed = false;
 
@@ -112,16 +114,22 @@ export class JobList {
   }
 
   private async reading(read: () => Promise<void>): Promise<void> {
+    this.readings += 1;
     this.set({ isReading: true });
     try {
       await read();
-      this.set({ isReading: false, problem: undefined });
+      this.ended(undefined);
     } catch (problem) {
-      this.set({ isReading: false, problem });
+      this.ended(problem);
       const pauseS = pauseAfter(problem);
       clearTimeout(this.later);
       if (pauseS !== undefined && !this.isClosed) this.later = setTimeout(() => this.lookSoon(), 1_000 * pauseS);
     }
+  }
+
+  private ended(problem: unknown): void {
+    this.readings -= 1;
+    this.set({ isReading: this.readings > 0, problem });
   }
 
   private set(change: Partial<ListState>): void {
