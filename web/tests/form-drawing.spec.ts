@@ -111,3 +111,15 @@ test("hundreds of bodies stay quick", async ({ page }) => {
   expect(Date.now() - began).toBeLessThan(3000);
   await expectNoSidewaysScroll(page);
 });
+
+test("drawings and their words are seen as a whole in a low window", async ({ page }) => {
+  await page.setViewportSize({ width: 1280, height: 500 });
+  await page.goto("/#/new");
+  const figure = page.locator("figure.scene");
+  await expect(figure.locator("figcaption")).toContainText("Drag a body");
+  const { inner, outer } = await figure.evaluate((figure) => ({
+    inner: figure.scrollHeight,
+    outer: figure.clientHeight,
+  }));
+  expect(inner).toBeLessThanOrEqual(outer);
+});
