@@ -235,11 +235,23 @@ impl ToldProgress {
             return None;
         }
         self.due = Instant::now() + PROGRESS_PAUSE;
-        let running = jobs.running_progress().await;
         // A database that does not answer now may do so the next time.
-        let running = running.as_ref().as_ref().ok()?.iter();
-        let wanted = running.filter(|(job, _)| followed.is_none_or(|followed| followed == **job));
-        let now: RunningProgress = wanted.map(|(job, progress)| (*job, *progress)).collect();
+        let now: RunningProgress = match followed {
+            Some(job) => {
+                let progress = jobs.progress_of(job).await.ok()?;
+                progress
+                    .map(|progress| (job, progress))
+                    .into_iter()
+                    .collect()
+            }
+            None => jobs
+                .running_progress()
+                .await
+                .as_ref()
+                .as_ref()
+                .ok()?
+                .clone(),
+        };
         let changed = now
             .iter()
             .filter(|(job, progress)| self.last.get(job) != Some(progress));

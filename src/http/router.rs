@@ -22,6 +22,7 @@ use axum::routing::{MethodRouter, get};
 use axum::{Extension, Router};
 use std::any::Any;
 use std::time::Duration;
+use tokio::task::spawn_blocking;
 use tokio::time::Instant;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::trace::{DefaultOnResponse, TraceLayer};
@@ -34,6 +35,8 @@ use uuid::Uuid;
 /// All routes, with the layers around them.
 pub fn router(services: Services, config: &ServiceConfig) -> Router {
     let limits = &config.limits;
+    // Nobody waits for it.
+    drop(spawn_blocking(page::prepare));
     let (router, contract) = documented(limits.request_timeout()).split_for_parts();
     let process = ogc::Process::of(&contract);
     let contract = StaticText::new("application/json", contract::text_of(&contract));

@@ -14,7 +14,21 @@ const MOST_JOBS: u32 = 1_000;
 pub type RunningProgress = BTreeMap<JobId, Progress>;
 
 impl JobService {
-    /// Progress of the running jobs, or as it was just now: of this service's workers to the moment,
+    /// Progress of a job that is running.
+    ///
+    /// # Errors
+    /// The store's own.
+    pub async fn progress_of(&self, id: JobId) -> Result<Option<Progress>, StoreError> {
+        if let Some(now) = self.registry.progress(id) {
+            return Ok(Some(now));
+        }
+        // Another service's workers may run it.
+        let job = self.store.job(id).await?;
+        let running = job.filter(|job| job.summary.status == JobStatus::Running);
+        Ok(running.map(|job| job.summary.progress))
+    }
+
+    /// Progress of the newest running jobs, or as it was just now: of this service's workers to the moment,
     /// of others as of the last renewal of their leases.
     pub async fn running_progress(&self) -> Arc<Result<RunningProgress, StoreError>> {
         self.running.get(self.read_running_progress()).await

@@ -117,6 +117,19 @@ async fn every_answer_is_what_its_type_says() {
         assert!(policy.starts_with("default-src 'none'"), "{path}: {policy}");
         assert!(!policy.contains("unsafe"), "{path}: {policy}");
     }
+    // A script whose name changes with its content is kept, what it is named by is asked for again.
+    let scripts = std::fs::read_dir("web/dist/assets").unwrap();
+    let names = scripts.map(|script| script.unwrap().file_name().into_string().unwrap());
+    let view = names
+        .filter(|name| name.ends_with(".js"))
+        .find(|name| name.starts_with("form-view-"));
+    for (name, kept) in [(view.unwrap(), true), ("app.js".to_owned(), false)] {
+        let script = send(&app, Method::GET, &format!("/assets/{name}"), &[]).await;
+        let control = script.headers()["cache-control"].to_str().unwrap();
+        assert_eq!(control.contains("immutable"), kept, "{name}: {control}");
+    }
+    let missing = send(&app, Method::GET, "/assets/none.js", &[]).await;
+    assert_eq!(missing.status(), StatusCode::NOT_FOUND);
     // The pages have nothing inline, so that their policy lets all of it run.
     for path in ["/", "/docs"] {
         let page = send(&app, Method::GET, path, &[]).await;
