@@ -17,6 +17,10 @@ export type StreamMessage = ServiceEvent | Connection;
 /** Pause before the stream is opened again after it broke off [ms]. */
 const PAUSE_MS = 1_000;
 
+/** Time without a word after which a stream is taken for lost, as after a sleep of the machine [ms]: the service
+ * says something every ten seconds. */
+const LONGEST_SILENCE_MS = 35_000;
+
 /** Reads the stream until the signal, and opens it again whenever it breaks off. */
 export async function follow(
   url: string,
@@ -75,7 +79,7 @@ export async function* blocks(body: ReadableStream<Uint8Array>): AsyncGenerator<
   let rest = "";
   try {
     for (;;) {
-      const { done, value } = await reader.read();
+      const { done, value } = await inTime(reader.read(), LONGEST_SILENCE_MS);
       if (done) return;
       const found = (rest + value).replaceAll("\r\n", "\n").split("\n\n");
       rest = found.pop() ?? "";
@@ -84,6 +88,19 @@ export async function* blocks(body: ReadableStream<Uint8Array>): AsyncGenerator<
   } finally {
     // Otherwise the connection stays open after the reader has gone; one that broke off has closed.
     reader.cancel().catch(() => undefined);
+  }
+}
+
+/** The value of a promise, or an error if it takes longer. */
+async function inTime<T>(promise: Promise<T>, longestMs: number): Promise<T> {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const end = new Promise<never>((_, reject) => {
+    timer = setTimeout(() => reject(new Error("the stream is silent")), longestMs);
+  });
+  try {
+    return await Promise.race([promise, end]);
+  } finally {
+    clearTimeout(timer);
   }
 }
 

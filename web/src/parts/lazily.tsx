@@ -15,10 +15,11 @@ export function lazily<P extends object>(read: () => Promise<ComponentType<P>>):
           part = component;
           setIsRead(true);
         },
-        (error: unknown) => setProblem(error),
+        // A newer version of the service has parts of other names.
+        () => setProblem(new Error("a part of this page could not be read: reload the page")),
       );
     }, []);
-    if (problem) return <ProblemNotice problem={problem} />;
+    if (problem !== undefined) return <ProblemNotice problem={problem} />;
     if (!part) return <p class="quiet">Reading …</p>;
     const Part = part;
     return <Part {...props} />;
