@@ -175,6 +175,8 @@ async fn the_stream_of_all_jobs_tells_progress_if_asked() {
         tokio::join!(read(told), read(silent), read(unasked), async {
             tokio::time::sleep(Duration::from_millis(2500)).await;
             app.delete(&job).await;
+            // A service that stops tells no more than it has told.
+            tokio::time::sleep(Duration::from_secs(1)).await;
             app.stop().await
         });
     let told = told.unwrap();
