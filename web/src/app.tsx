@@ -6,6 +6,7 @@ import { ROOT } from "./api/client";
 import { JobsView } from "./jobs/jobs-view";
 import { ConnectionNotice } from "./parts/connection-notice";
 import { useHashLocation, useHashSearch } from "./parts/hash-location";
+import { ForgetToken } from "./parts/forget-token";
 import { lazily } from "./parts/lazily";
 import { TokenDialog } from "./parts/token-dialog";
 
@@ -41,6 +42,7 @@ function Header() {
         <NavLink href="/studies">Studies</NavLink>
         <a href={`${ROOT}docs`}>Interface</a>
       </nav>
+      <ForgetToken />
     </header>
   );
 }

@@ -76,6 +76,9 @@ test("a service with tokens is used with one, which is kept in the tab alone", a
       0,
       "",
     ]);
+    await page.getByRole("button", { name: "Forget the token" }).click();
+    await expect(dialog).toBeVisible();
+    expect(await page.evaluate(() => sessionStorage.length)).toBe(0);
     const other = await context.newPage();
     await other.goto("/");
     await expect(other.getByRole("dialog")).toBeVisible();
