@@ -75,7 +75,8 @@ export class SceneViewer {
       channel: new Channel(scenario, region, theme),
     };
     this.scene.add(this.parts.channel.group, this.parts.flow.points, this.parts.bodies.group);
-    this.scene.background = colourOf(theme.paper);
+    // Dark paper would hide grains at rest, which are dark in every theme.
+    this.scene.background = colourOf(theme.isDark ? theme.line : theme.paper);
     this.content = content;
     if (this.followed) this.look(this.followed);
     this.ask();
