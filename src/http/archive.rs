@@ -11,11 +11,7 @@ pub(super) struct Archive;
 
 impl PartialSchema for Archive {
     fn schema() -> RefOr<Schema> {
-        ObjectBuilder::new()
-            .schema_type(Type::String)
-            .format(Some(SchemaFormat::KnownFormat(KnownFormat::Binary)))
-            .description(Some("A ZIP archive."))
-            .into()
+        binary("A ZIP archive.")
     }
 }
 
@@ -30,11 +26,7 @@ pub(super) struct Frames;
 
 impl PartialSchema for Frames {
     fn schema() -> RefOr<Schema> {
-        ObjectBuilder::new()
-            .schema_type(Type::String)
-            .format(Some(SchemaFormat::KnownFormat(KnownFormat::Binary)))
-            .description(Some("Snapshots of the flow in binary."))
-            .into()
+        binary("Snapshots of the flow in binary.")
     }
 }
 
@@ -42,6 +34,15 @@ impl ToSchema for Frames {
     fn name() -> Cow<'static, str> {
         Cow::Borrowed("FlowFrames")
     }
+}
+
+/// Schema of bytes.
+fn binary(description: &str) -> RefOr<Schema> {
+    ObjectBuilder::new()
+        .schema_type(Type::String)
+        .format(Some(SchemaFormat::KnownFormat(KnownFormat::Binary)))
+        .description(Some(description))
+        .into()
 }
 
 /// A picture.

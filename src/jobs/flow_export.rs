@@ -4,7 +4,6 @@ use super::JobService;
 use super::admission_pool::AdmissionError;
 use super::job::{Job, JobId};
 use super::store::StoreError;
-use crate::results::FlowSnapshot;
 use crate::results::columns::Selection;
 use crate::results::interpolation::{BodyState, Interpolator};
 use crate::results::vtk::{VtkFile, VtkScene};
@@ -109,7 +108,7 @@ impl FlowExport {
             return Ok(None);
         }
         let snapshot = match self.times_s.get(index) {
-            Some(&time_s) => Some(self.snapshot(time_s).await?),
+            Some(&time_s) => Some(self.jobs.snapshot_at(self.job, time_s).await?),
             None => None,
         };
         let states = self.motion.get_mut(index).map(std::mem::take);
@@ -136,13 +135,5 @@ impl FlowExport {
         let (archive, out) = self.jobs.pool.slice(&self.caller, pack).await?;
         self.archive = archive;
         Ok(Some(out))
-    }
-
-    async fn snapshot(&self, time_s: f64) -> Result<FlowSnapshot, StoreError> {
-        let snapshot = self.jobs.snapshot(self.job, Some(time_s)).await?;
-        snapshot.ok_or_else(|| StoreError::Row {
-            job: self.job.to_string(),
-            what: "a snapshot that was there before",
-        })
     }
 }

@@ -51,11 +51,6 @@ impl FlowFrames {
         let Some(time_s) = self.times_s.pop_front() else {
             return Ok(None);
         };
-        let snapshot = self.jobs.snapshot(self.job, Some(time_s)).await?;
-        let there = snapshot.filter(|snapshot| snapshot.time_s == time_s);
-        there.map(Some).ok_or_else(|| StoreError::Row {
-            job: self.job.to_string(),
-            what: "a snapshot that was there before",
-        })
+        self.jobs.snapshot_at(self.job, time_s).await.map(Some)
     }
 }

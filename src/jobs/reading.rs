@@ -159,4 +159,21 @@ impl JobService {
     ) -> Result<Option<FlowSnapshot>, StoreError> {
         self.store.snapshot(job, time_s).await
     }
+
+    /// The snapshot of the flow at one of its times [s].
+    ///
+    /// # Errors
+    /// The job was removed meanwhile, or the store's own.
+    pub(super) async fn snapshot_at(
+        &self,
+        job: JobId,
+        time_s: f64,
+    ) -> Result<FlowSnapshot, StoreError> {
+        let nearest = self.snapshot(job, Some(time_s)).await?;
+        let there = nearest.filter(|snapshot| snapshot.time_s == time_s);
+        there.ok_or_else(|| StoreError::Row {
+            job: job.to_string(),
+            what: "a snapshot that was there before",
+        })
+    }
 }
