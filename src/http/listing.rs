@@ -33,7 +33,7 @@ pub(super) struct PageParameters {
     status: Option<Vec<JobStatus>>,
     /// Only jobs with this label.
     label: Option<String>,
-    /// Whether members of studies are listed.
+    /// Members of studies are listed, too, unless this is false.
     #[param(default = true)]
     members: Option<bool>,
     /// Only jobs accepted at this time or later (RFC 3339).

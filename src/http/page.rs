@@ -17,7 +17,7 @@ const ASSETS: &str = "/assets/";
 /// Digits of the hash in the name of a script.
 const HASH_LENGTH: usize = 8;
 
-/// What has another name whenever it changes need not be asked for again.
+/// Cache control of files that have another name whenever they change.
 const FOREVER: HeaderValue = HeaderValue::from_static("public, max-age=31536000, immutable");
 
 #[derive(RustEmbed)]

@@ -113,7 +113,7 @@ impl Query {
         word
     }
 
-    /// Whether something is so: `true` or `false`.
+    /// A truth value: `true` or `false`.
     pub(super) fn truth(&mut self, name: &str) -> Option<bool> {
         self.word(name, "true or false", |text| text.parse().ok())
     }
