@@ -4,7 +4,8 @@
 //! Structure: [`service::start`] binds the address, opens the database
 //! and starts the workers, and [`worker_process::start`] starts workers alone; [`http`] receives jobs and returns results;
 //! [`jobs`] keeps them in the database; [`runs`] computes a scenario; [`results`] converts the
-//! records of a run into stored and served forms; [`pictures`] draws them. Separately, [`verify`]
+//! records of a run into stored and served forms; [`pictures`] draws them; [`terrains`] has the
+//! rasters that scenarios name. Separately, [`verify`]
 //! compares the solver with known answers.
 
 pub mod config;
@@ -18,6 +19,7 @@ pub mod results;
 pub mod runs;
 pub mod service;
 pub mod studies;
+pub mod terrains;
 pub mod verify;
 mod webhooks;
 pub mod worker_process;

@@ -3,6 +3,7 @@
 use super::access::Caller;
 use super::choice::Reuse;
 use super::documents::JobDocument;
+use super::field_errors::{FieldError, FieldErrors};
 use super::idempotency;
 use super::named_job::named;
 use super::problem::Problem;
@@ -12,6 +13,7 @@ use crate::jobs::job::Job;
 use crate::jobs::store::{KeptAnswer, Key};
 use crate::jobs::submit::{NewJob, ScenarioError, label};
 use crate::jobs::{AdmissionError, JobService, Submission, SubmissionRequest, SubmitError};
+use crate::terrains::TerrainHash;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, Uri};
 use axum::response::Response;
@@ -175,12 +177,22 @@ impl From<SubmitError> for Problem {
                 detail,
             )
             .retry_after(RETRY_AFTER_S),
+            SubmitError::NoTerrain(terrain) => Self::invalid_scenario(no_terrain(terrain, detail)),
             SubmitError::QueueFull { .. } => {
                 Self::busy("queue-full", "Too many jobs wait", &detail)
             }
             SubmitError::QuotaSpent { .. } => Self::busy("quota-spent", "Too many jobs", &detail),
         }
     }
+}
+
+/// The fault of a document that names a terrain which was removed since it was read.
+fn no_terrain(terrain: TerrainHash, detail: String) -> FieldErrors {
+    let allowed = "the name of a terrain of this service";
+    FieldErrors::from(FieldError {
+        detail,
+        ..FieldError::of_body("", terrain.to_string().into(), allowed)
+    })
 }
 
 impl From<AdmissionError> for Problem {

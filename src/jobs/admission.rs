@@ -6,6 +6,7 @@ use super::job::JobId;
 use super::pool::GRACE;
 use super::store::{self, FormerRequest, KeptAnswer, Key, Room, StoreError, Submitted};
 use super::submit::{NewJob, ScenarioError};
+use crate::terrains::TerrainHash;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
@@ -53,6 +54,9 @@ pub enum SubmitError {
     /// The key was used before with another request.
     #[error("this Idempotency-Key came before with another request")]
     OtherRequest,
+    /// A job names a terrain that does not exist, or not any more.
+    #[error("this service has no terrain {0}: upload its file first")]
+    NoTerrain(TerrainHash),
     /// Too many jobs wait.
     #[error("{waiting} jobs wait, and the queue of this service takes {limit}")]
     QueueFull {
@@ -159,6 +163,7 @@ impl JobService {
                 })
             }
             Submitted::Before(former) => Submission::of_former(former),
+            Submitted::NoTerrain(terrain) => Err(SubmitError::NoTerrain(terrain)),
             Submitted::QueueFull(waiting) => Err(SubmitError::QueueFull {
                 waiting,
                 limit: room.queue,

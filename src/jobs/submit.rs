@@ -1,6 +1,7 @@
 //! Validation of submitted scenarios.
 
 use super::job::JobId;
+use crate::terrains::TerrainHash;
 use scree_solver::accuracy::ConvergenceStudy;
 use scree_solver::plan::Cost;
 use scree_solver::record::Role;
@@ -31,6 +32,8 @@ pub struct NewJob {
     pub planned_memory_bytes: u64,
     /// Its labels, each once.
     pub labels: Vec<String>,
+    /// Terrains that its scenario names.
+    pub terrains: Vec<TerrainHash>,
     /// Version of the solver that validated it.
     pub solver_version: &'static str,
 }
@@ -80,6 +83,7 @@ pub fn validate(
         planned_work: cost.point_steps,
         planned_memory_bytes: cost.memory_bytes,
         labels,
+        terrains: Vec::new(),
         solver_version: scree_solver::VERSION,
     })
 }

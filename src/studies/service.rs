@@ -8,6 +8,7 @@ use crate::jobs::store::{
 };
 use crate::jobs::submit::Means;
 use crate::jobs::{JobService, News};
+use crate::terrains::TerrainHash;
 use scree_studies::{Member, MemberOutcome};
 use std::sync::Arc;
 use std::time::Duration;
@@ -86,7 +87,7 @@ impl StudyService {
         self.room
     }
 
-    /// Keeps a study; its members are made from now on.
+    /// Keeps a study whose members name these terrains; they are made from now on.
     ///
     /// # Errors
     /// The store's own.
@@ -94,6 +95,7 @@ impl StudyService {
         &self,
         (title, document): (&str, &str),
         (submitter, key): (Option<&str>, Option<&Key>),
+        terrains: &[TerrainHash],
     ) -> Result<(StudySubmitted, StudyId), StoreError> {
         let id = StudyId::new();
         let new = NewStudy {
@@ -102,6 +104,7 @@ impl StudyService {
             document,
             submitter,
             key,
+            terrains,
             room: self.room_for(submitter),
         };
         let submitted = self.store.add_study(&new).await?;

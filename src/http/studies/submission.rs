@@ -57,11 +57,14 @@ pub(in crate::http) async fn submit_study(
     let study = validated(&jobs, &caller, study).await?;
     let document = serde_json::to_string(&study).map_err(|error| Problem::internal(&error))?;
     let request = (caller.name(), key.as_ref());
-    let (submitted, id) = studies.submit((&study.title, &document), request).await?;
+    let (submitted, id) = studies
+        .submit((&study.title, &document), request, &[])
+        .await?;
     let id = match submitted {
         StudySubmitted::Accepted => id,
         StudySubmitted::Before(former) => former,
         StudySubmitted::OtherRequest => return Err(SubmitError::OtherRequest.into()),
+        StudySubmitted::NoTerrain(terrain) => return Err(SubmitError::NoTerrain(terrain).into()),
         StudySubmitted::Full(running) => return Err(full(running, studies.room())),
         StudySubmitted::QuotaSpent(own) => return Err(spent(own, studies.room_of_one())),
     };

@@ -23,6 +23,7 @@ pub mod sqlite;
 mod state;
 mod studies;
 mod submission;
+pub(crate) mod terrains;
 #[cfg(test)]
 mod tests;
 
@@ -41,3 +42,4 @@ pub use studies::{
     StudyDismissal, StudyEnd, StudyPage, StudyStore, StudySubmitted,
 };
 pub use submission::{Room, Submission, Submitted};
+pub use terrains::{NewTerrain, StoredTerrain, TerrainPage, TerrainRemoval, TerrainStore};

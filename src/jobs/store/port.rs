@@ -4,7 +4,7 @@
 use super::{
     AttemptStart, Claim, Claimant, Dismissal, Event, FailedAttempt, FormerRequest, JobCounts,
     JobPage, KeptAnswer, Key, KeyRetention, Lease, NewResults, Page, Removal, Renewal, Returned,
-    StoreError, StoredChunk, StoredState, Submission, Submitted,
+    StoreError, StoredChunk, StoredState, Submission, Submitted, TerrainStore,
 };
 use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus};
@@ -12,12 +12,11 @@ use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
 use crate::runs::Progress;
 use async_trait::async_trait;
-use std::fmt::Debug;
 use std::time::Duration;
 
 type Answer<T> = Result<T, StoreError>;
 
-/// A database of jobs. Every call is one transaction, applied whole or not at
+/// A database of jobs, and of the terrains that they name. Every call is one transaction, applied whole or not at
 /// all, and on disk when it returns.
 ///
 /// # Errors
@@ -27,10 +26,11 @@ type Answer<T> = Result<T, StoreError>;
 /// [`StoreError::Row`] if a row is unreadable, those that read blocks with
 /// [`StoreError::Block`] if a block is corrupt.
 #[async_trait]
-pub trait JobStore: Debug + Send + Sync {
+pub trait JobStore: TerrainStore {
     // The queue.
 
-    /// Puts the jobs of a request into the queue, all or none, unless its key came before.
+    /// Puts the jobs of a request into the queue, all or none, unless its key came before. Terrains
+    /// that they name are kept as long as they are.
     async fn submit(&self, submission: &Submission<'_>) -> Answer<Submitted>;
 
     /// The first request of this submitter with this key, if there was one.

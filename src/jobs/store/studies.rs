@@ -4,6 +4,7 @@ use super::{JobStore, Key, Removal, Room, StoreError};
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::submit::NewJob;
 use crate::studies::study::{MemberCounts, StoredStudy, StudyId, StudyStatus};
+use crate::terrains::TerrainHash;
 use async_trait::async_trait;
 
 type Answer<T> = Result<T, StoreError>;
@@ -91,6 +92,8 @@ pub struct NewStudy<'a> {
     pub submitter: Option<&'a str>,
     /// Its Idempotency-Key.
     pub key: Option<&'a Key>,
+    /// Terrains that its members name; kept as long as the study is.
+    pub terrains: &'a [TerrainHash],
     /// Largest number of studies that may run at a time: of all submitters together, and of this
     /// one.
     pub room: Room,
@@ -109,6 +112,8 @@ pub enum StudySubmitted {
     Full(u32),
     /// Too many studies of this submitter run: their number.
     QuotaSpent(u32),
+    /// The study names this terrain, which does not exist, or not any more.
+    NoTerrain(TerrainHash),
 }
 
 /// Selection of studies for a list, newest first.

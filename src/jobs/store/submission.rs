@@ -2,6 +2,7 @@
 
 use super::{FormerRequest, Key, StudySubmitted};
 use crate::jobs::submit::NewJob;
+use crate::terrains::TerrainHash;
 
 /// Contents of one request.
 #[derive(Debug, Clone, Copy)]
@@ -36,6 +37,8 @@ pub enum Submitted {
     QueueFull(u32),
     /// The quota is used up: number of jobs of this submitter that wait or run.
     QuotaSpent(u32),
+    /// A job names this terrain, which does not exist, or not any more.
+    NoTerrain(TerrainHash),
 }
 
 impl Submission<'_> {

@@ -35,6 +35,7 @@ mod states;
 mod studies;
 mod study_members;
 mod submission;
+mod terrains;
 #[cfg(test)]
 pub(super) mod tests;
 mod webhooks;

@@ -9,14 +9,16 @@ use crate::jobs::job::{Job, JobId, JobStatus};
 use crate::jobs::store::{
     AttemptStart, Claim, Claimant, Dismissal, EndedMember, Enlarged, Event, FailedAttempt,
     FormerRequest, JobCounts, JobPage, JobStore, KeptAnswer, Key, KeyRetention, Lease,
-    ListedMember, MemberOutcome, NewMember, NewResults, NewStudy, Page, Removal, Renewal, Returned,
-    Room, StoreError, StoredChunk, StoredState, StudyDismissal, StudyEnd, StudyPage, StudyStore,
-    StudySubmitted, Submission, Submitted,
+    ListedMember, MemberOutcome, NewMember, NewResults, NewStudy, NewTerrain, Page, Removal,
+    Renewal, Returned, Room, StoreError, StoredChunk, StoredState, StoredTerrain, StudyDismissal,
+    StudyEnd, StudyPage, StudyStore, StudySubmitted, Submission, Submitted, TerrainPage,
+    TerrainRemoval, TerrainStore,
 };
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
 use crate::runs::Progress;
 use crate::studies::study::{MemberCounts, StoredStudy, StudyId};
+use crate::terrains::TerrainHash;
 use async_trait::async_trait;
 use std::time::Duration;
 use tokio::time::timeout;
@@ -336,5 +338,32 @@ impl StudyStore for PostgresStore {
 
     async fn remove_orphans(&self) -> Result<u64, StoreError> {
         within(Self::remove_orphans(self)).await
+    }
+}
+
+#[async_trait]
+impl TerrainStore for PostgresStore {
+    async fn put_terrain(&self, terrain: &NewTerrain<'_>) -> Result<bool, StoreError> {
+        within(Self::put_terrain(self, terrain)).await
+    }
+
+    async fn terrain(&self, hash: TerrainHash) -> Result<Option<StoredTerrain>, StoreError> {
+        within(Self::terrain(self, hash)).await
+    }
+
+    async fn terrain_piece(
+        &self,
+        hash: TerrainHash,
+        piece: u32,
+    ) -> Result<Option<Vec<u8>>, StoreError> {
+        within(Self::terrain_piece(self, hash, piece)).await
+    }
+
+    async fn terrains(&self, page: &TerrainPage) -> Result<Vec<StoredTerrain>, StoreError> {
+        within(Self::terrains(self, page)).await
+    }
+
+    async fn remove_terrain(&self, hash: TerrainHash) -> Result<TerrainRemoval, StoreError> {
+        within(Self::remove_terrain(self, hash)).await
     }
 }

@@ -4,6 +4,7 @@ use super::error::Answer;
 use super::locks::Turn;
 use super::news::Subject;
 use super::submission::text;
+use super::terrains::name_in_study;
 use super::{Now, PostgresStore};
 use crate::jobs::job::JobId;
 use crate::jobs::store::page::REMOVED_AT_ONCE;
@@ -52,6 +53,10 @@ impl PostgresStore {
         .bind(study.key.map(|key| &key.request_hash[..]))
         .execute(&mut *transaction)
         .await?;
+        let id = study.id.to_string();
+        if let Some(missing) = name_in_study(&mut transaction, &id, study.terrains).await? {
+            return Ok(StudySubmitted::NoTerrain(missing));
+        }
         transaction.commit().await?;
         self.news.tell(&[Subject::Events]);
         Ok(StudySubmitted::Accepted)

@@ -4,8 +4,9 @@ use super::error::Answer;
 use super::news::Subject;
 use super::studies::locked_status;
 use super::submission::insert;
+use super::terrains::name_in_job;
 use super::{Now, PostgresStore};
-use crate::jobs::store::rows::{EndedRow, MemberRow, integer, member_outcome};
+use crate::jobs::store::rows::{EndedRow, MemberRow, integer, member_outcome, terrain_is_gone};
 use crate::jobs::store::submission::Origin;
 use crate::jobs::store::{EndedMember, ListedMember, MemberOutcome, MemberWork, NewMember};
 use crate::jobs::submit::NewJob;
@@ -224,5 +225,9 @@ async fn job_of(
         return Ok(id);
     }
     insert(connection, job, (submitter, Origin::Study), now).await?;
-    Ok(job.id.to_string())
+    let id = job.id.to_string();
+    if let Some(missing) = name_in_job(connection, &id, &job.terrains).await? {
+        return Err(terrain_is_gone(missing).into());
+    }
+    Ok(id)
 }

@@ -4,6 +4,7 @@ use super::error::Answer;
 use super::keyed_requests::{former_request, keep_key};
 use super::locks::Turn;
 use super::news::Subject;
+use super::terrains::name_in_job;
 use super::{Now, PostgresStore};
 use crate::jobs::job::JobId;
 use crate::jobs::store::rows::{integer, job_id};
@@ -35,6 +36,10 @@ impl PostgresStore {
         for job in submission.jobs {
             let origin = Origin::Request(request);
             insert(&mut transaction, job, (submitter, origin), now).await?;
+            let id = job.id.to_string();
+            if let Some(missing) = name_in_job(&mut transaction, &id, &job.terrains).await? {
+                return Ok(Submitted::NoTerrain(missing));
+            }
         }
         transaction.commit().await?;
         self.news.tell(&[Subject::Queue, Subject::Events]);

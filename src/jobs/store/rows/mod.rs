@@ -8,6 +8,7 @@ mod keyed_requests;
 mod pages;
 mod records;
 mod studies;
+mod terrains;
 
 pub(super) use attempts::AttemptRow;
 pub(super) use events::EventRow;
@@ -19,6 +20,7 @@ pub(super) use studies::{
     EndedRow, MemberRow, StudyRow, counts, former_study, made_by_level, member_outcome,
     parse_study, study_status,
 };
+pub(super) use terrains::{TerrainRow, terrain_is_gone};
 
 use super::{Claim, Lease, StoreError};
 use crate::jobs::job::{JobId, JobStatus};

@@ -4,6 +4,7 @@ use super::SqliteStore;
 use super::error::Answer;
 use super::queue::dismiss_row;
 use super::size_limit::Purpose;
+use super::terrains::name_in_study;
 use crate::jobs::job::JobId;
 use crate::jobs::store::page::REMOVED_AT_ONCE;
 use crate::jobs::store::rows::{self, StudyRow, counts, job_id, parse_study, study_status};
@@ -45,6 +46,10 @@ impl SqliteStore {
         .bind(study.key.map(|key| &key.request_hash[..]))
         .execute(&mut *transaction)
         .await?;
+        let id = study.id.to_string();
+        if let Some(missing) = name_in_study(&mut transaction, &id, study.terrains).await? {
+            return Ok(StudySubmitted::NoTerrain(missing));
+        }
         transaction.commit().await?;
         Ok(StudySubmitted::Accepted)
     }

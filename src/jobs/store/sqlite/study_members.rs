@@ -4,8 +4,11 @@ use super::error::Answer;
 use super::size_limit::Purpose;
 use super::studies::status_of;
 use super::submission::insert;
+use super::terrains::name_in_job;
 use super::{Now, SqliteStore};
-use crate::jobs::store::rows::{EndedRow, MemberRow, integer, made_by_level, member_outcome};
+use crate::jobs::store::rows::{
+    EndedRow, MemberRow, integer, made_by_level, member_outcome, terrain_is_gone,
+};
 use crate::jobs::store::submission::Origin;
 use crate::jobs::store::{EndedMember, ListedMember, MemberOutcome, MemberWork, NewMember};
 use crate::jobs::submit::NewJob;
@@ -182,5 +185,9 @@ async fn job_of(
         return Ok(id);
     }
     insert(connection, job, (submitter, Origin::Study), now).await?;
-    Ok(job.id.to_string())
+    let id = job.id.to_string();
+    if let Some(missing) = name_in_job(connection, &id, &job.terrains).await? {
+        return Err(terrain_is_gone(missing).into());
+    }
+    Ok(id)
 }

@@ -3,6 +3,7 @@
 use super::error::Answer;
 use super::keyed_requests::{former_request, keep_key};
 use super::size_limit::Purpose;
+use super::terrains::name_in_job;
 use super::{Now, SqliteStore};
 use crate::jobs::job::JobId;
 use crate::jobs::store::rows::{integer, job_id};
@@ -34,6 +35,10 @@ impl SqliteStore {
         for job in submission.jobs {
             let origin = Origin::Request(request);
             insert(&mut transaction, job, (submitter, origin), now).await?;
+            let id = job.id.to_string();
+            if let Some(missing) = name_in_job(&mut transaction, &id, &job.terrains).await? {
+                return Ok(Submitted::NoTerrain(missing));
+            }
         }
         transaction.commit().await?;
         Ok(Submitted::Accepted)

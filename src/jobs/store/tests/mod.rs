@@ -1,5 +1,5 @@
 //! Rules for every driver of the job store ([`conformance`], [`clocks`], [`pages`],
-//! [`races`], [`studies`], [`model`]). Those of one driver alone are in its folder.
+//! [`races`], [`studies`], [`terrains`], [`model`]). Those of one driver alone are in its folder.
 
 /// Makes each rule a test of every driver; a further driver is one line here.
 macro_rules! conformance {
@@ -33,6 +33,7 @@ mod model;
 mod pages;
 mod races;
 mod studies;
+mod terrains;
 
 use super::*;
 use crate::jobs::clock::Clock;
@@ -196,6 +197,7 @@ pub(super) fn new_job() -> NewJob {
         planned_work: 10,
         planned_memory_bytes: 1_000,
         labels: Vec::new(),
+        terrains: Vec::new(),
         solver_version: "1",
     }
 }

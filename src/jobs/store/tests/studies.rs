@@ -63,6 +63,7 @@ pub(super) fn new_study(id: StudyId, title: &str) -> NewStudy<'_> {
         document: "{}",
         submitter: None,
         key: None,
+        terrains: &[],
         room: room(100, None),
     }
 }
