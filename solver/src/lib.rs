@@ -46,6 +46,7 @@ pub mod math;
 pub mod motion;
 pub mod plan;
 pub mod points;
+pub mod raster;
 pub mod record;
 pub mod rigid;
 pub mod scenario;

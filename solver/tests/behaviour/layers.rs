@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Layers, lowest first. The scenario is a description that depends on shapes only; the
 /// simulation reads it.
 const LAYERS: [&[&str]; 10] = [
-    &["cancellation", "math", "error", "method"],
+    &["cancellation", "math", "error", "method", "raster"],
     &["stability"],
     &[
         "kernel",
