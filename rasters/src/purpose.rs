@@ -1,0 +1,65 @@
+//! What the values of a raster mean.
+
+use std::ops::RangeInclusive;
+
+/// What the values of a raster mean, and so which are possible.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// Heights of the ground, −500 m to 9000 m, without holes and without steps between
+    /// neighbours that no ground has.
+    HeightMap,
+    /// Heights of a surface surveyed before or after an event, −500 m to 9000 m; holes remain.
+    Surface,
+    /// Thickness of a release, 0 m to 1000 m; holes have none.
+    Thickness,
+    /// Coefficient of friction, 0 to 10, without holes.
+    Friction,
+}
+
+/// What becomes of holes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Holes {
+    /// They make the raster useless.
+    Refused,
+    /// They remain.
+    Kept,
+    /// They are the number zero.
+    Zero,
+}
+
+impl Purpose {
+    /// What a value is called.
+    pub(crate) fn quantity(self) -> &'static str {
+        match self {
+            Self::HeightMap | Self::Surface => "height",
+            Self::Thickness => "thickness",
+            Self::Friction => "coefficient of friction",
+        }
+    }
+
+    /// Unit after a number, with the space before it.
+    pub(crate) fn unit(self) -> &'static str {
+        match self {
+            Self::HeightMap | Self::Surface | Self::Thickness => " m",
+            Self::Friction => "",
+        }
+    }
+
+    /// Possible values.
+    pub(crate) fn range(self) -> RangeInclusive<f64> {
+        match self {
+            Self::HeightMap | Self::Surface => -500.0..=9000.0,
+            Self::Thickness => 0.0..=1000.0,
+            Self::Friction => 0.0..=10.0,
+        }
+    }
+
+    /// What becomes of holes.
+    pub(crate) fn holes(self) -> Holes {
+        match self {
+            Self::HeightMap | Self::Friction => Holes::Refused,
+            Self::Surface => Holes::Kept,
+            Self::Thickness => Holes::Zero,
+        }
+    }
+}
