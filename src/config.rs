@@ -243,6 +243,10 @@ impl ServiceConfig {
         for (key, value) in [
             ("limits.header_read_timeout_s", limits.header_read_timeout_s),
             ("limits.body_read_timeout_s", limits.body_read_timeout_s),
+            (
+                "limits.terrain_read_timeout_s",
+                limits.terrain_read_timeout_s,
+            ),
             ("limits.write_timeout_s", limits.write_timeout_s),
             ("limits.request_timeout_s", limits.request_timeout_s),
             ("limits.drain_timeout_s", limits.drain_timeout_s),

@@ -5,11 +5,12 @@ use crate::database::{self, Part};
 use crate::http::{self, Services};
 use crate::jobs::pool::{Pool, PoolStart};
 use crate::jobs::store::sqlite::backup;
-use crate::jobs::store::{JobStore, StoreError, StoreErrorKind, StudyStore};
+use crate::jobs::store::{JobStore, StoreError, StoreErrorKind, StudyStore, TerrainStore};
 use crate::jobs::submit::Means;
 use crate::jobs::{AdmissionPool, Followers, JobLimits, JobService};
 use crate::machine::cores;
 use crate::studies::{self, StudyService};
+use crate::terrains::TerrainService;
 use crate::webhooks;
 use std::io;
 use std::net::SocketAddr;
@@ -190,11 +191,17 @@ async fn serve(
     let pool = Pool::start(Arc::clone(store), config, start).map_err(StartError::Workers)?;
     let (stop, stopped) = watch::channel(false);
     let (followers, news) = Followers::start(Arc::clone(store), stopped.clone());
+    let admission = AdmissionPool::new(&config.admission, cores());
+    let terrains = TerrainService::new(
+        Arc::clone(studies_store) as Arc<dyn TerrainStore>,
+        admission.clone(),
+        config.limits.clone(),
+    );
     let jobs = JobService::new(
         Arc::clone(store),
         pool.registry(),
         config.limits.clone(),
-        (AdmissionPool::new(&config.admission, cores()), means),
+        (admission, means),
         followers,
     );
     let webhooks = webhooks::start(&config.webhooks, store, &jobs, &stopped);
@@ -205,7 +212,14 @@ async fn serve(
         (config.limits.studies, config.retention.ended_jobs()),
     );
     let driver = studies::driver::start(studies.clone());
-    let router = http::router(Services { jobs, studies }, config);
+    let router = http::router(
+        Services {
+            jobs,
+            studies,
+            terrains,
+        },
+        config,
+    );
     let server = http::server::serve(listener, router, config.limits.clone(), stopped);
     Ok(Tasks {
         pool,

@@ -10,6 +10,13 @@ use std::time::Duration;
 pub struct Limits {
     /// Largest request body [bytes].
     pub request_body_bytes: usize,
+    /// Largest file of a terrain [bytes].
+    pub terrain_file_bytes: usize,
+    /// Terrains that may be uploaded at the same time, each in memory meanwhile; more are refused with
+    /// 429, and so are those of one caller (token or address) beyond half of it.
+    pub terrain_uploads: usize,
+    /// Longest wait for the file of a terrain [s].
+    pub terrain_read_timeout_s: f64,
     /// Longest wait for the head of a request [s].
     pub header_read_timeout_s: f64,
     /// Longest wait for the body of a request [s].
@@ -54,6 +61,9 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             request_body_bytes: 1024 * 1024,
+            terrain_file_bytes: 64 * 1024 * 1024,
+            terrain_uploads: 4,
+            terrain_read_timeout_s: 60.0,
             header_read_timeout_s: 10.0,
             body_read_timeout_s: 10.0,
             write_timeout_s: 10.0,
@@ -79,6 +89,8 @@ impl Limits {
     pub(super) fn check(&self) -> Result<(), ConfigError> {
         for (key, value) in [
             ("limits.request_body_bytes", self.request_body_bytes),
+            ("limits.terrain_file_bytes", self.terrain_file_bytes),
+            ("limits.terrain_uploads", self.terrain_uploads),
             ("limits.connections", self.connections),
             (
                 "limits.connections_per_address",
@@ -111,6 +123,16 @@ impl Limits {
             }
         }
         Ok(())
+    }
+
+    /// Terrains that one caller may upload at the same time.
+    pub fn terrain_uploads_per_caller(&self) -> usize {
+        (self.terrain_uploads / 2).max(1)
+    }
+
+    /// Longest wait for the file of a terrain.
+    pub fn terrain_read_timeout(&self) -> Duration {
+        Duration::from_secs_f64(self.terrain_read_timeout_s)
     }
 
     /// Longest wait for the head of a request.

@@ -122,7 +122,7 @@ impl Caller {
             return Ok(());
         }
         Err(forbidden(
-            "the job is not this token's, which lacks the scope \"admin\"",
+            "what is to be changed is not this token's, which lacks the scope \"admin\"",
         ))
     }
 }
@@ -149,8 +149,9 @@ pub(super) async fn check(State(gate): State<Gate>, mut request: Request, next: 
         return unauthorised();
     };
     let scope = needed(request.method());
-    // Whether a job is the caller's own shows once it is found.
-    let may_be_own = scope == Scope::Read && names_a_job(request.uri().path());
+    // Whether a job is the caller's own shows once it is found; the name of a terrain is known to those
+    // who have its file.
+    let may_be_own = scope == Scope::Read && names_one(request.uri().path());
     let allowed = caller.may(scope) || (may_be_own && caller.may(Scope::Submit));
     if !allowed {
         return forbidden(&format!("the token lacks the scope \"{}\"", scope.word()))
@@ -165,10 +166,10 @@ pub(super) fn is_open(path: &str) -> bool {
     OPEN.contains(&path) || page::is_page(path) || ogc::is_description(path)
 }
 
-fn names_a_job(path: &str) -> bool {
-    ["/v1/jobs/", "/ogc/jobs/"]
+fn names_one(path: &str) -> bool {
+    ["/v1/jobs/", "/ogc/jobs/", "/v1/terrains/"]
         .iter()
-        .any(|jobs| path.starts_with(jobs))
+        .any(|all| path.starts_with(all))
 }
 
 fn needed(method: &Method) -> Scope {

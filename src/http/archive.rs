@@ -37,7 +37,7 @@ impl ToSchema for Frames {
 }
 
 /// Schema of bytes.
-fn binary(description: &str) -> RefOr<Schema> {
+pub(super) fn binary(description: &str) -> RefOr<Schema> {
     ObjectBuilder::new()
         .schema_type(Type::String)
         .format(Some(SchemaFormat::KnownFormat(KnownFormat::Binary)))

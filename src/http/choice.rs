@@ -4,6 +4,7 @@ use super::query::{Query, with_nearest};
 use crate::jobs::job::JobStatus;
 use crate::results::table::{Field, Format};
 use crate::studies::study::StudyStatus;
+use crate::terrains::FilePurpose;
 use utoipa::ToSchema;
 
 /// A value that is one of a few words.
@@ -75,6 +76,16 @@ impl Choice for Remove {
 }
 
 impl Choice for StudyStatus {
+    fn all() -> Vec<Self> {
+        Self::ALL.to_vec()
+    }
+
+    fn word(self) -> &'static str {
+        Self::word(self)
+    }
+}
+
+impl Choice for FilePurpose {
     fn all() -> Vec<Self> {
         Self::ALL.to_vec()
     }

@@ -15,7 +15,7 @@ use utoipa::openapi::{
 };
 
 /// Groups of requests, in reading order.
-const TAGS: [(&str, &str); 6] = [
+const TAGS: [(&str, &str); 7] = [
     (
         "plans",
         "What a job would compute and cost, before it is submitted.",
@@ -23,6 +23,10 @@ const TAGS: [(&str, &str); 6] = [
     (
         "jobs",
         "Submit scenarios, follow their jobs, dismiss and remove them.",
+    ),
+    (
+        "terrains",
+        "Upload the rasters that scenarios name, and read them.",
     ),
     (
         "results",

@@ -6,7 +6,7 @@ use utoipa::openapi::path::Operation;
 use utoipa::openapi::{Components, Content, Ref, RefOr};
 
 /// JSON documents, by the names of their schemas.
-const DOCUMENTS: [(&str, &str); 16] = [
+const DOCUMENTS: [(&str, &str); 18] = [
     ("Batch", include_str!("../../api/examples/batch.json")),
     (
         "BatchAnswer",
@@ -20,6 +20,11 @@ const DOCUMENTS: [(&str, &str); 16] = [
     ("Job", include_str!("../../api/examples/job.json")),
     ("JobPage", include_str!("../../api/examples/job-page.json")),
     ("Planned", include_str!("../../api/examples/planned.json")),
+    ("Terrain", include_str!("../../api/examples/terrain.json")),
+    (
+        "TerrainPage",
+        include_str!("../../api/examples/terrain-page.json"),
+    ),
     (
         "Trajectory",
         include_str!("../../api/examples/trajectory.json"),

@@ -43,6 +43,7 @@ mod static_text;
 mod studies;
 mod submission;
 mod system;
+mod terrains;
 mod tracked_body;
 mod trajectory;
 mod turns;

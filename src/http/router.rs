@@ -10,7 +10,7 @@ use super::shares::{self, Shares};
 use super::static_text::StaticText;
 use super::{
     batch, compression, contract, drawings, events, flow, jobs, listing, ogc, page, plans, studies,
-    submission, system, trajectory,
+    submission, system, terrains, trajectory,
 };
 use crate::config::ServiceConfig;
 use crate::jobs::submit::excerpt;
@@ -99,6 +99,7 @@ fn documented(limit: Duration) -> OpenApiRouter<Services> {
         .routes(routes!(system::ready))
         .routes(routes!(metrics::metrics))
         .merge(studies::quick())
+        .merge(terrains::quick())
         .merge(ogc::quick())
         .layer(from_fn(move |request, next| in_time(limit, request, next)));
     let mut all = OpenApiRouter::with_openapi(contract::begin())
@@ -109,6 +110,7 @@ fn documented(limit: Duration) -> OpenApiRouter<Services> {
         .routes(routes!(batch::submit_batch))
         .routes(routes!(plans::plan))
         .merge(studies::submitting())
+        .merge(terrains::uploading())
         .merge(ogc::waiting())
         .merge(quick);
     contract::finish(all.get_openapi_mut());

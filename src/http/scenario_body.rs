@@ -4,7 +4,7 @@ use super::problem::Problem;
 use crate::jobs::submit::excerpt;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Request};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, HeaderName, StatusCode, header};
 use hyper::body::Body as _;
 use serde::de::DeserializeOwned;
 use tokio::time::{Instant, timeout_at};
@@ -31,12 +31,12 @@ impl<S: Send + Sync> FromRequest<S> for ScenarioText {
         let limits = limits.ok_or_else(|| Problem::internal("a body without limits"))?;
         // A length that is announced is refused before the body is asked for (100 Continue).
         if request.body().size_hint().lower() > limits.bytes as u64 {
-            return Err(too_large(limits.bytes));
+            return Err(too_large(LARGEST_BODY, limits.bytes));
         }
         let body = timeout_at(limits.deadline, Bytes::from_request(request, state)).await;
-        let body = body.map_err(|_| too_slow())?;
+        let body = body.map_err(|_| too_slow("limits.body_read_timeout_s"))?;
         let bytes = body.map_err(|rejection| match rejection.status() {
-            StatusCode::PAYLOAD_TOO_LARGE => too_large(limits.bytes),
+            StatusCode::PAYLOAD_TOO_LARGE => too_large(LARGEST_BODY, limits.bytes),
             _ => malformed(&rejection.body_text()),
         })?;
         let text = String::from_utf8(bytes.into());
@@ -45,21 +45,26 @@ impl<S: Send + Sync> FromRequest<S> for ScenarioText {
     }
 }
 
-fn too_large(limit: usize) -> Problem {
+/// Key of the largest body.
+const LARGEST_BODY: &str = "limits.request_body_bytes";
+
+/// A body larger than this key of the configuration allows.
+pub(super) fn too_large(key: &str, limit: usize) -> Problem {
     Problem::new(
         StatusCode::PAYLOAD_TOO_LARGE,
         "too-large",
         "Body too large",
-        format!("the body is larger than limits.request_body_bytes of this service, {limit} bytes"),
+        format!("the body is larger than {key} of this service, {limit} bytes"),
     )
 }
 
-fn too_slow() -> Problem {
+/// A body that takes longer than this key of the configuration allows.
+pub(super) fn too_slow(key: &str) -> Problem {
     Problem::new(
         StatusCode::REQUEST_TIMEOUT,
         "too-slow",
         "Body too slow",
-        "the body took longer than limits.body_read_timeout_s of this service",
+        format!("the body took longer than {key} of this service"),
     )
 }
 
@@ -97,13 +102,7 @@ fn without_long_texts(error: &serde_json::Error) -> String {
 
 /// Checks that the body is declared as JSON in UTF-8, uncompressed.
 fn check_media_type(headers: &HeaderMap) -> Result<(), Problem> {
-    let text = |name| {
-        let value = headers.get(name)?.to_str().ok()?;
-        Some(value.trim().to_ascii_lowercase())
-    };
-    let content_type = text(header::CONTENT_TYPE).unwrap_or_default();
-    let mut parts = content_type.split(';').map(str::trim);
-    let essence = parts.next().unwrap_or_default();
+    let essence = essence(headers);
     let is_json = essence == "application/json"
         || (essence.starts_with("application/") && essence.ends_with("+json"));
     if !is_json {
@@ -111,11 +110,30 @@ fn check_media_type(headers: &HeaderMap) -> Result<(), Problem> {
             "a scenario is sent as Content-Type: application/json",
         ));
     }
-    let charset = parts.find_map(|part| part.strip_prefix("charset="));
+    let content_type = text(headers, header::CONTENT_TYPE).unwrap_or_default();
+    let mut parameters = content_type.split(';').map(str::trim).skip(1);
+    let charset = parameters.find_map(|part| part.strip_prefix("charset="));
     if charset.is_some_and(|charset| charset.trim_matches('"') != "utf-8") {
         return Err(unsupported("JSON is sent in UTF-8"));
     }
-    match text(header::CONTENT_ENCODING).as_deref() {
+    check_encoding(headers)
+}
+
+/// Media type of the body, without parameters.
+pub(super) fn essence(headers: &HeaderMap) -> String {
+    let content_type = text(headers, header::CONTENT_TYPE).unwrap_or_default();
+    let essence = content_type.split(';').next().unwrap_or_default();
+    essence.trim().to_owned()
+}
+
+fn text(headers: &HeaderMap, name: HeaderName) -> Option<String> {
+    let value = headers.get(name)?.to_str().ok()?;
+    Some(value.trim().to_ascii_lowercase())
+}
+
+/// Checks that the body is declared as uncompressed.
+pub(super) fn check_encoding(headers: &HeaderMap) -> Result<(), Problem> {
+    match text(headers, header::CONTENT_ENCODING).as_deref() {
         None | Some("identity") => Ok(()),
         Some(_) => Err(unsupported(
             "a body is sent as it is, without Content-Encoding",
@@ -123,7 +141,7 @@ fn check_media_type(headers: &HeaderMap) -> Result<(), Problem> {
     }
 }
 
-fn unsupported(rule: &str) -> Problem {
+pub(super) fn unsupported(rule: &str) -> Problem {
     Problem::new(
         StatusCode::UNSUPPORTED_MEDIA_TYPE,
         "unsupported-media-type",

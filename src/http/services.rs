@@ -2,6 +2,7 @@
 
 use crate::jobs::JobService;
 use crate::studies::StudyService;
+use crate::terrains::TerrainService;
 use axum::extract::FromRef;
 
 /// Services that requests use.
@@ -11,6 +12,8 @@ pub struct Services {
     pub jobs: JobService,
     /// Studies.
     pub studies: StudyService,
+    /// Terrains.
+    pub terrains: TerrainService,
 }
 
 impl FromRef<Services> for JobService {
@@ -22,5 +25,11 @@ impl FromRef<Services> for JobService {
 impl FromRef<Services> for StudyService {
     fn from_ref(services: &Services) -> Self {
         services.studies.clone()
+    }
+}
+
+impl FromRef<Services> for TerrainService {
+    fn from_ref(services: &Services) -> Self {
+        services.terrains.clone()
     }
 }

@@ -16,6 +16,8 @@ pub struct AdmissionPool {
     threads: FairQueue,
     /// The one thread of timings, which would slow each other.
     timings: FairQueue,
+    /// The one thread of rasters, which take much memory.
+    rasters: FairQueue,
     requests: Quota,
     time_limit: Duration,
 }
@@ -66,6 +68,7 @@ impl AdmissionPool {
         Self {
             threads: FairQueue::new(limits.threads(cores)),
             timings: FairQueue::new(1),
+            rasters: FairQueue::new(1),
             requests: Quota::new(limits.requests, limits.requests_per_caller()),
             time_limit: limits.time_limit(),
         }
@@ -134,6 +137,17 @@ impl Admitted {
         work: impl FnOnce(&Cancellation) -> T + Send + 'static,
     ) -> Result<T, AdmissionError> {
         self.work_on(&self.pool.timings, work).await
+    }
+
+    /// Reads the file of a raster: no other is read meanwhile, so that only one takes memory.
+    ///
+    /// # Errors
+    /// The time is over, or the work panicked.
+    pub async fn read_raster<T: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> T + Send + 'static,
+    ) -> Result<T, AdmissionError> {
+        self.work_on(&self.pool.rasters, |_| work()).await
     }
 
     async fn work_on<T: Send + 'static>(

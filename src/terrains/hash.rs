@@ -21,6 +21,22 @@ impl TerrainHash {
     }
 }
 
+/// Hash of a file that comes piece by piece.
+#[derive(Debug, Clone, Default)]
+pub(super) struct TerrainHasher(Sha256);
+
+impl TerrainHasher {
+    /// Takes the next piece.
+    pub(super) fn update(&mut self, piece: &[u8]) {
+        self.0.update(piece);
+    }
+
+    /// Name of the terrain with all pieces.
+    pub(super) fn finish(self) -> TerrainHash {
+        TerrainHash(self.0.finalize().into())
+    }
+}
+
 impl Display for TerrainHash {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         self.0

@@ -15,7 +15,7 @@ fn token(name: &str, scopes: &[Scope]) -> Token {
     }
 }
 
-fn with_tokens(config: &mut ServiceConfig) {
+pub(crate) fn with_tokens(config: &mut ServiceConfig) {
     config.tokens = vec![
         token("ann", &[Scope::Submit, Scope::Read]),
         token("ben", &[Scope::Submit, Scope::Read]),

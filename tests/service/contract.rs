@@ -2,7 +2,7 @@
 //! serves it, and real answers conform to it.
 
 use crate::app::{TestApp, tiny_scene};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -58,13 +58,15 @@ async fn the_service_serves_its_contract_and_keeps_to_it() {
 }
 
 /// Documents of `api/examples` and their schemas.
-const EXAMPLES: [(&str, &str); 13] = [
+const EXAMPLES: [(&str, &str); 15] = [
     ("batch-answer.json", "BatchAnswer"),
     ("flow-snapshot.json", "FlowSnapshot"),
     ("health.json", "Health"),
     ("job.json", "Job"),
     ("job-page.json", "JobPage"),
     ("planned.json", "Planned"),
+    ("terrain.json", "Terrain"),
+    ("terrain-page.json", "TerrainPage"),
     ("trajectory.json", "Trajectory"),
     ("ogc/landing-page.json", "LandingPage"),
     ("ogc/conformance.json", "Conformance"),
@@ -157,20 +159,22 @@ impl Contract {
     }
 
     /// The properties of an object; of alternatives, those of the one that has
-    /// the field.
-    fn properties<'a>(
-        &'a self,
-        schema: &'a Value,
-        field: Option<&String>,
-    ) -> Option<&'a serde_json::Map<String, Value>> {
+    /// the field, and of parts those of all.
+    fn properties(&self, schema: &Value, field: Option<&String>) -> Option<Map<String, Value>> {
         if let Some(properties) = schema["properties"].as_object() {
-            return Some(properties);
+            return Some(properties.clone());
+        }
+        if let Some(parts) = schema["allOf"].as_array() {
+            let parts = parts.iter().map(|part| self.resolve(part));
+            let all = parts.filter_map(|part| self.properties(part, field));
+            return Some(all.flatten().collect());
         }
         let alternatives = schema["oneOf"].as_array()?;
         alternatives
             .iter()
             .filter_map(|alternative| self.resolve(alternative)["properties"].as_object())
             .find(|properties| field.is_some_and(|field| properties.contains_key(field)))
+            .cloned()
     }
 
     fn resolve<'a>(&'a self, schema: &'a Value) -> &'a Value {

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder of the service, and the names that none of its files may contain.
-const RULES: [(&str, &[&str]); 8] = [
+const RULES: [(&str, &[&str]); 9] = [
     ("src/http", &["sqlx", "scree_solver", "SELECT ", "rayon"]),
     ("src/jobs", &["axum", "hyper", "crate::http"]),
     (
@@ -15,6 +15,10 @@ const RULES: [(&str, &[&str]); 8] = [
     ),
     (
         "src/studies",
+        &["sqlx", "axum", "hyper", "crate::http", "SELECT "],
+    ),
+    (
+        "src/terrains",
         &["sqlx", "axum", "hyper", "crate::http", "SELECT "],
     ),
     (

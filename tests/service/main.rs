@@ -27,4 +27,5 @@ mod runs;
 mod scenarios;
 mod studies;
 mod study_levels;
+mod terrains;
 mod webhooks;

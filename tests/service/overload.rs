@@ -40,7 +40,7 @@ async fn send(app: &TestApp, method: &str, path: &str, body: &str) -> TcpStream 
 }
 
 /// The first line of the answer.
-async fn status_line(stream: &mut TcpStream) -> String {
+pub(crate) async fn status_line(stream: &mut TcpStream) -> String {
     let mut line = Vec::new();
     while !line.ends_with(b"\r\n") {
         let byte = timeout(DEADLINE, stream.read_u8()).await.unwrap();

@@ -74,6 +74,10 @@ pub(super) async fn all(folder: &Path) {
     for (name, answer) in ogc(&app, id).await {
         document(&format!("ogc/{name}.json"), &answer);
     }
+    let height_map = include_bytes!("../../../rasters/tests/files/tiled-zstd-uint16.tif");
+    let terrain = app.post_to("/v1/terrains", "image/tiff", &height_map[..]);
+    document("terrain.json", &terrain.await.body);
+    document("terrain-page.json", &app.get("/v1/terrains").await.body);
     document("problems.json", &problems(&app, &path).await);
     app.stop().await;
 }

@@ -29,14 +29,7 @@ impl PostgresStore {
         let Some(sequence) = sequence else {
             return Ok(false);
         };
-        for (piece, data) in terrain.file.chunks(PIECE_BYTES).enumerate() {
-            sqlx::query("INSERT INTO terrain_pieces (terrain, piece, data) VALUES ($1, $2, $3)")
-                .bind(sequence)
-                .bind(integer(piece as u64))
-                .bind(data)
-                .execute(&mut *transaction)
-                .await?;
-        }
+        write_file(&mut transaction, sequence, terrain.file).await?;
         transaction.commit().await?;
         Ok(true)
     }
@@ -88,18 +81,8 @@ impl PostgresStore {
         let Some(sequence) = sequence else {
             return Ok(TerrainRemoval::Unknown);
         };
-        let (jobs, studies): (i64, i64) = sqlx::query_as(
-            "SELECT (SELECT count(*) FROM job_terrains WHERE terrain = $1),
-                    (SELECT count(*) FROM study_terrains WHERE terrain = $1)",
-        )
-        .bind(sequence)
-        .fetch_one(&mut *transaction)
-        .await?;
-        if (jobs, studies) != (0, 0) {
-            return Ok(TerrainRemoval::InUse {
-                jobs: jobs.unsigned_abs(),
-                studies: studies.unsigned_abs(),
-            });
+        if let Some(in_use) = uses(&mut transaction, sequence).await? {
+            return Ok(in_use);
         }
         sqlx::query("DELETE FROM terrains WHERE sequence = $1")
             .bind(sequence)
@@ -108,6 +91,34 @@ impl PostgresStore {
         transaction.commit().await?;
         Ok(TerrainRemoval::Removed)
     }
+}
+
+async fn write_file(connection: &mut PgConnection, terrain: i64, file: &[u8]) -> Answer<()> {
+    for (piece, data) in file.chunks(PIECE_BYTES).enumerate() {
+        sqlx::query("INSERT INTO terrain_pieces (terrain, piece, data) VALUES ($1, $2, $3)")
+            .bind(terrain)
+            .bind(integer(piece as u64))
+            .bind(data)
+            .execute(&mut *connection)
+            .await?;
+    }
+    Ok(())
+}
+
+/// The jobs and studies that name a terrain, which can't be removed then.
+async fn uses(connection: &mut PgConnection, terrain: i64) -> Answer<Option<TerrainRemoval>> {
+    let (jobs, studies): (i64, i64) = sqlx::query_as(
+        "SELECT (SELECT count(*) FROM job_terrains WHERE terrain = $1),
+                (SELECT count(*) FROM study_terrains WHERE terrain = $1)",
+    )
+    .bind(terrain)
+    .fetch_one(connection)
+    .await?;
+    let in_use = TerrainRemoval::InUse {
+        jobs: jobs.unsigned_abs(),
+        studies: studies.unsigned_abs(),
+    };
+    Ok(((jobs, studies) != (0, 0)).then_some(in_use))
 }
 
 /// Number of a terrain, which is not removed until the end of the transaction.
