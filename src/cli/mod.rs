@@ -28,6 +28,7 @@ mod serve;
 mod signals;
 mod study;
 mod table;
+mod terrain;
 mod token;
 mod validate;
 mod verify;
@@ -57,6 +58,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Dismiss(options) => remote::dismiss(options),
         Command::Plan(options) => plan::plan(options),
         Command::Validate(options) => validate::validate(options),
+        Command::Terrain(options) => terrain::terrain(options),
         Command::Demo(options) => demo::demo(options),
         Command::Bench(options) => bench::bench(options),
         Command::Verify(options) => verify::verify(options),

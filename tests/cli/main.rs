@@ -14,6 +14,7 @@ mod remote;
 mod run;
 mod serve;
 mod study;
+mod terrain;
 mod usage;
 mod validate;
 mod verify;

@@ -18,6 +18,7 @@ fn help_and_version_are_answers() {
         "dismiss",
         "plan",
         "validate",
+        "terrain",
         "demo",
         "bench",
         "verify",
@@ -44,7 +45,12 @@ fn shells_and_manuals_learn_the_command_line() {
     let pages = folder.path().join("man");
     let answer = ask(&[&"man", &pages]);
     assert_eq!((answer.code, answer.stderr.as_str()), (Some(0), ""));
-    for name in ["scree.1", "scree-run.1", "scree-serve.1"] {
+    for name in [
+        "scree.1",
+        "scree-run.1",
+        "scree-serve.1",
+        "scree-terrain-put.1",
+    ] {
         let page = std::fs::read_to_string(pages.join(name)).unwrap();
         assert!(page.contains(".SH SYNOPSIS"), "{name}");
     }

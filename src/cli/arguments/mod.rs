@@ -4,6 +4,7 @@ mod format;
 mod measuring;
 mod quiet;
 mod remote;
+mod terrain;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use jiff::SignedDuration;
@@ -15,6 +16,7 @@ use scree::results::table::Format;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
+pub(super) use terrain::{CheckOptions, PutOptions, TerrainCommand, TerrainOptions};
 
 /// Simulates objects that are hit and carried by granular flows, and reports where they end up.
 #[derive(Debug, Parser)]
@@ -59,6 +61,8 @@ pub(super) enum Command {
     Plan(PlanOptions),
     /// Check a scenario and list everything that is wrong with it
     Validate(ValidateOptions),
+    /// Check the raster of a terrain, or upload it to a service
+    Terrain(TerrainOptions),
     /// Send the source paper's scene through a service of its own
     Demo(DemoOptions),
     /// Measure how fast the solver is on this machine

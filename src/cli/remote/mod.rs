@@ -19,6 +19,7 @@ mod study;
 mod study_files;
 mod study_run;
 mod submit;
+mod terrain;
 mod transport;
 mod watch;
 
@@ -26,4 +27,5 @@ pub(super) use dismiss::dismiss;
 pub(super) use get::get;
 pub(super) use study_run::study;
 pub(super) use submit::submit;
+pub(super) use terrain::put;
 pub(super) use watch::watch;

@@ -24,10 +24,8 @@ pub(in crate::cli) fn study(options: &StudyOptions) -> Result<(), Failure> {
     // Before anything is computed, so that a bad name costs no time.
     let folder = options.out.as_deref().map(StudyFolder::open).transpose()?;
     let parting = Parting::watch()?;
-    let submission = Submission {
-        text: &text,
-        key: &Uuid::new_v4().to_string(),
-    };
+    let key = Uuid::new_v4().to_string();
+    let submission = Submission::json(&text, &key);
     let answer = transport.post("/v1/studies", submission);
     let name = scenario_file::name(&options.study);
     let accepted = ReceivedStudy::read(answer.map_err(|error| error.about(&name))?)?;

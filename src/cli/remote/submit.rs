@@ -65,10 +65,7 @@ fn path(labels: &[String]) -> String {
 
 fn send(transport: &Transport, path: &str, scenario: &Scenario) -> Result<ReceivedJob, Failure> {
     let key = Uuid::new_v4().to_string();
-    let submission = Submission {
-        text: &scenario.text,
-        key: &key,
-    };
+    let submission = Submission::json(&scenario.text, &key);
     let answer = transport.post(path, submission);
     ReceivedJob::read(answer.map_err(|error| error.about(&scenario.name))?)
 }

@@ -12,7 +12,8 @@ use crate::cli::console;
 use crate::cli::failure::Failure;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
-use ureq::http::header::{AUTHORIZATION, CONTENT_TYPE, LOCATION, RETRY_AFTER};
+use ureq::http::header::{AUTHORIZATION, CONTENT_TYPE, EXPECT, LOCATION, RETRY_AFTER};
+use ureq::http::request::Builder;
 use ureq::http::{Request, Response};
 use ureq::tls::{RootCerts, TlsConfig};
 use ureq::{Agent, Body};
@@ -55,10 +56,31 @@ struct Asked<'a> {
 /// A document to submit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Submission<'a> {
-    /// JSON.
-    pub(super) text: &'a str,
-    /// Idempotency key: the same for each repetition, so that there is one job.
-    pub(super) key: &'a str,
+    bytes: &'a [u8],
+    media_type: &'static str,
+    /// Idempotency key: the same for each repetition, so that there is one job; none for what is the
+    /// same however often it is sent.
+    key: Option<&'a str>,
+}
+
+impl<'a> Submission<'a> {
+    /// A JSON document, of which there shall be one job or study.
+    pub(super) fn json(text: &'a str, key: &'a str) -> Self {
+        Self {
+            bytes: text.as_bytes(),
+            media_type: "application/json",
+            key: Some(key),
+        }
+    }
+
+    /// A file, which the service names by its contents.
+    pub(super) fn file(bytes: &'a [u8]) -> Self {
+        Self {
+            bytes,
+            media_type: "application/octet-stream",
+            key: None,
+        }
+    }
 }
 
 impl Transport {
@@ -164,7 +186,7 @@ impl Transport {
             let now = Instant::now();
             let pauses = pauses.get_or_insert_with(|| Pauses::new(self.patience, now));
             let Some(pause) = pauses.next(retry_after, now) else {
-                let may_be_accepted = has_broken && body.is_some();
+                let may_be_accepted = has_broken && body.is_some_and(|body| body.key.is_some());
                 return Err(if may_be_accepted {
                     error.after_sending()
                 } else {
@@ -212,10 +234,8 @@ impl Transport {
             request = request.header(AUTHORIZATION, format!("Bearer {token}"));
         }
         let answer = match asked.body {
-            Some(document) => request
-                .header(CONTENT_TYPE, "application/json")
-                .header("Idempotency-Key", document.key)
-                .body(document.text)
+            Some(document) => headed(request, document)
+                .body(document.bytes)
                 .map_err(ureq::Error::from)
                 .and_then(|request| self.agent.run(request)),
             None => request
@@ -250,6 +270,16 @@ impl Transport {
             is_temporary: is_unconnected || breakage::has_broken(error),
             is_unconnected,
         }
+    }
+}
+
+/// The request with the headers of its document. The service is asked before a file is sent: it
+/// refuses one that is too large by its length.
+fn headed(request: Builder, document: Submission<'_>) -> Builder {
+    let request = request.header(CONTENT_TYPE, document.media_type);
+    match document.key {
+        Some(key) => request.header("Idempotency-Key", key),
+        None => request.header(EXPECT, "100-continue"),
     }
 }
 
