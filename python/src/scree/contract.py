@@ -1344,6 +1344,12 @@ class QuantityOnLevel(TypedDict):
     """
 
 
+RasterFile: TypeAlias = bytes
+"""
+A GeoTIFF or an ESRI ASCII grid.
+"""
+
+
 ReferenceOnly: TypeAlias = Literal['reference']
 
 
@@ -1959,6 +1965,18 @@ class TargetReport(TypedDict):
     """
     Reason why the target was not met; null if it was met.
     """
+
+
+TerrainFormat: TypeAlias = Literal['geotiff', 'esri-ascii-grid']
+"""
+Format of a terrain's file.
+"""
+
+
+TerrainPurpose: TypeAlias = Literal['height-map', 'surface', 'thickness', 'friction']
+"""
+What the values of a file are.
+"""
 
 
 class TrajectoryColumns(TypedDict):
@@ -3110,6 +3128,65 @@ class StudyPage(TypedDict):
     """
 
 
+class TerrainDescription(TypedDict):
+    """
+    Description of a terrain's raster.
+    """
+
+    cell_size_m: float
+    """
+    Side of a cell [m].
+    """
+    columns: int
+    """
+    Number of cells towards the east.
+    """
+    epsg: Optional[int]
+    """
+    EPSG code of the coordinate reference system; null if the file has none.
+    """
+    format: TerrainFormat
+    """
+    Format of the file.
+    """
+    highest_m: Optional[float]
+    """
+    Highest value [m]; null for coefficients of friction.
+    """
+    holes: int
+    """
+    Number of cells without a value.
+    """
+    lowest_m: Optional[float]
+    """
+    Lowest value [m]; null for coefficients of friction.
+    """
+    mean_slope_deg: Optional[float]
+    """
+    Mean slope [°], by Horn's method; null unless the values are heights.
+    """
+    purpose: TerrainPurpose
+    """
+    What the values were said to be when the file first came.
+    """
+    rows: int
+    """
+    Number of cells towards the north.
+    """
+    south_m: float
+    """
+    Northing of the southern edge [m].
+    """
+    steepest_slope_deg: Optional[float]
+    """
+    Steepest slope [°]; null unless the values are heights.
+    """
+    west_m: float
+    """
+    Easting of the western edge [m], in the map's coordinates.
+    """
+
+
 class Trajectory(TypedDict):
     """
     The trajectory of one body.
@@ -3460,6 +3537,44 @@ class StudyInput(TypedDict):
     """
     Place in the scenario, a JSON pointer (RFC 6901) to what is there or to a new key of an
     object that is there.
+    """
+
+
+class Terrain(TerrainDescription):
+    """
+    A terrain.
+    """
+
+    bytes: int
+    """
+    Length of the file [bytes].
+    """
+    created: str
+    """
+    Time at which the file first came (RFC 3339).
+    """
+    hash: str
+    """
+    SHA-256 of the file, 64 hexadecimal digits in lower case: the name of the terrain.
+    """
+    submitter: Optional[str]
+    """
+    Name of the access token with which it first came; null if none is required.
+    """
+
+
+class TerrainPage(TypedDict):
+    """
+    A page of terrains, newest first.
+    """
+
+    next_cursor: Optional[str]
+    """
+    Value of `cursor` for the next page; null on the last page.
+    """
+    terrains: List[Terrain]
+    """
+    The terrains of this page.
     """
 
 
