@@ -7,6 +7,9 @@ use thiserror::Error;
 
 /// WGS 84 in angles.
 const WGS_84: &str = "+proj=longlat +datum=WGS84 +no_defs";
+/// Codes with axes to the south or west whose definitions don't say so: Krovak and Austria's
+/// cadastre.
+const TURNED: [u32; 4] = [2065, 5513, 8044, 8045];
 
 /// A coordinate reference system or place that can't be transformed.
 #[derive(Debug, Error)]
@@ -31,6 +34,15 @@ pub enum ProjectionError {
         /// EPSG code.
         epsg: u32,
     },
+    /// Axes that the definition doesn't turn.
+    #[error(
+        "the axes of EPSG:{epsg} point south or west; reproject the raster to a coordinate \
+         system with eastings and northings"
+    )]
+    Turned {
+        /// EPSG code.
+        epsg: u32,
+    },
     /// A place beyond the projection.
     #[error("easting {easting} m and northing {northing} m are no place of EPSG:{epsg}")]
     NoPlace {
@@ -46,11 +58,14 @@ pub enum ProjectionError {
 /// Projection of a coordinate reference system: its plane coordinates as longitude and latitude
 /// in WGS 84.
 ///
-/// Within a zone, results are those of PROJ to a millimetre where the datum is WGS 84 or an
-/// ETRS89 that is taken as equal to it (the two differ by less than 1 m). Other datums are
-/// shifted by the seven parameters or fewer that the code's definition has, without grids: that
-/// is good to about 1 m for LV95 (EPSG:2056), but only to some metres for DHDN, OSGB36 or NAD27,
-/// and a definition that needs a grid is refused.
+/// Accuracy depends on the datum, which the definition of the code shifts by at most seven
+/// parameters, never by a grid. It is 1 mm against PROJ where those are all there is: UTM on WGS 84
+/// and ETRS89 (taken as WGS 84, from which it differs by less than 1 m), LV95, DHDN, Lambert-93,
+/// Web Mercator. Of 4261 codes, compared with PROJ 9.5 near the middle of their areas, 2719 agree
+/// to 1 mm, 353 more to 1 m and 281 to 5 m, such as NAD83, for which PROJ has better shifts. For
+/// 243, mostly old datums whose shift the table lacks, places are wrong by up to some 100 m, and
+/// for two islands (EPSG:2000, EPSG:3303) by more. The rest is refused: 590 that are not in the
+/// table, those that need a grid (NAD27), and those with axes to the south or west.
 #[derive(Debug)]
 pub struct Projection {
     epsg: u32,
@@ -62,8 +77,12 @@ impl Projection {
     /// Projection of an EPSG code.
     ///
     /// # Errors
-    /// The code is not known, is no projected coordinate system or can't be transformed.
+    /// The code is not known, is no projected coordinate system of eastings and northings, or
+    /// can't be transformed.
     pub fn of(epsg: u32) -> Result<Self, ProjectionError> {
+        if TURNED.contains(&epsg) {
+            return Err(ProjectionError::Turned { epsg });
+        }
         let definition = definition(epsg).ok_or(ProjectionError::Unknown { epsg })?;
         let unsupported = |source| ProjectionError::Unsupported { epsg, source };
         let plane = Proj::from_proj_string(definition).map_err(unsupported)?;

@@ -45,13 +45,13 @@ fn places_are_those_of_proj() {
             2056,
             [2_600_000.0, 1_200_000.0],
             [7.438632421, 46.951082772],
-            1.0,
+            1e-3,
         ),
         (
             2056,
             [2_780_000.0, 1_180_000.0],
             [9.794533533, 46.746868929],
-            1.0,
+            1e-3,
         ),
     ] {
         let projection = Projection::of(epsg).unwrap();
@@ -78,6 +78,15 @@ fn what_is_no_plane_or_not_known_is_refused() {
     assert!(matches!(
         Projection::of(102_100),
         Err(ProjectionError::Unknown { .. })
+    ));
+    assert!(matches!(
+        Projection::of(5513),
+        Err(ProjectionError::Turned { epsg: 5513 })
+    ));
+    // NAD27 needs a grid.
+    assert!(matches!(
+        Projection::of(26710),
+        Err(ProjectionError::Unsupported { epsg: 26710, .. })
     ));
     let beyond = Projection::of(2056)
         .unwrap()
