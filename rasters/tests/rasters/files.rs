@@ -77,6 +77,26 @@ fn holes_of_a_thickness_have_none() {
 }
 
 #[test]
+fn sample_terrains_are_height_maps() {
+    let sample = |name: &str| {
+        let bytes = file(&format!("../../../configs/terrains/{name}.tif"));
+        read(&bytes, Purpose::HeightMap).unwrap()
+    };
+    let mountain = sample("jacksboro");
+    assert_eq!((mountain.cell_size, mountain.epsg), (25.0, Some(32616)));
+    let channel = sample("channel");
+    let fall = channel.value_at(0, 0) - channel.value_at(100, 0);
+    assert!((fall - 40_f64.to_radians().tan()).abs() < 1e-6);
+    // The foot of the incline is at x = 0.
+    let [x, _] = channel.centre(114, 0);
+    assert!((x + 0.005).abs() < 1e-9);
+    assert!(channel.value_at(114, 0) > 0.0 && channel.value_at(115, 0) == 0.0);
+    let bowl = sample("bowl");
+    let [x, y] = bowl.centre(70, 20);
+    assert!((bowl.value_at(70, 20) - (x * x + y * y)).abs() < 1e-6);
+}
+
+#[test]
 fn content_has_the_name_of_its_digest() {
     // The example of FIPS 180-2.
     let digest = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
