@@ -6,9 +6,10 @@ use tiff::tags::Tag;
 
 /// Bytes of values that any file may have.
 const ALWAYS: u64 = 64 << 20;
-/// Bytes of values for a byte of a larger file: more than DEFLATE can pack, so that only files
-/// made to fill memory, or hardly any content, exceed it.
-const PACKED: u64 = 4000;
+/// Bytes of values, 8 for each, for a byte of a larger file: somewhat more than DEFLATE makes of
+/// equal cells of one byte, so that only files made to fill memory exceed it, or those with hardly
+/// any content.
+const PACKED: u64 = 10_000;
 /// Most images in a file: overviews each halve the resolution.
 const MOST_IMAGES: usize = 64;
 /// Bit of `NewSubfileType`: a mask of the image.

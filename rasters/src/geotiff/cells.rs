@@ -58,6 +58,31 @@ impl CellType {
     }
 }
 
+/// Refuses compressions that are not read, most of which lose something.
+pub(super) fn require_known_compression(tiff: &mut Tiff<'_>) -> Result<(), GeoTiffError> {
+    let code = tiff.find_tag_unsigned(Tag::Compression)?.unwrap_or(1);
+    match code {
+        // None, LZW, DEFLATE by its two codes, PackBits and ZSTD.
+        1 | 5 | 8 | 32946 | 32773 | 50000 => Ok(()),
+        _ => Err(GeoTiffError::Compression {
+            code,
+            name: compression(code),
+        }),
+    }
+}
+
+/// Name of a `Compression`, with the space before it.
+fn compression(code: u16) -> &'static str {
+    match code {
+        6 | 7 => " JPEG",
+        34887 => " LERC",
+        34925 => " LZMA",
+        50001 => " WebP",
+        50002 => " JPEG XL",
+        _ => "",
+    }
+}
+
 /// Name of a `SampleFormat`.
 fn kind(format: u16) -> &'static str {
     match format {

@@ -42,6 +42,16 @@ pub enum GeoTiffError {
         /// Kind of the numbers.
         kind: &'static str,
     },
+    /// A compression that is not read.
+    #[error(
+        "the TIFF has compression {code}{name}; LZW, DEFLATE, ZSTD, PackBits and none are read"
+    )]
+    Compression {
+        /// Code of the compression.
+        code: u16,
+        /// Name of it with the space before it, or nothing.
+        name: &'static str,
+    },
     /// Strips or tiles left out.
     #[error("block {block} of the TIFF is left out; write the file with SPARSE_OK=FALSE")]
     Sparse {
@@ -50,7 +60,7 @@ pub enum GeoTiffError {
     },
     /// Far more values than a file of its size should have.
     #[error(
-        "the TIFF of {bytes} bytes unpacks to {values} bytes; at most 4000 for each of its bytes \
+        "the TIFF of {bytes} bytes unpacks to {values} bytes; at most 10000 for each of its bytes \
          (or 64 MiB) are read, so write the file with less compression"
     )]
     Bomb {

@@ -2,6 +2,7 @@
 
 use super::{GeoTiffError, Tiff};
 use crate::projection;
+use std::ops::RangeInclusive;
 use tiff::tags::Tag;
 
 const MODEL_TYPE: u16 = 1024;
@@ -24,9 +25,9 @@ const METRE: u16 = 9001;
 const IN_FEET: [u32; 15] = [
     5614, 5702, 5754, 6130, 6131, 6132, 6358, 6359, 6360, 8050, 8051, 8052, 8053, 8228, 8897,
 ];
-/// Codes beside those of EPSG: undefined, and defined by further keys.
+/// Codes of EPSG; beyond are private ones, and 32767 for what further keys define.
+pub(super) const EPSG: RangeInclusive<u16> = 1024..=32766;
 const UNDEFINED: u16 = 0;
-const USER_DEFINED: u16 = 32767;
 
 /// Keys with a short number as their value.
 pub(super) struct GeoKeys(Vec<[u16; 2]>);
@@ -55,7 +56,7 @@ impl GeoKeys {
     /// Code of a projected coordinate system in metres, if it has one.
     pub(super) fn epsg(&self) -> Result<Option<u32>, GeoTiffError> {
         let epsg = self.get(PROJECTED_CRS);
-        let epsg = epsg.filter(|code| *code != USER_DEFINED).map(u32::from);
+        let epsg = epsg.filter(|code| EPSG.contains(code)).map(u32::from);
         match self.get(MODEL_TYPE) {
             Some(GEOGRAPHIC) => return Err(GeoTiffError::Geographic),
             Some(GEOCENTRIC) => return Err(GeoTiffError::Geocentric),

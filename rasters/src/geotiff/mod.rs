@@ -40,6 +40,7 @@ fn decode(bytes: &[u8]) -> Result<RasterFile, RasterError> {
     let (columns, rows) = tiff.dimensions().map_err(GeoTiffError::from)?;
     let [columns, rows] = limits::shape(columns.into(), rows.into())?;
     let cell_type = CellType::of(&mut tiff)?;
+    cells::require_known_compression(&mut tiff)?;
     blocks::check(&mut tiff, [columns, rows], bytes.len())?;
     let keys = GeoKeys::of(&mut tiff)?;
     let placement = Placement::of(&mut tiff, keys.is_point())?;

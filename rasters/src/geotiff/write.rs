@@ -1,5 +1,6 @@
 //! Writing GeoTIFF.
 
+use super::geo_keys;
 use scree_solver::raster::Raster;
 use std::io::Cursor;
 use thiserror::Error;
@@ -65,7 +66,7 @@ fn keys(epsg: Option<u32>) -> Result<Vec<u16>, WriteError> {
         return Ok([[1, 1, 0, 4], model_type, raster_type, citation, unit].concat());
     };
     let code = u16::try_from(epsg).ok();
-    let code = code.filter(|code| (1024..=32766).contains(code));
+    let code = code.filter(|code| geo_keys::EPSG.contains(code));
     let code = code.ok_or(WriteError::Epsg { epsg })?;
     let model_type = [1024, 0, 1, 1];
     let projected = [3072, 0, 1, code];
