@@ -1,11 +1,16 @@
 //! Terrains: uploaded, read, listed and removed.
 
 use crate::access::with_tokens;
-use crate::app::{Answer, TestApp};
+use crate::app::{Answer, TestApp, database, has_ended};
 use crate::overload::status_line;
 use reqwest::{Method, StatusCode};
+use scree::jobs::job::JobId;
+use scree::jobs::store::sqlite::SqliteStore;
+use scree::jobs::store::{JobStore, Room, Submission, Submitted};
+use scree::jobs::submit::NewJob;
 use scree::terrains::TerrainHash;
 use serde_json::{Value, json};
+use std::path::Path;
 use tokio::io::AsyncWriteExt;
 use tokio::net::TcpStream;
 
@@ -208,6 +213,56 @@ async fn terrains_are_listed_newest_first_and_removed() {
         .assert_problem(StatusCode::NOT_FOUND, "unknown-terrain");
     let left = app.get(TERRAINS).await.body;
     assert_eq!(names(&left), [hashes[0].clone(), hashes[2].clone()]);
+    app.stop().await;
+}
+
+/// A job that names this terrain, put into the database beside the service.
+async fn job_on(database: &Path, terrain: TerrainHash) -> JobId {
+    let store = SqliteStore::open(database).await.unwrap();
+    let job = NewJob {
+        id: JobId::new(),
+        title: "on a terrain".to_owned(),
+        bodies: 0,
+        scenario: "{}".to_owned(),
+        scenario_hash: "0".repeat(64),
+        plan: "{}".to_owned(),
+        planned_work: 1,
+        planned_memory_bytes: 1,
+        labels: Vec::new(),
+        terrains: vec![terrain],
+        solver_version: "1",
+    };
+    let submission = Submission {
+        jobs: &[job.clone()],
+        submitter: None,
+        key: None,
+        room: Room {
+            queue: 1,
+            submitter: None,
+        },
+    };
+    let submitted = JobStore::submit(&store, &submission).await.unwrap();
+    assert_eq!(submitted, Submitted::Accepted);
+    JobStore::close(&store).await;
+    job.id
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_terrain_stays_as_long_as_a_job_names_it() {
+    let app = TestApp::start().await;
+    let file = slope(100.0);
+    let path = uploaded(&app, &file).await;
+    let directory = app.stop().await;
+    let job = job_on(&database(&directory), TerrainHash::of(file.as_bytes())).await;
+    let app = TestApp::start_in(directory, |_| {}).await;
+    // Its scenario is none.
+    let job = format!("/v1/jobs/{job}");
+    app.wait(&job, has_ended).await;
+    let refused = app.delete(&path).await;
+    refused.assert_problem(StatusCode::CONFLICT, "terrain-in-use");
+    let removed = app.delete(&format!("{job}?remove=ended")).await;
+    assert_eq!(removed.status, StatusCode::NO_CONTENT);
+    assert_eq!(app.delete(&path).await.status, StatusCode::NO_CONTENT);
     app.stop().await;
 }
 
