@@ -14,7 +14,14 @@ fuzz_target!(|bytes: &[u8]| {
     let singles = raster.values.iter().map(|value| f64::from(*value as f32));
     let singles: Vec<f64> = singles.collect();
     let again = read(write_ascii(&raster).as_bytes(), Purpose::Surface).expect("it was valid");
-    assert_eq!(again.values.iter().map(|value| f64::from(*value as f32)).collect::<Vec<_>>(), singles);
+    assert_eq!(
+        again
+            .values
+            .iter()
+            .map(|value| f64::from(*value as f32))
+            .collect::<Vec<_>>(),
+        singles
+    );
     let file = write_geotiff(&raster).expect("its code came from a file");
     let again = read(&file, Purpose::Surface).expect("it was valid");
     assert_eq!(again.values, singles);
