@@ -233,7 +233,7 @@ async fn job_on(database: &Path, terrain: TerrainHash) -> JobId {
         solver_version: "1",
     };
     let submission = Submission {
-        jobs: &[job.clone()],
+        jobs: std::slice::from_ref(&job),
         submitter: None,
         key: None,
         room: Room {
