@@ -7,9 +7,15 @@ use crate::method::METHOD;
 use nalgebra::UnitQuaternion;
 use std::fmt::Debug;
 
+mod height_field;
 mod planar;
+mod spline_surface;
 
+pub use height_field::{
+    GroundFeature, GroundPlace, HeightField, NearGround, PlacedSolid, TerrainFriction,
+};
 pub use planar::PlanarBed;
+pub use spline_surface::{Facet, SplineSurface};
 
 /// A plane surface; its normal points to the side of the flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,6 +98,23 @@ pub struct Intersection {
     pub first: i32,
 }
 
+impl Intersection {
+    /// Intersection so many node distances from node 0.
+    fn at(cells: f64) -> Self {
+        // A node on the bed up to rounding is above it.
+        let first = (cells - 1e-9 * (1.0 + cells.abs())).ceil();
+        Self {
+            gap: (first - cells).max(0.0),
+            first: first as i32,
+        }
+    }
+}
+
+/// Height of a node above the bed [m] up to which it belongs to it.
+fn rounding(x: &Vec3) -> f64 {
+    1e-9 * (1.0 + x.norm())
+}
+
 /// The ground under flow and bodies: one elevation for every place in the plane.
 pub trait Bed: Debug + Send + Sync {
     /// Elevation at (x, y) [m].
@@ -103,8 +126,14 @@ pub trait Bed: Debug + Send + Sync {
     /// Rotation that lays a horizontal body flat on it at (x, y), without a turn about the normal.
     fn tilt(&self, x: f64, y: f64) -> UnitQuaternion<f64>;
 
-    /// Planes of which it is the upper envelope, as bodies and points meet it.
+    /// Planes of which it is the upper envelope, as bodies and points meet it; none if it is no
+    /// bed of planes.
     fn planes(&self) -> &[Plane];
+
+    /// Its surface as bodies and points meet it, if it is a terrain.
+    fn height_field(&self) -> Option<&HeightField> {
+        None
+    }
 
     /// Share of the kernel of a node at `x` above it (its available volume).
     fn share_above(&self, x: &Vec3, spacing: &Vec3) -> f64;

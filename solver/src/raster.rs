@@ -40,6 +40,76 @@ impl Raster {
         ]
     }
 
+    /// Value of the cell in which a place lies, beyond the edges that of the nearest cell.
+    pub fn nearest(&self, easting: f64, northing: f64) -> f64 {
+        let cell = |from: f64, count: usize| {
+            let cells = (from / self.cell_size).max(0.0) as usize;
+            cells.min(count - 1)
+        };
+        let column = cell(easting - self.west, self.columns);
+        self.value_at(column, cell(northing - self.south, self.rows))
+    }
+
+    /// Value of the cell in which a place lies; NaN beyond the edges.
+    pub fn at_cell(&self, easting: f64, northing: f64) -> f64 {
+        let (column, row) = (
+            (easting - self.west) / self.cell_size,
+            (northing - self.south) / self.cell_size,
+        );
+        let within = |cells: f64, count: usize| cells >= 0.0 && cells < count as f64;
+        if within(column, self.columns) && within(row, self.rows) {
+            self.value_at(column as usize, row as usize)
+        } else {
+            f64::NAN
+        }
+    }
+
+    /// Lowest value; infinite if there is none.
+    pub fn lowest(&self) -> f64 {
+        self.values.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Highest value; −infinite if there is none.
+    pub fn highest(&self) -> f64 {
+        self.values
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Whole number of its cells along a length [m] that is at least one, and leaves two cells of
+    /// that size each way.
+    pub fn cells_within(&self, length: f64) -> usize {
+        // A length of whole cells up to rounding counts as so many.
+        let cells = (length / self.cell_size * (1.0 + 1e-9)) as usize;
+        cells.clamp(1, (self.columns.min(self.rows) / 2).max(1))
+    }
+
+    /// The raster with so many cells along each axis averaged to one; what is left over at the
+    /// north and the east is dropped.
+    #[must_use]
+    pub fn averaged(&self, cells: usize) -> Self {
+        let (columns, rows) = (self.columns / cells, self.rows / cells);
+        let mut values = Vec::with_capacity(columns * rows);
+        for row in 0..rows {
+            for column in 0..columns {
+                let of = |n: usize| {
+                    let (along, up) = (column * cells + n % cells, row * cells + n / cells);
+                    self.value_at(along, up)
+                };
+                let sum: f64 = (0..cells * cells).map(of).sum();
+                values.push(sum / (cells * cells) as f64);
+            }
+        }
+        Self {
+            columns,
+            rows,
+            cell_size: self.cell_size * cells as f64,
+            values,
+            ..*self
+        }
+    }
+
     /// Easting of the eastern edge [m].
     pub fn east(&self) -> f64 {
         self.west + self.columns as f64 * self.cell_size

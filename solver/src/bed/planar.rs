@@ -6,7 +6,7 @@
 //! depends on the phase of the grid. The kernel's mean spreads the jump over the columns round the
 //! break such that its first moments are those of the break itself.
 
-use super::{Bed, Intersection, Plane, Surface, Way};
+use super::{Bed, Intersection, Plane, Surface, Way, rounding};
 use crate::kernel::{Lattice, share_above, share_above_both};
 use crate::math::Vec3;
 use nalgebra::UnitQuaternion;
@@ -162,12 +162,7 @@ impl Bed for PlanarBed {
 
     fn intersection(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<Intersection> {
         let (_, cells) = self.crossed(way, across, lattice)?;
-        // A node on the plane up to rounding is above it.
-        let first = (cells - 1e-9 * (1.0 + cells.abs())).ceil();
-        Some(Intersection {
-            gap: (first - cells).max(0.0),
-            first: first as i32,
-        })
+        Some(Intersection::at(cells))
     }
 
     fn surface_in(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<Surface> {
@@ -196,11 +191,6 @@ impl Bed for PlanarBed {
         let rounding = rounding(&x);
         self.planes.iter().any(|plane| plane.height(&x) <= rounding)
     }
-}
-
-/// Height of a node above a plane [m] up to which it belongs to it.
-fn rounding(x: &Vec3) -> f64 {
-    1e-9 * (1.0 + x.norm())
 }
 
 /// Surface with the slope dz/dx and the friction of two planes, weighted.

@@ -1,0 +1,115 @@
+use super::*;
+use crate::bed::PlanarBed;
+
+fn lattice() -> Lattice {
+    Lattice {
+        origin: Vec3::new(0.013, -0.007, 0.002),
+        spacing: Vec3::new(0.1, 0.1, 0.1),
+    }
+}
+
+fn ground(of: impl Fn(f64, f64) -> f64) -> HeightField {
+    let mut raster = Raster {
+        columns: 60,
+        rows: 40,
+        cell_size: 0.1,
+        west: 0.0,
+        south: 0.0,
+        epsg: None,
+        values: Vec::new(),
+    };
+    for row in 0..40 {
+        for column in 0..60 {
+            let [x, y] = raster.centre(column, row);
+            raster.values.push(of(x, y));
+        }
+    }
+    let surface = Arc::new(SplineSurface::through(&raster, 0.0));
+    HeightField::new(surface, TerrainFriction::Constant(0.4)).under(&lattice())
+}
+
+// A plane as a raster is to nodes what it is as a plane.
+#[test]
+fn a_plane_raster_is_an_incline_to_nodes() {
+    let inclination = 0.5_f64;
+    let planar = PlanarBed::incline(inclination, 2.0, 0.4);
+    let field = ground(|x, _| 2.0 / inclination.cos() - x * inclination.tan());
+    let lattice = lattice();
+    for across in [[3, 4], [20, 11], [41, 30]] {
+        let one = planar
+            .intersection(Way::Vertical, across, &lattice)
+            .unwrap();
+        let other = field.intersection(Way::Vertical, across, &lattice).unwrap();
+        assert_eq!(one.first, other.first);
+        assert!((one.gap - other.gap).abs() < 1e-9);
+        let [one, other] = [&planar as &dyn Bed, &field]
+            .map(|bed| bed.surface_in(Way::Vertical, across, &lattice).unwrap());
+        assert!((one.normal - other.normal).norm() < 1e-10);
+        assert!((one.friction - other.friction).abs() < 1e-12);
+        for up in 0..25 {
+            let index = [across[0], across[1], up];
+            let x = lattice.position(index);
+            assert_eq!(
+                planar.covers(index, &lattice),
+                field.covers(index, &lattice)
+            );
+            let [one, other] =
+                [&planar as &dyn Bed, &field].map(|bed| bed.share_above(&x, &lattice.spacing));
+            assert!((one - other).abs() < 1e-9, "{one} {other}");
+        }
+    }
+}
+
+// Round a break between two planes the average slope is that of the planes' own average
+// (docs/method.md, equation 29d).
+#[test]
+fn a_break_is_averaged_as_between_planes() {
+    let (inclination, foot) = (0.6_f64, 3.0);
+    let channel = PlanarBed::channel(inclination, 0.4);
+    let at_the_foot = Lattice {
+        origin: lattice().origin - Vec3::x() * foot,
+        ..lattice()
+    };
+    let field = ground(|x, _| ((foot - x) * inclination.tan()).max(0.0));
+    for i in 20..40 {
+        let one = channel
+            .surface_in(Way::Vertical, [i, 10], &at_the_foot)
+            .unwrap();
+        let other = field
+            .surface_in(Way::Vertical, [i, 10], &lattice())
+            .unwrap();
+        let [one, other] = [one, other].map(|of| -of.normal.x / of.normal.z);
+        assert!((one - other).abs() < 0.06, "{i}: {one} {other}");
+    }
+}
+
+#[test]
+fn the_nearest_plane_touches_where_the_surface_is_nearest() {
+    let field = ground(|x, y| 0.1 * ((x - 3.0).powi(2) + (y - 2.0).powi(2)));
+    let place = Vec3::new(3.7, 2.2, 0.9);
+    let plane = field.nearest_plane(&place);
+    let foot = place - plane.normal * plane.height(&place);
+    let off = field.elevation(foot.x, foot.y) - foot.z;
+    assert!(off.abs() < 2e-3, "{off}");
+}
+
+#[test]
+fn a_box_is_near_if_the_surface_comes_near_it() {
+    let field = ground(|x, y| 0.2 * x + 0.3 * (3.0 * y).sin());
+    let mut near = 0;
+    for n in 0..200 {
+        let [i, j, k] = [n % 10, n / 10 % 5, n / 50].map(f64::from);
+        let low = Vec3::new(0.5 * i, 0.7 * j, 0.5 * k);
+        let high = low + Vec3::repeat(0.4);
+        let least = (0..25).map(|m| {
+            let [u, v] = [m % 5, m / 5].map(|m| 0.1 * f64::from(m));
+            let under = Vec3::new(low.x + u, low.y + v, low.z);
+            field.tangent(under.x, under.y).height(&under)
+        });
+        let reached = least.fold(f64::INFINITY, f64::min) <= 0.15;
+        near += usize::from(reached);
+        assert!(!reached || field.is_near(&low, &high, 0.15), "{low}");
+    }
+    assert!(near > 20);
+    assert!(!field.is_near(&Vec3::new(1.0, 1.0, 4.0), &Vec3::new(1.4, 1.4, 4.4), 0.2));
+}

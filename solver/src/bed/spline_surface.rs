@@ -1,0 +1,262 @@
+//! A smooth surface through a raster of elevations: the biquadratic B-spline that interpolates the
+//! values at the centres of the cells (docs/method.md, equation 80). It is continuous with its
+//! slope, and planes are reproduced exactly.
+
+use crate::raster::Raster;
+use rayon::prelude::*;
+
+/// Cells beyond the edges over which the surface goes on with the slope of the edge; farther out it
+/// is level in that direction.
+const MARGIN: f64 = 3.0;
+
+/// Elevation and slope of a surface at a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facet {
+    /// Elevation [m].
+    pub elevation: f64,
+    /// Slope ∂z/∂x and ∂z/∂y.
+    pub slope: [f64; 2],
+}
+
+/// Biquadratic B-spline surface over a rectangle from (0, 0) on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SplineSurface {
+    /// Side of a cell [m].
+    cell: f64,
+    /// Cells along x and y.
+    cells: [usize; 2],
+    /// Coefficients row by row, with one more at each end of each row and column [m].
+    coefficients: Vec<f64>,
+}
+
+/// Weights of the three coefficients round a place, and of their slopes.
+#[derive(Clone, Copy)]
+struct Weights {
+    /// Index of the first.
+    first: usize,
+    value: [f64; 3],
+    /// Derivatives by the place [1/cell].
+    slope: [f64; 3],
+    /// Distance from the nearest place on the surface, up to the margin [cells].
+    beyond: f64,
+    /// True farther out.
+    is_level: bool,
+}
+
+impl SplineSurface {
+    /// The surface through these values, `datum` [m] subtracted; the raster has at least two rows
+    /// and columns.
+    pub fn through(raster: &Raster, datum: f64) -> Self {
+        let (columns, rows) = (raster.columns, raster.rows);
+        let width = columns + 2;
+        let mut coefficients = vec![0.0; width * (rows + 2)];
+        let factors = factors(columns);
+        coefficients[width..width * (rows + 1)]
+            .par_chunks_mut(width)
+            .zip(raster.values.par_chunks(columns))
+            .for_each(|(row, values)| {
+                for (coefficient, value) in row[1..].iter_mut().zip(values) {
+                    *coefficient = value - datum;
+                }
+                interpolate_row(row, &factors);
+            });
+        interpolate_columns(&mut coefficients, width);
+        Self {
+            cell: raster.cell_size,
+            cells: [columns, rows],
+            coefficients,
+        }
+    }
+
+    /// Side of a cell of the raster that it runs through [m].
+    pub fn cell_size(&self) -> f64 {
+        self.cell
+    }
+
+    /// Extent along x and y [m].
+    pub fn extent(&self) -> [f64; 2] {
+        self.cells.map(|cells| cells as f64 * self.cell)
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.coefficients.capacity() * size_of::<f64>()
+    }
+
+    /// Elevation and slope at (x, y) [m].
+    pub fn at(&self, x: f64, y: f64) -> Facet {
+        let [along, across] = [self.weights(x, 0), self.weights(y, 1)];
+        let width = self.cells[0] + 2;
+        let (mut elevation, mut slope, mut twist) = (0.0, [0.0; 2], 0.0);
+        for row in 0..3 {
+            let start = (across.first + row) * width + along.first;
+            let here: &[f64] = &self.coefficients[start..start + 3];
+            let sum = |weights: &[f64; 3]| {
+                weights[0] * here[0] + weights[1] * here[1] + weights[2] * here[2]
+            };
+            let value = sum(&along.value);
+            elevation += across.value[row] * value;
+            slope[0] += across.value[row] * sum(&along.slope);
+            slope[1] += across.slope[row] * value;
+            twist += across.slope[row] * sum(&along.slope);
+        }
+        let beyond = [along.beyond, across.beyond];
+        elevation += slope[0] * beyond[0] + slope[1] * beyond[1] + twist * beyond[0] * beyond[1];
+        let along_the_edge = |axis: usize| {
+            let of = [&along, &across][axis];
+            if of.is_level {
+                0.0
+            } else {
+                slope[axis] + twist * beyond[1 - axis]
+            }
+        };
+        let per_cell = [along_the_edge(0), along_the_edge(1)];
+        Facet {
+            elevation,
+            slope: per_cell.map(|slope| slope / self.cell),
+        }
+    }
+
+    /// Elevation at (x, y) [m], for less than elevation and slope.
+    pub fn elevation(&self, x: f64, y: f64) -> f64 {
+        let [along, across] = [self.weights(x, 0), self.weights(y, 1)];
+        if along.beyond != 0.0 || across.beyond != 0.0 {
+            return self.at(x, y).elevation;
+        }
+        let width = self.cells[0] + 2;
+        let mut elevation = 0.0;
+        for row in 0..3 {
+            let start = (across.first + row) * width + along.first;
+            let here: &[f64] = &self.coefficients[start..start + 3];
+            let value =
+                along.value[0] * here[0] + along.value[1] * here[1] + along.value[2] * here[2];
+            elevation += across.value[row] * value;
+        }
+        elevation
+    }
+
+    /// Upper bounds of elevation [m] and of the slope's size in a rectangle: those of the
+    /// coefficients that act there.
+    pub fn bounds(&self, low: [f64; 2], high: [f64; 2]) -> (f64, f64) {
+        let [x, y] = [0, 1].map(|axis| {
+            let (first, last) = (
+                self.weights(low[axis], axis),
+                self.weights(high[axis], axis),
+            );
+            // Beyond the edge the slope there goes on.
+            first.first..last.first + 3
+        });
+        let width = self.cells[0] + 2;
+        let (mut highest, mut steepest) = (f64::NEG_INFINITY, 0.0_f64);
+        for j in y.clone() {
+            for i in x.clone() {
+                let here = self.coefficients[j * width + i];
+                highest = highest.max(here);
+                if i + 1 < x.end {
+                    steepest = steepest.max((self.coefficients[j * width + i + 1] - here).abs());
+                }
+                if j + 1 < y.end {
+                    steepest = steepest.max((self.coefficients[(j + 1) * width + i] - here).abs());
+                }
+            }
+        }
+        // Beyond the edges the surface goes on with its twist.
+        let beyond = self.farthest_beyond(low, high);
+        let slope = steepest * std::f64::consts::SQRT_2 / self.cell * (1.0 + 2.0 * beyond);
+        (highest + slope * beyond * self.cell, slope)
+    }
+
+    /// Largest distance of a place in a rectangle from the surface, up to the margin [cells].
+    fn farthest_beyond(&self, low: [f64; 2], high: [f64; 2]) -> f64 {
+        let beyond = |at: f64, axis: usize| self.weights(at, axis).beyond.abs();
+        let of_axis = |axis: usize| beyond(low[axis], axis).max(beyond(high[axis], axis));
+        of_axis(0) + of_axis(1)
+    }
+
+    /// Curvature by which the surface bulges upwards in the cell of a place, in the direction in
+    /// which it does so most [1/m]; 0 where it does nowhere. Its steepness is left apart.
+    pub fn bulge(&self, x: f64, y: f64) -> f64 {
+        let [i, j] = [self.weights(x, 0).first, self.weights(y, 1).first];
+        let width = self.cells[0] + 2;
+        let at = |a: usize, b: usize| self.coefficients[(j + b) * width + i + a];
+        // A spline's second differences at the middle of the cell.
+        let bent = |of: [f64; 3]| of[0] - 2.0 * of[1] + of[2];
+        let mean = |of: [f64; 3]| 0.125 * of[0] + 0.75 * of[1] + 0.125 * of[2];
+        let xx = mean([0, 1, 2].map(|b| bent([0, 1, 2].map(|a| at(a, b)))));
+        let yy = mean([0, 1, 2].map(|a| bent([0, 1, 2].map(|b| at(a, b)))));
+        let xy = 0.25 * (at(2, 2) - at(0, 2) - at(2, 0) + at(0, 0));
+        let least = 0.5 * (xx + yy) - (0.5 * (xx - yy)).hypot(xy);
+        (-least).max(0.0) / (self.cell * self.cell)
+    }
+
+    fn weights(&self, at: f64, axis: usize) -> Weights {
+        let last = self.cells[axis] as f64;
+        let cells = at / self.cell;
+        let within = cells.clamp(0.0, last);
+        let centre = (within as usize).min(self.cells[axis] - 1);
+        let f = within - centre as f64 - 0.5;
+        Weights {
+            // The first of the row is the one before the first cell's.
+            first: centre,
+            value: [
+                0.5 * (0.5 - f) * (0.5 - f),
+                0.75 - f * f,
+                0.5 * (0.5 + f) * (0.5 + f),
+            ],
+            slope: [f - 0.5, -2.0 * f, f + 0.5],
+            beyond: (cells - within).clamp(-MARGIN, MARGIN),
+            is_level: (cells - within).abs() > MARGIN,
+        }
+    }
+}
+
+/// Factors of the elimination for a line of so many coefficients: c₋ + 6 c + c₊ = 8 × value.
+/// The first and the last coefficient are the values there, since beyond both ends the
+/// coefficients go on evenly.
+fn factors(count: usize) -> Vec<f64> {
+    let mut factors = vec![0.0; count + 1];
+    for n in 2..count {
+        factors[n] = 1.0 / (6.0 - factors[n - 1]);
+    }
+    factors
+}
+
+/// Turns the values of a row, from its second entry on, into coefficients.
+fn interpolate_row(row: &mut [f64], factors: &[f64]) {
+    let count = row.len() - 2;
+    for n in 2..count {
+        row[n] = (8.0 * row[n] - row[n - 1]) * factors[n];
+    }
+    for n in (2..count).rev() {
+        row[n] -= factors[n] * row[n + 1];
+    }
+    row[0] = 2.0 * row[1] - row[2];
+    row[count + 1] = 2.0 * row[count] - row[count - 1];
+}
+
+/// Turns the values of all columns, from their second entries on, into coefficients.
+fn interpolate_columns(rows: &mut [f64], width: usize) {
+    let count = rows.len() / width - 2;
+    let factors = factors(count);
+    for n in 2..count {
+        let (before, here) = rows.split_at_mut(n * width);
+        let before = &before[(n - 1) * width..];
+        for (value, before) in here[..width].iter_mut().zip(before) {
+            *value = (8.0 * *value - *before) * factors[n];
+        }
+    }
+    for n in (2..count).rev() {
+        let (here, after) = rows.split_at_mut((n + 1) * width);
+        for (value, after) in here[n * width..].iter_mut().zip(after) {
+            *value -= factors[n] * *after;
+        }
+    }
+    for i in 0..width {
+        let at = |n: usize| n * width + i;
+        rows[at(0)] = 2.0 * rows[at(1)] - rows[at(2)];
+        rows[at(count + 1)] = 2.0 * rows[at(count)] - rows[at(count - 1)];
+    }
+}
+
+#[cfg(test)]
+mod tests;
