@@ -1,4 +1,4 @@
-//! The channel's walls: planes for bodies, and constraints on grid nodes.
+//! The walls: planes for bodies, and constraints on grid nodes.
 //!
 //! The flow lies above the bed and between the vertical walls. The vertical walls lie on grid
 //! planes and act as mirrors: a node and its images move as one, so a smooth wall reflects
@@ -14,6 +14,7 @@ mod boundary;
 mod columns;
 mod constraint;
 mod nodes;
+mod rigid_walls;
 mod search;
 mod vertical_walls;
 
@@ -21,15 +22,16 @@ pub use crate::bed::Plane;
 pub use boundary::{Boundary, BoundaryCounts, filled};
 pub use constraint::WallPace;
 pub use nodes::NodeAccess;
+pub use rigid_walls::{PlanesAt, RigidWalls};
 pub use vertical_walls::{Ends, VerticalBoundary, VerticalWalls};
 
-/// All walls of the channel.
+/// All walls: the bed, and those of a channel.
 #[derive(Debug, Clone)]
 pub struct Walls {
     /// The bed.
     pub bed: Arc<dyn Bed>,
-    /// The vertical walls.
-    pub vertical_walls: VerticalWalls,
+    /// The vertical walls; `None` on open terrain.
+    pub vertical_walls: Option<VerticalWalls>,
 }
 
 /// Impulse of the walls, linear [N s] and angular about the origin [N m s].
@@ -76,18 +78,17 @@ pub fn in_plane(v: &Vec3) -> Vec3 {
 }
 
 impl Walls {
+    /// Half cells between the side walls; 0 without any.
+    pub fn halves_across(&self) -> i32 {
+        let vertical_walls = self.vertical_walls.as_ref();
+        vertical_walls.map_or(0, |walls| walls.halves_across)
+    }
+
     /// Every plane that a body can touch.
     pub fn planes(&self) -> impl Iterator<Item = &Plane> {
-        let back = match &self.vertical_walls.ends {
-            Ends::Back(bound) => Some(bound.plane()),
-            Ends::Seam { .. } => None,
-        };
-        let sides = self
-            .vertical_walls
-            .sides
-            .iter()
-            .map(VerticalBoundary::plane);
-        self.bed.planes().iter().chain(back).chain(sides)
+        let vertical_walls = self.vertical_walls.iter();
+        let of_channel = vertical_walls.flat_map(VerticalWalls::planes);
+        self.bed.planes().iter().chain(of_channel)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::boundary::{Boundary, ConstraintSet, Member};
 use super::nodes::NodeAccess;
-use super::vertical_walls::Meets;
+use super::vertical_walls::{Meets, VerticalWalls};
 use super::{Impulse, Walls};
 use crate::bed::Surface;
 use crate::math::Vec3;
@@ -148,53 +148,56 @@ impl Walls {
         nodes: &impl NodeAccess,
         before: Option<Before>,
     ) -> Motion {
-        match members {
-            [only] if !set.is_at_vertical_wall() => Motion {
-                velocity: nodes.velocity(only.place as usize),
+        match (&self.vertical_walls, members) {
+            (Some(walls), [_, _, ..]) => between_vertical_walls(walls, set, members, nodes, before),
+            (Some(walls), _) if set.is_at_vertical_wall() => {
+                between_vertical_walls(walls, set, members, nodes, before)
+            }
+            _ => Motion {
+                velocity: nodes.velocity(members[0].place as usize),
                 leaves: [false; 2],
             },
-            _ => self.between_vertical_walls(set, members, nodes, before),
         }
     }
+}
 
-    /// Common motion of a constraint set at a vertical wall, without the bed.
-    fn between_vertical_walls(
-        &self,
-        set: &ConstraintSet,
-        members: &[Member],
-        nodes: &impl NodeAccess,
-        before: Option<Before>,
-    ) -> Motion {
-        let folded = Folded::of(members, nodes);
-        let mut velocity = folded.momentum / folded.mass;
-        let mut leaves = [false; 2];
-        for (axis, meets) in [(0, set.back), (1, set.side)] {
-            let (Meets::Near { inward } | Meets::On { inward }) = meets else {
-                continue;
-            };
-            let sign = f64::from(inward);
-            let momentum = folded.unfolded[axis] * sign;
-            let pressed = before.map_or(0.0, |before| {
-                let lost = (before.momentum[axis] * sign - momentum).max(0.0);
-                lost * before.crossing * meets.share_of_pressure()
-            });
-            leaves[axis] = momentum > pressed && self.vertical_walls.lets_go(axis, inward);
-            if leaves[axis] {
-                velocity[axis] = folded.unfolded[axis] / folded.mass;
-                continue;
-            }
-            if let Meets::On { .. } = meets {
-                velocity[axis] = 0.0;
-            }
-            let friction = self.vertical_walls.friction(axis, inward);
-            let after = velocity[axis] * folded.signed_mass[axis];
-            let pressed = (after - folded.unfolded[axis]) * sign;
-            if friction > 0.0 && pressed > 0.0 {
-                apply_friction(axis, friction * pressed / folded.mass, &mut velocity);
-            }
+/// Common motion of a constraint set at a vertical wall, without the bed.
+fn between_vertical_walls(
+    vertical_walls: &VerticalWalls,
+    set: &ConstraintSet,
+    members: &[Member],
+    nodes: &impl NodeAccess,
+    before: Option<Before>,
+) -> Motion {
+    let folded = Folded::of(members, nodes);
+    let mut velocity = folded.momentum / folded.mass;
+    let mut leaves = [false; 2];
+    for (axis, meets) in [(0, set.back), (1, set.side)] {
+        let (Meets::Near { inward } | Meets::On { inward }) = meets else {
+            continue;
+        };
+        let sign = f64::from(inward);
+        let momentum = folded.unfolded[axis] * sign;
+        let pressed = before.map_or(0.0, |before| {
+            let lost = (before.momentum[axis] * sign - momentum).max(0.0);
+            lost * before.crossing * meets.share_of_pressure()
+        });
+        leaves[axis] = momentum > pressed && vertical_walls.lets_go(axis, inward);
+        if leaves[axis] {
+            velocity[axis] = folded.unfolded[axis] / folded.mass;
+            continue;
         }
-        Motion { velocity, leaves }
+        if let Meets::On { .. } = meets {
+            velocity[axis] = 0.0;
+        }
+        let friction = vertical_walls.friction(axis, inward);
+        let after = velocity[axis] * folded.signed_mass[axis];
+        let pressed = (after - folded.unfolded[axis]) * sign;
+        if friction > 0.0 && pressed > 0.0 {
+            apply_friction(axis, friction * pressed / folded.mass, &mut velocity);
+        }
     }
+    Motion { velocity, leaves }
 }
 
 /// Motion of a constraint set in the frame of its first member.

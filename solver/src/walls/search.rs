@@ -4,7 +4,7 @@ use super::Walls;
 use super::boundary::{Boundary, ConstraintSets, Member};
 use super::constraint::ConstrainedVelocity;
 use super::nodes::NodeAccess;
-use super::vertical_walls::{Ends, Meets};
+use super::vertical_walls::Meets;
 use crate::grid::{BLOCK, BLOCK_NODES};
 use crate::kernel::{Lattice, REACH};
 use rayon::prelude::*;
@@ -50,12 +50,8 @@ impl Walls {
     /// True if walls may act on a node of the block that starts at `first`.
     fn may_act_in(&self, lattice: &Lattice, first: [i32; 3]) -> bool {
         let last = first.map(|along| along + BLOCK as i32 - 1);
-        let ends = match self.vertical_walls.ends {
-            Ends::Back(_) => first[0] <= 1,
-            Ends::Seam { cells } => first[0] <= 1 || last[0] >= cells - 1,
-        };
-        let vertical_walls =
-            ends || first[1] <= 1 || 2 * last[1] >= self.vertical_walls.halves_across - 2;
+        let vertical_walls = (self.vertical_walls.as_ref())
+            .is_some_and(|vertical_walls| vertical_walls.may_act_between(first, last));
         let (low, high) = (lattice.position(first), lattice.position(last));
         // The kernel's reach along a diagonal.
         let margin = REACH * lattice.spacing.norm();
@@ -67,21 +63,20 @@ impl Walls {
         for local in 0..BLOCK_NODES {
             let place = block * BLOCK_NODES + local;
             let index = nodes.index(place);
-            let images = self.vertical_walls.has_images(index);
+            let vertical_walls = self.vertical_walls.as_ref();
+            let images = vertical_walls.is_some_and(|walls| walls.has_images(index));
             // An empty node counts if its images may not be empty.
             if nodes.mass(place) <= 0.0 && !images {
                 continue;
             }
-            let meets = [
-                self.vertical_walls.meets_back(index),
-                self.vertical_walls.meets_side(index),
-            ];
+            let meets = vertical_walls.map_or([Meets::Not; 2], |walls| walls.meets(index));
+            let is_master = vertical_walls.is_none_or(|walls| walls.master(index, nodes) == index);
             let near_bed = || {
                 let resting = nodes.lattice().position(index);
                 self.bed.is_near(&resting, &resting, margin)
             };
             let acts = images || meets != [Meets::Not; 2] || near_bed();
-            if acts && self.vertical_walls.master(index, nodes) == index {
+            if acts && is_master {
                 self.add_set(nodes, place, index, meets, found);
             }
         }
@@ -100,14 +95,15 @@ impl Walls {
             place: place as u32,
             sign: [1, 1],
         });
-        self.vertical_walls
-            .for_each_image(index, |image, sign| match nodes.place_of(image) {
+        if let Some(vertical_walls) = &self.vertical_walls {
+            vertical_walls.for_each_image(index, |image, sign| match nodes.place_of(image) {
                 Some(place) if nodes.mass(place) > 0.0 => found.members.push(Member {
                     place: place as u32,
                     sign,
                 }),
                 _ => {}
             });
+        }
         let below_bed = self.bed.covers(index, nodes.lattice());
         let alone = found.members.len() == start + 1;
         let set = found.sets.len() as u32;

@@ -23,7 +23,7 @@ pub(super) fn channel(cells_across: i32, base_friction: f64, side_friction: f64)
     let width = f64::from(cells_across) * H;
     Walls {
         bed: Arc::new(PlanarBed::floor(base_friction)),
-        vertical_walls: VerticalWalls {
+        vertical_walls: Some(VerticalWalls {
             ends: Ends::Back(VerticalBoundary::Wall(plane(
                 "back wall",
                 Vec3::x(),
@@ -35,7 +35,7 @@ pub(super) fn channel(cells_across: i32, base_friction: f64, side_friction: f64)
                 VerticalBoundary::Wall(plane("left side wall", -Vec3::y(), -width, side_friction)),
             ],
             halves_across: 2 * cells_across,
-        },
+        }),
     }
 }
 
@@ -111,9 +111,15 @@ fn nodes_below_the_floor_are_held_too() {
     assert_eq!(velocity(&grid, [5, 3, -1]), Vec3::zeros());
 }
 
+/// The vertical walls of a channel.
+fn vertical(walls: &mut Walls) -> &mut VerticalWalls {
+    walls.vertical_walls.as_mut().expect("a channel has them")
+}
+
 /// The walls as planes of symmetry.
 fn symmetric(mut walls: Walls) -> Walls {
-    walls.vertical_walls.sides = walls.vertical_walls.sides.map(|side| match side {
+    let sides = vertical(&mut walls).sides.clone();
+    vertical(&mut walls).sides = sides.map(|side| match side {
         VerticalBoundary::Wall(plane) | VerticalBoundary::Symmetry(plane) => {
             VerticalBoundary::Symmetry(plane)
         }
@@ -240,7 +246,7 @@ fn at_the_foot_of_the_back_wall_only_the_slope_is_open() {
 #[test]
 fn nodes_across_a_seam_move_as_one() {
     let mut walls = channel(4, 0.0, 0.0);
-    walls.vertical_walls.ends = Ends::Seam { cells: 8 };
+    vertical(&mut walls).ends = Ends::Seam { cells: 8 };
     let pair = [[1, 2, 5], [9, 2, 5]];
     let fast = Vec3::new(3.0, 0.0, 1.0);
     let mut grid = grid_with(&[(pair[0], fast), (pair[1], Vec3::zeros())]);
@@ -262,8 +268,8 @@ fn nodes_across_a_seam_move_as_one() {
 #[test]
 fn what_leaves_through_a_seam_comes_in_again() {
     let mut walls = channel(4, 0.0, 0.0);
-    assert_eq!(walls.vertical_walls.periodic_shift(9.0), None);
-    walls.vertical_walls.ends = Ends::Seam { cells: 8 };
+    assert_eq!(vertical(&mut walls).periodic_shift(9.0), None);
+    vertical(&mut walls).ends = Ends::Seam { cells: 8 };
     for (along, shift) in [
         (-0.1, Some(8)),
         (0.0, None),
@@ -271,6 +277,6 @@ fn what_leaves_through_a_seam_comes_in_again() {
         (8.0, Some(-8)),
         (17.0, Some(-16)),
     ] {
-        assert_eq!(walls.vertical_walls.periodic_shift(along), shift, "{along}");
+        assert_eq!(vertical(&mut walls).periodic_shift(along), shift, "{along}");
     }
 }

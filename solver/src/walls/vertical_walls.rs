@@ -159,20 +159,44 @@ impl VerticalWalls {
         }
     }
 
-    pub(super) fn meets_back(&self, [i, ..]: [i32; 3]) -> Meets {
+    /// True if they may act on a node between these two.
+    pub(super) fn may_act_between(&self, first: [i32; 3], last: [i32; 3]) -> bool {
+        let ends = match self.ends {
+            Ends::Back(_) => first[0] <= 1,
+            Ends::Seam { cells } => first[0] <= 1 || last[0] >= cells - 1,
+        };
+        ends || first[1] <= 1 || 2 * last[1] >= self.halves_across - 2
+    }
+
+    /// Positions of a node at the back and at the sides.
+    pub(super) fn meets(&self, index: [i32; 3]) -> [Meets; 2] {
+        [self.meets_back(index), self.meets_side(index)]
+    }
+
+    fn meets_back(&self, [i, ..]: [i32; 3]) -> Meets {
         match self.ends {
             Ends::Back(_) => meets(2 * i, 1),
             Ends::Seam { .. } => Meets::Not,
         }
     }
 
-    pub(super) fn meets_side(&self, [_, j, _]: [i32; 3]) -> Meets {
+    fn meets_side(&self, [_, j, _]: [i32; 3]) -> Meets {
         let from_far_side = self.halves_across - 2 * j;
         if from_far_side < 2 * j {
             meets(from_far_side, -1)
         } else {
             meets(2 * j, 1)
         }
+    }
+
+    /// Their planes: the back, then the sides.
+    pub(super) fn planes(&self) -> impl Iterator<Item = &Plane> {
+        let back = match &self.ends {
+            Ends::Back(bound) => Some(bound.plane()),
+            Ends::Seam { .. } => None,
+        };
+        back.into_iter()
+            .chain(self.sides.iter().map(VerticalBoundary::plane))
     }
 
     /// True if the boundary along x is periodic.
