@@ -5,6 +5,7 @@ use criterion::{BatchSize, Bencher, Criterion, Throughput};
 use fearless_simd::dispatch;
 use nalgebra::UnitQuaternion;
 use scree_solver::Instructions;
+use scree_solver::bed::NearGround;
 use scree_solver::contact::body_body::ContactPair;
 use scree_solver::contact::island::{self, BodyReport, Surroundings};
 use scree_solver::contact::law::ContactLaw;
@@ -24,7 +25,7 @@ use scree_solver::mpm::stress_update::update_stress;
 use scree_solver::points::Point;
 use scree_solver::rigid::{Body, BodyState, Freedom, InverseInertia, Load, TurnedCore};
 use scree_solver::shape::{RegularSolid, SharpPolyhedron, SpheroPolyhedron};
-use scree_solver::walls::Plane;
+use scree_solver::walls::{Plane, RigidWalls};
 use std::hint::black_box;
 
 /// Distance of nodes [m].
@@ -258,6 +259,7 @@ fn resting_cube(place: Vec3) -> Body {
         rolling_friction: 0.0,
         freedom: Freedom::Free,
         wall_touches: Vec::new(),
+        near_ground: NearGround::default(),
         turned_core: TurnedCore::default(),
         state: BodyState {
             position: place,
@@ -265,6 +267,7 @@ fn resting_cube(place: Vec3) -> Body {
             momentum: Vec3::zeros(),
             angular_momentum: Vec3::zeros(),
             springs: Vec::new(),
+            ground_nodes: Vec::new(),
             rolling: Vec::new(),
             wall_load: Load::default(),
             wall_energy: 0.0,
@@ -292,7 +295,7 @@ fn bodies_substep(criterion: &mut Criterion) {
     }];
     let around = Surroundings {
         cancellation: None,
-        planes: &planes,
+        walls: RigidWalls::planar(&planes),
         gravity: Vec3::new(0.0, 0.0, -GRAVITY),
         time: 0.0,
     };

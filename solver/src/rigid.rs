@@ -1,5 +1,6 @@
 //! Rigid bodies: sphero-polyhedra that move (docs/method.md, equations 15 and 16).
 
+use crate::bed::{NearGround, PlacedSolid};
 use crate::contact::friction::Spring;
 use crate::contact::law::ContactLaw;
 use crate::contact::wall_touch::WallTouch;
@@ -63,6 +64,8 @@ pub struct Body {
     pub freedom: Freedom,
     /// Its contacts with walls, as last found; kept to avoid allocations.
     pub wall_touches: Vec<WallTouch>,
+    /// What of it is near a terrain, as last found; kept since it holds for a while.
+    pub near_ground: NearGround,
     /// Its core vertices in world axes, as last turned; kept to turn them once per sub-step.
     pub turned_core: TurnedCore,
     /// State.
@@ -80,9 +83,11 @@ pub struct BodyState {
     pub momentum: Vec3,
     /// Angular momentum about the centre of mass, world axes [kg m²/s].
     pub angular_momentum: Vec3,
-    /// Tangential spring of every pair of core vertex and wall, vertex by vertex; new
-    /// where they are apart.
+    /// Tangential spring of every pair of core vertex and wall, vertex by vertex, then those of the
+    /// nodes of a terrain that it touches; new where they are apart.
     pub springs: Vec<Spring>,
+    /// Nodes of a terrain that it touches, in order.
+    pub ground_nodes: Vec<[i32; 2]>,
     /// Their springs against rolling; empty without rolling resistance.
     pub rolling: Vec<Spring>,
     /// Current load of the walls.
@@ -204,6 +209,15 @@ impl Body {
     /// 1/m [1/kg]; 0 for a fixed or prescribed body.
     pub fn inverse_mass(&self) -> f64 {
         if self.is_free() { 1.0 / self.mass } else { 0.0 }
+    }
+
+    /// Its shape in its place.
+    pub fn placed(&self) -> PlacedSolid<'_> {
+        PlacedSolid {
+            shape: &self.shape,
+            position: self.state.position,
+            orientation: self.state.orientation,
+        }
     }
 
     /// True if loads move it.

@@ -1,4 +1,4 @@
-//! Bodies on walls: sphere-swept vertices of a convex body against planes
+//! Bodies on walls: sphere-swept vertices of a convex body against planes, and a body on a terrain
 //! (docs/method.md, equations 17–19).
 
 use crate::contact::dissipation::{Damping, Taken, stopping};
@@ -7,14 +7,28 @@ use crate::contact::law::effective_contact_mass;
 use crate::contact::wall_touch::WallTouch;
 use crate::math::Vec3;
 use crate::rigid::{Body, BodyState, Load};
-use crate::walls::Plane;
+use crate::walls::{Plane, RigidWalls};
+
+mod ground;
+
+pub use ground::ground_gap;
+use ground::{deepest_on_ground, find_on_ground};
 
 /// Height over the sphero radius up to which a vertex is looked at: more than 1, since it is
 /// turned in another way and thus rounded differently.
 const NEAR: f64 = 1.001;
 
-/// Deepest overlap of the body with a wall [m]; negative when apart.
-pub fn deepest_overlap(body: &Body, planes: &[Plane]) -> f64 {
+/// Deepest overlap of the body with a wall [m]; negative when apart, where a terrain farther than
+/// `within` [m] does not count.
+pub fn deepest_overlap(body: &Body, walls: &RigidWalls, within: f64) -> f64 {
+    let on_planes = deepest_on_planes(body, walls.planes);
+    match walls.terrain {
+        Some(ground) => on_planes.max(deepest_on_ground(body, ground, within)),
+        None => on_planes,
+    }
+}
+
+fn deepest_on_planes(body: &Body, planes: &[Plane]) -> f64 {
     let radius = body.shape.sphero_radius();
     let vertices = body.shape.core_vertices().iter();
     let places = vertices.map(|core| body.state.position + body.to_world(core));
@@ -27,9 +41,9 @@ pub fn deepest_overlap(body: &Body, planes: &[Plane]) -> f64 {
 
 /// Updates the body's wall load and its springs after a drift of `dt`; returns the dissipation
 /// of the contacts.
-pub fn evaluate_wall_contacts(body: &mut Body, planes: &[Plane], dt: f64) -> Taken {
+pub fn evaluate_wall_contacts(body: &mut Body, walls: &RigidWalls, dt: f64) -> Taken {
     let mut taken = Taken::default();
-    let count = body.shape.core_vertices().len() * planes.len();
+    let count = count_of_springs(body, walls);
     body.state.springs.resize(count, Spring::NEW);
     if body.rolling_friction > 0.0 {
         body.state.rolling.resize(count, Spring::NEW);
@@ -37,13 +51,17 @@ pub fn evaluate_wall_contacts(body: &mut Body, planes: &[Plane], dt: f64) -> Tak
     let apart = body.state.wall_overlap == 0.0;
     body.state.wall_load = Load::default();
     body.state.wall_energy = 0.0;
-    if apart && clear_of(body, planes) {
-        return taken;
-    }
     let mut touches = std::mem::take(&mut body.wall_touches);
-    find_touches(body, planes, &mut touches);
+    if let Some(ground) = walls.terrain {
+        taken.lost += find_on_ground(body, ground, &mut touches);
+    } else if apart && clear_of(body, walls.planes) {
+        body.wall_touches = touches;
+        return taken;
+    } else {
+        find_touches(body, walls.planes, &mut touches);
+    }
     body.state.wall_overlap = deepest_of(&touches);
-    taken.lost = forget_what_is_apart(&mut body.state, &touches);
+    taken.lost += forget_what_is_apart(&mut body.state, &touches);
     if !touches.is_empty() {
         press(body, &mut touches, &mut taken, dt);
         rub(body, &touches, &mut taken, dt);
@@ -52,7 +70,17 @@ pub fn evaluate_wall_contacts(body: &mut Body, planes: &[Plane], dt: f64) -> Tak
     taken
 }
 
-/// Puts every vertex that overlaps a wall into `touches`, in the order of their springs.
+/// Springs of a body: of every pair of vertex and plane, or of every vertex on a terrain and the
+/// nodes that it touches there.
+fn count_of_springs(body: &Body, walls: &RigidWalls) -> usize {
+    let vertices = body.shape.core_vertices().len();
+    match walls.terrain {
+        Some(_) => vertices + body.state.ground_nodes.len(),
+        None => vertices * walls.planes.len(),
+    }
+}
+
+/// Puts every vertex that overlaps a plane into `touches`, in the order of their springs.
 fn find_touches(body: &mut Body, planes: &[Plane], touches: &mut Vec<WallTouch>) {
     touches.clear();
     body.turn_core();

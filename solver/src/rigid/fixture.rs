@@ -1,6 +1,7 @@
 //! Bodies for tests.
 
 use super::{Body, BodyState, Freedom, InverseInertia, Load, TurnedCore};
+use crate::bed::NearGround;
 use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
 use crate::shape::{ConvexPolyhedron, SpheroPolyhedron};
@@ -40,6 +41,7 @@ pub(crate) fn of_shape(shape: SpheroPolyhedron) -> Body {
         rolling_friction: 0.0,
         freedom: Freedom::Free,
         wall_touches: Vec::new(),
+        near_ground: NearGround::default(),
         turned_core: TurnedCore::default(),
         state: BodyState {
             position: Vec3::zeros(),
@@ -47,6 +49,7 @@ pub(crate) fn of_shape(shape: SpheroPolyhedron) -> Body {
             momentum: Vec3::zeros(),
             angular_momentum: Vec3::zeros(),
             springs: Vec::new(),
+            ground_nodes: Vec::new(),
             rolling: Vec::new(),
             wall_load: Load::default(),
             wall_energy: 0.0,

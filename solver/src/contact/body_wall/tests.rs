@@ -20,7 +20,7 @@ fn cube_at(height: f64) -> Body {
 fn springs_forget_once_apart() {
     let mut body = cube_at(0.0199);
     body.state.momentum = Vec3::new(body.mass, 0.0, 0.0);
-    evaluate_wall_contacts(&mut body, &[floor()], 1e-5);
+    evaluate_wall_contacts(&mut body, &RigidWalls::planar(&[floor()]), 1e-5);
     assert!(
         body.state
             .springs
@@ -32,7 +32,7 @@ fn springs_forget_once_apart() {
         "friction is against the sliding"
     );
     body.state.position.z = 0.0201;
-    evaluate_wall_contacts(&mut body, &[floor()], 1e-5);
+    evaluate_wall_contacts(&mut body, &RigidWalls::planar(&[floor()]), 1e-5);
     assert!(
         body.state
             .springs

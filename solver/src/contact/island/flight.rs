@@ -6,6 +6,7 @@ use super::mover::Mover;
 use super::pair::{IslandPair, Side, body_of};
 use super::surroundings::Surroundings;
 use crate::contact::body_body::{distance, least_gap};
+use crate::contact::body_wall::ground_gap;
 use crate::math::Vec3;
 use crate::method::METHOD;
 use crate::rigid::Body;
@@ -63,7 +64,14 @@ fn clear_of_walls(member: &Member, around: &Surroundings, longest: f64) -> f64 {
         speed: turning.speed - linear.dot(&plane.normal),
         acceleration: (turning.acceleration - acceleration.dot(&plane.normal)).max(0.0),
     };
-    around.planes.iter().fold(longest, |time, plane| {
+    let on_ground = around.walls.terrain.map_or(longest, |ground| {
+        let closing = Closing {
+            speed: turning.speed + linear.norm(),
+            acceleration: turning.acceleration + acceleration.norm(),
+        };
+        longest.min(closing.clear_for(ground_gap(body, ground)))
+    });
+    around.walls.planes.iter().fold(on_ground, |time, plane| {
         let closing = towards(plane);
         let height = plane.height(&body.state.position);
         if closing.clear_for(height - body.shape.bounding_radius()) >= time {

@@ -45,7 +45,7 @@ fn longest_on_walls(member: &Member, around: &Surroundings, at_most: f64) -> f64
     let fastest = linear.norm() + angular.norm() * radius;
     let within = radius + fastest * at_most / SHARE_OF_WAY;
     let mut hardest = 0.0;
-    for plane in around.planes {
+    for plane in around.walls.planes {
         if plane.height(&body.state.position) >= within {
             continue;
         }
@@ -57,15 +57,28 @@ fn longest_on_walls(member: &Member, around: &Surroundings, at_most: f64) -> f64
             hardest = f64::max(hardest, coming.at_stake(&body.wall_law, body.mass, at_most));
         }
     }
+    let mut longest = turn;
+    if let Some(ground) = around.walls.terrain {
+        let placed = body.placed();
+        let known = body.near_ground.reach(&placed) - body.shape.sphero_radius();
+        longest = longest.min(SHARE_OF_WAY * known.max(0.0) / fastest);
+        for place in body.near_ground.places(&placed, ground) {
+            let coming = Coming {
+                overlap: body.shape.sphero_radius() - place.height,
+                approach: -(linear + angular.cross(&place.arm)).dot(&place.normal),
+            };
+            hardest = f64::max(hardest, coming.at_stake(&body.wall_law, body.mass, at_most));
+        }
+    }
     if hardest == 0.0 {
-        return turn;
+        return longest;
     }
     let at_stake = AtStake {
         energy: hardest + pressed(&body.wall_law, pressing(member, &around.gravity)),
         scale: scale(body, &around.gravity),
         least_mass: body.least_effective_mass(),
     };
-    turn.min(at_stake.longest(&body.wall_law))
+    longest.min(at_stake.longest(&body.wall_law))
 }
 
 /// Longest sub-step for two bodies [s]. Of features that do not touch yet all the motion counts as

@@ -82,7 +82,7 @@ pub(super) fn advance_together(
         }
         find_contacts(members, movers, contact_pairs, h);
         for member in members.iter_mut() {
-            member.taken = evaluate_wall_contacts(member.body, around.planes, h);
+            member.taken = evaluate_wall_contacts(member.body, &around.walls, h);
         }
         evaluate_body_contacts(members, movers, contact_pairs, h);
         for mover in movers.iter_mut() {

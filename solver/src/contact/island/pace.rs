@@ -12,7 +12,7 @@ use crate::contact::law::ContactLaw;
 use crate::math::Vec3;
 use crate::method::METHOD;
 use crate::rigid::{Body, Freedom, Load};
-use crate::walls::Plane;
+use crate::walls::RigidWalls;
 
 /// Number of body sub-steps required for `dt`, whole but kept as a float.
 pub(super) fn substeps(
@@ -26,7 +26,7 @@ pub(super) fn substeps(
         let acceleration = member
             .body
             .largest_acceleration(&around.gravity, &member.flow);
-        substeps_alone(member.body, around.planes, acceleration, dt, dt)
+        substeps_alone(member.body, &around.walls, acceleration, dt, dt)
     });
     let island_pair = contact_pairs.iter().map(|island_pair| {
         substeps_of_island_pair(members, movers, island_pair, &around.gravity, dt)
@@ -39,7 +39,7 @@ pub(super) fn substeps(
 /// touch in the time `ahead` [s], under this acceleration [m/s²].
 pub(super) fn substeps_alone(
     body: &Body,
-    planes: &[Plane],
+    walls: &RigidWalls,
     acceleration: f64,
     dt: f64,
     ahead: f64,
@@ -47,8 +47,9 @@ pub(super) fn substeps_alone(
     let turns = body.angular_velocity().norm() * dt / METHOD.body_step.largest_turn;
     // A body that starts from rest is not at rest at the end.
     let speed = body.largest_speed() + acceleration * dt;
-    let deepest = deepest_overlap(body, planes);
-    let contacts = if deepest + reach(body, speed_within(body, acceleration, ahead), ahead) > 0.0 {
+    let reach = reach(body, speed_within(body, acceleration, ahead), ahead);
+    let deepest = deepest_overlap(body, walls, reach);
+    let contacts = if deepest + reach > 0.0 {
         let law = &body.wall_law;
         let impact = impact_overlap(law, body.mass, speed);
         dt / longest(law, deepest.max(impact), body.least_effective_mass())
@@ -69,7 +70,7 @@ pub fn substeps_ahead(
 ) -> f64 {
     let falling = |body: &Body| body.largest_acceleration(&around.gravity, &Load::default());
     let free = bodies.iter().filter(|body| body.is_free());
-    let alone = free.map(|body| substeps_alone(body, around.planes, falling(body), dt, step));
+    let alone = free.map(|body| substeps_alone(body, &around.walls, falling(body), dt, step));
     let pairs = Reaches::within(bodies, |place| falling(&bodies[place]), step).pairs(bodies);
     let island_pair = pairs.into_iter().map(|pair| {
         let both = pair.map(|place| &bodies[place]);

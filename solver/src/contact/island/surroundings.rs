@@ -2,13 +2,13 @@
 
 use crate::cancellation::Cancellation;
 use crate::math::Vec3;
-use crate::walls::Plane;
+use crate::walls::RigidWalls;
 
 /// External conditions of the bodies' motion.
 #[derive(Debug, Clone, Copy)]
 pub struct Surroundings<'a> {
     /// The walls.
-    pub planes: &'a [Plane],
+    pub walls: RigidWalls<'a>,
     /// Gravity [m/s²].
     pub gravity: Vec3,
     /// Simulated time at the start [s].

@@ -3,7 +3,7 @@
 use crate::math::Vec3;
 use crate::rigid::Body;
 use crate::shape::Face;
-use crate::walls::Plane;
+use crate::walls::{Plane, RigidWalls};
 
 /// Correction of a point that ended a step inside a body's core.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +44,7 @@ impl PenetratingPoint {
 pub fn penetration_correction(
     position: &Vec3,
     body: &Body,
-    walls: &[Plane],
+    walls: &RigidWalls,
 ) -> Option<PenetrationCorrection> {
     let arm = body.to_body(&(position - body.state.position));
     let distance = body.shape.closest_feature(&arm).distance;
@@ -57,6 +57,7 @@ pub fn penetration_correction(
         (depth, position + body.to_world(&out))
     };
     // A point that was behind a wall before is at least not moved farther behind it.
+    let walls = walls.planes_at(position);
     let has_room = |place: &Vec3| {
         let behind = |wall: &Plane| wall.height(place) < wall.height(position).min(0.0);
         !walls.iter().any(behind)

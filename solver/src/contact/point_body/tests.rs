@@ -9,7 +9,7 @@ use crate::kernel::{Lattice, PointStencil, Stencil};
 use crate::rigid::InverseInertia;
 use crate::rigid::fixture::{cuboid, of_shape};
 use crate::shape::{Feature, RegularSolid, SharpPolyhedron};
-use crate::walls::{NodeAccess, Plane};
+use crate::walls::{NodeAccess, Plane, RigidWalls};
 use nalgebra::UnitQuaternion;
 
 const SPHERE: PointSphere = PointSphere {
@@ -273,7 +273,8 @@ fn forces_of_the_last_sub_step_are_gone() {
 fn points_in_the_core_are_put_on_its_surface() {
     let body = cube();
     let core_top = 0.12 - body.shape.sphero_radius();
-    let at = |z: f64| penetration_correction(&Vec3::new(0.1, 0.1, z), &body, &[]);
+    let at =
+        |z: f64| penetration_correction(&Vec3::new(0.1, 0.1, z), &body, &RigidWalls::planar(&[]));
     let Some(PenetrationCorrection::To(outside)) = at(core_top - 1e-3) else {
         panic!("it is inside");
     };
@@ -294,7 +295,8 @@ fn no_point_is_put_behind_a_wall() {
     };
     let lid = wall("lid", -Vec3::z(), -0.119);
     let inside = Vec3::new(0.11, 0.1, 0.114);
-    let Some(PenetrationCorrection::To(at_side)) = penetration_correction(&inside, &body, &[lid])
+    let Some(PenetrationCorrection::To(at_side)) =
+        penetration_correction(&inside, &body, &RigidWalls::planar(&[lid]))
     else {
         panic!("there is room");
     };
@@ -304,7 +306,7 @@ fn no_point_is_put_behind_a_wall() {
     // Nearest to the core's top, the sphero radius below the body's.
     let depth = 0.12 - body.shape.sphero_radius() - 0.114;
     let Some(PenetrationCorrection::NoRoom { depth: found }) =
-        penetration_correction(&inside, &body, cage.as_flattened())
+        penetration_correction(&inside, &body, &RigidWalls::planar(cage.as_flattened()))
     else {
         panic!("there is no room");
     };

@@ -12,7 +12,10 @@ fn balances(
 ) -> Vec<BodyEnergy> {
     let around = Surroundings {
         cancellation: None,
-        planes: &[floor()],
+        walls: RigidWalls {
+            planes: &[floor()],
+            terrain: None,
+        },
         gravity: GRAVITY,
         time: 0.0,
     };

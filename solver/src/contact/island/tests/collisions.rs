@@ -102,7 +102,7 @@ fn rebound(turn: &Vec3, restitution: f64, at_a_body: bool) -> f64 {
     }];
     let around = Surroundings {
         cancellation: None,
-        planes: if at_a_body { &[] } else { &planes },
+        walls: RigidWalls::planar(if at_a_body { &planes[..0] } else { &planes }),
         gravity: Vec3::zeros(),
         time: 0.0,
     };

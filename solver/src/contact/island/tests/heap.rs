@@ -59,7 +59,7 @@ fn deepest(bodies: &[Body], contact_pairs: &[ContactPair], planes: &[Plane]) -> 
     let radius = |body: &Body| body.shape.sphero_radius();
     let on_walls = bodies
         .iter()
-        .map(|body| deepest_overlap(body, planes) / radius(body));
+        .map(|body| deepest_overlap(body, &RigidWalls::planar(planes), 0.0) / radius(body));
     let on_bodies = contact_pairs.iter().map(|contact_pair| {
         let smaller = contact_pair.bodies.map(|place| radius(&bodies[place]));
         contact_pair.deepest / smaller[0].min(smaller[1])
@@ -79,7 +79,7 @@ fn a_heap_comes_to_rest_and_sleeps_until_touched() {
     let (mut bodies, planes) = heap();
     let around = Surroundings {
         cancellation: None,
-        planes: &planes,
+        walls: RigidWalls::planar(&planes),
         gravity: GRAVITY,
         time: 0.0,
     };
@@ -159,7 +159,7 @@ fn any_number_of_threads_gives_the_same_bits() {
             let (mut bodies, planes) = heap();
             let around = Surroundings {
                 cancellation: None,
-                planes: &planes,
+                walls: RigidWalls::planar(&planes),
                 gravity: GRAVITY,
                 time: 0.0,
             };

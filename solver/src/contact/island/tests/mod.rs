@@ -10,7 +10,7 @@ use super::*;
 use crate::contact::law::ContactLaw;
 use crate::rigid::fixture::cuboid;
 use crate::rigid::{Freedom, InverseInertia};
-use crate::walls::Plane;
+use crate::walls::{Plane, RigidWalls};
 use nalgebra::UnitQuaternion;
 
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
@@ -47,7 +47,10 @@ fn advance(
 fn alone(body: &mut Body, flow: &Load, dt: f64) -> BodyReport {
     let around = Surroundings {
         cancellation: None,
-        planes: &[floor()],
+        walls: RigidWalls {
+            planes: &[floor()],
+            terrain: None,
+        },
         gravity: GRAVITY,
         time: 0.0,
     };
@@ -126,8 +129,9 @@ fn a_resting_cube_is_carried() {
 // time scale.
 #[test]
 fn substeps_follow_what_happens() {
-    let asked =
-        |body: &Body, acceleration| substeps_alone(body, &[floor()], acceleration, 1e-3, 1e-3);
+    let planes = [floor()];
+    let walls = RigidWalls::planar(&planes);
+    let asked = |body: &Body, acceleration| substeps_alone(body, &walls, acceleration, 1e-3, 1e-3);
     let count = |body: &Body| asked(body, 9.81).ceil().max(1.0);
     assert_eq!(count(&cube_at(1.0)), 1.0);
     // A body that gravity takes to the wall from rest strikes it like one in flight.
@@ -161,7 +165,10 @@ impl Numbers {
 
 const NOWHERE: Surroundings = Surroundings {
     cancellation: None,
-    planes: &[],
+    walls: RigidWalls {
+        planes: &[],
+        terrain: None,
+    },
     gravity: Vec3::new(0.0, 0.0, 0.0),
     time: 0.0,
 };
@@ -186,7 +193,10 @@ fn rolling_resistance_holds_a_round_body_on_a_slope() {
         body.rolling_friction = rolling;
         let around = Surroundings {
             cancellation: None,
-            planes: &[floor()],
+            walls: RigidWalls {
+                planes: &[floor()],
+                terrain: None,
+            },
             // 10° of slope.
             gravity: 9.81 * Vec3::new(0.173_648, 0.0, -0.984_808),
             time: 0.0,
