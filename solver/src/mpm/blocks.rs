@@ -47,6 +47,14 @@ impl<R: Real> Blocks<R> {
         blocks
     }
 
+    /// Adds points, each with its block.
+    pub fn add(&mut self, mut points: impl Iterator<Item = (BlockKey, Packed<R>)>) {
+        while self.take_in(points.by_ref().take(ARRIVING)) {}
+        for block in &mut self.occupied {
+            block.tidy();
+        }
+    }
+
     /// The blocks.
     pub fn occupied(&self) -> &[Block<R>] {
         &self.occupied

@@ -6,7 +6,7 @@ use super::constitutive::Law;
 use super::deformation::strain;
 use super::lanes::{Matrix, NODE_NUMBERS, Real, Splat, load};
 use super::redistribution::{
-    NoShiftZone, PointState, RedistributionRates, ShiftingSums, redistribute,
+    NoShiftZone, PointState, RedistributionRates, ShiftingSums, TerrainZone, redistribute,
 };
 use super::rows::{MomentSums, Moments, Quads, Tile, gather_mean, store_transposed, transposed};
 use super::stencil::Stencils;
@@ -70,6 +70,8 @@ pub struct Ending<'a, R: Real> {
     pub redistribution: &'a RedistributionRates,
     /// Zones at the planes of the bed.
     pub no_shift_zones: &'a [NoShiftZone<R>],
+    /// Zones on a terrain, if the bed is one.
+    pub terrain_zone: Option<TerrainZone<'a>>,
     /// Mass that fills the largest volume a point can have [kg].
     pub largest_volume_mass: R,
 }
@@ -89,6 +91,7 @@ pub fn gather_motion<S: Simd, R: Real>(
         dt,
         redistribution,
         no_shift_zones,
+        terrain_zone,
         largest_volume_mass,
     } = *ending;
     let number = Splat::<S, R>::new(simd);
@@ -97,6 +100,7 @@ pub fn gather_motion<S: Simd, R: Real>(
     let mut sums = EndSums::none(simd);
     let mut spread = ShiftingSums::NONE;
     let key = block.key;
+    let terrain_zone = terrain_zone.and_then(|zone| Some((zone, zone.height_in(&key)?)));
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
         let moments = moment_sums.gather(simd, &stencils, count, &nodes.motion);
@@ -136,14 +140,15 @@ pub fn gather_motion<S: Simd, R: Real>(
         let mut redistributed = redistribute::<S, R>(simd, redistribution, &seen, &moved);
         let mut velocity = arriving;
         for no_shift_zone in no_shift_zones {
-            let here = no_shift_zone.in_block(&key);
-            here.keep_off(
-                simd,
-                &position,
-                &moved,
-                &mut redistributed.shift,
-                &mut velocity,
-            );
+            let here = no_shift_zone.in_block(simd, &key);
+            let shift = &mut redistributed.shift;
+            here.keep_off(simd, &position, &moved, shift, &mut velocity);
+        }
+        let on_terrain = terrain_zone
+            .and_then(|(zone, height)| zone.in_block::<S, R>(simd, (&key, height), &position));
+        if let Some(here) = on_terrain {
+            let shift = &mut redistributed.shift;
+            here.keep_off(simd, &position, &moved, shift, &mut velocity);
         }
         let change = [0, 1, 2].map(|axis| velocity[axis] - arriving[axis]);
         spread.stop(simd, chunk, &position, &change, spacing);

@@ -159,6 +159,7 @@ impl<'a, R: Real> KernelStep<'a, R> {
             dt: R::of(self.step.dt),
             redistribution: &self.step.redistribution,
             no_shift_zones: &zones,
+            terrain_zone: None,
             largest_volume_mass: R::of(largest_volume_mass),
         };
         let nodes = &self.nodes;

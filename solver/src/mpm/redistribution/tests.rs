@@ -67,6 +67,7 @@ fn at_the_bed(bed: &[Plane], position: &Vec3, [moved, shift, velocity]: [Vec3; 3
         let (mut shift, mut velocity) = (cells(&shift), vectors(&velocity));
         for plane in bed {
             let zone = NoShiftZone::<f64>::of(plane, &LATTICE);
+            let zone = zone.in_block(simd, &[0; 3]);
             zone.keep_off(simd, &position, &moved, &mut shift, &mut velocity);
         }
         (
