@@ -3,7 +3,7 @@
 use super::reader::{Object, choice_words};
 use super::report::Report;
 use super::rules::{BUDGET, CELL_SIZE, TARGET, TARGET_BODY};
-use super::{Flow, Numerics};
+use super::{Flow, Numerics, Source};
 use serde::{Deserialize, Serialize};
 
 /// Requested accuracy of the answer, and whether it reports uncertainty intervals.
@@ -119,7 +119,11 @@ pub(super) fn read_accuracy(parent: &Object<'_>) -> Option<Accuracy> {
 
 /// Uncertainty intervals come from coarser runs of a flow.
 pub(super) fn bands_can_be_made(report: &Report, accuracy: &Accuracy, flow: Option<&Flow>) {
-    if flow.is_some_and(|flow| flow.volume_m3 > 0.0) {
+    let has_material = |flow: &Flow| match flow.source {
+        Source::Channel { volume_m3, .. } => volume_m3 > 0.0,
+        Source::Terrain { .. } => true,
+    };
+    if flow.is_some_and(has_material) {
         return;
     }
     if accuracy.error_bars {

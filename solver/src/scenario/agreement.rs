@@ -8,7 +8,7 @@ use super::rules::{
     BODY_SAMPLES, SAMPLE_INTERVAL, SLOWEST_SOUND, SLOWEST_SOUND_DRIVEN, SOFTEST, SOUND_SPEED,
     YOUNGS_MODULUS,
 };
-use super::{Body, Channel, Flow, Numerics};
+use super::{Body, Flow, Numerics};
 
 /// The second field must not be below the first.
 pub(super) fn ascend(
@@ -59,20 +59,17 @@ pub(super) fn samples_are_bounded(
 /// speed c by g H/c², nor a flow where it strikes a wall or a body is driven into it.
 pub(super) fn flow_is_stiff_enough(
     report: &Report,
-    channel: &Channel,
     flow: &Flow,
+    course: &Course,
     bodies: &[Option<Body>],
     numerics: &Numerics,
     gravity_m_s2: f64,
 ) {
-    let others = [
-        Some(for_speed(channel, flow, gravity_m_s2)),
-        for_driven_bodies(channel, bodies),
-    ];
+    let others = [Some(for_speed(course)), for_driven_bodies(bodies)];
     let most = others
         .into_iter()
         .flatten()
-        .fold(for_weight(flow, gravity_m_s2), Need::or_more);
+        .fold(for_weight(course, gravity_m_s2), Need::or_more);
     let why = |value: f64| format!("is {}, so soft {}", short(value), most.reason);
     let slowest = most.sound_speed;
     if let Some(speed) = numerics.sound_speed_m_s.filter(|&speed| speed < slowest) {
@@ -88,6 +85,13 @@ pub(super) fn flow_is_stiff_enough(
         let pointer = format!("/flow/material/{}", YOUNGS_MODULUS.key);
         report.refuse(&pointer, &allowed, YOUNGS_MODULUS.unit, &why(modulus));
     }
+}
+
+/// What presses a flow together: its thickness [m], and the speed that it may reach [m/s].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Course {
+    pub(super) thickness: f64,
+    pub(super) fastest: f64,
 }
 
 /// Lower bound of the sound speed, and its reason.
@@ -108,16 +112,16 @@ impl Need {
     }
 }
 
-fn for_weight(flow: &Flow, gravity_m_s2: f64) -> Need {
+fn for_weight(course: &Course, gravity_m_s2: f64) -> Need {
     Need {
-        sound_speed: SOFTEST * (gravity_m_s2 * flow.release.height_m).sqrt(),
+        sound_speed: SOFTEST * (gravity_m_s2 * course.thickness).sqrt(),
         reason: "that the release's own weight would press it together by a third or more"
             .to_owned(),
     }
 }
 
-fn for_speed(channel: &Channel, flow: &Flow, gravity_m_s2: f64) -> Need {
-    let fastest = channel.fastest_flow(flow, gravity_m_s2);
+fn for_speed(course: &Course) -> Need {
+    let fastest = course.fastest;
     Need {
         sound_speed: SLOWEST_SOUND * fastest,
         reason: format!(
@@ -128,8 +132,8 @@ fn for_speed(channel: &Channel, flow: &Flow, gravity_m_s2: f64) -> Need {
     }
 }
 
-fn for_driven_bodies(channel: &Channel, bodies: &[Option<Body>]) -> Option<Need> {
-    let (pointer, fastest) = fastest_driven(channel, bodies)?;
+fn for_driven_bodies(bodies: &[Option<Body>]) -> Option<Need> {
+    let (pointer, fastest) = fastest_driven(bodies)?;
     Some(Need {
         sound_speed: SLOWEST_SOUND_DRIVEN * fastest,
         reason: format!(

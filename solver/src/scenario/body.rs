@@ -8,11 +8,11 @@ use super::report::Report;
 use super::rules::*;
 use super::shape::read_shape;
 use super::sharp_shape::{SharpShape, Size};
-use super::{Body, BuiltSolid, Position, Shape};
+use super::{Body, BuiltSolid, Place, Position, Shape};
 use crate::shape::ShapeError;
 
 /// The list of bodies; a refused body is `None`.
-pub(super) fn read_bodies(parent: &Object<'_>) -> Option<Vec<Option<Body>>> {
+pub(super) fn read_bodies(parent: &Object<'_>, on_terrain: bool) -> Option<Vec<Option<Body>>> {
     let allowed = format!("a list of at most {BODIES} bodies");
     let pointer = parent.pointer_to("bodies");
     match parent.required("bodies", &allowed)? {
@@ -20,7 +20,14 @@ pub(super) fn read_bodies(parent: &Object<'_>) -> Option<Vec<Option<Body>>> {
             items
                 .iter()
                 .enumerate()
-                .map(|(index, node)| read_body(node, format!("{pointer}/{index}"), parent.report))
+                .map(|(index, node)| {
+                    read_body(
+                        node,
+                        format!("{pointer}/{index}"),
+                        parent.report,
+                        on_terrain,
+                    )
+                })
                 .collect(),
         ),
         _ => {
@@ -31,16 +38,17 @@ pub(super) fn read_bodies(parent: &Object<'_>) -> Option<Vec<Option<Body>>> {
     }
 }
 
-fn read_body(node: &Node, pointer: String, report: &Report) -> Option<Body> {
+fn read_body(node: &Node, pointer: String, report: &Report, on_terrain: bool) -> Option<Body> {
     let object = Object::open(node, pointer, report)?;
     let sharp = read_shape(&object);
     let size = sharp.as_ref().map(SharpShape::size);
     let shape = sharp.as_ref().map(SharpShape::shape);
     let sphero_radius_m = read_sphero_radius(&object, shape, size);
     let density_kg_m3 = object.number(&BODY_DENSITY);
-    let position = object
-        .defaulted("position")
-        .and_then(|o| read_position(&o, size));
+    let position = object.defaulted("position").and_then(|o| match on_terrain {
+        true => read_position_on_terrain(&o),
+        false => read_position(&o, size),
+    });
     let turn = read_turn(&object);
     let velocities = read_velocities(&object);
     let friction = object.number(&FRICTION);
@@ -111,8 +119,23 @@ fn read_position(object: &Object<'_>, size: Option<Size>) -> Option<Position> {
     let elevation_m = object.automatic(&ELEVATION);
     object.refuse_unknown();
     Some(Position {
-        downstream_m: downstream_m?,
-        lateral_m: lateral_m?,
+        place: Place::InChannel {
+            downstream_m: downstream_m?,
+            lateral_m: lateral_m?,
+        },
+        elevation_m: elevation_m?,
+    })
+}
+
+fn read_position_on_terrain(object: &Object<'_>) -> Option<Position> {
+    let (east_m, north_m) = (object.number(&EAST), object.number(&NORTH));
+    let elevation_m = object.automatic(&TERRAIN_ELEVATION);
+    object.refuse_unknown();
+    Some(Position {
+        place: Place::OnTerrain {
+            east_m: east_m?,
+            north_m: north_m?,
+        },
         elevation_m: elevation_m?,
     })
 }

@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 ///     .duration(2.0)
 ///     .build()?;
 /// assert_eq!(scenario.bodies.len(), 2);
-/// assert_eq!(scenario.channel.width_m, 0.2);
+/// assert_eq!(scenario.channel().map(|channel| channel.width_m), Some(0.2));
 /// # Ok::<(), scree_solver::ScenarioError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]

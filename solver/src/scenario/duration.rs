@@ -3,7 +3,7 @@
 use super::motion::Motion;
 use super::rules::LONGEST;
 use super::sliding_block::SlidingBlock;
-use super::{Body, Channel, Flow};
+use super::{Body, Channel, Flow, Source};
 
 /// Default duration without a flow [s].
 pub(super) const WITHOUT_FLOW: f64 = 3.0;
@@ -18,9 +18,22 @@ pub(super) fn default_duration(
     bodies: &[Option<Body>],
     gravity_m_s2: f64,
 ) -> f64 {
-    let block = flow.and_then(|flow| SlidingBlock::of(channel, flow, gravity_m_s2));
-    let expected = block.map_or(WITHOUT_FLOW, |block| MARGIN * block.rests_at());
-    let motions = bodies.iter().flatten().filter_map(|of| of.motion.as_ref());
+    let block = flow.and_then(|flow| match &flow.source {
+        Source::Channel { volume_m3, release } => {
+            SlidingBlock::of(channel, (*volume_m3, release), gravity_m_s2)
+        }
+        Source::Terrain { .. } => None,
+    });
+    duration_to(block.map(|block| block.rests_at()), bodies.iter().flatten())
+}
+
+/// Default duration [s] for a flow that is expected to rest at a time [s], if there is one.
+pub(super) fn duration_to<'a>(
+    rests_at: Option<f64>,
+    bodies: impl Iterator<Item = &'a Body>,
+) -> f64 {
+    let expected = rests_at.map_or(WITHOUT_FLOW, |time| MARGIN * time);
+    let motions = bodies.filter_map(|of| of.motion.as_ref());
     let ends = motions.filter_map(|motion| match motion {
         Motion::Table { times_s, .. } => times_s.last().copied(),
         Motion::Constant { .. } => None,

@@ -7,6 +7,7 @@ use super::range::Rule;
 use super::rules::*;
 use super::sections::{APPROACHES, COUPLINGS, ENDINGS, PRECISIONS, SYMMETRIES};
 use super::shape::SHAPES;
+use super::terrain_sections::{COORDINATES, MAP_NAME};
 use std::ops::RangeInclusive;
 
 /// The fields of one struct of the scenario.
@@ -19,6 +20,15 @@ pub(super) struct Section {
     pub(super) fields: &'static [Field],
 }
 
+/// Kind of ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum GroundKind {
+    /// A channel.
+    Channel,
+    /// A terrain.
+    Terrain,
+}
+
 /// A field: what its value may be, and what it is if it is left out.
 pub(super) struct Field {
     /// Key in the JSON.
@@ -27,6 +37,8 @@ pub(super) struct Field {
     pub(super) kind: Kind,
     /// Value of a field that is left out.
     pub(super) default: Default,
+    /// Ground whose scenarios alone have it; `None`: as the struct.
+    pub(super) ground: Option<GroundKind>,
     /// Further condition, in words that follow those of the kind.
     also: &'static str,
 }
@@ -41,6 +53,10 @@ pub(super) enum Kind {
     Vector(Rule, usize),
     /// A list of numbers, and the name of its entries.
     List(Rule, RangeInclusive<usize>, &'static str),
+    /// So many lists of so many numbers, and the name of one of them.
+    Table(Rule, usize, RangeInclusive<usize>, &'static str),
+    /// The name of a map.
+    Map,
     /// One of a few words.
     Words(fn() -> Vec<&'static str>),
     /// True or false.
@@ -78,6 +94,7 @@ impl Field {
             key,
             kind,
             default,
+            ground: None,
             also: "",
         }
     }
@@ -107,6 +124,16 @@ impl Field {
         self
     }
 
+    const fn in_channel(mut self) -> Self {
+        self.ground = Some(GroundKind::Channel);
+        self
+    }
+
+    const fn on_terrain(mut self) -> Self {
+        self.ground = Some(GroundKind::Terrain);
+        self
+    }
+
     const fn also(mut self, words: &'static str) -> Self {
         self.also = words;
         self
@@ -118,7 +145,8 @@ impl Field {
             Kind::Number(rule)
             | Kind::Whole(rule)
             | Kind::Vector(rule, _)
-            | Kind::List(rule, ..) => Some(rule),
+            | Kind::List(rule, ..)
+            | Kind::Table(rule, ..) => Some(rule),
             _ => None,
         }
     }
@@ -134,6 +162,11 @@ impl Field {
                 let (least, most) = (count.start(), count.end());
                 format!("{} each, {least} to {most} {entries}", rule.range.words())
             }
+            Kind::Table(rule, _, count, entries) => {
+                let (least, most) = (count.start(), count.end());
+                format!("{} each, {least} to {most} {entries}", rule.range.words())
+            }
+            Kind::Map => MAP_NAME.to_owned(),
             Kind::Words(words) => {
                 let words: Vec<String> = quoted(words());
                 words.join(" or ")
@@ -192,6 +225,10 @@ const fn items(key: &'static str, most: usize) -> Field {
     Field::new(key, Kind::Items(most), Default::Required)
 }
 
+const fn map(key: &'static str) -> Field {
+    Field::new(key, Kind::Map, Default::Required)
+}
+
 const fn object(key: &'static str) -> Field {
     Field::new(key, Kind::Object, Default::Required)
 }
@@ -210,13 +247,14 @@ fn names<T>(choices: &[(&'static str, T)]) -> Vec<&'static str> {
 }
 
 /// Every struct of the scenario, in the order of `docs/scenario.md`.
-pub(super) const SECTIONS: [Section; 10] = [
+pub(super) const SECTIONS: [Section; 12] = [
     Section {
         schema: "Scenario",
         path: "",
         fields: &[
             text("title", TITLE_LENGTH).json(r#""""#),
-            object("channel").required(),
+            object("channel").in_channel().also(", or a terrain instead"),
+            object("terrain").otherwise("left out").on_terrain().also(", instead of a channel"),
             object_or_null("flow").required(),
             items("bodies", BODIES).required(),
             number(&GRAVITY),
@@ -241,11 +279,22 @@ pub(super) const SECTIONS: [Section; 10] = [
         ],
     },
     Section {
+        schema: "Terrain",
+        path: "terrain.",
+        fields: &[
+            map("height_map").required(),
+            words("coordinates", || names(&COORDINATES)).json(r#""map""#),
+            number(&BASE_FRICTION),
+            map("base_friction_map").null(),
+        ],
+    },
+    Section {
         schema: "Flow",
         path: "flow.",
         fields: &[
-            number(&VOLUME).required().also(", and must fit"),
-            object("release").otherwise("all defaults"),
+            number(&VOLUME).required().in_channel().also(", and must fit"),
+            object("release").otherwise("all defaults").in_channel(),
+            items("releases", RELEASES).required().on_terrain(),
             object("material").otherwise("all defaults"),
         ],
     },
@@ -255,6 +304,17 @@ pub(super) const SECTIONS: [Section; 10] = [
         fields: &[
             number(&RELEASE_HEIGHT),
             number(&TOE_DISTANCE).also(", below the incline's length"),
+        ],
+    },
+    Section {
+        schema: "TerrainRelease",
+        path: "flow.releases[].",
+        fields: &[
+            Field::new(CORNER.key, Kind::Table(CORNER, 2, CORNERS, "corners"), Default::Words("left out")).also(" on the map, whose sides do not cross"),
+            number(&THICKNESS).otherwise("left out").also("; with `polygon_m`"),
+            map("thickness_map").null().also("; instead of a polygon"),
+            map("surface_map").null().also("; instead of a polygon"),
+            number(&RELEASE_TIME),
         ],
     },
     Section {
@@ -297,9 +357,11 @@ pub(super) const SECTIONS: [Section; 10] = [
         schema: "Position",
         path: "bodies[].position.",
         fields: &[
-            number(&DOWNSTREAM).otherwise("the longest side of a cube or box, the length of a ball or capsule, else the largest distance of two vertices").also(", inside the channel"),
-            number(&LATERAL).also(", inside the channel"),
-            number(&ELEVATION).automatic(),
+            number(&DOWNSTREAM).otherwise("the longest side of a cube or box, the length of a ball or capsule, else the largest distance of two vertices").in_channel().also(", inside the channel"),
+            number(&LATERAL).in_channel().also(", inside the channel"),
+            number(&EAST).required().on_terrain().also(", its bounding radius from the edges of the map"),
+            number(&NORTH).required().on_terrain().also(", its bounding radius from the edges of the map"),
+            number(&TERRAIN_ELEVATION).automatic().on_terrain().also(", in a channel 0 or more, and above the ground"),
         ],
     },
     Section {

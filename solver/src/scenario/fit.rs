@@ -7,7 +7,7 @@ use super::rules::{
     CELL_SIZE, CONTACT_MODULUS, DEEPEST_AT_IMPACT, DEEPEST_AT_REST, DOWNSTREAM, ELEVATION, LATERAL,
     TOE_DISTANCE, TOUCHING, VOLUME,
 };
-use super::{Body, Channel, Flow, Numerics};
+use super::{Body, Channel, Flow, Numerics, Source};
 use crate::bed::{Bed, Plane};
 use crate::shape::{SpheroPolyhedron, separation};
 use nalgebra::Vector3;
@@ -21,8 +21,11 @@ const LEAST_VOLUME: f64 = 1e-15;
 
 /// The release lies on the incline.
 pub(super) fn release_fits(report: &Report, channel: &Channel, flow: &Flow) {
-    let incline = channel.incline_length_m;
-    let toe = flow.release.toe_distance_m;
+    let Source::Channel { volume_m3, release } = &flow.source else {
+        return;
+    };
+    let (volume, incline) = (*volume_m3, channel.incline_length_m);
+    let toe = release.toe_distance_m;
     if toe >= incline {
         let why = format!(
             "is {}, not less than channel.incline_length_m ({})",
@@ -34,23 +37,20 @@ pub(super) fn release_fits(report: &Report, channel: &Channel, flow: &Flow) {
         report.refuse(&pointer, &allowed, TOE_DISTANCE.unit, &why);
         return;
     }
-    if flow.volume_m3 > 0.0 && flow.volume_m3 < LEAST_VOLUME {
-        let why = format!(
-            "is {}, less than what can be computed",
-            short(flow.volume_m3)
-        );
+    if volume > 0.0 && volume < LEAST_VOLUME {
+        let why = format!("is {}, less than what can be computed", short(volume));
         let pointer = format!("/flow/{}", VOLUME.key);
         let allowed = format!("0, or {} <= x", short(LEAST_VOLUME));
         report.refuse(&pointer, &allowed, VOLUME.unit, &why);
         return;
     }
-    let release = channel.release_box(flow);
+    let release = channel.release_box(volume, release);
     let largest = channel.width_m * release.vertical_thickness_m * (incline - toe);
-    if flow.volume_m3 > largest * (1.0 + ROUNDING) {
+    if volume > largest * (1.0 + ROUNDING) {
         let largest = short(rounded_down(largest));
         let why = format!(
             "is {}, but at this release height and toe distance the incline holds {largest} m³ at most",
-            short(flow.volume_m3)
+            short(volume)
         );
         let pointer = format!("/flow/{}", VOLUME.key);
         report.refuse(&pointer, &format!("0 <= x <= {largest}"), VOLUME.unit, &why);
@@ -83,23 +83,34 @@ fn to_nanometre(place: f64) -> f64 {
 }
 
 /// A body with its solid and pose.
-struct Placed<'a> {
-    pointer: String,
-    body: &'a Body,
-    shape: SpheroPolyhedron,
-    pose: Pose,
+pub(super) struct Placed<'a> {
+    pub(super) pointer: String,
+    pub(super) body: &'a Body,
+    pub(super) shape: SpheroPolyhedron,
+    pub(super) pose: Pose,
     /// Overlap that still counts as contact [m].
-    slack: f64,
+    pub(super) slack: f64,
 }
 
-impl Placed<'_> {
+impl<'a> Placed<'a> {
+    /// The body of this index.
+    pub(super) fn new(index: usize, body: &'a Body, shape: SpheroPolyhedron, pose: Pose) -> Self {
+        Self {
+            pointer: format!("/bodies/{index}"),
+            pose,
+            slack: TOUCHING * body.sphero_radius_m,
+            body,
+            shape,
+        }
+    }
+
     /// Reach of the body from its centre in a channel direction [m].
     fn reach(&self, direction: &Vector3<f64>) -> f64 {
         let direction = self.pose.orientation.inverse_transform_vector(direction);
         self.shape.extent_along(&direction)
     }
 
-    fn pointer_to(&self, key: &str) -> String {
+    pub(super) fn pointer_to(&self, key: &str) -> String {
         format!("{}/position/{key}", self.pointer)
     }
 }
@@ -108,25 +119,21 @@ fn placed<'a>(channel: &Channel, bodies: &'a [Option<Body>]) -> Vec<Placed<'a>> 
     let place = |(index, body): (usize, &'a Option<Body>)| {
         let body = body.as_ref()?;
         let shape = body.build().ok()?;
-        Some(Placed {
-            pointer: format!("/bodies/{index}"),
-            pose: body.pose(&shape, channel),
-            slack: TOUCHING * body.sphero_radius_m,
-            body,
-            shape,
-        })
+        let pose = body.pose(&shape, channel);
+        Some(Placed::new(index, body, shape, pose))
     };
     bodies.iter().enumerate().filter_map(place).collect()
 }
 
 /// Pointer and largest speed [m/s] of the fastest body with a prescribed motion, its
 /// turning included.
-pub(super) fn fastest_driven(channel: &Channel, bodies: &[Option<Body>]) -> Option<(String, f64)> {
-    let driven = placed(channel, bodies).into_iter();
-    let driven = driven.filter(|placed| placed.body.motion.is_some());
-    let speeds = driven.map(|placed| {
-        let speed = placed.body.thrown_m_s(placed.shape.bounding_radius());
-        (placed.pointer, speed)
+pub(super) fn fastest_driven(bodies: &[Option<Body>]) -> Option<(String, f64)> {
+    let bodies = bodies.iter().enumerate();
+    let speeds = bodies.filter_map(|(index, body)| {
+        let body = body.as_ref().filter(|body| body.motion.is_some())?;
+        let shape = body.build().ok()?;
+        let speed = body.thrown_m_s(shape.bounding_radius());
+        Some((format!("/bodies/{index}"), speed))
     });
     speeds.max_by(|one, other| one.1.total_cmp(&other.1))
 }
@@ -226,21 +233,25 @@ pub(super) fn contacts_carry(
     gravity_m_s2: f64,
 ) {
     for placed in placed(channel, bodies) {
-        let Some(modulus) = placed
-            .body
-            .contact_modulus_pa
-            .filter(|_| placed.body.is_free())
-        else {
-            continue;
-        };
-        let (mass, radius) = (
-            placed.body.density_kg_m3 * placed.shape.volume(),
-            placed.body.sphero_radius_m,
-        );
-        let thrown = placed.body.thrown_m_s(placed.shape.bounding_radius());
         let position = placed.pose.position;
         let bed = channel.bed().elevation(position.x, position.y);
         let fall = position.z - bed - placed.reach(&-Vector3::z());
+        placed.refuse_soft_contact(report, fall, gravity_m_s2);
+    }
+}
+
+impl Placed<'_> {
+    /// Refuses a contact modulus that does not carry a free body at rest, or after a fall [m].
+    pub(super) fn refuse_soft_contact(&self, report: &Report, fall: f64, gravity_m_s2: f64) {
+        let given = self.body.contact_modulus_pa;
+        let Some(modulus) = given.filter(|_| self.body.is_free()) else {
+            return;
+        };
+        let (mass, radius) = (
+            self.body.density_kg_m3 * self.shape.volume(),
+            self.body.sphero_radius_m,
+        );
+        let thrown = self.body.thrown_m_s(self.shape.bounding_radius());
         let struck = thrown * thrown + 2.0 * gravity_m_s2 * fall.max(0.0);
         let at_rest = mass * gravity_m_s2 / (DEEPEST_AT_REST * radius).powf(1.5);
         let at_impact = 1.25 * mass * struck / (DEEPEST_AT_IMPACT * radius).powf(2.5);
@@ -251,7 +262,7 @@ pub(super) fn contacts_carry(
                  starts or falls, on one vertex",
                 short(modulus)
             );
-            let pointer = format!("{}/{}", placed.pointer, CONTACT_MODULUS.key);
+            let pointer = format!("{}/{}", self.pointer, CONTACT_MODULUS.key);
             let allowed = format!("x >= {}, or null", short(rounded_up(softest)));
             report.refuse(&pointer, &allowed, CONTACT_MODULUS.unit, &why);
         }
@@ -259,7 +270,7 @@ pub(super) fn contacts_carry(
 }
 
 /// No two rounded bodies overlap.
-fn bodies_are_apart(report: &Report, placed: &[Placed<'_>]) {
+pub(super) fn bodies_are_apart(report: &Report, placed: &[Placed<'_>]) {
     for (index, second) in placed.iter().enumerate() {
         for first in &placed[..index] {
             let overlap = overlap(first, second);

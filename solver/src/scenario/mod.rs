@@ -7,18 +7,24 @@ mod accuracy;
 mod agreement;
 mod body;
 mod builder;
+mod cells;
 mod duration;
 #[cfg(feature = "schema")]
 mod fields;
 mod fit;
+mod ground;
+mod maps;
 mod motion;
 mod node;
+mod on_terrain;
 mod parse;
 mod placement;
 mod places;
+mod position;
 mod range;
 mod reader;
 mod reduction;
+mod released_area;
 mod report;
 mod rules;
 #[cfg(feature = "schema")]
@@ -27,24 +33,38 @@ mod sections;
 mod shape;
 mod sharp_shape;
 mod sliding_block;
+mod sliding_points;
 mod solid;
+mod source;
+mod terrain;
+mod terrain_sections;
 #[cfg(test)]
 mod tests;
 
 pub use crate::shape::RegularSolid;
 pub use accuracy::{Accuracy, Quantity};
 pub use builder::{BodyBuilder, ScenarioBuilder};
+pub use ground::Ground;
+pub use maps::{MapUse, Maps, NamedMap};
 pub use motion::Motion;
 pub use node::excerpt;
 pub use placement::{Pose, ReleaseBox, Support};
+pub use position::{Place, Position};
 pub use reduction::{Approach, Ending, Symmetry};
 pub use shape::{FieldValue, REGULAR_SOLIDS, SHAPES, Shape, ShapeField, ShapeKind};
 pub(crate) use sliding_block::SlidingBlock;
+pub(crate) use sliding_points::SlidingPoints;
 pub use solid::BuiltSolid;
+pub use source::Source;
+pub(crate) use terrain::ReleasedArea;
+pub use terrain::{Coordinates, Terrain, TerrainRelease};
 
 use crate::shape::{ShapeError, SpheroPolyhedron};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
+
+#[cfg(feature = "schema")]
+use {ground::GroundDocument, position::PositionDocument, source::SourceDocument};
 
 /// A scenario. Fields with a default may be left out; the service's answer has all of them filled
 /// in, and null stands for "automatic".
@@ -53,8 +73,10 @@ use thiserror::Error;
 pub struct Scenario {
     /// Free text.
     pub title: String,
-    /// The channel.
-    pub channel: Channel,
+    /// Ground: a channel or a terrain.
+    #[serde(flatten)]
+    #[cfg_attr(feature = "schema", schema(value_type = GroundDocument))]
+    pub ground: Ground,
     /// The flow; `null`: no flow.
     pub flow: Option<Flow>,
     /// The bodies; `[]`: none.
@@ -107,10 +129,10 @@ pub struct Channel {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Flow {
-    /// Released volume [m³]; 0 is a flow without points, anything else below 1e-15 is refused.
-    pub volume_m3: f64,
-    /// Position and shape of the release.
-    pub release: Release,
+    /// Released material.
+    #[serde(flatten)]
+    #[cfg_attr(feature = "schema", schema(value_type = SourceDocument))]
+    pub source: Source,
     /// Material.
     pub material: Material,
 }
@@ -159,14 +181,15 @@ pub struct Body {
     /// Density [kg/m³].
     pub density_kg_m3: f64,
     /// Initial position of its centre.
+    #[cfg_attr(feature = "schema", schema(value_type = PositionDocument))]
     pub position: Position,
     /// Turn about the normal of the bed under the centre, x towards y [°].
     pub yaw_deg: f64,
-    /// Quaternion [w, x, y, z] from body to channel axes, instead of yaw.
+    /// Quaternion [w, x, y, z] from body axes to those of the ground, instead of yaw.
     pub orientation: Option<[f64; 4]>,
     /// Velocity of the centre at the start [m/s].
     pub velocity_m_s: [f64; 3],
-    /// Angular velocity at the start, in channel axes [rad/s].
+    /// Angular velocity at the start, in the axes of the ground [rad/s].
     pub angular_velocity_rad_s: [f64; 3],
     /// Coulomb friction with walls and other bodies; of two bodies √(μ_A μ_B).
     pub friction: f64,
@@ -195,18 +218,6 @@ impl Body {
     pub(crate) fn build(&self) -> Result<SpheroPolyhedron, ShapeError> {
         self.solid.of(&self.shape, self.sphero_radius_m)
     }
-}
-
-/// Centre of a body.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Position {
-    /// x of the centre of mass [m].
-    pub downstream_m: f64,
-    /// y of the centre of mass [m].
-    pub lateral_m: f64,
-    /// z of the centre of mass [m]; `null`: rests on the bed under the centre.
-    pub elevation_m: Option<f64>,
 }
 
 /// Numerical choices; null: automatic.

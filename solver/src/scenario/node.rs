@@ -22,6 +22,15 @@ pub(super) enum Node {
 }
 
 impl Node {
+    /// The member of an object with this key, the first of several.
+    pub(super) fn get(&self, key: &str) -> Option<&Node> {
+        let Self::Object(members) = self else {
+            return None;
+        };
+        let mut members = members.iter();
+        members.find(|(name, _)| name == key).map(|(_, node)| node)
+    }
+
     /// Reads a text.
     pub(super) fn parse(text: &str) -> Result<Self, ScenarioError> {
         serde_json::from_str(text).map_err(|error| {

@@ -1,17 +1,18 @@
 //! Initial placement of bodies and release according to the scenario.
 
 use super::sliding_block::SlidingBlock;
-use super::{Body, Channel, Flow, Position, Scenario};
-use crate::bed::{Bed, PlanarBed};
+use super::{Body, Channel, Ground, Place, Release, Scenario, Source, Terrain};
+use crate::bed::{Bed, HeightField, PlanarBed};
 use crate::shape::SpheroPolyhedron;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use std::ops::Range;
 
 /// Position and orientation of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// Centre of mass [m].
     pub position: Vector3<f64>,
-    /// Turns body axes into channel axes.
+    /// Turns body axes into those of the ground.
     pub orientation: UnitQuaternion<f64>,
 }
 
@@ -29,6 +30,8 @@ pub enum Support {
     Floor,
     /// It rests on the incline.
     Incline,
+    /// It rests on the terrain.
+    Terrain,
     /// Its elevation is given: it may be in contact or not.
     Free,
 }
@@ -68,17 +71,21 @@ impl Channel {
     /// Speed [m/s] that a flow may reach under this gravity [m/s²]: the back of the release sliding
     /// to the foot against base friction, and the release collapsing, as energies (docs/method.md,
     /// equation 31).
-    pub fn fastest_flow(&self, flow: &Flow, gravity_m_s2: f64) -> f64 {
-        let block = SlidingBlock::of(self, flow, gravity_m_s2);
-        let collapsing = || (gravity_m_s2 * flow.release.height_m).sqrt();
+    pub(crate) fn fastest_flow(
+        &self,
+        (volume, release): (f64, &Release),
+        gravity_m_s2: f64,
+    ) -> f64 {
+        let block = SlidingBlock::of(self, (volume, release), gravity_m_s2);
+        let collapsing = || (gravity_m_s2 * release.height_m).sqrt();
         block.map_or_else(collapsing, |block| block.fastest())
     }
 
-    /// Box of a flow's release.
-    pub(super) fn release_box(&self, flow: &Flow) -> ReleaseBox {
-        let vertical_thickness_m = flow.release.height_m / self.inclination_rad().cos();
-        let front_m = -flow.release.toe_distance_m;
-        let length = flow.volume_m3 / (vertical_thickness_m * self.width_m);
+    /// Box of a released volume [m³].
+    pub(super) fn release_box(&self, volume: f64, release: &Release) -> ReleaseBox {
+        let vertical_thickness_m = release.height_m / self.inclination_rad().cos();
+        let front_m = -release.toe_distance_m;
+        let length = volume / (vertical_thickness_m * self.width_m);
         ReleaseBox {
             back_m: front_m - length,
             front_m,
@@ -104,16 +111,18 @@ impl Body {
         Vector3::from(self.velocity_m_s).norm() + spin * bounding_radius
     }
 
-    /// Orientation at the start: as given, or flat on the bed under the centre
-    /// and turned by the yaw about its normal.
-    fn initial_orientation(&self, channel: &Channel) -> UnitQuaternion<f64> {
+    /// Orientation at the start: as given, or flat on the bed under the centre and turned by the
+    /// yaw about its normal.
+    fn initial_orientation(
+        &self,
+        tilt: impl FnOnce() -> UnitQuaternion<f64>,
+    ) -> UnitQuaternion<f64> {
         if let Some([w, x, y, z]) = self.orientation {
             // Unit already (ensured by the parser), so its bits are kept.
             return UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z));
         }
         let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_deg.to_radians());
-        let [x, y] = self.position.in_plane();
-        let tilt = channel.bed().tilt(x, y);
+        let tilt = tilt();
         // Zeros keep their signs.
         if tilt == UnitQuaternion::identity() {
             yaw
@@ -125,8 +134,8 @@ impl Body {
     /// Pose at the start; without an elevation the body is lowered until it
     /// touches the bed under its centre.
     pub(super) fn pose(&self, shape: &SpheroPolyhedron, channel: &Channel) -> Pose {
-        let orientation = self.initial_orientation(channel);
-        let [x, y] = self.position.in_plane();
+        let [x, y] = self.position.place.coordinates();
+        let orientation = self.initial_orientation(|| channel.bed().tilt(x, y));
         let bed = channel.bed().tangent(x, y);
         let elevation = self.position.elevation_m.unwrap_or_else(|| {
             let below = orientation.inverse_transform_vector(&-bed.normal);
@@ -137,19 +146,53 @@ impl Body {
             orientation,
         }
     }
-}
 
-impl Position {
-    /// Its place in the plane: downstream and lateral [m].
-    fn in_plane(&self) -> [f64; 2] {
-        [self.downstream_m, self.lateral_m]
+    /// Pose at the start on a terrain; without an elevation the body lies flat on the mean slope
+    /// under it, lowered until it touches.
+    pub(super) fn pose_on(
+        &self,
+        shape: &SpheroPolyhedron,
+        terrain: &Terrain,
+        ground: &HeightField,
+    ) -> Pose {
+        let [x, y] = terrain.to_local(self.position.place.coordinates());
+        let radius = shape.bounding_radius();
+        let orientation = self.initial_orientation(|| ground.tilt_over(x, y, radius));
+        let elevation = match self.position.elevation_m {
+            Some(elevation) => terrain.to_local_elevation(elevation),
+            None => ground.lowest_centre(shape, orientation, x, y),
+        };
+        Pose {
+            position: Vector3::new(x, y, elevation),
+            orientation,
+        }
     }
 }
 
 impl Scenario {
-    /// The bed.
-    pub fn bed(&self) -> impl Bed {
-        self.channel.bed()
+    /// The bed; a terrain as it is for the scenario's cells.
+    pub fn bed(&self) -> Box<dyn Bed> {
+        match &self.ground {
+            Ground::Channel(channel) => Box::new(channel.bed()),
+            Ground::Terrain(terrain) => Box::new(terrain.ground(self.cell_size_m())),
+        }
+    }
+
+    /// Extents of the ground along x and y [m].
+    ///
+    /// # Panics
+    /// If the scenario has a terrain and was read without its maps.
+    pub fn extents(&self) -> [Range<f64>; 2] {
+        match &self.ground {
+            Ground::Channel(channel) => {
+                let half = 0.5 * channel.width_m;
+                [
+                    -channel.incline_length_m..channel.runout_length_m,
+                    -half..half,
+                ]
+            }
+            Ground::Terrain(terrain) => terrain.extent().map(|extent| 0.0..extent),
+        }
     }
 
     /// Initial position and orientation of a body.
@@ -157,7 +200,29 @@ impl Scenario {
     /// # Panics
     /// If there is no such body, or the scenario did not come from the parser.
     pub fn initial_pose(&self, body: usize) -> Pose {
-        self.bodies[body].pose(&self.shape_of(body), &self.channel)
+        self.poses_of(body..body + 1).remove(0)
+    }
+
+    /// Initial positions and orientations of all bodies.
+    ///
+    /// # Panics
+    /// If the scenario did not come from the parser.
+    pub fn initial_poses(&self) -> Vec<Pose> {
+        self.poses_of(0..self.bodies.len())
+    }
+
+    fn poses_of(&self, bodies: Range<usize>) -> Vec<Pose> {
+        let each = bodies.map(|body| (&self.bodies[body], self.shape_of(body)));
+        match &self.ground {
+            Ground::Channel(channel) => each
+                .map(|(body, shape)| body.pose(&shape, channel))
+                .collect(),
+            Ground::Terrain(terrain) => {
+                let ground = terrain.ground(self.cell_size_m());
+                each.map(|(body, shape)| body.pose_on(&shape, terrain, &ground))
+                    .collect()
+            }
+        }
     }
 
     /// Initial support of a body.
@@ -166,10 +231,11 @@ impl Scenario {
     /// If there is no such body.
     pub fn support_of(&self, body: usize) -> Support {
         let position = &self.bodies[body].position;
-        match position.elevation_m {
-            Some(_) => Support::Free,
-            None if position.downstream_m < 0.0 => Support::Incline,
-            None => Support::Floor,
+        match (position.elevation_m, position.place) {
+            (Some(_), _) => Support::Free,
+            (None, Place::OnTerrain { .. }) => Support::Terrain,
+            (None, Place::InChannel { downstream_m, .. }) if downstream_m < 0.0 => Support::Incline,
+            (None, Place::InChannel { .. }) => Support::Floor,
         }
     }
 
@@ -183,9 +249,14 @@ impl Scenario {
         built.expect("the parser refuses dimensions that make no solid")
     }
 
-    /// Box of the flow's release; `None` if there is none, or none of it.
+    /// Box of the flow's release in a channel; `None` if there is none, or none of it.
     pub fn release(&self) -> Option<ReleaseBox> {
-        let flow = self.flow.as_ref().filter(|flow| flow.volume_m3 > 0.0)?;
-        Some(self.channel.release_box(flow))
+        let channel = self.channel()?;
+        match &self.flow.as_ref()?.source {
+            Source::Channel { volume_m3, release } if *volume_m3 > 0.0 => {
+                Some(channel.release_box(*volume_m3, release))
+            }
+            Source::Channel { .. } | Source::Terrain { .. } => None,
+        }
     }
 }

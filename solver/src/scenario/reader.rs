@@ -96,9 +96,17 @@ impl<'a> Object<'a> {
 
     /// A field as a node, if it is there.
     pub(super) fn member(&self, key: &'static str) -> Option<&'a Node> {
-        self.known.borrow_mut().push(key);
+        let mut known = self.known.borrow_mut();
+        if !known.contains(&key) {
+            known.push(key);
+        }
         let found = self.members.iter().find(|(name, _)| name == key);
         found.map(|(_, node)| node)
+    }
+
+    /// True if a field is there.
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.members.iter().any(|(name, _)| name == key)
     }
 
     /// A field that must be there.

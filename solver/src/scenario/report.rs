@@ -25,6 +25,11 @@ impl Report {
         });
     }
 
+    /// True if there is none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.violations.borrow().is_empty()
+    }
+
     /// All violations in the order of the document, each with the value at its pointer. A list too
     /// long to be of use is cut, and says so.
     pub(super) fn into_violations(self, document: &Node) -> Vec<Violation> {

@@ -111,6 +111,18 @@ pub(super) const BODY_DENSITY: Rule = Rule::new("density_kg_m3", closed(0.1, 1e6
 pub(super) const DOWNSTREAM: Rule = metres("downstream_m", -1e3, 1e3);
 pub(super) const LATERAL: Rule = metres("lateral_m", -1e3, 1e3).default(0.0);
 pub(super) const ELEVATION: Rule = metres("elevation_m", 0.0, 1e5);
+pub(super) const EAST: Rule = metres("east_m", -1e8, 1e8);
+pub(super) const NORTH: Rule = metres("north_m", -1e8, 1e8);
+pub(super) const TERRAIN_ELEVATION: Rule = metres("elevation_m", -1e4, 1e5);
+pub(super) const CORNER: Rule = metres("polygon_m", -1e8, 1e8);
+/// Number of corners of a release's polygon.
+pub(super) const CORNERS: RangeInclusive<usize> = 3..=1000;
+/// Most releases on a terrain.
+pub(super) const RELEASES: usize = 64;
+pub(super) const THICKNESS: Rule = metres("thickness_m", 1e-6, 1e3);
+pub(super) const RELEASE_TIME: Rule = Rule::new("time_s", closed(0.0, LONGEST))
+    .unit(SECOND)
+    .default(0.0);
 pub(super) const YAW: Rule = Rule::new("yaw_deg", closed(-360.0, 360.0))
     .unit(DEGREE)
     .default(0.0);
@@ -129,7 +141,7 @@ pub(super) const FLOW_FRICTION: Rule = friction("flow_friction", 0.4);
 pub(super) const FLOW_RESTITUTION: Rule = restitution("flow_restitution", 0.0);
 pub(super) const CONTACT_MODULUS: Rule = modulus("contact_modulus_pa");
 
-pub(super) const CELL_SIZE: Rule = metres("cell_size_m", 1e-5, 10.0);
+pub(super) const CELL_SIZE: Rule = metres("cell_size_m", 1e-5, 100.0);
 pub(super) const POINTS_PER_CELL: Rule =
     Rule::new("points_per_cell", closed(1.0, 64.0)).default(8.0);
 pub(super) const SOUND_SPEED: Rule = Rule::new("sound_speed_m_s", closed(0.1, 1e4)).unit(SPEED);

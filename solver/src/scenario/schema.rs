@@ -4,7 +4,7 @@
 mod shape;
 mod tables;
 
-use super::fields::{Default, Field, Kind, SECTIONS};
+use super::fields::{Default, Field, GroundKind, Kind, SECTIONS};
 use super::range::{Range, Rule};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -26,6 +26,9 @@ pub(super) const SHORTEST: &str = r#"{
 
 /// Adds the table of fields to the derived schemas of the scenario's structs.
 pub(crate) fn complete(schemas: &mut Schemas) {
+    for name in FLATTENED {
+        flatten(schemas, name);
+    }
     for section in &SECTIONS {
         let mut of_words = BTreeMap::new();
         if let Some(schema) = schemas.get_mut(section.schema) {
@@ -45,6 +48,32 @@ pub(crate) fn complete(schemas: &mut Schemas) {
     }
 }
 
+/// Structs with members that stand among their own fields.
+const FLATTENED: [&str; 2] = ["Scenario", "Flow"];
+
+/// Makes one object of a struct and its members that stand among its own fields.
+fn flatten(schemas: &mut Schemas, name: &str) {
+    let Some(RefOr::T(Schema::AllOf(parts))) = schemas.get(name).cloned() else {
+        return;
+    };
+    let mut whole = Object::new();
+    whole.description = parts.description;
+    for part in parts.items {
+        let part = match part {
+            RefOr::Ref(reference) => {
+                let name = reference.ref_location.rsplit('/').next();
+                name.and_then(|name| schemas.remove(name))
+            }
+            part => Some(part),
+        };
+        if let Some(RefOr::T(Schema::Object(part))) = part {
+            whole.properties.extend(part.properties);
+            whole.required.extend(part.required);
+        }
+    }
+    schemas.insert(name.to_owned(), RefOr::T(Schema::Object(whole)));
+}
+
 /// The object a schema describes, or all it lets choose from.
 fn objects(schema: &mut RefOr<Schema>) -> Vec<&mut Object> {
     match schema {
@@ -62,7 +91,8 @@ fn describe(object: &mut Object, fields: &[Field]) {
             continue;
         };
         // A motion is a table by its times.
-        if field.default == Default::Required || matches!(field.kind, Kind::List(..)) {
+        let always = field.ground.is_none() && field.default == Default::Required;
+        if always || matches!(field.kind, Kind::List(..)) {
             object.required.push(field.key.to_owned());
         }
         if let RefOr::T(schema) = property {
@@ -89,6 +119,13 @@ pub(super) fn without_default(description: &str) -> &str {
 fn default_in_words(field: &Field, property: &RefOr<Schema>) -> Option<String> {
     match (field.default, property) {
         (Default::Words(words), _) => Some(words.to_owned()),
+        (Default::Required, _) => field.ground.map(|ground| {
+            let place = match ground {
+                GroundKind::Channel => "in a channel",
+                GroundKind::Terrain => "on a terrain",
+            };
+            format!("none, required {place}")
+        }),
         (_, RefOr::Ref(_)) => default(field).map(|value| format!("`{value}`")),
         _ => None,
     }
@@ -120,6 +157,17 @@ fn limit(schema: &mut Schema, field: &Field) {
             if let Some(Schema::Object(number)) = entries(list) {
                 limit_number(number, rule, false);
             }
+        }
+        (Kind::Table(rule, length, count, _), Schema::Array(list)) => {
+            (list.min_items, list.max_items) = (Some(*count.start()), Some(*count.end()));
+            if let Some(Schema::Array(vector)) = entries(list) {
+                limit_vector(vector, rule, *length);
+            }
+            list.default = default(field);
+        }
+        (Kind::Map, Schema::Object(name)) => {
+            name.pattern = Some("^[0-9a-f]{64}$".to_owned());
+            name.default = default(field);
         }
         (Kind::Text(most), Schema::Object(text)) => {
             text.max_length = Some(*most);

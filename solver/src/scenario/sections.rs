@@ -5,7 +5,8 @@ use super::node::Node;
 use super::reader::Object;
 use super::rules::*;
 use super::{
-    Approach, Channel, Coupling, Ending, Flow, Material, Numerics, Precision, Release, Symmetry,
+    Approach, Channel, Coupling, Ending, Flow, Material, Numerics, Precision, Release, Source,
+    Symmetry, TerrainRelease,
 };
 
 /// JSON names of the precision.
@@ -68,21 +69,35 @@ pub(super) fn read_channel(parent: &Object<'_>) -> Option<Channel> {
     })
 }
 
-pub(super) fn read_flow(parent: &Object<'_>) -> Option<Option<Flow>> {
+/// The flow; on a terrain its releases are read by `releases`.
+pub(super) fn read_flow(
+    parent: &Object<'_>,
+    releases: Option<impl FnOnce(&Object<'_>) -> Option<Vec<TerrainRelease>>>,
+) -> Option<Option<Flow>> {
     let node = parent.required("flow", "an object, or null for no flow")?;
     if *node == Node::Null {
         return Some(None);
     }
     let object = parent.object(node, "flow")?;
-    let volume_m3 = object.number(&VOLUME);
-    let release = object.defaulted("release").and_then(|o| read_release(&o));
+    let source = match releases {
+        Some(read) => read(&object).map(|releases| Source::Terrain { releases }),
+        None => read_channel_source(&object),
+    };
     let material = object.defaulted("material").and_then(|o| read_material(&o));
     object.refuse_unknown();
     Some(Some(Flow {
-        volume_m3: volume_m3?,
-        release: release?,
+        source: source?,
         material: material?,
     }))
+}
+
+fn read_channel_source(object: &Object<'_>) -> Option<Source> {
+    let volume_m3 = object.number(&VOLUME);
+    let release = object.defaulted("release").and_then(|o| read_release(&o));
+    Some(Source::Channel {
+        volume_m3: volume_m3?,
+        release: release?,
+    })
 }
 
 fn read_release(object: &Object<'_>) -> Option<Release> {

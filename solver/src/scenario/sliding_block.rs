@@ -1,6 +1,6 @@
 //! Sliding block: a rough estimate of a flow's course, without a computation.
 
-use super::{Channel, Flow};
+use super::{Channel, Release};
 use crate::bed::Bed;
 use crate::method::METHOD;
 
@@ -27,12 +27,17 @@ pub(crate) struct SlidingBlock {
 }
 
 impl SlidingBlock {
-    /// Block of a flow in this channel, under gravity [m/s²]; `None` without material.
-    pub(crate) fn of(channel: &Channel, flow: &Flow, gravity: f64) -> Option<Self> {
-        if flow.volume_m3 <= 0.0 {
+    /// Block of a released volume [m³] in this channel, under gravity [m/s²]; `None` without
+    /// material.
+    pub(crate) fn of(
+        channel: &Channel,
+        (volume, release): (f64, &Release),
+        gravity: f64,
+    ) -> Option<Self> {
+        if volume <= 0.0 {
             return None;
         }
-        let back = channel.release_box(flow).back_m;
+        let back = channel.release_box(volume, release).back_m;
         let slope = channel.bed().tangent(back, 0.0);
         let (sin, cos) = (slope.normal.x, slope.normal.z);
         Some(Self {
@@ -41,7 +46,7 @@ impl SlidingBlock {
             way: -back / cos,
             floor: (channel.base_friction, channel.runout_length_m),
             gravity,
-            height: flow.release.height_m,
+            height: release.height_m,
         })
     }
 

@@ -1,7 +1,7 @@
 //! The tables of `docs/scenario.md`, from the table of fields and the schemas.
 
 use super::{Schemas, default, without_default};
-use crate::scenario::fields::{Default, Field, Kind, SECTIONS, Section};
+use crate::scenario::fields::{Default, Field, GroundKind, Kind, SECTIONS, Section};
 use crate::scenario::range::short;
 use crate::scenario::shape::{REGULAR_SOLIDS, SHAPES};
 use crate::scenario::{FieldValue, ShapeField};
@@ -9,10 +9,12 @@ use serde_json::Value;
 use utoipa::openapi::{RefOr, Schema};
 
 /// Starts of the names in each table; the first holds the scenario's own fields alone.
-const TABLES: [&str; 6] = [
+const TABLES: [&str; 8] = [
     "",
     "channel.",
+    "terrain.",
     "flow.",
+    "flow.releases[].",
     "bodies[].",
     "numerics.",
     "accuracy.",
@@ -42,7 +44,11 @@ fn rows(schemas: &Schemas, path: &str) -> Vec<String> {
 fn row(schemas: &Schemas, section: &Section, field: &Field) -> String {
     let unit = field.rule().and_then(|rule| rule.unit);
     let absent = match field.default {
-        Default::Required => "required".to_owned(),
+        Default::Required => match field.ground {
+            None => "required".to_owned(),
+            Some(GroundKind::Channel) => "required in a channel".to_owned(),
+            Some(GroundKind::Terrain) => "required on a terrain".to_owned(),
+        },
         Default::Words(words) => words.to_owned(),
         _ => format!("`{}`", json(&default(field).unwrap_or(Value::Null))),
     };

@@ -97,7 +97,7 @@ fn quantities_are_read_and_written_by_their_keys() {
 fn defaults_follow_the_size_of_the_body() {
     let scenario = accepted(&with("/bodies/0/shape/cube/side_m", json!(0.1)));
     assert_eq!(scenario.bodies[0].sphero_radius_m, 0.005);
-    assert_eq!(scenario.bodies[0].position.downstream_m, 0.1);
+    assert_eq!(scenario.bodies[0].position.place.coordinates()[0], 0.1);
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn defaults_of_every_shape_follow_its_size() {
         let body = &scenario.bodies[0];
         assert!((body.sphero_radius_m - radius).abs() < 1e-15, "{body:?}");
         assert!(
-            (body.position.downstream_m - downstream).abs() < 1e-15,
+            (body.position.place.coordinates()[0] - downstream).abs() < 1e-15,
             "{body:?}"
         );
     }

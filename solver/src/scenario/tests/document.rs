@@ -1,8 +1,8 @@
 //! Agreement of `docs/scenario.md` and of the table of fields with the readers.
 
-use super::{accepted, minimal, with};
+use super::{accepted, maps, minimal, minimal_on_terrain, with};
 use crate::scenario::duration::WITHOUT_FLOW;
-use crate::scenario::fields::{Default, Field, Kind, SECTIONS};
+use crate::scenario::fields::{Default, Field, GroundKind, Kind, SECTIONS};
 use crate::scenario::rules::*;
 use crate::scenario::schema::{SHORTEST, default};
 use crate::scenario::shape::{POLYHEDRON_VERTICES, SHAPES};
@@ -11,9 +11,13 @@ use serde_json::{Value, json};
 
 const DOCUMENT: &str = include_str!("../../../../docs/scenario.md");
 
-/// A scenario with every field, and a motion by a table.
-fn filled() -> Value {
-    let mut filled = serde_json::to_value(accepted(&minimal())).unwrap();
+/// A scenario with every field on this ground, and a motion by a table.
+fn filled(ground: GroundKind) -> Value {
+    let shortest = match ground {
+        GroundKind::Channel => minimal(),
+        GroundKind::Terrain => minimal_on_terrain(),
+    };
+    let mut filled = serde_json::to_value(accepted(&shortest)).unwrap();
     let velocities = json!([[0.0, 0.0, 0.0], [0.1, 0.0, 0.0]]);
     filled["bodies"][0]["motion"] = json!({
         "times_s": [0.0, 1.0], "velocity_m_s": velocities, "angular_velocity_rad_s": velocities,
@@ -21,20 +25,23 @@ fn filled() -> Value {
     filled
 }
 
-/// Every field of the table with its JSON pointer in the filled scenario.
-fn fields() -> impl Iterator<Item = (String, &'static Field)> {
+/// Every field of the table with its JSON pointer in the filled scenario of a ground that has it.
+fn fields() -> impl Iterator<Item = (String, &'static Field, GroundKind)> {
     SECTIONS.iter().flat_map(|section| {
         let path = section.path.replace("[]", ".0").replace('.', "/");
         let pointer = move |field: &Field| format!("/{path}{}", field.key);
-        section
-            .fields
-            .iter()
-            .map(move |field| (pointer(field), field))
+        section.fields.iter().map(move |field| {
+            let of_section = match section.schema {
+                "Terrain" | "TerrainRelease" => GroundKind::Terrain,
+                _ => GroundKind::Channel,
+            };
+            (pointer(field), field, field.ground.unwrap_or(of_section))
+        })
     })
 }
 
 fn violations(document: &Value) -> Vec<Violation> {
-    match Scenario::from_value(document) {
+    match Scenario::from_value_with(document, &maps()) {
         Err(ScenarioError::Invalid(violations)) => violations,
         _ => Vec::new(),
     }
@@ -46,8 +53,8 @@ fn refused(document: &Value, pointer: &str) -> bool {
     found.iter().any(|one| one.pointer.starts_with(pointer))
 }
 
-fn without(pointer: &str) -> Value {
-    let mut document = filled();
+fn without(pointer: &str, ground: GroundKind) -> Value {
+    let mut document = filled(ground);
     let (parent, key) = pointer.rsplit_once('/').unwrap();
     let parent = document.pointer_mut(parent).unwrap();
     parent.as_object_mut().unwrap().remove(key);
@@ -55,8 +62,8 @@ fn without(pointer: &str) -> Value {
 }
 
 /// The filled scenario with another number in a field, in a list the first.
-fn with_number(pointer: &str, value: f64) -> Value {
-    let mut document = filled();
+fn with_number(pointer: &str, ground: GroundKind, value: f64) -> Value {
+    let mut document = filled(ground);
     let mut place = document.pointer_mut(pointer).unwrap();
     if pointer == "/bodies/0/orientation" {
         *place = json!([1.0, 0.0, 0.0, 0.0]);
@@ -79,23 +86,26 @@ fn every_field_is_in_the_table() {
             if key != "shape" {
                 keys(member, &pointer, found);
             }
-            if let Value::Array(items) = member {
-                keys(&items[0], &format!("{pointer}/0"), found);
+            if let Some(first) = member.as_array().and_then(|items| items.first()) {
+                keys(first, &format!("{pointer}/0"), found);
             }
             found.push(pointer);
         }
     }
     let mut found = Vec::new();
-    keys(&filled(), "", &mut found);
-    let mut listed: Vec<String> = fields().map(|(pointer, _)| pointer).collect();
+    for ground in [GroundKind::Channel, GroundKind::Terrain] {
+        keys(&filled(ground), "", &mut found);
+    }
+    let mut listed: Vec<String> = fields().map(|(pointer, ..)| pointer).collect();
     found.sort();
+    found.dedup();
     listed.sort();
     assert_eq!(found, listed);
 }
 
 #[test]
 fn numbers_are_read_by_their_ranges() {
-    for (pointer, field) in fields() {
+    for (pointer, field, ground) in fields() {
         let Some(rule) = field.rule() else {
             continue;
         };
@@ -108,13 +118,13 @@ fn numbers_are_read_by_their_ranges() {
             values.push(rule.range.low + 0.5);
         }
         for value in values {
-            let document = with_number(&pointer, value);
+            let document = with_number(&pointer, ground, value);
             assert!(refused(&document, &pointer), "{pointer}: {value}");
         }
         // Other rules than those of the number may still refuse its ends.
         for value in [rule.range.high, rule.range.low] {
             let outside = format!("outside {}", rule.range.words());
-            let found = violations(&with_number(&pointer, value));
+            let found = violations(&with_number(&pointer, ground, value));
             let of_range = found.iter().find(|one| one.detail.contains(&outside));
             let end_is_open = rule.range.low_is_open && value == rule.range.low;
             assert_eq!(of_range.is_some(), end_is_open, "{pointer}: {value}");
@@ -125,8 +135,8 @@ fn numbers_are_read_by_their_ranges() {
 #[test]
 fn fields_left_out_have_their_defaults() {
     let mut constants = 0;
-    for (pointer, field) in fields() {
-        let document = without(&pointer);
+    for (pointer, field, ground) in fields() {
+        let document = without(&pointer, ground);
         let missing = refused(&document, &pointer);
         // Without its times a table is none.
         let needed = matches!(field.kind, Kind::List(..)) || field.default == Default::Required;

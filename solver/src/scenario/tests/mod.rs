@@ -10,9 +10,12 @@ mod fields;
 mod motion;
 mod placement;
 mod random;
+mod terrain;
 
-use super::{Scenario, ScenarioError, Violation, excerpt};
+use super::{Maps, Scenario, ScenarioError, Violation, excerpt};
+use crate::raster::Raster;
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// The shortest legal scenario with a flow and a body.
 fn minimal() -> Value {
@@ -20,6 +23,39 @@ fn minimal() -> Value {
         "channel": {"inclination_deg": 40, "incline_length_m": 1, "runout_length_m": 2},
         "flow": {"volume_m3": 0.01},
         "bodies": [{"shape": {"cube": {"side_m": 0.04}}}]
+    })
+}
+
+/// Name of the height map of the tests.
+const HEIGHT_MAP: &str = "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff";
+
+/// A plane height map of 40 m × 40 m, 0.2 steep towards the east, by this name.
+fn maps() -> Maps {
+    let values = (0..400).map(|n| 100.0 - 0.4 * f64::from(n % 20)).collect();
+    let mut maps = Maps::default();
+    let height = Raster {
+        columns: 20,
+        rows: 20,
+        cell_size: 2.0,
+        west: 600_000.0,
+        south: 5_000_000.0,
+        epsg: Some(32632),
+        values,
+    };
+    maps.insert(HEIGHT_MAP, Arc::new(height));
+    maps
+}
+
+/// The shortest legal scenario on a terrain with a flow and a body.
+fn minimal_on_terrain() -> Value {
+    json!({
+        "terrain": {"height_map": HEIGHT_MAP},
+        "flow": {"releases": [{
+            "polygon_m": [[600_004, 5_000_004], [600_012, 5_000_004], [600_012, 5_000_020]],
+            "thickness_m": 1
+        }]},
+        "bodies": [{"shape": {"cube": {"side_m": 1}},
+                    "position": {"east_m": 600_020, "north_m": 5_000_015}}]
     })
 }
 
@@ -49,14 +85,14 @@ fn set(scenario: &mut Value, pointer: &str, value: Value) {
 }
 
 fn accepted(scenario: &Value) -> Scenario {
-    match Scenario::from_value(scenario) {
+    match Scenario::from_value_with(scenario, &maps()) {
         Ok(scenario) => scenario,
         Err(error) => panic!("{error:?}\n{scenario}"),
     }
 }
 
 fn refused(scenario: &Value) -> Vec<Violation> {
-    violations(Scenario::from_value(scenario))
+    violations(Scenario::from_value_with(scenario, &maps()))
 }
 
 fn violations(result: Result<Scenario, ScenarioError>) -> Vec<Violation> {

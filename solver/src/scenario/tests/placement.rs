@@ -1,7 +1,6 @@
 //! Poses and release.
 
 use super::{accepted, minimal, set, with};
-use crate::bed::Bed;
 use crate::scenario::{Scenario, Support};
 use nalgebra::{Vector3, Vector4};
 use serde_json::json;

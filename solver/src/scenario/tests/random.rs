@@ -170,7 +170,7 @@ proptest! {
         value["bodies"][0]["rolling_friction"] = json!(rolling);
         let scenario = Scenario::from_json(&value.to_string()).unwrap();
         prop_assert_eq!(scenario.bodies[0].rolling_friction.to_bits(), rolling.to_bits());
-        prop_assert_eq!(scenario.channel.inclination_deg.to_bits(), inclination.to_bits());
+        prop_assert_eq!(scenario.channel().unwrap().inclination_deg.to_bits(), inclination.to_bits());
         let text = serde_json::to_string_pretty(&scenario).unwrap();
         prop_assert_eq!(Scenario::from_json(&text).unwrap(), scenario);
     }

@@ -1,0 +1,216 @@
+//! Rules of a scenario on a terrain: its releases and bodies lie on the map, and fit it.
+
+use super::agreement::{Course, flow_is_stiff_enough, samples_are_bounded};
+use super::duration::duration_to;
+use super::fit::{Placed, bodies_are_apart};
+use super::range::short;
+use super::released_area::{area, crossing};
+use super::report::Report;
+use super::rules::{CELL_SIZE, ELEVATION};
+use super::{Scenario, SlidingPoints, Source, Terrain, TerrainRelease};
+use crate::bed::HeightField;
+
+/// Least number of cells along the shorter side of a map.
+const FEWEST_CELLS: f64 = 4.0;
+
+/// Finishes a scenario on a terrain, whose fields are all valid: its default duration, and the rules
+/// between its fields. A scenario in a channel is left as it is.
+pub(super) fn finish(report: &Report, scenario: &mut Scenario, duration_is_given: bool) {
+    if scenario.terrain().is_none() {
+        return;
+    }
+    check(report, scenario);
+    if !report.is_empty() {
+        return;
+    }
+    let course = course_of(scenario);
+    if !duration_is_given {
+        let rests_at = course.map(|course| course.rests_at);
+        scenario.duration_s = duration_to(rests_at, scenario.bodies.iter());
+    }
+    let (duration, interval) = (scenario.duration_s, scenario.sample_interval_s);
+    samples_are_bounded(report, duration, interval, scenario.bodies.len());
+    if let (Some(flow), Some(course)) = (&scenario.flow, course) {
+        let course = Course {
+            thickness: scenario.release_thickness_m().unwrap_or_default(),
+            fastest: course.fastest,
+        };
+        let bodies: Vec<_> = scenario.bodies.iter().cloned().map(Some).collect();
+        let (numerics, gravity) = (&scenario.numerics, scenario.gravity_m_s2);
+        flow_is_stiff_enough(report, flow, &course, &bodies, numerics, gravity);
+    }
+}
+
+/// Expected course of the flow, if there is one.
+fn course_of(scenario: &Scenario) -> Option<SlidingPoints> {
+    let terrain = scenario.terrain()?;
+    SlidingPoints::of(scenario, &terrain.ground(scenario.cell_size_m()))
+}
+
+/// Refuses what does not fit the terrain.
+fn check(report: &Report, scenario: &Scenario) {
+    let Some(terrain) = scenario.terrain() else {
+        return;
+    };
+    let releases = match scenario.flow.as_ref().map(|flow| &flow.source) {
+        Some(Source::Terrain { releases }) => releases.as_slice(),
+        _ => &[],
+    };
+    for (index, release) in releases.iter().enumerate() {
+        release_fits(report, terrain, release, &format!("/flow/releases/{index}"));
+    }
+    if !report.is_empty() {
+        return;
+    }
+    let cell_size = scenario.cell_size_m();
+    let shortest = terrain.extent().into_iter().fold(f64::INFINITY, f64::min);
+    if cell_size * FEWEST_CELLS > shortest {
+        let largest = short(shortest / FEWEST_CELLS);
+        let why = format!(
+            "is {}, too coarse for a map whose shorter side is {} m",
+            short(cell_size),
+            short(shortest)
+        );
+        let pointer = format!("/numerics/{}", CELL_SIZE.key);
+        report.refuse(
+            &pointer,
+            &format!("0 < x <= {largest}"),
+            CELL_SIZE.unit,
+            &why,
+        );
+        return;
+    }
+    bodies_fit(report, scenario, terrain, &terrain.ground(cell_size));
+}
+
+/// The corners of a release lie on the map and make an area.
+fn release_fits(report: &Report, terrain: &Terrain, release: &TerrainRelease, pointer: &str) {
+    let Some(corners) = &release.polygon_m else {
+        let thickest = terrain.area(release).thickest();
+        if thickest <= 0.0 {
+            let key = match release.thickness_map {
+                Some(_) => "thickness_map",
+                None => "surface_map",
+            };
+            let why = "gives no thickness anywhere: nothing would be released";
+            let allowed = "a map with a thickness above 0 on the height map";
+            report.refuse(&format!("{pointer}/{key}"), allowed, None, why);
+        }
+        return;
+    };
+    let extent = terrain.extent();
+    for (index, corner) in corners.iter().enumerate() {
+        if !is_on_the_map(terrain.to_local(*corner), extent) {
+            let why = format!(
+                "is [{}, {}], which is not on the height map",
+                short(corner[0]),
+                short(corner[1])
+            );
+            let pointer = format!("{pointer}/polygon_m/{index}");
+            report.refuse(&pointer, &extent_in_words(terrain), Some("m"), &why);
+        }
+    }
+    let pointer = format!("{pointer}/polygon_m");
+    if let Some([one, other]) = crossing(corners) {
+        let why = format!("has sides that cross: those from corners {one} and {other}");
+        report.refuse(&pointer, "a polygon whose sides do not cross", None, &why);
+    } else if area(corners) == 0.0 {
+        let why = "has no area";
+        report.refuse(&pointer, "a polygon with an area", None, why);
+    }
+}
+
+fn is_on_the_map(place: [f64; 2], extent: [f64; 2]) -> bool {
+    (0..2).all(|axis| place[axis] >= 0.0 && place[axis] <= extent[axis])
+}
+
+/// Places on the map, in the terrain's coordinates.
+fn extent_in_words(terrain: &Terrain) -> String {
+    let corner = terrain.to_local([0.0; 2]).map(|offset| 0.0 - offset);
+    let extent = terrain.extent();
+    let range = |axis: usize| {
+        let (low, high) = (corner[axis], corner[axis] + extent[axis]);
+        format!("{} to {}", short(low), short(high))
+    };
+    format!("easting {}, northing {}", range(0), range(1))
+}
+
+/// Bodies lie on the map, above the ground and apart.
+fn bodies_fit(report: &Report, scenario: &Scenario, terrain: &Terrain, ground: &HeightField) {
+    let extent = terrain.extent();
+    let bodies = scenario.bodies.iter().enumerate();
+    let placed: Vec<Placed<'_>> = bodies
+        .map(|(index, body)| {
+            let shape = scenario.shape_of(index);
+            let pose = body.pose_on(&shape, terrain, ground);
+            Placed::new(index, body, shape, pose)
+        })
+        .collect();
+    for of in &placed {
+        let position = of.pose.position;
+        let reach = of.shape.bounding_radius();
+        let low = [position.x - reach, position.y - reach];
+        let high = [position.x + reach, position.y + reach];
+        if !is_on_the_map(low, extent) || !is_on_the_map(high, extent) {
+            let [x, y] = of.body.position.place.coordinates();
+            let why = format!(
+                "is [{}, {}], less than the body's bounding radius ({} m) from the edge of the map",
+                short(x),
+                short(y),
+                short(reach)
+            );
+            let pointer = format!("{}/position", of.pointer);
+            report.refuse(&pointer, &extent_in_words(terrain), Some("m"), &why);
+            continue;
+        }
+        is_above_the_ground(report, ground, of);
+        contact_carries(report, scenario, ground, of);
+    }
+    bodies_are_apart(report, &placed);
+}
+
+fn is_above_the_ground(report: &Report, ground: &HeightField, placed: &Placed<'_>) {
+    let Some(elevation) = placed.body.position.elevation_m else {
+        return;
+    };
+    let position = placed.pose.position;
+    let lowest = ground.lowest_centre(
+        &placed.shape,
+        placed.pose.orientation,
+        position.x,
+        position.y,
+    );
+    if position.z >= lowest - placed.slack {
+        return;
+    }
+    let bound = elevation + (lowest - position.z);
+    let why = format!(
+        "is {}, which puts the body into the ground: its centre must be at {} m or higher",
+        short(elevation),
+        short(bound)
+    );
+    let pointer = placed.pointer_to(ELEVATION.key);
+    report.refuse(
+        &pointer,
+        &format!("x >= {}", short(bound)),
+        ELEVATION.unit,
+        &why,
+    );
+}
+
+/// A given contact modulus carries its body at rest, and after a fall from its start.
+fn contact_carries(
+    report: &Report,
+    scenario: &Scenario,
+    ground: &HeightField,
+    placed: &Placed<'_>,
+) {
+    let position = placed.pose.position;
+    let lowest = ground.lowest_centre(
+        &placed.shape,
+        placed.pose.orientation,
+        position.x,
+        position.y,
+    );
+    placed.refuse_soft_contact(report, position.z - lowest, scenario.gravity_m_s2);
+}
