@@ -42,6 +42,18 @@ impl Totals {
         self
     }
 
+    /// The sums less those of others.
+    pub fn less(mut self, other: &Self) -> Self {
+        self.mass -= other.mass;
+        self.first_moment -= other.first_moment;
+        self.momentum.linear -= other.momentum.linear;
+        self.momentum.angular -= other.momentum.angular;
+        self.momentum_scale -= other.momentum_scale;
+        self.kinetic_energy -= other.kinetic_energy;
+        self.energy -= other.energy;
+        self
+    }
+
     /// Sums over so many images, which lie symmetrically about the plane y = 0. One image leaves
     /// the sums unchanged.
     pub fn of_images(&self, count: f64) -> Self {
@@ -139,6 +151,13 @@ impl FlowMoments {
         }
     }
 
+    /// Adds the points of a later release.
+    pub fn gain(&mut self, come: &Totals) {
+        self.mass += come.mass;
+        self.first_moment += come.first_moment;
+        self.momentum += come.momentum.linear;
+    }
+
     /// Subtracts the points that left.
     pub fn lose(&mut self, gone: &Totals) {
         self.mass -= gone.mass;
@@ -158,13 +177,15 @@ impl FlowMoments {
 /// The conservation audit of a run: expected sums against the actual ones.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Audit {
-    /// Mass at the start [kg].
+    /// Mass released so far [kg].
     pub released_mass: f64,
     /// Expected momentum: the initial one, plus every impulse from outside, less the momentum of
     /// outflow.
     expected: Impulse,
     /// Accumulated magnitudes of those impulses, linear and angular.
     exchanged: (f64, f64),
+    /// Energy of the points released after the start [J].
+    entered: f64,
     /// Totals of the outflow through the open end.
     left: Totals,
     /// Points that left through the open end.
@@ -244,6 +265,14 @@ impl Audit {
         self.deepest_body_overlap_ratio = self.deepest_body_overlap_ratio.max(overlap_ratio);
     }
 
+    /// Adds points that are released after the start.
+    pub fn enter(&mut self, come: &Totals) {
+        self.released_mass += come.mass;
+        self.entered += come.energy;
+        self.expected.linear += come.momentum.linear;
+        self.expected.angular += come.momentum.angular;
+    }
+
     /// Adds points that left through the open end.
     pub fn leave(&mut self, count: u64, gone: &Totals) {
         self.points_outflow += count;
@@ -280,7 +309,8 @@ impl Audit {
             let missing = (flow.mass + self.left.mass - self.released_mass).abs();
             self.mass_error = self.mass_error.max(missing / self.released_mass);
         }
-        let energy = total.energy + self.left.energy + contact_energy - self.given;
+        let released = self.entered + self.given;
+        let energy = total.energy + self.left.energy + contact_energy - released;
         self.lowest_energy = self.lowest_energy.min(energy);
         self.largest_rise = self.largest_rise.max(energy - self.lowest_energy);
         self.largest_kinetic_energy = self.largest_kinetic_energy.max(total.kinetic_energy);
@@ -296,7 +326,8 @@ impl Audit {
     /// heights counted from the floor, the largest kinetic energy, and the accumulated work of
     /// prescribed motions [J].
     pub fn energy_scale(&self) -> f64 {
-        self.start_energy.abs() + self.largest_kinetic_energy + self.given_size
+        let released = self.start_energy.abs() + self.entered.abs();
+        released + self.largest_kinetic_energy + self.given_size
     }
 
     /// Largest rise of the mechanical energy, less the work of prescribed motions, above

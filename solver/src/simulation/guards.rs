@@ -99,7 +99,7 @@ impl Simulation {
         let material = self.given.flow.as_ref().map(|flow| flow.material);
         let densest = material.map_or(f64::INFINITY, |material| material.densest());
         let bounds = Bounds {
-            planes: &self.given.planes,
+            walls: self.given.rigid_walls(),
             tolerance: self.given.lattice.spacing.max(),
             densest,
         };
@@ -229,7 +229,8 @@ impl Simulation {
     fn look_behind_walls(&self) -> Result<(), StepError> {
         let time_s = self.state.clock.time;
         for (place, body) in self.state.bodies.iter().enumerate() {
-            for plane in &self.given.planes {
+            let walls = self.given.rigid_walls();
+            for plane in walls.planes {
                 let deepest = body.shape.extent_along(&body.to_body(&-plane.normal));
                 let core =
                     plane.height(&body.state.position) - deepest + body.shape.sphero_radius();
@@ -241,6 +242,20 @@ impl Simulation {
                         depth_m: -core,
                     });
                 }
+            }
+            let height = walls.terrain.map(|ground| {
+                let plane = ground.nearest_plane(&body.state.position);
+                (plane.height(&body.state.position), plane.name)
+            });
+            if let Some((height, wall)) =
+                height.filter(|(height, _)| body.is_free() && *height < 0.0)
+            {
+                return Err(StepError::BodyBehindWall {
+                    time_s,
+                    body: place,
+                    wall,
+                    depth_m: -height,
+                });
             }
         }
         Ok(())

@@ -23,7 +23,7 @@ use crate::points::Point;
 use crate::rigid::Body;
 use crate::scenario::Scenario;
 use crate::stability::Pace;
-use crate::walls::Plane;
+use crate::walls::RigidWalls;
 use clock::Clock;
 use flow::Flow;
 use rayon::ThreadPool;
@@ -37,7 +37,8 @@ pub(crate) const CANDIDATE_BYTES: usize = flow::CANDIDATE_BYTES;
 pub use clock::Timing;
 pub use guards::Guards;
 pub use setup::{
-    Columns, Expected, GivenFlow, PreparedScene, Reductions, Scene, Setup, Share, Shares,
+    Columns, Division, Expected, GivenFlow, Outlet, PreparedScene, Reductions, Scene, Setup, Share,
+    Shares, TerrainColumns,
 };
 pub use stages::{StageTimer, StepStage};
 
@@ -83,6 +84,8 @@ struct Scratch {
 #[derive(Debug)]
 struct StepInHand {
     pace: Pace,
+    /// End of the stretch of the run in which it lies [s].
+    until: f64,
     /// Simulated time at its start [s].
     start: f64,
     done: u32,
@@ -282,6 +285,11 @@ impl Simulation {
         flow.visit_computed(&mut |point| visit(point, point.mass * images));
     }
 
+    /// Speed of the fastest point after the last step [m/s].
+    pub fn fastest_m_s(&self) -> f64 {
+        self.state.flow.fastest()
+    }
+
     /// Share of the flow that is computed now.
     pub fn share(&self) -> Share {
         self.state.flow.share()
@@ -343,9 +351,14 @@ impl Simulation {
         self.given.walls.bed.as_ref()
     }
 
-    /// The walls as planes for bodies.
-    pub fn planes(&self) -> &[Plane] {
-        &self.given.planes
+    /// The walls as bodies and points meet them.
+    pub fn rigid_walls(&self) -> RigidWalls<'_> {
+        self.given.rigid_walls()
+    }
+
+    /// Open ends of the ground.
+    pub fn outlet(&self) -> &Outlet {
+        &self.given.outlet
     }
 
     /// Node distances [m].

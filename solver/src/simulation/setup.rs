@@ -10,13 +10,15 @@ use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::points::Point;
 use crate::rigid::Body;
-use crate::scenario::{self, Precision, Scenario};
+use crate::scenario::{self, Ground, Precision, Scenario};
 use crate::stability::Pace;
-use crate::walls::{Ends, Plane, VerticalBoundary, VerticalWalls, WallPace, Walls};
+use crate::walls::{Ends, Plane, RigidWalls, VerticalBoundary, VerticalWalls, WallPace, Walls};
 use std::sync::Arc;
 
 mod bodies;
+mod division;
 mod flow;
+mod outlet;
 mod prepared;
 mod reductions;
 mod release;
@@ -24,14 +26,18 @@ mod resolution;
 mod settle;
 mod share;
 mod symmetry;
+mod terrain_release;
 
+pub use division::Division;
 pub use flow::GivenFlow;
+pub use outlet::Outlet;
 pub use prepared::PreparedScene;
 pub use reductions::Reductions;
 pub use release::Columns;
 pub use resolution::Expected;
 pub use share::{Share, Shares};
 pub(super) use symmetry::near_body;
+pub use terrain_release::TerrainColumns;
 
 /// A scene in the solver's own terms, made from a scenario. A caller that builds one without a
 /// scenario is responsible for it: nothing here is validated.
@@ -68,10 +74,12 @@ pub struct Setup {
     pub planes: Vec<Plane>,
     /// Mirror image of each body, if half of a symmetric flow is computed; else empty.
     pub partners: Vec<usize>,
-    /// x of the open end [m].
-    pub open_end: f64,
+    /// Open ends of the ground.
+    pub outlet: Outlet,
     /// The flow, if there is one.
     pub flow: Option<GivenFlow>,
+    /// Releases on a terrain after the start.
+    pub later: Option<Arc<TerrainColumns>>,
     /// Guards.
     pub guards: Guards,
 }
@@ -97,36 +105,53 @@ impl Scene {
 
 impl Setup {
     /// Set-up of a scenario's run, and the division of its release.
-    fn of(scenario: &Scenario, expected: Expected) -> Result<(Self, Option<Columns>), SetupError> {
-        let channel = &scenario.channel;
+    fn of(scenario: &Scenario, expected: Expected) -> Result<(Self, Option<Division>), SetupError> {
         let lattice = resolution::lattice(scenario);
-        let walls = walls(channel, &lattice);
-        let release = scenario.release();
-        let columns = release.map(|release| Columns::of(scenario, &lattice, &release));
-        let columns = columns.transpose()?;
-        let flow = scenario.flow.as_ref().zip(columns.as_ref());
-        let flow = flow.map(|(flow, columns)| {
+        let walls = match &scenario.ground {
+            Ground::Channel(channel) => walls_of_channel(channel, &lattice),
+            Ground::Terrain(terrain) => Walls {
+                bed: Arc::new(terrain.ground(lattice.spacing.x).under(&lattice)),
+                vertical_walls: None,
+            },
+        };
+        let division = division(scenario, &lattice)?;
+        let flow = scenario.flow.as_ref().zip(division.as_ref());
+        let flow = flow.map(|(flow, division)| {
             GivenFlow::of(
                 &flow.material,
                 &scenario.numerics,
                 &lattice,
-                columns.volume,
+                division.point_volume(),
                 expected,
             )
         });
+        let later = division.as_ref().and_then(Division::on_terrain);
+        let later = later.filter(|columns| columns.next_after(0.0).is_some());
         let given = Self {
             identity: scenario.to_json(),
             timing: Timing::lasting(scenario.duration_s),
             gravity: Vec3::new(0.0, 0.0, -scenario.gravity_m_s2),
             lattice,
             planes: walls.planes().copied().collect(),
-            guards: guards(scenario, walls.bed.as_ref()),
+            guards: guards(scenario, walls.bed.as_ref(), division.as_ref()),
             walls,
             partners: Vec::new(),
-            open_end: channel.runout_length_m,
+            outlet: match &scenario.ground {
+                Ground::Channel(channel) => Outlet::End(channel.runout_length_m),
+                Ground::Terrain(terrain) => Outlet::Edges(terrain.extent()),
+            },
+            later: later.cloned().map(Arc::new),
             flow,
         };
-        Ok((given, columns))
+        Ok((given, division))
+    }
+
+    /// The walls as bodies and points meet them.
+    pub fn rigid_walls(&self) -> RigidWalls<'_> {
+        RigidWalls {
+            planes: &self.planes,
+            terrain: self.walls.bed.height_field(),
+        }
     }
 
     /// The set-up with other walls, and with the mirror image of each body if one of them is a
@@ -164,7 +189,19 @@ impl Setup {
     }
 }
 
-fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
+/// Division of a scenario's release into points, if there is one.
+fn division(scenario: &Scenario, lattice: &Lattice) -> Result<Option<Division>, SetupError> {
+    if let Some(release) = scenario.release() {
+        let columns = Columns::of(scenario, lattice, &release)?;
+        return Ok(Some(Division::Channel(columns)));
+    }
+    let on_terrain = scenario.terrain().zip(scenario.flow.as_ref());
+    on_terrain
+        .map(|_| TerrainColumns::of(scenario, lattice.spacing.x).map(Division::Terrain))
+        .transpose()
+}
+
+fn walls_of_channel(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
     let vertical_walls = |name, normal: Vec3, distance: f64| Plane {
         name,
         normal,
@@ -174,7 +211,7 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
     let half_width = 0.5 * channel.width_m;
     Walls {
         bed: Arc::new(channel.bed()),
-        vertical_walls: VerticalWalls {
+        vertical_walls: Some(VerticalWalls {
             ends: Ends::Back(VerticalBoundary::Wall(vertical_walls(
                 "back wall",
                 Vec3::x(),
@@ -185,7 +222,7 @@ fn walls(channel: &scenario::Channel, lattice: &Lattice) -> Walls {
                 VerticalBoundary::Wall(vertical_walls("left side wall", -Vec3::y(), half_width)),
             ],
             halves_across: 2 * (channel.width_m / lattice.spacing.y).round() as i32,
-        },
+        }),
     }
 }
 
@@ -203,7 +240,7 @@ impl Setup {
     pub(super) fn surroundings(&self, time: f64) -> Surroundings<'_> {
         Surroundings {
             time,
-            planes: &self.planes,
+            walls: self.rigid_walls(),
             gravity: self.gravity,
             cancellation: None,
         }
@@ -211,16 +248,23 @@ impl Setup {
 }
 
 /// Guards according to the highest fall and the fastest throw.
-fn guards(scenario: &Scenario, bed: &dyn Bed) -> Guards {
-    let release = scenario.release();
-    let top = release.map_or(0.0, |release| {
-        bed.elevation(release.back_m, 0.0) + release.vertical_thickness_m
-    });
+fn guards(scenario: &Scenario, bed: &dyn Bed, division: Option<&Division>) -> Guards {
+    let top = match (scenario.release(), division) {
+        (Some(release), _) => bed.elevation(release.back_m, 0.0) + release.vertical_thickness_m,
+        (None, Some(Division::Terrain(columns))) => {
+            let tops = columns
+                .places()
+                .map(|([x, y], thickness)| bed.elevation(x, y) + thickness);
+            tops.fold(0.0, f64::max)
+        }
+        (None, _) => 0.0,
+    };
+    let poses = scenario.initial_poses();
     let bodies = scenario.bodies.iter().enumerate().map(|(place, body)| {
         let radius = scenario.shape_of(place).bounding_radius();
         let motion = body.motion.as_ref().map(scenario::Motion::prescribed);
         let rise = motion.map_or(0.0, |motion| motion.rise(scenario.duration_s));
-        let height = scenario.initial_pose(place).position.z + radius + rise;
+        let height = poses[place].position.z + radius + rise;
         (height, body.thrown_m_s(radius))
     });
     let (highest, fastest) = bodies.fold((top, 0.0f64), |(top, speed), (height, thrown)| {

@@ -41,12 +41,13 @@ impl Simulation {
             self.scratch.in_hand = Some(step);
             return Ok(self.report(dt));
         }
-        self.end_step(&step.pace)?;
+        self.end_step(&step)?;
         Ok(self.report(dt))
     }
 
     fn begin_step(&mut self) -> Result<StepInHand, StepError> {
-        let pace = self.pace()?;
+        let until = self.stretch_end();
+        let pace = self.pace(until - self.state.clock.time)?;
         let start = StepStart {
             reach: self.given.contact_reach(&self.state.bodies, &pace),
             strain_rate_smoothing: match &self.given.flow {
@@ -62,6 +63,7 @@ impl Simulation {
             .flow
             .transfer(&self.given, &state.bodies, &start, stages);
         Ok(StepInHand {
+            until,
             pace,
             start: self.state.clock.time,
             done: 0,
@@ -69,9 +71,8 @@ impl Simulation {
     }
 
     /// Sub-steps at the speed of sound in one step of the flow.
-    fn pace(&self) -> Result<Pace, StepError> {
+    fn pace(&self, remaining: f64) -> Result<Pace, StepError> {
         let (clock, timing) = (&self.state.clock, &self.given.timing);
-        let remaining = timing.duration - clock.time;
         let flow = self.given.flow.as_ref();
         let Some(flow) = flow.filter(|_| self.state.flow.count() > 0) else {
             let longest = METHOD.time_step.without_flow.min(timing.longest_substep);
@@ -165,7 +166,8 @@ impl Simulation {
     }
 
     /// Gathers the motion at the points and checks the result.
-    fn end_step(&mut self, pace: &Pace) -> Result<(), StepError> {
+    fn end_step(&mut self, step: &StepInHand) -> Result<(), StepError> {
+        let pace = &step.pace;
         let state = &mut self.state;
         let stages = &mut self.scratch.stages;
         let duration = pace.substep * f64::from(pace.count);
@@ -189,10 +191,11 @@ impl Simulation {
         clock.steps += 1;
         let timing = self.given.timing;
         if pace.reaches_end {
-            clock.time = timing.duration;
+            clock.time = step.until;
         }
         self.look_for_culprits(finished.stuck.as_ref())?;
         self.remove_what_left();
+        self.release_what_is_due();
         self.scratch.stages.done(StepStage::Checks);
         let since = self.state.clock.substeps - self.state.clock.last_audit;
         if pace.reaches_end || since >= timing.audit_interval {
@@ -216,10 +219,36 @@ impl Simulation {
         }
     }
 
-    /// Removes points beyond the open end, and counts them.
+    /// Releases what is due after the start, and counts it.
+    fn release_what_is_due(&mut self) {
+        let time = self.state.clock.time;
+        let Some(later) = self.given.later.as_ref().filter(|_| time > 0.0) else {
+            return;
+        };
+        let (points, left_out) = later.release_at(time, &self.given, &self.state.bodies);
+        let state = &mut self.state;
+        state.clock.volume_left_out += left_out;
+        state.clock.released_points += points.len() as u64;
+        // By what is kept of the points: their own numbers are rounded there.
+        let before = state.flow.totals(&self.given);
+        state.flow.add(points);
+        let come = state.flow.totals(&self.given).less(&before);
+        state.audit.enter(&come);
+        state.moments.gain(&come);
+    }
+
+    /// Time at which the present stretch of the run ends [s]: at the next release, or with the run.
+    fn stretch_end(&self) -> f64 {
+        let later = self.given.later.as_ref();
+        let next = later.and_then(|later| later.next_after(self.state.clock.time));
+        next.unwrap_or(f64::INFINITY)
+            .min(self.given.timing.duration)
+    }
+
+    /// Removes points beyond the open ends, and counts them.
     fn remove_what_left(&mut self) {
-        let (state, end) = (&mut self.state, self.given.open_end);
-        if let Some((count, totals)) = state.flow.remove_outflow(end, &self.given) {
+        let state = &mut self.state;
+        if let Some((count, totals)) = state.flow.remove_outflow(&self.given) {
             state.audit.leave(count, &totals);
             state.moments.lose(&totals);
         }

@@ -16,7 +16,7 @@ use crate::mpm::lanes::Real;
 use crate::mpm::nodes::Nodes;
 use crate::mpm::p2g::{TransferTiles, residual_transfer, scatter_momentum};
 use crate::mpm::packing::Packing;
-use crate::mpm::redistribution::{NoShiftZone, Shifting};
+use crate::mpm::redistribution::{NoShiftZone, Shifting, TerrainZone};
 use crate::mpm::rows::Tile;
 use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use crate::mpm::stress_update::update_stress;
@@ -312,6 +312,8 @@ impl<R: Saved> Flow for BlockFlow<R> {
             dt: R::of(end.dt),
             redistribution: &end.redistribution,
             no_shift_zones: &self.no_shift_zones,
+            terrain_zone: (given.walls.bed.height_field())
+                .map(|ground| TerrainZone::of(ground, &given.lattice)),
             largest_volume_mass: R::of(
                 given.lattice.largest_point_volume() * self.packing.material.bulk_density,
             ),
@@ -342,9 +344,11 @@ impl<R: Saved> Flow for BlockFlow<R> {
             &self.packing,
             &self.loads.candidates,
             bodies,
-            &given.planes,
+            &given.rigid_walls(),
         );
-        wrap_periodic(&mut self.blocks, &given.walls.vertical_walls);
+        if let Some(vertical_walls) = &given.walls.vertical_walls {
+            wrap_periodic(&mut self.blocks, vertical_walls);
+        }
         stages.done(StepStage::G2p);
         self.blocks.settle();
         stages.done(StepStage::Rebin);
@@ -361,9 +365,16 @@ impl<R: Saved> Flow for BlockFlow<R> {
         find_offending_point(self.blocks.occupied(), &self.packing, every, bounds)
     }
 
-    fn remove_outflow(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)> {
+    fn add(&mut self, points: Vec<Point>) {
         let packing = self.packing;
-        let gone = take_outflow(&mut self.blocks, &packing, end);
+        let points = Unloading::of(points);
+        self.blocks.add(points.map(|point| packing.pack(&point)));
+        self.check_points();
+    }
+
+    fn remove_outflow(&mut self, given: &Setup) -> Option<(u64, Totals)> {
+        let packing = self.packing;
+        let gone = take_outflow(&mut self.blocks, &packing, &given.outlet);
         if gone.is_empty() {
             return None;
         }

@@ -25,7 +25,7 @@ pub(super) struct Images {
 impl Images {
     /// The images that make up the whole channel.
     pub(super) fn of_share(share: Share, columns: &Columns, whole: &Setup) -> Self {
-        let cells = whole.walls.vertical_walls.halves_across.unsigned_abs() / 2;
+        let cells = whole.walls.halves_across().unsigned_abs() / 2;
         let [_, rows, up] = columns.count;
         Self {
             share,

@@ -48,7 +48,9 @@ impl Flow for NoFlow {
         None
     }
 
-    fn remove_outflow(&mut self, _: f64, _: &Setup) -> Option<(u64, Totals)> {
+    fn add(&mut self, _: Vec<Point>) {}
+
+    fn remove_outflow(&mut self, _: &Setup) -> Option<(u64, Totals)> {
         None
     }
 

@@ -1,13 +1,13 @@
 //! Bounds of a flow's points, and the fault of a point beyond them.
 
 use crate::points::Point;
-use crate::walls::Plane;
+use crate::walls::{Plane, RigidWalls};
 
 /// Bounds of the points.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::simulation) struct Bounds<'a> {
     /// The walls.
-    pub planes: &'a [Plane],
+    pub walls: RigidWalls<'a>,
     /// Largest distance of a point behind a wall [m].
     pub tolerance: f64,
     /// Largest density [kg/m³].
@@ -58,14 +58,12 @@ impl OffendingPoint {
             });
         }
         let behind = |plane: &&Plane| plane.height(&point.position) < -bounds.tolerance;
-        bounds
-            .planes
-            .iter()
-            .find(behind)
-            .map(|plane| Self::BehindWall {
-                point: point.id,
-                wall: plane.name,
-                depth_m: -plane.height(&point.position),
-            })
+        let walls = bounds.walls.planes_at(&point.position);
+        let mut walls = walls.iter();
+        walls.find(behind).map(|plane| Self::BehindWall {
+            point: point.id,
+            wall: plane.name,
+            depth_m: -plane.height(&point.position),
+        })
     }
 }

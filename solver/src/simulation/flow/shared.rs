@@ -14,7 +14,7 @@ use crate::rigid::Body;
 use crate::scenario::Precision;
 use crate::simulation::setup::{Setup, Share, Shares, near_body};
 use crate::simulation::stages::StageEnds;
-use crate::walls::{Impulse, Plane};
+use crate::walls::{Impulse, Plane, RigidWalls};
 
 /// A flow with a computed share, which is later enlarged.
 #[derive(Debug)]
@@ -61,7 +61,8 @@ impl SharedFlow {
         };
         let given = whole.between(share.walls(whole), partners);
         let mut planes = whole.planes.clone();
-        planes.push(*given.walls.vertical_walls.sides[1].plane());
+        let vertical_walls = given.walls.vertical_walls.iter();
+        planes.extend(vertical_walls.map(|walls| *walls.sides[1].plane()));
         Self {
             planes,
             flow: start_whole(Vec::new(), &given, precision),
@@ -88,10 +89,7 @@ impl SharedFlow {
     /// Changes to the last share: its points are images of the current ones.
     fn widen(&mut self, whole: &Setup) {
         let wider = self.shares.last;
-        let rows = wider.rows_across(
-            &self.shares.columns,
-            whole.walls.vertical_walls.halves_across,
-        );
+        let rows = wider.rows_across(&self.shares.columns, whole.walls.halves_across());
         let mut points = Vec::new();
         let mut take = |point: &Point| {
             if self.images.row(point) < rows {
@@ -188,13 +186,17 @@ impl Flow for SharedFlow {
 
     fn offending_point(&self, bounds: &Bounds) -> Option<OffendingPoint> {
         self.flow.offending_point(&Bounds {
-            planes: &self.planes,
+            walls: RigidWalls::planar(&self.planes),
             ..*bounds
         })
     }
 
-    fn remove_outflow(&mut self, end: f64, _: &Setup) -> Option<(u64, Totals)> {
-        let (count, totals) = self.flow.remove_outflow(end, &self.given)?;
+    fn add(&mut self, points: Vec<Point>) {
+        self.flow.add(points);
+    }
+
+    fn remove_outflow(&mut self, _: &Setup) -> Option<(u64, Totals)> {
+        let (count, totals) = self.flow.remove_outflow(&self.given)?;
         let count = count * u64::from(self.images.count());
         Some((count, totals.of_images(self.count_of_images())))
     }

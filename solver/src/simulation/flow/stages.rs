@@ -69,8 +69,11 @@ pub(in crate::simulation) trait Flow: Debug + Send + Sync {
     /// An offending point after a step, if there is one.
     fn offending_point(&self, bounds: &Bounds) -> Option<OffendingPoint>;
 
-    /// Removes the points beyond x = `end` [m]; `None` if there are none.
-    fn remove_outflow(&mut self, end: f64, given: &Setup) -> Option<(u64, Totals)>;
+    /// Adds points between two steps.
+    fn add(&mut self, points: Vec<Point>);
+
+    /// Removes the points beyond the open ends; `None` if there are none.
+    fn remove_outflow(&mut self, given: &Setup) -> Option<(u64, Totals)>;
 
     /// Sums over the points.
     fn totals(&self, given: &Setup) -> Totals;

@@ -3,12 +3,13 @@
 use super::Setup;
 use super::resolution::{Crowd, Expected, contact_modulus};
 use super::settle::settle;
+use crate::bed::NearGround;
 use crate::contact::body_wall::evaluate_wall_contacts;
 use crate::contact::law::{ContactLaw, Dampings};
 use crate::math::Vec3;
 use crate::motion::Velocities;
 use crate::rigid::{Body, BodyState, Freedom, InverseInertia, Load, Prescribed, TurnedCore};
-use crate::scenario::{self, Scenario};
+use crate::scenario::{self, Pose, Scenario};
 
 /// The bodies of a scenario at the start.
 pub(super) fn bodies(
@@ -18,10 +19,17 @@ pub(super) fn bodies(
     expected: &Expected,
 ) -> Vec<Body> {
     let mut dampings = Dampings::default();
+    let poses = scenario.initial_poses();
     (0..scenario.bodies.len())
         .map(|place| {
             let modulus = || contact_modulus(crowd, place, expected.speed, scenario.gravity_m_s2);
-            body(scenario, given, place, modulus, &mut dampings)
+            body(
+                scenario,
+                given,
+                (place, poses[place]),
+                modulus,
+                &mut dampings,
+            )
         })
         .collect()
 }
@@ -29,13 +37,12 @@ pub(super) fn bodies(
 fn body(
     scenario: &Scenario,
     given: &Setup,
-    place: usize,
+    (place, pose): (usize, Pose),
     automatic_modulus: impl FnOnce() -> f64,
     dampings: &mut Dampings,
 ) -> Body {
     let spec = &scenario.bodies[place];
     let shape = scenario.shape_of(place);
-    let pose = scenario.initial_pose(place);
     let mass = spec.density_kg_m3 * shape.volume();
     let inertia = shape.unit_inertia() * spec.density_kg_m3;
     let modulus = spec.contact_modulus_pa.unwrap_or_else(automatic_modulus);
@@ -57,6 +64,7 @@ fn body(
             momentum: Vec3::zeros(),
             angular_momentum: Vec3::zeros(),
             springs: Vec::new(),
+            ground_nodes: Vec::new(),
             rolling: Vec::new(),
             wall_load: Load::default(),
             wall_energy: 0.0,
@@ -74,6 +82,7 @@ fn body(
         rolling_friction: spec.rolling_friction,
         freedom: freedom(spec, pose.position),
         wall_touches: Vec::new(),
+        near_ground: NearGround::default(),
         turned_core: TurnedCore::default(),
     };
     let velocities = match body.prescribed() {
@@ -84,11 +93,13 @@ fn body(
         },
     };
     body.set_velocities(&velocities);
+    let walls = given.rigid_walls();
     if spec.position.elevation_m.is_none() && body.freedom == Freedom::Free {
-        settle(&mut body, &given.planes, &given.gravity);
+        let under = walls.planes_under(&body.placed());
+        settle(&mut body, under.iter(), &given.gravity);
     }
     if body.prescribed().is_none() {
-        evaluate_wall_contacts(&mut body, &given.planes, 0.0);
+        evaluate_wall_contacts(&mut body, &walls, 0.0);
     }
     body
 }

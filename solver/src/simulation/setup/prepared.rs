@@ -2,7 +2,7 @@
 
 use super::bodies::bodies;
 use super::resolution::{self, Crowd};
-use super::{Columns, Reductions, Scene, Setup};
+use super::{Division, Reductions, Scene, Setup};
 use crate::error::SetupError;
 use crate::rigid::Body;
 use crate::scenario::Scenario;
@@ -17,8 +17,8 @@ pub struct PreparedScene {
     pub given: Setup,
     /// The bodies at the start.
     pub bodies: Vec<Body>,
-    /// Columns of points that the release is divided into; `None` without a flow.
-    pub columns: Option<Columns>,
+    /// Division of the release into points; `None` without a flow.
+    pub division: Option<Division>,
     /// Reductions of the computation.
     pub reductions: Reductions,
 }
@@ -33,7 +33,7 @@ impl PreparedScene {
         prepared.reductions = Reductions::of(
             scenario,
             &prepared.given,
-            prepared.columns.as_ref(),
+            prepared.division.as_ref().and_then(Division::in_channel),
             &prepared.bodies,
         )?;
         prepared.reductions.confine(&mut prepared.bodies);
@@ -47,12 +47,12 @@ impl PreparedScene {
     pub fn whole(scenario: &Scenario) -> Result<Self, SetupError> {
         let crowd = Crowd::of(scenario);
         let expected = resolution::expected(scenario, &crowd);
-        let (given, columns) = Setup::of(scenario, expected)?;
+        let (given, division) = Setup::of(scenario, expected)?;
         Ok(Self {
             scenario: scenario.clone(),
             bodies: bodies(scenario, &given, &crowd, &expected),
             given,
-            columns,
+            division,
             reductions: Reductions::none(),
         })
     }
@@ -71,8 +71,8 @@ impl PreparedScene {
     /// The whole scene, with its points.
     pub fn scene(self) -> Scene {
         let share = self.reductions.first_share();
-        let (points, volume_left_out) = match self.columns {
-            Some(columns) => columns.release(&self.scenario, &self.given, &self.bodies, share),
+        let (points, volume_left_out) = match &self.division {
+            Some(division) => division.start(&self.scenario, &self.given, &self.bodies, share),
             None => (Vec::new(), 0.0),
         };
         Scene {

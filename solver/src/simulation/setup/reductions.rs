@@ -99,8 +99,15 @@ struct ExaminedScene<'a> {
 }
 
 impl ExaminedScene<'_> {
+    fn without_columns(&self) -> Why {
+        match (&self.scenario.flow, self.scenario.terrain()) {
+            (Some(_), Some(_)) => "a terrain has no centre plane and no uniform width".to_owned(),
+            _ => "there is no flow".to_owned(),
+        }
+    }
+
     fn halves_across(&self) -> i32 {
-        self.given.walls.vertical_walls.halves_across
+        self.given.walls.halves_across()
     }
 
     /// Image of each body, or the reason against computation by halves.
@@ -108,7 +115,7 @@ impl ExaminedScene<'_> {
         let asked = self.scenario.numerics.symmetry;
         let found = match (asked, self.columns) {
             (Symmetry::Full, _) => Err(forbidden("symmetry")),
-            (_, None) => Err(without_flow()),
+            (_, None) => Err(self.without_columns()),
             _ if Share::Half.halves_across(self.halves_across()) < 2 => {
                 Err("the channel is one cell wide".to_owned())
             }
@@ -122,7 +129,7 @@ impl ExaminedScene<'_> {
         let asked = self.scenario.numerics.approach;
         let found = match (asked, self.columns) {
             (Approach::Full, _) => Err(forbidden("approach")),
-            (_, None) => Err(without_flow()),
+            (_, None) => Err(self.without_columns()),
             _ if last.halves_across(self.halves_across()) <= 2 => {
                 Err("what is computed is one cell wide anyway".to_owned())
             }
@@ -134,10 +141,6 @@ impl ExaminedScene<'_> {
 
 fn forbidden(key: &str) -> Why {
     format!("numerics.{key} is \"full\"")
-}
-
-fn without_flow() -> Why {
-    "there is no flow".to_owned()
 }
 
 /// The result; an error if it was requested and is not possible.

@@ -17,7 +17,7 @@ use crate::shape::Feature;
 use crate::walls::Plane;
 
 /// Largest number of points of one run.
-const MOST_POINTS: u64 = 20_000_000;
+pub(super) const MOST_POINTS: u64 = 20_000_000;
 
 /// Counts and distances of the release's points.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +57,7 @@ impl Columns {
         let mass = flow.material.bulk_density * self.volume;
         let mut left_out = 0.0;
         let [along, across, up] = self.count;
-        let rows = share.rows_across(self, given.walls.vertical_walls.halves_across);
+        let rows = share.rows_across(self, given.walls.halves_across());
         // A list that grows would take twice its memory, and the set-up is when most is needed.
         let mut points = Vec::with_capacity(along as usize * rows as usize * up as usize);
         let images = f64::from(across) / f64::from(rows);
@@ -152,7 +152,7 @@ impl Setup {
     /// or without room. The excluded volume is thereby that of the bodies, and no face that cuts
     /// the lattice starts with a gap that the flow would first have to close. Round a vertex or an
     /// edge points would cluster.
-    fn place_beside(&self, position: Vec3, bodies: &[Body]) -> Option<Vec3> {
+    pub(super) fn place_beside(&self, position: Vec3, bodies: &[Body]) -> Option<Vec3> {
         let spacing = self.flow.as_ref()?.sphere.spacing;
         // Position of the continuum's surface: at rest the contacts carry the pressure there.
         let stand_off = 0.5 * spacing;
@@ -179,8 +179,9 @@ impl Setup {
             let height = plane.height(&place);
             height >= stand_off.min(plane.height(&position)) * CLOSE
         };
+        let walls = self.rigid_walls().planes_at(&place);
         let has_room =
-            place == position || (bodies.iter().all(beside) && self.planes.iter().all(between));
+            place == position || (bodies.iter().all(beside) && walls.iter().all(between));
         has_room.then_some(place)
     }
 }
@@ -193,7 +194,7 @@ impl GivenFlow {
     /// Displacement [m] of a point in contact with a body to the place where the contact carries
     /// the point's stress. The stand-off holds for the mean pressure of the flow; without this,
     /// bodies would exert that pressure at first, at any depth and in any direction.
-    fn way_to_bear(&self, point: &Point, bodies: &[Body]) -> Vec3 {
+    pub(super) fn way_to_bear(&self, point: &Point, bodies: &[Body]) -> Vec3 {
         let PointSphere { radius, spacing } = self.sphere;
         let mut touched = bodies
             .iter()
@@ -243,24 +244,25 @@ fn surface_within(reach: f64, body: &Body, place: &Vec3) -> Option<Surface> {
 }
 
 /// Initial stress of a slope at rest.
-struct Start<'a> {
-    material: &'a Material,
-    gravity: f64,
+pub(super) struct Start<'a> {
+    pub(super) material: &'a Material,
+    pub(super) gravity: f64,
     /// Normal of the bed under the release.
-    normal: Vec3,
+    pub(super) normal: Vec3,
 }
 
 impl Start<'_> {
     /// Sets the stress of a point at a vertical depth [m] in an infinite slope, with no more shear
     /// than it can bear.
-    fn press(&self, point: &mut Point, depth: f64) {
-        let (sin, cos) = (self.normal.x, self.normal.z);
+    pub(super) fn press(&self, point: &mut Point, depth: f64) {
+        let (sin, cos) = (self.normal.xy().norm(), self.normal.z);
         let density = self.material.bulk_density;
         let normal_stress = density * self.gravity * depth * cos * cos;
         let shear_stress = density * self.gravity * depth * cos * sin;
         let lateral = self.lateral_ratio();
         let normal = self.normal;
-        let down = Vec3::new(cos, 0.0, -sin);
+        let ahead = self.normal.xy().try_normalize(0.0).unwrap_or_default();
+        let down = Vec3::new(cos * ahead.x, cos * ahead.y, -sin);
         let across = normal * normal.transpose();
         let stress = across * -normal_stress
             - (Mat3::identity() - across) * (lateral * normal_stress)

@@ -5,10 +5,8 @@ use crate::bed::Bed;
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::method::METHOD;
-use crate::scenario::{Flow, Motion, Numerics, Scenario};
+use crate::scenario::{Flow, Ground, Motion, Numerics, Scenario, SlidingPoints, Source};
 
-/// Cell size of a scene without flow or bodies [m].
-const CELL_SIZE_OF_NOTHING: f64 = 0.01;
 /// Stiffness of a body on a rigid wall over that on an equal body: E*/2 and r/2.
 const TWO_LIKE_ONE: f64 = 2.0 * std::f64::consts::SQRT_2;
 
@@ -33,38 +31,21 @@ fn cells_across(width: f64, points_across: f64) -> f64 {
     }
 }
 
-/// The lattice of a scenario: its cells divide the width evenly, so that both
+/// The lattice of a scenario: in a channel its cells divide the width evenly, so that both
 /// side walls lie on nodes.
 pub(super) fn lattice(scenario: &Scenario) -> Lattice {
-    let channel = &scenario.channel;
-    let cell = scenario
-        .numerics
-        .cell_size_m
-        .unwrap_or_else(|| automatic_cell_size(scenario));
+    let cell = scenario.cell_size_m();
+    let Some(channel) = scenario.channel() else {
+        return Lattice {
+            origin: Vec3::zeros(),
+            spacing: Vec3::repeat(cell),
+        };
+    };
     let across = cells_across(channel.width_m / cell, points_across(&scenario.numerics));
     Lattice {
         origin: Vec3::new(-channel.incline_length_m, -0.5 * channel.width_m, 0.0),
         spacing: Vec3::new(cell, channel.width_m / across, cell),
     }
-}
-
-/// Four cells across the thinnest body, eight across the release, the finer of both; coarser if
-/// that needs more than 400,000 points.
-fn automatic_cell_size(scenario: &Scenario) -> f64 {
-    let thinnest = (0..scenario.bodies.len())
-        .map(|body| scenario.shape_of(body).least_width())
-        .fold(f64::INFINITY, f64::min);
-    let flow = scenario.flow.as_ref().filter(|flow| flow.volume_m3 > 0.0);
-    let release = flow.map_or(f64::INFINITY, |flow| flow.release.height_m);
-    let fine = (thinnest / METHOD.resolution.cells_per_body)
-        .min(release / METHOD.resolution.cells_per_release);
-    if fine.is_infinite() {
-        return CELL_SIZE_OF_NOTHING;
-    }
-    let per_cell = f64::from(scenario.numerics.points_per_cell);
-    let volume = flow.map_or(0.0, |flow| flow.volume_m3);
-    let affordable = (volume * per_cell / METHOD.resolution.automatic_points).cbrt();
-    fine.max(affordable).min(scenario.channel.width_m)
 }
 
 /// Expected speeds and pressures of a scene.
@@ -90,7 +71,8 @@ pub(super) fn expected(scenario: &Scenario, crowd: &Crowd) -> Expected {
     let speed = expected_speed(scenario);
     let flow = scenario.flow.as_ref();
     let density = flow.map_or(f64::INFINITY, |flow| flow.material.bulk_density_kg_m3);
-    let weight = |flow: &Flow| 0.5 * density * scenario.gravity_m_s2 * flow.release.height_m;
+    let thickness = scenario.release_thickness_m().unwrap_or_default();
+    let weight = |_: &Flow| 0.5 * density * scenario.gravity_m_s2 * thickness;
     let of_body = |body: &Weighty| {
         let weight = body.mass * scenario.gravity_m_s2 / body.projected_area;
         let factor = if body.lies_on_flow {
@@ -122,9 +104,16 @@ pub(super) fn expected(scenario: &Scenario, crowd: &Crowd) -> Expected {
 /// Expected speed of the flow [m/s]: its own, or that of the fastest body.
 fn expected_speed(scenario: &Scenario) -> f64 {
     let flow = scenario.flow.as_ref();
-    let of_flow = flow.map_or(0.0, |flow| {
-        let channel = &scenario.channel;
-        channel.fastest_flow(flow, scenario.gravity_m_s2)
+    let of_flow = flow.map_or(0.0, |flow| match (&scenario.ground, &flow.source) {
+        (Ground::Channel(channel), Source::Channel { volume_m3, release }) => {
+            channel.fastest_flow((*volume_m3, release), scenario.gravity_m_s2)
+        }
+        (Ground::Terrain(terrain), _) => {
+            let ground = terrain.ground(scenario.cell_size_m());
+            let course = SlidingPoints::of(scenario, &ground);
+            course.map_or(0.0, |course| course.fastest)
+        }
+        (Ground::Channel(_), Source::Terrain { .. }) => 0.0,
     });
     let bodies = scenario.bodies.iter().enumerate();
     let thrown = bodies.map(|(place, body)| match body.motion {
@@ -157,14 +146,17 @@ pub(super) struct Crowd(Vec<Weighty>);
 
 impl Crowd {
     pub(super) fn of(scenario: &Scenario) -> Self {
+        let poses = scenario.initial_poses();
+        let bed = scenario.bed();
+        let areas: Vec<_> = scenario.terrain_releases().collect();
         let weighty = |place: usize| {
             let body = &scenario.bodies[place];
             let shape = scenario.shape_of(place);
-            let start = scenario.initial_pose(place).position;
+            let start = poses[place].position;
             let lowest = shape.inscribed_radius();
             let falling = match body.motion {
                 Some(_) => 0.0,
-                None => 2.0 * scenario.gravity_m_s2 * (start.z - lowest).max(0.0),
+                None => 2.0 * scenario.gravity_m_s2 * fall(scenario, bed.as_ref(), &start, lowest),
             };
             let bounding_radius = shape.bounding_radius();
             let thrown = body.thrown_m_s(bounding_radius);
@@ -176,12 +168,18 @@ impl Crowd {
                 bounding_radius,
                 projected_area: shape.largest_projected_area(),
                 speed_squared: falling + thrown * thrown,
-                lies_on_flow: scenario.release().is_some_and(|release| {
-                    let bed = scenario.bed().elevation(start.x, start.y);
-                    let above = start.z - 3.0 * lowest - bed;
-                    let over = release.back_m <= start.x && start.x <= release.front_m;
-                    over && above < release.vertical_thickness_m
-                }),
+                lies_on_flow: {
+                    let above = start.z - 3.0 * lowest - bed.elevation(start.x, start.y);
+                    let thickness = areas.iter().map(|area| area.thickness_at(start.x, start.y));
+                    let in_channel = scenario.release().is_some_and(|release| {
+                        let over = release.back_m <= start.x && start.x <= release.front_m;
+                        over && above < release.vertical_thickness_m
+                    });
+                    in_channel
+                        || thickness
+                            .into_iter()
+                            .any(|thick| thick > 0.0 && above < thick)
+                },
                 free: body.is_free(),
                 fixed: body.fixed,
             }
@@ -224,6 +222,16 @@ impl Crowd {
             (mass.max(other.moving_mass()), speed)
         })
     }
+}
+
+/// Height that a body may fall [m]: to the floor of a channel. On a terrain, where it may slide
+/// from the highest place to the lowest without ever falling, to the ground under it.
+fn fall(scenario: &Scenario, bed: &dyn Bed, start: &Vec3, lowest: f64) -> f64 {
+    let floor = match scenario.ground {
+        Ground::Channel(_) => 0.0,
+        Ground::Terrain(_) => bed.elevation(start.x, start.y),
+    };
+    (start.z - lowest - floor).max(0.0)
 }
 
 impl Weighty {

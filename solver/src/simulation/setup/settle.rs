@@ -16,9 +16,13 @@ const MOST_ROUNDS: usize = 40;
 
 /// Sinks a body that touches a plane, and turns it where its weight is not shared
 /// evenly: by the contacts' overlaps, about a hundredth of the sphero radius.
-pub(super) fn settle(body: &mut Body, planes: &[Plane], gravity: &Vec3) {
+pub(super) fn settle<'a>(
+    body: &mut Body,
+    mut planes: impl Iterator<Item = &'a Plane>,
+    gravity: &Vec3,
+) {
     let touches = |plane: &&Plane| !carriers(body, plane).is_empty();
-    let Some(support) = planes.iter().find(touches) else {
+    let Some(support) = planes.find(touches) else {
         return;
     };
     let pressed = (-gravity.dot(&support.normal) * body.mass).max(0.0);

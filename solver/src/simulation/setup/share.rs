@@ -36,11 +36,14 @@ impl Share {
     /// The walls of this share of a channel.
     pub(in crate::simulation) fn walls(self, whole: &Setup) -> Walls {
         let mut walls = whole.walls.clone();
-        let halves = self.halves_across(walls.vertical_walls.halves_across);
-        if halves < walls.vertical_walls.halves_across {
+        let Some(vertical_walls) = &mut walls.vertical_walls else {
+            return walls;
+        };
+        let halves = self.halves_across(vertical_walls.halves_across);
+        if halves < vertical_walls.halves_across {
             let lattice = &whole.lattice;
-            walls.vertical_walls.halves_across = halves;
-            walls.vertical_walls.sides[1] = VerticalBoundary::Symmetry(Plane {
+            vertical_walls.halves_across = halves;
+            vertical_walls.sides[1] = VerticalBoundary::Symmetry(Plane {
                 name: "plane of symmetry",
                 normal: -Vec3::y(),
                 offset: -(lattice.origin.y + 0.5 * f64::from(halves) * lattice.spacing.y),

@@ -99,7 +99,8 @@ pub(super) fn uniform_across(
     given: &Setup,
     bodies: &[Body],
 ) -> Result<(), Why> {
-    let friction = scenario.channel.side_friction;
+    let channel = scenario.channel();
+    let friction = channel.map_or(0.0, |channel| channel.side_friction);
     if friction > 0.0 {
         return Err(format!("the side walls rub, with a friction of {friction}"));
     }

@@ -10,7 +10,8 @@ use crate::mpm::lanes::Real;
 use crate::mpm::packing::Packing;
 use crate::points::Point;
 use crate::rigid::Body;
-use crate::walls::{Plane, VerticalWalls};
+use crate::simulation::setup::Outlet;
+use crate::walls::{RigidWalls, VerticalWalls};
 
 /// Applies the penetration correction to the candidates of every body; returns the number of
 /// corrected points, and the deepest one that has no free position.
@@ -19,7 +20,7 @@ pub(super) fn correct_penetration<R: Real>(
     packing: &Packing,
     candidates: &[Vec<Candidate<Place>>],
     bodies: &[Body],
-    walls: &[Plane],
+    walls: &RigidWalls,
 ) -> (u64, Option<PenetratingPoint>) {
     let (mut count, mut stuck) = (0, None);
     for (which, (body, of_body)) in bodies.iter().zip(candidates).enumerate() {
@@ -64,21 +65,22 @@ pub(super) fn wrap_periodic<R: Real>(blocks: &mut Blocks<R>, vertical_walls: &Ve
     }
 }
 
-/// Takes out the points beyond x = `end` [m].
+/// Takes out the points beyond the open ends.
 pub(super) fn take_outflow<R: Real>(
     blocks: &mut Blocks<R>,
     packing: &Packing,
-    end: f64,
+    outlet: &Outlet,
 ) -> Vec<Point> {
     let mut gone = Vec::new();
+    let lattice = &packing.lattice;
     let near_end = |key: &BlockKey| {
-        let last = packing
-            .lattice
-            .position(key.map(|k| (k + 1) * BLOCK as i32));
-        last.x + packing.lattice.spacing.x > end
+        let corner = |beyond: i32| lattice.position(key.map(|k| (k + beyond) * BLOCK as i32));
+        // Corners of the block, with the half cell by which its points may lie beyond it.
+        let last = corner(1) + lattice.spacing;
+        outlet.is_beyond(&last) || outlet.is_beyond(&(corner(0) - lattice.spacing))
     };
     blocks.take_out(near_end, |key, point| {
-        let beyond = packing.position(key, &point.position).x > end;
+        let beyond = outlet.is_beyond(&packing.position(key, &point.position));
         if beyond {
             gone.push(packing.unpack(key, point));
         }

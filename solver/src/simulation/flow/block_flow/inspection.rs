@@ -1,8 +1,10 @@
 //! Inspection of the points in all blocks: their sums, and offending points.
 
+use crate::bed::{Bed, HeightField};
 use crate::diagnostics::Totals;
 use crate::grid::{BLOCK, BlockKey};
 use crate::kernel::Lattice;
+use crate::math::Vec3;
 use crate::mpm::blocks::Block;
 use crate::mpm::lanes::Real;
 use crate::mpm::packing::Packing;
@@ -35,7 +37,7 @@ pub(super) fn find_offending_point<R: Real>(
     bounds: &Bounds,
 ) -> Option<OffendingPoint> {
     let Bounds {
-        planes, tolerance, ..
+        walls, tolerance, ..
     } = *bounds;
     let lattice = &packing.lattice;
     let behind = |plane: &Plane, block: &Block<R>| {
@@ -46,7 +48,20 @@ pub(super) fn find_offending_point<R: Real>(
         lowest(plane, lattice, &block.key) < -tolerance
             && (0..block.count()).any(|slot| height(slot) < -tolerance)
     };
-    let suspect = |block: &&Block<R>| every || planes.iter().any(|plane| behind(plane, block));
+    let in_ground = |ground: &HeightField, block: &Block<R>| {
+        // Along the vertical nothing is less deep than along the normal.
+        let depth = |slot| {
+            let place = packing.position(&block.key, &block.position(slot));
+            ground.elevation(place.x, place.y) - place.z
+        };
+        let (low, high) = corners(lattice, &block.key);
+        let highest = ground.surface().bounds([low.x, low.y], [high.x, high.y]).0;
+        highest - low.z > tolerance && (0..block.count()).any(|slot| depth(slot) > tolerance)
+    };
+    let suspect = |block: &&Block<R>| {
+        let on_terrain = || walls.terrain.is_some_and(|ground| in_ground(ground, block));
+        every || walls.planes.iter().any(|plane| behind(plane, block)) || on_terrain()
+    };
     let suspects = blocks.iter().filter(suspect);
     let mut points = suspects.flat_map(|block| {
         (0..block.count()).map(|slot| packing.unpack(&block.key, &block.get(slot)))
@@ -56,6 +71,12 @@ pub(super) fn find_offending_point<R: Real>(
 
 /// Height above a plane of the lowest possible place of a point of this block [m].
 fn lowest(plane: &Plane, lattice: &Lattice, key: &BlockKey) -> f64 {
-    let first = lattice.position(key.map(|k| k * BLOCK as i32)) + lattice.spacing * 0.5;
-    plane.height_of_box(&first, &(first + lattice.spacing * BLOCK as f64))
+    let (low, high) = corners(lattice, key);
+    plane.height_of_box(&low, &high)
+}
+
+/// Corners of the box of the points of this block [m].
+fn corners(lattice: &Lattice, key: &BlockKey) -> (Vec3, Vec3) {
+    let low = lattice.position(key.map(|k| k * BLOCK as i32)) + lattice.spacing * 0.5;
+    (low, low + lattice.spacing * BLOCK as f64)
 }
