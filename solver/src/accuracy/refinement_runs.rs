@@ -2,7 +2,7 @@
 
 use crate::error::SetupError;
 use crate::record::Role;
-use crate::scenario::{Accuracy, Scenario};
+use crate::scenario::{Accuracy, Ground, Scenario};
 use crate::simulation::PreparedScene;
 
 /// A refinement run's cell size over the answer's, and the range within which a run that is
@@ -51,7 +51,7 @@ pub(super) struct ResolvedLengths {
     pub(super) thinnest_m: Option<f64>,
     /// Thickness of the release, or 0 without a flow [m].
     pub(super) release_m: f64,
-    /// Width of the channel [m].
+    /// Width of the channel, or of the terrain [m].
     pub(super) width_m: f64,
     /// Cells of the plain answer [m].
     pub(super) cell_size_m: f64,
@@ -70,8 +70,13 @@ impl ResolvedLengths {
             thinnest_m: bodies
                 .map(|body| scenario.shape_of(body).least_width())
                 .reduce(f64::min),
-            release_m: flow.map_or(0.0, |flow| flow.release.height_m),
-            width_m: scenario.channel.width_m,
+            release_m: scenario.release_thickness_m().unwrap_or_default(),
+            width_m: match &scenario.ground {
+                Ground::Channel(channel) => channel.width_m,
+                Ground::Terrain(terrain) => {
+                    terrain.extent().into_iter().fold(f64::INFINITY, f64::min)
+                }
+            },
             cell_size_m: prepared.cell_size_m(),
             sound_speed_m_s: prepared.sound_speed_m_s().unwrap_or(0.0),
             stiffness_is_given: flow.is_some_and(|flow| flow.material.youngs_modulus_pa.is_some()),

@@ -132,7 +132,7 @@ fn stiffness(prepared: &PreparedScene) -> Choice {
 }
 
 fn blocks(prepared: &PreparedScene) -> Choice {
-    let found = match prepared.columns {
+    let found = match prepared.division {
         Some(_) => Ok("a node without points near it does nothing"),
         None => Err("there is no flow: there are neither points nor nodes"),
     };

@@ -5,7 +5,7 @@ use super::memory::memory;
 use crate::contact::island::substeps_at_rest;
 use crate::method::METHOD;
 use crate::scenario::Ending;
-use crate::simulation::{Columns, PreparedScene, Share};
+use crate::simulation::{Columns, Division, PreparedScene, Share};
 use crate::stability::Limits;
 use serde::{Deserialize, Serialize};
 
@@ -55,7 +55,10 @@ impl Cost {
     /// Cost of a prepared scene's run: equations 25–27 at the expected speed (31).
     pub fn of(prepared: &PreparedScene) -> Self {
         let scenario = &prepared.scenario;
-        let points = prepared.columns.map_or(0, |columns| columns.points());
+        let points = prepared
+            .division
+            .as_ref()
+            .map_or(0, |division| division.points());
         let (substeps, steps) = steps(prepared, points);
         let course = Course::of(prepared);
         let expected_end_s = match scenario.numerics.ending {
@@ -120,14 +123,16 @@ fn stages(prepared: &PreparedScene, course: &Course, substeps: u64, end: f64) ->
         (substeps as f64 * share).round() as u64
     };
     let stage = |share: Share, from: f64, to: f64| {
-        let halves = prepared.given.walls.vertical_walls.halves_across;
+        let halves = prepared.given.walls.halves_across();
         let rows = |columns: &Columns| u64::from(share.rows_across(columns, halves));
         let of_row = |columns: &Columns| columns.points() / u64::from(columns.count[1]);
         Stage {
             share,
-            points: prepared
-                .columns
-                .map_or(0, |columns| of_row(&columns) * rows(&columns)),
+            points: match &prepared.division {
+                None => 0,
+                Some(Division::Channel(columns)) => of_row(columns) * rows(columns),
+                Some(Division::Terrain(columns)) => columns.points(),
+            },
             substeps: within(from, to),
             expected_substeps: within(from.min(end), to.min(end)),
         }

@@ -1,7 +1,7 @@
 //! Expected course of a flow: a rough estimate, for the cost of a run.
 
 use crate::rigid::Body;
-use crate::scenario::SlidingBlock;
+use crate::scenario::{ReleaseBox, Scenario, SlidingBlock, SlidingPoints, Source};
 use crate::simulation::PreparedScene;
 
 /// Expected course of a flow: that of a sliding block.
@@ -18,15 +18,10 @@ impl Course {
     /// Course of a scenario's flow.
     pub(super) fn of(prepared: &PreparedScene) -> Self {
         let scenario = &prepared.scenario;
-        let flow = scenario.flow.as_ref().zip(scenario.release());
-        let block = flow.and_then(|(flow, release)| {
-            let block = SlidingBlock::of(&scenario.channel, flow, scenario.gravity_m_s2);
-            block.zip(Some(release))
-        });
-        let Some((block, release)) = block else {
+        let Some((block, release)) = sliding_block(scenario) else {
             return Self {
                 meets_body: f64::INFINITY,
-                rests: f64::INFINITY,
+                rests: rests_on_terrain(prepared).unwrap_or(f64::INFINITY),
             };
         };
         let front = prepared.bodies.iter().map(|body| {
@@ -35,11 +30,32 @@ impl Course {
         });
         let way = front.fold(f64::INFINITY, f64::min).max(0.0);
         let rests = block.rests_at();
-        let mut prescribed = prepared.bodies.iter().filter_map(Body::prescribed);
-        let stirred = prescribed.any(|body| !body.motion.rests_from(rests));
         Self {
             meets_body: block.front_takes(way),
-            rests: if stirred { f64::INFINITY } else { rests },
+            rests: unless_stirred(prepared, rests),
         }
     }
+}
+
+fn sliding_block(scenario: &Scenario) -> Option<(SlidingBlock, ReleaseBox)> {
+    let (channel, flow) = (scenario.channel()?, scenario.flow.as_ref()?);
+    let Source::Channel { volume_m3, release } = &flow.source else {
+        return None;
+    };
+    let block = SlidingBlock::of(channel, (*volume_m3, release), scenario.gravity_m_s2)?;
+    Some((block, scenario.release()?))
+}
+
+/// Time at which points that slide down a terrain have come to rest [s].
+fn rests_on_terrain(prepared: &PreparedScene) -> Option<f64> {
+    let ground = prepared.given.walls.bed.height_field()?;
+    let course = SlidingPoints::of(&prepared.scenario, ground)?;
+    Some(unless_stirred(prepared, course.rests_at))
+}
+
+/// A time [s], unless a prescribed motion goes on then.
+fn unless_stirred(prepared: &PreparedScene, rests: f64) -> f64 {
+    let mut prescribed = prepared.bodies.iter().filter_map(Body::prescribed);
+    let stirred = prescribed.any(|body| !body.motion.rests_from(rests));
+    if stirred { f64::INFINITY } else { rests }
 }

@@ -44,7 +44,7 @@ fn hint(field: &str, detail: String) -> Hint {
 
 /// An inclination so small that it looks like radians.
 fn inclination_in_radians(scenario: &Scenario) -> Option<Hint> {
-    let given = scenario.channel.inclination_deg;
+    let given = scenario.channel()?.inclination_deg;
     (given > 0.0 && given < MEANT_IN_RADIANS_DEG).then(|| {
         let detail = format!(
             "an inclination of {given}° is next to none: in degrees? {given} rad are {:.1}°",
@@ -57,7 +57,7 @@ fn inclination_in_radians(scenario: &Scenario) -> Option<Hint> {
 /// Bodies thinner than a cell, which the flow hardly resolves.
 fn thin_bodies(prepared: &PreparedScene) -> Option<Hint> {
     let scenario = &prepared.scenario;
-    prepared.columns?;
+    prepared.division.as_ref()?;
     let cell = prepared.given.lattice.spacing.x;
     let width = |body: usize| scenario.shape_of(body).least_width();
     let thin = bodies(scenario).filter(|body| width(*body) < cell);
@@ -77,17 +77,16 @@ fn thin_bodies(prepared: &PreparedScene) -> Option<Hint> {
 fn unreached_bodies(prepared: &PreparedScene) -> Option<Hint> {
     let scenario = &prepared.scenario;
     let release = scenario.release()?;
-    let friction = scenario.flow.as_ref().map(|flow| {
-        let within = flow.material.static_friction;
-        within.min(scenario.channel.base_friction)
-    })?;
+    let base = scenario.channel()?.base_friction;
+    let friction = scenario.flow.as_ref()?.material.static_friction.min(base);
     let bed = &prepared.given.walls.bed;
     let top = bed.elevation(release.back_m, 0.0) + release.vertical_thickness_m;
     let reach = release.front_m + top / friction;
     let beyond = |body: &usize| {
         let given = &scenario.bodies[*body];
         let waits = given.motion.is_none() && given.velocity_m_s == [0.0; 3];
-        let back = given.position.downstream_m - scenario.shape_of(*body).bounding_radius();
+        let [x, _] = given.position.place.coordinates();
+        let back = x - scenario.shape_of(*body).bounding_radius();
         waits && back > reach
     };
     let missed: Vec<usize> = bodies(scenario).filter(beyond).collect();
@@ -104,7 +103,7 @@ fn unreached_bodies(prepared: &PreparedScene) -> Option<Hint> {
 /// Bodies so light that their contacts with the flow take short sub-steps (equation 26).
 fn light_bodies(prepared: &PreparedScene) -> Option<Hint> {
     let scenario = &prepared.scenario;
-    prepared.columns.filter(|columns| columns.points() > 0)?;
+    (prepared.division.as_ref()).filter(|division| division.points() > 0)?;
     let flow = prepared.given.flow.as_ref()?;
     let own = longest_substep(&flow.limits);
     let taken = |body: usize| own / flow.contact_substep(&prepared.bodies[body..=body]);

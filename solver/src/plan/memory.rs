@@ -1,6 +1,7 @@
 //! Memory of a run.
 
 use crate::grid::{BLOCK, BLOCK_NODES, BlockKey};
+use crate::kernel::Lattice;
 use crate::mpm::blocks::ARRIVING;
 use crate::mpm::chunk::{Chunk, Packed};
 use crate::mpm::lanes::Real;
@@ -8,9 +9,9 @@ use crate::mpm::nodes::NodeBlock;
 use crate::mpm::rows::Tile;
 use crate::points::Point;
 use crate::scenario::{Ending, Precision};
-use crate::simulation::{CANDIDATE_BYTES, PreparedScene};
+use crate::simulation::{CANDIDATE_BYTES, Division, PreparedScene, TerrainColumns};
 use crate::walls::BoundaryCounts;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Memory of a run without points: threads, bodies, and the program's code, most of which a
 /// process first reads when it runs one [bytes].
@@ -32,7 +33,7 @@ const REMAINING_BYTES: usize = size_of::<(f64, f64)>() + size_of::<[f64; 3]>();
 /// Memory of a run of so many points, of which so many are computed [bytes].
 pub(super) fn memory(prepared: &PreparedScene, points: u64, computed: u64) -> u64 {
     let scenario = &prepared.scenario;
-    let cells = 0.5 * f64::from(prepared.given.walls.vertical_walls.halves_across);
+    let cells = 0.5 * f64::from(prepared.given.walls.halves_across());
     let share = computed as f64 / points.max(1) as f64;
     let flow = Flow {
         computed: computed as f64,
@@ -44,7 +45,11 @@ pub(super) fn memory(prepared: &PreparedScene, points: u64, computed: u64) -> u6
         Precision::Single => [flow.set_up::<f32>(), flow.steps::<f32>()],
         Precision::Double => [flow.set_up::<f64>(), flow.steps::<f64>()],
     };
-    (BASE + set_up.max(steps + computed as f64 * looked_at(prepared))) as u64
+    let ground = prepared.given.walls.bed.height_field();
+    let surface = ground.map_or(0, |ground| ground.surface().bytes());
+    let run = set_up.max(steps + computed as f64 * looked_at(prepared));
+    // A height map is held as it was read, too.
+    (BASE + 2.0 * surface as f64 + run) as u64
 }
 
 /// Bytes per computed point while the front is found: at the end and, with all that still moves,
@@ -120,7 +125,7 @@ fn candidates(prepared: &PreparedScene) -> f64 {
 fn boundary(prepared: &PreparedScene, cells_across: f64) -> BoundaryCounts {
     let lattice = &prepared.given.lattice;
     let Some(release) = prepared.scenario.release() else {
-        return BoundaryCounts::default();
+        return boundary_on_terrain(prepared);
     };
     // Kernels reach one and a half cells beyond the points.
     let along = (release.front_m - release.back_m) / lattice.spacing.x + 3.0;
@@ -135,6 +140,22 @@ fn boundary(prepared: &PreparedScene, cells_across: f64) -> BoundaryCounts {
     }
 }
 
+/// Nodes on which a terrain acts at the start: a column for every cell of the release, none with
+/// images.
+fn boundary_on_terrain(prepared: &PreparedScene) -> BoundaryCounts {
+    let columns = prepared.division.as_ref().and_then(Division::on_terrain);
+    let cells = columns.map_or(0.0, |columns| {
+        let share = columns.spacing() / prepared.given.lattice.spacing.x;
+        columns.columns() as f64 * share * share
+    });
+    BoundaryCounts {
+        nodes: cells * DEEP,
+        images: 0.0,
+        columns: cells,
+        column_nodes: cells * DEEP,
+    }
+}
+
 /// Numbers of blocks at the start.
 struct Blocks {
     of_points: f64,
@@ -145,18 +166,24 @@ impl Blocks {
     /// Blocks occupied by so many cells across of the release, and blocks in reach of its kernels.
     fn of_release(prepared: &PreparedScene, cells_across: f64) -> Self {
         let scenario = &prepared.scenario;
-        let (Some(release), Some(columns)) = (scenario.release(), prepared.columns) else {
+        let columns = match &prepared.division {
+            Some(Division::Channel(columns)) => columns,
+            Some(Division::Terrain(columns)) => return Self::on_terrain(prepared, columns),
+            None => {
+                return Self {
+                    of_points: 0.0,
+                    of_nodes: 0.0,
+                };
+            }
+        };
+        let Some(release) = scenario.release() else {
             return Self {
                 of_points: 0.0,
                 of_nodes: 0.0,
             };
         };
         let lattice = &prepared.given.lattice;
-        // A block's points lie from half a cell on to half a cell beyond it.
-        let block = |place: f64, axis: usize| {
-            let cells = (place - lattice.origin[axis]) / lattice.spacing[axis];
-            ((cells - 0.5) / BLOCK as f64).floor() as i64
-        };
+        let block = |place: f64, axis: usize| block_of(lattice, place, axis);
         let mut heights: BTreeMap<i64, (i64, i64)> = BTreeMap::new();
         for i in 0..columns.count[0] {
             let x = release.back_m + (f64::from(i) + 0.5) * columns.spacing.x;
@@ -176,4 +203,32 @@ impl Blocks {
             of_nodes: rows(1) * longer * (across + 1.0),
         }
     }
+
+    /// Blocks occupied by releases on a terrain, and all beside them.
+    fn on_terrain(prepared: &PreparedScene, columns: &TerrainColumns) -> Self {
+        let lattice = &prepared.given.lattice;
+        let bed = &prepared.given.walls.bed;
+        let (mut of_points, mut of_nodes) = (BTreeSet::new(), BTreeSet::new());
+        for ([x, y], thickness) in columns.places() {
+            let foot = bed.elevation(x, y);
+            let [i, j] = [block_of(lattice, x, 0), block_of(lattice, y, 1)];
+            for k in block_of(lattice, foot, 2)..=block_of(lattice, foot + thickness, 2) {
+                if of_points.insert([i, j, k]) {
+                    let beside = (0..8).map(|n| [i + n % 2, j + n / 2 % 2, k + n / 4]);
+                    of_nodes.extend(beside);
+                }
+            }
+        }
+        Self {
+            of_points: of_points.len() as f64,
+            of_nodes: of_nodes.len() as f64,
+        }
+    }
+}
+
+/// Index of the block of a place along an axis: a block's points lie from half a cell on to half a
+/// cell beyond it.
+fn block_of(lattice: &Lattice, place: f64, axis: usize) -> i64 {
+    let cells = (place - lattice.origin[axis]) / lattice.spacing[axis];
+    ((cells - 0.5) / BLOCK as f64).floor() as i64
 }
