@@ -4,6 +4,8 @@
 mod creep;
 mod energy;
 mod error_bars;
+mod front;
+mod inundation;
 mod means;
 mod mode;
 mod motion;
@@ -25,6 +27,7 @@ pub use error_bars::{
     AccuracyReport, Basis, BodyErrorBars, FlowErrorBars, Role, RunCost, TargetReport,
     UncertaintyInterval,
 };
+pub use inundation::{FlowMaps, MapQuantity};
 pub use quantities::{
     BODY_QUANTITIES, BodyQuantity, FLOW_QUANTITIES, FlowQuantity, OutcomeQuantity, QuantityKind,
 };
@@ -206,11 +209,12 @@ pub struct MassProperties {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct FlowOutcome {
     /// Position x beyond which 0.1 % of the released mass lies, mass that left through the open end
-    /// included [m]; null without a flow.
+    /// included [m]; null without a flow. On a terrain the horizontal distance from the middle of
+    /// the release beyond which 1 % of it lies, null once so much has left the map.
     pub front_m: Option<f64>,
-    /// Front minus the initial toe [m]; null without a flow.
+    /// Front minus the initial toe [m]; null without a front.
     pub runout_m: Option<f64>,
-    /// Mass that left through the open end [kg].
+    /// Mass that left through the open end, or over the edges of a terrain [kg].
     pub outflow_mass_kg: f64,
     /// Volume of the release that was not placed because a body occupies it [m³].
     pub excluded_volume_m3: f64,

@@ -1,5 +1,6 @@
 //! Quantities of the outcome.
 
+use super::front::FrontMeasure;
 use super::motion::Motion;
 use super::scale::Scale;
 use super::settling::{Measure, Settling};
@@ -10,9 +11,6 @@ use crate::rigid::Body;
 use crate::shape::PrincipalInertia;
 use crate::simulation::Simulation;
 use serde::{Deserialize, Serialize};
-
-/// Share of the mass beyond the front.
-const FRONT_SHARE: f64 = 1e-3;
 
 /// History of one body so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -56,11 +54,12 @@ impl BodyHistory {
     pub(super) fn observe(&mut self, simulation: &Simulation, place: usize, motion: &Motion) {
         let (body, time_s) = (&simulation.bodies()[place], simulation.time_s());
         let report = simulation.body_report(place);
-        let (planes, dt) = (simulation.planes(), time_s - self.time);
+        let walls = simulation.rigid_walls().planes_at(&motion.position);
+        let dt = time_s - self.time;
         if simulation.flow_load(place).touching_points > 0 {
             self.first_contact.get_or_insert(time_s);
         }
-        self.turning.take_in((body, motion), &report, planes, dt);
+        self.turning.take_in((body, motion), &report, &walls, dt);
         self.take_in(body, motion, time_s);
     }
 
@@ -151,71 +150,15 @@ fn mass_properties(body: &Body) -> MassProperties {
     }
 }
 
-pub(super) fn flow_outcome(
-    simulation: &Simulation,
-    initial_toe: Option<f64>,
-    open_end: f64,
-) -> FlowOutcome {
-    let front = front(simulation, open_end);
+pub(super) fn flow_outcome(simulation: &Simulation, measure: &FrontMeasure) -> FlowOutcome {
+    let front = measure.front(simulation);
     FlowOutcome {
         front_m: front,
-        runout_m: front.zip(initial_toe).map(|(front, toe)| front - toe),
+        runout_m: front.zip(measure.toe()).map(|(front, toe)| front - toe),
         outflow_mass_kg: simulation.audit().outflow_mass(),
         excluded_volume_m3: simulation.excluded_volume_m3(),
         error_bars: None,
     }
-}
-
-/// The x beyond which [`FRONT_SHARE`] of the released mass lies; the open end
-/// once that much has left.
-pub(super) fn front(simulation: &Simulation, open_end: f64) -> Option<f64> {
-    let mut places = Vec::with_capacity(simulation.computed_points());
-    simulation.visit_computed_points(|point, mass| places.push((point.position.x, mass)));
-    front_of(simulation, &places, open_end)
-}
-
-/// The front if each point (with its images' mass, in kg) were at another x [m].
-pub(super) fn front_of(
-    simulation: &Simulation,
-    places: &[(f64, f64)],
-    open_end: f64,
-) -> Option<f64> {
-    let audit = simulation.audit();
-    let wanted = FRONT_SHARE * audit.released_mass - audit.outflow_mass();
-    if audit.released_mass <= 0.0 {
-        return None;
-    }
-    if wanted <= 0.0 {
-        return Some(open_end);
-    }
-    beyond(places, simulation.point_spacing_m(), wanted)
-}
-
-/// The x beyond which this mass [kg] lies, each point's (at x, mass in kg) spread evenly
-/// over `spacing` [m]: the front may lie within a point.
-fn beyond(places: &[(f64, f64)], spacing: f64, wanted: f64) -> Option<f64> {
-    // Mass per metre that begins or ends at each x, going upstream [kg/m].
-    let ends = places.iter().flat_map(|&(x, mass)| {
-        let density = mass / spacing;
-        [(x + 0.5 * spacing, density), (x - 0.5 * spacing, -density)]
-    });
-    let mut ends: Vec<(f64, f64)> = ends.collect();
-    ends.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
-    let (mut last, mut density, mut mass) = (f64::INFINITY, 0.0, 0.0);
-    for (x, change) in ends {
-        let passed = if density > 0.0 {
-            density * (last - x)
-        } else {
-            0.0
-        };
-        if mass + passed >= wanted {
-            return Some(last - (wanted - mass) / density);
-        }
-        mass += passed;
-        density += change;
-        last = x;
-    }
-    None
 }
 
 #[cfg(test)]

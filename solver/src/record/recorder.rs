@@ -2,8 +2,10 @@
 
 use super::creep::{Creep, Places};
 use super::energy::body_energy;
+use super::front::FrontMeasure;
+use super::inundation::{FlowMaps, Inundation};
 use super::motion::Motion;
-use super::outcome::{BodyHistory, flow_outcome, front, front_of};
+use super::outcome::{BodyHistory, flow_outcome};
 use super::remarks::Seen;
 use super::rest::{
     EndedEarly, Remaining, body_bound, front_resolution, front_rests, outflow_rests,
@@ -34,8 +36,9 @@ pub struct Recorder {
     histories: Vec<BodyHistory>,
     sampling: Sampling,
     snapshots: Snapshots,
-    initial_toe: Option<f64>,
-    open_end: f64,
+    front: FrontMeasure,
+    /// Of a flow on a terrain.
+    inundation: Option<Inundation>,
     /// Speed below which points creep [m/s].
     creep_speed: f64,
     creep: Creep,
@@ -59,8 +62,8 @@ impl Recorder {
             histories: Vec::new(),
             sampling: Sampling::of(scenario),
             snapshots: Snapshots::of(scenario),
-            initial_toe: scenario.release().map(|release| release.front_m),
-            open_end: scenario.channel.runout_length_m,
+            front: FrontMeasure::of(prepared),
+            inundation: Inundation::of(prepared),
             creep_speed: METHOD.early_stop.creep * scale.speed(),
             creep: Creep::default(),
             duration: scenario.duration_s,
@@ -109,6 +112,7 @@ impl Recorder {
         // Only notes the places: nothing has been at rest for any time.
         let ended = self.check(simulation);
         debug_assert_eq!(ended, None);
+        self.look(simulation);
         let samples = self.sampling.start(simulation, &self.histories);
         in_order(samples, self.snapshots.due(simulation))
     }
@@ -140,8 +144,15 @@ impl Recorder {
         if !report.step_ended {
             return Vec::new();
         }
+        self.look(simulation);
         let samples = self.sampling.finished(simulation);
         in_order(samples, self.snapshots.due(simulation))
+    }
+
+    fn look(&mut self, simulation: &Simulation) {
+        if let Some(inundation) = &mut self.inundation {
+            inundation.look_if_due(simulation);
+        }
     }
 
     /// Ends the run at the end of a step, if nothing can move a body or the front any more and the
@@ -188,14 +199,14 @@ impl Recorder {
             let shifts = Scale::of_body(body, simulation.gravity().norm()).rest_distance();
             if way > 0.0 { way * rate + shifts } else { 0.0 }
         };
-        let body_bound_m = body_bound(simulation, &remaining, creeps_on)?;
+        let body_bound_m = body_bound(simulation, &remaining, &self.front, creeps_on)?;
         let front_bound_m = (self.creep.deposit_range())
             .map(|way| way * rate + ballistic + front_resolution(simulation));
         if front_bound_m.is_some_and(|bound| !front_rests(simulation, bound)) {
             return None;
         }
         let outflow_bound_kg = front_bound_m.map(|bound| {
-            let reaches = reaches_open_end(simulation, &remaining, self.open_end, (bound, left));
+            let reaches = reaches_open_end(simulation, &remaining, &self.front, (bound, left));
             self.creep.outflow() * rate + reaches
         });
         if outflow_bound_kg.is_some_and(|bound| !outflow_rests(simulation, bound)) {
@@ -226,10 +237,10 @@ impl Recorder {
         if self.ending == Ending::Full {
             return None;
         }
-        let remaining = Remaining::of(simulation, self.creep_speed);
-        body_bound(simulation, &remaining, |_, _| 0.0)?;
-        let front = front(simulation, self.open_end);
-        let farthest = front_of(simulation, &remaining.reaches, self.open_end);
+        let remaining = Remaining::of(simulation, &self.front, self.creep_speed);
+        body_bound(simulation, &remaining, &self.front, |_, _| 0.0)?;
+        let front = self.front.front(simulation);
+        let farthest = self.front.front_of(simulation, &remaining.reaches);
         let ballistic = front.zip(farthest).map_or(0.0, |(now, then)| then - now);
         front_rests(simulation, ballistic).then_some((remaining, front, ballistic))
     }
@@ -245,12 +256,18 @@ impl Recorder {
             .collect()
     }
 
+    /// Maps of what the flow has done to the terrain so far; `None` in a channel and without a flow.
+    pub fn flow_maps(&self, simulation: &Simulation) -> Option<FlowMaps> {
+        let inundation = self.inundation.as_ref()?;
+        Some(inundation.maps(simulation))
+    }
+
     /// The outcome so far, with the wall time the caller measured [s].
     pub fn outcome(&self, simulation: &Simulation, wall_s: f64) -> Outcome {
         let audit = simulation.audit();
         let (steps, substeps, point_steps) = simulation.counts();
         let bodies = self.body_outcomes(simulation);
-        let flow = flow_outcome(simulation, self.initial_toe, self.open_end);
+        let flow = flow_outcome(simulation, &self.front);
         let released = simulation.audit().released_mass;
         let seen = Seen {
             bodies: &bodies,
@@ -303,8 +320,8 @@ impl Recorder {
 fn size(scenario: &Scenario) -> f64 {
     let bodies = 0..scenario.bodies.len();
     let sizes = bodies.map(|body| scenario.shape_of(body).volume().cbrt());
-    match &scenario.flow {
-        Some(flow) => flow.release.height_m,
+    match scenario.release_thickness_m() {
+        Some(thickness) => thickness,
         None => sizes.reduce(f64::min).unwrap_or(SIZE_OF_NOTHING),
     }
 }

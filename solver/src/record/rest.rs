@@ -1,6 +1,7 @@
 //! Early-stop criterion: nothing that still moves can move a body or the front any more
 //! (docs/method.md, equations 61–63).
 
+use super::front::FrontMeasure;
 use super::scale::Scale;
 use crate::math::Vec3;
 use crate::method::METHOD;
@@ -31,15 +32,15 @@ pub(super) struct Remaining {
     /// Farthest place at which each computed point comes to rest [m], with the mass of itself and
     /// its images [kg].
     pub(super) reaches: Vec<(f64, f64)>,
-    /// Mass centre along the channel [m].
+    /// Mean place of the mass [m].
     pub(super) mass_centre: f64,
     moving: Vec<Sliding>,
 }
 
 /// A moving point and its images.
 struct Sliding {
-    /// Place along the channel [m].
-    x: f64,
+    /// Its place, by the measure of the front [m].
+    place: f64,
     /// Distance from there that friction allows [m].
     way: f64,
     /// Kinetic energy, and potential energy on the incline [J].
@@ -47,16 +48,16 @@ struct Sliding {
 }
 
 impl Sliding {
-    /// Energy that remains at x after friction [J].
-    fn energy_at(&self, x: f64) -> f64 {
-        let spent = ((x - self.x) / self.way).clamp(0.0, 1.0);
+    /// Energy that remains at a place after friction [J].
+    fn energy_at(&self, place: f64) -> f64 {
+        let spent = ((place - self.place) / self.way).clamp(0.0, 1.0);
         self.energy * (1.0 - spent)
     }
 }
 
 impl Remaining {
     /// Remaining energies of the points faster than `creep_speed` [m/s].
-    pub(super) fn of(simulation: &Simulation, creep_speed: f64) -> Self {
+    pub(super) fn of(simulation: &Simulation, measure: &FrontMeasure, creep_speed: f64) -> Self {
         let gravity = simulation.gravity().norm();
         let mut remaining = Self {
             reaches: Vec::with_capacity(simulation.computed_points()),
@@ -67,6 +68,7 @@ impl Remaining {
         let (mut moment, mut whole) = (0.0, 0.0);
         simulation.visit_computed_points(|point, mass| {
             let (x, y) = (point.position.x, point.position.y);
+            let place = measure.of_place(&point.position);
             let mut way = 0.0;
             let speed = point.velocity.norm();
             if speed > creep_speed {
@@ -75,19 +77,19 @@ impl Remaining {
                 let specific = 0.5 * speed * speed + gravity * height;
                 way = specific / (simulation.bed().tangent(x, y).flow_friction * gravity);
                 let energy = mass * specific;
-                remaining.moving.push(Sliding { x, way, energy });
+                remaining.moving.push(Sliding { place, way, energy });
             }
-            moment += mass * x;
+            moment += mass * place;
             whole += mass;
-            remaining.reaches.push((x + way, mass));
+            remaining.reaches.push((place + way, mass));
         });
         remaining.mass_centre = if whole > 0.0 { moment / whole } else { 0.0 };
         remaining
     }
 
-    /// Energy that reaches x [J].
-    fn energy_at(&self, x: f64) -> f64 {
-        self.moving.iter().map(|point| point.energy_at(x)).sum()
+    /// Energy that reaches a place [J].
+    fn energy_at(&self, place: f64) -> f64 {
+        self.moving.iter().map(|point| point.energy_at(place)).sum()
     }
 }
 
@@ -97,6 +99,7 @@ impl Remaining {
 pub(super) fn body_bound(
     simulation: &Simulation,
     remaining: &Remaining,
+    measure: &FrontMeasure,
     creeps_on: impl Fn(usize, &Body) -> f64,
 ) -> Option<f64> {
     let gravity = simulation.gravity().norm();
@@ -107,7 +110,7 @@ pub(super) fn body_bound(
         }
         // Material that comes to rest more than a cell before the body does not touch it.
         let behind = body.shape.bounding_radius() + simulation.cell_size_m();
-        let energy = remaining.energy_at(body.state.position.x - behind);
+        let energy = remaining.energy_at(measure.of_place(&body.state.position) - behind);
         let way = creeps_on(place, body) + pushed(body, simulation, energy)?;
         if way > Scale::of_body(body, gravity).onset_distance() {
             return None;
@@ -149,14 +152,15 @@ pub(super) fn front_rests(simulation: &Simulation, bound: f64) -> bool {
 pub(super) fn reaches_open_end(
     simulation: &Simulation,
     remaining: &Remaining,
-    open_end: f64,
+    measure: &FrontMeasure,
     (front_bound, left): (f64, f64),
 ) -> f64 {
     let (mut leaving, mut reaches) = (0.0, remaining.reaches.iter());
     simulation.visit_computed_points(|point, mass| {
-        let farthest = reaches.next().map_or(f64::NEG_INFINITY, |(x, _)| *x);
+        let here = measure.of_place(&point.position);
+        let farthest = reaches.next().map_or(here, |(reach, _)| *reach);
         let way = front_bound.max(point.velocity.norm() * left);
-        if farthest.max(point.position.x + way) >= open_end {
+        if way.max(farthest - here) >= simulation.outlet().distance(&point.position) {
             leaving += mass;
         }
     });
@@ -184,8 +188,9 @@ struct Footing {
 impl Footing {
     /// Support of a body on three vertices or more of one plane, where friction holds it.
     fn of(body: &Body, simulation: &Simulation) -> Option<Self> {
-        let planes = simulation.planes().iter();
-        planes
+        let walls = simulation.rigid_walls().planes_under(&body.placed());
+        walls
+            .iter()
             .filter_map(|plane| Self::on(plane, body, simulation.gravity()))
             .next()
     }

@@ -88,7 +88,9 @@ struct Spot {
 #[derive(Debug, Clone, Copy)]
 struct View {
     centre: Vec3,
+    /// Along the bed, across it, and out of it.
     downstream: Vec3,
+    across: Vec3,
     normal: Vec3,
     /// Lowest and highest place of the body [m].
     low: f64,
@@ -106,11 +108,13 @@ impl View {
     fn of(simulation: &Simulation, body: &Body) -> Self {
         let centre = body.state.position;
         let normal = simulation.bed().normal(centre.x, centre.y);
+        let downstream = (Vec3::x() - normal * normal.x).normalize();
         let extent = |direction: Vec3| body.shape.extent_along(&body.to_body(&direction));
         let (radius, spacing) = (body.shape.bounding_radius(), simulation.point_spacing_m());
         Self {
             centre,
-            downstream: Vec3::new(normal.z, 0.0, -normal.x),
+            downstream,
+            across: normal.cross(&downstream),
             normal,
             low: -extent(-normal),
             high: extent(normal),
@@ -124,7 +128,7 @@ impl View {
     /// A box that contains the ring up to the ceiling; none if there is no ceiling.
     fn around(&self) -> Option<Around> {
         let tallest = self.ceiling.max(GAP * self.spacing - self.low);
-        let column = || Around::column(self.centre, self.ring + self.normal.x.abs() * tallest);
+        let column = || Around::column(self.centre, self.ring + self.normal.xy().norm() * tallest);
         tallest.is_finite().then(column)
     }
 
@@ -133,7 +137,7 @@ impl View {
         let arm = place - self.centre;
         let spot = Spot {
             along: arm.dot(&self.downstream),
-            across: arm.y,
+            across: arm.dot(&self.across),
             height: arm.dot(&self.normal),
         };
         let near = spot.along.hypot(spot.across) <= self.ring;
@@ -154,13 +158,13 @@ impl View {
 
     fn middle_place(&self, sector: usize) -> Vec3 {
         let middle = self.middle(sector);
-        self.centre + self.downstream * middle.along + Vec3::y() * middle.across
+        self.centre + self.downstream * middle.along + self.across * middle.across
     }
 
     /// True if a sector lies between the side walls.
     fn has_room(&self, simulation: &Simulation, sector: usize) -> bool {
         let place = self.middle_place(sector);
-        let sides = simulation.planes().iter();
+        let sides = simulation.rigid_walls().planes.iter();
         let mut sides = sides.filter(|plane| plane.normal.y.abs() > 0.5);
         sides.all(|plane| plane.height(&place) > 0.0)
     }

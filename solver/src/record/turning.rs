@@ -4,7 +4,7 @@ use super::motion::Motion;
 use crate::contact::island::BodyReport;
 use crate::math::Vec3;
 use crate::rigid::Body;
-use crate::walls::Plane;
+use crate::walls::{Plane, PlanesAt};
 use serde::{Deserialize, Serialize};
 
 /// Turn after which a body has left the face, edge or vertex it stood on [rad]; contacts yield
@@ -32,10 +32,10 @@ impl Turning {
         &mut self,
         (body, motion): (&Body, &Motion),
         report: &BodyReport,
-        planes: &[Plane],
+        walls: &PlanesAt,
         dt: f64,
     ) {
-        let Some(normal) = contact_normal(body, report, planes) else {
+        let Some(normal) = contact_normal(body, report, walls) else {
             return;
         };
         let spin = motion.angular_velocity;
@@ -64,7 +64,7 @@ impl Turning {
 
 /// Unit normal of a body's contact in a sub-step: that of the nearest wall if any touched it,
 /// else the direction of other bodies' force.
-fn contact_normal(body: &Body, report: &BodyReport, planes: &[Plane]) -> Option<Vec3> {
+fn contact_normal(body: &Body, report: &BodyReport, walls: &PlanesAt) -> Option<Vec3> {
     if report.wall_load.force == Vec3::zeros() {
         return report.body_load.force.try_normalize(0.0);
     }
@@ -72,7 +72,7 @@ fn contact_normal(body: &Body, report: &BodyReport, planes: &[Plane]) -> Option<
         let deepest = body.shape.extent_along(&body.to_body(&-plane.normal));
         plane.height(&body.state.position) - deepest
     };
-    let nearest = planes.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)));
+    let nearest = walls.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)));
     nearest.map(|plane| plane.normal)
 }
 
@@ -81,6 +81,7 @@ mod tests {
     use super::*;
     use crate::rigid::Load;
     use crate::rigid::fixture::cuboid;
+    use crate::walls::RigidWalls;
 
     /// True if a cube on the floor rolls with this velocity and spin for so long.
     fn rolls(velocity: Vec3, spin: Vec3, duration: f64) -> bool {
@@ -103,9 +104,10 @@ mod tests {
             angular_velocity: spin,
             ..Motion::of(&body)
         };
+        let walls = RigidWalls::planar(&floor).planes_at(&Vec3::zeros());
         let mut turning = Turning::default();
         for _ in 0..(duration * 1e3) as u32 {
-            turning.take_in((&body, &motion), &report, &floor, 1e-3);
+            turning.take_in((&body, &motion), &report, &walls, 1e-3);
         }
         turning.rolls()
     }

@@ -79,6 +79,7 @@ fn view() -> View {
     View {
         centre: Vec3::zeros(),
         downstream: Vec3::x(),
+        across: Vec3::y(),
         normal: Vec3::z(),
         low: -0.04,
         high: 0.04,
