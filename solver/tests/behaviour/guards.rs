@@ -2,7 +2,6 @@
 //! here is valid and then spoilt by hand so that one guard acts.
 
 use crate::scenes::{Scene, points_by_id};
-use scree_solver::bed::Bed;
 use scree_solver::simulation::{Guards, Scene as Built};
 use scree_solver::{Mover, Simulation, StepError};
 use serde_json::json;
