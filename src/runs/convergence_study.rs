@@ -9,7 +9,7 @@ use super::saved_study::{self, SavedStudy};
 use super::study_progress::StudyProgress;
 use scree_solver::accuracy::{ConvergenceStudy, StudyRun};
 use scree_solver::plan::Cost;
-use scree_solver::record::Record;
+use scree_solver::record::{FlowMaps, Record};
 use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
 use scree_solver::{SetupError, StepError};
@@ -38,6 +38,8 @@ pub struct Runs {
     threads: usize,
     /// Records of the finest run so far, if a target may still require a finer one.
     kept: Vec<Record>,
+    /// Maps of its flow on a terrain.
+    kept_maps: Option<FlowMaps>,
     /// The current run, resumed from its saved state, and its records if they are
     /// kept.
     begun: Option<(Run, Vec<Record>)>,
@@ -57,6 +59,7 @@ impl Runs {
             convergence_study: ConvergenceStudy::of(scenario)?,
             threads,
             kept: Vec::new(),
+            kept_maps: None,
             begun: None,
             failure: None,
             told: 0.0,
@@ -76,6 +79,7 @@ impl Runs {
         let SavedStudy {
             done,
             kept,
+            kept_maps,
             of_run,
             fraction,
         } = saved;
@@ -91,6 +95,7 @@ impl Runs {
         let run = Run::restored(&runs.convergence_study.scenario_of(study_run), threads, run)?;
         Ok(Self {
             kept: kept.into_owned(),
+            kept_maps: kept_maps.into_owned(),
             told: fraction,
             begun: Some((run, of_run.into_owned())),
             ..runs
@@ -109,6 +114,7 @@ impl Runs {
         let mut whole = Whole {
             sink,
             kept: self.kept,
+            kept_maps: self.kept_maps,
             progress: StudyProgress::from(self.told),
         };
         while let Some(study_run) = self.convergence_study.next() {
@@ -128,16 +134,19 @@ impl Runs {
                 whole: &mut whole,
                 convergence_study: &self.convergence_study,
                 kept,
+                maps: None,
             };
             let ended = run.go(control, &mut part);
-            let Part { fate, kept, .. } = part;
+            let Part {
+                fate, kept, maps, ..
+            } = part;
             match ended {
                 Ok(RunEnd::Stopped) => return Ok(RunEnd::Stopped),
                 Ok(RunEnd::Completed(outcome)) => {
                     self.convergence_study.take(Ok(*outcome));
                     let finest = self.convergence_study.finest() == Some(study_run.cell_size_m);
                     if fate == Fate::Kept && finest {
-                        whole.kept = kept;
+                        (whole.kept, whole.kept_maps) = (kept, maps);
                     }
                 }
                 Err(RunError::Step(error)) if self.convergence_study.can_do_without(study_run) => {
@@ -184,13 +193,18 @@ impl Fate {
 struct Whole<'a, S> {
     sink: &'a mut S,
     kept: Vec<Record>,
+    kept_maps: Option<FlowMaps>,
     progress: StudyProgress,
 }
 
 impl<S: Sink> Whole<'_, S> {
     fn hand_on_kept(&mut self) -> Result<(), S::Error> {
         let mut kept = std::mem::take(&mut self.kept).into_iter();
-        kept.try_for_each(|record| self.sink.record(record))
+        kept.try_for_each(|record| self.sink.record(record))?;
+        match self.kept_maps.take() {
+            Some(maps) => self.sink.flow_maps(&maps),
+            None => Ok(()),
+        }
     }
 }
 
@@ -200,6 +214,7 @@ struct Part<'a, 'b, S> {
     convergence_study: &'a ConvergenceStudy,
     fate: Fate,
     kept: Vec<Record>,
+    maps: Option<FlowMaps>,
 }
 
 impl<S: Sink> Sink for Part<'_, '_, S> {
@@ -210,6 +225,15 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
             Fate::Dropped => {}
             Fate::HandedOn => self.whole.sink.record(record)?,
             Fate::Kept => self.kept.push(record),
+        }
+        Ok(())
+    }
+
+    fn flow_maps(&mut self, maps: &FlowMaps) -> Result<(), S::Error> {
+        match self.fate {
+            Fate::Dropped => {}
+            Fate::HandedOn => self.whole.sink.flow_maps(maps)?,
+            Fate::Kept => self.maps = Some(maps.clone()),
         }
         Ok(())
     }
@@ -232,6 +256,7 @@ impl<S: Sink> Sink for Part<'_, '_, S> {
         let saved = SavedStudy {
             done: self.convergence_study.done().cloned().collect(),
             kept: Cow::Borrowed(&self.whole.kept),
+            kept_maps: Cow::Borrowed(&self.whole.kept_maps),
             of_run: Cow::Borrowed(&self.kept),
             fraction: self.whole.progress.told(),
         };

@@ -4,7 +4,7 @@ use super::control::RunControl;
 use super::progress::{Progress, Resources};
 use super::saved_run::{self, SavedRunError, Spent};
 use super::watch::Watch;
-use scree_solver::record::{Outcome, Record, Recorder};
+use scree_solver::record::{FlowMaps, Outcome, Record, Recorder};
 use scree_solver::scenario::Scenario;
 use scree_solver::simulation::PreparedScene;
 use scree_solver::{Ending, SetupError, Simulation, StepError};
@@ -21,6 +21,14 @@ pub trait Sink: Send {
     /// # Errors
     /// The sink's own; the run ends.
     fn record(&mut self, record: Record) -> Result<(), Self::Error>;
+
+    /// Takes the maps of the flow on a terrain, once the run is over.
+    ///
+    /// # Errors
+    /// The sink's own; the run ends.
+    fn flow_maps(&mut self, _maps: &FlowMaps) -> Result<(), Self::Error> {
+        Ok(())
+    }
 
     /// Takes the progress of the run, about ten times a second and at the end.
     ///
@@ -195,6 +203,7 @@ impl Run {
                 return Ok(RunEnd::Stopped);
             }
         }
+        watch.hand_on_maps(&simulation).map_err(RunError::Sink)?;
         Ok(RunEnd::Completed(Box::new(watch.outcome(&simulation))))
     }
 }

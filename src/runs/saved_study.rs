@@ -2,7 +2,7 @@
 
 use super::headed;
 use super::saved_run::{COMMIT, SavedRunError};
-use scree_solver::record::{Outcome, Record};
+use scree_solver::record::{FlowMaps, Outcome, Record};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -13,6 +13,8 @@ pub(super) struct SavedStudy<'a> {
     pub done: Vec<Result<Outcome, String>>,
     /// Records of the finest completed run, if it may be the answer.
     pub kept: Cow<'a, [Record]>,
+    /// Maps of its flow on a terrain.
+    pub kept_maps: Cow<'a, Option<FlowMaps>>,
     /// Records of the current run, if it may be the answer.
     pub of_run: Cow<'a, [Record]>,
     /// Fraction of the study that was reported as done.

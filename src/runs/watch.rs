@@ -132,6 +132,14 @@ impl<'a, S: Sink> Watch<'a, S> {
             .try_for_each(|record| self.sink.record(record))
     }
 
+    /// Passes on the maps of the flow at the end of the run.
+    pub(super) fn hand_on_maps(&mut self, simulation: &Simulation) -> Result<(), S::Error> {
+        match self.recorder.flow_maps(simulation) {
+            Some(maps) => self.sink.flow_maps(&maps),
+            None => Ok(()),
+        }
+    }
+
     fn tell_progress(&mut self, simulation: &Simulation) -> Result<(), S::Error> {
         let Some(progress) = self.pace.due(simulation, &self.recorder) else {
             return Ok(());
