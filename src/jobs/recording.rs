@@ -10,8 +10,9 @@ use crate::config::Recording;
 use crate::results::chunk::BlockError;
 use crate::results::fingerprint::Fingerprint;
 use crate::results::flow::StoredSnapshot;
+use crate::results::terrain::{MapError, StoredMap};
 use crate::runs::{Progress, ProgressBoard, Resources, RunControl, Sink};
-use scree_solver::record::{Record, Sample};
+use scree_solver::record::{FlowMaps, Record, Sample};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -44,6 +45,9 @@ pub enum KeepError {
     /// A block can't be encoded.
     #[error(transparent)]
     Block(#[from] BlockError),
+    /// A map can't be written.
+    #[error(transparent)]
+    Map(#[from] MapError),
     /// The job exceeds a limit.
     #[error(transparent)]
     Excess(#[from] Excess),
@@ -76,6 +80,8 @@ pub struct StoreSink {
     fingerprint: Fingerprint,
     /// Snapshots not written yet.
     snapshots: Vec<StoredSnapshot>,
+    /// Maps of the flow not written yet.
+    maps: Vec<StoredMap>,
     state: Option<StoredState>,
     progress: Progress,
     times: Times,
@@ -112,6 +118,7 @@ impl StoreSink {
             samples: 0,
             fingerprint: Fingerprint::default(),
             snapshots: Vec::new(),
+            maps: Vec::new(),
             state: None,
             progress: Progress::default(),
             times: Times {
@@ -134,6 +141,7 @@ impl StoreSink {
         self.samples = 0;
         self.fingerprint = Fingerprint::default();
         self.snapshots.clear();
+        self.maps.clear();
         self.state = None;
         self.progress = Progress::default();
         self.complete_bytes = 0;
@@ -203,6 +211,7 @@ impl StoreSink {
         let mut results = NewResults {
             chunks: Vec::new(),
             snapshots: std::mem::take(&mut self.snapshots),
+            maps: std::mem::take(&mut self.maps),
             progress: self.progress,
             state: self.state.take(),
         };
@@ -224,6 +233,7 @@ impl StoreSink {
             Ok(false) => Err(KeepError::Lost),
             Err(error) => {
                 self.snapshots = results.snapshots;
+                self.maps = results.maps;
                 self.state = results.state;
                 self.bear(error)
             }
@@ -269,6 +279,11 @@ impl Sink for StoreSink {
                 Ok(())
             }
         }
+    }
+
+    fn flow_maps(&mut self, maps: &FlowMaps) -> Result<(), KeepError> {
+        self.maps = StoredMap::all(maps)?;
+        Ok(())
     }
 
     fn before_set_up(&mut self, memory_bytes: u64) -> Result<(), KeepError> {

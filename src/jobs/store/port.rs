@@ -10,6 +10,7 @@ use crate::jobs::failure::Failure;
 use crate::jobs::job::{Job, JobId, JobStatus};
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
+use crate::results::terrain::{MapQuantity, StoredMap};
 use crate::runs::Progress;
 use async_trait::async_trait;
 use std::time::Duration;
@@ -216,6 +217,12 @@ pub trait JobStore: TerrainStore {
     /// The snapshot nearest to a time, the earlier of two equally near; without
     /// a time the latest. `None` if there is none yet.
     async fn snapshot(&self, job: JobId, time_s: Option<f64>) -> Answer<Option<FlowSnapshot>>;
+
+    /// The quantities of which a job has maps of its flow.
+    async fn flow_maps(&self, job: JobId) -> Answer<Vec<MapQuantity>>;
+
+    /// The map of a quantity, if the job has it.
+    async fn flow_map(&self, job: JobId, quantity: MapQuantity) -> Answer<Option<StoredMap>>;
 
     // Health.
 

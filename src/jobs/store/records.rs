@@ -4,6 +4,7 @@ use super::StoredState;
 use crate::results::chunk::{Block, CHUNK_SAMPLES};
 use crate::results::columns::TrajectoryColumns;
 use crate::results::flow::StoredSnapshot;
+use crate::results::terrain::StoredMap;
 use crate::runs::Progress;
 
 /// A chunk to be written; it replaces one that begins with the same sample.
@@ -30,6 +31,8 @@ pub struct NewResults {
     pub chunks: Vec<NewChunk>,
     /// Snapshots of the flow.
     pub snapshots: Vec<StoredSnapshot>,
+    /// Maps of the flow, at the end of a run on a terrain; they replace those of the same name.
+    pub maps: Vec<StoredMap>,
     /// Progress of the run.
     pub progress: Progress,
     /// State of the run after these results.
@@ -52,7 +55,8 @@ impl NewResults {
         let chunks = chunks.map(|chunk| chunk.block.data.len());
         let snapshots = self.snapshots.iter();
         let snapshots = snapshots.map(|snapshot| snapshot.block.data.len());
-        chunks.chain(snapshots).sum::<usize>() as u64
+        let maps = self.maps.iter().map(|map| map.file.data.len());
+        chunks.chain(snapshots).chain(maps).sum::<usize>() as u64
     }
 }
 

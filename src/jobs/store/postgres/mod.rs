@@ -16,6 +16,7 @@
 mod ending;
 mod error;
 mod events;
+mod flow_maps;
 mod health;
 mod history;
 mod keyed_requests;

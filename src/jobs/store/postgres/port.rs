@@ -16,6 +16,7 @@ use crate::jobs::store::{
 };
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
+use crate::results::terrain::{MapQuantity, StoredMap};
 use crate::runs::Progress;
 use crate::studies::study::{MemberCounts, StoredStudy, StudyId};
 use crate::terrains::TerrainHash;
@@ -237,6 +238,18 @@ impl JobStore for PostgresStore {
         time_s: Option<f64>,
     ) -> Result<Option<FlowSnapshot>, StoreError> {
         within(Self::snapshot(self, job, time_s)).await
+    }
+
+    async fn flow_maps(&self, job: JobId) -> Result<Vec<MapQuantity>, StoreError> {
+        within(Self::flow_maps(self, job)).await
+    }
+
+    async fn flow_map(
+        &self,
+        job: JobId,
+        quantity: MapQuantity,
+    ) -> Result<Option<StoredMap>, StoreError> {
+        within(Self::flow_map(self, job, quantity)).await
     }
 
     async fn ping(&self) -> Result<(), StoreError> {

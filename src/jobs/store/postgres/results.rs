@@ -2,6 +2,7 @@
 
 use super::PostgresStore;
 use super::error::Answer;
+use super::flow_maps::write_map;
 use super::states::write_state;
 use crate::jobs::job::{JobId, JobStatus};
 use crate::jobs::store::rows::{ChunkRow, SnapshotRow, chunk_of, integer, job_status, snapshot_of};
@@ -24,6 +25,9 @@ impl PostgresStore {
             write_chunk(&mut transaction, lease.job, chunk).await?;
         }
         write_snapshots(&mut transaction, lease.job, &results.snapshots).await?;
+        for map in &results.maps {
+            write_map(&mut transaction, lease.job, map).await?;
+        }
         if let (Some(state), JobStatus::Running) = (&results.state, status) {
             let now_ms = self.clock.now().as_millisecond();
             write_state(&mut transaction, lease, state, now_ms).await?;
@@ -60,6 +64,8 @@ impl PostgresStore {
             "SELECT ((SELECT coalesce(sum(length(data)), 0) FROM trajectory_chunks
                       WHERE job_id = $1::uuid AND samples >= $2)
                    + (SELECT coalesce(sum(length(data)), 0) FROM flow_snapshots
+                      WHERE job_id = $1::uuid)
+                   + (SELECT coalesce(sum(length(data)), 0) FROM flow_maps
                       WHERE job_id = $1::uuid))::bigint",
         )
         .bind(job.to_string())

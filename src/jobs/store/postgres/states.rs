@@ -112,6 +112,7 @@ async fn clear(connection: &mut PgConnection, job: JobId) -> Answer<()> {
         "DELETE FROM run_states WHERE job_id = $1::uuid",
         "DELETE FROM trajectory_chunks WHERE job_id = $1::uuid",
         "DELETE FROM flow_snapshots WHERE job_id = $1::uuid",
+        "DELETE FROM flow_maps WHERE job_id = $1::uuid",
         "UPDATE jobs SET fraction = 0, simulated_time_s = 0, steps = 0, substeps = 0
          WHERE id = $1::uuid",
     ] {
@@ -141,6 +142,10 @@ async fn rewind(
     sqlx::query("DELETE FROM trajectory_chunks WHERE job_id = $1::uuid AND first_sample >= $2")
         .bind(&id)
         .bind(integer(resume_point.samples as u64))
+        .execute(&mut *connection)
+        .await?;
+    sqlx::query("DELETE FROM flow_maps WHERE job_id = $1::uuid")
+        .bind(&id)
         .execute(&mut *connection)
         .await?;
     sqlx::query("DELETE FROM flow_snapshots WHERE job_id = $1::uuid AND time_s > $2")

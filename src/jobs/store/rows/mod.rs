@@ -15,7 +15,9 @@ pub(super) use events::EventRow;
 pub(super) use jobs::{JobRow, ListedRow};
 pub(super) use keyed_requests::{KeyedRequestRow, identifiers_text, pack_answer, space};
 pub(super) use pages::{page_of, push_newest};
-pub(super) use records::{ChunkRow, SnapshotRow, StateRow, chunk_of, snapshot_of, state_of};
+pub(super) use records::{
+    ChunkRow, MapRow, SnapshotRow, StateRow, chunk_of, map_of, snapshot_of, state_of,
+};
 pub(super) use studies::{
     EndedRow, MemberRow, StudyRow, counts, former_study, made_by_level, member_outcome,
     parse_study, study_status,

@@ -6,6 +6,7 @@ use crate::jobs::store::{ResumePoint, StoreError, StoredChunk, StoredState};
 use crate::results::FlowSnapshot;
 use crate::results::chunk::{self, Block, BlockError};
 use crate::results::flow::StoredSnapshot;
+use crate::results::terrain::{MapQuantity, StoredMap};
 use sqlx::FromRow;
 
 /// A chunk of a body's trajectory.
@@ -25,6 +26,13 @@ pub(in super::super) struct SnapshotRow {
     thinning: i64,
     kept: i64,
     has_identifiers: bool,
+    checksum: Vec<u8>,
+    data: Vec<u8>,
+}
+
+/// A map of the flow.
+#[derive(Debug, FromRow)]
+pub(in super::super) struct MapRow {
     checksum: Vec<u8>,
     data: Vec<u8>,
 }
@@ -101,6 +109,17 @@ pub(in super::super) fn snapshot_of(
 ) -> Result<FlowSnapshot, StoreError> {
     row.read()
         .map_err(|source| StoreError::Block { job, source })
+}
+
+/// The map of a job in this row.
+pub(in super::super) fn map_of(
+    job: JobId,
+    quantity: MapQuantity,
+    row: MapRow,
+) -> Result<StoredMap, StoreError> {
+    let file = block(row.checksum, row.data);
+    let file = file.map_err(|source| StoreError::Block { job, source })?;
+    Ok(StoredMap { quantity, file })
 }
 
 /// The saved state of a job in this row, with these bytes.

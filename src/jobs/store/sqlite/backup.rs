@@ -181,11 +181,30 @@ async fn verify(copy: &Path) -> Result<u64, BackupError> {
 
 /// Checks the checksums of all stored blocks.
 async fn verify_blocks(connection: &mut SqliteConnection) -> Result<(), BackupError> {
-    let mut blocks = sqlx::query_as::<_, (String, Vec<u8>, Vec<u8>)>(
+    verify_blocks_of(
+        connection,
         "SELECT job_id, checksum, data FROM trajectory_chunks
          UNION ALL SELECT job_id, checksum, data FROM flow_snapshots",
     )
-    .fetch(connection);
+    .await?;
+    // A database of a former version has none.
+    let has_maps: bool =
+        sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM sqlite_master WHERE name = 'flow_maps')")
+            .fetch_one(&mut *connection)
+            .await?;
+    if has_maps {
+        let maps = "SELECT job_id, checksum, data FROM flow_maps";
+        verify_blocks_of(connection, maps).await?;
+    }
+    Ok(())
+}
+
+/// Checks the checksums of the blocks that a query finds.
+async fn verify_blocks_of(
+    connection: &mut SqliteConnection,
+    query: &'static str,
+) -> Result<(), BackupError> {
+    let mut blocks = sqlx::query_as::<_, (String, Vec<u8>, Vec<u8>)>(query).fetch(connection);
     while let Some((job, checksum, data)) = blocks.try_next().await? {
         let sound = <[u8; 32]>::try_from(checksum)
             .is_ok_and(|checksum| Block { data, checksum }.is_sound());

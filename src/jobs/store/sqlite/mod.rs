@@ -17,6 +17,7 @@ mod ending;
 mod error;
 mod events;
 mod file;
+mod flow_maps;
 mod health;
 mod history;
 mod inspection;

@@ -14,6 +14,7 @@ use crate::jobs::store::{
 };
 use crate::results::FlowSnapshot;
 use crate::results::columns::{Selection, TrajectoryColumns};
+use crate::results::terrain::{MapQuantity, StoredMap};
 use crate::runs::Progress;
 use crate::studies::study::{MemberCounts, StoredStudy, StudyId};
 use crate::terrains::TerrainHash;
@@ -225,6 +226,18 @@ impl JobStore for SqliteStore {
         time_s: Option<f64>,
     ) -> Result<Option<FlowSnapshot>, StoreError> {
         Ok(Self::snapshot(self, job, time_s).await?)
+    }
+
+    async fn flow_maps(&self, job: JobId) -> Result<Vec<MapQuantity>, StoreError> {
+        Ok(Self::flow_maps(self, job).await?)
+    }
+
+    async fn flow_map(
+        &self,
+        job: JobId,
+        quantity: MapQuantity,
+    ) -> Result<Option<StoredMap>, StoreError> {
+        Ok(Self::flow_map(self, job, quantity).await?)
     }
 
     async fn ping(&self) -> Result<(), StoreError> {

@@ -2,6 +2,7 @@
 
 use super::SqliteStore;
 use super::error::Answer;
+use super::flow_maps::write_map;
 use super::size_limit::Purpose;
 use super::states::write_state;
 use crate::jobs::job::{JobId, JobStatus};
@@ -26,6 +27,9 @@ impl SqliteStore {
         }
         for snapshot in &results.snapshots {
             write_snapshot(&mut transaction, lease.job, snapshot).await?;
+        }
+        for map in &results.maps {
+            write_map(&mut transaction, lease.job, map).await?;
         }
         if let (Some(state), JobStatus::Running) = (&results.state, status) {
             write_state(&mut transaction, lease, state, self.now_ms()).await?;
@@ -61,7 +65,8 @@ impl SqliteStore {
         let bytes: i64 = sqlx::query_scalar(
             "SELECT (SELECT coalesce(sum(length(data)), 0) FROM trajectory_chunks
                      WHERE job_id = ?1 AND samples >= ?2)
-                  + (SELECT coalesce(sum(length(data)), 0) FROM flow_snapshots WHERE job_id = ?1)",
+                  + (SELECT coalesce(sum(length(data)), 0) FROM flow_snapshots WHERE job_id = ?1)
+                  + (SELECT coalesce(sum(length(data)), 0) FROM flow_maps WHERE job_id = ?1)",
         )
         .bind(job.to_string())
         .bind(integer(CHUNK_SAMPLES as u64))

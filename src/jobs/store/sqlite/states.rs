@@ -109,6 +109,7 @@ async fn clear(connection: &mut SqliteConnection, job: JobId) -> Answer<()> {
         "DELETE FROM run_states WHERE job_id = ?1",
         "DELETE FROM trajectory_chunks WHERE job_id = ?1",
         "DELETE FROM flow_snapshots WHERE job_id = ?1",
+        "DELETE FROM flow_maps WHERE job_id = ?1",
         "UPDATE jobs SET fraction = 0, simulated_time_s = 0, steps = 0, substeps = 0 WHERE id = ?1",
     ] {
         sqlx::query(statement)
@@ -137,6 +138,10 @@ async fn rewind(
     sqlx::query("DELETE FROM trajectory_chunks WHERE job_id = ?1 AND first_sample >= ?2")
         .bind(&id)
         .bind(integer(resume_point.samples as u64))
+        .execute(&mut *connection)
+        .await?;
+    sqlx::query("DELETE FROM flow_maps WHERE job_id = ?1")
+        .bind(&id)
         .execute(&mut *connection)
         .await?;
     sqlx::query("DELETE FROM flow_snapshots WHERE job_id = ?1 AND time_s > ?2")

@@ -3,12 +3,15 @@
 use super::*;
 use crate::jobs::failure::Failure;
 use crate::results::columns::Selection;
+use crate::results::terrain::{MapQuantity, StoredMap};
+use scree_solver::raster::Raster;
 
 conformance! {
     jobs_are_claimed_in_the_order_of_submission_and_once
     a_job_ends_once_and_says_how
     a_growing_chunk_replaces_itself_and_reads_back
     the_size_of_results_is_that_of_what_grows_no_more
+    maps_of_the_flow_are_kept_and_go_with_their_attempt
     the_nearest_snapshot_is_found_the_earlier_of_two
     a_worker_that_lost_its_job_can_not_write
     a_dismissed_job_keeps_what_its_worker_still_had_and_stays_dismissed
@@ -146,6 +149,47 @@ async fn the_size_of_results_is_that_of_what_grows_no_more(fixture: &Fixture) {
     assert!(fixture.store.keep(lease, &full).await.unwrap());
     assert_eq!(bytes().await, of_snapshot + full.complete_bytes());
     assert_eq!(full.complete_bytes(), full.bytes());
+}
+
+async fn maps_of_the_flow_are_kept_and_go_with_their_attempt(fixture: &Fixture) {
+    let store = &fixture.store;
+    let id = fixture.submit().await;
+    let lease = fixture.claim("a").await;
+    let map = |quantity, value| StoredMap::of(quantity, &raster(value)).unwrap();
+    let (height, deposit) = (MapQuantity::FlowHeightMax, MapQuantity::Deposit);
+    assert!(store.flow_maps(id).await.unwrap().is_empty());
+    assert_eq!(store.flow_map(id, height).await.unwrap(), None);
+    // Written again if it is not known whether it was written.
+    for value in [1.0, 2.0] {
+        let kept = NewResults {
+            maps: vec![map(deposit, value), map(height, value + 5.0)],
+            ..NewResults::default()
+        };
+        assert!(store.keep(lease, &kept).await.unwrap());
+        assert_eq!(store.results_bytes(id).await.unwrap(), kept.bytes());
+    }
+    assert_eq!(store.flow_maps(id).await.unwrap(), [height, deposit]);
+    let found = store.flow_map(id, height).await.unwrap();
+    assert_eq!(found, Some(map(height, 7.0)));
+    let speed = MapQuantity::FlowSpeedMax;
+    assert_eq!(store.flow_map(id, speed).await.unwrap(), None);
+    assert!(store.release(lease).await.unwrap());
+    let next = fixture.claim("a").await;
+    assert_eq!(store.flow_maps(id).await.unwrap().len(), 2);
+    assert!(store.begin(next, &AttemptStart::Afresh, 1).await.unwrap());
+    assert!(store.flow_maps(id).await.unwrap().is_empty());
+}
+
+fn raster(value: f64) -> Raster {
+    Raster {
+        columns: 3,
+        rows: 3,
+        cell_size: 1.0,
+        west: 0.0,
+        south: 0.0,
+        epsg: None,
+        values: vec![value; 9],
+    }
 }
 
 async fn the_nearest_snapshot_is_found_the_earlier_of_two(fixture: &Fixture) {

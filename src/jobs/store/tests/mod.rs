@@ -253,6 +253,7 @@ pub(super) fn results(count: u32) -> NewResults {
             block: chunk::encode(&columns).unwrap(),
         }],
         snapshots: vec![StoredSnapshot::pack(&snapshot).unwrap()],
+        maps: Vec::new(),
         progress: Progress {
             fraction: 0.5,
             steps: 7,
