@@ -14,6 +14,8 @@ pub enum Purpose {
     Thickness,
     /// Coefficient of friction, 0 to 10, without holes.
     Friction,
+    /// Results of a computation, any finite numbers; holes remain.
+    Result,
 }
 
 /// What becomes of holes.
@@ -34,6 +36,7 @@ impl Purpose {
             Self::HeightMap | Self::Surface => "height",
             Self::Thickness => "thickness",
             Self::Friction => "coefficient of friction",
+            Self::Result => "value",
         }
     }
 
@@ -41,7 +44,7 @@ impl Purpose {
     pub(crate) fn unit(self) -> &'static str {
         match self {
             Self::HeightMap | Self::Surface | Self::Thickness => " m",
-            Self::Friction => "",
+            Self::Friction | Self::Result => "",
         }
     }
 
@@ -51,6 +54,7 @@ impl Purpose {
             Self::HeightMap | Self::Surface => -500.0..=9000.0,
             Self::Thickness => 0.0..=1000.0,
             Self::Friction => 0.0..=10.0,
+            Self::Result => f64::MIN..=f64::MAX,
         }
     }
 
@@ -58,7 +62,7 @@ impl Purpose {
     pub(crate) fn holes(self) -> Holes {
         match self {
             Self::HeightMap | Self::Friction => Holes::Refused,
-            Self::Surface => Holes::Kept,
+            Self::Surface | Self::Result => Holes::Kept,
             Self::Thickness => Holes::Zero,
         }
     }

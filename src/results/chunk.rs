@@ -48,6 +48,12 @@ pub enum BlockError {
 }
 
 impl Block {
+    /// Checksums bytes that are compressed already.
+    pub(super) fn of_packed(data: Vec<u8>) -> Self {
+        let checksum = *blake3::hash(&data).as_bytes();
+        Self { data, checksum }
+    }
+
     /// Compresses and checksums.
     ///
     /// # Errors
@@ -65,9 +71,7 @@ impl Block {
     }
 
     fn sealed_at(raw: &[u8], level: i32) -> Result<Self, BlockError> {
-        let data = zstd::bulk::compress(raw, level)?;
-        let checksum = *blake3::hash(&data).as_bytes();
-        Ok(Self { data, checksum })
+        Ok(Self::of_packed(zstd::bulk::compress(raw, level)?))
     }
 
     /// True if the bytes are those that were sealed.

@@ -1,6 +1,6 @@
 //! Records of a run in their forms: columns in memory ([`columns`]), compressed
 //! chunks in the database ([`chunk`], [`flow`]), and formats for clients ([`table`],
-//! [`vtk`]). Depends on the recorder's data types, and on neither the database nor HTTP.
+//! [`terrain`], [`vtk`]). Depends on the recorder's data types, and on neither the database nor HTTP.
 
 pub mod chunk;
 pub mod columns;
@@ -11,6 +11,7 @@ pub mod interpolation;
 pub mod numpy;
 mod planes;
 pub mod table;
+pub mod terrain;
 pub mod vtk;
 pub mod zip;
 

@@ -1,7 +1,7 @@
 //! The channel: bed, side walls and back wall.
 
 use super::poly_data::{Cells, PolyData, Section};
-use scree_solver::scenario::Scenario;
+use scree_solver::scenario::{Channel, Scenario};
 
 /// Height of the walls as shown over the thickness of the release; in the computation they end nowhere.
 const WALL_PER_RELEASE: f64 = 1.2;
@@ -15,8 +15,7 @@ enum Boundary {
 }
 
 /// The channel as poly data: rectangles, with the kind of each as `boundary`.
-pub(super) fn channel(scenario: &Scenario) -> Vec<u8> {
-    let channel = &scenario.channel;
+pub(super) fn channel(scenario: &Scenario, channel: &Channel) -> Vec<u8> {
     let half = channel.width_m / 2.0;
     let release = scenario.release();
     let wall = release.map_or(half, |release| {

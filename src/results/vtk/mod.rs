@@ -6,12 +6,13 @@ mod bodies;
 mod channel;
 mod poly_data;
 mod surface;
+mod terrain;
 
 use super::interpolation::BodyState;
 use bodies::Surfaces;
 use poly_data::{Cells, PolyData, Section};
 use scree_solver::record::FlowSnapshot;
-use scree_solver::scenario::Scenario;
+use scree_solver::scenario::{Ground, Scenario};
 use std::fmt::Write as _;
 
 /// A file of the export.
@@ -36,11 +37,9 @@ impl VtkFile {
 #[derive(Debug)]
 pub struct VtkScene {
     surfaces: Surfaces,
-    channel: Vec<u8>,
+    /// Name and surface of the ground.
+    ground: (&'static str, Vec<u8>),
 }
-
-/// Name of the channel's file.
-const CHANNEL: &str = "channel.vtp";
 
 impl VtkScene {
     /// The scene of a scenario.
@@ -50,16 +49,23 @@ impl VtkScene {
     pub fn new(scenario: &Scenario) -> Self {
         Self {
             surfaces: Surfaces::of(scenario),
-            channel: channel::channel(scenario),
+            ground: match &scenario.ground {
+                Ground::Channel(channel) => ("channel", channel::channel(scenario, channel)),
+                Ground::Terrain(terrain) => ("terrain", terrain::terrain(terrain)),
+            },
         }
     }
 
-    /// The files of the whole: the collection of instants at these times [s], and the channel.
+    /// The files of the whole: the collection of instants at these times [s], and the ground.
     pub fn head(&self, times_s: &[f64]) -> [VtkFile; 2] {
         [
             VtkFile::new("flow.pvd", collection(times_s)),
-            VtkFile::new(CHANNEL, self.channel.as_slice()),
+            VtkFile::new(self.ground_file(), self.ground.1.as_slice()),
         ]
+    }
+
+    fn ground_file(&self) -> String {
+        format!("{}.vtp", self.ground.0)
     }
 
     /// The files of the `index`-th instant.
@@ -72,7 +78,10 @@ impl VtkScene {
         let [flow, bodies] = ["flow", "bodies"].map(|block| format!("{block}-{index:04}.vtp"));
         let bodies_at = self.surfaces.at(snapshot.time_s, states);
         [
-            VtkFile::new(instant_name(index), blocks(&flow, &bodies)),
+            VtkFile::new(
+                instant_name(index),
+                blocks(&flow, &bodies, (self.ground.0, &self.ground_file())),
+            ),
             VtkFile::new(flow, points(snapshot)),
             VtkFile::new(bodies, bodies_at),
         ]
@@ -101,11 +110,11 @@ fn collection(times_s: &[f64]) -> String {
 }
 
 /// The blocks of an instant.
-fn blocks(flow: &str, bodies: &str) -> String {
+fn blocks(flow: &str, bodies: &str, ground: (&str, &str)) -> String {
     let block = |(index, (name, file)): (usize, (&str, &str))| {
         format!("<DataSet index=\"{index}\" name=\"{name}\" file=\"{file}\"/>\n")
     };
-    let all = [("flow", flow), ("bodies", bodies), ("channel", CHANNEL)];
+    let all = [("flow", flow), ("bodies", bodies), ground];
     let all: String = all.into_iter().enumerate().map(block).collect();
     format!(
         "<?xml version=\"1.0\"?>\n\
