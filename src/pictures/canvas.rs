@@ -1,5 +1,8 @@
 //! The sheet the pictures are drawn on.
 
+use super::labels::{Extent, Point};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::DrawingAreaErrorKind;
@@ -63,6 +66,63 @@ pub(super) fn text(size_px: f64, color: &RGBColor) -> TextStyle<'_> {
 pub(super) fn bold(size_px: f64, color: &RGBColor) -> TextStyle<'_> {
     let size = size_px * DEVICE_PER_PX * FONT_SIZE_FACTOR;
     TextStyle::from(("sans-serif", size, FontStyle::Bold).into_font()).color(color)
+}
+
+/// An image to be shown on a sheet.
+pub(super) struct Image<'a> {
+    /// Red, green and blue of its pixels, row by row from the upper left one.
+    pub pixels: &'a [u8],
+    /// Columns and rows.
+    pub count: (u32, u32),
+    /// Its upper left corner on the sheet [px].
+    pub corner: Point,
+    /// Side of a pixel of it on the sheet [px].
+    pub pixel: f64,
+}
+
+/// An image behind all that is drawn, as an element of SVG.
+#[derive(Debug)]
+pub(super) struct Backing(String);
+
+impl Backing {
+    /// The part of an image that lies within an extent.
+    pub(super) fn of(image: &Image<'_>, within: Extent) -> Result<Self, PictureError> {
+        let (columns, rows) = image.count;
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, columns, rows);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_compression(png::Compression::High);
+        let written = encoder.write_header();
+        let written = written.and_then(|mut writer| writer.write_image_data(image.pixels));
+        written.map_err(|error| PictureError(error.to_string()))?;
+        let data = BASE64_STANDARD.encode(file);
+        let clip = [
+            within.left,
+            within.top,
+            within.right - within.left,
+            within.bottom - within.top,
+        ];
+        let [left, top, width, height] = clip.map(px);
+        let (x, y) = (px(image.corner.0) - left, px(image.corner.1) - top);
+        let [across, down] = [columns, rows].map(|count| px(f64::from(count) * image.pixel));
+        Ok(Self(format!(
+            "<svg x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\">\
+             <image x=\"{x}\" y=\"{y}\" width=\"{across}\" height=\"{down}\" \
+             preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" \
+             href=\"data:image/png;base64,{data}\"/></svg>"
+        )))
+    }
+}
+
+/// Draws over an image on a white sheet of this size [px] and returns it as an SVG document.
+pub(super) fn paint_over(
+    size: (f64, f64),
+    backing: &Backing,
+    draw: impl FnOnce(&Area<'_>) -> Result<(), PictureError>,
+) -> Result<String, PictureError> {
+    // The first element is the white of the sheet.
+    let svg = paint(size, draw)?;
+    Ok(svg.replacen("/>", &format!("/>\n{}", backing.0), 1))
 }
 
 /// Draws a white sheet of this size [px] and returns it as an SVG document.

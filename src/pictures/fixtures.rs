@@ -5,10 +5,9 @@ use scree_solver::record::{
     Outcome, Sample,
 };
 use scree_solver::scenario::{
-    Accuracy, Approach, Body, BuiltSolid, Channel, Coupling, Ending, Flow, Material, Numerics,
-    Position, Precision, Release,
+    Accuracy, Approach, Body, BuiltSolid, Channel, Coupling, Ending, Flow, Ground, Material,
+    Numerics, Place, Position, Precision, Release, Scenario, Shape, Source, Symmetry,
 };
-use scree_solver::scenario::{Scenario, Shape, Symmetry};
 
 pub(super) fn cube(side_m: f64, sphero_radius_m: f64) -> Body {
     Body {
@@ -16,8 +15,10 @@ pub(super) fn cube(side_m: f64, sphero_radius_m: f64) -> Body {
         sphero_radius_m,
         density_kg_m3: 2000.0,
         position: Position {
-            downstream_m: 0.04,
-            lateral_m: 0.0,
+            place: Place::InChannel {
+                downstream_m: 0.04,
+                lateral_m: 0.0,
+            },
             elevation_m: None,
         },
         yaw_deg: 0.0,
@@ -135,19 +136,21 @@ pub(super) fn slab(time_s: f64, front_m: f32, speed_m_s: f32) -> FlowSnapshot {
 pub(super) fn scenario(bodies: Vec<Body>) -> Scenario {
     Scenario {
         title: "Cube <hit> by \"sand\" & gravel\u{7}".to_owned(),
-        channel: Channel {
+        ground: Ground::Channel(Channel {
             inclination_deg: 40.0,
             incline_length_m: 1.0,
             runout_length_m: 2.0,
             width_m: 0.2,
             base_friction: 0.4,
             side_friction: 0.0,
-        },
+        }),
         flow: Some(Flow {
-            volume_m3: 0.01,
-            release: Release {
-                height_m: 0.15,
-                toe_distance_m: 0.05,
+            source: Source::Channel {
+                volume_m3: 0.01,
+                release: Release {
+                    height_m: 0.15,
+                    toe_distance_m: 0.05,
+                },
             },
             material: Material {
                 bulk_density_kg_m3: 1500.0,

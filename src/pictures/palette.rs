@@ -19,8 +19,7 @@ const BODY_COLORS: [RGBColor; COLORS] = [
     RGBColor(66, 147, 255),
 ];
 
-/// Share of the flow's points whose speed the scale must cover: a few fast
-/// points must not darken all others.
+/// Share of the values that the scale must cover: a few fast points must not darken all others.
 const COVERED_SHARE: f64 = 0.995;
 
 /// Colour of the body or curve at this place; those after the last begin again.
@@ -50,36 +49,42 @@ fn linear(color: RGBColor) -> [f64; 3] {
     })
 }
 
-/// Speed of the flow as a colour: viridis, which grows evenly in lightness and
+/// Quantity of the flow as a colour: viridis, which grows evenly in lightness and
 /// survives grey print and colour blindness, from 0 to a round number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct SpeedScale {
-    /// Upper end [m/s].
-    pub top_m_s: f64,
-    /// True if some points are faster than that and share its colour.
+pub(super) struct ColorScale {
+    /// Upper end.
+    pub top: f64,
+    /// True if some values are larger than that and share its colour.
     pub exceeded: bool,
 }
 
-impl SpeedScale {
-    /// The scale for all these snapshots together.
+impl ColorScale {
+    /// The scale for all these snapshots together: speeds [m/s].
     pub(super) fn covering(snapshots: &[&FlowSnapshot]) -> Self {
-        let mut speeds: Vec<f32> = (snapshots.iter().flat_map(|s| &s.speed_m_s).copied())
-            .filter(|speed| speed.is_finite())
-            .collect();
-        speeds.sort_by(f32::total_cmp);
-        let covered = ((speeds.len() as f64) * COVERED_SHARE) as usize;
-        let covered = speeds.get(covered).or(speeds.last()).copied();
-        let top_m_s = round_up(f64::from(covered.unwrap_or(0.0)));
-        let fastest = f64::from(speeds.last().copied().unwrap_or(0.0));
+        let speeds = snapshots.iter().flat_map(|s| &s.speed_m_s);
+        let speeds: Vec<f64> = speeds.map(|speed| f64::from(*speed)).collect();
+        Self::of(&speeds)
+    }
+
+    /// The scale for these values.
+    pub(super) fn of(values: &[f64]) -> Self {
+        let finite = values.iter().copied().filter(|value| value.is_finite());
+        let mut values: Vec<f64> = finite.collect();
+        values.sort_by(f64::total_cmp);
+        let covered = ((values.len() as f64) * COVERED_SHARE) as usize;
+        let covered = values.get(covered).or(values.last()).copied();
+        let top = round_up(covered.unwrap_or(0.0));
+        let largest = values.last().copied().unwrap_or(0.0);
         Self {
-            top_m_s,
-            exceeded: fastest > top_m_s,
+            top,
+            exceeded: largest > top,
         }
     }
 
-    /// Colour of this speed [m/s].
-    pub(super) fn color(&self, speed_m_s: f64) -> RGBColor {
-        ViridisRGB::get_color((speed_m_s / self.top_m_s).clamp(0.0, 1.0))
+    /// Colour of this value.
+    pub(super) fn color(&self, value: f64) -> RGBColor {
+        ViridisRGB::get_color((value / self.top).clamp(0.0, 1.0))
     }
 }
 

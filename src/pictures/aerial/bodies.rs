@@ -11,14 +11,14 @@ use scree_solver::shape::SpheroPolyhedron;
 
 /// A body at one instant, on the sheet.
 #[derive(Debug)]
-pub(super) struct SeenBody {
+pub(in crate::pictures) struct SeenBody {
     pub index: usize,
     pub style: Style,
     pub outline: Vec<Point>,
 }
 
 /// The bodies, the lowest first: those above hide it.
-pub(super) fn from_above(
+pub(in crate::pictures) fn from_above(
     shapes: &[SpheroPolyhedron],
     states: &[BodySample],
     styles: &Styles,
@@ -39,7 +39,7 @@ pub(super) fn from_above(
 }
 
 impl SeenBody {
-    pub(super) fn draw(&self, sheet: &Area<'_>) -> Result<(), PictureError> {
+    pub(in crate::pictures) fn draw(&self, sheet: &Area<'_>) -> Result<(), PictureError> {
         let mut path: Vec<_> = self.outline.iter().map(|(x, y)| (px(*x), px(*y))).collect();
         sheet.draw(&Polygon::new(path.clone(), self.style.color.filled()))?;
         path.extend(path.first().copied());
@@ -53,7 +53,7 @@ impl SeenBody {
 }
 
 /// Draws the path of a body's centre, with a white edge to be visible on any colour.
-pub(super) fn draw_trail(
+pub(in crate::pictures) fn draw_trail(
     sheet: &Area<'_>,
     trail: &[Point],
     style: Style,

@@ -47,10 +47,11 @@ impl Layout {
     /// needed for legible numbers.
     pub(super) fn of(scene: &Scene<'_>, instants: &[Instant<'_>]) -> Self {
         let panels = instants.len();
-        let half = 0.52 * scene.scenario.channel.width_m;
+        let [_, across] = scene.scenario.extents();
+        let beyond = 0.02 * (across.end - across.start);
         let mut layout = Self {
             x: scene.extent(instants),
-            y: -half..half,
+            y: across.start - beyond..across.end + beyond,
             px_per_m: 1.0,
             columns: 1,
             panels,

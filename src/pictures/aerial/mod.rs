@@ -1,15 +1,15 @@
 //! Flow and bodies seen from above (the source paper's figure 6).
 
-mod bodies;
+pub(super) mod bodies;
 mod instants;
 mod layout;
-mod numbers;
+pub(super) mod numbers;
 mod panel;
 
 use super::canvas::width as stroke;
 use super::canvas::{Area, FAINT_INK, HAIRLINE, INK, PictureError, bold, paint, px, text};
 use super::format::{plain, title};
-use super::palette::SpeedScale;
+use super::palette::ColorScale;
 use super::style::Styles;
 use super::surface;
 pub use instants::shown_instants;
@@ -52,14 +52,14 @@ pub fn aerial_view(
 ) -> Result<String, PictureError> {
     let instants = instants::choose(samples, snapshots);
     let shown: Vec<_> = instants.iter().filter_map(|i| i.snapshot).collect();
-    let speeds = SpeedScale::covering(&shown);
+    let speeds = ColorScale::covering(&shown);
     let scene = Scene::new(scenario, samples);
     let layout = Layout::of(&scene, &instants);
     let bin_m = bin_within_budget(&layout, &shown);
     paint((layout::WIDTH, layout.height()), |sheet| {
         draw_header(sheet, scenario, &scene.styles)?;
         if !shown.is_empty() {
-            draw_color_bar(sheet, &speeds)?;
+            draw_color_bar(sheet, "speed of the flow [m/s]", &speeds)?;
         }
         for (index, instant) in instants.iter().enumerate() {
             scene.draw(sheet, &layout, index, instant, (&speeds, bin_m))?;
@@ -109,8 +109,12 @@ fn draw_footnote(sheet: &Area<'_>, layout: &Layout, line: &str) -> Result<(), Pi
     Ok(())
 }
 
-/// Draws the scale of speed, to the right of the subtitle.
-fn draw_color_bar(sheet: &Area<'_>, speeds: &SpeedScale) -> Result<(), PictureError> {
+/// Draws the scale of a quantity of this name, to the right of the subtitle.
+pub(super) fn draw_color_bar(
+    sheet: &Area<'_>,
+    name: &str,
+    scale: &ColorScale,
+) -> Result<(), PictureError> {
     // The label at its end is wider than the tick above it.
     let left = layout::WIDTH - layout::RIGHT - BAR.0 - 8.0;
     let top = 38.0;
@@ -118,7 +122,7 @@ fn draw_color_bar(sheet: &Area<'_>, speeds: &SpeedScale) -> Result<(), PictureEr
     let step = BAR.0 / f64::from(steps);
     for index in 0..steps {
         let share = (f64::from(index) + 0.5) / f64::from(steps);
-        let color = speeds.color(share * speeds.top_m_s);
+        let color = scale.color(share * scale.top);
         let from = (px(left + step * f64::from(index)), px(top));
         // Drawn to the end of the bar, and covered by those that follow: no gaps.
         let to = (px(left + BAR.0), px(top + BAR.1));
@@ -126,18 +130,14 @@ fn draw_color_bar(sheet: &Area<'_>, speeds: &SpeedScale) -> Result<(), PictureEr
     }
     let beside = text(11.0, &INK).pos(Pos::new(HPos::Right, VPos::Center));
     let middle = px(top + BAR.1 / 2.0);
-    sheet.draw_text(
-        "speed of the flow [m/s]",
-        &beside,
-        (px(left - 10.0), middle),
-    )?;
+    sheet.draw_text(name, &beside, (px(left - 10.0), middle))?;
     for share in [0.0, 0.5, 1.0] {
-        let capped = if share == 1.0 && speeds.exceeded {
+        let capped = if share == 1.0 && scale.exceeded {
             "≥ "
         } else {
             ""
         };
-        let label = format!("{capped}{}", plain(share * speeds.top_m_s));
+        let label = format!("{capped}{}", plain(share * scale.top));
         let x = left + share * BAR.0;
         let tick = [(px(x), px(top + BAR.1)), (px(x), px(top + BAR.1 + 3.0))];
         sheet.draw(&PathElement::new(tick, FAINT_INK.stroke_width(stroke(0.8))))?;

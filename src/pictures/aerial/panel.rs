@@ -6,7 +6,7 @@ use super::{HAIRLINE, bodies, numbers, stroke};
 use crate::pictures::canvas::{Area, FAINT_INK, INK, PictureError, Plane, bold, px, text};
 use crate::pictures::format::{significant, tick};
 use crate::pictures::labels::{Extent, Grid, Point};
-use crate::pictures::palette::SpeedScale;
+use crate::pictures::palette::ColorScale;
 use crate::pictures::style::Styles;
 use crate::pictures::surface;
 use plotters::element::DashedPathElement;
@@ -45,8 +45,7 @@ impl<'a> Scene<'a> {
     /// Part of the channel [m] in which flow or bodies are at any time, with the foot
     /// of the incline and a margin.
     pub(super) fn extent(&self, instants: &[Instant<'_>]) -> Range<f64> {
-        let channel = &self.scenario.channel;
-        let whole = -channel.incline_length_m..channel.runout_length_m;
+        let [whole, across] = self.scenario.extents();
         let flow = instants
             .iter()
             .filter_map(|i| i.snapshot)
@@ -57,10 +56,14 @@ impl<'a> Scene<'a> {
             .iter()
             .flat_map(|sample| self.body_extents(sample));
         let seen = |x: &f64| x.is_finite() && *x >= whole.start && *x <= whole.end;
-        let seen = || flow.clone().chain(bodies.clone()).chain([0.0]).filter(seen);
-        let (low, high) = (seen().fold(0.0, f64::min), seen().fold(0.0, f64::max));
+        // The foot of a channel's incline is always seen.
+        let foot = self.scenario.channel().map(|_| 0.0);
+        let seen = || flow.clone().chain(bodies.clone()).chain(foot).filter(seen);
+        let low = seen().reduce(f64::min).unwrap_or(whole.start);
+        let high = seen().reduce(f64::max).unwrap_or(whole.end);
         // Never narrower than a few channel widths, to show the surroundings.
-        let least = (3.0 * channel.width_m).min(whole.end - whole.start);
+        let width: f64 = across.end - across.start;
+        let least = (3.0 * width).min(whole.end - whole.start);
         let margin = (0.03 * (high - low)).max((least - (high - low)) / 2.0);
         let beyond = 0.01 * (whole.end - whole.start);
         (low - margin).max(whole.start - beyond)..(high + margin).min(whole.end + beyond)
@@ -92,14 +95,14 @@ impl<'a> Scene<'a> {
         layout: &Layout,
         index: usize,
         instant: &Instant<'_>,
-        (speeds, bin_m): (&SpeedScale, f64),
+        (speeds, bin_m): (&ColorScale, f64),
     ) -> Result<(), PictureError> {
         self.draw_caption(sheet, layout, index, instant)?;
         let plane = axes(sheet, layout, index)?;
         self.draw_ground(&plane, layout)?;
         if let Some(snapshot) = instant.snapshot {
-            let half_width_m = self.scenario.channel.width_m / 2.0;
-            draw_flow(&plane, layout, snapshot, (speeds, bin_m), half_width_m)?;
+            let [_, across] = self.scenario.extents();
+            draw_flow(&plane, layout, snapshot, (speeds, bin_m), &across)?;
         }
         self.draw_channel(&plane, layout)?;
         if let Some(sample) = instant.sample {
@@ -122,7 +125,8 @@ impl<'a> Scene<'a> {
         let time = format!("t = {:.2} s", instant.time_s);
         let style = bold(11.5, &INK).pos(Pos::new(HPos::Left, VPos::Bottom));
         sheet.draw_text(&time, &style, (px(left), px(base)))?;
-        let degrees = self.scenario.channel.inclination_deg;
+        let channel = self.scenario.channel();
+        let degrees = channel.map_or(0.0, |channel| channel.inclination_deg);
         if index > 0 || degrees <= 0.0 {
             return Ok(());
         }
@@ -136,7 +140,9 @@ impl<'a> Scene<'a> {
     }
 
     fn draw_ground(&self, plane: &Plane<'_>, layout: &Layout) -> Result<(), PictureError> {
-        let channel = &self.scenario.channel;
+        let Some(channel) = self.scenario.channel() else {
+            return Ok(());
+        };
         let half = channel.width_m / 2.0;
         let from = (-channel.incline_length_m).max(layout.x.start);
         if channel.inclination_deg > 0.0 && from < 0.0 {
@@ -148,7 +154,9 @@ impl<'a> Scene<'a> {
 
     /// Draws the side walls, the back wall, the open end and the foot of the incline.
     fn draw_channel(&self, plane: &Plane<'_>, layout: &Layout) -> Result<(), PictureError> {
-        let channel = &self.scenario.channel;
+        let Some(channel) = self.scenario.channel() else {
+            return Ok(());
+        };
         let half = channel.width_m / 2.0;
         let back = -channel.incline_length_m;
         let (from, to) = (
@@ -258,16 +266,17 @@ fn draw_flow(
     plane: &Plane<'_>,
     layout: &Layout,
     snapshot: &FlowSnapshot,
-    (speeds, bin_m): (&SpeedScale, f64),
-    half_width_m: f64,
+    (speeds, bin_m): (&ColorScale, f64),
+    across: &Range<f64>,
 ) -> Result<(), PictureError> {
     let radius_m = DOT_RADIUS_BINS * bin_m;
     let radius = stroke(radius_m * layout.px_per_m);
     // A dot stands for a square, which ends at the wall.
-    let half = (half_width_m - radius_m).max(0.0);
+    let inside = 0.5 * (across.end - across.start - 2.0 * radius_m).max(0.0);
+    let middle = 0.5 * (across.start + across.end);
     for dot in surface::seen_from_above(snapshot, &layout.x, bin_m) {
         let color = speeds.color(dot.speed_m_s);
-        let at = (dot.at[0], dot.at[1].clamp(-half, half));
+        let at = (dot.at[0], dot.at[1].clamp(middle - inside, middle + inside));
         plane.draw(&Circle::new(at, radius, color.filled()))?;
     }
     Ok(())

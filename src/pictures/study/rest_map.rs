@@ -36,7 +36,8 @@ const START: RGBColor = RGBColor(200, 16, 16);
 
 /// Regions that hold a body at rest with given probabilities, the members' resting places, places
 /// at which many rest (a circle with their share), and where the body stands at the start (a
-/// cross), seen from above: x downstream, y across [m] on equal scales.
+/// cross), seen from above on equal scales: x downstream, y across [m] in a channel; x east, y north
+/// of the height map's corner [m] on a terrain, where the start is only known with the map.
 ///
 /// # Errors
 /// The drawing library fails.
@@ -47,7 +48,11 @@ pub fn rest_map(
     (rest, places): (&RestDistribution, &[[f64; 2]]),
 ) -> Result<String, PictureError> {
     let start = scenario.filter(|scenario| body < scenario.bodies.len());
-    let start = start.map(|scenario| {
+    let has_ground = |scenario: &&Scenario| {
+        let terrain = scenario.terrain();
+        terrain.is_none_or(|terrain| terrain.maps.get(&terrain.height_map).is_some())
+    };
+    let start = start.filter(has_ground).map(|scenario| {
         let position = scenario.initial_pose(body).position;
         [position.x, position.y]
     });
@@ -77,7 +82,7 @@ pub fn rest_map(
         }
         frame.numbers_below(sheet, 10)?;
         frame.numbers_left(sheet, 6)?;
-        draw_axis_titles(sheet, &frame)
+        draw_axis_titles(sheet, &frame, axis_titles(scenario))
     })
 }
 
@@ -102,8 +107,8 @@ fn frame(
     let all: Vec<[f64; 2]> = corners.chain(places).copied().chain(start).collect();
     let x = range(all.iter().map(|place| place[0]), 0.08);
     let mut y = range(all.iter().map(|place| place[1]), 0.08);
-    if let Some(scenario) = scenario {
-        let half = 0.52 * scenario.channel.width_m;
+    if let Some(channel) = scenario.and_then(Scenario::channel) {
+        let half = 0.52 * channel.width_m;
         y = y.start.min(-half)..y.end.max(half);
     }
     let width = WIDTH - LEFT - RIGHT;
@@ -180,7 +185,9 @@ fn draw_legend(sheet: &Area<'_>, regions: &[Region]) -> Result<(), PictureError>
 
 /// Side walls, and the foot of the incline (dashed).
 fn draw_channel(sheet: &Area<'_>, frame: &Frame, scenario: &Scenario) -> Result<(), PictureError> {
-    let channel = &scenario.channel;
+    let Some(channel) = scenario.channel() else {
+        return Ok(());
+    };
     let half = 0.5 * channel.width_m;
     let right = channel.runout_length_m.min(frame.x.end);
     let left = (-channel.incline_length_m).max(frame.x.start);
@@ -218,15 +225,30 @@ fn draw_cross(sheet: &Area<'_>, (x, y): (f64, f64)) -> Result<(), PictureError> 
     line(sheet, ((x, y - arm), (x, y + arm)), (&START, 2.0))
 }
 
-fn draw_axis_titles(sheet: &Area<'_>, frame: &Frame) -> Result<(), PictureError> {
+/// Names of the axes by the ground.
+fn axis_titles(scenario: Option<&Scenario>) -> [&'static str; 2] {
+    match scenario.and_then(Scenario::terrain) {
+        None => ["x downstream [m]", "y across [m]"],
+        Some(_) => [
+            "x east on the height map [m]",
+            "y north on the height map [m]",
+        ],
+    }
+}
+
+fn draw_axis_titles(
+    sheet: &Area<'_>,
+    frame: &Frame,
+    [along, across]: [&str; 2],
+) -> Result<(), PictureError> {
     let below = text(12.0, &INK).pos(Pos::new(HPos::Center, VPos::Bottom));
     let middle = frame.left + 0.5 * frame.width;
     let bottom = HEADER + frame.height + FOOTER - 6.0;
-    sheet.draw_text("x downstream [m]", &below, (px(middle), px(bottom)))?;
+    sheet.draw_text(along, &below, (px(middle), px(bottom)))?;
     let upright = text(12.0, &INK)
         .transform(FontTransform::Rotate270)
         .pos(Pos::new(HPos::Center, VPos::Top));
     let middle = frame.top + 0.5 * frame.height;
-    sheet.draw_text("y across [m]", &upright, (px(8.0), px(middle)))?;
+    sheet.draw_text(across, &upright, (px(8.0), px(middle)))?;
     Ok(())
 }

@@ -8,7 +8,7 @@ use crate::pictures::fixtures::{
 };
 use crate::pictures::{aerial_view, motion};
 use scree_solver::record::{FlowSnapshot, Sample};
-use scree_solver::scenario::Body;
+use scree_solver::scenario::{Body, Ground};
 
 /// Checks for well-formed XML and an SVG of plain numbers; returns all its texts.
 fn texts_of(svg: &str) -> Vec<String> {
@@ -206,9 +206,12 @@ fn channels_of_all_proportions_fit_a_page() {
         [(0.01, 50.0, 40.0), (20.0, 2.0, 40.0), (0.2, 2.0, 0.0)]
     {
         let mut scene = scenario(vec![cube(0.04, 0.002)]);
-        scene.channel.width_m = width_m;
-        scene.channel.runout_length_m = runout_m;
-        scene.channel.inclination_deg = inclination_deg;
+        let Ground::Channel(channel) = &mut scene.ground else {
+            panic!("it is in a channel");
+        };
+        channel.width_m = width_m;
+        channel.runout_length_m = runout_m;
+        channel.inclination_deg = inclination_deg;
         let snapshots: Vec<_> = (0..6)
             .map(|k| slab(0.5 * f64::from(k), 0.1 * k as f32, 1.0))
             .collect();
