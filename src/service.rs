@@ -201,14 +201,14 @@ async fn serve(
         Arc::clone(store),
         pool.registry(),
         config.limits.clone(),
-        (admission, means),
+        (admission, means, pool.reader()),
         followers,
     );
     let webhooks = webhooks::start(&config.webhooks, store, &jobs, &stopped);
     let studies = StudyService::new(
         Arc::clone(studies_store),
         jobs.clone(),
-        (means, size.workers),
+        size.workers,
         (config.limits.studies, config.retention.ended_jobs()),
     );
     let driver = studies::driver::start(studies.clone());

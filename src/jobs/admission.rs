@@ -6,7 +6,7 @@ use super::job::JobId;
 use super::pool::GRACE;
 use super::store::{self, FormerRequest, KeptAnswer, Key, Room, StoreError, Submitted};
 use super::submit::{NewJob, ScenarioError};
-use crate::terrains::TerrainHash;
+use crate::terrains::{ReadError, TerrainHash};
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
@@ -42,7 +42,7 @@ pub enum SubmitError {
     /// The request is not admitted.
     #[error(transparent)]
     Admission(#[from] AdmissionError),
-    /// The jobs can't be stored.
+    /// The jobs can't be stored, or their maps can't be had.
     #[error(transparent)]
     Store(#[from] StoreError),
     /// The service stops, and has no time left for it.
@@ -73,6 +73,15 @@ pub enum SubmitError {
         /// Largest number allowed.
         limit: u32,
     },
+}
+
+impl From<ReadError> for SubmitError {
+    fn from(error: ReadError) -> Self {
+        match error {
+            ReadError::Scenario(error) => Self::Scenario(error),
+            ReadError::Store(error) => Self::Store(error),
+        }
+    }
 }
 
 /// Keys of requests in progress.

@@ -3,10 +3,13 @@
 use super::JobService;
 use super::job::{Job, JobId};
 use super::store::StoreError;
+use super::terrain_results::seen;
 use crate::pictures::{self, PictureError};
 use crate::results::FlowSnapshot;
+use crate::results::terrain::{MapError, StoredMap};
+use crate::terrains::ReadError;
 use scree_solver::record::{Outcome, Sample};
-use scree_solver::scenario::Scenario;
+use scree_solver::scenario::{Scenario, ScenarioError};
 use serde_json::value::RawValue;
 use thiserror::Error;
 
@@ -37,16 +40,41 @@ pub enum DrawError {
     /// The drawing library fails.
     #[error(transparent)]
     Picture(#[from] PictureError),
+    /// A stored scenario can't be read any more.
+    #[error("a stored scenario: {0}")]
+    Scenario(ScenarioError),
+    /// A map of the flow that can't be read.
+    #[error(transparent)]
+    Map(#[from] MapError),
+}
+
+impl From<ReadError> for DrawError {
+    fn from(error: ReadError) -> Self {
+        match error {
+            ReadError::Scenario(error) => Self::Scenario(error),
+            ReadError::Store(error) => Self::Store(error),
+        }
+    }
 }
 
 /// Records of a job that a picture is drawn from.
 #[derive(Debug)]
 pub struct Drawing {
-    picture: Picture,
-    scenario: Box<RawValue>,
+    scenario: Scenario,
     outcome: Box<RawValue>,
     samples: Vec<Sample>,
-    snapshots: Vec<FlowSnapshot>,
+    flow: DrawnFlow,
+}
+
+/// What a picture shows of the flow, by the ground.
+#[derive(Debug)]
+enum DrawnFlow {
+    /// Nothing.
+    Hidden,
+    /// Snapshots in a channel.
+    InChannel(Vec<FlowSnapshot>),
+    /// What it did to a terrain, of which these are the maps.
+    OnTerrain(Option<[StoredMap; 3]>),
 }
 
 impl JobService {
@@ -58,16 +86,19 @@ impl JobService {
         let outcome = job.outcome.ok_or(DrawError::NoOutcome)?;
         let id = job.summary.id;
         let samples = self.samples(id, job.bodies, MOST_STATES).await?;
-        let snapshots = match picture {
-            Picture::Motion => Vec::new(),
-            Picture::Aerial => self.shown_snapshots(id, &samples).await?,
+        let scenario: Scenario = serde_json::from_str(job.scenario.get())?;
+        let flow = match (picture, scenario.terrain()) {
+            (Picture::Motion, _) => DrawnFlow::Hidden,
+            (Picture::Aerial, None) => {
+                DrawnFlow::InChannel(self.shown_snapshots(id, &samples).await?)
+            }
+            (Picture::Aerial, Some(_)) => DrawnFlow::OnTerrain(self.maps_seen(id).await?),
         };
         Ok(Drawing {
-            picture,
-            scenario: job.scenario,
+            scenario,
             outcome,
             samples,
-            snapshots,
+            flow,
         })
     }
 
@@ -91,12 +122,26 @@ impl Drawing {
     ///
     /// # Errors
     /// A document can't be read, or the drawing library fails.
-    pub fn draw(self) -> Result<String, DrawError> {
-        let scenario: Scenario = serde_json::from_str(self.scenario.get())?;
-        let outcome: Outcome = serde_json::from_str(self.outcome.get())?;
-        Ok(match self.picture {
-            Picture::Motion => pictures::motion(&scenario, &self.samples, &outcome)?,
-            Picture::Aerial => pictures::aerial_view(&scenario, &self.samples, &self.snapshots)?,
+    pub fn draw(self, jobs: &JobService) -> Result<String, DrawError> {
+        let Self {
+            scenario,
+            outcome,
+            samples,
+            flow,
+        } = self;
+        Ok(match flow {
+            DrawnFlow::Hidden => {
+                let outcome: Outcome = serde_json::from_str(outcome.get())?;
+                pictures::motion(&scenario, &samples, &outcome)?
+            }
+            DrawnFlow::InChannel(snapshots) => {
+                pictures::aerial_view(&scenario, &samples, &snapshots)?
+            }
+            DrawnFlow::OnTerrain(flow) => {
+                let scenario = jobs.complete(scenario)?;
+                let flow = flow.map(seen).transpose()?;
+                pictures::terrain_view(&scenario, &samples, flow.as_ref())?
+            }
         })
     }
 }

@@ -8,7 +8,8 @@ use crate::results::columns::Selection;
 use crate::results::interpolation::{BodyState, Interpolator};
 use crate::results::vtk::{VtkFile, VtkScene};
 use crate::results::zip::{Method, ZipWriter};
-use scree_solver::scenario::Scenario;
+use crate::terrains::ReadError;
+use scree_solver::scenario::{Scenario, ScenarioError};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -24,6 +25,18 @@ pub enum ExportError {
     /// The request is not admitted.
     #[error(transparent)]
     Admission(#[from] AdmissionError),
+    /// A stored scenario can't be read any more.
+    #[error("a stored scenario: {0}")]
+    Scenario(ScenarioError),
+}
+
+impl From<ReadError> for ExportError {
+    fn from(error: ReadError) -> Self {
+        match error {
+            ReadError::Scenario(error) => Self::Scenario(error),
+            ReadError::Store(error) => Self::Store(error),
+        }
+    }
 }
 
 /// Archive of a job's flow and bodies: it holds one snapshot at a time, and the motion of the
@@ -49,9 +62,10 @@ impl JobService {
     pub async fn flow_export(&self, job: Job, caller: &str) -> Result<FlowExport, ExportError> {
         let id = job.summary.id;
         let scenario = job.scenario;
-        let read = move |_: &_| -> Result<VtkScene, serde_json::Error> {
+        let jobs = self.clone();
+        let read = move |_: &_| -> Result<VtkScene, ExportError> {
             let scenario: Scenario = serde_json::from_str(scenario.get())?;
-            Ok(VtkScene::new(&scenario))
+            Ok(VtkScene::new(&jobs.complete(scenario)?))
         };
         let scene = self.enter(caller)?.work(read).await??;
         let times_s = self.snapshot_times(id).await?;

@@ -3,7 +3,7 @@
 use scree_solver::accuracy::ConvergenceStudy;
 use scree_solver::plan::{Cost, Plan, Stage};
 use scree_solver::record::Role;
-use scree_solver::scenario::{Approach, Scenario};
+use scree_solver::scenario::{Approach, Scenario, Source};
 use scree_solver::simulation::PreparedScene;
 use scree_solver::{Cancellation, SetupError, Simulation, StepError};
 use serde::{Deserialize, Serialize};
@@ -184,12 +184,16 @@ fn coarsened(scenario: &Scenario, cost: &Cost) -> Scenario {
     let mut coarse = scenario.clone();
     let more = cost.points as f64 / MOST_POINTS;
     if more > 1.0 {
-        let cell_size_m = (cost.cell_size_m * more.cbrt()).min(scenario.channel.width_m);
+        let [x, y] = scenario.extents();
+        let narrowest = (x.end - x.start).min(y.end - y.start);
+        let cell_size_m = (cost.cell_size_m * more.cbrt()).min(narrowest);
         coarse.numerics.cell_size_m = Some(cell_size_m);
         // A narrow channel allows no larger cells.
         let fewer = (cell_size_m / cost.cell_size_m).powi(3);
-        if let Some(flow) = &mut coarse.flow {
-            flow.volume_m3 *= (fewer / more).min(1.0);
+        if let Some(Source::Channel { volume_m3, .. }) =
+            coarse.flow.as_mut().map(|flow| &mut flow.source)
+        {
+            *volume_m3 *= (fewer / more).min(1.0);
         }
     }
     coarse

@@ -9,8 +9,10 @@ use super::recent::Recent;
 use super::running_jobs::RunningJobRegistry;
 use super::running_progress::RunningProgress;
 use super::store::{Dismissal, Event, JobCounts, JobPage, JobStore, Page, Removal, StoreError};
-use super::submit::{self, AffordableJob, Means, NewJob, ScenarioError};
+use super::submit::{self, AffordableJob, Means, NewJob};
 use crate::config::Limits;
+use crate::terrains::{ReadError, ScenarioReader};
+use scree_solver::scenario::Scenario;
 use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
@@ -31,6 +33,8 @@ pub struct JobService {
     pub(super) in_flight: InFlight,
     pub(super) pool: AdmissionPool,
     means: Means,
+    /// Reader of scenarios with their maps.
+    pub(super) reader: ScenarioReader,
     followers: Followers,
     counts: Arc<Recent<Result<JobCounts, StoreError>>>,
     probed: Arc<Recent<Result<(), StoreError>>>,
@@ -40,9 +44,9 @@ pub struct JobService {
 /// Reason why there is no plan.
 #[derive(Debug, Error)]
 pub enum PlanError {
-    /// The scenario is invalid.
+    /// The scenario can't be read.
     #[error(transparent)]
-    Scenario(#[from] ScenarioError),
+    Scenario(#[from] ReadError),
     /// The first steps fail.
     #[error(transparent)]
     Forecast(#[from] ForecastError),
@@ -68,11 +72,12 @@ impl JobService {
         store: Arc<dyn JobStore>,
         registry: Arc<RunningJobRegistry>,
         limits: Limits,
-        (pool, means): (AdmissionPool, Means),
+        (pool, means, reader): (AdmissionPool, Means, ScenarioReader),
         followers: Followers,
     ) -> Self {
         Self {
             followers,
+            reader,
             store,
             registry,
             limits,
@@ -96,9 +101,25 @@ impl JobService {
     /// Checks a scenario; work for the admission pool.
     ///
     /// # Errors
-    /// All rules that the scenario breaks.
-    pub fn validate(&self, scenario: &str, labels: Vec<String>) -> Result<NewJob, ScenarioError> {
-        submit::validate(scenario, &self.means, labels)
+    /// All rules that the scenario breaks; or the store's own.
+    pub fn validate(&self, scenario: &str, labels: Vec<String>) -> Result<NewJob, ReadError> {
+        submit::validate(scenario, (&self.means, &self.reader), labels)
+    }
+
+    /// Reads a scenario with its maps; work for the admission pool.
+    ///
+    /// # Errors
+    /// All rules that it breaks; or the store's own.
+    pub fn read(&self, scenario: &str) -> Result<Scenario, ReadError> {
+        self.reader.read(scenario)
+    }
+
+    /// Gives a stored scenario its maps; work for the admission pool.
+    ///
+    /// # Errors
+    /// A map is not there any more; or the store's own.
+    pub fn complete(&self, scenario: Scenario) -> Result<Scenario, ReadError> {
+        self.reader.complete(scenario)
     }
 
     /// Plan of a job with this scenario, and a forecast of its wall time, for this caller.
@@ -107,9 +128,9 @@ impl JobService {
     /// The scenario is invalid, its first steps fail, or the caller is not admitted.
     pub async fn plan(&self, caller: &str, scenario: String) -> Result<Planned, PlanError> {
         let place = self.enter(caller)?;
-        let means = self.means;
+        let (means, reader) = (self.means, self.reader.clone());
         let AffordableJob { scene, plan, .. } = place
-            .work(move |_| submit::read_affordable(&scenario, &means))
+            .work(move |_| submit::read_affordable(&scenario, (&means, &reader)))
             .await??;
         let scenario = scene.scenario;
         let threads = scenario.numerics.threads;

@@ -29,6 +29,7 @@ mod running_jobs;
 mod running_progress;
 pub mod store;
 pub mod submit;
+mod terrain_results;
 mod worker;
 
 pub use admission::{Submission, SubmissionRequest, SubmitError};
@@ -41,3 +42,4 @@ pub use job_service::{Dismissed, JobService, PlanError};
 pub use news::{Followers, News};
 pub use reading::TrajectoryRange;
 pub use running_progress::RunningProgress;
+pub use terrain_results::{AskedCoordinates, TerrainResultsError, Tracks};

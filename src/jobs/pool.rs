@@ -5,9 +5,10 @@ use super::job_limits::JobLimits;
 use super::lease_heartbeat::LeaseHeartbeat;
 use super::memory_budget::MemoryBudget;
 use super::running_jobs::RunningJobRegistry;
-use super::store::{JobStore, Lease};
+use super::store::{JobStore, Lease, TerrainStore};
 use super::worker;
 use crate::config::{PoolSize, Queue, Recording, Retention, ServiceConfig};
+use crate::terrains::ScenarioReader;
 use std::io;
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -37,6 +38,8 @@ pub(super) struct Equipment {
     /// Name of the process among those that share the database.
     pub(super) name: String,
     pub(super) store: Arc<dyn JobStore>,
+    /// Reader of scenarios with their maps.
+    pub(super) reader: ScenarioReader,
     pub(super) runtime: Handle,
     pub(super) registry: Arc<RunningJobRegistry>,
     pub(super) threads: usize,
@@ -82,6 +85,7 @@ impl Pool {
     ) -> io::Result<Self> {
         let equipment = Equipment {
             name,
+            reader: ScenarioReader::new(Arc::clone(&store) as Arc<dyn TerrainStore>),
             store,
             runtime: Handle::current(),
             registry: Arc::new(RunningJobRegistry::of_cores(size.cores)),
@@ -111,6 +115,11 @@ impl Pool {
             pool.threads.push(thread);
         }
         Ok(pool)
+    }
+
+    /// Reader of scenarios with their maps, which it shares with the workers.
+    pub fn reader(&self) -> ScenarioReader {
+        self.equipment.reader.clone()
     }
 
     /// Registry of the running jobs.

@@ -1,7 +1,7 @@
 //! Validation of submitted scenarios.
 
 use super::job::JobId;
-use crate::terrains::TerrainHash;
+use crate::terrains::{ReadError, ScenarioReader, TerrainHash, terrains_of};
 use scree_solver::accuracy::ConvergenceStudy;
 use scree_solver::plan::Cost;
 use scree_solver::record::Role;
@@ -59,16 +59,16 @@ pub struct Means {
     pub memory_bytes: u64,
 }
 
-/// Validates a scenario for a service with these resources, and plans its run.
+/// Validates a scenario for a service with these resources, and plans its run. Blocks.
 ///
 /// # Errors
-/// All rules that the scenario breaks.
+/// All rules that the scenario breaks; or the store's own.
 pub fn validate(
     text: &str,
-    means: &Means,
+    (means, reader): (&Means, &ScenarioReader),
     mut labels: Vec<String>,
-) -> Result<NewJob, ScenarioError> {
-    let AffordableJob { scene, plan, cost } = read_affordable(text, means)?;
+) -> Result<NewJob, ReadError> {
+    let AffordableJob { scene, plan, cost } = read_affordable(text, (means, reader))?;
     let scenario = scene.scenario;
     let json = serde_json::to_string(&scenario).map_err(|error| unwritable(&error))?;
     labels.sort();
@@ -78,12 +78,12 @@ pub fn validate(
         title: scenario.title,
         bodies: scenario.bodies.len(),
         scenario_hash: blake3::hash(json.as_bytes()).to_hex().to_string(),
+        terrains: terrains_of(&json),
         scenario: json,
         plan: serde_json::to_string(&plan).map_err(|error| unwritable(&error))?,
         planned_work: cost.point_steps,
         planned_memory_bytes: cost.memory_bytes,
         labels,
-        terrains: Vec::new(),
         solver_version: scree_solver::VERSION,
     })
 }
@@ -98,12 +98,15 @@ pub struct AffordableJob {
     pub cost: JobCost,
 }
 
-/// Reads a scenario whose run these resources allow, and plans it.
+/// Reads a scenario whose run these resources allow, and plans it. Blocks.
 ///
 /// # Errors
-/// All rules that the scenario breaks.
-pub fn read_affordable(text: &str, means: &Means) -> Result<AffordableJob, ScenarioError> {
-    let prepared = read(text, means.threads_per_worker)?;
+/// All rules that the scenario breaks; or the store's own.
+pub fn read_affordable(
+    text: &str,
+    (means, reader): (&Means, &ScenarioReader),
+) -> Result<AffordableJob, ReadError> {
+    let prepared = read(text, reader, means.threads_per_worker)?;
     let plan = Plan::of(&prepared);
     let job = JobCost::of(&prepared.scenario, &plan.cost)?;
     let excesses = [
@@ -118,7 +121,7 @@ pub fn read_affordable(text: &str, means: &Means) -> Result<AffordableJob, Scena
             cost: job,
         })
     } else {
-        Err(ScenarioError::Invalid(excesses))
+        Err(ScenarioError::Invalid(excesses).into())
     }
 }
 
@@ -167,11 +170,12 @@ fn refused(error: &SetupError) -> ScenarioError {
 
 /// Reads a scenario for a service whose workers have `threads_per_worker` solver
 /// threads.
-///
-/// # Errors
-/// All rules that the scenario breaks.
-pub fn read(text: &str, threads_per_worker: usize) -> Result<PreparedScene, ScenarioError> {
-    match Scenario::from_json(text) {
+fn read(
+    text: &str,
+    reader: &ScenarioReader,
+    threads_per_worker: usize,
+) -> Result<PreparedScene, ReadError> {
+    match reader.read(text) {
         Ok(scenario) => {
             let threads = too_many_threads(scenario.numerics.threads, threads_per_worker);
             let prepared = PreparedScene::of(&scenario);
@@ -180,18 +184,18 @@ pub fn read(text: &str, threads_per_worker: usize) -> Result<PreparedScene, Scen
                 (prepared, threads) => {
                     let setup = prepared.err().and_then(|error| not_set_up(&error));
                     let violations = setup.into_iter().chain(threads).collect();
-                    Err(ScenarioError::Invalid(violations))
+                    Err(ScenarioError::Invalid(violations).into())
                 }
             }
         }
-        Err(ScenarioError::Invalid(mut violations)) => {
+        Err(ReadError::Scenario(ScenarioError::Invalid(mut violations))) => {
             violations.extend(too_many_threads(
                 threads_asked_for(text),
                 threads_per_worker,
             ));
-            Err(ScenarioError::Invalid(violations))
+            Err(ScenarioError::Invalid(violations).into())
         }
-        Err(malformed) => Err(malformed),
+        Err(other) => Err(other),
     }
 }
 

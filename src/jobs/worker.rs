@@ -12,6 +12,7 @@ use super::store::{
 };
 use crate::runs::convergence_study::Runs;
 use crate::runs::{COMMIT, Run, RunControl, RunEnd, RunError, SavedRunError, Sink};
+use crate::terrains::ReadError;
 use scree_solver::plan::Cost;
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
@@ -127,9 +128,11 @@ fn catching_panics(run: impl FnOnce() -> JobResult) -> JobResult {
 }
 
 fn run(equipment: &Equipment, claim: &Claim, guard: &RunningJobGuard) -> JobResult {
-    let scenario = match Scenario::from_json(&claim.scenario) {
+    let scenario = match equipment.reader.read(&claim.scenario) {
         Ok(scenario) => scenario,
-        Err(error) => return internal_failure(&error.to_string()),
+        Err(ReadError::Scenario(error)) => return internal_failure(&error.to_string()),
+        // The job goes on once the store can be read.
+        Err(ReadError::Store(_)) => return JobResult::Released,
     };
     let control = &*guard.run.control;
     let most = scenario.numerics.threads.unwrap_or(equipment.threads);

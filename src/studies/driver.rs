@@ -2,7 +2,7 @@
 //! it knows is in the database, so that it goes on after a crash where it was.
 
 use super::StudyService;
-use super::members::{is_allowed, new_members};
+use super::members::{NewMembersError, is_allowed, new_members};
 use super::outcome;
 use super::schedule::{Conclusion, Next, conclusion, next};
 use super::study::{MemberCounts, StoredStudy, StudyId, StudyStatus};
@@ -117,20 +117,20 @@ async fn advance(
         Some(stored) if stored.status == StudyStatus::Running => stored,
         _ => return Ok(()),
     };
-    let means = studies.means;
+    let jobs = studies.jobs.clone();
     let in_work = stored.members.made - stored.members.ended;
     let made = studies.store.members_made(id).await?;
     let step = aside(&stored, move |ensemble| {
         match next(ensemble.study(), &made, (in_work, most)) {
-            Next::Members(ids) => new_members(ensemble, (id, &ids), &means).map(Step::Members),
+            Next::Members(ids) => new_members(ensemble, (id, &ids), &jobs).map(Step::Members),
             Next::Wait => Ok(Step::Wait),
             Next::Conclude => Ok(Step::Conclude),
         }
     });
-    match step
-        .await?
-        .map_err(|error| DriveError::Study(error.to_string()))?
-    {
+    match step.await?.map_err(|error| match error {
+        NewMembersError::Member(error) => DriveError::Study(error.to_string()),
+        NewMembersError::Store(error) => error.into(),
+    })? {
         Step::Members(members) => {
             let mut added = 0;
             for some in members.chunks(MEMBERS_ADDED_AT_ONCE) {
@@ -153,9 +153,9 @@ async fn advance(
 async fn conclude(studies: &StudyService, stored: &StoredStudy) -> Result<(), DriveError> {
     let (id, document) = (stored.id, stored.document.get());
     let outcomes = studies.outcomes(id).await?;
-    let means = studies.means;
+    let jobs = studies.jobs.clone();
     let conclusion = aside(stored, move |ensemble| {
-        conclusion(ensemble, &outcomes, |scenario| is_allowed(scenario, &means))
+        conclusion(ensemble, &outcomes, |scenario| is_allowed(scenario, &jobs))
     });
     match conclusion.await? {
         Conclusion::Enlarge(larger) => {

@@ -2,34 +2,46 @@
 
 use super::outcome;
 use super::study::StudyId;
-use crate::jobs::store::{MemberWork, NewMember};
-use crate::jobs::submit::{self, Means, ScenarioError};
+use crate::jobs::JobService;
+use crate::jobs::store::{MemberWork, NewMember, StoreError};
+use crate::terrains::ReadError;
 use scree_studies::{Ensemble, MemberId, NoSuchMember};
 use serde_json::Value;
+use thiserror::Error;
 
-/// These members of a study as jobs for a service with these means. One whose scenario is not
-/// allowed has failed.
+/// Reason why members can't be made now.
+#[derive(Debug, Error)]
+pub(super) enum NewMembersError {
+    /// The design has no such member.
+    #[error(transparent)]
+    Member(#[from] NoSuchMember),
+    /// The maps of their scenarios can't be had.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+/// These members of a study as jobs for a service. One whose scenario is not allowed has failed.
 ///
 /// # Errors
-/// The design has no such member.
+/// The design has no such member; or the store's own.
 pub(super) fn new_members(
     ensemble: &Ensemble,
     (study, ids): (StudyId, &[MemberId]),
-    means: &Means,
-) -> Result<Vec<NewMember>, NoSuchMember> {
+    jobs: &JobService,
+) -> Result<Vec<NewMember>, NewMembersError> {
     let new = ids.iter().map(|id| {
         Ok(NewMember {
             level: id.level,
             member: id.index,
-            work: work(&scenario(ensemble, *id)?, study, means),
+            work: work(&scenario(ensemble, *id)?, study, jobs)?,
         })
     });
     new.collect()
 }
 
-/// True if a service with these means takes jobs of a scenario.
-pub(super) fn is_allowed(scenario: &Value, means: &Means) -> bool {
-    submit::validate(&scenario.to_string(), means, Vec::new()).is_ok()
+/// True if a service takes jobs of a scenario.
+pub(super) fn is_allowed(scenario: &Value, jobs: &JobService) -> bool {
+    jobs.validate(&scenario.to_string(), Vec::new()).is_ok()
 }
 
 /// Scenario of a member: without snapshots of the flow unless the study's asks for them, since
@@ -49,14 +61,15 @@ fn without_snapshots(scenario: &mut Value) {
     }
 }
 
-fn work(scenario: &Value, study: StudyId, means: &Means) -> MemberWork {
+fn work(scenario: &Value, study: StudyId, jobs: &JobService) -> Result<MemberWork, StoreError> {
     let labels = vec![label(study)];
-    match submit::validate(&scenario.to_string(), means, labels) {
-        Ok(job) => MemberWork::Job(Box::new(job)),
-        Err(ScenarioError::Invalid(_) | ScenarioError::Malformed { .. }) => {
+    match jobs.validate(&scenario.to_string(), labels) {
+        Ok(job) => Ok(MemberWork::Job(Box::new(job))),
+        Err(ReadError::Scenario(_)) => {
             let outcome = serde_json::to_string(&outcome::not_allowed());
-            MemberWork::Nothing(outcome.unwrap_or_default())
+            Ok(MemberWork::Nothing(outcome.unwrap_or_default()))
         }
+        Err(ReadError::Store(error)) => Err(error),
     }
 }
 

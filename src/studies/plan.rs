@@ -13,6 +13,9 @@ use utoipa::ToSchema;
 /// the others.
 const COSTED: u64 = 32;
 
+/// Reader of a member's scenario; `None` where it is not allowed.
+pub type ReadScenario<'a> = dyn Fn(&str) -> Option<Scenario> + 'a;
+
 /// Cost of the members of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 #[schema(as = StudyCost)]
@@ -36,10 +39,10 @@ pub struct StudyCost {
 }
 
 /// Cost of a study; members that can't be set up are left out. `None` if those are all of a level.
-pub fn cost(ensemble: &Ensemble) -> Option<StudyCost> {
+pub fn cost(ensemble: &Ensemble, read: &ReadScenario) -> Option<StudyCost> {
     let study = ensemble.study();
     let levels: Vec<LevelCost> = (0..study.levels())
-        .map(|level| LevelCost::of(ensemble, level))
+        .map(|level| LevelCost::of(ensemble, level, read))
         .collect::<Option<_>>()?;
     let (members, work) = (
         study.runs(),
@@ -66,10 +69,10 @@ struct LevelCost {
 }
 
 impl LevelCost {
-    fn of(ensemble: &Ensemble, level: u32) -> Option<Self> {
+    fn of(ensemble: &Ensemble, level: u32, read: &ReadScenario) -> Option<Self> {
         let members = ensemble.study().members_on(level);
         let costs: Vec<Cost> = spread(members, COSTED / u64::from(ensemble.study().levels()))
-            .filter_map(|index| cost_of(&scenario(ensemble, MemberId { level, index }).ok()?))
+            .filter_map(|index| cost_of(&scenario(ensemble, MemberId { level, index }).ok()?, read))
             .collect();
         let work: f64 = costs.iter().map(|cost| cost.point_steps as f64).sum();
         Some(Self {
@@ -91,8 +94,8 @@ fn spread(members: u64, most: u64) -> impl Iterator<Item = u64> {
     (0..count).map(move |place| place * members / count.max(1))
 }
 
-fn cost_of(scenario: &Value) -> Option<Cost> {
-    let scenario = Scenario::from_value(scenario).ok()?;
+fn cost_of(scenario: &Value, read: &ReadScenario) -> Option<Cost> {
+    let scenario = read(&scenario.to_string())?;
     let prepared = PreparedScene::of(&scenario).ok()?;
     Some(Cost::of(&prepared))
 }
@@ -118,7 +121,7 @@ mod tests {
             for end in ensemble.end_scenarios() {
                 Scenario::from_value(&end.scenario).unwrap();
             }
-            let cost = cost(&ensemble).unwrap();
+            let cost = cost(&ensemble, &|text| Scenario::from_json(text).ok()).unwrap();
             assert!(cost.point_steps > 0.0, "{}", path.display());
             assert_eq!(cost.accuracy.is_some(), study.accuracy.is_some());
         }

@@ -6,7 +6,6 @@ use crate::jobs::store::{
     Enlarged, Key, ListedMember, NewStudy, Removal, Room, StoreError, StudyDismissal, StudyEnd,
     StudyPage, StudyStore, StudySubmitted,
 };
-use crate::jobs::submit::Means;
 use crate::jobs::{JobService, News};
 use crate::terrains::TerrainHash;
 use scree_studies::{Member, MemberOutcome};
@@ -28,7 +27,6 @@ const MEMBERS_AT_ONCE: u64 = 10_000;
 pub struct StudyService {
     pub(super) store: Arc<dyn StudyStore>,
     pub(super) jobs: JobService,
-    pub(super) means: Means,
     workers: usize,
     /// Told when a study comes or goes on.
     pub(super) changed: Arc<Notify>,
@@ -43,13 +41,12 @@ impl StudyService {
     pub fn new(
         store: Arc<dyn StudyStore>,
         jobs: JobService,
-        (means, workers): (Means, usize),
+        workers: usize,
         (room, retention): (u32, Option<Duration>),
     ) -> Self {
         Self {
             store,
             jobs,
-            means,
             workers: workers.max(1),
             changed: Arc::default(),
             room,

@@ -6,6 +6,7 @@ mod file;
 mod hash;
 mod rasters;
 mod reading;
+mod scenario;
 mod service;
 
 pub use description::{Description, FileFormat};
@@ -13,4 +14,5 @@ pub use file::TerrainFile;
 pub use hash::{NoTerrainHash, TerrainHash};
 pub use rasters::{LoadError, NamedRaster, Rasters};
 pub use reading::{FilePurpose, violation};
+pub use scenario::{ReadError, ScenarioReader, purpose, terrains_of};
 pub use service::{PutError, Terrain, TerrainService};

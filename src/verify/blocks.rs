@@ -7,7 +7,7 @@ use scree_solver::material::{Material, Yielding};
 use scree_solver::math::{Mat3, Sym3, Vec3};
 use scree_solver::points::Point;
 use scree_solver::scenario::Precision;
-use scree_solver::simulation::{Expected, GivenFlow, Guards, Scene, Setup, Timing};
+use scree_solver::simulation::{Expected, GivenFlow, Guards, Outlet, Scene, Setup, Timing};
 use scree_solver::walls::{Ends, Plane, VerticalBoundary, VerticalWalls, Walls};
 use std::sync::Arc;
 
@@ -114,7 +114,8 @@ impl Block {
             gravity: Vec3::new(0.0, 0.0, -self.gravity),
             planes: walls.planes().copied().collect(),
             walls,
-            open_end: f64::MAX,
+            outlet: Outlet::End(f64::MAX),
+            later: None,
             flow: Some(self.flow(self.material.bulk_density * self.expected_speed.powi(2))),
             lattice,
             partners: Vec::new(),
@@ -159,14 +160,14 @@ impl Block {
         };
         Walls {
             bed: Arc::new(PlanarBed::floor(0.0)),
-            vertical_walls: VerticalWalls {
+            vertical_walls: Some(VerticalWalls {
                 ends,
                 sides: [
                     symmetry(Vec3::y(), half_width),
                     symmetry(-Vec3::y(), half_width),
                 ],
                 halves_across: 2 * self.cells_across as i32,
-            },
+            }),
         }
     }
 

@@ -1,5 +1,6 @@
-//! Resting places as GeoJSON (RFC 7946), in the local coordinates of the channel: x downstream and y
-//! across [m]. They are no longitudes and latitudes, which the file says.
+//! Resting places as GeoJSON (RFC 7946), in local coordinates [m]: x downstream and y across in a
+//! channel, x east and y north of the height map's corner on a terrain. They are no longitudes and
+//! latitudes, which the file says.
 
 use geojson::{Feature, FeatureCollection, Geometry, JsonObject, Value};
 use scree_studies::answers::{Atom, Polygon, Region, RestDistribution};
@@ -9,7 +10,8 @@ use serde_json::json;
 pub fn rest_as_geojson(rest: &RestDistribution) -> FeatureCollection {
     let regions = rest.regions.iter().map(region);
     let atoms = rest.atoms.iter().map(atom);
-    let note = "local coordinates of the channel: x downstream, y across, in metres";
+    let note = "local coordinates in metres: x downstream, y across in a channel; x east, y north of \
+                the south-western corner of the height map on a terrain";
     FeatureCollection {
         bbox: None,
         features: regions.chain(atoms).collect(),

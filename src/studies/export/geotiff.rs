@@ -1,4 +1,4 @@
-//! Density of resting places as GeoTIFF (OGC 19-008r4), in the local coordinates of the channel.
+//! Density of resting places as GeoTIFF (OGC 19-008r4), in local coordinates.
 
 use scree_studies::answers::DensityGrid;
 use std::io::Cursor;
