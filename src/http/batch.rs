@@ -8,9 +8,10 @@ use super::query::Query;
 use super::scenario_body::{ScenarioText, read_envelope};
 use super::submission::LABEL_RULE;
 use crate::jobs::job::JobId;
-use crate::jobs::store::Key;
+use crate::jobs::store::{Key, StoreError};
 use crate::jobs::submit::{LABELS_AT_MOST, NewJob, ScenarioError, excerpt, label};
 use crate::jobs::{JobService, Submission, SubmissionRequest};
+use crate::terrains::ReadError;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, Uri};
 use axum::response::Response;
@@ -156,6 +157,8 @@ struct BatchReading {
     left: Enumerate<vec::IntoIter<BatchJob>>,
     admitted: Vec<NewJob>,
     wrong: FieldErrors,
+    /// Error of the store, by which a scenario could not be read.
+    broken: Option<StoreError>,
 }
 
 impl BatchReading {
@@ -167,6 +170,7 @@ impl BatchReading {
             left: batch.jobs.into_iter().enumerate(),
             admitted: Vec::new(),
             wrong,
+            broken: None,
         }
     }
 
@@ -193,21 +197,24 @@ impl BatchReading {
         labels.extend_from_slice(&self.common);
         match self.jobs.validate(job.scenario.get(), labels) {
             Ok(new) => self.admitted.push(new),
-            Err(ScenarioError::Invalid(violations)) => {
+            Err(ReadError::Scenario(ScenarioError::Invalid(violations))) => {
                 let at = format!("{at}/scenario");
                 for violation in violations {
                     wrong.add(|| FieldError::from(violation).under(&at));
                 }
             }
-            Err(error @ ScenarioError::Malformed { .. }) => {
+            Err(ReadError::Scenario(error @ ScenarioError::Malformed { .. })) => {
                 let at = format!("{at}/scenario");
                 wrong.add(|| FieldError::of_body(&at, Value::Null, &error.to_string()));
             }
+            Err(ReadError::Store(error)) => self.broken = Some(error),
         }
     }
 
     fn finish(self) -> Result<Vec<NewJob>, Problem> {
-        if self.wrong.is_empty() {
+        if let Some(error) = self.broken {
+            Err(error.into())
+        } else if self.wrong.is_empty() {
             Ok(self.admitted)
         } else {
             Err(Problem::invalid_scenario(self.wrong))

@@ -40,8 +40,9 @@ pub(super) async fn motion(
 
 /// Draw flow and bodies from above
 ///
-/// At about six instants: the flow's surface by speed, outline and trail of each body, and the
-/// channel.
+/// In a channel at about six instants: the flow's surface by speed, outline and trail of each body,
+/// and the channel. On a terrain its hillshade, the largest flow height, outlines of releases and
+/// deposit, and the bodies at the end with their tracks.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/aerial.svg",
@@ -77,7 +78,8 @@ async fn draw(
     let place = jobs.enter(&caller.share())?;
     let drawing = jobs.drawing(job, picture).await?;
     right.end_turn();
-    let drawn = place.work(move |_| drawing.draw()).await??;
+    let drawer = jobs.clone();
+    let drawn = place.work(move |_| drawing.draw(&drawer)).await??;
     Ok(([(header::CONTENT_TYPE, "image/svg+xml")], drawn).into_response())
 }
 
@@ -86,7 +88,10 @@ impl From<DrawError> for Problem {
         match error {
             DrawError::NoOutcome => Self::not_found("no-picture", error.to_string()),
             DrawError::Store(error) => error.into(),
-            DrawError::Document(_) | DrawError::Picture(_) => Self::internal(&error),
+            DrawError::Document(_)
+            | DrawError::Scenario(_)
+            | DrawError::Picture(_)
+            | DrawError::Map(_) => Self::internal(&error),
         }
     }
 }

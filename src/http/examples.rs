@@ -20,7 +20,10 @@ const DOCUMENTS: [(&str, &str); 18] = [
     ("Job", include_str!("../../api/examples/job.json")),
     ("JobPage", include_str!("../../api/examples/job-page.json")),
     ("Planned", include_str!("../../api/examples/planned.json")),
-    ("Terrain", include_str!("../../api/examples/terrain.json")),
+    (
+        "StoredTerrain",
+        include_str!("../../api/examples/terrain.json"),
+    ),
     (
         "TerrainPage",
         include_str!("../../api/examples/terrain-page.json"),

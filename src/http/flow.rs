@@ -152,7 +152,7 @@ impl Pieces for FrameStream {
     }
 }
 
-/// Export flow, bodies and channel for ParaView
+/// Export flow, bodies and ground for ParaView
 ///
 /// A ZIP archive of VTK files in binary: `flow.pvd`, the file to open, and for each snapshot so far
 /// an `.vtm` with the blocks `flow` (points with their speed), `bodies` (surfaces of triangles with
@@ -196,7 +196,7 @@ impl From<ExportError> for Problem {
         match error {
             ExportError::Store(error) => error.into(),
             ExportError::Admission(error) => error.into(),
-            ExportError::Document(_) => Self::internal(&error),
+            ExportError::Document(_) | ExportError::Scenario(_) => Self::internal(&error),
         }
     }
 }

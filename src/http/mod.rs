@@ -23,6 +23,7 @@ mod flow;
 mod idempotency;
 mod jobs;
 mod listing;
+mod maps;
 mod metrics;
 mod named_job;
 mod ogc;

@@ -6,6 +6,7 @@ use super::scenario_body::ScenarioText;
 use crate::jobs::documents::{Plan, PlannedRefinementRun, Scenario};
 use crate::jobs::forecast::WallTime;
 use crate::jobs::{JobService, PlanError};
+use crate::terrains::ReadError;
 use axum::Json;
 use axum::extract::State;
 use axum::http::StatusCode;
@@ -64,7 +65,8 @@ pub(super) async fn plan(
 impl From<PlanError> for Problem {
     fn from(error: PlanError) -> Self {
         match error {
-            PlanError::Scenario(error) => error.into(),
+            PlanError::Scenario(ReadError::Scenario(error)) => error.into(),
+            PlanError::Scenario(ReadError::Store(error)) => error.into(),
             // A legal scenario that fails within its first steps: it would fail as a job, too.
             PlanError::Forecast(error) => Self::new(
                 StatusCode::UNPROCESSABLE_ENTITY,

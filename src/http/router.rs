@@ -9,8 +9,8 @@ use super::services::Services;
 use super::shares::{self, Shares};
 use super::static_text::StaticText;
 use super::{
-    batch, compression, contract, drawings, events, flow, jobs, listing, ogc, page, plans, studies,
-    submission, system, terrains, trajectory,
+    batch, compression, contract, drawings, events, flow, jobs, listing, maps, ogc, page, plans,
+    studies, submission, system, terrains, trajectory,
 };
 use crate::config::ServiceConfig;
 use crate::jobs::submit::excerpt;
@@ -93,6 +93,9 @@ fn documented(limit: Duration) -> OpenApiRouter<Services> {
         .routes(routes!(flow::flow))
         .routes(routes!(flow::flow_frames))
         .routes(routes!(flow::flow_archive))
+        .routes(routes!(maps::list_maps))
+        .routes(routes!(maps::map_file))
+        .routes(routes!(maps::tracks))
         .routes(routes!(drawings::aerial))
         .routes(routes!(drawings::motion))
         .routes(routes!(system::health))

@@ -6,6 +6,19 @@ use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 use std::path::Path;
 
+/// Keys of a scenario that stand in a channel alone, or on a terrain alone.
+const OF_ONE_GROUND: [&str; 9] = [
+    "channel",
+    "terrain",
+    "volume_m3",
+    "release",
+    "releases",
+    "downstream_m",
+    "lateral_m",
+    "east_m",
+    "north_m",
+];
+
 mod record;
 mod scenario_fields;
 
@@ -65,7 +78,7 @@ const EXAMPLES: [(&str, &str); 15] = [
     ("job.json", "Job"),
     ("job-page.json", "JobPage"),
     ("planned.json", "Planned"),
-    ("terrain.json", "Terrain"),
+    ("terrain.json", "StoredTerrain"),
     ("terrain-page.json", "TerrainPage"),
     ("trajectory.json", "Trajectory"),
     ("ogc/landing-page.json", "LandingPage"),
@@ -135,8 +148,10 @@ impl Contract {
                 let Some(properties) = self.properties(schema, fields.keys().next()) else {
                     panic!("{place}: the contract has no object here: {schema}");
                 };
-                let named: BTreeSet<&String> = properties.keys().collect();
                 let present: BTreeSet<&String> = fields.keys().collect();
+                let is_there =
+                    |key: &&String| present.contains(key) || !OF_ONE_GROUND.contains(&key.as_str());
+                let named: BTreeSet<&String> = properties.keys().filter(is_there).collect();
                 assert_eq!(present, named, "{place}");
                 for (name, value) in fields {
                     self.compare(&properties[name], value, &format!("{place}/{name}"));

@@ -27,5 +27,7 @@ mod runs;
 mod scenarios;
 mod studies;
 mod study_levels;
+mod terrain_jobs;
+mod terrain_results;
 mod terrains;
 mod webhooks;

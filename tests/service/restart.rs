@@ -5,11 +5,13 @@ use crate::app::{
 };
 use scree::jobs::store::sqlite::SqliteStore;
 use scree::jobs::store::{
-    Claimant, JobStore, Lease, Pack, Room, Solver, Submission, TOLERATED_SETBACKS,
+    Claimant, JobStore, Lease, Pack, Room, Solver, Submission, TOLERATED_SETBACKS, TerrainStore,
 };
 use scree::jobs::submit;
 use scree::service::{self, StartError};
+use scree::terrains::ScenarioReader;
 use serde_json::{Value, json};
+use std::sync::Arc;
 use std::time::Duration;
 use tempfile::TempDir;
 
@@ -147,13 +149,14 @@ async fn a_job_that_keeps_taking_the_service_down_fails() {
 
 /// Leaves a database like that of services that died `times` times during a job.
 async fn cut_off(directory: &TempDir, times: u32) -> Lease {
-    let store = SqliteStore::open(&database(directory)).await.unwrap();
+    let store = Arc::new(SqliteStore::open(&database(directory)).await.unwrap());
+    let reader = ScenarioReader::new(Arc::clone(&store) as Arc<dyn TerrainStore>);
     let means = submit::Means {
         memory_bytes: u64::MAX,
         threads_per_worker: 1,
         point_steps: None,
     };
-    let new = submit::validate(&tiny_scene().to_string(), &means, Vec::new()).unwrap();
+    let new = submit::validate(&tiny_scene().to_string(), (&means, &reader), Vec::new()).unwrap();
     let submission = Submission {
         jobs: &[new],
         submitter: None,

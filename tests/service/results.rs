@@ -404,6 +404,12 @@ async fn pictures_are_drawn_of_a_job_that_has_an_outcome() {
         let refused = app.get(&format!("{job}/{name}.svg?body=0")).await;
         refused.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-query");
     }
+    for name in ["maps", "maps/deposit.tif", "tracks.geojson"] {
+        let none = app.get(&format!("{job}/{name}")).await;
+        none.assert_problem(StatusCode::NOT_FOUND, "no-terrain");
+    }
+    let none = app.get(&format!("{job}/maps/speed.tif")).await;
+    none.assert_problem(StatusCode::NOT_FOUND, "unknown-map");
     let endless = app.submit(&endless_scene()).await;
     let none = app.get(&format!("{endless}/motion.svg")).await;
     none.assert_problem(StatusCode::NOT_FOUND, "no-picture");

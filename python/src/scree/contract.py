@@ -329,6 +329,12 @@ class Conservation(TypedDict):
     """
 
 
+Coordinates: TypeAlias = Literal['map', 'local']
+"""
+Coordinates in which places on a terrain are given.
+"""
+
+
 class Correlation(TypedDict):
     """
     Rank correlation of two inputs.
@@ -640,6 +646,27 @@ FlowFrames: TypeAlias = bytes
 """
 Snapshots of the flow in binary.
 """
+
+
+FlowMapFile: TypeAlias = bytes
+"""
+A GeoTIFF or an ESRI ASCII grid.
+"""
+
+
+class FlowMapLinks(TypedDict):
+    """
+    Files of a map.
+    """
+
+    ascii: str
+    """
+    ESRI ASCII grid.
+    """
+    geotiff: str
+    """
+    GeoTIFF.
+    """
 
 
 class FlowSnapshot(TypedDict):
@@ -1083,21 +1110,32 @@ class PolyhedronShape(TypedDict):
 
 class Position(TypedDict):
     """
-    Centre of a body.
+    Centre of a body. In a channel it has `downstream_m` and `lateral_m`, on a terrain `east_m` and
+    `north_m`.
     """
 
     downstream_m: NotRequired[float]
     """
-    x of the centre of mass [m].
+    x of the centre of mass in a channel [m].
     Default: the longest side of a cube or box, the length of a ball or capsule, else the largest distance of two vertices.
+    """
+    east_m: NotRequired[float]
+    """
+    Easting of the centre of mass on a terrain, in its coordinates [m].
+    Default: none, required on a terrain.
     """
     elevation_m: NotRequired[Optional[float]]
     """
-    z of the centre of mass [m]; `null`: rests on the bed under the centre.
+    z of the centre of mass [m]; `null`: rests on the ground under the centre.
     """
     lateral_m: NotRequired[float]
     """
-    y of the centre of mass [m].
+    y of the centre of mass in a channel [m].
+    """
+    north_m: NotRequired[float]
+    """
+    Northing of the centre of mass on a terrain, in its coordinates [m].
+    Default: none, required on a terrain.
     """
 
 
@@ -1967,6 +2005,32 @@ class TargetReport(TypedDict):
     """
 
 
+class Terrain(TypedDict):
+    """
+    A terrain: a height map instead of a channel. In the computation x runs east and y north from
+    the south-western corner of the map, and z up from a whole number of metres below its lowest
+    place.
+    """
+
+    base_friction: NotRequired[float]
+    """
+    Coulomb friction between flow and ground, where no map of it is given.
+    """
+    base_friction_map: NotRequired[Optional[str]]
+    """
+    Map of that friction: the SHA-256 of its file; `null`: it is the same everywhere.
+    """
+    coordinates: NotRequired[Coordinates]
+    """
+    Coordinates of places in the scenario.
+    Default: `"map"`.
+    """
+    height_map: str
+    """
+    Height map: the SHA-256 of its file in 64 hexadecimal digits.
+    """
+
+
 TerrainFormat: TypeAlias = Literal['geotiff', 'esri-ascii-grid']
 """
 Format of a terrain's file.
@@ -1977,6 +2041,43 @@ TerrainPurpose: TypeAlias = Literal['height-map', 'surface', 'thickness', 'frict
 """
 What the values of a file are.
 """
+
+
+PolygonMItemItem: TypeAlias = float
+
+
+PolygonMItem: TypeAlias = List[PolygonMItemItem]
+
+
+class TerrainRelease(TypedDict):
+    """
+    A release on a terrain: an area by a polygon, or by a map.
+    """
+
+    polygon_m: NotRequired[Optional[List[PolygonMItem]]]
+    """
+    Corners of the area, easting and northing in the terrain's coordinates [m]; `null`: a map
+    gives it.
+    Default: left out.
+    """
+    surface_map: NotRequired[Optional[str]]
+    """
+    Map of the surface with the release still in place: the SHA-256 of its file. What lies above
+    the height map is released.
+    """
+    thickness_m: NotRequired[Optional[float]]
+    """
+    Vertical thickness within the polygon [m].
+    Default: left out.
+    """
+    thickness_map: NotRequired[Optional[str]]
+    """
+    Map of the vertical thickness: the SHA-256 of its file.
+    """
+    time_s: NotRequired[float]
+    """
+    Time of the release [s].
+    """
 
 
 class TrajectoryColumns(TypedDict):
@@ -2522,12 +2623,19 @@ class Flow(TypedDict):
     """
     release: NotRequired[Release]
     """
-    Position and shape of the release.
+    Position and shape of the release in a channel.
     Default: all defaults.
     """
-    volume_m3: float
+    releases: NotRequired[List[TerrainRelease]]
     """
-    Released volume [m³]; 0 is a flow without points, anything else below 1e-15 is refused.
+    Releases on a terrain.
+    Default: none, required on a terrain.
+    """
+    volume_m3: NotRequired[float]
+    """
+    Released volume in a channel [m³]; 0 is a flow without points, anything else below 1e-15 is
+    refused.
+    Default: none, required in a channel.
     """
 
 
@@ -2550,6 +2658,41 @@ class FlowErrorBars(TypedDict):
     """
 
 
+class FlowMap(TypedDict):
+    """
+    A map of a job's flow: a value for each cell of its height map, or for each square of them if
+    they are finer than the cells of the computation.
+    """
+
+    links: FlowMapLinks
+    """
+    Files.
+    """
+    name: str
+    """
+    Name.
+    """
+    unit: str
+    """
+    Unit of the values.
+    """
+
+
+class FlowMapList(TypedDict):
+    """
+    The maps of a job's flow.
+    """
+
+    job_id: str
+    """
+    The job.
+    """
+    maps: List[FlowMap]
+    """
+    Its maps; none before it has succeeded, and without a flow.
+    """
+
+
 class FlowOutcome(TypedDict):
     """
     Outcome of the flow.
@@ -2563,15 +2706,16 @@ class FlowOutcome(TypedDict):
     front_m: Optional[float]
     """
     Position x beyond which 0.1 % of the released mass lies, mass that left through the open end
-    included [m]; null without a flow.
+    included [m]; null without a flow. On a terrain the horizontal distance from the middle of
+    the release beyond which 1 % of it lies, null once so much has left the map.
     """
     outflow_mass_kg: float
     """
-    Mass that left through the open end [kg].
+    Mass that left through the open end, or over the edges of a terrain [kg].
     """
     runout_m: Optional[float]
     """
-    Front minus the initial toe [m]; null without a flow.
+    Front minus the initial toe [m]; null without a front.
     """
 
 
@@ -3213,7 +3357,7 @@ class Body(TypedDict):
 
     angular_velocity_rad_s: NotRequired[List[AngularVelocityRad]]
     """
-    Angular velocity at the start, in channel axes [rad/s].
+    Angular velocity at the start, in the axes of the ground [rad/s].
     """
     contact_modulus_pa: NotRequired[Optional[float]]
     """
@@ -3242,7 +3386,7 @@ class Body(TypedDict):
     motion: NotRequired[Optional[Motion]]
     orientation: NotRequired[Optional[List[OrientationItem]]]
     """
-    Quaternion [w, x, y, z] from body to channel axes, instead of yaw.
+    Quaternion [w, x, y, z] from body axes to those of the ground, instead of yaw.
     """
     position: NotRequired[Position]
     """
@@ -3410,9 +3554,10 @@ class Scenario(TypedDict):
     """
     The bodies; `[]`: none.
     """
-    channel: Channel
+    channel: NotRequired[Channel]
     """
-    The channel.
+    Channel; a scenario has either a channel or a terrain.
+    Default: none, required in a channel.
     """
     duration_s: NotRequired[float]
     """
@@ -3443,6 +3588,11 @@ class Scenario(TypedDict):
     """
     Time between samples, which lie at its multiples and at the end [s]; changes no bit of the
     motion.
+    """
+    terrain: NotRequired[Terrain]
+    """
+    Terrain; a scenario has either a channel or a terrain.
+    Default: left out.
     """
     title: NotRequired[str]
     """
@@ -3484,6 +3634,29 @@ SensitivityMeasures: TypeAlias = Union[
 """
 Sensitivity of a quantity, by the method that the design is for.
 """
+
+
+class StoredTerrain(TerrainDescription):
+    """
+    A terrain.
+    """
+
+    bytes: int
+    """
+    Length of the file [bytes].
+    """
+    created: str
+    """
+    Time at which the file first came (RFC 3339).
+    """
+    hash: str
+    """
+    SHA-256 of the file, 64 hexadecimal digits in lower case: the name of the terrain.
+    """
+    submitter: Optional[str]
+    """
+    Name of the access token with which it first came; null if none is required.
+    """
 
 
 class StudyAnswer6(TypedDict):
@@ -3540,29 +3713,6 @@ class StudyInput(TypedDict):
     """
 
 
-class Terrain(TerrainDescription):
-    """
-    A terrain.
-    """
-
-    bytes: int
-    """
-    Length of the file [bytes].
-    """
-    created: str
-    """
-    Time at which the file first came (RFC 3339).
-    """
-    hash: str
-    """
-    SHA-256 of the file, 64 hexadecimal digits in lower case: the name of the terrain.
-    """
-    submitter: Optional[str]
-    """
-    Name of the access token with which it first came; null if none is required.
-    """
-
-
 class TerrainPage(TypedDict):
     """
     A page of terrains, newest first.
@@ -3572,7 +3722,7 @@ class TerrainPage(TypedDict):
     """
     Value of `cursor` for the next page; null on the last page.
     """
-    terrains: List[Terrain]
+    terrains: List[StoredTerrain]
     """
     The terrains of this page.
     """

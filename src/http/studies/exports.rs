@@ -93,7 +93,8 @@ pub(in crate::http) async fn study_members_npz(
 
 /// Get the regions of resting places as GeoJSON
 ///
-/// In the local coordinates of the channel: x downstream and y across, in metres.
+/// In local coordinates in metres: x downstream and y across in a channel, x east and y north of the
+/// south-western corner of the height map on a terrain.
 #[utoipa::path(
     get,
     path = "/v1/studies/{id}/rest.geojson",
@@ -123,7 +124,8 @@ pub(in crate::http) async fn study_rest_geojson(
 
 /// Get the density of resting places as GeoTIFF
 ///
-/// One band of 32-bit floats [1/m²], in the local coordinates of the channel.
+/// One band of 32-bit floats [1/m²], in local coordinates: x downstream and y across in a
+/// channel, x east and y north of the height map's corner on a terrain.
 #[utoipa::path(
     get,
     path = "/v1/studies/{id}/rest.tif",

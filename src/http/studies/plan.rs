@@ -55,7 +55,10 @@ pub(in crate::http) async fn plan_study(
     let study: Study = read_envelope(&text, INVALID_STUDY)?;
     let study = validated(&jobs, &caller, study).await?;
     let place = jobs.enter(&caller.share())?;
-    let costed = place.work(move |_| costed(&study)).await?;
+    let costed = {
+        let reader = jobs.clone();
+        place.work(move |_| costed(&study, &reader)).await?
+    };
     drop(place);
     let (cost, member) = costed.ok_or_else(no_member)?;
     let planned = jobs.plan(&caller.share(), member).await?;
@@ -83,9 +86,9 @@ fn members_like_the_first(cost: &StudyCost, point_steps: u64) -> f64 {
 }
 
 /// Cost of a study, and its first member's scenario as it runs beside others: on one thread.
-fn costed(study: &Study) -> Option<(StudyCost, String)> {
+fn costed(study: &Study, jobs: &JobService) -> Option<(StudyCost, String)> {
     let ensemble = Ensemble::of(study).ok()?;
-    let cost = cost(&ensemble)?;
+    let cost = cost(&ensemble, &|text| jobs.read(text).ok())?;
     let mut scenario = ensemble.scenario(0).ok()?;
     let numerics = scenario.as_object_mut()?.entry("numerics");
     let numerics = numerics.or_insert_with(|| Value::Object(serde_json::Map::new()));

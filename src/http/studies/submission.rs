@@ -11,6 +11,7 @@ use crate::http::scenario_body::{ScenarioText, read_envelope};
 use crate::jobs::store::StudySubmitted;
 use crate::jobs::{JobService, SubmitError};
 use crate::studies::StudyService;
+use crate::terrains::terrains_of;
 use axum::Json;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, StatusCode, Uri, header};
@@ -57,8 +58,9 @@ pub(in crate::http) async fn submit_study(
     let study = validated(&jobs, &caller, study).await?;
     let document = serde_json::to_string(&study).map_err(|error| Problem::internal(&error))?;
     let request = (caller.name(), key.as_ref());
+    let terrains = terrains_of(&study.scenario.to_string());
     let (submitted, id) = studies
-        .submit((&study.title, &document), request, &[])
+        .submit((&study.title, &document), request, &terrains)
         .await?;
     let id = match submitted {
         StudySubmitted::Accepted => id,

@@ -4,8 +4,10 @@ use crate::http::access::Caller;
 use crate::http::field_errors::{FieldError, FieldErrors};
 use crate::http::problem::Problem;
 use crate::jobs::JobService;
+use crate::jobs::store::StoreError;
 use crate::jobs::submit::{ScenarioError, Violation, excerpt};
 use crate::studies::questions;
+use crate::terrains::ReadError;
 use axum::http::StatusCode;
 use scree_studies::{End, Ensemble, Study};
 use serde_json::Value;
@@ -46,6 +48,8 @@ struct Checking {
     /// Pointers and values of the faults so far.
     seen: BTreeSet<(String, String)>,
     wrong: FieldErrors,
+    /// Error of the store, by which a scenario could not be read.
+    broken: Option<StoreError>,
 }
 
 impl Checking {
@@ -73,6 +77,7 @@ impl Checking {
             left: ends.into_iter(),
             seen: BTreeSet::new(),
             wrong,
+            broken: None,
         }
     }
 
@@ -100,8 +105,12 @@ impl Checking {
         let text = ensemble.end_scenario(end).to_string();
         let violations = match self.jobs.validate(&text, Vec::new()) {
             Ok(_) => return,
-            Err(ScenarioError::Invalid(violations)) => violations,
-            Err(ScenarioError::Malformed { message, .. }) => {
+            Err(ReadError::Scenario(ScenarioError::Invalid(violations))) => violations,
+            Err(ReadError::Store(error)) => {
+                self.broken = Some(error);
+                return;
+            }
+            Err(ReadError::Scenario(ScenarioError::Malformed { message, .. })) => {
                 let fault = || FieldError::of_body("/scenario", Value::Null, &message);
                 return self.wrong.add(fault);
             }
@@ -116,6 +125,9 @@ impl Checking {
     }
 
     fn finish(self) -> Result<Study, Problem> {
+        if let Some(error) = self.broken {
+            return Err(error.into());
+        }
         if self.wrong.is_empty() {
             return Ok(Arc::unwrap_or_clone(self.study));
         }

@@ -11,7 +11,7 @@ use utoipa::{PartialSchema, ToSchema};
 
 /// A terrain.
 #[derive(Debug, Serialize, ToSchema)]
-#[schema(as = Terrain)]
+#[schema(as = StoredTerrain)]
 pub(super) struct TerrainDocument {
     /// SHA-256 of the file, 64 hexadecimal digits in lower case: the name of the terrain.
     #[schema(min_length = 64, max_length = 64)]

@@ -8,11 +8,12 @@ use scree::jobs::job::JobId;
 use scree::jobs::store::postgres::{Part, PostgresStore};
 use scree::jobs::store::{
     AttemptStart, Claimant, JobStore, Lease, NewChunk, NewResults, Pack, Renewal, Room, Solver,
-    Submission,
+    Submission, TerrainStore,
 };
 use scree::jobs::submit::{Means, NewJob, validate};
 use scree::results::chunk::Block;
 use scree::runs::Progress;
+use scree::terrains::ScenarioReader;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -57,14 +58,17 @@ async fn open(url: &str, part: Part, connections: u32) -> Arc<PostgresStore> {
 }
 
 /// A job of the size that members of studies have.
-fn member() -> NewJob {
+async fn member(store: &Arc<PostgresStore>) -> NewJob {
     let means = Means {
         threads_per_worker: 1,
         point_steps: None,
         memory_bytes: u64::MAX,
     };
     let scenario = crate::served::scene(1.0).to_string();
-    validate(&scenario, &means, Vec::new()).expect("a valid scenario")
+    let reader = ScenarioReader::new(Arc::clone(store) as Arc<dyn TerrainStore>);
+    let checked = move || validate(&scenario, (&means, &reader), Vec::new());
+    let member = tokio::task::spawn_blocking(checked).await;
+    member.expect("it ends").expect("a valid scenario")
 }
 
 async fn submit(store: &PostgresStore, member: &NewJob, count: usize) {
@@ -133,7 +137,7 @@ fn claims_do_not_slow_down_as_rows_become_many() {
         for _ in 0..16 {
             workers.push(open(&server.url, Part::Worker, 1).await);
         }
-        let member = member();
+        let member = member(&service).await;
         // One to copy.
         submit(&service, &member, 1).await;
         let (mut rows, mut rates) = (1, Vec::new());
@@ -188,7 +192,7 @@ fn the_queue_takes_less_than_a_hundredth_of_members_of_a_second() {
     let jobs = at_length(100, 1_000);
     let per_job_s = runtime.block_on(async {
         let service = open(&server.url, Part::Service, 8).await;
-        submit(&service, &member(), jobs).await;
+        submit(&service, &member(&service).await, jobs).await;
         let worker = open(&server.url, Part::Worker, 2).await;
         let pack = Pack {
             jobs: 2,
