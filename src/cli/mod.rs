@@ -24,6 +24,7 @@ mod plan;
 mod remote;
 mod results_folder;
 mod scenario_file;
+mod scenario_maps;
 mod serve;
 mod signals;
 mod study;

@@ -1,6 +1,7 @@
 //! A scenario from a file or from standard input.
 
 use super::failure::Failure;
+use super::scenario_maps;
 use scree_solver::scenario::{Scenario, ScenarioError, Violation};
 use std::fmt::Write as _;
 use std::io::Read;
@@ -18,7 +19,7 @@ pub(super) fn read(path: &Path) -> Result<Scenario, Failure> {
     parse(&read_text(path)?, &name(path))
 }
 
-/// Text of the scenario file.
+/// Text of the scenario file, whose maps have absolute paths.
 ///
 /// # Errors
 /// An unreadable file, or one that is not UTF-8.
@@ -30,7 +31,7 @@ pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
         std::fs::read_to_string(path).map(|read| text = read)
     };
     read.map_err(|error| Failure::path("read", Path::new(&name(path)), &error))?;
-    Ok(text)
+    Ok(scenario_maps::with_absolute_paths(text, path))
 }
 
 /// A scenario from its text; `name` stands for the file in messages.
@@ -38,7 +39,7 @@ pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
 /// # Errors
 /// As for [`read`].
 pub(super) fn parse(text: &str, name: &str) -> Result<Scenario, Failure> {
-    Scenario::from_json(text).map_err(|error| Failure::Input(explain(&error, name)))
+    scenario_maps::read(text)?.map_err(|error| Failure::Input(explain(&error, name)))
 }
 
 /// Name of the file in messages.

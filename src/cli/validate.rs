@@ -5,7 +5,7 @@ use super::failure::{Failure, not_set_up};
 use super::{console, scenario_file};
 use scree_solver::Simulation;
 use scree_solver::rigid::Body;
-use scree_solver::scenario::{Channel, Scenario, Support};
+use scree_solver::scenario::{Channel, Ground, Scenario, Source, Support, Terrain};
 use scree_solver::shape::PrincipalInertia;
 
 /// Prints the facts that follow from a legal scenario.
@@ -23,7 +23,10 @@ pub(super) fn validate(options: &ValidateOptions) -> Result<(), Failure> {
 fn facts(scenario: &Scenario, simulation: &Simulation) -> String {
     let mut facts = vec![
         ("title".to_owned(), format!("{:?}", scenario.title)),
-        ("channel".to_owned(), channel(&scenario.channel)),
+        match &scenario.ground {
+            Ground::Channel(of) => ("channel".to_owned(), channel(of)),
+            Ground::Terrain(of) => ("terrain".to_owned(), terrain(of)),
+        },
         ("flow".to_owned(), flow(scenario)),
     ];
     let bodies = 0..scenario.bodies.len();
@@ -53,18 +56,45 @@ fn channel(channel: &Channel) -> String {
     )
 }
 
+fn terrain(terrain: &Terrain) -> String {
+    let height = terrain.height();
+    let system = match height.epsg {
+        Some(code) => format!("EPSG:{code}"),
+        None => "no reference system given".to_owned(),
+    };
+    format!(
+        "{} × {} cells of {} m ({system}), {} to {} m high; friction {} at the base",
+        height.columns,
+        height.rows,
+        height.cell_size,
+        height.lowest(),
+        height.highest(),
+        match &terrain.base_friction_map {
+            Some(_) => "by a map".to_owned(),
+            None => terrain.base_friction.to_string(),
+        }
+    )
+}
+
 fn flow(scenario: &Scenario) -> String {
-    let (Some(flow), Some(release)) = (&scenario.flow, scenario.release()) else {
+    let (Some(flow), Some(thickness)) = (&scenario.flow, scenario.release_thickness_m()) else {
         return "none".to_owned();
     };
-    let material = &flow.material;
+    let (material, volume) = (&flow.material, scenario.released_volume_m3());
+    let place = match (&flow.source, scenario.release()) {
+        (Source::Channel { .. }, Some(release)) => {
+            format!(
+                "from x = {:.3} to {:.3} m, ",
+                release.back_m, release.front_m
+            )
+        }
+        (Source::Channel { .. }, None) => return "none".to_owned(),
+        (Source::Terrain { releases }, _) => format!("in {} release(s), ", releases.len()),
+    };
     format!(
-        "{} m³, {:.3} kg, from x = {:.3} to {:.3} m, {} m thick; friction {} at rest, {} at most",
-        flow.volume_m3,
-        flow.volume_m3 * material.bulk_density_kg_m3,
-        release.back_m,
-        release.front_m,
-        flow.release.height_m,
+        "{} m³, {:.3} kg, {place}{thickness} m thick; friction {} at rest, {} at most",
+        volume,
+        volume * material.bulk_density_kg_m3,
         material.static_friction,
         material.limiting_friction
     )
@@ -79,6 +109,7 @@ fn body(scenario: &Scenario, index: usize, set_up: &Body) -> String {
     let support = match scenario.support_of(index) {
         Support::Floor => "on the floor",
         Support::Incline => "on the incline",
+        Support::Terrain => "on the terrain",
         Support::Free => "as placed",
     };
     let fixed = match &body.motion {

@@ -96,7 +96,9 @@ async fn send_and_fetch(
     let outcome = wait(client, &job.id, quiet.meter()).await?;
     let mut delivery = folder.deliver(Place::Whole)?;
     let recorded = fetch(client, &job.id, scenario, &mut delivery).await?;
-    delivery.pictures(scenario, &recorded.samples, &recorded.snapshots, &outcome)?;
+    // It is in a channel.
+    let records = (&recorded.samples[..], &recorded.snapshots[..], None);
+    delivery.pictures(scenario, records, &outcome)?;
     delivery.scenario(scenario)?;
     delivery.outcome(&outcome)?;
     let written = delivery.finish()?;

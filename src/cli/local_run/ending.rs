@@ -24,8 +24,13 @@ impl Job {
         };
         let mut delivery = folder.deliver(Place::Whole)?;
         self.write_scenario_and_trajectories(recorded, &mut delivery)?;
-        let Recorded { samples, snapshots } = recorded;
-        delivery.pictures(&self.scenario, samples, snapshots, outcome)?;
+        let Recorded {
+            samples,
+            snapshots,
+            maps,
+        } = recorded;
+        delivery.pictures(&self.scenario, (samples, snapshots, maps.as_ref()), outcome)?;
+        delivery.terrain(&self.scenario, samples, outcome, maps.as_ref())?;
         delivery.outcome(outcome)?;
         delivery.finish().map(Some)
     }

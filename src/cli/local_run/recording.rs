@@ -6,12 +6,14 @@ use crate::cli::files::FileError;
 use crate::cli::meter::Meter;
 use crate::cli::results_folder::SavedRun;
 use scree::runs::{Progress, RunControl, Sink};
-use scree_solver::record::{FlowSnapshot, Record, Sample};
+use scree_solver::record::{FlowMaps, FlowSnapshot, Record, Sample};
 
 /// Records of a run, and its saved state.
 #[derive(Debug)]
 pub(super) struct Recording<'a> {
     records: Vec<Record>,
+    /// Of the flow on a terrain, once the run is over.
+    maps: Option<FlowMaps>,
     /// None for a run whose results go nowhere.
     saved: Option<(SavedRun, Schedule)>,
     stop: &'a RunControl,
@@ -30,6 +32,7 @@ impl<'a> Recording<'a> {
     ) -> Self {
         Self {
             records,
+            maps: None,
             saved: saved.map(|saved| (saved, Schedule::new())),
             stop,
             fraction: 0.0,
@@ -39,7 +42,10 @@ impl<'a> Recording<'a> {
 
     /// The records.
     pub(super) fn into_parts(self) -> Recorded {
-        let mut recorded = Recorded::default();
+        let mut recorded = Recorded {
+            maps: self.maps,
+            ..Recorded::default()
+        };
         for record in self.records {
             match record {
                 Record::Sample(sample) => recorded.samples.push(sample),
@@ -55,6 +61,11 @@ impl Sink for Recording<'_> {
 
     fn record(&mut self, record: Record) -> Result<(), FileError> {
         self.records.push(record);
+        Ok(())
+    }
+
+    fn flow_maps(&mut self, maps: &FlowMaps) -> Result<(), FileError> {
+        self.maps = Some(maps.clone());
         Ok(())
     }
 
@@ -93,6 +104,7 @@ impl Sink for Recording<'_> {
 pub(super) struct Recorded {
     pub(super) samples: Vec<Sample>,
     pub(super) snapshots: Vec<FlowSnapshot>,
+    pub(super) maps: Option<FlowMaps>,
 }
 
 #[cfg(test)]

@@ -6,16 +6,17 @@ use super::job::{self, ReceivedJob};
 use super::transport::Transport;
 use crate::cli::failure::Failure;
 use crate::cli::results_folder::{
-    Delivery, Formats, OUTCOME, PICTURES, PLAN, Place, ResultsFolder, SCENARIO, file_name,
+    Delivery, Formats, OUTCOME, PICTURES, PLAN, Place, ResultsFolder, SCENARIO, file_name, terrain,
 };
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
 use uuid::Uuid;
 
-/// Part of a scenario whose bodies are counted.
+/// Parts of a scenario that say which files there are.
 #[derive(Deserialize)]
 struct Scenario {
+    terrain: Option<IgnoredAny>,
     #[serde(default)]
     bodies: Vec<IgnoredAny>,
 }
@@ -45,6 +46,7 @@ impl JobFiles<'_> {
         for picture in PICTURES {
             delivery.write(picture, &self.get(picture)?)?;
         }
+        self.terrain(&mut delivery)?;
         if let Some(outcome) = &self.job.document.outcome {
             let parts: Outcome = understood(outcome.get())?;
             if let Some(plan) = &parts.plan {
@@ -74,6 +76,21 @@ impl JobFiles<'_> {
             for format in self.formats.each() {
                 let path = format!("trajectory?body={body}&format={}", format.word());
                 delivery.write(&file_name(body, format), &self.get(&path)?)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Fetches maps, tracks and outlines of a job on a terrain, those that it has.
+    fn terrain(&self, delivery: &mut Delivery<'_>) -> Result<(), Failure> {
+        let scenario: Scenario = understood(self.job.document.scenario.get())?;
+        if scenario.terrain.is_none() {
+            return Ok(());
+        }
+        for (name, path) in terrain::files() {
+            let path = format!("{}/{path}", job::path(self.id));
+            if let Some(file) = self.transport.get_if_there(&path)? {
+                delivery.write(&name, &file)?;
             }
         }
         Ok(())

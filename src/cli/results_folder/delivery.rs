@@ -4,8 +4,8 @@
 use super::{Formats, OUTCOME, PICTURES, PLAN, ResultsFolder, SCENARIO, results_in};
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, FileError};
-use scree::pictures;
-use scree_solver::record::{FlowSnapshot, Outcome, Sample};
+use scree::pictures::{self, MapsSeen};
+use scree_solver::record::{FlowMaps, FlowSnapshot, Outcome, Sample};
 use scree_solver::scenario::Scenario;
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -87,14 +87,19 @@ impl<'a> Delivery<'a> {
     pub(in crate::cli) fn pictures(
         &mut self,
         scenario: &Scenario,
-        samples: &[Sample],
-        snapshots: &[FlowSnapshot],
+        (samples, snapshots, maps): (&[Sample], &[FlowSnapshot], Option<&FlowMaps>),
         outcome: &Outcome,
     ) -> Result<(), Failure> {
         let [motion, aerial] = PICTURES;
         let drawn = pictures::motion(scenario, samples, outcome)?;
         self.write(motion, drawn.as_bytes())?;
-        let drawn = pictures::aerial_view(scenario, samples, snapshots)?;
+        let drawn = match scenario.terrain() {
+            None => pictures::aerial_view(scenario, samples, snapshots)?,
+            Some(_) => {
+                let maps = maps.map(MapsSeen::of);
+                pictures::terrain_view(scenario, samples, maps.as_ref())?
+            }
+        };
         self.write(aerial, drawn.as_bytes())
     }
 

@@ -6,6 +6,7 @@ mod formats;
 mod frame;
 mod lock;
 mod saved;
+pub(super) mod terrain;
 
 use super::failure::Failure;
 use super::files::{self, FileError};
@@ -230,7 +231,7 @@ fn results_in(folder: &Path) -> io::Result<Vec<String>> {
         let Some(name) = name.to_str() else { continue };
         let documents = [OUTCOME, SCENARIO, PLAN];
         let is_other = documents.contains(&name) || PICTURES.contains(&name);
-        if formats::is_trajectory(name) || is_other {
+        if formats::is_trajectory(name) || terrain::is_of_terrain(name) || is_other {
             names.push(name.to_owned());
         }
     }
