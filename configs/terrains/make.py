@@ -1,4 +1,4 @@
-"""Makes height maps: python make.py {jacksboro,channel,bowl} [options]
+"""Makes height maps: python make.py {jacksboro,channel,plane,bowl} [options]
 
 Needs numpy and rasterio, and matplotlib for jacksboro. All are GeoTIFF files of 32-bit floats.
 
@@ -7,6 +7,7 @@ jacksboro   The steepest square near the Jacksboro fault, Tennessee: slopes abov
             about 90 m, which matplotlib has as the sample jacksboro_fault_dem.npz
             (https://github.com/matplotlib/matplotlib/pull/3291).
 channel     An incline along x, its foot at x = 0, and a floor at height 0.
+plane       An inclined plane that falls in any direction, its middle at (0, 0) and 100 m high.
 bowl        A paraboloid about (0, 0), 0 m high at its bottom.
 """
 
@@ -101,6 +102,14 @@ def channel(options):
           options.cell_size)
 
 
+def plane(options):
+    half = 0.5 * options.side
+    x, y = grid(-half, half, options.side, options.cell_size)
+    turn = np.radians(options.towards)
+    heights = 100 - np.tan(np.radians(options.inclination)) * (x * np.cos(turn) + y * np.sin(turn))
+    write(options.output or HERE / "plane.tif", heights, -half, half, options.cell_size)
+
+
 def bowl(options):
     half = 0.5 * options.side
     x, y = grid(-half, half, options.side, options.cell_size)
@@ -124,7 +133,9 @@ def arguments():
     kind(jacksboro, cell_size=(25, "side of a cell [m]"), side=(2500, "side of the window [m]"))
     kind(channel, cell_size=(0.01, "side of a cell [m]"), inclination=(40, "[°]"),
          incline_length=(1.5, "along the incline [m]"), runout_length=(1, "length of the floor [m]"),
-         width=(0.3, "across [m]"))
+         width=(0.9, "across [m]"))
+    kind(plane, cell_size=(0.05, "side of a cell [m]"), side=(4, "[m]"), inclination=(20, "[°]"),
+         towards=(30, "direction in which it falls, from east towards north [°]"))
     kind(bowl, cell_size=(0.01, "side of a cell [m]"), side=(1, "[m]"),
          depth=(0.25, "height of the rim half a side from the middle [m]"))
     return parser.parse_args()
