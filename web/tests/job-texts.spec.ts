@@ -55,7 +55,7 @@ test("the audit doubts from the documented bounds on", () => {
   };
   const outcome = (changes: Partial<typeof conservation>) =>
     ({ conservation: { ...conservation, ...changes }, bodies: [] }) as unknown as Parameters<typeof auditOf>[0];
-  expect(verdictOf(auditOf(outcome({})))).toMatch(/^Yes/);
+  expect(verdictOf(auditOf(outcome({}), "channel"))).toMatch(/^Yes/);
   for (const changes of [
     { mass_error: -1e-9 },
     { points_lost: 1 },
@@ -64,7 +64,7 @@ test("the audit doubts from the documented bounds on", () => {
     { max_overlap_ratio: 1 },
     { max_body_overlap_ratio: 0.9 },
   ]) {
-    const figures = auditOf(outcome(changes));
+    const figures = auditOf(outcome(changes), "channel");
     expect(figures.filter(({ isFine }) => isFine === false).length, JSON.stringify(changes)).toBe(1);
     expect(verdictOf(figures)).toMatch(/^With care/);
   }
@@ -78,7 +78,7 @@ test("intervals are told by their ends, and compared where both are closed", () 
     order: null,
     basis: "scattered" as const,
   });
-  expect([interval(1, 2), interval(1, null), interval(null, null)].map(intervalText)).toEqual([
+  expect([interval(1, 2), interval(1, null), interval(null, null)].map((one) => intervalText(one, 4))).toEqual([
     "1 to 2",
     "from 1",
     "none",

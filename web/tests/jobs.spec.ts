@@ -92,6 +92,8 @@ test("a list that cannot be read on is asked for again by its button alone", asy
   // Events of jobs are a reason to ask again.
   const waiting = () => service.get<{ jobs: unknown[] }>("/v1/jobs?status=accepted&status=running");
   await expect.poll(async () => (await waiting()).jobs.length).toBe(0);
+  // The last events are told within this time.
+  await page.waitForTimeout(500);
   let asked = 0;
   await page.route(/cursor=/, (route) => {
     asked += 1;

@@ -6,7 +6,7 @@ import { sentence, shape } from "../src/study/distributions";
 import { type ListedMember, isDraw, quantityOf, restingPlace } from "../src/study/documents";
 import { growthOf } from "../src/study/enlargement";
 import { curve, exceeding } from "../src/study/exceedance";
-import { groundOf, labelsOf } from "../src/study/map-frame";
+import { labelsOf, surroundingsOf } from "../src/study/map-frame";
 import { columns, sorted } from "../src/study/members";
 import { unitOfKey } from "../src/parts/words";
 import { placeName } from "../src/study/names";
@@ -155,19 +155,22 @@ test("labels of regions keep apart, and what can't be placed is left to the lege
   ).toHaveLength(1);
 });
 
-test("the ground of a map has the channel and the body's start", async () => {
+test("the surroundings of a map are the channel and the body's start", async () => {
   const { schemas } = (JSON.parse(await readFile("../api/openapi.json", "utf8")) as Contract).components;
   const channel = { inclination_deg: 40, incline_length_m: 1, runout_length_m: 2 };
-  expect(groundOf({ channel, bodies: [{ shape: { cube: { side_m: 0.04 } } }] }, 0, schemas)).toEqual({
-    halfWidth: 0.1,
-    ends: [-1, 2],
-    hasFoot: true,
+  expect(surroundingsOf({ channel, bodies: [{ shape: { cube: { side_m: 0.04 } } }] }, 0, schemas)).toEqual({
+    ground: "channel",
+    channel: { halfWidth: 0.1, ends: [-1, 2], hasFoot: true },
     start: [0.04, 0],
   });
-  expect(groundOf({ channel, bodies: [{ shape: { ball: {} } }] }, 0, schemas)?.start).toBeUndefined();
+  expect(surroundingsOf({ channel, bodies: [{ shape: { ball: {} } }] }, 0, schemas)?.start).toBeUndefined();
   const askew = [{ shape: { ball: { radius_m: 0.02 } }, position: { downstream_m: 1, lateral_m: -0.1 } }];
-  expect(groundOf({ channel, bodies: askew }, 0, schemas)?.start).toEqual([1, -0.1]);
-  expect(groundOf({}, 0, schemas)).toBeUndefined();
+  expect(surroundingsOf({ channel, bodies: askew }, 0, schemas)?.start).toEqual([1, -0.1]);
+  expect(surroundingsOf({}, 0, schemas)).toBeUndefined();
+  const bodies = [{ position: { east_m: 6.5, north_m: 6 } }];
+  const onTerrain = (coordinates: string) => surroundingsOf({ terrain: { coordinates }, bodies }, 0, schemas);
+  expect(onTerrain("local")).toEqual({ ground: "terrain", channel: undefined, start: [6.5, 6] });
+  expect(onTerrain("map")?.start).toBeUndefined();
 });
 
 test("only draws of the inputs make probabilities", () => {

@@ -81,6 +81,7 @@ export interface Schema {
   minItems?: number;
   maxItems?: number;
   maxLength?: number;
+  pattern?: string;
   "x-unit"?: string;
   examples?: unknown[];
   title?: string;

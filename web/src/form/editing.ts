@@ -58,13 +58,17 @@ export function withItem(list: Json[], copied: number | undefined, name: string,
   const original = copied === undefined ? undefined : list[copied];
   if (name !== "Body") return [...list, original ?? {}];
   const at = copied === undefined ? list.length : copied + 1;
-  return [...list.slice(0, at), bodyBeside(original, scene), ...list.slice(at)];
+  return [...list.slice(0, at), bodyBeside(original, list, scene), ...list.slice(at)];
 }
 
-/** A body where none is yet: downstream of all others. */
-function bodyBeside(original: Json | undefined, scene: Scene | undefined): Json {
+/** A body where none is yet: downstream of all others, or east of them on a terrain. */
+function bodyBeside(original: Json | undefined, list: Json[], scene: Scene | undefined): Json {
   const body: Json = original ?? { shape: { cube: { side_m: 0.04 } } };
   const size = solidOf(at(body, "/shape"), at(body, "/sphero_radius_m"))?.reach ?? 0.04;
+  const easts = list.map((other) => at(other, "/position/east_m")).filter((east) => typeof east === "number");
+  if (isObject(body) && typeof at(body, "/position/east_m") === "number") {
+    return changed(body, "/position/east_m", snapped(Math.max(...easts) + 2 * size, round(size / 40)));
+  }
   const others = scene?.bodies ?? [];
   if (!isObject(body) || others.length === 0) return body;
   const farthest = Math.max(...others.map(({ centre, solid }) => centre[0] + solid.reach / 2));

@@ -47,8 +47,8 @@ export function Editor({ address, begin, schemas, preset }: EditorProps) {
     <FormContext.Provider value={state}>
       <div class={dropping.isOver ? "scenario-form dropping" : "scenario-form"} {...dropping.handlers}>
         <p class="lead">
-          Describe a channel, a flow that is released in it, and the bodies in its way. The drawing and the expected
-          time follow what you enter; then run it.
+          Describe a channel or a terrain, a flow that is released on it, and the bodies in its way. The drawing and the
+          expected time follow what you enter; then run it.
         </p>
         <Toolbar
           preset={preset}

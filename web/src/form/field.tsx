@@ -3,7 +3,8 @@ import { at, tokens } from "../parts/json-document";
 import { type FieldSchema, type Kind, kindOf, unitOf } from "../scenario/schema";
 import { elementId, useForm, violationsWithin } from "./form-context";
 import { FlagInput, JsonInput, NamesInput, NumberInput, TextInput, VectorInput } from "./inputs";
-import { ListField, NullableField, ObjectField, VariantsField } from "./parts-of-scenario";
+import { MapInput } from "./map-input";
+import { NamedListField, NullableField, ObjectField, VariantsField } from "./parts-of-scenario";
 import { described, labelOf, rangeOf, valueText } from "./words";
 
 /** A field's place, schema, and whether it must be given. */
@@ -19,9 +20,12 @@ export function Field(props: FieldProps) {
   const kind = kindOf(props.schema, schemas);
   if (kind === "object") return props.schema.isNullable ? <NullableField {...props} /> : <ObjectField {...props} />;
   if (kind === "variants") return <VariantsField {...props} />;
-  if (kind === "list") return <ListField {...props} />;
+  if (kind === "list") return <NamedListField {...props} />;
   return <PlainField {...props} kind={kind} />;
 }
+
+/** Pattern of the names of maps. */
+const MAP_NAME = "^[0-9a-f]{64}$";
 
 /** Attributes that tie an input to its texts. */
 export interface InputProps {
@@ -41,17 +45,18 @@ function PlainField({ pointer, schema, isRequired, kind }: FieldProps & { kind: 
     "aria-required": isRequired,
   };
   const props = { pointer, schema, value, input, isRequired };
+  const isMap = schema.pattern === MAP_NAME;
   if (kind === "flag") return <FlagField {...props} />;
   return (
     <FieldFrame
       pointer={pointer}
       schema={schema}
       isRequired={isRequired}
-      isWide={kind === "vector" || kind === "json"}
+      isWide={kind === "vector" || kind === "json" || isMap}
       isGroup={kind === "vector"}
     >
       {kind === "number" && <NumberInput {...props} />}
-      {kind === "text" && <TextInput {...props} />}
+      {kind === "text" && (isMap ? <MapInput {...props} /> : <TextInput {...props} />)}
       {kind === "names" && <NamesInput {...props} />}
       {kind === "vector" && <VectorInput {...props} />}
       {kind === "json" && <JsonInput {...props} />}

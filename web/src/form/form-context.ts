@@ -4,11 +4,13 @@ import { createContext } from "preact";
 import { useContext } from "preact/hooks";
 import type { FieldError } from "../api/problem";
 import type { Difference, Json, JsonObject } from "../parts/json-document";
+import type { Ground } from "../scenario/ground";
 import type { Scene } from "../scenario/scene";
 import type { Schemas } from "../scenario/schema";
 
 /** The scenario, what is wrong with it, and the means to change it. */
 export interface FormState {
+  /** Schemas of scenarios on the ground that the document has. */
   schemas: Schemas;
   document: JsonObject;
   /** What the form began with. */
@@ -20,6 +22,8 @@ export interface FormState {
   edit: (pointer: string, value: Json | undefined) => void;
   /** Puts another document in the place of this one; edits of one name are one step back. */
   replace: (document: JsonObject, edit: string) => void;
+  /** Puts the scenario on a ground; chosen again, that is as before. */
+  chooseGround: (ground: Ground) => void;
   isOpen: (group: string) => boolean | undefined;
   setOpen: (group: string, isOpen: boolean) => void;
   /** Opens the groups of a field and moves the focus to it. */

@@ -4,15 +4,17 @@ import type { FieldSchema } from "../scenario/schema";
 
 /** Fields that are always shown, by the name of their object's schema, in this order. */
 const ESSENTIAL: Record<string, string[]> = {
-  Scenario: ["channel", "flow", "bodies", "duration_s", "title"],
+  Scenario: ["channel", "terrain", "flow", "bodies", "duration_s", "title"],
   Channel: ["inclination_deg", "incline_length_m", "runout_length_m", "width_m"],
-  Flow: ["volume_m3", "release"],
-  Position: ["downstream_m", "lateral_m", "elevation_m"],
+  Flow: ["volume_m3", "release", "releases"],
+  Position: ["downstream_m", "lateral_m", "east_m", "north_m", "elevation_m"],
   Body: ["shape", "position", "yaw_deg", "fixed"],
 };
 
 /** Order of the fields of an object that are not named above, or of all if none are. */
 const ORDER: Record<string, string[]> = {
+  Terrain: ["height_map", "coordinates", "base_friction", "base_friction_map"],
+  TerrainRelease: ["polygon_m", "thickness_m", "time_s", "thickness_map", "surface_map"],
   Body: ["density_kg_m3", "sphero_radius_m", "orientation", "velocity_m_s", "angular_velocity_rad_s", "motion"],
   Material: ["bulk_density_kg_m3", "grain_density_kg_m3", "grain_diameter_m", "static_friction", "limiting_friction"],
   Numerics: ["cell_size_m", "points_per_cell", "precision", "symmetry", "approach", "ending"],

@@ -7,7 +7,7 @@ import { Field, FieldFrame, type FieldProps, Former, Violations } from "./field"
 import { elementId, useForm } from "./form-context";
 import { Group } from "./group";
 import { arranged } from "./layout";
-import { described, labelOf } from "./words";
+import { described, labelOf, objectName } from "./words";
 
 /** Fields of an object, the less common ones folded. */
 export function ObjectFields({
@@ -169,13 +169,25 @@ function VariantFields({ pointer, variant: { key, schema } }: { pointer: string;
   return <ObjectFields pointer={member(pointer, key)} schema={inner} />;
 }
 
+/** A list of objects within another, as the releases. */
+export function NamedListField(props: FieldProps) {
+  return (
+    <fieldset class="wide">
+      <legend>
+        {labelOf(tokens(props.pointer).at(-1) ?? "")} {props.isRequired && <span class="required">required</span>}
+      </legend>
+      <ListField {...props} />
+    </fieldset>
+  );
+}
+
 /** A list of objects, as the bodies. */
 export function ListField({ pointer, schema }: FieldProps) {
   const { schemas, document, scene, edit, setOpen } = useForm();
   const value = at(document, pointer);
   const list = Array.isArray(value) ? value : [];
   const items = resolved(schema.items ?? {}, schemas);
-  const name = labelOf(items.name ?? "Item");
+  const name = objectName(items.name ?? "Item");
   const isFull = list.length >= (schema.maxItems ?? Infinity);
   const add = (copied?: number) => {
     edit(pointer, withItem(list, copied, items.name ?? "", scene));

@@ -1,5 +1,5 @@
 import type { Planned, Schemas } from "../api/client";
-import { duration, figure, size } from "../parts/format";
+import { duration, figure, length, size } from "../parts/format";
 import { ProblemNotice } from "../parts/problem-notice";
 import { sentence } from "../parts/words";
 import { useForm } from "./form-context";
@@ -38,7 +38,7 @@ function PlanOf({ planned }: { planned: Planned }) {
       <p>
         {cost.points === 0
           ? "Bodies alone are computed, without a flow."
-          : `The flow is ${cost.points.toLocaleString("en")} material points in cells of ${millimetres(cost.cell_size_m)}, within ${size(cost.memory_bytes)} of memory.`}{" "}
+          : `The flow is ${cost.points.toLocaleString("en")} material points in cells of ${length(cost.cell_size_m)}, within ${size(cost.memory_bytes)} of memory.`}{" "}
         The run is expected to end at {figure(cost.expected_end_s)} s of simulated time.
       </p>
       {(plan.hints ?? []).map((hint) => (
@@ -129,7 +129,7 @@ function RefinementRuns({ runs }: { runs: Planned["refinement_runs"] }) {
             {runs.map((run, index) => (
               <tr key={index}>
                 <td>{run.role.replaceAll("_", " ")}</td>
-                <td class="number">{millimetres(run.cell_size_m)}</td>
+                <td class="number">{length(run.cell_size_m)}</td>
                 <td class="number">{duration(run.expected_s)}</td>
               </tr>
             ))}
@@ -148,7 +148,7 @@ function Numbers({ planned: { plan, wall_time: time } }: { planned: Planned }) {
   );
   const rows: [string, string][] = [
     ["Material points", cost.points.toLocaleString("en")],
-    ["Cell size", millimetres(cost.cell_size_m)],
+    ["Cell size", length(cost.cell_size_m)],
     ["Memory", size(cost.memory_bytes)],
     ["Steps (transfers)", cost.steps.toLocaleString("en")],
     ["Acoustic sub-steps", cost.substeps.toLocaleString("en")],
@@ -173,5 +173,3 @@ function Numbers({ planned: { plan, wall_time: time } }: { planned: Planned }) {
     </details>
   );
 }
-
-const millimetres = (metres: number) => `${figure(1000 * metres)} mm`;

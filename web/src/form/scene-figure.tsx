@@ -3,6 +3,7 @@ import type { Vector } from "../geometry/vectors";
 import { snapped } from "../parts/round-values";
 import { useWidth } from "../parts/use-width";
 import { changed, isObject, at, member } from "../parts/json-document";
+import { groundOf } from "../scenario/ground";
 import { type PlacedBody, type Scene, extentOf, sceneText } from "../scenario/scene";
 import type { BodyMoves } from "./draggable-body";
 import { useForm } from "./form-context";
@@ -15,8 +16,15 @@ const NUMBERED = 40;
 /** Size of bodies below which numbers of several would cover each other [px]. */
 const SMALLEST_NUMBERED = 18;
 
-/** Drawings of the scene at its start, from the side and from above. */
+/** Drawings of the scene at its start, or a sentence in their place. */
 export function SceneFigure() {
+  const { document } = useForm();
+  if (groundOf(document) === "channel") return <ChannelFigure />;
+  return <p class="notice">A terrain is not drawn here. The pictures of the job show its flow and its bodies.</p>;
+}
+
+/** Drawings of the scene from the side and from above. */
+function ChannelFigure() {
   const { scene } = useForm();
   const [figure, width] = useWidth<HTMLElement>();
   // While a number is being typed the channel may be incomplete: the drawing stays.

@@ -4,6 +4,7 @@ import { AccuracyControl } from "./accuracy-control";
 import { Field, Violations } from "./field";
 import { elementId, useForm } from "./form-context";
 import { Group } from "./group";
+import { GroundChoice } from "./ground-choice";
 import { CONTROLLED, arranged } from "./layout";
 import { FieldGrid, ListField, ObjectFields, Presence } from "./parts-of-scenario";
 import { labelOf } from "./words";
@@ -17,6 +18,7 @@ export function Sections() {
   const sections = [...essential, ...rest].filter((key) => !single(key));
   return (
     <>
+      <GroundChoice />
       {sections
         .filter((key) => essential.includes(key))
         .map((key) => (

@@ -1,14 +1,16 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { FieldError } from "../api/problem";
 import { type JsonObject, at, differences, isObject, parentOf, prefixes, tokens } from "../parts/json-document";
+import { groundOf } from "../scenario/ground";
 import { sceneOf } from "../scenario/scene";
 import { type Schemas, resolved, schemaAt } from "../scenario/schema";
-import { editedDocument } from "./editing";
 import { type FormState, elementId } from "./form-context";
 import { isEssential } from "./layout";
 import { groupsOf } from "./sections";
+import { useGround } from "./use-ground";
 
 interface Given {
+  /** Schemas of the contract. */
   schemas: Schemas;
   document: JsonObject;
   original: JsonObject;
@@ -19,7 +21,10 @@ interface Given {
 }
 
 /** State that the fields share. */
-export function useFormState({ schemas, document, original, violations, replace, revealElsewhere }: Given): FormState {
+export function useFormState(given: Given): FormState {
+  const { document, original, violations, replace, revealElsewhere } = given;
+  const ground = useGround(document, original, given.schemas);
+  const { schemas } = ground;
   const [open, setOpenGroups] = useState<Record<string, boolean>>({});
   const [sought, setSought] = useState<{ pointer: string }>();
   const scene = useMemo(() => sceneOf(document, schemas), [document, schemas]);
@@ -38,7 +43,10 @@ export function useFormState({ schemas, document, original, violations, replace,
     violations,
     differences: differing,
     replace,
-    edit: (pointer, value) => replace(editedDocument(latest.current, pointer, value, schemas), pointer),
+    edit: (pointer, value) => replace(ground.edited(latest.current, pointer, value), pointer),
+    chooseGround: (chosen) => {
+      if (chosen !== groundOf(latest.current)) replace(ground.putOn(latest.current, chosen), `ground ${chosen}`);
+    },
     isOpen: (group) => open[group],
     setOpen: (group, isOpen) => setOpenGroups((open) => ({ ...open, [group]: isOpen })),
     reveal: (pointer) => {

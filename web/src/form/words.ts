@@ -20,6 +20,11 @@ export function labelOf(key: string, unit?: string): string {
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
+/** Name of an object from that of its schema. */
+export function objectName(schema: string): string {
+  return schema === "TerrainRelease" ? "Release" : labelOf(schema);
+}
+
 /** Name of one of several values, as of a quantity: its key in words. */
 export function nameOf(value: unknown): string {
   return wordsOfKey(String(value));
@@ -74,7 +79,7 @@ export function fieldName(pointer: string, document: JsonObject, schemas: Schema
   for (const prefix of prefixes(pointer)) {
     const token = tokens(prefix).at(-1) ?? "";
     const schema = schemaAt(prefix, document, schemas);
-    if (/^\d+$/.test(token) && schema?.name) names.splice(-1, 1, `${labelOf(schema.name)} ${token}`);
+    if (/^\d+$/.test(token) && schema?.name) names.splice(-1, 1, `${objectName(schema.name)} ${token}`);
     else names.push(labelOf(token, schema && unitOf(schema)));
   }
   return names.join(" › ") || "Scenario";

@@ -43,7 +43,10 @@ function Comparison({ first, second }: { first: Job; second: Job }) {
       </ul>
       <ScenarioComparison first={first.scenario} second={second.scenario} />
       {first.outcome && second.outcome ? (
-        <OutcomeComparison first={first.outcome} second={second.outcome} />
+        <OutcomeComparison
+          first={{ ...first, outcome: first.outcome }}
+          second={{ ...second, outcome: second.outcome }}
+        />
       ) : (
         <p class="notice warning">Outcomes are compared once both jobs are successful.</p>
       )}

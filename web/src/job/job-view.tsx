@@ -4,6 +4,7 @@ import { Link } from "wouter-preact";
 import type { Job } from "../api/client";
 import { ProblemNotice } from "../parts/problem-notice";
 import { useTitle } from "../parts/use-title";
+import { groundOf } from "../scenario/ground";
 import { FailureNotice } from "./head/failure";
 import { Head } from "./head/head";
 import { Audit, Quantities, Story } from "./outcome/outcome-section";
@@ -55,8 +56,8 @@ function Records({ job }: { job: Job }) {
       {hasStarted && !content && !poses.problem && <p class="quiet">Reading the trajectories …</p>}
       {hasStarted && content && <Replay content={content} flow={flow} clock={clock} />}
       {hasStarted && job.scenario.bodies.length > 0 && <CurvesSection job={job} clock={clock} />}
-      {job.outcome && <Quantities outcome={job.outcome} />}
-      {job.outcome && <Audit outcome={job.outcome} />}
+      {job.outcome && <Quantities outcome={job.outcome} ground={groundOf(job.scenario)} />}
+      {job.outcome && <Audit outcome={job.outcome} ground={groundOf(job.scenario)} />}
     </>
   );
 }

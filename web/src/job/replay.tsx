@@ -3,6 +3,7 @@ import type { Job } from "../api/client";
 import { figure } from "../parts/format";
 import { lazily } from "../parts/lazily";
 import { ProblemNotice } from "../parts/problem-notice";
+import { groundOf } from "../scenario/ground";
 import { AerialView, SpeedScale } from "./aerial/aerial-view";
 import type { AerialContent } from "./aerial/draw";
 import { keptSpacing, topSpeed } from "./flow/frames";
@@ -67,6 +68,12 @@ export function Replay({ content, flow, clock }: { content: AerialContent; flow:
         <SceneView content={content} clock={clock} fail={() => setHasFailed(true)} />
       )}
       <Transport clock={clock} />
+      {groundOf(content.scenario) === "terrain" && (
+        <p class="quiet">
+          The terrain itself is not drawn. The frame holds all that happens, in metres east, north and up from the
+          south-western corner of the height map.
+        </p>
+      )}
       <FlowNote flow={flow} content={content} />
     </section>
   );

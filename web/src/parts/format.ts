@@ -16,6 +16,11 @@ function superscript(exponent: number): string {
   return [...String(exponent)].map((digit) => (digit === "-" ? "⁻" : ("⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)] ?? ""))).join("");
 }
 
+/** A length in millimetres, from a metre on in metres. */
+export function length(metres: number, digits = 3): string {
+  return metres < 1 ? `${figure(1000 * metres, digits)} mm` : `${figure(metres, digits)} m`;
+}
+
 /** A duration: `0.8 s`, `3 min 20 s`, `2 h 5 min`. */
 export function duration(seconds: number | null | undefined): string {
   if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return "–";

@@ -1,9 +1,19 @@
 import { figure } from "../parts/format";
-import type { Ground } from "./map-frame";
+import type { Ground } from "../scenario/ground";
+import type { ChannelOutline } from "./map-frame";
 import { type MapScale, onMap, roundValues } from "./scales";
 
+/** Digits of a number on an axis: a terrain is large beside what happens on it. */
+const DIGITS = 6;
+
+/** Titles of the axes. */
+const TITLES: Record<Ground, [x: string, y: string]> = {
+  channel: ["x downstream [m]", "y across [m]"],
+  terrain: ["x east [m]", "y north [m]"],
+};
+
 /** Round values along both axes of a map, with lines. */
-export function MapAxes({ scale }: { scale: MapScale }) {
+export function MapAxes({ scale, ground }: { scale: MapScale; ground: Ground }) {
   const { x, y, width, height } = scale;
   return (
     <g class="axes">
@@ -13,7 +23,7 @@ export function MapAxes({ scale }: { scale: MapScale }) {
           <g key={`x${value}`}>
             <line x1={left} x2={left} y1={0} y2={height} />
             <text x={left} y={height + 15} text-anchor="middle">
-              {figure(value)}
+              {figure(value, DIGITS)}
             </text>
           </g>
         );
@@ -24,25 +34,25 @@ export function MapAxes({ scale }: { scale: MapScale }) {
           <g key={`y${value}`}>
             <line x1={0} x2={width} y1={top} y2={top} />
             <text x={-6} y={top + 4} text-anchor="end">
-              {figure(value)}
+              {figure(value, DIGITS)}
             </text>
           </g>
         );
       })}
       <rect x={0} y={0} width={width} height={height} />
       <text x={width / 2} y={height + 33} text-anchor="middle">
-        x downstream [m]
+        {TITLES[ground][0]}
       </text>
       <text transform={`translate(-40 ${height / 2}) rotate(-90)`} text-anchor="middle">
-        y across [m]
+        {TITLES[ground][1]}
       </text>
     </g>
   );
 }
 
-/** Side walls, foot of the incline, ends of the channel, and the body's place at the start. */
-export function MapGround({ ground, scale }: { ground: Ground; scale: MapScale }) {
-  const { halfWidth, ends, hasFoot, start } = ground;
+/** Side walls, foot of the incline and ends of a channel. */
+export function MapChannel({ channel, scale }: { channel: ChannelOutline; scale: MapScale }) {
+  const { halfWidth, ends, hasFoot } = channel;
   const [left, right] = [Math.max(ends[0], scale.x[0]), Math.min(ends[1], scale.x[1])];
   const across = (x: number, name: string) =>
     x >= scale.x[0] && x <= scale.x[1] ? (
@@ -55,7 +65,6 @@ export function MapGround({ ground, scale }: { ground: Ground; scale: MapScale }
       {across(ends[0], "wall")}
       {across(ends[1], "end")}
       {hasFoot && across(0, "foot")}
-      {start && <Start at={onMap(scale, start)} />}
     </g>
   );
 }
@@ -75,6 +84,7 @@ function Line({
   return <line class={name} x1={x1} y1={y1} x2={x2} y2={y2} />;
 }
 
-function Start({ at: [x, y] }: { at: [number, number] }) {
+/** The body's place at the start [px]. */
+export function Start({ at: [x, y] }: { at: [number, number] }) {
   return <path class="start" d={`M${x - 7},${y}h14M${x},${y - 7}v14`} />;
 }

@@ -11,7 +11,7 @@ export interface Rested {
 
 /** Text that names a resting place. */
 export function restedText({ member, place: [x, y] }: Rested): string {
-  return `Member ${member.member}: x ${figure(x)} m, y ${figure(y)} m`;
+  return `Member ${member.member}: x ${figure(x, 4)} m, y ${figure(y, 4)} m`;
 }
 
 /** Resting places of the members, links to their jobs: one stop of the tab key, then arrow keys. */

@@ -4,8 +4,8 @@ import { tokens } from "../parts/json-document";
 import { wordsOfKey } from "../parts/words";
 
 const NAMES: Record<string, string> = {
-  rest_x_m: "resting place downstream",
-  rest_y_m: "resting place across",
+  rest_x_m: "x of the resting place",
+  rest_y_m: "y of the resting place",
   rest_z_m: "height of the resting place",
   buried_m: "depth below the surface",
   front_m: "front of the flow",

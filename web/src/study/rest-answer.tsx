@@ -6,7 +6,7 @@ import { useAnswer } from "../parts/use-answer";
 import { type RestDistribution, restingPlace } from "./documents";
 import type { AnswerProps } from "./answer-props";
 import type { Rested } from "./map-dots";
-import { groundOf } from "./map-frame";
+import { surroundingsOf } from "./map-frame";
 import { percent, probabilityText } from "./percent";
 import { RestMap } from "./rest-map";
 
@@ -20,8 +20,8 @@ export function RestAnswer({
 }: AnswerProps & { body: number; rest: RestDistribution }) {
   const rested = useMemo(() => restedOf(draws, body), [draws, body]);
   const { value: contract } = useAnswer(readContract, []);
-  const ground = useMemo(
-    () => contract && groundOf(study.scenario as JsonObject, body, contract.components.schemas),
+  const around = useMemo(
+    () => contract && surroundingsOf(study.scenario as JsonObject, body, contract.components.schemas),
     [study, body, contract],
   );
   return (
@@ -29,7 +29,7 @@ export function RestAnswer({
       {rested.length === 0 && rest.regions.length === 0 ? (
         <p>No member has come to rest yet.</p>
       ) : (
-        <RestMap body={body} rest={rest} rested={rested} ground={ground} />
+        <RestMap body={body} rest={rest} rested={rested} around={around} />
       )}
       {hasLevels && (
         <p class="quiet">The dots are resting places in the coarsest cells; the regions are corrected to the finest.</p>
@@ -44,13 +44,13 @@ export function RestAnswer({
         {rest.moving > 0 && <li>{rest.moving} still moved when their run ended: their places are not known.</li>}
         {rest.atoms.map(({ place_m: [x, y], share, members }) => (
           <li key={`${x} ${y}`}>
-            {members} members ({percent(share)}) rest at x {figure(x)} m, y {figure(y)} m exactly.
+            {members} members ({percent(share)}) rest at x {figure(x, 4)} m, y {figure(y, 4)} m exactly.
           </li>
         ))}
         {rest.numerical_error_m && (
           <li>
-            The finest cells may shift all places by ±{figure(rest.numerical_error_m[0], 2)} m downstream and ±
-            {figure(rest.numerical_error_m[1], 2)} m across.
+            The finest cells may shift all places by ±{figure(rest.numerical_error_m[0], 2)} m along x and ±
+            {figure(rest.numerical_error_m[1], 2)} m along y.
           </li>
         )}
       </ul>
@@ -63,7 +63,7 @@ function restedOf(draws: AnswerProps["draws"], body: number): Rested[] {
     const place = restingPlace(member, body);
     return place ? [{ member, place }] : [];
   });
-  // Arrow keys go downstream.
+  // Arrow keys go along x.
   return rested.sort((a, b) => a.place[0] - b.place[0]);
 }
 

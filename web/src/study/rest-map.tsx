@@ -3,9 +3,9 @@ import { figure } from "../parts/format";
 import { useWidth } from "../parts/use-width";
 import { DensityCanvas } from "./density-canvas";
 import type { Place, Region, RestDistribution } from "./documents";
-import { MapAxes, MapGround } from "./map-axes";
+import { MapAxes, MapChannel, Start } from "./map-axes";
 import { MapDots, type Rested, restedText } from "./map-dots";
-import { type Ground, frameOf, labelsOf } from "./map-frame";
+import { type Surroundings, frameOf, labelsOf } from "./map-frame";
 import { percent } from "./percent";
 import { type MapScale, onMap } from "./scales";
 
@@ -21,11 +21,11 @@ interface MapProps {
   body: number;
   rest: RestDistribution;
   rested: Rested[];
-  ground: Ground | undefined;
+  around: Surroundings | undefined;
 }
 
 /** Map of resting places from above, to scale; the table of regions beside it says the same. */
-export function RestMap({ body, rest, rested, ground }: MapProps) {
+export function RestMap({ body, rest, rested, around }: MapProps) {
   const [box, width] = useWidth<HTMLDivElement>();
   const [pointed, setPointed] = useState<Rested>();
   const field = width - LEFT - RIGHT;
@@ -35,16 +35,16 @@ export function RestMap({ body, rest, rested, ground }: MapProps) {
         ? frameOf(
             rest,
             rested.map(({ place }) => place),
-            ground,
+            around,
             field,
           )
         : undefined,
-    [rest, rested, ground, field],
+    [rest, rested, around, field],
   );
   const regions = useMemo(() => inner(rest.regions), [rest]);
   return (
     <figure class="map">
-      <Legend regions={regions} rest={rest} />
+      <Legend regions={regions} rest={rest} hasStart={around?.start !== undefined} />
       <div ref={box} class="field" style={scale ? { height: `${TOP + scale.height + BELOW}px` } : {}}>
         {scale && (
           <>
@@ -56,9 +56,14 @@ export function RestMap({ body, rest, rested, ground }: MapProps) {
               aria-label={`Map of where body ${body} comes to rest, seen from above`}
             >
               <g transform={`translate(${LEFT} ${TOP})`}>
-                <MapAxes scale={scale} />
+                <MapAxes scale={scale} ground={around?.ground ?? "channel"} />
                 <Outlines regions={regions} scale={scale} />
-                {ground && <MapGround ground={ground} scale={scale} />}
+                {around?.channel && <MapChannel channel={around.channel} scale={scale} />}
+                {around?.start && (
+                  <g class="ground">
+                    <Start at={onMap(scale, around.start)} />
+                  </g>
+                )}
                 <Atoms rest={rest} scale={scale} />
                 <MapDots rested={rested} scale={scale} onPoint={setPointed} />
                 <Labels regions={regions} scale={scale} />
@@ -137,7 +142,7 @@ function Atoms({ rest, scale }: { rest: RestDistribution; scale: MapScale }) {
   );
 }
 
-function Legend({ regions, rest }: { regions: Region[]; rest: RestDistribution }) {
+function Legend({ regions, rest, hasStart }: { regions: Region[]; rest: RestDistribution; hasStart: boolean }) {
   const most = rest.density?.density_per_m2.reduce((most, value) => Math.max(most, value), 0);
   return (
     <ul class="legend">
@@ -160,12 +165,14 @@ function Legend({ regions, rest }: { regions: Region[]; rest: RestDistribution }
         </svg>{" "}
         a member
       </li>
-      <li>
-        <svg width="16" height="16" aria-hidden="true">
-          <path class="start" d="M1,8h14M8,1v14" />
-        </svg>{" "}
-        at the start
-      </li>
+      {hasStart && (
+        <li>
+          <svg width="16" height="16" aria-hidden="true">
+            <path class="start" d="M1,8h14M8,1v14" />
+          </svg>{" "}
+          at the start
+        </li>
+      )}
       {rest.atoms.length > 0 && (
         <li>
           <svg width="18" height="18" aria-hidden="true">

@@ -1,9 +1,17 @@
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { figure } from "../../parts/format";
 import { useWidth } from "../../parts/use-width";
+import { type Ground, groundOf } from "../../scenario/ground";
 import type { Clock } from "../playback/clock";
 import { useTheme } from "../use-theme";
-import { type AerialContent, AerialPainter, frameOf } from "./draw";
+import { type AerialContent, AerialPainter } from "./draw";
+import { frameOf } from "./frame";
+
+/** How a picture lies on the page. */
+const AXES: Record<Ground, string> = {
+  channel: "x downstream to the right",
+  terrain: "east to the right and north up",
+};
 
 /** Flow and bodies from above, at the time of the clock. */
 export function AerialView({ content, clock, name }: { content: AerialContent; clock: Clock; name: string }) {
@@ -37,7 +45,11 @@ export function AerialView({ content, clock, name }: { content: AerialContent; c
   }, [painter, frame, theme, width, clock]);
   return (
     <div ref={box} class="aerial">
-      <canvas ref={canvas} role="img" aria-label={`${name}: flow and bodies from above, x downstream to the right`} />
+      <canvas
+        ref={canvas}
+        role="img"
+        aria-label={`${name}: flow and bodies from above, ${AXES[groundOf(content.scenario)]}`}
+      />
     </div>
   );
 }

@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
-import type { Outcome } from "../../api/client";
+import type { Job, Outcome } from "../../api/client";
 import { figure } from "../../parts/format";
+import { type Ground, groundOf } from "../../scenario/ground";
 import { type Quantity, bodyQuantities, flowQuantities, intervalText, overlap } from "../outcome/quantities";
 
 /** Rows of a comparison: bodies that both jobs have, and the flow. */
@@ -12,20 +13,29 @@ interface Group {
 /** Bodies shown before "Show all". */
 const BODIES_AT_FIRST = 3;
 
+/** A job with its outcome. */
+export type Finished = Pick<Job, "scenario"> & { outcome: Outcome };
+
 /** Outcomes of two jobs beside each other. */
-export function OutcomeComparison({ first, second }: { first: Outcome; second: Outcome }) {
+export function OutcomeComparison({ first, second }: { first: Finished; second: Finished }) {
   const [isWhole, setIsWhole] = useState(false);
-  const groups = groupsOf(first, second);
+  const ground = groundOf(first.scenario);
+  const groups = groupsOf(first.outcome, second.outcome, ground);
   const bodies = groups.filter(({ name }) => name !== FLOW);
   const shownGroups = isWhole ? groups : [...bodies.slice(0, BODIES_AT_FIRST), ...groups.slice(bodies.length)];
   const hasIntervals = groups.some(({ rows }) => rows.some(([a, b]) => a.interval && b.interval));
   return (
     <section aria-labelledby="outcomes">
       <h2 id="outcomes">Outcomes</h2>
-      {first.bodies.length !== second.bodies.length && (
+      {ground !== groundOf(second.scenario) && (
         <p class="notice">
-          The first job has {first.bodies.length} bodies, the second {second.bodies.length}; those with the same number
-          are compared.
+          One job is in a channel, the other on a terrain: positions and fronts are measured from different places.
+        </p>
+      )}
+      {first.outcome.bodies.length !== second.outcome.bodies.length && (
+        <p class="notice">
+          The first job has {first.outcome.bodies.length} bodies, the second {second.outcome.bodies.length}; those with
+          the same number are compared.
         </p>
       )}
       {groups.length === 0 && <p>The jobs have neither a body nor a flow in common.</p>}
@@ -49,12 +59,14 @@ export function OutcomeComparison({ first, second }: { first: Outcome; second: O
 
 const FLOW = "Flow";
 
-function groupsOf(first: Outcome, second: Outcome): Group[] {
+function groupsOf(first: Outcome, second: Outcome, ground: Ground): Group[] {
   const groups = first.bodies.flatMap((body, place): Group[] => {
     const other = second.bodies[place];
-    return other ? [{ name: `Body ${place}`, rows: paired(bodyQuantities(body), bodyQuantities(other)) }] : [];
+    return other
+      ? [{ name: `Body ${place}`, rows: paired(bodyQuantities(body, ground), bodyQuantities(other, ground)) }]
+      : [];
   });
-  const flow = paired(flowQuantities(first), flowQuantities(second));
+  const flow = paired(flowQuantities(first, ground), flowQuantities(second, ground));
   return flow.length > 0 ? [...groups, { name: FLOW, rows: flow }] : groups;
 }
 
@@ -99,11 +111,11 @@ function GroupTable({ name, rows, hasIntervals }: Group & { hasIntervals: boolea
   );
 }
 
-function shown({ value, interval }: Quantity) {
+function shown({ value, digits, interval }: Quantity) {
   return (
     <>
-      {value === null ? "did not happen" : figure(value, 4)}
-      {interval && <span class="ends">{intervalText(interval)}</span>}
+      {value === null ? "did not happen" : figure(value, digits)}
+      {interval && <span class="ends">{intervalText(interval, digits)}</span>}
     </>
   );
 }

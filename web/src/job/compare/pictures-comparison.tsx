@@ -65,10 +65,13 @@ function Aerials({ first, second, clock }: { first: Job; second: Job; clock: Clo
   );
 }
 
-/** Contents with the same scale of speed and the same part of the channel. */
+/** Contents with the same scale of speed and, on the same ground, the same part of it. */
 function alike(one: AerialContent | undefined, other: AerialContent | undefined): (AerialContent | undefined)[] {
   if (!one || !other) return [one, other];
   const topSpeed = Math.max(one.topSpeed, other.topSpeed);
+  // Places in a channel and on a map, or on two maps, have nothing in common.
+  if (one.scenario.terrain?.height_map !== other.scenario.terrain?.height_map)
+    return [one, other].map((each) => ({ ...each, topSpeed }));
   const end = (of: (...values: number[]) => number, key: keyof Region, axis: 0 | 1 | 2) =>
     of(one.region[key][axis], other.region[key][axis]);
   const region: Region = {

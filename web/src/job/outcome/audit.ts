@@ -2,6 +2,7 @@
 
 import type { Outcome, Schemas } from "../../api/client";
 import { figure } from "../../parts/format";
+import type { Ground } from "../../scenario/ground";
 
 /** A figure of the audit. */
 export interface AuditFigure {
@@ -15,7 +16,10 @@ export interface AuditFigure {
 
 type Key = keyof Schemas["Conservation"];
 
-const FIGURES: { key: Key; name: string; meaning: string; from?: number }[] = [
+/** Where material points leave. */
+const EXIT: Record<Ground, string> = { channel: "through the open end", terrain: "over the edge of the map" };
+
+const figuresOn = (ground: Ground): { key: Key; name: string; meaning: string; from?: number }[] => [
   {
     key: "mass_error",
     name: "Mass balance",
@@ -25,7 +29,7 @@ const FIGURES: { key: Key; name: string; meaning: string; from?: number }[] = [
   {
     key: "points_lost",
     name: "Points lost",
-    meaning: "material points that vanished other than through the open end",
+    meaning: `material points that vanished other than ${EXIT[ground]}`,
     from: 1,
   },
   {
@@ -55,7 +59,7 @@ const FIGURES: { key: Key; name: string; meaning: string; from?: number }[] = [
   {
     key: "max_body_overlap_ratio",
     name: "Overlap of bodies",
-    meaning: "deepest overlap of a body with a wall or a body, over the sphero radius",
+    meaning: `deepest overlap of a body with ${ground === "channel" ? "a wall" : "the ground"} or a body, over the sphero radius`,
     from: 0.9,
   },
   {
@@ -68,13 +72,15 @@ const FIGURES: { key: Key; name: string; meaning: string; from?: number }[] = [
     name: "Angular momentum from redistribution",
     meaning: "relative angular momentum that shifting points created; not part of the balance above",
   },
-  { key: "points_outflow", name: "Points that left", meaning: "material points that left through the open end" },
+  { key: "points_outflow", name: "Points that left", meaning: `material points that left ${EXIT[ground]}` },
 ];
 
 /** All figures of the audit, and the energy balance of the bodies. */
-export function auditOf(outcome: Outcome): AuditFigure[] {
+export function auditOf(outcome: Outcome, ground: Ground): AuditFigure[] {
   const { conservation } = outcome;
-  const figures = FIGURES.map(({ key, name, meaning, from }) => judged(name, meaning, conservation[key], from));
+  const figures = figuresOn(ground).map(({ key, name, meaning, from }) =>
+    judged(name, meaning, conservation[key], from),
+  );
   const made = outcome.bodies.flatMap(({ energy }) => (energy ? [energy.made_share] : []));
   if (made.length > 0) {
     figures.push(

@@ -1,7 +1,8 @@
 import { useState } from "preact/hooks";
 import type { Job, Outcome } from "../../api/client";
-import { figure } from "../../parts/format";
+import { figure, length } from "../../parts/format";
 import { sentence } from "../../parts/words";
+import type { Ground } from "../../scenario/ground";
 import { auditOf, verdictOf } from "./audit";
 import { BASIS, type Quantity, bodyQuantities, flowQuantities, intervalText } from "./quantities";
 import { sentencesOf } from "./sentences";
@@ -19,9 +20,8 @@ export function Story({ job, submergence }: { job: Job; submergence: readonly nu
       {early && (
         <p class="quiet">
           The run ended at {figure(early.time_s)} s, since {early.reason}; the rest could have moved a body by no more
-          than {figure(1000 * early.body_bound_m, 2)} mm
-          {early.front_bound_m !== null && ` and the front by no more than ${figure(1000 * early.front_bound_m, 2)} mm`}
-          .
+          than {length(early.body_bound_m, 2)}
+          {early.front_bound_m !== null && ` and the front by no more than ${length(early.front_bound_m, 2)}`}.
         </p>
       )}
       {warnings.map((warning) => (
@@ -37,10 +37,13 @@ export function Story({ job, submergence }: { job: Job; submergence: readonly nu
 const BODIES_AT_FIRST = 3;
 
 /** All quantities of the outcome, with their uncertainty intervals. */
-export function Quantities({ outcome }: { outcome: Outcome }) {
+export function Quantities({ outcome, ground }: { outcome: Outcome; ground: Ground }) {
   const [isWhole, setIsWhole] = useState(false);
-  const bodies = outcome.bodies.map((body, place) => ({ name: `Body ${place}`, quantities: bodyQuantities(body) }));
-  const flow = flowQuantities(outcome);
+  const bodies = outcome.bodies.map((body, place) => ({
+    name: `Body ${place}`,
+    quantities: bodyQuantities(body, ground),
+  }));
+  const flow = flowQuantities(outcome, ground);
   const groups = [
     ...(isWhole ? bodies : bodies.slice(0, BODIES_AT_FIRST)),
     ...(flow.length > 0 ? [{ name: "Flow", quantities: flow }] : []),
@@ -59,6 +62,12 @@ export function Quantities({ outcome }: { outcome: Outcome }) {
         <button type="button" aria-expanded={isWhole} onClick={() => setIsWhole(!isWhole)}>
           {isWhole ? `Show the first ${BODIES_AT_FIRST} bodies` : `Show all ${bodies.length} bodies`}
         </button>
+      )}
+      {ground === "terrain" && bodies.length > 0 && (
+        <p class="quiet">
+          Positions are local: east and north of the south-western corner of the height map, and up from a whole number
+          of metres below its lowest place.
+        </p>
       )}
       {!hasIntervals && groups.length > 0 && (
         <p class="quiet">
@@ -92,14 +101,14 @@ function QuantityTable({
           </tr>
         </thead>
         <tbody>
-          {quantities.map(({ key, name, unit, value, interval }) => (
+          {quantities.map(({ key, name, unit, value, digits, interval }) => (
             <tr key={key}>
               <th scope="row">{name}</th>
-              <td class="number">{value === null ? "did not happen" : figure(value, 4)}</td>
+              <td class="number">{value === null ? "did not happen" : figure(value, digits)}</td>
               <td>{unit}</td>
               {hasIntervals && (
                 <td class="interval" title={interval ? BASIS[interval.basis] : undefined}>
-                  {intervalText(interval)}
+                  {intervalText(interval, digits)}
                   {interval && <span class="quiet"> {BASIS[interval.basis]}</span>}
                 </td>
               )}
@@ -125,15 +134,15 @@ function AccuracyNote({ report }: { report: NonNullable<Outcome["accuracy"]> }) 
       )}
       <p class="quiet">
         An interval holds what cells and softened grains change, not what the model leaves out. Behind the intervals are{" "}
-        {runs.length} runs, with cells of {runs.map((run) => `${figure(1000 * run.cell_size_m)} mm`).join(", ")}.
+        {runs.length} runs, with cells of {runs.map((run) => length(run.cell_size_m)).join(", ")}.
       </p>
     </>
   );
 }
 
 /** The conservation audit. */
-export function Audit({ outcome }: { outcome: Outcome }) {
-  const figures = auditOf(outcome);
+export function Audit({ outcome, ground }: { outcome: Outcome; ground: Ground }) {
+  const figures = auditOf(outcome, ground);
   return (
     <section aria-labelledby="trust">
       <h2 id="trust">May I trust it?</h2>

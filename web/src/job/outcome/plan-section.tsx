@@ -1,5 +1,5 @@
 import type { Job, Schemas } from "../../api/client";
-import { duration, figure } from "../../parts/format";
+import { duration, figure, length } from "../../parts/format";
 
 /** What was decided before the run, what the run cost, and where the answer comes from. */
 export function PlanAndCost({ job }: { job: Job }) {
@@ -57,7 +57,7 @@ function Cost({ cost }: { cost: Schemas["Cost"] }) {
         ["Wall time", duration(cost.wall_s)],
         ["Point-steps", `${figure(cost.point_steps)} (${figure(cost.point_steps_per_s)} per second)`],
         ["Material points", String(cost.points)],
-        ["Cells", `${figure(1000 * cost.cell_size_m)} mm`],
+        ["Cells", length(cost.cell_size_m)],
         ["Steps, sub-steps", `${cost.steps}, ${cost.substeps}`],
         ["Speed of sound", cost.sound_speed_m_s === null ? "–" : `${figure(cost.sound_speed_m_s)} m/s`],
         ["Threads", String(cost.threads)],

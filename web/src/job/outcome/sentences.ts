@@ -1,7 +1,8 @@
 /** Outcomes as sentences. */
 
 import type { Job, Outcome, Schemas } from "../../api/client";
-import { figure } from "../../parts/format";
+import { figure, length } from "../../parts/format";
+import { groundOf } from "../../scenario/ground";
 
 type BodyOutcome = Schemas["BodyOutcome"];
 
@@ -24,7 +25,7 @@ export function sentencesOf(job: Job, submergence: readonly number[] = []): stri
   const told = bodies.slice(0, MOST_SENTENCES);
   const more = bodies.length - told.length;
   if (more > 0) told.push(`${more} more bodies are in the table below.`);
-  return [...told, ...flowSentence(outcome)];
+  return [...told, ...(groundOf(scenario) === "channel" ? inChannel(outcome) : onTerrain(outcome))];
 }
 
 /** What happened to a free body. */
@@ -48,14 +49,21 @@ function stoodStill(body: BodyOutcome): string {
 }
 
 function buried({ burial_depth_m: depth }: BodyOutcome, submergence: number): string {
-  if (depth > 0) return `, ${figure(1000 * depth, 2)} mm below the surface of the flow`;
+  if (depth > 0) return `, ${length(depth, 2)} below the surface of the flow`;
   return submergence > 0.005 ? `, ${figure(100 * submergence, 2)} % submerged` : "";
 }
 
-function flowSentence({ flow }: Outcome): string[] {
+function inChannel({ flow }: Outcome): string[] {
   if (flow.front_m === null || flow.runout_m === null) return [];
   const side = flow.front_m < 0 ? "upstream" : "downstream";
   const front = `The front of the flow came ${figure(Math.abs(flow.front_m))} m ${side} of the foot of the incline, a run-out of ${figure(flow.runout_m)} m`;
   const out = flow.outflow_mass_kg > 0 ? `; ${figure(flow.outflow_mass_kg)} kg left through the open end` : "";
   return [`${front}${out}.`];
+}
+
+function onTerrain({ flow }: Outcome): string[] {
+  const out = flow.outflow_mass_kg > 0 ? `${figure(flow.outflow_mass_kg)} kg of the flow left the map` : "";
+  if (flow.front_m === null || flow.runout_m === null) return out ? [`${out}, so that its front is not known.`] : [];
+  const front = `The front of the flow came ${figure(flow.front_m)} m from the middle of its release, a run-out of ${figure(flow.runout_m)} m`;
+  return [`${front}${out && `; ${out}`}.`];
 }

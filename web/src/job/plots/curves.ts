@@ -14,7 +14,7 @@ export const PLOTTED: { key: CurveKey; name: string; unit: string; isMarked: boo
   { key: "speed", name: "Speed", unit: "m/s", isMarked: true },
   { key: "submergence", name: "Submergence, share of the height", unit: "%", isMarked: false },
   { key: "flowForce", name: "Force of the flow on the body", unit: "N", isMarked: false },
-  { key: "contactForce", name: "Force of walls and other bodies", unit: "N", isMarked: false },
+  { key: "contactForce", name: "Force of walls, ground and other bodies", unit: "N", isMarked: false },
 ];
 
 /** A job's part in the plots. */

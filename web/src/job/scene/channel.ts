@@ -1,45 +1,26 @@
 /** The channel in a scene: bed, translucent walls, and lines with their metres. */
 
-import {
-  BufferGeometry,
-  CanvasTexture,
-  DoubleSide,
-  Float32BufferAttribute,
-  Group,
-  LineBasicMaterial,
-  LineSegments,
-  type Material,
-  Mesh,
-  MeshBasicMaterial,
-  SRGBColorSpace,
-  Sprite,
-  SpriteMaterial,
-  type Texture,
-} from "three";
-import type { Scenario } from "../../api/client";
+import type { Group } from "three";
+import type { Schemas } from "../../api/client";
 import { figure } from "../../parts/format";
 import { multiples, niceStep } from "../../parts/round-values";
 import type { Region } from "../region";
 import type { Theme } from "../use-theme";
-import { colourOf } from "./flow-points";
-
-type Corner = [number, number, number];
+import { type Corner, Drawing } from "./drawing";
 
 /** The part of a channel in a region. */
 export class Channel {
-  readonly group = new Group();
-  private readonly made: { dispose(): void }[] = [];
+  private readonly drawing = new Drawing();
   private readonly slope: number;
   private readonly from: number;
   private readonly to: number;
   private readonly half: number;
 
   constructor(
-    scenario: Scenario,
+    channel: Schemas["Channel"],
     region: Region,
     private readonly theme: Theme,
   ) {
-    const { channel } = scenario;
     this.slope = Math.tan((channel.inclination_deg * Math.PI) / 180);
     this.half = channel.width_m / 2;
     this.from = Math.max(-channel.incline_length_m, region.low[0]);
@@ -48,17 +29,22 @@ export class Channel {
     const wall = this.wallHeight(region);
     // Lines lie a little above the bed, or it would hide parts of them.
     const above = 2e-3 * (this.to - this.from);
-    this.surface(this.bed(0), theme.isDark ? "#2b3038" : "#e4e1dc", 1);
-    for (const y of [-this.half, this.half]) this.surface(this.wall(y, wall), theme.ground, 0.13);
-    if (this.from <= -channel.incline_length_m) this.surface(this.back(wall), theme.ground, 0.2);
-    this.lines(this.grid(step, above), theme.isDark ? "#4a525d" : "#bcb7af");
-    this.lines(this.across(0, above), theme.accent);
-    if (this.to >= channel.runout_length_m) this.lines(this.across(channel.runout_length_m, above), theme.quiet);
+    this.drawing.surface(this.bed(0), theme.isDark ? "#2b3038" : "#e4e1dc", 1);
+    for (const y of [-this.half, this.half]) this.drawing.surface(this.wall(y, wall), theme.ground, 0.13);
+    if (this.from <= -channel.incline_length_m) this.drawing.surface(this.back(wall), theme.ground, 0.2);
+    this.drawing.lines(this.grid(step, above), theme.isDark ? "#4a525d" : "#bcb7af");
+    this.drawing.lines(this.across(0, above), theme.accent);
+    if (this.to >= channel.runout_length_m)
+      this.drawing.lines(this.across(channel.runout_length_m, above), theme.quiet);
     for (const x of multiples(step, this.from, this.to)) this.label(x, step);
   }
 
+  get group(): Group {
+    return this.drawing.group;
+  }
+
   dispose(): void {
-    for (const part of this.made) part.dispose();
+    this.drawing.dispose();
   }
 
   private height(x: number): number {
@@ -117,43 +103,11 @@ export class Channel {
     return [-this.half, this.half].map((y) => [x, y, this.height(x) + above]);
   }
 
-  private surface(corners: Corner[], colour: string, opacity: number): void {
-    const material = new MeshBasicMaterial({
-      color: colourOf(colour),
-      side: DoubleSide,
-      transparent: opacity < 1,
-      opacity,
-      depthWrite: opacity === 1,
-    });
-    this.group.add(new Mesh(this.geometry(corners), this.keep(material)));
-  }
-
-  private lines(corners: Corner[], colour: string): void {
-    this.group.add(
-      new LineSegments(this.geometry(corners), this.keep(new LineBasicMaterial({ color: colourOf(colour) }))),
-    );
-  }
-
   private label(x: number, step: number): void {
-    const texture = this.keep(textOf(x === 0 ? "0 m" : `${figure(x)} m`, this.theme.ink));
-    const sprite = new Sprite(this.keep(new SpriteMaterial({ map: texture, depthTest: false })));
     const size = 0.17 * step;
-    sprite.scale.set((size * texture.image.width) / texture.image.height, size, 1);
+    const place: Corner = [x, -this.half - 0.3 * size, this.height(x)];
     // Left of the incline, below the floor: neither lies on the flow.
-    sprite.center.set(x < 0 ? 1 : 0.5, x < 0 ? 0.8 : 1);
-    sprite.position.set(x, -this.half - 0.3 * size, this.height(x));
-    this.group.add(sprite);
-  }
-
-  private geometry(corners: Corner[]): BufferGeometry {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new Float32BufferAttribute(corners.flat(), 3));
-    return this.keep(geometry);
-  }
-
-  private keep<T extends BufferGeometry | Material | Texture>(part: T): T {
-    this.made.push(part);
-    return part;
+    this.drawing.label(x === 0 ? "0 m" : `${figure(x)} m`, place, size, x < 0 ? [1, 0.8] : [0.5, 1], this.theme.ink);
   }
 }
 
@@ -163,21 +117,4 @@ function quads(rows: Corner[][]): Corner[] {
     const [[a, b], [c, d]] = [rows[k] ?? [], high];
     return a && b && c && d ? [a, b, d, a, d, c] : [];
   });
-}
-
-function textOf(text: string, colour: string): CanvasTexture<HTMLCanvasElement> {
-  const canvas = document.createElement("canvas");
-  const font = "44px system-ui, sans-serif";
-  const context = canvas.getContext("2d");
-  if (context) {
-    context.font = font;
-    canvas.width = Math.ceil(context.measureText(text).width) + 8;
-    canvas.height = 56;
-    context.font = font;
-    context.fillStyle = colour;
-    context.fillText(text, 4, 44);
-  }
-  const texture = new CanvasTexture(canvas);
-  texture.colorSpace = SRGBColorSpace;
-  return texture;
 }

@@ -10,6 +10,7 @@ import { CAMERAS, type CameraName, lookAt } from "./cameras";
 import { Channel } from "./channel";
 import { FlowPoints, colourOf } from "./flow-points";
 import { Pace } from "./pace";
+import { TerrainFrame } from "./terrain-frame";
 
 /** Pause after which a scene that stands is drawn once with all pixels [ms]. */
 const STILL_MS = 250;
@@ -19,7 +20,7 @@ const MOST_PIXEL_RATIO = 2;
 interface Parts {
   flow: FlowPoints;
   bodies: Bodies;
-  channel: Channel;
+  ground: Channel | TerrainFrame;
 }
 
 /** A canvas with the scene, which follows a clock until it is disposed of. */
@@ -72,9 +73,9 @@ export class SceneViewer {
     this.parts = {
       flow: new FlowPoints(frames, spacing, topSpeed),
       bodies: new Bodies(scenario, poses, theme.isDark),
-      channel: new Channel(scenario, region, theme),
+      ground: scenario.channel ? new Channel(scenario.channel, region, theme) : new TerrainFrame(region, theme),
     };
-    this.scene.add(this.parts.channel.group, this.parts.flow.points, this.parts.bodies.group);
+    this.scene.add(this.parts.ground.group, this.parts.flow.points, this.parts.bodies.group);
     // Dark paper would hide grains at rest, which are dark in every theme.
     this.scene.background = colourOf(theme.isDark ? theme.line : theme.paper);
     this.content = content;
@@ -110,9 +111,9 @@ export class SceneViewer {
 
   private clear(): void {
     if (!this.parts) return;
-    const { flow, bodies, channel } = this.parts;
-    this.scene.remove(flow.points, bodies.group, channel.group);
-    for (const part of [flow, bodies, channel]) part.dispose();
+    const { flow, bodies, ground } = this.parts;
+    this.scene.remove(flow.points, bodies.group, ground.group);
+    for (const part of [flow, bodies, ground]) part.dispose();
     this.parts = undefined;
   }
 

@@ -1,1 +1,0 @@
-import{E as o,j as s,k as n}from"./chunk-ZT7D3CT6.js";var c=5e3;function m({label:i,question:r,act:u}){let[t,e]=s(!1);return n(()=>{if(!t)return;let f=setTimeout(()=>e(!1),c);return()=>clearTimeout(f)},[t]),o("button",{type:"button",onClick:()=>{e(!t),t&&u()},"aria-live":"polite",children:t?r:i})}export{m as a};

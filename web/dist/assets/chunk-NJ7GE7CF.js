@@ -1,1 +1,0 @@
-import{j as o,l as c,m as s}from"./chunk-ZT7D3CT6.js";function f(){let e=s(null),[u,t]=o(0);return c(()=>{if(!e.current)return;t(Math.floor(e.current.clientWidth));let r=new ResizeObserver(([n])=>{n&&t(Math.floor(n.contentRect.width))});return r.observe(e.current),()=>r.disconnect()},[]),[e,u]}export{f as a};

@@ -1,0 +1,1 @@
+import{A as s}from"./chunk-IRK2T545.js";function r(t,o){let e=URL.createObjectURL(t),n=document.createElement("a");n.href=e,n.download=o,n.click(),setTimeout(()=>URL.revokeObjectURL(e),6e4)}async function c(t,o){let e=await s(t);r(await e.blob(),o)}export{r as a,c as b};
