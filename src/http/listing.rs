@@ -3,6 +3,7 @@
 use super::choice::Include;
 use super::documents::{JobPageDocument, JobSummaryDocument};
 use super::etag;
+use super::paging::{PagedList, read_limit};
 use super::problem::Problem;
 use super::query::Query;
 use super::submission::LABEL_RULE;
@@ -13,12 +14,6 @@ use crate::jobs::submit::label;
 use axum::extract::{RawQuery, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
-
-/// Default number of jobs per page.
-const DEFAULT_LIMIT: u32 = 20;
-
-/// Largest number of jobs per page.
-const LARGEST_LIMIT: u32 = 100;
 
 /// Page of jobs that is asked for.
 #[derive(utoipa::IntoParams)]
@@ -122,10 +117,8 @@ pub(super) fn read_page(query: &mut Query) -> Page {
         members: query.truth("members").unwrap_or(true),
         created_from,
         created_to,
-        before: query.word("cursor", "the next_cursor of another page", cursor::read),
-        limit: query
-            .whole("limit", 1..=LARGEST_LIMIT)
-            .unwrap_or(DEFAULT_LIMIT),
+        before: PagedList::JOBS.read_cursor(query),
+        limit: read_limit(query),
         outcomes: false,
     }
 }
@@ -137,17 +130,6 @@ pub(super) async fn page_of(
 ) -> Result<(Vec<ListedJob>, Option<String>), Problem> {
     let found = jobs.page(page).await?;
     let last = found.jobs.last().filter(|_| found.more);
-    let next_cursor = last.map(|job| cursor::write(job.summary.sequence));
+    let next_cursor = last.map(|job| PagedList::JOBS.cursor(job.summary.sequence));
     Ok((found.jobs, next_cursor))
-}
-
-/// Position in the list after which a page begins; opaque to clients.
-mod cursor {
-    pub(super) fn write(sequence: i64) -> String {
-        format!("j{sequence:x}")
-    }
-
-    pub(super) fn read(text: &str) -> Option<i64> {
-        i64::from_str_radix(text.strip_prefix('j')?, 16).ok()
-    }
 }

@@ -29,6 +29,7 @@ mod named_job;
 mod ogc;
 mod operator;
 mod page;
+mod paging;
 mod pieces;
 mod plans;
 mod problem;

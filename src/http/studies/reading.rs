@@ -5,6 +5,7 @@ use super::documents::{StudyDocument, StudyPageDocument, StudySummaryDocument};
 use super::named::{NamedStudy, readable};
 use crate::http::access::Caller;
 use crate::http::etag;
+use crate::http::paging::{PagedList, cut_to_page, read_limit};
 use crate::http::problem::Problem;
 use crate::http::query::Query;
 use crate::jobs::store::StudyPage;
@@ -14,12 +15,6 @@ use axum::extract::{RawQuery, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
 use scree_studies::Answers;
-
-/// Default number of studies per page.
-const DEFAULT_LIMIT: u32 = 20;
-
-/// Largest number of studies per page.
-const LARGEST_LIMIT: u32 = 100;
 
 /// List studies, newest first
 ///
@@ -46,9 +41,8 @@ pub(in crate::http) async fn list_studies(
 ) -> Result<Response, Problem> {
     let mut query = Query::new(query.as_deref());
     let status = query.choice("status");
-    let before = query.word("cursor", "the next_cursor of another page", cursor::read);
-    let limit = query.whole("limit", 1..=LARGEST_LIMIT);
-    let limit = limit.unwrap_or(DEFAULT_LIMIT);
+    let before = PagedList::STUDIES.read_cursor(&mut query);
+    let limit = read_limit(&mut query);
     query.finish()?;
     let page = StudyPage {
         status,
@@ -56,11 +50,10 @@ pub(in crate::http) async fn list_studies(
         limit: limit + 1,
     };
     let mut found = studies.studies(&page).await?;
-    let is_more = found.len() > limit as usize;
-    found.truncate(limit as usize);
-    let last = found.last().filter(|_| is_more);
+    let next_cursor =
+        cut_to_page(&mut found, limit).map(|study| PagedList::STUDIES.cursor(study.sequence));
     let document = StudyPageDocument {
-        next_cursor: last.map(|study| cursor::write(study.sequence)),
+        next_cursor,
         studies: found.iter().map(StudySummaryDocument::from).collect(),
     };
     etag::json(&headers, &document)
@@ -121,15 +114,4 @@ pub(in crate::http) async fn study_answers(
     Query::new(query.as_deref()).finish()?;
     let answers = asked.make(|outcomes| Ok(outcomes.answers())).await?;
     etag::json(&headers, &answers)
-}
-
-/// Position in the list after which a page begins; opaque to clients.
-mod cursor {
-    pub(super) fn write(sequence: i64) -> String {
-        format!("s{sequence:x}")
-    }
-
-    pub(super) fn read(text: &str) -> Option<i64> {
-        i64::from_str_radix(text.strip_prefix('s')?, 16).ok()
-    }
 }

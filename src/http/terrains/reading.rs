@@ -4,6 +4,7 @@ use super::documents::{RasterFile, TerrainDocument, TerrainPageDocument};
 use super::named::{NamedTerrain, named};
 use crate::http::archive::attachment;
 use crate::http::etag;
+use crate::http::paging::{PagedList, cut_to_page, read_limit};
 use crate::http::pieces::Pieces;
 use crate::http::problem::Problem;
 use crate::http::query::Query;
@@ -13,12 +14,6 @@ use axum::body::Bytes;
 use axum::extract::{RawQuery, State};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
-
-/// Default number of terrains per page.
-const DEFAULT_LIMIT: u32 = 20;
-
-/// Largest number of terrains per page.
-const LARGEST_LIMIT: u32 = 100;
 
 /// List terrains, newest first
 ///
@@ -43,20 +38,18 @@ pub(in crate::http) async fn list_terrains(
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let mut query = Query::new(query.as_deref());
-    let before = query.word("cursor", "the next_cursor of another page", cursor::read);
-    let limit = query.whole("limit", 1..=LARGEST_LIMIT);
-    let limit = limit.unwrap_or(DEFAULT_LIMIT);
+    let before = PagedList::TERRAINS.read_cursor(&mut query);
+    let limit = read_limit(&mut query);
     query.finish()?;
     let page = TerrainPage {
         before,
         limit: limit + 1,
     };
     let mut found = terrains.terrains(&page).await?;
-    let is_more = found.len() > limit as usize;
-    found.truncate(limit as usize);
-    let last = found.last().filter(|_| is_more);
+    let next_cursor = cut_to_page(&mut found, limit)
+        .map(|terrain| PagedList::TERRAINS.cursor(terrain.stored.sequence));
     let document = TerrainPageDocument {
-        next_cursor: last.map(|terrain| cursor::write(terrain.stored.sequence)),
+        next_cursor,
         terrains: found.into_iter().map(TerrainDocument::from).collect(),
     };
     etag::json(&headers, &document)
@@ -138,16 +131,5 @@ impl Pieces for TerrainFile {
     async fn piece(&mut self) -> Result<Option<Bytes>, StoreError> {
         let piece = self.next_piece().await?;
         Ok(piece.map(Bytes::from))
-    }
-}
-
-/// Position in the list after which a page begins; opaque to clients.
-mod cursor {
-    pub(super) fn write(sequence: i64) -> String {
-        format!("t{sequence:x}")
-    }
-
-    pub(super) fn read(text: &str) -> Option<i64> {
-        i64::from_str_radix(text.strip_prefix('t')?, 16).ok()
     }
 }
