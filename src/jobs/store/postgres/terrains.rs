@@ -134,40 +134,38 @@ pub(super) async fn name_in_job(
     job: &str,
     terrains: &[TerrainHash],
 ) -> Answer<Option<TerrainHash>> {
-    for &hash in terrains {
-        let Some(terrain) = held(connection, hash).await? else {
-            return Ok(Some(hash));
-        };
-        sqlx::query(
-            "INSERT INTO job_terrains (job_id, terrain) VALUES ($1::uuid, $2)
-             ON CONFLICT DO NOTHING",
-        )
-        .bind(job)
-        .bind(terrain)
-        .execute(&mut *connection)
-        .await?;
-    }
-    Ok(None)
+    let statement =
+        "INSERT INTO job_terrains (job_id, terrain) VALUES ($1::uuid, $2) ON CONFLICT DO NOTHING";
+    name(connection, statement, job, terrains).await
 }
 
-/// The same for a study.
+/// Notes the terrains that a study names. The first that does not exist, if there is one.
 pub(super) async fn name_in_study(
     connection: &mut PgConnection,
     study: &str,
+    terrains: &[TerrainHash],
+) -> Answer<Option<TerrainHash>> {
+    let statement = "INSERT INTO study_terrains (study, terrain)
+         SELECT sequence, $2 FROM studies WHERE id = $1::uuid ON CONFLICT DO NOTHING";
+    name(connection, statement, study, terrains).await
+}
+
+/// Notes terrains by a statement that takes who names them and a terrain's number.
+async fn name(
+    connection: &mut PgConnection,
+    statement: &'static str,
+    namer: &str,
     terrains: &[TerrainHash],
 ) -> Answer<Option<TerrainHash>> {
     for &hash in terrains {
         let Some(terrain) = held(connection, hash).await? else {
             return Ok(Some(hash));
         };
-        sqlx::query(
-            "INSERT INTO study_terrains (study, terrain)
-             SELECT sequence, $2 FROM studies WHERE id = $1::uuid ON CONFLICT DO NOTHING",
-        )
-        .bind(study)
-        .bind(terrain)
-        .execute(&mut *connection)
-        .await?;
+        sqlx::query(statement)
+            .bind(namer)
+            .bind(terrain)
+            .execute(&mut *connection)
+            .await?;
     }
     Ok(None)
 }

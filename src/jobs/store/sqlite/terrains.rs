@@ -126,37 +126,37 @@ pub(super) async fn name_in_job(
     job: &str,
     terrains: &[TerrainHash],
 ) -> Answer<Option<TerrainHash>> {
-    for &hash in terrains {
-        let Some(terrain) = number(connection, hash).await? else {
-            return Ok(Some(hash));
-        };
-        sqlx::query("INSERT OR IGNORE INTO job_terrains (job_id, terrain) VALUES (?1, ?2)")
-            .bind(job)
-            .bind(terrain)
-            .execute(&mut *connection)
-            .await?;
-    }
-    Ok(None)
+    let statement = "INSERT OR IGNORE INTO job_terrains (job_id, terrain) VALUES (?1, ?2)";
+    name(connection, statement, job, terrains).await
 }
 
-/// The same for a study.
+/// Notes the terrains that a study names. The first that does not exist, if there is one.
 pub(super) async fn name_in_study(
     connection: &mut SqliteConnection,
     study: &str,
+    terrains: &[TerrainHash],
+) -> Answer<Option<TerrainHash>> {
+    let statement = "INSERT OR IGNORE INTO study_terrains (study, terrain)
+         SELECT sequence, ?2 FROM studies WHERE id = ?1";
+    name(connection, statement, study, terrains).await
+}
+
+/// Notes terrains by a statement that takes who names them and a terrain's number.
+async fn name(
+    connection: &mut SqliteConnection,
+    statement: &'static str,
+    namer: &str,
     terrains: &[TerrainHash],
 ) -> Answer<Option<TerrainHash>> {
     for &hash in terrains {
         let Some(terrain) = number(connection, hash).await? else {
             return Ok(Some(hash));
         };
-        sqlx::query(
-            "INSERT OR IGNORE INTO study_terrains (study, terrain)
-             SELECT sequence, ?2 FROM studies WHERE id = ?1",
-        )
-        .bind(study)
-        .bind(terrain)
-        .execute(&mut *connection)
-        .await?;
+        sqlx::query(statement)
+            .bind(namer)
+            .bind(terrain)
+            .execute(&mut *connection)
+            .await?;
     }
     Ok(None)
 }
