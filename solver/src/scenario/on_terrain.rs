@@ -163,27 +163,23 @@ fn bodies_fit(report: &Report, scenario: &Scenario, terrain: &Terrain, ground: &
             report.refuse(&pointer, &extent_in_words(terrain), Some("m"), &why);
             continue;
         }
-        is_above_the_ground(report, ground, of);
-        contact_carries(report, scenario, ground, of);
+        let lowest = ground.lowest_centre(&of.shape, of.pose.orientation, position.x, position.y);
+        let clearance = position.z - lowest;
+        is_above_the_ground(report, of, clearance);
+        // A given contact modulus carries its body at rest, and after a fall from its start.
+        of.refuse_soft_contact(report, clearance, scenario.gravity_m_s2);
     }
     bodies_are_apart(report, &placed);
 }
 
-fn is_above_the_ground(report: &Report, ground: &HeightField, placed: &Placed<'_>) {
+fn is_above_the_ground(report: &Report, placed: &Placed<'_>, clearance: f64) {
     let Some(elevation) = placed.body.position.elevation_m else {
         return;
     };
-    let position = placed.pose.position;
-    let lowest = ground.lowest_centre(
-        &placed.shape,
-        placed.pose.orientation,
-        position.x,
-        position.y,
-    );
-    if position.z >= lowest - placed.slack {
+    if clearance >= -placed.slack {
         return;
     }
-    let bound = elevation + (lowest - position.z);
+    let bound = elevation - clearance;
     let why = format!(
         "is {}, which puts the body into the ground: its centre must be at {} m or higher",
         short(elevation),
@@ -196,21 +192,4 @@ fn is_above_the_ground(report: &Report, ground: &HeightField, placed: &Placed<'_
         ELEVATION.unit,
         &why,
     );
-}
-
-/// A given contact modulus carries its body at rest, and after a fall from its start.
-fn contact_carries(
-    report: &Report,
-    scenario: &Scenario,
-    ground: &HeightField,
-    placed: &Placed<'_>,
-) {
-    let position = placed.pose.position;
-    let lowest = ground.lowest_centre(
-        &placed.shape,
-        placed.pose.orientation,
-        position.x,
-        position.y,
-    );
-    placed.refuse_soft_contact(report, position.z - lowest, scenario.gravity_m_s2);
 }
