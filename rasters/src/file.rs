@@ -1,4 +1,4 @@
-//! What both formats give.
+//! Content of a file, whatever its format.
 
 use scree_solver::raster::Raster;
 
@@ -12,7 +12,7 @@ pub(crate) struct RasterFile {
 }
 
 impl RasterFile {
-    /// Whether a value stands for a hole.
+    /// True of a value that stands for a hole.
     pub(crate) fn is_hole(&self, value: f64) -> bool {
         value.is_nan() || self.nodata == Some(value)
     }

@@ -25,7 +25,7 @@ pub enum ProjectionError {
     Unsupported {
         /// EPSG code.
         epsg: u32,
-        /// What is missing.
+        /// Error of the projection library, with what is missing.
         source: ProjError,
     },
     /// Angles or coordinates from the Earth's centre.

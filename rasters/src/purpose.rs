@@ -1,8 +1,8 @@
-//! What the values of a raster mean.
+//! Meaning of a raster's values.
 
 use std::ops::RangeInclusive;
 
-/// What the values of a raster mean, and so which are possible.
+/// Meaning of a raster's values, and so the range that they can have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
     /// Heights of the ground, −500 m to 9000 m, without holes and without steps between
@@ -18,7 +18,7 @@ pub enum Purpose {
     Result,
 }
 
-/// What becomes of holes.
+/// Treatment of holes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Holes {
     /// They make the raster useless.
@@ -30,7 +30,7 @@ pub(crate) enum Holes {
 }
 
 impl Purpose {
-    /// What a value is called.
+    /// Name of a value's quantity.
     pub(crate) fn quantity(self) -> &'static str {
         match self {
             Self::HeightMap | Self::Surface => "height",
@@ -58,7 +58,7 @@ impl Purpose {
         }
     }
 
-    /// What becomes of holes.
+    /// Treatment of its holes.
     pub(crate) fn holes(self) -> Holes {
         match self {
             Self::HeightMap | Self::Friction => Holes::Refused,

@@ -35,7 +35,7 @@ pub enum ValueError {
     Hole {
         /// The first hole.
         cell: Cell,
-        /// What is missing.
+        /// Quantity that is missing.
         quantity: &'static str,
         /// Number that stands for the hole.
         value: f64,
@@ -52,7 +52,7 @@ pub enum ValueError {
     Infinite {
         /// The first such cell.
         cell: Cell,
-        /// What is infinite.
+        /// Quantity that is infinite.
         quantity: &'static str,
         /// Its value.
         value: f64,
@@ -65,7 +65,7 @@ pub enum ValueError {
     OutOfRange {
         /// The first such cell.
         cell: Cell,
-        /// What is out of range.
+        /// Quantity that is out of range.
         quantity: &'static str,
         /// Its value.
         value: f64,

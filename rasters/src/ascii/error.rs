@@ -1,4 +1,4 @@
-//! What is wrong with an ESRI ASCII grid.
+//! Errors of ESRI ASCII grids.
 
 use thiserror::Error;
 
@@ -53,7 +53,7 @@ pub enum AsciiError {
         line: usize,
         /// Key.
         key: &'static str,
-        /// How many.
+        /// Count of its numbers.
         numbers: usize,
     },
     /// A number of columns or rows that can't be counted.

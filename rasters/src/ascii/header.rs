@@ -131,7 +131,7 @@ impl Header {
     }
 }
 
-/// Whether a line begins with a value: a number, one written with a comma too.
+/// True of a line that begins with a value: a number, one written with a comma too.
 fn begins_with_value(line: &str) -> bool {
     let Some(word) = line.split_whitespace().next() else {
         return false;

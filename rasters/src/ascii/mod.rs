@@ -13,7 +13,7 @@ use crate::limits;
 use header::Header;
 use scree_solver::raster::Raster;
 
-/// Whether the first word is a key.
+/// True of a file whose first word is a key.
 pub(crate) fn begins(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     let mut words = bytes

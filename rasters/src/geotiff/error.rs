@@ -1,4 +1,4 @@
-//! What is wrong with a GeoTIFF.
+//! Errors of GeoTIFF files.
 
 use std::io::ErrorKind;
 use thiserror::Error;
@@ -118,7 +118,7 @@ pub enum GeoTiffError {
     TagLength {
         /// Name of the tag.
         tag: &'static str,
-        /// How many numbers it has.
+        /// Count of its numbers.
         numbers: usize,
     },
     /// Rows that don't run due east or whose first is not in the north.

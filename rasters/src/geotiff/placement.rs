@@ -1,4 +1,4 @@
-//! Where the cells lie.
+//! Position and size of the cells of a GeoTIFF.
 
 use super::{GeoTiffError, Tiff, doubles};
 use tiff::tags::Tag;

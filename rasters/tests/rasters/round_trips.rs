@@ -1,4 +1,4 @@
-//! What is written reads back.
+//! Rasters written and read back.
 
 use scree_rasters::{Purpose, WriteError, read, write_ascii, write_geotiff};
 use scree_solver::raster::Raster;
