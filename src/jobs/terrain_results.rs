@@ -8,7 +8,6 @@ use crate::results::terrain::{
     Coordinates, FlowOutlines, MapError, MapQuantity, NoCoordinates, StoredMap, TerrainRun,
 };
 use crate::terrains::ReadError;
-use scree_solver::raster::Raster;
 use scree_solver::record::{Outcome, Sample};
 use scree_solver::scenario::{Scenario, ScenarioError};
 use thiserror::Error;
@@ -130,7 +129,13 @@ pub(super) fn seen(maps: [StoredMap; 3]) -> Result<MapsSeen, MapError> {
     let [height, arrival, deposit] = maps;
     Ok(MapsSeen {
         flow_height_max: height.raster()?,
-        arrival_time: arrival.raster()?,
+        outlines: outlines([arrival, deposit])?,
+    })
+}
+
+fn outlines([arrival_time, deposit]: [StoredMap; 2]) -> Result<FlowOutlines, MapError> {
+    Ok(FlowOutlines {
+        arrival_time: arrival_time.raster()?,
         deposit: deposit.raster()?,
     })
 }
@@ -162,21 +167,12 @@ impl Tracks {
             AskedCoordinates::Wgs84 => Coordinates::wgs_84(epsg)?,
             AskedCoordinates::Map => Coordinates::Map(epsg),
         };
-        let rasters: Option<[Raster; 2]> = match self.flow {
-            Some([arrival_time, deposit]) => Some([arrival_time.raster()?, deposit.raster()?]),
-            None => None,
-        };
-        let flow = rasters
-            .as_ref()
-            .map(|[arrival_time, deposit]| FlowOutlines {
-                arrival_time,
-                deposit,
-            });
+        let outlines = self.flow.map(outlines).transpose()?;
         let run = TerrainRun {
             scenario: &scenario,
             samples: &self.samples,
             outcome: &self.outcome,
-            flow,
+            flow: outlines.as_ref(),
         };
         let features = run.features(&coordinates)?;
         let features = features.ok_or(TerrainResultsError::NoTerrain)?;

@@ -56,20 +56,12 @@ impl Delivery<'_> {
             self.write(&format!("{name}.asc"), stored.clone().ascii()?.as_bytes())?;
             self.write(&format!("{name}.tif"), &stored.geotiff()?)?;
         }
-        let rasters = maps.map(|maps| {
-            [MapQuantity::ArrivalTime, MapQuantity::Deposit].map(|quantity| maps.raster(quantity))
-        });
-        let flow = rasters
-            .as_ref()
-            .map(|[arrival_time, deposit]| FlowOutlines {
-                arrival_time,
-                deposit,
-            });
+        let outlines = maps.map(FlowOutlines::of);
         let run = TerrainRun {
             scenario,
             samples,
             outcome,
-            flow,
+            flow: outlines.as_ref(),
         };
         let epsg = terrain.height().epsg;
         let on_map = run.features(&Coordinates::Map(epsg))?;

@@ -3,15 +3,17 @@
 pub(super) mod bodies;
 mod instants;
 mod layout;
-pub(super) mod numbers;
+mod numbers;
 mod panel;
 
 use super::canvas::width as stroke;
 use super::canvas::{Area, FAINT_INK, HAIRLINE, INK, PictureError, bold, paint, px, text};
 use super::format::{plain, title};
+use super::labels::Grid;
 use super::palette::ColorScale;
 use super::style::Styles;
 use super::surface;
+use bodies::SeenBody;
 pub use instants::shown_instants;
 use layout::Layout;
 use panel::Scene;
@@ -107,6 +109,24 @@ fn draw_footnote(sheet: &Area<'_>, layout: &Layout, line: &str) -> Result<(), Pi
     let at = (layout::WIDTH - layout::RIGHT, layout.height() - 6.0);
     sheet.draw_text(line, &style, (px(at.0), px(at.1)))?;
     Ok(())
+}
+
+/// Draws bodies over their trails, which the grid has already, and their numbers if they have any.
+pub(super) fn draw_numbered(
+    sheet: &Area<'_>,
+    seen: &[SeenBody],
+    mut grid: Grid,
+    styles: &Styles,
+) -> Result<(), PictureError> {
+    for body in seen {
+        body.draw(sheet)?;
+        grid.fill(&body.outline, body.index);
+    }
+    if !styles.are_numbered() {
+        return Ok(());
+    }
+    let places = numbers::place(seen, &mut grid);
+    places.iter().try_for_each(|number| number.draw(sheet))
 }
 
 /// Draws the scale of a quantity of this name, to the right of the subtitle.

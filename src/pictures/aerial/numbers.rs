@@ -23,7 +23,7 @@ const LEAST_SEEN: usize = 6;
 
 /// A body's number at its place.
 #[derive(Debug)]
-pub(in crate::pictures) enum Number<'a> {
+pub(super) enum Number<'a> {
     /// On the body.
     On {
         body: &'a SeenBody,
@@ -35,7 +35,7 @@ pub(in crate::pictures) enum Number<'a> {
 }
 
 /// Numbers of the bodies, which the grid shows as they are seen.
-pub(in crate::pictures) fn place<'a>(seen: &'a [SeenBody], grid: &mut Grid) -> Vec<Number<'a>> {
+pub(super) fn place<'a>(seen: &'a [SeenBody], grid: &mut Grid) -> Vec<Number<'a>> {
     let (on, rest): (Vec<_>, Vec<_>) = seen
         .iter()
         .map(|body| (body, on_body(body, grid)))
@@ -116,7 +116,7 @@ fn middle(points: impl ExactSizeIterator<Item = Point> + Clone) -> Point {
 }
 
 impl Number<'_> {
-    pub(in crate::pictures) fn draw(&self, sheet: &Area<'_>) -> Result<(), PictureError> {
+    pub(super) fn draw(&self, sheet: &Area<'_>) -> Result<(), PictureError> {
         match self {
             Self::On {
                 body,

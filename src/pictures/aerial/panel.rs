@@ -2,7 +2,7 @@
 
 use super::instants::Instant;
 use super::layout::{AXIS, LEFT, Layout};
-use super::{HAIRLINE, bodies, numbers, stroke};
+use super::{HAIRLINE, bodies, draw_numbered, stroke};
 use crate::pictures::canvas::{Area, FAINT_INK, INK, PictureError, Plane, bold, px, text};
 use crate::pictures::format::{significant, tick};
 use crate::pictures::labels::{Extent, Grid, Point};
@@ -201,15 +201,7 @@ impl<'a> Scene<'a> {
                 grid.trace(&trail, body.index);
             }
         }
-        for body in &seen {
-            body.draw(sheet)?;
-            grid.fill(&body.outline, body.index);
-        }
-        if self.styles.are_numbered() {
-            let places = numbers::place(&seen, &mut grid);
-            places.iter().try_for_each(|number| number.draw(sheet))?;
-        }
-        Ok(())
+        draw_numbered(sheet, &seen, grid, &self.styles)
     }
 
     /// The path of a body's centre so far.

@@ -4,7 +4,7 @@ mod backdrop;
 mod field;
 mod marks;
 
-use super::aerial::{bodies, draw_color_bar, numbers};
+use super::aerial::{bodies, draw_color_bar, draw_numbered};
 use super::canvas::{Area, FAINT_INK, INK, PictureError, bold, paint_over, px, text};
 use super::format::title;
 use super::labels::{Grid, Point};
@@ -36,10 +36,8 @@ const CORNERS: u32 = 12;
 pub struct MapsSeen {
     /// Largest flow height [m].
     pub flow_height_max: Raster,
-    /// Arrival time [s].
-    pub arrival_time: Raster,
-    /// Flow height at the end [m].
-    pub deposit: Raster,
+    /// Outlines of the flow.
+    pub outlines: FlowOutlines,
 }
 
 impl MapsSeen {
@@ -47,8 +45,7 @@ impl MapsSeen {
     pub fn of(maps: &FlowMaps) -> Self {
         Self {
             flow_height_max: maps.raster(MapQuantity::FlowHeightMax),
-            arrival_time: maps.raster(MapQuantity::ArrivalTime),
-            deposit: maps.raster(MapQuantity::Deposit),
+            outlines: FlowOutlines::of(maps),
         }
     }
 }
@@ -107,18 +104,12 @@ impl<'a> View<'a> {
         let flow = backdrop.flow.into_iter();
         let flow = flow.flat_map(|flow| field::places_with(flow, least));
         let seen: Vec<[f64; 2]> = centres.chain(corners).chain(flow).collect();
-        let outlines = maps.map(|maps| FlowOutlines {
-            arrival_time: &maps.arrival_time,
-            deposit: &maps.deposit,
-        });
         Self {
             scenario,
             terrain,
             samples,
             releases,
-            deposit: outlines
-                .map(|outlines| outlines.deposit())
-                .unwrap_or_default(),
+            deposit: maps.map(|maps| maps.outlines.deposit()).unwrap_or_default(),
             backdrop,
             field: Field::showing(&seen, terrain.height()),
             styles: Styles::of(scenario, samples),
@@ -187,15 +178,7 @@ impl<'a> View<'a> {
                 body.outline = circle(on_sheet(x, y));
             }
         }
-        for body in &seen {
-            body.draw(sheet)?;
-            grid.fill(&body.outline, body.index);
-        }
-        if self.styles.are_numbered() {
-            let places = numbers::place(&seen, &mut grid);
-            places.iter().try_for_each(|number| number.draw(sheet))?;
-        }
-        Ok(())
+        draw_numbered(sheet, &seen, grid, &self.styles)
     }
 }
 

@@ -2,6 +2,8 @@
 
 use super::{MapsSeen, terrain_view};
 use crate::pictures::fixtures::resting_at;
+use crate::pictures::tests::texts_of;
+use crate::results::terrain::FlowOutlines;
 use scree_solver::raster::Raster;
 use scree_solver::record::Sample;
 use scree_solver::scenario::{Maps, Scenario};
@@ -81,8 +83,10 @@ fn scene(cells: usize) -> (Scenario, MapsSeen) {
     let scenario = Scenario::from_value_with(&document, &maps);
     let seen = MapsSeen {
         flow_height_max: flow,
-        arrival_time: arrival,
-        deposit,
+        outlines: FlowOutlines {
+            arrival_time: arrival,
+            deposit,
+        },
     };
     (scenario.unwrap_or_else(|error| panic!("{error:?}")), seen)
 }
@@ -105,17 +109,6 @@ fn samples(cells: usize) -> Vec<Sample> {
     (0..=60).map(at).collect()
 }
 
-fn texts(svg: &str) -> Vec<String> {
-    let document = roxmltree::Document::parse(svg).expect("well-formed XML");
-    let texts = document
-        .descendants()
-        .filter(|node| node.has_tag_name("text"));
-    texts
-        .filter_map(|node| node.text())
-        .map(|text| text.trim().to_owned())
-        .collect()
-}
-
 #[test]
 fn a_terrain_is_shown_in_its_own_coordinates() {
     for cells in [40, 200] {
@@ -124,7 +117,7 @@ fn a_terrain_is_shown_in_its_own_coordinates() {
         assert!(svg.len() < 300_000, "{} bytes", svg.len());
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert_eq!(svg.matches("<image ").count(), 1);
-        let texts = texts(&svg);
+        let texts = texts_of(&svg);
         for wanted in [
             "EPSG:2056",
             "largest flow height [m]",
@@ -148,12 +141,16 @@ fn a_terrain_is_shown_in_its_own_coordinates() {
 fn a_terrain_without_flow_or_samples_is_shown() {
     let (scenario, _) = scene(40);
     let svg = terrain_view(&scenario, &[], None).unwrap();
-    assert!(texts(&svg).iter().all(|text| !text.contains("flow height")));
+    assert!(
+        texts_of(&svg)
+            .iter()
+            .all(|text| !text.contains("flow height"))
+    );
     let (scenario, mut maps) = scene(40);
     for map in [
         &mut maps.flow_height_max,
-        &mut maps.arrival_time,
-        &mut maps.deposit,
+        &mut maps.outlines.arrival_time,
+        &mut maps.outlines.deposit,
     ] {
         map.values.fill(f64::NAN);
     }

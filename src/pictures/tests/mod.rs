@@ -11,7 +11,7 @@ use scree_solver::record::{FlowSnapshot, Sample};
 use scree_solver::scenario::{Body, Ground};
 
 /// Checks for well-formed XML and an SVG of plain numbers; returns all its texts.
-fn texts_of(svg: &str) -> Vec<String> {
+pub(super) fn texts_of(svg: &str) -> Vec<String> {
     let document = roxmltree::Document::parse(svg).expect("well-formed XML");
     assert!(
         document

@@ -4,7 +4,7 @@ use super::coordinates::{Coordinates, NoCoordinates};
 use super::outline::polygons;
 use geojson::{Feature, FeatureCollection, Geometry, JsonObject, Value};
 use scree_solver::raster::Raster;
-use scree_solver::record::{Outcome, Sample};
+use scree_solver::record::{FlowMaps, MapQuantity, Outcome, Sample};
 use scree_solver::scenario::{Scenario, Source, Terrain, TerrainRelease};
 use serde_json::json;
 
@@ -18,27 +18,35 @@ pub struct TerrainRun<'a> {
     /// Its outcome.
     pub outcome: &'a Outcome,
     /// Outlines of its flow, if there was one.
-    pub flow: Option<FlowOutlines<'a>>,
+    pub flow: Option<&'a FlowOutlines>,
 }
 
 /// Maps of which outlines are drawn.
-#[derive(Debug, Clone, Copy)]
-pub struct FlowOutlines<'a> {
+#[derive(Debug)]
+pub struct FlowOutlines {
     /// Arrival time [s].
-    pub arrival_time: &'a Raster,
+    pub arrival_time: Raster,
     /// Flow height at the end [m].
-    pub deposit: &'a Raster,
+    pub deposit: Raster,
 }
 
 type Polygons = Vec<Vec<Vec<[f64; 2]>>>;
 
-impl FlowOutlines<'_> {
-    /// What the flow reached.
-    pub fn inundated_area(&self) -> Polygons {
-        polygons(self.arrival_time, |time| !time.is_nan())
+impl FlowOutlines {
+    /// Those of a run.
+    pub fn of(maps: &FlowMaps) -> Self {
+        Self {
+            arrival_time: maps.raster(MapQuantity::ArrivalTime),
+            deposit: maps.raster(MapQuantity::Deposit),
+        }
     }
 
-    /// Where flow lies at the end, of what it reached.
+    /// Area that the flow reached.
+    pub fn inundated_area(&self) -> Polygons {
+        polygons(&self.arrival_time, |time| !time.is_nan())
+    }
+
+    /// Area where flow lies at the end, of what it reached.
     pub fn deposit(&self) -> Polygons {
         let mut reached = self.deposit.clone();
         let arrivals = &self.arrival_time.values;
@@ -65,7 +73,7 @@ impl TerrainRun<'_> {
             return Ok(None);
         };
         let mut features = releases(self.scenario, terrain, coordinates)?;
-        if let Some(flow) = &self.flow {
+        if let Some(flow) = self.flow {
             let about = json!({"kind": "inundated_area"});
             features.push(area(&flow.inundated_area(), about, coordinates)?);
             let about = json!({"kind": "deposit"});

@@ -1,7 +1,7 @@
 //! Features of a run that was computed.
 
 use super::{FlowOutlines, TerrainRun};
-use crate::results::terrain::{Coordinates, MapQuantity, NoCoordinates, StoredMap};
+use crate::results::terrain::{Coordinates, NoCoordinates, StoredMap};
 use crate::runs::{Progress, Run, RunControl, RunEnd, Sink, run};
 use geojson::{Feature, FeatureCollection, Value};
 use scree_solver::raster::Raster;
@@ -102,16 +102,12 @@ fn features(coordinates: &Coordinates) -> FeatureCollection {
     let scenario = scenario();
     let (kept, outcome) = computed(&scenario);
     let maps = kept.maps.expect("there is a flow");
-    let [arrival_time, deposit] =
-        [MapQuantity::ArrivalTime, MapQuantity::Deposit].map(|quantity| maps.raster(quantity));
+    let outlines = FlowOutlines::of(&maps);
     let run = TerrainRun {
         scenario: &scenario,
         samples: &kept.samples,
         outcome: &outcome,
-        flow: Some(FlowOutlines {
-            arrival_time: &arrival_time,
-            deposit: &deposit,
-        }),
+        flow: Some(&outlines),
     };
     let features = run.features(coordinates).unwrap();
     features.expect("it is on a terrain")
