@@ -1,6 +1,6 @@
 import type { Page } from "@playwright/test";
 import { readFile } from "node:fs/promises";
-import { QUICK, expect, test } from "./service";
+import { QUICK, type Service, expect, test } from "./service";
 
 /** A scene that is computed for some seconds, so that its page sees it grow. */
 const SECONDS = { ...QUICK, title: "Seconds", numerics: { cell_size_m: 0.006 } };
@@ -8,6 +8,18 @@ const SECONDS = { ...QUICK, title: "Seconds", numerics: { cell_size_m: 0.006 } }
 async function open(page: Page, id: string, title: string) {
   await page.goto(`/#/jobs/${id}`);
   await expect(page.getByRole("heading", { level: 1 })).toContainText(title);
+}
+
+/** Waits until the page of a job that has ended shows all that is stored of it. */
+async function untilAllIsRead(page: Page, service: Service, id: string) {
+  await expect(page.getByRole("heading", { name: "What happened" })).toBeVisible({ timeout: 40_000 });
+  const head = Buffer.from(await (await fetch(`${service.url}/v1/jobs/${id}/flow.bin`)).arrayBuffer());
+  await expect(page.getByText(`stored at ${head.readUInt32LE(12)} instants`)).toBeVisible();
+  const trajectory = await service.get<{ columns: { time_s: number[] } }>(`/v1/jobs/${id}/trajectory`);
+  await expect(page.getByRole("slider", { name: "Simulated time" })).toHaveAttribute(
+    "max",
+    String(trajectory.columns.time_s.at(-1)),
+  );
 }
 
 test("a flow without material points is no error", async ({ page, service }) => {
@@ -30,14 +42,7 @@ test("the page of a running job reads what is new, and in the end has all", asyn
   page.on("request", (request) => asked.push(new URL(request.url())));
   const id = await service.submit(SECONDS);
   await open(page, id, "Seconds");
-  await expect(page.getByRole("heading", { name: "What happened" })).toBeVisible({ timeout: 40_000 });
-  const head = Buffer.from(await (await fetch(`${service.url}/v1/jobs/${id}/flow.bin`)).arrayBuffer());
-  await expect(page.getByText(`stored at ${head.readUInt32LE(12)} instants`)).toBeVisible();
-  const trajectory = await service.get<{ columns: { time_s: number[] } }>(`/v1/jobs/${id}/trajectory`);
-  await expect(page.getByRole("slider", { name: "Simulated time" })).toHaveAttribute(
-    "max",
-    String(trajectory.columns.time_s.at(-1)),
-  );
+  await untilAllIsRead(page, service, id);
   for (const name of ["flow.bin", "trajectory"]) {
     const requests = asked.filter(({ pathname }) => pathname.endsWith(`/${name}`));
     const last = Number(requests.at(-1)?.searchParams.get("from_s"));
@@ -91,9 +96,7 @@ test("the picture of a running job keeps all that happens in view, and its time 
   await open(page, id, "Seconds");
   await expect(page.getByText(/stored at \d+ instants/)).toBeVisible();
   await expect(page.locator("[aria-live]:has(.time), [role=status]:has(.time), output.time")).toHaveCount(0);
-  await expect(page.getByRole("heading", { name: "What happened" })).toBeVisible({ timeout: 40_000 });
-  const head = Buffer.from(await (await fetch(`${service.url}/v1/jobs/${id}/flow.bin`)).arrayBuffer());
-  await expect(page.getByText(`stored at ${head.readUInt32LE(12)} instants`)).toBeVisible();
+  await untilAllIsRead(page, service, id);
   const picture = async () => {
     const [download] = await Promise.all([
       page.waitForEvent("download"),

@@ -51,7 +51,7 @@ export class SceneViewer {
       antialias: devicePixelRatio < 1.5 && !isSoftware(),
       powerPreference: "high-performance",
     });
-    this.pace = new Pace(Math.min(devicePixelRatio, MOST_PIXEL_RATIO));
+    this.pace = new Pace(mostPixelRatio());
     this.camera.up.set(0, 0, 1);
     const sun = new DirectionalLight(0xffffff, 2.2);
     sun.position.set(-1, -2, 3);
@@ -91,9 +91,9 @@ export class SceneViewer {
     this.ask();
   }
 
-  /** The picture as it is now, as PNG. */
+  /** The picture as it is now, with all pixels, as PNG. */
   picture(): Promise<Blob | null> {
-    this.draw(this.pace.ratio);
+    this.draw(mostPixelRatio());
     return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
   }
 
@@ -129,7 +129,7 @@ export class SceneViewer {
     this.canvas.dataset["frames"] = String(this.pace.frames);
     this.onFrame?.(this.pace.rate);
     clearTimeout(this.still);
-    this.still = setTimeout(() => this.draw(Math.min(devicePixelRatio, MOST_PIXEL_RATIO)), STILL_MS);
+    this.still = setTimeout(() => this.draw(mostPixelRatio()), STILL_MS);
   };
 
   private draw(ratio: number): void {
@@ -146,6 +146,7 @@ export class SceneViewer {
       this.renderer.setSize(width, height, false);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
+      if (this.followed) this.look(this.followed);
       this.ask();
     });
     sizes.observe(this.canvas.parentElement ?? this.canvas);
@@ -172,6 +173,11 @@ export class SceneViewer {
     this.controls.update();
     this.ask();
   };
+}
+
+/** Pixels of a picture per pixel of the page, if nothing moves. */
+function mostPixelRatio(): number {
+  return Math.min(devicePixelRatio, MOST_PIXEL_RATIO);
 }
 
 let software: boolean | undefined;
