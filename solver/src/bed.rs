@@ -1,6 +1,7 @@
 //! The bed: the ground under flow and bodies. All that places, holds, guards or draws something
 //! asks it for heights and normals, and knows neither inclination nor slope break.
 
+use crate::grid::BLOCK;
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::method::METHOD;
@@ -15,7 +16,7 @@ pub use height_field::{
     GroundFeature, GroundPlace, HeightField, NearGround, PlacedSolid, TerrainFriction,
 };
 pub use planar::PlanarBed;
-pub use spline_surface::{Facet, SplineSurface};
+pub use spline_surface::{Facet, Lid, SplineSurface};
 
 /// A plane surface; its normal points to the side of the flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,6 +116,13 @@ fn rounding(x: &Vec3) -> f64 {
     1e-9 * (1.0 + x.norm())
 }
 
+/// The first and the last node of a block [m].
+fn nodes_of(block: [i32; 3], lattice: &Lattice) -> (Vec3, Vec3) {
+    let first = block.map(|along| along * BLOCK as i32);
+    let last = first.map(|along| along + BLOCK as i32 - 1);
+    (lattice.position(first), lattice.position(last))
+}
+
 /// The ground under flow and bodies: one elevation for every place in the plane.
 pub trait Bed: Debug + Send + Sync {
     /// Elevation at (x, y) [m].
@@ -135,8 +143,8 @@ pub trait Bed: Debug + Send + Sync {
         None
     }
 
-    /// Share of the kernel of a node at `x` above it (its available volume).
-    fn share_above(&self, x: &Vec3, spacing: &Vec3) -> f64;
+    /// Share of a node's kernel above it (its available volume).
+    fn share_above(&self, index: [i32; 3], lattice: &Lattice) -> f64;
 
     /// Intersection with the column of nodes in this direction, by its indices across it; `None`
     /// if the bed has no columns of this direction.
@@ -156,9 +164,16 @@ pub trait Bed: Debug + Send + Sync {
         self.tangent(x, y).normal
     }
 
-    /// True if it comes nearer than `margin` [m] to the box between these corners.
-    fn is_near(&self, low: &Vec3, high: &Vec3, margin: f64) -> bool {
-        let is_near = |plane: &Plane| plane.height_of_box(low, high) <= margin;
+    /// True if it may come nearer than `margin` [m] to a node of a block.
+    fn is_near_block(&self, block: [i32; 3], lattice: &Lattice, margin: f64) -> bool {
+        let (low, high) = nodes_of(block, lattice);
+        let is_near = |plane: &Plane| plane.height_of_box(&low, &high) <= margin;
         self.planes().iter().any(is_near)
+    }
+
+    /// True if it comes nearer than `margin` [m] to a node.
+    fn is_near_node(&self, index: [i32; 3], lattice: &Lattice, margin: f64) -> bool {
+        let x = lattice.position(index);
+        self.planes().iter().any(|plane| plane.height(&x) <= margin)
     }
 }

@@ -5,11 +5,15 @@
 //! parallel without locks and gives the same bits for any number of threads.
 
 use crate::kernel::WIDTH;
+use std::ops::Range;
 
 pub mod layout;
 
 /// Cells along a block's edge.
 pub const BLOCK: usize = 4;
+/// Positions that the points of a block have within a step [cells from its first node]: they start
+/// half a cell beyond it, and go one cell at most.
+pub const POSITIONS_IN_STEP: Range<f64> = -0.5..BLOCK as f64 + 1.5;
 /// Nodes of a block.
 pub const BLOCK_NODES: usize = BLOCK * BLOCK * BLOCK;
 /// Nodes along a tile's edge: a block's cells and the kernel's reach.

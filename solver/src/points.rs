@@ -2,7 +2,9 @@
 
 use crate::material::Material;
 use crate::math::{Mat3, Sym3, Vec3};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// A material point between two steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -69,6 +71,26 @@ impl Point {
         finite
             .into_iter()
             .find_map(|(name, finite)| (!finite).then_some(name))
+    }
+}
+
+/// One of some equal parts of the points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    index: usize,
+    of: usize,
+}
+
+impl Part {
+    /// All of so many parts.
+    pub fn all(of: usize) -> impl IndexedParallelIterator<Item = Self> {
+        (0..of).into_par_iter().map(move |index| Self { index, of })
+    }
+
+    /// Its range of a list with so many entries.
+    pub fn range(&self, count: usize) -> Range<usize> {
+        let start = |index: usize| index * count / self.of;
+        start(self.index)..start(self.index + 1)
     }
 }
 

@@ -4,7 +4,7 @@
 //! column are averaged with the transfer's kernel, so that the flow does not feel where the nodes
 //! lie on the map.
 
-use super::{Bed, Intersection, Plane, SplineSurface, Surface, Way};
+use super::{Bed, Intersection, Lid, Plane, SplineSurface, Surface, Way, nodes_of};
 use crate::kernel::{Lattice, share_above};
 use crate::math::Vec3;
 use crate::raster::Raster;
@@ -13,9 +13,11 @@ use std::sync::Arc;
 
 mod columns;
 mod near;
+mod tiles;
 
-use columns::{Column, Columns};
+use columns::Column;
 pub use near::{GroundFeature, GroundPlace, NearGround, PlacedSolid};
+use tiles::{Terrain, Tiles};
 
 /// Name of the terrain in messages.
 const NAME: &str = "terrain";
@@ -49,8 +51,8 @@ impl TerrainFriction {
 pub struct HeightField {
     surface: Arc<SplineSurface>,
     friction: TerrainFriction,
-    /// Columns of the grid, found when the flow first comes there.
-    columns: Option<Columns>,
+    /// What the flow's grid sees of it.
+    tiles: Option<Tiles>,
 }
 
 impl HeightField {
@@ -59,14 +61,14 @@ impl HeightField {
         Self {
             surface,
             friction,
-            columns: None,
+            tiles: None,
         }
     }
 
     /// The same as bed of a flow on a lattice.
     pub fn under(self, lattice: &Lattice) -> Self {
         Self {
-            columns: Some(Columns::of(lattice, self.surface.extent())),
+            tiles: Some(Tiles::of(lattice, self.surface.extent())),
             ..self
         }
     }
@@ -88,7 +90,7 @@ impl HeightField {
     }
 
     /// Plane that touches the surface at (x, y), without friction.
-    fn touching(&self, x: f64, y: f64) -> Plane {
+    pub fn touching(&self, x: f64, y: f64) -> Plane {
         let facet = self.surface.at(x, y);
         let normal = upward(facet.slope);
         Plane {
@@ -99,23 +101,24 @@ impl HeightField {
         }
     }
 
-    fn column(&self, across: [i32; 2], lattice: &Lattice) -> Column {
-        let compute = || Column::over(&self.surface, &self.friction, across, lattice);
-        match &self.columns {
-            Some(columns) => columns.at(across, |across| {
-                Column::over(&self.surface, &self.friction, across, lattice)
-            }),
-            None => compute(),
-        }
+    /// Plane above the places of a block's points within a step, and of its nodes.
+    pub fn lid_over(&self, block: [i32; 2], lattice: &Lattice) -> Lid {
+        let terrain = self.terrain();
+        let known = (self.tiles.as_ref()).and_then(|tiles| tiles.lid(block, &terrain));
+        known.unwrap_or_else(|| terrain.lid(block, lattice))
     }
 
-    /// The column of nodes nearest to a place, which lies on it.
-    fn column_of(&self, x: &Vec3, spacing: &Vec3) -> Option<Column> {
-        let columns = self.columns.as_ref()?;
-        debug_assert_eq!(columns.lattice.spacing, *spacing);
-        let lattice = &columns.lattice;
-        let index = |axis: usize| ((x[axis] - lattice.origin[axis]) / spacing[axis]).round() as i32;
-        Some(self.column([index(0), index(1)], lattice))
+    fn column(&self, across: [i32; 2], lattice: &Lattice) -> Column {
+        let terrain = self.terrain();
+        let known = (self.tiles.as_ref()).and_then(|tiles| tiles.column(across, &terrain));
+        known.unwrap_or_else(|| terrain.column(across, lattice))
+    }
+
+    fn terrain(&self) -> Terrain<'_> {
+        Terrain {
+            surface: &self.surface,
+            friction: &self.friction,
+        }
     }
 }
 
@@ -149,14 +152,13 @@ impl Bed for HeightField {
         Some(self)
     }
 
-    fn share_above(&self, x: &Vec3, spacing: &Vec3) -> f64 {
-        let Some(column) = self.column_of(x, spacing) else {
-            return 1.0;
-        };
-        let normal = upward(column.slope);
+    fn share_above(&self, index: [i32; 3], lattice: &Lattice) -> f64 {
+        let column = self.column([index[0], index[1]], lattice);
+        let normal = column.surface.normal;
         // The kernel is as wide along a slant as along its axes.
-        let width = normal.component_mul(spacing).norm();
-        share_above((x.z - column.mean_elevation) * normal.z / width)
+        let width = normal.component_mul(&lattice.spacing).norm();
+        let height = lattice.position(index).z - column.mean_elevation;
+        share_above(height * normal.z / width)
     }
 
     fn intersection(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<Intersection> {
@@ -169,11 +171,11 @@ impl Bed for HeightField {
     }
 
     fn surface_in(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<Surface> {
-        (way == Way::Vertical).then(|| self.column(across, lattice).surface())
+        (way == Way::Vertical).then(|| self.column(across, lattice).surface)
     }
 
     fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2] {
-        let over = || self.column([index[0], index[1]], lattice).surface();
+        let over = || self.column([index[0], index[1]], lattice).surface;
         [self.covers(index, lattice).then(over), None]
     }
 
@@ -183,13 +185,17 @@ impl Bed for HeightField {
         x.z - column.elevation <= super::rounding(&x)
     }
 
-    fn is_near(&self, low: &Vec3, high: &Vec3, margin: f64) -> bool {
-        if low == high {
-            let facet = self.surface.at(low.x, low.y);
-            return (low.z - facet.elevation) * upward(facet.slope).z <= margin;
-        }
-        let (highest, steepest) = self.surface.bounds([low.x, low.y], [high.x, high.y]);
-        low.z - highest <= margin * 1f64.hypot(steepest)
+    fn is_near_block(&self, block: [i32; 3], lattice: &Lattice, margin: f64) -> bool {
+        let lid = self.lid_over([block[0], block[1]], lattice);
+        let (low, high) = nodes_of(block, lattice);
+        // Along the vertical a margin is longer than along the normal.
+        lid.height_of_box(&low, &high) <= margin * 1f64.hypot(lid.steepest)
+    }
+
+    fn is_near_node(&self, index: [i32; 3], lattice: &Lattice, margin: f64) -> bool {
+        let column = self.column([index[0], index[1]], lattice);
+        let height = lattice.position(index).z - column.elevation;
+        height * column.surface.normal.z <= margin
     }
 }
 

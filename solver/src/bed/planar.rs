@@ -145,11 +145,12 @@ impl Bed for PlanarBed {
         &self.planes
     }
 
-    fn share_above(&self, x: &Vec3, spacing: &Vec3) -> f64 {
+    fn share_above(&self, index: [i32; 3], lattice: &Lattice) -> f64 {
+        let x = lattice.position(index);
         let height = |plane: &Plane| {
             // The kernel is as wide along a slant as along its axes.
-            let width = plane.normal.component_mul(spacing).norm();
-            plane.height(x) / width
+            let width = plane.normal.component_mul(&lattice.spacing).norm();
+            plane.height(&x) / width
         };
         match self.planes.as_slice() {
             [] => 1.0,

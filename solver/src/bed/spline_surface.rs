@@ -2,8 +2,10 @@
 //! values at the centres of the cells (docs/method.md, equation 80). It is continuous with its
 //! slope, and planes are reproduced exactly.
 
+use crate::math::Vec3;
 use crate::raster::Raster;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Cells beyond the edges over which the surface goes on with the slope of the edge; farther out it
 /// is level in that direction.
@@ -16,6 +18,41 @@ pub struct Facet {
     pub elevation: f64,
     /// Slope ∂z/∂x and ∂z/∂y.
     pub slope: [f64; 2],
+}
+
+/// Plane above a part of a surface, as steep as its middle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lid {
+    /// Elevation at (0, 0) [m].
+    at_origin: f64,
+    /// Slope ∂z/∂x and ∂z/∂y.
+    pub slope: [f64; 2],
+    /// Upper bound of the size of the surface's slope under it.
+    pub steepest: f64,
+}
+
+impl Lid {
+    /// Elevation at (x, y) [m].
+    pub fn elevation(&self, x: f64, y: f64) -> f64 {
+        self.at_origin + self.slope[0] * x + self.slope[1] * y
+    }
+
+    /// Least height above it [m] of the box between these corners.
+    pub fn height_of_box(&self, low: &Vec3, high: &Vec3) -> f64 {
+        let highest = |axis: usize| {
+            let slope = self.slope[axis];
+            slope * if slope > 0.0 { high } else { low }[axis]
+        };
+        low.z - self.at_origin - highest(0) - highest(1)
+    }
+
+    /// The same, raised by a height [m].
+    fn raised(self, by: f64) -> Self {
+        Self {
+            at_origin: self.at_origin + by,
+            ..self
+        }
+    }
 }
 
 /// Biquadratic B-spline surface over a rectangle from (0, 0) on.
@@ -138,14 +175,7 @@ impl SplineSurface {
     /// Upper bounds of elevation [m] and of the slope's size in a rectangle: those of the
     /// coefficients that act there.
     pub fn bounds(&self, low: [f64; 2], high: [f64; 2]) -> (f64, f64) {
-        let [x, y] = [0, 1].map(|axis| {
-            let (first, last) = (
-                self.weights(low[axis], axis),
-                self.weights(high[axis], axis),
-            );
-            // Beyond the edge the slope there goes on.
-            first.first..last.first + 3
-        });
+        let [x, y] = [0, 1].map(|axis| self.acting(low, high, axis));
         let width = self.cells[0] + 2;
         let (mut highest, mut steepest) = (f64::NEG_INFINITY, 0.0_f64);
         for j in y.clone() {
@@ -164,6 +194,49 @@ impl SplineSurface {
         let beyond = self.farthest_beyond(low, high);
         let slope = steepest * std::f64::consts::SQRT_2 / self.cell * (1.0 + 2.0 * beyond);
         (highest + slope * beyond * self.cell, slope)
+    }
+
+    /// A plane above the surface in a rectangle: on a plane that plane itself. Beyond the edges it
+    /// is level.
+    pub fn lid(&self, low: [f64; 2], high: [f64; 2]) -> Lid {
+        let (highest, steepest) = self.bounds(low, high);
+        if self.farthest_beyond(low, high) > 0.0 {
+            return Lid {
+                at_origin: highest,
+                slope: [0.0; 2],
+                steepest,
+            };
+        }
+        let [x, y] = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
+        let middle = self.at(x, y);
+        let lid = Lid {
+            at_origin: middle.elevation - middle.slope[0] * x - middle.slope[1] * y,
+            slope: middle.slope,
+            steepest,
+        };
+        lid.raised(self.farthest_above(&lid, low, high))
+    }
+
+    /// Height above a plane [m] beyond which the surface does not rise in a rectangle: that of the
+    /// highest coefficient, each at the middle of its cell.
+    fn farthest_above(&self, lid: &Lid, low: [f64; 2], high: [f64; 2]) -> f64 {
+        let [x, y] = [0, 1].map(|axis| self.acting(low, high, axis));
+        let width = self.cells[0] + 2;
+        let mut farthest = f64::NEG_INFINITY;
+        for j in y {
+            for i in x.clone() {
+                let [u, v] = [i, j].map(|along| (along as f64 - 0.5) * self.cell);
+                let above = self.coefficients[j * width + i] - lid.elevation(u, v);
+                farthest = farthest.max(above);
+            }
+        }
+        farthest
+    }
+
+    /// Indices along an axis of the coefficients that act in a rectangle.
+    fn acting(&self, low: [f64; 2], high: [f64; 2], axis: usize) -> Range<usize> {
+        let first = |at: f64| self.weights(at, axis).first;
+        first(low[axis])..first(high[axis]) + 3
     }
 
     /// Largest distance of a place in a rectangle from the surface, up to the margin [cells].

@@ -100,7 +100,7 @@ pub fn gather_motion<S: Simd, R: Real>(
     let mut sums = EndSums::none(simd);
     let mut spread = ShiftingSums::NONE;
     let key = block.key;
-    let terrain_zone = terrain_zone.and_then(|zone| Some((zone, zone.height_in(&key)?)));
+    let on_terrain = terrain_zone.and_then(|zone| zone.in_block::<R>(&key));
     for (chunk, count) in block.chunks_mut() {
         let stencils = Stencils::of(simd, &chunk.position);
         let moments = moment_sums.gather(simd, &stencils, count, &nodes.motion);
@@ -144,9 +144,7 @@ pub fn gather_motion<S: Simd, R: Real>(
             let shift = &mut redistributed.shift;
             here.keep_off(simd, &position, &moved, shift, &mut velocity);
         }
-        let on_terrain = terrain_zone
-            .and_then(|(zone, height)| zone.in_block::<S, R>(simd, (&key, height), &position));
-        if let Some(here) = on_terrain {
+        if let Some(here) = on_terrain.and_then(|zones| zones.of_chunk(simd, &position)) {
             let shift = &mut redistributed.shift;
             here.keep_off(simd, &position, &moved, shift, &mut velocity);
         }

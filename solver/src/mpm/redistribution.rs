@@ -9,13 +9,14 @@
 
 use super::chunk::Chunk;
 use super::lanes::{Real, Splat, load};
-use crate::bed::{Bed, HeightField};
-use crate::grid::{BLOCK, BlockKey};
-use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::method::METHOD;
-use crate::walls::{Impulse, Plane, in_plane};
+use crate::walls::{Impulse, in_plane};
 use fearless_simd::prelude::*;
+
+mod no_shift;
+
+pub use no_shift::{NoShiftZone, TerrainZone};
 
 /// Rates of a step, by its length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -150,197 +151,6 @@ pub fn redistribute<S: Simd, R: Real>(
 #[inline(always)]
 fn length<S: Simd, R: Real>(v: &[R::Vector<S>; 3]) -> R::Vector<S> {
     v[0].mul_add(v[0], v[1].mul_add(v[1], v[2] * v[2])).sqrt()
-}
-
-/// Zone at a plane of the bed in which no point is shifted towards it, and none deep behind it is
-/// moved farther behind it (equations 42b and 42c).
-#[derive(Debug, Clone, Copy)]
-pub struct NoShiftZone<R> {
-    /// Height of a place [m] over its position [cells].
-    rise: [R; 3],
-    /// Height of the origin of positions [m].
-    origin: f64,
-    /// Normal over node distance [1/m].
-    out: [R; 3],
-    /// Unit normal.
-    normal: [R; 3],
-    /// Height below which no point is shifted towards the plane [m].
-    near: R,
-    /// Height below which no point is moved deeper [m].
-    deep: R,
-}
-
-impl<R: Real> NoShiftZone<R> {
-    /// Zone at a plane, for positions from the lattice's origin.
-    pub fn of(plane: &Plane, lattice: &Lattice) -> Self {
-        let spacing = &lattice.spacing;
-        let rise = plane.normal.component_mul(spacing);
-        Self {
-            rise: [0, 1, 2].map(|axis| R::of(rise[axis])),
-            origin: plane.height(&lattice.origin),
-            out: [0, 1, 2].map(|axis| R::of(plane.normal[axis] / spacing[axis])),
-            normal: [0, 1, 2].map(|axis| R::of(plane.normal[axis])),
-            near: R::of(METHOD.redistribution.no_shift_height * rise.norm()),
-            deep: R::of(-METHOD.redistribution.deepest_penetration * rise.norm()),
-        }
-    }
-
-    /// Zone for the points of a chunk in a block.
-    #[inline(always)]
-    pub fn in_block<S: Simd>(&self, simd: S, key: &BlockKey) -> ChunkZone<S, R> {
-        let number = Splat::<S, R>::new(simd);
-        let mut origin = self.origin;
-        for axis in 0..3 {
-            origin += self.rise[axis].to_f64() * f64::from(key[axis]) * BLOCK as f64;
-        }
-        ChunkZone {
-            rise: [0, 1, 2].map(|axis| number.all(self.rise[axis])),
-            origin: number.of(origin),
-            out: [0, 1, 2].map(|axis| number.all(self.out[axis])),
-            normal: [0, 1, 2].map(|axis| number.all(self.normal[axis])),
-            near: number.all(self.near),
-            deep: number.all(self.deep),
-        }
-    }
-}
-
-/// Zones on a terrain: that of each point at the plane that touches the terrain there.
-#[derive(Debug, Clone, Copy)]
-pub struct TerrainZone<'a> {
-    ground: &'a HeightField,
-    lattice: &'a Lattice,
-}
-
-impl<'a> TerrainZone<'a> {
-    /// Zones on this ground.
-    pub fn of(ground: &'a HeightField, lattice: &'a Lattice) -> Self {
-        Self { ground, lattice }
-    }
-
-    /// Height above the ground up to which points of a block may be in them [m]; `None` if none of
-    /// them comes so near.
-    pub fn height_in(&self, key: &BlockKey) -> Option<f64> {
-        let spacing = self.lattice.spacing;
-        // A point that has left its block in the step is still among its points.
-        let low = self.lattice.position(key.map(|along| along * BLOCK as i32)) - spacing * 0.5;
-        let high = low + spacing * (BLOCK as f64 + 2.0);
-        let (highest, steepest) = (self.ground.surface()).bounds([low.x, low.y], [high.x, high.y]);
-        // Along the vertical a zone is higher than along the normal.
-        let near = METHOD.redistribution.no_shift_height * spacing.max();
-        let height = near * 1f64.hypot(steepest);
-        (low.z - highest <= height).then_some(height)
-    }
-
-    /// Zones of the points of a chunk, at these positions [cells], up to a height [m]; `None` if none
-    /// of them lies in its zone.
-    #[inline(always)]
-    pub fn in_block<S: Simd, R: Real>(
-        &self,
-        simd: S,
-        (key, height): (&BlockKey, f64),
-        position: &[R::Vector<S>; 3],
-    ) -> Option<ChunkZone<S, R>> {
-        let at = position.map(|along| along.to_array());
-        let corner = self.lattice.position(key.map(|along| along * BLOCK as i32));
-        let mut near_by = false;
-        for lane in 0..R::LANES {
-            let place = self.place(&corner, at.each_ref().map(|along| along.as_ref()[lane]));
-            near_by |= place.z - self.ground.elevation(place.x, place.y) <= height;
-        }
-        if !near_by {
-            return None;
-        }
-        let (mut rise, mut out, mut normal) = ([R::ZEROS; 3], [R::ZEROS; 3], [R::ZEROS; 3]);
-        let [mut origin, mut near, mut deep] = [R::ZEROS; 3];
-        for lane in 0..R::LANES {
-            let position = at.each_ref().map(|along| along.as_ref()[lane]);
-            let zone = self.at(&corner, position);
-            for axis in 0..3 {
-                rise[axis].as_mut()[lane] = zone.rise[axis];
-                out[axis].as_mut()[lane] = zone.out[axis];
-                normal[axis].as_mut()[lane] = zone.normal[axis];
-            }
-            origin.as_mut()[lane] = R::of(zone.origin);
-            near.as_mut()[lane] = zone.near;
-            deep.as_mut()[lane] = zone.deep;
-        }
-        let all = |lanes: &[R::Lanes; 3]| [0, 1, 2].map(|axis| load::<S, R>(simd, &lanes[axis]));
-        Some(ChunkZone {
-            rise: all(&rise),
-            origin: load::<S, R>(simd, &origin),
-            out: all(&out),
-            normal: all(&normal),
-            near: load::<S, R>(simd, &near),
-            deep: load::<S, R>(simd, &deep),
-        })
-    }
-
-    /// Place of a position in the block with this origin [m].
-    fn place<R: Real>(&self, origin: &Vec3, position: [R; 3]) -> Vec3 {
-        let cells = Vec3::from(position.map(Real::to_f64));
-        origin + cells.component_mul(&self.lattice.spacing)
-    }
-
-    /// Zone of a point at this position in the block with this origin [m], for positions in it.
-    fn at<R: Real>(&self, origin: &Vec3, position: [R; 3]) -> NoShiftZone<R> {
-        let place = self.place(origin, position);
-        let plane = self.ground.tangent(place.x, place.y);
-        let here = Lattice {
-            origin: *origin,
-            ..*self.lattice
-        };
-        NoShiftZone::of(&plane, &here)
-    }
-}
-
-/// Zones of the points of a chunk.
-pub struct ChunkZone<S: Simd, R: Real> {
-    rise: [R::Vector<S>; 3],
-    origin: R::Vector<S>,
-    out: [R::Vector<S>; 3],
-    normal: [R::Vector<S>; 3],
-    near: R::Vector<S>,
-    deep: R::Vector<S>,
-}
-
-impl<S: Simd, R: Real> ChunkZone<S, R> {
-    /// Removes the part towards the plane from the shifts [cells] of points near it; of points
-    /// deep behind it also cancels the part of their motion `moved` [cells] into it, and removes
-    /// the part of their velocities [m/s] into it.
-    #[inline(always)]
-    pub fn keep_off(
-        &self,
-        simd: S,
-        position: &[R::Vector<S>; 3],
-        moved: &[R::Vector<S>; 3],
-        shift: &mut [R::Vector<S>; 3],
-        velocity: &mut [R::Vector<S>; 3],
-    ) {
-        let number = Splat::<S, R>::new(simd);
-        let none = number.of(0.0);
-        let mut height = self.origin;
-        let (mut along, mut went, mut goes) = (none, none, none);
-        for axis in 0..3 {
-            let rise = self.rise[axis];
-            height = rise.mul_add(position[axis], height);
-            along = rise.mul_add(shift[axis], along);
-            went = rise.mul_add(moved[axis], went);
-            let normal = self.normal[axis];
-            goes = normal.mul_add(velocity[axis], goes);
-        }
-        let near = height.simd_lt(self.near);
-        let deep = height.simd_lt(self.deep);
-        let into = near.select((none - along).max(none), none);
-        let into = into + deep.select((none - went).max(none), none);
-        for axis in 0..3 {
-            shift[axis] = self.out[axis].mul_add(into, shift[axis]);
-        }
-        let stop = deep.select((none - goes).max(none), none);
-        for axis in 0..3 {
-            let normal = self.normal[axis];
-            velocity[axis] = normal.mul_add(stop, velocity[axis]);
-        }
-    }
 }
 
 /// Changes of a block's sums by the redistribution of its points, chunk by chunk.

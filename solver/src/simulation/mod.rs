@@ -19,7 +19,7 @@ use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::{RestoreError, SaveError, SetupError, StepError};
 use crate::math::Vec3;
 use crate::mpm::instructions::Instructions;
-use crate::points::Point;
+use crate::points::{Part, Point};
 use crate::rigid::Body;
 use crate::scenario::Scenario;
 use crate::stability::Pace;
@@ -27,6 +27,7 @@ use crate::walls::RigidWalls;
 use clock::Clock;
 use flow::Flow;
 use rayon::ThreadPool;
+use rayon::prelude::*;
 use stages::StageEnds;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -275,6 +276,25 @@ impl Simulation {
     /// fields that [`Simulation::points`] defines.
     pub fn visit_points(&self, within: Option<&Around>, mut visit: impl FnMut(&Point)) {
         self.state.flow.visit(within, &mut visit);
+    }
+
+    /// Folds the material points on all threads: each point is added to one of some sums, which are
+    /// joined. Neither must depend on the order.
+    pub fn fold_points<T: Send>(
+        &self,
+        none: impl Fn() -> T + Sync,
+        add: impl Fn(&mut T, &Point) + Sync,
+        join: impl Fn(T, T) -> T,
+    ) -> T {
+        let of_part = |part: Part| {
+            let mut sum = none();
+            let flow = &self.state.flow;
+            flow.visit_part(part, &mut |point| add(&mut sum, point));
+            sum
+        };
+        let parts = Part::all(self.pool.current_num_threads());
+        let sums: Vec<T> = self.pool.install(|| parts.map(of_part).collect());
+        sums.into_iter().reduce(join).unwrap_or_else(none)
     }
 
     /// Visits the computed points, each with the mass of itself and its images [kg]: enough for what

@@ -30,8 +30,7 @@ impl Walls {
             .for_each(|(task, (found, blocks))| {
                 found.clear();
                 for (place, key) in blocks.iter().enumerate() {
-                    let first = key.map(|k| k * BLOCK as i32);
-                    if self.may_act_in(nodes.lattice(), first) {
+                    if self.may_act_in(nodes.lattice(), *key) {
                         self.search_block(nodes, TASK * task + place, found);
                     }
                 }
@@ -47,15 +46,15 @@ impl Walls {
             .resize(boundary.sets.sets.len(), ConstrainedVelocity::default());
     }
 
-    /// True if walls may act on a node of the block that starts at `first`.
-    fn may_act_in(&self, lattice: &Lattice, first: [i32; 3]) -> bool {
+    /// True if walls may act on a node of a block.
+    fn may_act_in(&self, lattice: &Lattice, block: [i32; 3]) -> bool {
+        let first = block.map(|along| along * BLOCK as i32);
         let last = first.map(|along| along + BLOCK as i32 - 1);
         let vertical_walls = (self.vertical_walls.as_ref())
             .is_some_and(|vertical_walls| vertical_walls.may_act_between(first, last));
-        let (low, high) = (lattice.position(first), lattice.position(last));
         // The kernel's reach along a diagonal.
         let margin = REACH * lattice.spacing.norm();
-        vertical_walls || self.bed.is_near(&low, &high, margin)
+        vertical_walls || self.bed.is_near_block(block, lattice, margin)
     }
 
     fn search_block(&self, nodes: &impl NodeAccess, block: usize, found: &mut ConstraintSets) {
@@ -71,10 +70,7 @@ impl Walls {
             }
             let meets = vertical_walls.map_or([Meets::Not; 2], |walls| walls.meets(index));
             let is_master = vertical_walls.is_none_or(|walls| walls.master(index, nodes) == index);
-            let near_bed = || {
-                let resting = nodes.lattice().position(index);
-                self.bed.is_near(&resting, &resting, margin)
-            };
+            let near_bed = || self.bed.is_near_node(index, nodes.lattice(), margin);
             let acts = images || meets != [Meets::Not; 2] || near_bed();
             if acts && is_master {
                 self.add_set(nodes, place, index, meets, found);
@@ -118,8 +114,7 @@ impl Walls {
             found.members.truncate(start);
             found.column_nodes.truncate(known);
         }
-        let resting = nodes.lattice().position(index);
-        let room = self.bed.share_above(&resting, &nodes.lattice().spacing);
+        let room = self.bed.share_above(index, nodes.lattice());
         if plain && room < 1.0 {
             found.cut.push((place as u32, room));
         }

@@ -48,13 +48,12 @@ fn a_plane_raster_is_an_incline_to_nodes() {
         assert!((one.friction - other.friction).abs() < 1e-12);
         for up in 0..25 {
             let index = [across[0], across[1], up];
-            let x = lattice.position(index);
             assert_eq!(
                 planar.covers(index, &lattice),
                 field.covers(index, &lattice)
             );
             let [one, other] =
-                [&planar as &dyn Bed, &field].map(|bed| bed.share_above(&x, &lattice.spacing));
+                [&planar as &dyn Bed, &field].map(|bed| bed.share_above(index, &lattice));
             assert!((one - other).abs() < 1e-9, "{one} {other}");
         }
     }
@@ -94,22 +93,24 @@ fn the_nearest_plane_touches_where_the_surface_is_nearest() {
 }
 
 #[test]
-fn a_box_is_near_if_the_surface_comes_near_it() {
+fn a_block_is_near_if_the_surface_comes_near_one_of_its_nodes() {
     let field = ground(|x, y| 0.2 * x + 0.3 * (3.0 * y).sin());
+    let (lattice, margin) = (lattice(), 0.15);
     let mut near = 0;
-    for n in 0..200 {
-        let [i, j, k] = [n % 10, n / 10 % 5, n / 50].map(f64::from);
-        let low = Vec3::new(0.5 * i, 0.7 * j, 0.5 * k);
-        let high = low + Vec3::repeat(0.4);
-        let least = (0..25).map(|m| {
-            let [u, v] = [m % 5, m / 5].map(|m| 0.1 * f64::from(m));
-            let under = Vec3::new(low.x + u, low.y + v, low.z);
-            field.tangent(under.x, under.y).height(&under)
+    for n in 0..14 * 9 * 6 {
+        let block = [n % 14, n / 14 % 9, n / 126 - 1];
+        let nodes = (0..64).map(|m| {
+            let local = [m % 4, m / 4 % 4, m / 16];
+            lattice.position([0, 1, 2].map(|axis| 4 * block[axis] + local[axis]))
         });
-        let reached = least.fold(f64::INFINITY, f64::min) <= 0.15;
+        let least = nodes.map(|node| field.tangent(node.x, node.y).height(&node));
+        let reached = least.fold(f64::INFINITY, f64::min) <= margin;
         near += usize::from(reached);
-        assert!(!reached || field.is_near(&low, &high, 0.15), "{low}");
+        assert!(
+            !reached || field.is_near_block(block, &lattice, margin),
+            "{block:?}"
+        );
     }
-    assert!(near > 20);
-    assert!(!field.is_near(&Vec3::new(1.0, 1.0, 4.0), &Vec3::new(1.4, 1.4, 4.4), 0.2));
+    assert!(near > 100, "{near}");
+    assert!(!field.is_near_block([2, 2, 9], &lattice, margin));
 }

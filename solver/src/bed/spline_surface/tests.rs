@@ -95,12 +95,26 @@ fn bounds_hold_everywhere_within() {
     for low in [[1.2, 3.4], [-2.0, 8.0], [9.5, -1.0]] {
         let high = [low[0] + 2.7, low[1] + 1.9];
         let (highest, steepest) = surface.bounds(low, high);
+        let lid = surface.lid(low, high);
         for n in 0..400 {
             let [u, v] = [n % 20, n / 20].map(|n| f64::from(n) / 19.0);
-            let here = surface.at(low[0] + 2.7 * u, low[1] + 1.9 * v);
+            let [x, y] = [low[0] + 2.7 * u, low[1] + 1.9 * v];
+            let here = surface.at(x, y);
             assert!(here.elevation <= highest + 1e-12);
+            assert!(here.elevation <= lid.elevation(x, y) + 1e-12);
             assert!(here.slope[0].hypot(here.slope[1]) <= steepest + 1e-12);
         }
+    }
+}
+
+#[test]
+fn the_lid_of_a_plane_is_the_plane() {
+    let plane = |x: f64, y: f64| 3.0 + 0.4 * x - 0.3 * y;
+    let surface = SplineSurface::through(&raster(12, 11, 1.0, plane), 0.0);
+    let lid = surface.lid([2.3, 4.1], [6.2, 7.7]);
+    for [x, y] in [[2.3, 4.1], [6.2, 4.1], [3.0, 7.7]] {
+        let above = lid.elevation(x, y) - plane(x, y);
+        assert!((0.0..1e-12).contains(&above.abs()), "{above}");
     }
 }
 

@@ -1,23 +1,20 @@
 //! Columns of the flow above the cells at one instant.
 
-use super::frame::{Frame, TileIndex, Tiles, tile_of};
+use super::Inundation;
+use super::frame::{CELLS, Frame, TileIndex, Tiles, tile_of};
 use crate::points::Point;
+use crate::simulation::Simulation;
+use std::collections::BTreeMap;
 
 /// Fractions into which the mass of a point is divided: sums of whole numbers do not depend on
 /// their order, in which points come as it happens.
-const FRACTIONS: f64 = (1 << 20) as f64;
+const FRACTIONS: f64 = (1 << 30) as f64;
 
-/// Mass and momentum of the flow above each cell. A point is spread evenly over a square with the
-/// side of a cell of the computation, which is what the computation resolves: points of a flow that
-/// has spread leave no gaps.
+/// Mass and momentum of the flow above each cell.
 pub(super) struct Columns {
-    frame: Frame,
-    side: f64,
-    /// Mass of a fraction [kg].
-    fraction: f64,
+    sums: Tiles<Sums>,
     /// Flow height of a fraction above a cell [m].
     height: f64,
-    sums: Tiles<Sums>,
 }
 
 /// Sums over a column, in fractions.
@@ -36,44 +33,17 @@ pub(super) struct Column<'a> {
 }
 
 impl Columns {
-    /// No points yet, which are spread over squares of this side [m]; distance of points [m] and
-    /// density [kg/m³] at the start.
-    pub(super) fn over(frame: Frame, side: f64, (spacing, density): (f64, f64)) -> Self {
-        let fraction = density * spacing.powi(3) / FRACTIONS;
+    /// The columns of a flow.
+    pub(super) fn of(simulation: &Simulation, inundation: &Inundation) -> Self {
+        let spread = Spread::of(inundation);
+        let sums = simulation.fold_points(
+            TileSums::default,
+            |sums, point| spread.add(point, sums),
+            TileSums::joined,
+        );
         Self {
-            frame,
-            side,
-            fraction,
-            height: fraction / density / frame.cell_size.powi(2),
-            sums: Tiles::default(),
-        }
-    }
-
-    /// Adds a point; what lies beyond the edges is left out.
-    pub(super) fn add(&mut self, point: &Point) {
-        let shares = [0, 1].map(|axis| self.shares(point.position[axis]));
-        let fractions = point.mass / self.fraction;
-        for (row, share_of_row) in shares[1].cells() {
-            for (column, share_of_column) in shares[0].cells() {
-                if !self.frame.has([column, row]) {
-                    continue;
-                }
-                let (tile, place) = tile_of([column as usize, row as usize]);
-                let sums = &mut self.sums.at(tile)[place];
-                let mass = fractions * share_of_row * share_of_column;
-                sums.mass += mass.round() as i64;
-                for axis in 0..3 {
-                    sums.momentum[axis] += (mass * point.velocity[axis]).round() as i64;
-                }
-            }
-        }
-    }
-
-    fn shares(&self, middle: f64) -> Shares {
-        let size = self.frame.cell_size;
-        Shares {
-            from: (middle - 0.5 * self.side) / size,
-            length: self.side / size,
+            sums: sums.into_tiles(),
+            height: spread.height_of_fraction(inundation.density),
         }
     }
 
@@ -108,20 +78,110 @@ impl Column<'_> {
     }
 }
 
-/// A stretch along an axis, in cells.
+/// Spreading of points over cells: each evenly over a square with the side of a cell of the
+/// computation, which is what the computation resolves, so that points of a flow that has spread
+/// leave no gaps.
 #[derive(Clone, Copy)]
-struct Shares {
-    from: f64,
-    length: f64,
+struct Spread {
+    frame: Frame,
+    /// Side of the square [cells].
+    side: f64,
+    /// Mass of a fraction [kg].
+    fraction: f64,
 }
 
-impl Shares {
-    /// The cells that it touches, and the share of it in each.
-    fn cells(self) -> impl Iterator<Item = (i64, f64)> {
-        let to = self.from + self.length;
-        (self.from.floor() as i64..to.ceil() as i64).map(move |cell| {
-            let (low, high) = (cell as f64, (cell + 1) as f64);
-            (cell, (to.min(high) - self.from.max(low)) / self.length)
+impl Spread {
+    fn of(inundation: &Inundation) -> Self {
+        let Inundation { frame, side, .. } = *inundation;
+        Self {
+            frame,
+            side: side / frame.cell_size,
+            fraction: inundation.density * inundation.spacing.powi(3) / FRACTIONS,
+        }
+    }
+
+    /// Flow height of a fraction above a cell [m], at a density [kg/m³].
+    fn height_of_fraction(&self, density: f64) -> f64 {
+        self.fraction / density / self.frame.cell_size.powi(2)
+    }
+
+    /// Adds a point; what lies beyond the edges is left out.
+    fn add(&self, point: &Point, sums: &mut TileSums) {
+        let fractions = point.mass / self.fraction;
+        let columns = self.shares(point.position.x, 0);
+        for (row, of_row) in self.shares(point.position.y, 1) {
+            for (column, of_column) in columns.clone() {
+                let mass = fractions * of_row * of_column;
+                let cell = sums.at([column, row]);
+                cell.mass += mass as i64;
+                for axis in 0..3 {
+                    cell.momentum[axis] += (mass * point.velocity[axis]) as i64;
+                }
+            }
+        }
+    }
+
+    /// The cells along an axis that the square round a place [m] touches, and its share in each.
+    fn shares(&self, middle: f64, axis: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
+        let from = middle / self.frame.cell_size - 0.5 * self.side;
+        let to = (from + self.side).min(self.frame.count[axis] as f64);
+        let from = from.max(0.0);
+        (from as usize..)
+            .take_while(move |cell| (*cell as f64) < to)
+            .map(move |cell| {
+                let covered = to.min((cell + 1) as f64) - from.max(cell as f64);
+                (cell, covered / self.side)
+            })
+    }
+}
+
+/// Sums of the cells of some tiles; neighbouring cells are found at once.
+#[derive(Debug, Default)]
+struct TileSums {
+    places: BTreeMap<TileIndex, usize>,
+    tiles: Vec<Vec<Sums>>,
+    /// The tile asked for last, and its place.
+    last: Option<(TileIndex, usize)>,
+}
+
+impl TileSums {
+    /// The sums of a cell, nothing at first.
+    fn at(&mut self, cell: [usize; 2]) -> &mut Sums {
+        let (tile, place) = tile_of(cell);
+        &mut self.tile(tile)[place]
+    }
+
+    fn tile(&mut self, tile: TileIndex) -> &mut [Sums] {
+        let place = match self.last {
+            Some((known, place)) if known == tile => place,
+            _ => self.look_up(tile),
+        };
+        self.last = Some((tile, place));
+        &mut self.tiles[place]
+    }
+
+    fn look_up(&mut self, tile: TileIndex) -> usize {
+        *self.places.entry(tile).or_insert_with(|| {
+            self.tiles.push(vec![Sums::default(); CELLS]);
+            self.tiles.len() - 1
         })
+    }
+
+    /// Sums of both.
+    fn joined(mut self, other: Self) -> Self {
+        for (tile, place) in other.places {
+            for (sum, more) in self.tile(tile).iter_mut().zip(&other.tiles[place]) {
+                sum.mass += more.mass;
+                for axis in 0..3 {
+                    sum.momentum[axis] += more.momentum[axis];
+                }
+            }
+        }
+        self
+    }
+
+    fn into_tiles(mut self) -> Tiles<Sums> {
+        let taken = |(tile, place)| (tile, std::mem::take(&mut self.tiles[place]));
+        Tiles::of(self.places.into_iter().map(taken))
     }
 }

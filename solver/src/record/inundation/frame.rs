@@ -6,6 +6,8 @@ use std::collections::BTreeMap;
 
 /// Cells along the side of a tile.
 const SIDE: usize = 16;
+/// Cells of a tile.
+pub(super) const CELLS: usize = SIDE * SIDE;
 
 /// Grid of the maps' cells, in the height map's coordinates. It covers the whole height map.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -13,7 +15,7 @@ pub(super) struct Frame {
     /// Side of a cell [m].
     pub cell_size: f64,
     /// Numbers of cells to the east and to the north.
-    count: [usize; 2],
+    pub count: [usize; 2],
     /// Easting and northing of the south-western corner [m].
     corner: [f64; 2],
     epsg: Option<u32>,
@@ -32,12 +34,6 @@ impl Frame {
             corner: [height.west, height.south],
             epsg: height.epsg,
         }
-    }
-
-    /// True if there is such a cell.
-    pub(super) fn has(&self, cell: [i64; 2]) -> bool {
-        let within = |along: i64, count: usize| (0..count as i64).contains(&along);
-        within(cell[0], self.count[0]) && within(cell[1], self.count[1])
     }
 
     /// A raster of a value for each cell of these tiles; NaN where there is none.
@@ -81,12 +77,17 @@ impl<T> Default for Tiles<T> {
 impl<T: Clone + Default> Tiles<T> {
     /// The cells of a tile, which is made if it isn't there.
     pub(super) fn at(&mut self, tile: TileIndex) -> &mut [T] {
-        let made = || vec![T::default(); SIDE * SIDE];
+        let made = || vec![T::default(); CELLS];
         self.0.entry(tile).or_insert_with(made)
     }
 }
 
 impl<T> Tiles<T> {
+    /// These tiles, each with the values of its cells.
+    pub(super) fn of(tiles: impl Iterator<Item = (TileIndex, Vec<T>)>) -> Self {
+        Self(tiles.collect())
+    }
+
     /// All tiles in order.
     pub(super) fn all(&self) -> impl Iterator<Item = (TileIndex, &[T])> {
         self.0.iter().map(|(tile, cells)| (*tile, cells.as_slice()))

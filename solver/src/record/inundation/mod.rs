@@ -2,7 +2,7 @@
 //! of the height map, or of every square of its cells if they are finer than the computation's.
 //!
 //! A look sums mass and momentum of the points above each cell. The flow is looked at whenever it
-//! may have travelled half a cell since, so that none is passed unseen, and only where it is: memory
+//! may have travelled a cell since, so that none is passed unseen, and only where it is: memory
 //! and time follow the flow, not the map.
 
 mod columns;
@@ -15,8 +15,8 @@ use frame::{Frame, Tiles};
 pub use maps::{FlowMaps, MapQuantity};
 use serde::{Deserialize, Serialize};
 
-/// Travel of the fastest point between two looks, in cells of the maps.
-const TRAVEL: f64 = 0.5;
+/// Travel of the fastest point between two looks, in cells of the maps: it is seen in each.
+const TRAVEL: f64 = 1.0;
 /// Flow height from which on a cell counts as reached, in spacings of points: half a layer of them.
 /// A single point that flies ahead makes less.
 const REACHED: f64 = 0.5;
@@ -101,7 +101,7 @@ impl Inundation {
     fn look(&mut self, simulation: &Simulation) {
         let now = simulation.time_s();
         let reached = REACHED * self.spacing;
-        for (tile, columns) in self.columns(simulation).tiles() {
+        for (tile, columns) in Columns::of(simulation, self).tiles() {
             let cells = self.tiles.at(tile);
             for (cell, column) in cells.iter_mut().zip(columns) {
                 let height = column.height_m();
@@ -116,16 +116,10 @@ impl Inundation {
         self.since.released = simulation.released_points();
     }
 
-    fn columns(&self, simulation: &Simulation) -> Columns {
-        let mut columns = Columns::over(self.frame, self.side, (self.spacing, self.density));
-        simulation.visit_points(None, |point| columns.add(point));
-        columns
-    }
-
     /// The maps of a run that ends now.
     pub(super) fn maps(&self, simulation: &Simulation) -> FlowMaps {
         let mut last = self.clone();
         last.look(simulation);
-        FlowMaps::of(&last, &last.columns(simulation))
+        FlowMaps::of(&last, &Columns::of(simulation, &last))
     }
 }

@@ -21,7 +21,7 @@ use crate::mpm::rows::Tile;
 use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use crate::mpm::stress_update::update_stress;
 use crate::mpm::totals;
-use crate::points::{Point, Unloading};
+use crate::points::{Part, Point, Unloading};
 use crate::rigid::Body;
 use crate::simulation::setup::Setup;
 use crate::simulation::stages::{StageEnds, StepStage};
@@ -403,6 +403,15 @@ impl<R: Saved> Flow for BlockFlow<R> {
                 if within.is_none_or(|around| around.holds(&point.position)) {
                     visit(&point);
                 }
+            }
+        }
+    }
+
+    fn visit_part(&self, part: Part, visit: &mut dyn FnMut(&Point)) {
+        let blocks = self.blocks.occupied();
+        for block in &blocks[part.range(blocks.len())] {
+            for slot in 0..block.count() {
+                visit(&self.packing.unpack(&block.key, &block.get(slot)));
             }
         }
     }

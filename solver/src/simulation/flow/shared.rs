@@ -9,7 +9,7 @@ use super::whole::{restore_whole, start_whole};
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::Totals;
 use crate::mpm::instructions::Instructions;
-use crate::points::Point;
+use crate::points::{Part, Point};
 use crate::rigid::Body;
 use crate::scenario::Precision;
 use crate::simulation::setup::{Setup, Share, Shares, near_body};
@@ -211,6 +211,13 @@ impl Flow for SharedFlow {
             let around = within.map(|around| self.images.around(which, around));
             let mut show = |point: &Point| visit(&self.images.of(which, point));
             self.flow.visit(around.as_ref(), &mut show);
+        }
+    }
+
+    fn visit_part(&self, part: Part, visit: &mut dyn FnMut(&Point)) {
+        for which in 0..self.images.count() {
+            let mut show = |point: &Point| visit(&self.images.of(which, point));
+            self.flow.visit_part(part, &mut show);
         }
     }
 

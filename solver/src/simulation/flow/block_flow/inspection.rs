@@ -49,14 +49,15 @@ pub(super) fn find_offending_point<R: Real>(
             && (0..block.count()).any(|slot| height(slot) < -tolerance)
     };
     let in_ground = |ground: &HeightField, block: &Block<R>| {
+        let lid = ground.lid_over([block.key[0], block.key[1]], lattice);
         // Along the vertical nothing is less deep than along the normal.
-        let depth = |slot| {
+        let is_in = |slot| {
             let place = packing.position(&block.key, &block.position(slot));
-            ground.elevation(place.x, place.y) - place.z
+            let deep = |over: f64| over - place.z > tolerance;
+            deep(lid.elevation(place.x, place.y)) && deep(ground.elevation(place.x, place.y))
         };
         let (low, high) = corners(lattice, &block.key);
-        let highest = ground.surface().bounds([low.x, low.y], [high.x, high.y]).0;
-        highest - low.z > tolerance && (0..block.count()).any(|slot| depth(slot) > tolerance)
+        lid.height_of_box(&low, &high) < -tolerance && (0..block.count()).any(is_in)
     };
     let suspect = |block: &&Block<R>| {
         let on_terrain = || walls.terrain.is_some_and(|ground| in_ground(ground, block));

@@ -1,0 +1,255 @@
+//! Zones near the bed in which no point is shifted towards it (docs/method.md, equations 42b and
+//! 42c).
+
+use crate::bed::{HeightField, Lid, Plane};
+use crate::grid::{BLOCK, BlockKey, POSITIONS_IN_STEP};
+use crate::kernel::Lattice;
+use crate::math::Vec3;
+use crate::method::METHOD;
+use crate::mpm::lanes::{MOST_LANES, Real, Splat, load};
+use fearless_simd::prelude::*;
+use std::ops::Range;
+
+/// Zone at a plane of the bed in which no point is shifted towards it, and none deep behind it is
+/// moved farther behind it (equations 42b and 42c).
+#[derive(Debug, Clone, Copy)]
+pub struct NoShiftZone<R> {
+    /// Height of a place [m] over its position [cells].
+    rise: [R; 3],
+    /// Height of the origin of positions [m].
+    origin: f64,
+    /// Normal over node distance [1/m].
+    out: [R; 3],
+    /// Unit normal.
+    normal: [R; 3],
+    /// Height below which no point is shifted towards the plane [m].
+    near: R,
+    /// Height below which no point is moved deeper [m].
+    deep: R,
+}
+
+impl<R: Real> NoShiftZone<R> {
+    /// No zone: every place is above it.
+    const NONE: Self = Self {
+        rise: [R::ZERO; 3],
+        origin: 0.0,
+        out: [R::ZERO; 3],
+        normal: [R::ZERO; 3],
+        near: R::ZERO,
+        deep: R::ZERO,
+    };
+
+    /// Zone at a plane, for positions from the lattice's origin.
+    pub fn of(plane: &Plane, lattice: &Lattice) -> Self {
+        let spacing = &lattice.spacing;
+        let rise = plane.normal.component_mul(spacing);
+        Self {
+            rise: [0, 1, 2].map(|axis| R::of(rise[axis])),
+            origin: plane.height(&lattice.origin),
+            out: [0, 1, 2].map(|axis| R::of(plane.normal[axis] / spacing[axis])),
+            normal: [0, 1, 2].map(|axis| R::of(plane.normal[axis])),
+            near: R::of(METHOD.redistribution.no_shift_height * rise.norm()),
+            deep: R::of(-METHOD.redistribution.deepest_penetration * rise.norm()),
+        }
+    }
+
+    /// Zone for the points of a chunk in a block.
+    #[inline(always)]
+    pub fn in_block<S: Simd>(&self, simd: S, key: &BlockKey) -> ChunkZone<S, R> {
+        let number = Splat::<S, R>::new(simd);
+        let mut origin = self.origin;
+        for axis in 0..3 {
+            origin += self.rise[axis].to_f64() * f64::from(key[axis]) * BLOCK as f64;
+        }
+        ChunkZone {
+            rise: [0, 1, 2].map(|axis| number.all(self.rise[axis])),
+            origin: number.of(origin),
+            out: [0, 1, 2].map(|axis| number.all(self.out[axis])),
+            normal: [0, 1, 2].map(|axis| number.all(self.normal[axis])),
+            near: number.all(self.near),
+            deep: number.all(self.deep),
+        }
+    }
+}
+
+/// Zones of the points of a chunk.
+pub struct ChunkZone<S: Simd, R: Real> {
+    rise: [R::Vector<S>; 3],
+    origin: R::Vector<S>,
+    out: [R::Vector<S>; 3],
+    normal: [R::Vector<S>; 3],
+    near: R::Vector<S>,
+    deep: R::Vector<S>,
+}
+
+impl<S: Simd, R: Real> ChunkZone<S, R> {
+    /// Each point's own.
+    #[inline(always)]
+    fn of_points(simd: S, zones: &[NoShiftZone<R>; MOST_LANES]) -> Self {
+        Self {
+            rise: [0, 1, 2].map(|axis| of_each(simd, zones, |zone| zone.rise[axis])),
+            origin: of_each(simd, zones, |zone| R::of(zone.origin)),
+            out: [0, 1, 2].map(|axis| of_each(simd, zones, |zone| zone.out[axis])),
+            normal: [0, 1, 2].map(|axis| of_each(simd, zones, |zone| zone.normal[axis])),
+            near: of_each(simd, zones, |zone| zone.near),
+            deep: of_each(simd, zones, |zone| zone.deep),
+        }
+    }
+
+    /// Removes the part towards the plane from the shifts [cells] of points near it; of points
+    /// deep behind it also cancels the part of their motion `moved` [cells] into it, and removes
+    /// the part of their velocities [m/s] into it.
+    #[inline(always)]
+    pub fn keep_off(
+        &self,
+        simd: S,
+        position: &[R::Vector<S>; 3],
+        moved: &[R::Vector<S>; 3],
+        shift: &mut [R::Vector<S>; 3],
+        velocity: &mut [R::Vector<S>; 3],
+    ) {
+        let number = Splat::<S, R>::new(simd);
+        let none = number.of(0.0);
+        let mut height = self.origin;
+        let (mut along, mut went, mut goes) = (none, none, none);
+        for axis in 0..3 {
+            let rise = self.rise[axis];
+            height = rise.mul_add(position[axis], height);
+            along = rise.mul_add(shift[axis], along);
+            went = rise.mul_add(moved[axis], went);
+            let normal = self.normal[axis];
+            goes = normal.mul_add(velocity[axis], goes);
+        }
+        let near = height.simd_lt(self.near);
+        let deep = height.simd_lt(self.deep);
+        let into = near.select((none - along).max(none), none);
+        let into = into + deep.select((none - went).max(none), none);
+        for axis in 0..3 {
+            shift[axis] = self.out[axis].mul_add(into, shift[axis]);
+        }
+        let stop = deep.select((none - goes).max(none), none);
+        for axis in 0..3 {
+            let normal = self.normal[axis];
+            velocity[axis] = normal.mul_add(stop, velocity[axis]);
+        }
+    }
+}
+
+/// A number of each zone, lane by lane.
+#[inline(always)]
+fn of_each<S: Simd, R: Real>(
+    simd: S,
+    zones: &[NoShiftZone<R>; MOST_LANES],
+    number: impl Fn(&NoShiftZone<R>) -> R,
+) -> R::Vector<S> {
+    let mut lanes = R::ZEROS;
+    for (lane, zone) in lanes.as_mut().iter_mut().zip(zones) {
+        *lane = number(zone);
+    }
+    load::<S, R>(simd, &lanes)
+}
+
+/// Zones on a terrain: that of each point at the plane that touches the terrain there.
+#[derive(Debug, Clone, Copy)]
+pub struct TerrainZone<'a> {
+    ground: &'a HeightField,
+    lattice: &'a Lattice,
+}
+
+impl<'a> TerrainZone<'a> {
+    /// Zones on this ground.
+    pub fn of(ground: &'a HeightField, lattice: &'a Lattice) -> Self {
+        Self { ground, lattice }
+    }
+
+    /// Zones in a block; `None` if none of its points may lie in one.
+    pub fn in_block<R: Real>(&self, key: &BlockKey) -> Option<BlockZone<'a, R>> {
+        let lattice = Lattice {
+            origin: self.lattice.position(key.map(|along| along * BLOCK as i32)),
+            ..*self.lattice
+        };
+        let lid = self.ground.lid_over([key[0], key[1]], self.lattice);
+        let zone = BlockZone::under(&lid, self.ground, lattice);
+        zone.may_hold_a_point().then_some(zone)
+    }
+}
+
+/// Rounding of positions [cells].
+const ROUNDING: f64 = 1e-3;
+
+/// Zones of the points of a block on a terrain.
+#[derive(Debug, Clone, Copy)]
+pub struct BlockZone<'a, R> {
+    ground: &'a HeightField,
+    /// Lattice from the block's corner.
+    lattice: Lattice,
+    /// Height of a position [cells] above a plane over all zones [m].
+    rise: [R; 3],
+    /// The same of the block's corner [m].
+    origin: R,
+}
+
+impl<'a, R: Real> BlockZone<'a, R> {
+    /// Zones in a block under a lid on the surface; the block's corner is the lattice's origin.
+    fn under(lid: &Lid, ground: &'a HeightField, lattice: Lattice) -> Self {
+        let Lattice { origin, spacing } = lattice;
+        // Along the vertical a zone is higher than along the normal.
+        let near = METHOD.redistribution.no_shift_height * 1f64.hypot(lid.steepest);
+        let height = (near + ROUNDING) * spacing.max();
+        let over = lid.elevation(origin.x, origin.y) + height;
+        let [along, across] = lid.slope;
+        let rise = Vec3::new(-along, -across, 1.0).component_mul(&spacing);
+        Self {
+            ground,
+            lattice,
+            rise: [0, 1, 2].map(|axis| R::of(rise[axis])),
+            origin: R::of(origin.z - over),
+        }
+    }
+
+    /// True if a point of the block may lie in its zone.
+    fn may_hold_a_point(&self) -> bool {
+        let lowest = self.rise.map(|rise| {
+            let rise = rise.to_f64();
+            let Range { start, end } = POSITIONS_IN_STEP;
+            rise * if rise > 0.0 { start } else { end }
+        });
+        self.origin.to_f64() + lowest.iter().sum::<f64>() <= 0.0
+    }
+
+    /// Zones of the points of a chunk, at these positions [cells]; `None` if none of them lies in
+    /// its zone.
+    #[inline(always)]
+    pub fn of_chunk<S: Simd>(
+        &self,
+        simd: S,
+        position: &[R::Vector<S>; 3],
+    ) -> Option<ChunkZone<S, R>> {
+        let number = Splat::<S, R>::new(simd);
+        let mut above = number.all(self.origin);
+        for axis in 0..3 {
+            above = number.all(self.rise[axis]).mul_add(position[axis], above);
+        }
+        let above = above.to_array();
+        let may_be_in = |lane: usize| above.as_ref()[lane] <= R::ZERO;
+        if !(0..R::LANES).any(may_be_in) {
+            return None;
+        }
+        let at = position.map(|along| along.to_array());
+        let mut zones = [NoShiftZone::NONE; MOST_LANES];
+        for lane in (0..R::LANES).filter(|lane| may_be_in(*lane)) {
+            zones[lane] = self.of_point(at.each_ref().map(|along| along.as_ref()[lane]));
+        }
+        Some(ChunkZone::of_points(simd, &zones))
+    }
+
+    /// Zone of a point at this position [cells], for positions in the block.
+    fn of_point(&self, position: [R; 3]) -> NoShiftZone<R> {
+        let cells = Vec3::from(position.map(Real::to_f64));
+        let place = self.lattice.origin + cells.component_mul(&self.lattice.spacing);
+        NoShiftZone::of(&self.ground.touching(place.x, place.y), &self.lattice)
+    }
+}
+
+#[cfg(test)]
+mod tests;
