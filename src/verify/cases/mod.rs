@@ -3,6 +3,7 @@
 mod axisymmetric_collapse;
 mod bagnold;
 mod buried_body;
+mod channel_as_raster;
 mod coarse_cells;
 mod column_collapse;
 mod cubes_and_column;
@@ -69,4 +70,5 @@ pub const ALL: &[Case] = &[
     coarse_cells::CASE,
     early_stop::CASE,
     study_regions::CASE,
+    channel_as_raster::CASE,
 ];
