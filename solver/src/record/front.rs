@@ -1,5 +1,5 @@
-//! Front of a flow: how far it has come, downstream in a channel, and on a terrain from the middle
-//! of its release.
+//! Front of a flow: how far it has come, downstream in a channel, and on a terrain from the middles
+//! of its releases.
 
 use crate::math::Vec3;
 use crate::simulation::{Division, PreparedScene, Simulation};
@@ -11,7 +11,7 @@ const FRONT_SHARE: f64 = 1e-3;
 const FRONT_SHARE_ON_TERRAIN: f64 = 0.01;
 
 /// Measure of a front.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum FrontMeasure {
     /// Along x in a channel.
     Downstream {
@@ -20,13 +20,47 @@ pub(super) enum FrontMeasure {
         /// x of the open end [m].
         end: f64,
     },
-    /// Horizontal distance on a terrain.
+    /// Horizontal distance on a terrain: the largest reach of a release, and how far a place is
+    /// beyond the circle round the release that it is least beyond. With one release that is the
+    /// distance from its middle.
     Around {
-        /// Middle of the release [m].
-        middle: [f64; 2],
-        /// Distance of its farthest place [m].
-        toe: f64,
+        /// Circles round the releases.
+        circles: Vec<Circle>,
+        /// Largest reach [m].
+        reach: f64,
     },
+}
+
+/// Circle round a release.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Circle {
+    /// Middle of the release [m].
+    middle: [f64; 2],
+    /// Distance of its farthest place [m].
+    reach: f64,
+}
+
+impl Circle {
+    /// Circle round a release, by its places and the thickness there [m].
+    fn round(places: impl Iterator<Item = ([f64; 2], f64)> + Clone) -> Self {
+        let (mut middle, mut whole) = ([0.0; 2], 0.0);
+        for (place, thickness) in places.clone() {
+            whole += thickness;
+            middle = [0, 1].map(|axis| middle[axis] + thickness * place[axis]);
+        }
+        let middle = middle.map(|sum| sum / f64::max(whole, f64::MIN_POSITIVE));
+        let circle = Self { middle, reach: 0.0 };
+        let distances = places.map(|(place, _)| circle.beyond(place));
+        Self {
+            reach: distances.fold(0.0, f64::max),
+            ..circle
+        }
+    }
+
+    /// Distance of a place beyond it [m]; negative inside.
+    fn beyond(&self, place: [f64; 2]) -> f64 {
+        (place[0] - self.middle[0]).hypot(place[1] - self.middle[1]) - self.reach
+    }
 }
 
 impl FrontMeasure {
@@ -40,23 +74,23 @@ impl FrontMeasure {
             };
         }
         let columns = prepared.division.as_ref().and_then(Division::on_terrain);
-        let (mut middle, mut whole) = ([0.0; 2], 0.0);
-        let places = || columns.into_iter().flat_map(|columns| columns.places());
-        for (place, thickness) in places() {
-            whole += thickness;
-            middle = [0, 1].map(|axis| middle[axis] + thickness * place[axis]);
-        }
-        let middle = middle.map(|sum| sum / f64::max(whole, f64::MIN_POSITIVE));
-        let far = |place: [f64; 2]| (place[0] - middle[0]).hypot(place[1] - middle[1]);
-        let toe = places().map(|(place, _)| far(place)).fold(0.0, f64::max);
-        Self::Around { middle, toe }
+        let releases = columns.into_iter().flat_map(|columns| columns.releases());
+        let circles: Vec<Circle> = releases.map(Circle::round).collect();
+        let reaches = circles.iter().map(|circle| circle.reach);
+        let reach = reaches.fold(0.0, f64::max);
+        Self::Around { circles, reach }
     }
 
     /// How far a place is [m].
     pub(super) fn of_place(&self, place: &Vec3) -> f64 {
         match self {
             Self::Downstream { .. } => place.x,
-            Self::Around { middle, .. } => (place.x - middle[0]).hypot(place.y - middle[1]),
+            Self::Around { circles, reach } => {
+                let beyond = circles
+                    .iter()
+                    .map(|circle| circle.beyond([place.x, place.y]));
+                reach + beyond.fold(f64::INFINITY, f64::min)
+            }
         }
     }
 
@@ -64,7 +98,7 @@ impl FrontMeasure {
     pub(super) fn toe(&self) -> Option<f64> {
         match self {
             Self::Downstream { toe, .. } => *toe,
-            Self::Around { toe, .. } => Some(*toe),
+            Self::Around { reach, .. } => Some(*reach),
         }
     }
 

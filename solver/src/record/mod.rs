@@ -210,9 +210,11 @@ pub struct MassProperties {
 pub struct FlowOutcome {
     /// Position x beyond which 0.1 % of the released mass lies, mass that left through the open end
     /// included [m]; null without a flow. On a terrain the horizontal distance from the middle of
-    /// the release beyond which 1 % of it lies, null once so much has left the map.
+    /// the release beyond which 1 % of it lies, null once so much has left the map; with several
+    /// releases the run-out plus the largest distance within a release.
     pub front_m: Option<f64>,
-    /// Front minus the initial toe [m]; null without a front.
+    /// Front minus the initial toe [m]; null without a front. On a terrain the distance beyond the
+    /// circle round the release, with several releases beyond all of their circles.
     pub runout_m: Option<f64>,
     /// Mass that left through the open end, or over the edges of a terrain [kg].
     pub outflow_mass_kg: f64,

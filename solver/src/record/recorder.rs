@@ -273,6 +273,7 @@ impl Recorder {
             bodies: &bodies,
             free: simulation.bodies().iter().map(Body::is_free).collect(),
             flow: (released > 0.0).then_some((&flow, released)),
+            outlet: *simulation.outlet(),
             ended_s: simulation.time_s(),
             at_rest: (self.ending == Ending::Auto).then_some(self.ended_early.is_some()),
         };

@@ -1,7 +1,9 @@
 //! Remarks on an outcome: what happened, in words.
 
 use super::{BodyOutcome, FlowOutcome};
+use crate::math::Vec3;
 use crate::plan::names;
+use crate::simulation::Outlet;
 
 /// Outcome and end of a run, as far as the remarks tell of them.
 pub(super) struct Seen<'a> {
@@ -10,6 +12,8 @@ pub(super) struct Seen<'a> {
     pub(super) free: Vec<bool>,
     /// The flow, with its released mass [kg]; `None` without one.
     pub(super) flow: Option<(&'a FlowOutcome, f64)>,
+    /// Where flow leaves.
+    pub(super) outlet: Outlet,
     /// Simulated time at the end of the run [s].
     pub(super) ended_s: f64,
     /// True if the run ended because nothing moved any more; `None` if it was to go on
@@ -25,6 +29,7 @@ impl Seen<'_> {
             self.not_moved(),
             self.came_to_rest(),
             self.still_moving(),
+            self.left_the_map(),
             self.outflow(),
             self.end(),
         ];
@@ -89,9 +94,20 @@ impl Seen<'_> {
     fn outflow(&self) -> Option<String> {
         let (flow, released) = self.flow.filter(|(flow, _)| flow.outflow_mass_kg > 0.0)?;
         let share = 100.0 * flow.outflow_mass_kg / released;
+        let way = match self.outlet {
+            Outlet::End(_) => "through the open end",
+            Outlet::Edges(_) => "over the edges of the height map",
+        };
+        Some(format!("{} % of the flow left {way}", short(share)))
+    }
+
+    fn left_the_map(&self) -> Option<String> {
+        let is_terrain = matches!(self.outlet, Outlet::Edges(_));
+        let beyond = |body: &BodyOutcome| self.outlet.is_beyond(&Vec3::from(body.final_position_m));
+        let which = self.which(|_, body| is_terrain && beyond(body))?;
         Some(format!(
-            "{} % of the flow left through the open end",
-            short(share)
+            "{which} left the height map: beyond its edges the ground is made up, and so is what \
+             happened there"
         ))
     }
 

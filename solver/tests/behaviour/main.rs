@@ -32,5 +32,6 @@ mod shapes;
 mod sliding_block;
 mod symmetry;
 mod terrain;
+mod terrain_edges;
 mod thin_flows;
 mod words;

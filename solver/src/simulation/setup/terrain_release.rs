@@ -99,10 +99,17 @@ impl TerrainColumns {
         self.spacing
     }
 
-    /// Places of the columns, with the thickness there [m].
+    /// Places of the columns of each release, with the thickness there [m].
+    pub fn releases(&self) -> impl Iterator<Item = impl Iterator<Item = ([f64; 2], f64)> + Clone> {
+        self.releases.iter().map(|release| {
+            let columns = release.columns.iter();
+            columns.map(|column| (column.place, column.thickness))
+        })
+    }
+
+    /// Places of all columns, with the thickness there [m].
     pub fn places(&self) -> impl Iterator<Item = ([f64; 2], f64)> {
-        let columns = self.releases.iter().flat_map(|release| &release.columns);
-        columns.map(|column| (column.place, column.thickness))
+        self.releases().flatten()
     }
 
     /// First release after a time [s], if there is one.
