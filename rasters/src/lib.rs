@@ -30,7 +30,7 @@ mod values;
 pub use ascii::{AsciiError, write_ascii};
 pub use error::RasterError;
 pub use geotiff::{GeoTiffError, WriteError, write_geotiff};
-pub use limits::SizeError;
+pub use limits::{MOST_CELLS, SizeError};
 pub use projection::{Projection, ProjectionError};
 pub use purpose::Purpose;
 pub use values::{Cell, ValueError};
@@ -45,16 +45,27 @@ use sha2::{Digest, Sha256};
 /// It is neither, can't be read as a raster of square cells in metres, or has values that its
 /// purpose doesn't allow.
 pub fn read(bytes: &[u8], purpose: Purpose) -> Result<Raster, RasterError> {
-    let file = parse(bytes)?;
+    read_at_most(MOST_CELLS, bytes, purpose)
+}
+
+/// Raster of a file as [`read`] reads it, if it has so many cells at most: files are compressed, and
+/// memory is taken by the cell.
+///
+/// # Errors
+/// It has more, or those of [`read`].
+pub fn read_at_most(cells: u64, bytes: &[u8], purpose: Purpose) -> Result<Raster, RasterError> {
+    let file = parse(bytes, cells)?;
     Ok(values::checked(file, purpose)?)
 }
 
 /// Content of a file whose format is told by its first bytes.
-fn parse(bytes: &[u8]) -> Result<RasterFile, RasterError> {
+fn parse(bytes: &[u8], most_cells: u64) -> Result<RasterFile, RasterError> {
     match bytes {
         [] => Err(RasterError::Empty),
-        [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => geotiff::read(bytes),
-        _ if ascii::begins(bytes) => ascii::read(bytes),
+        [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => {
+            geotiff::read(bytes, most_cells)
+        }
+        _ if ascii::begins(bytes) => ascii::read(bytes, most_cells),
         _ => Err(RasterError::UnknownFormat {
             start: bytes[..bytes.len().min(8)].escape_ascii().to_string(),
         }),

@@ -5,8 +5,8 @@ use thiserror::Error;
 
 /// Fewest columns and rows: a slope needs a neighbour on both sides.
 const FEWEST: u64 = 3;
-/// Most cells: 10 km × 10 km at 1 m, 0.8 GB of values.
-const MOST_CELLS: u64 = 100_000_000;
+/// Most cells that are ever read: 10 km × 10 km at 1 m, 0.8 GB of values.
+pub const MOST_CELLS: u64 = 100_000_000;
 /// Sides of cells [m].
 const CELL_SIZES: RangeInclusive<f64> = 0.01..=1000.0;
 /// Greatest relative difference between width and height of a cell: what reprojection leaves.
@@ -26,12 +26,14 @@ pub enum SizeError {
         rows: u64,
     },
     /// Too many for memory.
-    #[error("the raster has {columns} × {rows} cells; at most 100000000 in all are read")]
+    #[error("the raster has {columns} × {rows} cells; at most {most} in all are read here")]
     TooManyCells {
         /// Columns.
         columns: u64,
         /// Rows.
         rows: u64,
+        /// Most cells that are read.
+        most: u64,
     },
     /// Oblong cells.
     #[error(
@@ -72,10 +74,15 @@ pub enum SizeError {
     },
 }
 
-/// Columns and rows of a raster that fits into memory.
-pub(crate) fn shape(columns: u64, rows: u64) -> Result<[usize; 2], SizeError> {
-    if columns.saturating_mul(rows) > MOST_CELLS {
-        return Err(SizeError::TooManyCells { columns, rows });
+/// Columns and rows of a raster that has so many cells at most.
+pub(crate) fn shape([columns, rows]: [u64; 2], most: u64) -> Result<[usize; 2], SizeError> {
+    let most = most.min(MOST_CELLS);
+    if columns.saturating_mul(rows) > most {
+        return Err(SizeError::TooManyCells {
+            columns,
+            rows,
+            most,
+        });
     }
     if columns < FEWEST || rows < FEWEST {
         return Err(SizeError::TooFewCells { columns, rows });

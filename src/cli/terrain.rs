@@ -21,7 +21,7 @@ pub(super) fn terrain(options: &TerrainOptions) -> Result<(), Failure> {
 /// Prints what the file is.
 fn check(options: &CheckOptions) -> Result<(), Failure> {
     let file = read_file(&options.file)?;
-    let read = Description::of_file(&file, options.purpose);
+    let read = Description::of_file(scree_rasters::MOST_CELLS, &file, options.purpose);
     let description = read.map_err(|error| {
         let rules = [violation(&error, options.purpose)];
         let name = scenario_file::name(&options.file);

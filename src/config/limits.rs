@@ -12,6 +12,8 @@ pub struct Limits {
     pub request_body_bytes: usize,
     /// Largest file of a terrain [bytes].
     pub terrain_file_bytes: usize,
+    /// Largest number of cells of a terrain: its file may be compressed.
+    pub terrain_cells: u64,
     /// Terrains that may be uploaded at the same time, each in memory meanwhile; more are refused with
     /// 429, and so are those of one caller (token or address) beyond half of it.
     pub terrain_uploads: usize,
@@ -62,6 +64,7 @@ impl Default for Limits {
         Self {
             request_body_bytes: 1024 * 1024,
             terrain_file_bytes: 64 * 1024 * 1024,
+            terrain_cells: 25_000_000,
             terrain_uploads: 4,
             terrain_read_timeout_s: 60.0,
             header_read_timeout_s: 10.0,
@@ -90,6 +93,7 @@ impl Limits {
         for (key, value) in [
             ("limits.request_body_bytes", self.request_body_bytes),
             ("limits.terrain_file_bytes", self.terrain_file_bytes),
+            ("limits.terrain_cells", self.terrain_cells as usize),
             ("limits.terrain_uploads", self.terrain_uploads),
             ("limits.connections", self.connections),
             (

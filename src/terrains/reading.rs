@@ -70,12 +70,12 @@ impl From<FilePurpose> for Purpose {
 }
 
 impl Description {
-    /// Reads a file and describes its raster.
+    /// Reads a file whose raster has so many cells at most, and describes it.
     ///
     /// # Errors
-    /// It is no raster for its purpose.
-    pub fn of_file(file: &[u8], purpose: FilePurpose) -> Result<Self, RasterError> {
-        let raster = raster(file, purpose)?;
+    /// It has more, or is no raster for its purpose.
+    pub fn of_file(cells: u64, file: &[u8], purpose: FilePurpose) -> Result<Self, RasterError> {
+        let raster = scree_rasters::read_at_most(cells, file, purpose.into())?;
         Ok(Self::of(&raster, FileFormat::of(file), purpose))
     }
 }
@@ -137,6 +137,15 @@ fn of_size(error: &SizeError, purpose: FilePurpose) -> (Value, String, Option<St
             "cells of 0.01 m to 1000 m".to_owned(),
             metres,
         ),
+        SizeError::TooManyCells {
+            columns,
+            rows,
+            most,
+        } => (
+            json!(columns.saturating_mul(*rows)),
+            format!("x <= {most}"),
+            Some("cells".to_owned()),
+        ),
         SizeError::NotSquare { width, height } => {
             (json!([width, height]), "square cells".to_owned(), metres)
         }
@@ -147,6 +156,7 @@ fn of_size(error: &SizeError, purpose: FilePurpose) -> (Value, String, Option<St
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scree_rasters::MOST_CELLS;
 
     const GRID: &str = "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 10\n";
 
@@ -154,7 +164,7 @@ mod tests {
     fn a_fault_names_the_cell_its_value_and_the_range() {
         let refused = |values: &str| {
             let file = format!("{GRID}{values}");
-            let error = Description::of_file(file.as_bytes(), FilePurpose::HeightMap);
+            let error = Description::of_file(MOST_CELLS, file.as_bytes(), FilePurpose::HeightMap);
             violation(&error.unwrap_err(), FilePurpose::HeightMap)
         };
         let high = refused("1 2 3\n4 9500 6\n7 8 9\n");

@@ -89,8 +89,9 @@ impl TerrainService {
         (submitter, place): (Option<&str>, &InUse),
     ) -> Result<(Terrain, bool), PutError> {
         let place = self.pool.enter(place.caller())?;
+        let most_cells = self.limits.terrain_cells;
         let read = place.read_raster(move || {
-            let description = Description::of_file(&file, purpose);
+            let description = Description::of_file(most_cells, &file, purpose);
             description.map(|description| (TerrainHash::of(&file), description, file))
         });
         let read = read.await?;

@@ -295,6 +295,18 @@ async fn a_file_is_refused_while_it_arrives_once_it_is_too_large() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_raster_of_too_many_cells_is_refused() {
+    let app = TestApp::start_with(|config| config.limits.terrain_cells = 11).await;
+    let refused = put(&app, &slope(100.0)).await;
+    refused.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-terrain");
+    let error = &refused.body["errors"][0];
+    assert_eq!(error["value"], 12);
+    assert_eq!(error["allowed"], "x <= 11");
+    assert_eq!(error["unit"], "cells");
+    app.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn slow_uploads_are_cut_and_leave_room_for_other_callers() {
     let app = TestApp::start_with(|config| {
         with_tokens(config);

@@ -26,14 +26,14 @@ pub(crate) fn begins(bytes: &[u8]) -> bool {
 /// Mark that some editors put before text.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-pub(crate) fn read(bytes: &[u8]) -> Result<RasterFile, RasterError> {
+pub(crate) fn read(bytes: &[u8], most_cells: u64) -> Result<RasterFile, RasterError> {
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     let text = str::from_utf8(bytes).map_err(|error| AsciiError::NotText {
         position: error.valid_up_to(),
     })?;
     let mut lines = (1..).zip(text.lines()).peekable();
     let header = Header::read(&mut lines)?;
-    let [columns, rows] = limits::shape(header.columns()?, header.rows()?)?;
+    let [columns, rows] = limits::shape([header.columns()?, header.rows()?], most_cells)?;
     let [width, height] = header.cell()?;
     let cell_size = limits::cell_size(width, height)?;
     let [west, south] = header.place(cell_size)?;

@@ -27,18 +27,18 @@ use tiff::tags::Tag;
 type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
 
 /// The first image; it has the full resolution, and overviews follow it.
-pub(crate) fn read(bytes: &[u8]) -> Result<RasterFile, RasterError> {
-    let file = decode(bytes);
+pub(crate) fn read(bytes: &[u8], most_cells: u64) -> Result<RasterFile, RasterError> {
+    let file = decode(bytes, most_cells);
     file.map_err(|error| match error {
         RasterError::GeoTiff(error) => error.of_file(bytes.len()).into(),
         other => other,
     })
 }
 
-fn decode(bytes: &[u8]) -> Result<RasterFile, RasterError> {
+fn decode(bytes: &[u8], most_cells: u64) -> Result<RasterFile, RasterError> {
     let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(GeoTiffError::from)?;
     let (columns, rows) = tiff.dimensions().map_err(GeoTiffError::from)?;
-    let [columns, rows] = limits::shape(columns.into(), rows.into())?;
+    let [columns, rows] = limits::shape([columns.into(), rows.into()], most_cells)?;
     let cell_type = CellType::of(&mut tiff)?;
     cells::require_known_compression(&mut tiff)?;
     blocks::check(&mut tiff, [columns, rows], bytes.len())?;

@@ -20,12 +20,12 @@ const CHANGES: [(&str, &str, &str); 27] = [
     (
         "ncols 4",
         "ncols 4000000000",
-        "the raster has 4000000000 × 3 cells; at most 100000000 in all are read",
+        "the raster has 4000000000 × 3 cells; at most 100000000 in all are read here",
     ),
     (
         "ncols 4",
         "ncols 1e300",
-        "the raster has 18446744073709551615 × 3 cells; at most 100000000 in all are read",
+        "the raster has 18446744073709551615 × 3 cells; at most 100000000 in all are read here",
     ),
     (
         "ncols 4",

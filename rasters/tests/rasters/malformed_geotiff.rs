@@ -240,7 +240,7 @@ fn sizes_are_refused_before_memory_is_taken() {
             name,
             &[(WIDTH, [SHORT, LONG], [20, 4_000_000_000])]
         )),
-        "the raster has 4000000000 × 12 cells; at most 100000000 in all are read"
+        "the raster has 4000000000 × 12 cells; at most 100000000 in all are read here"
     );
     let large = [
         (WIDTH, [SHORT; 2], [20, 65_000]),
