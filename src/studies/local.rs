@@ -5,18 +5,18 @@ use super::outcome;
 use crate::jobs::failure::Failure;
 use crate::runs::convergence_study::Runs;
 use crate::runs::{NoSink, RunControl, RunEnd, RunError};
-use scree_solver::scenario::Scenario;
+use scree_solver::scenario::{Maps, Scenario};
 use scree_studies::{Ensemble, Member, MemberId, MemberOutcome};
 use serde_json::Value;
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
-/// Computes these members, several at a time on one thread each, and hands over each as it ends, in
-/// any order; `control` can stop it, and members that had not ended by then are not handed over.
+/// Computes these members on these maps, several at a time on one thread each, and hands over each as
+/// it ends, in any order; `control` can stop it, and members that had not ended by then are not handed over.
 /// A member and its outcome depend on the study, its level and its number alone.
 pub fn compute(
-    ensemble: &Ensemble,
+    (ensemble, maps): (&Ensemble, &Maps),
     ids: &[MemberId],
     (at_once, control): (usize, &RunControl),
     mut ended: impl FnMut(Member),
@@ -28,7 +28,7 @@ pub fn compute(
             let sender = sender.clone();
             scope.spawn(|| {
                 let sender = sender;
-                work(ensemble, ids, (&next, control), &sender);
+                work((ensemble, maps), ids, (&next, control), &sender);
             });
         }
         drop(sender);
@@ -39,7 +39,7 @@ pub fn compute(
 }
 
 fn work(
-    ensemble: &Ensemble,
+    (ensemble, maps): (&Ensemble, &Maps),
     ids: &[MemberId],
     (next, control): (&AtomicUsize, &RunControl),
     sender: &mpsc::Sender<Member>,
@@ -47,7 +47,7 @@ fn work(
     while let Some(&id) = ids.get(next.fetch_add(1, Ordering::Relaxed)) {
         let outcome = scenario(ensemble, id).map_or_else(
             |error| MemberOutcome::failed(error.to_string()),
-            |one| run(&one, control),
+            |one| run(&one, maps, control),
         );
         // A member without an outcome was stopped; without a receiver nobody asks any more.
         if outcome == MemberOutcome::Pending || sender.send(Member::new(id, outcome)).is_err() {
@@ -57,8 +57,8 @@ fn work(
 }
 
 /// Outcome of the run of a scenario; pending if it was stopped.
-fn run(scenario: &Value, control: &RunControl) -> MemberOutcome {
-    let Ok(scenario) = Scenario::from_value(scenario) else {
+fn run(scenario: &Value, maps: &Maps, control: &RunControl) -> MemberOutcome {
+    let Ok(scenario) = Scenario::from_value_with(scenario, maps) else {
         return outcome::not_allowed();
     };
     let ended = Runs::afresh(&scenario, 1)

@@ -1,7 +1,7 @@
 //! `scree terrain`.
 
 use crate::command::{Answer, Served, ask, ask_with_input, scree};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::time::{Duration, Instant};
@@ -113,5 +113,107 @@ fn a_file_that_is_too_large_is_refused_at_once() {
         began.elapsed() < Duration::from_secs(20),
         "{}",
         answer.stderr
+    );
+}
+
+/// A folder with a map, and a scenario and a study on it that name it by its path from there.
+fn scene_on_a_map() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = (0..20).map(|_| (0..20).map(|x| format!("{} ", 100 - x)).collect::<String>() + "\n");
+    let map = rows.collect::<String>();
+    let header = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    std::fs::write(folder.path().join("map.asc"), format!("{header}{map}")).unwrap();
+    let scenario = json!({
+        "terrain": {"height_map": "map.asc"},
+        "flow": {"releases": [{"polygon_m": [[4, 8], [7, 8], [7, 12], [4, 12]], "thickness_m": 1}]},
+        "bodies": [{"shape": {"cube": {"side_m": 1}}, "position": {"east_m": 9, "north_m": 10}}],
+        "duration_s": 0.3, "numerics": {"cell_size_m": 0.5}, "flow_snapshots": 0
+    });
+    let study = json!({
+        "title": "on a map", "scenario": scenario,
+        "inputs": [{"pointer": "/terrain/base_friction",
+                    "distribution": {"uniform": {"from": 0.3, "to": 0.5}}}],
+        "design": {"sobol": {"members": 8, "seed": 7}},
+        "questions": [{"mean": {"quantity": "displacement_m", "body": 0}}],
+    });
+    for (name, document) in [("scenario.json", &scenario), ("study.json", &study)] {
+        std::fs::write(folder.path().join(name), document.to_string()).unwrap();
+    }
+    folder
+}
+
+/// The outcome that a command writes, without its cost.
+fn outcome(folder: &Path) -> Value {
+    let text = std::fs::read_to_string(folder.join("outcome.json")).unwrap();
+    let mut outcome: Value = serde_json::from_str(&text).unwrap();
+    outcome["cost"] = Value::Null;
+    outcome
+}
+
+#[test]
+fn maps_of_submitted_scenarios_are_uploaded() {
+    let folder = scene_on_a_map();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let served = Served::start(&folder.path().join("test.db"), Stdio::null());
+    let job = at(
+        &served,
+        &["submit", &path("scenario.json"), "--wait", "--quiet"],
+    );
+    assert_eq!((job.code, job.stderr.as_str()), (Some(0), ""));
+    let got = at(
+        &served,
+        &["get", job.stdout.trim(), "--out", &path("there")],
+    );
+    assert_eq!(got.code, Some(0), "{}", got.stderr);
+    let ran = ask(&[&"run", &path("scenario.json"), &"--out", &path("here")]);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    let [there, here] = ["there", "here"].map(|name| outcome(&folder.path().join(name)));
+    assert_eq!(there["bodies"], here["bodies"]);
+
+    // By its hash it is there without the file.
+    let map = std::fs::read(path("map.asc")).unwrap();
+    let hash = scree_rasters::hash(&map);
+    let text = std::fs::read_to_string(path("scenario.json")).unwrap();
+    std::fs::write(path("by_hash.json"), text.replace("map.asc", &hash)).unwrap();
+    let job = at(&served, &["submit", &path("by_hash.json")]);
+    assert_eq!((job.code, job.stderr.as_str()), (Some(0), ""));
+    let here = ask(&[&"run", &path("by_hash.json")]);
+    assert_eq!(here.code, Some(2));
+    assert!(
+        here.stderr.contains("/terrain/height_map"),
+        "{}",
+        here.stderr
+    );
+    assert!(
+        here.stderr.contains("allowed: the path of a file"),
+        "{}",
+        here.stderr
+    );
+}
+
+#[test]
+fn a_study_on_a_map_is_the_same_here_and_there() {
+    let folder = scene_on_a_map();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let served = Served::start(&folder.path().join("test.db"), Stdio::null());
+    let here = ask(&[&"study", &path("study.json"), &"--out", &path("here")]);
+    assert_eq!(here.code, Some(0), "{}", here.stderr);
+    let url = format!("http://{}", served.address);
+    let words = [
+        "study",
+        &path("study.json"),
+        "--out",
+        &path("there"),
+        "--url",
+        &url,
+    ];
+    let there = at(&served, &words);
+    assert_eq!(there.code, Some(0), "{}", there.stderr);
+    let answers = |name: &str| std::fs::read_to_string(path(&format!("{name}/answers.json")));
+    assert_eq!(answers("here").unwrap(), answers("there").unwrap());
+    assert!(
+        here.stdout.contains("8 members finished"),
+        "{}",
+        here.stdout
     );
 }

@@ -11,6 +11,7 @@ mod indented;
 mod job;
 mod job_files;
 mod listing;
+mod maps;
 mod parting;
 mod patience;
 mod refusal;

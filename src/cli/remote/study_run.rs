@@ -2,6 +2,7 @@
 
 use super::answer::identifier;
 use super::indented::indented;
+use super::maps;
 use super::parting::Parting;
 use super::study::{self, ReceivedStudy};
 use super::study_files;
@@ -9,8 +10,10 @@ use super::transport::{Submission, Transport};
 use crate::cli::arguments::StudyOptions;
 use crate::cli::console;
 use crate::cli::failure::Failure;
-use crate::cli::scenario_file;
 use crate::cli::study::StudyFolder;
+use crate::cli::{scenario_file, scenario_maps};
+use serde_json::Value;
+use std::path::Path;
 use uuid::Uuid;
 
 /// Has a study computed by a service, writes its files and prints its answers.
@@ -21,6 +24,7 @@ use uuid::Uuid;
 pub(in crate::cli) fn study(options: &StudyOptions) -> Result<(), Failure> {
     let text = scenario_file::read_text(&options.study)?;
     let transport = Transport::open(&options.service)?;
+    let text = with_uploaded_maps(&transport, text, &options.study)?;
     // Before anything is computed, so that a bad name costs no time.
     let folder = options.out.as_deref().map(StudyFolder::open).transpose()?;
     let parting = Parting::watch()?;
@@ -38,6 +42,22 @@ pub(in crate::cli) fn study(options: &StudyOptions) -> Result<(), Failure> {
         true => failure.and(&format!("\n{goes_on}")),
         false => failure,
     })
+}
+
+/// The text of a study with the maps of its scenario uploaded; one without maps as it is.
+fn with_uploaded_maps(transport: &Transport, text: String, file: &Path) -> Result<String, Failure> {
+    let Ok(mut study) = serde_json::from_str::<Value>(&text) else {
+        return Ok(text);
+    };
+    let Some(scenario) = study.get_mut("scenario") else {
+        return Ok(text);
+    };
+    *scenario = scenario_maps::absolute(scenario.take(), file);
+    if scenario_maps::files(scenario).is_empty() {
+        return Ok(text);
+    }
+    maps::upload(transport, scenario)?;
+    Ok(study.to_string())
 }
 
 /// Failure, and whether the study goes on or its answers can still be fetched.

@@ -2,6 +2,7 @@
 
 use super::answer::identifier;
 use super::job::{self, ReceivedJob};
+use super::maps;
 use super::parting::Parting;
 use super::transport::{Submission, Transport};
 use crate::cli::arguments::SubmitOptions;
@@ -64,8 +65,9 @@ fn path(labels: &[String]) -> String {
 }
 
 fn send(transport: &Transport, path: &str, scenario: &Scenario) -> Result<ReceivedJob, Failure> {
+    let text = maps::with_uploaded(transport, &scenario.text)?;
     let key = Uuid::new_v4().to_string();
-    let submission = Submission::json(&scenario.text, &key);
+    let submission = Submission::json(&text, &key);
     let answer = transport.post(path, submission);
     ReceivedJob::read(answer.map_err(|error| error.about(&scenario.name))?)
 }

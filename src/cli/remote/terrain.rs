@@ -1,8 +1,9 @@
 //! `scree terrain put`: a file is uploaded to a service.
 
-use super::answer::{text, understood};
+use super::answer::understood;
 use super::indented::indented;
-use super::transport::{Submission, Transport};
+use super::maps;
+use super::transport::Transport;
 use crate::cli::arguments::PutOptions;
 use crate::cli::failure::Failure;
 use crate::cli::terrain::{in_words, read_file};
@@ -26,10 +27,8 @@ struct Received {
 pub(in crate::cli) fn put(options: &PutOptions) -> Result<(), Failure> {
     let file = read_file(&options.file)?;
     let transport = Transport::open(&options.service)?;
-    let path = format!("/v1/terrains?purpose={}", options.purpose.word());
-    let answer = transport.post(&path, Submission::file(&file));
     let name = scenario_file::name(&options.file);
-    let answer = text(answer.map_err(|error| error.about(&name))?)?;
+    let answer = maps::put(&transport, (&name, &file), options.purpose)?;
     if options.json {
         return Ok(console::answer(&indented(&answer))?);
     }

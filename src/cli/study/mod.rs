@@ -10,16 +10,17 @@ use super::failure::Failure;
 use super::interrupts::Interrupts;
 use super::machine::cores;
 use super::remote;
-use super::scenario_file;
+use super::{scenario_file, scenario_maps};
 pub(super) use folder::{ANSWERS, StudyFolder};
 pub(super) use progress::MemberNotes;
 use scree::runs::Stop;
 use scree::studies::schedule::{Conclusion, conclusion};
 use scree::studies::{local, questions};
-use scree_solver::scenario::{Scenario, ScenarioError};
+use scree_solver::scenario::{Maps, Scenario, ScenarioError};
 use scree_studies::{Answers, Ensemble, Member, MemberId, Study};
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::path::Path;
 pub(super) use table::answers as in_words_of;
 
 /// Computes a study, writes its files and prints its answers.
@@ -31,8 +32,7 @@ pub(super) fn study(options: &StudyOptions) -> Result<(), Failure> {
     if options.service.are_given() {
         return remote::study(options);
     }
-    let text = scenario_file::read_text(&options.study)?;
-    let mut study = read(&text, &scenario_file::name(&options.study))?;
+    let (mut study, maps) = read(&options.study)?;
     let folder = options.out.as_deref().map(StudyFolder::open).transpose()?;
     let mut members = match &folder {
         Some(folder) => folder.begin(&study)?,
@@ -46,7 +46,7 @@ pub(super) fn study(options: &StudyOptions) -> Result<(), Failure> {
         if !missing.is_empty() {
             let mut computing = Computing::new(options, (missing.len(), study.runs()), members);
             let control = (at_once, interrupts.stop());
-            local::compute(&ensemble, &missing, control, |member| {
+            local::compute((&ensemble, &maps), &missing, control, |member| {
                 computing.take(member, folder.as_ref());
             });
             members = computing.end()?;
@@ -54,7 +54,7 @@ pub(super) fn study(options: &StudyOptions) -> Result<(), Failure> {
                 return Err(stopped(&interrupts, &members, folder.is_some()));
             }
         }
-        match conclusion(&ensemble, &members, is_allowed) {
+        match conclusion(&ensemble, &members, |scenario| is_allowed(scenario, &maps)) {
             Conclusion::Enlarge(larger) => study = *larger,
             Conclusion::End => break,
         }
@@ -68,15 +68,18 @@ pub(super) fn study(options: &StudyOptions) -> Result<(), Failure> {
     answer(options, &study, &answers)
 }
 
-/// Reads a study and checks both ends of every input.
-fn read(text: &str, name: &str) -> Result<Study, Failure> {
-    let study: Study = serde_json::from_str(text)
+/// Reads a study with the maps of its scenario, and checks both ends of every input.
+fn read(file: &Path) -> Result<(Study, Maps), Failure> {
+    let (text, name) = (scenario_file::read_text(file)?, scenario_file::name(file));
+    let mut study: Study = serde_json::from_str(&text)
         .map_err(|error| Failure::Input(format!("{name} is no study: {error}")))?;
+    let maps;
+    (study.scenario, maps) = scenario_maps::load(scenario_maps::absolute(study.scenario, file))?;
     let ensemble = Ensemble::of(&study)
         .map_err(|found| Failure::Input(format!("{name} breaks rules:\n{}", in_words(&found))))?;
     let mut found = in_words(&questions::violations(&study));
     for end in ensemble.end_scenarios() {
-        let faults = match Scenario::from_value(&end.scenario) {
+        let faults = match Scenario::from_value_with(&end.scenario, &maps) {
             Ok(_) => continue,
             Err(ScenarioError::Invalid(faults)) => faults
                 .iter()
@@ -91,7 +94,7 @@ fn read(text: &str, name: &str) -> Result<Study, Failure> {
         let found = found.trim_start_matches('\n');
         return Err(Failure::Input(format!("{name} breaks rules:\n{found}")));
     }
-    Ok(study)
+    Ok((study, maps))
 }
 
 fn in_words(violations: &[scree_studies::Violation]) -> String {
@@ -101,8 +104,8 @@ fn in_words(violations: &[scree_studies::Violation]) -> String {
     violations.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-fn is_allowed(scenario: &Value) -> bool {
-    Scenario::from_value(scenario).is_ok()
+fn is_allowed(scenario: &Value, maps: &Maps) -> bool {
+    Scenario::from_value_with(scenario, maps).is_ok()
 }
 
 /// Members of the design that have no outcome yet.

@@ -15,6 +15,7 @@ use crate::studies::local;
 use crate::verify::findings::{Error, Findings, Question, Resolution};
 use crate::verify::run::{Answer, Cost};
 use crate::verify::{Case, Effort, How};
+use scree_solver::scenario::Maps;
 use scree_studies::answers::{RestDistribution, RestingPlaces};
 use scree_studies::{Design, Ensemble, MemberId, Sobol, Study};
 use std::time::Instant;
@@ -81,9 +82,14 @@ impl Computed {
         let ids: Vec<MemberId> = study.ids().collect();
         let mut ended = Vec::new();
         let control = RunControl::default();
-        local::compute(&ensemble, &ids, (cores(), &control), |member| {
-            ended.push(member);
-        });
+        local::compute(
+            (&ensemble, &Maps::default()),
+            &ids,
+            (cores(), &control),
+            |member| {
+                ended.push(member);
+            },
+        );
         let places = RestingPlaces::of(&ensemble, &ended, BODY);
         let rest = RestDistribution::of(&places, &PROBABILITIES);
         Self { places, rest }
