@@ -79,22 +79,33 @@ fn on_body<'a>(body: &'a SeenBody, grid: &Grid) -> Option<Number<'a>> {
     })
 }
 
-/// A badge in a free place near the body.
+/// A badge in a free place near the body, else near the middle of its trail.
 fn beside_body(body: &SeenBody, grid: &Grid) -> Option<(Badge, Leader)> {
     let cells: Vec<Point> = grid.seen(body.index).collect();
     if body.style.is_grey() || cells.len() < LEAST_SEEN {
         return None;
     }
-    let middle = middle(cells.iter().copied());
-    let way = |at: &Point| (at.0 - middle.0).hypot(at.1 - middle.1);
-    let from = cells.into_iter().min_by(|a, b| way(a).total_cmp(&way(b)))?;
-    let free = |cell| cell == Cell::Free;
-    let clear = |to: &Point| {
-        let extent = Badge::extent(*to).with_margin(BADGE_MARGIN);
-        let unlabelled = |cell| cell != Cell::Label;
-        grid.all(extent, free) && grid.all_along(from, *to, unlabelled)
+    let nearest = |middle: Point| {
+        let way = |at: &Point| (at.0 - middle.0).hypot(at.1 - middle.1);
+        let cells = cells.iter().copied();
+        cells.min_by(|a, b| way(a).total_cmp(&way(b)))
     };
-    let to = Leader::places(from, FARTHEST).find(clear)?;
+    let free = |cell| cell == Cell::Free;
+    let place = |from: Point| {
+        let clear = |to: &Point| {
+            let extent = Badge::extent(*to).with_margin(BADGE_MARGIN);
+            let unlabelled = |cell| cell != Cell::Label;
+            grid.all(extent, free) && grid.all_along(from, *to, unlabelled)
+        };
+        Some((from, Leader::places(from, FARTHEST).find(clear)?))
+    };
+    let middles = [
+        middle(body.outline.iter().copied()),
+        middle(cells.iter().copied()),
+    ];
+    let (from, to) = middles
+        .into_iter()
+        .find_map(|middle| place(nearest(middle)?))?;
     let badge = Badge {
         body: body.index,
         style: body.style,
