@@ -48,7 +48,7 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// What a terrain is, for people.
+/// Description of a terrain, for people.
 pub(super) fn in_words(hash: &str, bytes: u64, terrain: &Description) -> String {
     let mut facts = vec![
         ("file", format!("{}, {bytes} bytes", terrain.format.title())),

@@ -20,7 +20,7 @@ pub enum FileFormat {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[schema(as = TerrainDescription)]
 pub struct Description {
-    /// What the values were said to be when the file first came.
+    /// Purpose of the values when the file first came.
     pub purpose: FilePurpose,
     /// Format of the file.
     pub format: FileFormat,

@@ -23,7 +23,7 @@ pub struct NamedRaster {
     pub pointer: String,
     /// The name: the hash of a terrain.
     pub name: String,
-    /// What its values are used as.
+    /// Use of its values.
     pub purpose: FilePurpose,
 }
 

@@ -2039,7 +2039,7 @@ Format of a terrain's file.
 
 TerrainPurpose: TypeAlias = Literal['height-map', 'surface', 'thickness', 'friction']
 """
-What the values of a file are.
+Purpose of a file's values.
 """
 
 
@@ -2707,7 +2707,8 @@ class FlowOutcome(TypedDict):
     """
     Position x beyond which 0.1 % of the released mass lies, mass that left through the open end
     included [m]; null without a flow. On a terrain the horizontal distance from the middle of
-    the release beyond which 1 % of it lies, null once so much has left the map.
+    the release beyond which 1 % of it lies, null once so much has left the map; with several
+    releases the run-out plus the largest distance within a release.
     """
     outflow_mass_kg: float
     """
@@ -2715,7 +2716,8 @@ class FlowOutcome(TypedDict):
     """
     runout_m: Optional[float]
     """
-    Front minus the initial toe [m]; null without a front.
+    Front minus the initial toe [m]; null without a front. On a terrain the distance beyond the
+    circle round the release, with several releases beyond all of their circles.
     """
 
 
@@ -3311,7 +3313,7 @@ class TerrainDescription(TypedDict):
     """
     purpose: TerrainPurpose
     """
-    What the values were said to be when the file first came.
+    Purpose of the values when the file first came.
     """
     rows: int
     """

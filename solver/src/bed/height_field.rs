@@ -51,7 +51,7 @@ impl TerrainFriction {
 pub struct HeightField {
     surface: Arc<SplineSurface>,
     friction: TerrainFriction,
-    /// What the flow's grid sees of it.
+    /// Parts that the flow's grid has come to.
     tiles: Option<Tiles>,
 }
 
@@ -65,7 +65,7 @@ impl HeightField {
         }
     }
 
-    /// The same as bed of a flow on a lattice.
+    /// Ground as bed of a flow on a lattice.
     pub fn under(self, lattice: &Lattice) -> Self {
         Self {
             tiles: Some(Tiles::of(lattice, self.surface.extent())),

@@ -46,7 +46,7 @@ impl Lid {
         low.z - self.at_origin - highest(0) - highest(1)
     }
 
-    /// The same, raised by a height [m].
+    /// Lid raised by a height [m].
     fn raised(self, by: f64) -> Self {
         Self {
             at_origin: self.at_origin + by,

@@ -57,7 +57,7 @@ pub(in crate::http) async fn list_terrains(
 
 /// Get a terrain
 ///
-/// What its file is; the file itself is under `/file`.
+/// Document of a terrain; the file itself is under `/file`.
 #[utoipa::path(
     get,
     path = "/v1/terrains/{hash}",

@@ -18,7 +18,7 @@ const LEAST: f64 = 0.01;
 /// Share of a colour over the hillshade.
 const OPACITY: f64 = 0.72;
 
-/// What is behind all lines.
+/// Hillshade and map of the flow, behind all lines.
 #[derive(Debug)]
 pub(super) struct Backdrop<'a> {
     pub height: &'a Raster,

@@ -240,7 +240,7 @@ fn feature(geometry: Value, about: serde_json::Value) -> Feature {
     }
 }
 
-/// What a reader must know of coordinates that are no longitudes and latitudes.
+/// Remark on coordinates that are no longitudes and latitudes.
 fn note(coordinates: &Coordinates) -> Option<JsonObject> {
     let Coordinates::Map(epsg) = coordinates else {
         return None;

@@ -93,7 +93,7 @@ impl<T> Tiles<T> {
         self.0.iter().map(|(tile, cells)| (*tile, cells.as_slice()))
     }
 
-    /// The same tiles with other values, by tile, place in it and value.
+    /// Tiles with other values, by tile, place in it and value.
     pub(super) fn with<U>(&self, value: impl Fn(TileIndex, usize, &T) -> U) -> Tiles<U> {
         let of = |(tile, cells): (&TileIndex, &Vec<T>)| {
             let cells = cells.iter().enumerate();

@@ -21,7 +21,7 @@ const TRAVEL: f64 = 1.0;
 /// A single point that flies ahead makes less.
 const REACHED: f64 = 0.5;
 
-/// What the flow of a run has done to each cell so far.
+/// Reach of the flow of a run so far, cell by cell.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Inundation {
     frame: Frame,
@@ -46,7 +46,7 @@ struct Extremes {
     arrival: Option<f32>,
 }
 
-/// What has happened since the last look.
+/// Travel and releases since the last look.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct SinceLook {
     /// Time of the last step [s].
