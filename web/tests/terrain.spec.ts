@@ -63,6 +63,25 @@ test("a job on a terrain says what happened in words of a terrain", async ({ pag
   await expect(page.locator("article")).not.toContainText(/incline|downstream|open end/);
 });
 
+test("maps and tracks are among the files", async ({ page, service }) => {
+  await page.goto(`/#/jobs/${job}`);
+  for (const [file, path] of [
+    ["deposit.tif", "maps/deposit.tif"],
+    ["arrival_time.asc", "maps/arrival_time.asc"],
+    ["tracks-map.geojson", "tracks.geojson?coordinates=map"],
+  ] as const) {
+    const [download] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: file }).click(),
+    ]);
+    const expected = Buffer.from(await (await fetch(`${service.url}/v1/jobs/${job}/${path}`)).arrayBuffer());
+    expect(expected.equals(await readFile(await download.path())), file).toBe(true);
+  }
+  // The map names no coordinate reference system.
+  await page.getByRole("button", { name: "tracks.geojson" }).click();
+  await expect(page.getByText(/coordinate reference system/).first()).toBeVisible();
+});
+
 test("the replay shows a terrain in three dimensions and from above", async ({ page }) => {
   await page.goto(`/#/jobs/${job}`);
   const scene = page.getByRole("img", { name: /three dimensions/ });

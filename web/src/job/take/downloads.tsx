@@ -3,6 +3,7 @@ import { type Job, request } from "../../api/client";
 import { size } from "../../parts/format";
 import { ProblemNotice } from "../../parts/problem-notice";
 import { saveFile } from "../../parts/save-file";
+import { groundOf } from "../../scenario/ground";
 
 interface Download {
   /** Path below the service's root; of a document of this page none. */
@@ -10,6 +11,40 @@ interface Download {
   document?: unknown;
   file: string;
   about: string;
+}
+
+/** Maps of a flow on a terrain. */
+const MAPS = {
+  flow_height_max: "largest flow height",
+  flow_speed_max: "largest speed",
+  arrival_time: "first time at which the flow was there",
+  deposit: "flow height at the end",
+};
+
+/** Maps and tracks of a job on a terrain, for QGIS and other programs. */
+function mapsOf(root: string, hasFlow: boolean): Download[] {
+  const formats = { tif: "GeoTIFF", asc: "ESRI ASCII grid" };
+  const maps = Object.entries(MAPS).flatMap(([name, about]) =>
+    Object.entries(formats).map(([ending, format]) => ({
+      path: `${root}/maps/${name}.${ending}`,
+      file: `${name}.${ending}`,
+      about: `${about}, ${format}`,
+    })),
+  );
+  const tracks = `${root}/tracks.geojson`;
+  return [
+    ...(hasFlow ? maps : []),
+    {
+      path: `${tracks}?coordinates=wgs84`,
+      file: "tracks.geojson",
+      about: "outlines and tracks by longitude and latitude",
+    },
+    {
+      path: `${tracks}?coordinates=map`,
+      file: "tracks-map.geojson",
+      about: "the same in the height map's coordinates",
+    },
+  ];
 }
 
 /** All records of a job as files. */
@@ -27,6 +62,7 @@ export function Downloads({ job }: { job: Job }) {
       ? [{ path: `${root}/flow.zip`, file: "flow.zip", about: "flow and bodies for ParaView" }]
       : []),
     ...(hasFlow ? [{ path: `${root}/flow.bin`, file: "flow.bin", about: "frames of the flow, binary" }] : []),
+    ...(job.outcome && groundOf(job.scenario) === "terrain" ? mapsOf(root, hasFlow) : []),
   ];
   const trajectories: Download[] = [".csv", ".npz", ".ndjson", ""].map((ending) => ({
     path: `${root}/trajectory${ending}?body=${body}`,
