@@ -85,27 +85,26 @@ impl Raster {
         cells.clamp(1, (self.columns.min(self.rows) / 2).max(1))
     }
 
-    /// The raster with so many cells along each axis averaged to one; what is left over at the
-    /// north and the east is dropped.
+    /// The raster with so many cells along each axis averaged to one. The last cells to the east and
+    /// to the north may reach beyond the map: they go on with the slope there.
     #[must_use]
     pub fn averaged(&self, cells: usize) -> Self {
-        let (columns, rows) = (self.columns / cells, self.rows / cells);
-        let mut values = Vec::with_capacity(columns * rows);
-        for row in 0..rows {
-            for column in 0..columns {
-                let of = |n: usize| {
-                    let (along, up) = (column * cells + n % cells, row * cells + n / cells);
-                    self.value_at(along, up)
-                };
-                let sum: f64 = (0..cells * cells).map(of).sum();
-                values.push(sum / (cells * cells) as f64);
-            }
-        }
+        let rows = self.values.chunks(self.columns);
+        let rows: Vec<Vec<f64>> = rows.map(|row| averaged_line(row, cells)).collect();
+        let columns = self.columns.div_ceil(cells);
+        let of_columns: Vec<Vec<f64>> = (0..columns)
+            .map(|column| {
+                let line: Vec<f64> = rows.iter().map(|row| row[column]).collect();
+                averaged_line(&line, cells)
+            })
+            .collect();
+        let rows = self.rows.div_ceil(cells);
+        let values = (0..rows).flat_map(|row| of_columns.iter().map(move |column| column[row]));
         Self {
             columns,
             rows,
             cell_size: self.cell_size * cells as f64,
-            values,
+            values: values.collect(),
             ..*self
         }
     }
@@ -121,9 +120,53 @@ impl Raster {
     }
 }
 
+/// Means of so many values after one another; one of fewer at the end is moved to where that of as
+/// many would be, with the slope there.
+fn averaged_line(line: &[f64], cells: usize) -> Vec<f64> {
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let mut means: Vec<f64> = line.chunks(cells).map(mean).collect();
+    let rest = line.len() % cells;
+    if let ([.., before, last], true) = (means.as_mut_slice(), rest > 0) {
+        let distance = 0.5 * (cells + rest) as f64;
+        *last = *before + (*last - *before) * cells as f64 / distance;
+    }
+    means
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    // Also where the last cells are larger than what is left of the map.
+    #[test]
+    fn an_averaged_plane_is_the_plane() {
+        let plane = |x: f64, y: f64| 5.0 + 0.4 * x - 0.3 * y;
+        let mut raster = Raster {
+            columns: 11,
+            rows: 8,
+            cell_size: 2.0,
+            west: 100.0,
+            south: -10.0,
+            epsg: None,
+            values: Vec::new(),
+        };
+        for row in 0..8 {
+            for column in 0..11 {
+                let [x, y] = raster.centre(column, row);
+                raster.values.push(plane(x, y));
+            }
+        }
+        let averaged = raster.averaged(3);
+        assert_eq!([averaged.columns, averaged.rows], [4, 3]);
+        assert!(averaged.east() >= raster.east() && averaged.north() >= raster.north());
+        for row in 0..3 {
+            for column in 0..4 {
+                let [x, y] = averaged.centre(column, row);
+                let off = averaged.value_at(column, row) - plane(x, y);
+                assert!(off.abs() < 1e-12, "{column} {row}: {off}");
+            }
+        }
+    }
 
     #[test]
     fn rows_run_eastwards_from_the_south_west() {

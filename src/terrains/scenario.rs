@@ -51,7 +51,13 @@ impl ScenarioReader {
     pub fn read(&self, text: &str) -> Result<Scenario, ReadError> {
         let found = self.find(&Scenario::maps_named(text)?)?;
         let read = Scenario::from_json_with(text, &found.maps);
-        Ok(read.map_err(|error| with_reasons(error, &found.violations))?)
+        let scenario = read.map_err(|error| with_reasons(error, &found.violations))?;
+        // A file may suit one of its uses and not another.
+        if found.violations.is_empty() {
+            Ok(scenario)
+        } else {
+            Err(ScenarioError::Invalid(found.violations).into())
+        }
     }
 
     /// Gives a stored scenario its maps. Blocks.

@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 mod columns;
 mod near;
+mod nearest;
 mod tiles;
 
 use columns::Column;
@@ -76,17 +77,6 @@ impl HeightField {
     /// Its surface.
     pub fn surface(&self) -> &SplineSurface {
         &self.surface
-    }
-
-    /// Plane that touches the surface nearest to a place [m], by two steps of Newton's method from
-    /// the place under it; exact on a plane.
-    pub fn nearest_plane(&self, place: &Vec3) -> Plane {
-        let mut plane = self.touching(place.x, place.y);
-        for _ in 0..2 {
-            let foot = place - plane.normal * plane.height(place);
-            plane = self.touching(foot.x, foot.y);
-        }
-        plane
     }
 
     /// Plane that touches the surface at (x, y), without friction.

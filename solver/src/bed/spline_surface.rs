@@ -1,6 +1,7 @@
-//! A smooth surface through a raster of elevations: the biquadratic B-spline that interpolates the
-//! values at the centres of the cells (docs/method.md, equation 80). It is continuous with its
-//! slope, and planes are reproduced exactly.
+//! A smooth surface through a raster of elevations: the biquadratic B-spline whose coefficients are
+//! the values at the centres of the cells less an eighth of their limited second differences
+//! (docs/method.md, equation 80). It is continuous with its slope. Surfaces of the second degree are
+//! reproduced exactly, and a cliff has neither a dam above nor a ditch below.
 
 use crate::math::Vec3;
 use crate::raster::Raster;
@@ -10,6 +11,8 @@ use std::ops::Range;
 /// Cells beyond the edges over which the surface goes on with the slope of the edge; farther out it
 /// is level in that direction.
 const MARGIN: f64 = 3.0;
+/// Largest second difference over that beside it.
+const LIMIT: f64 = 2.0;
 
 /// Elevation and slope of a surface at a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,17 +90,24 @@ impl SplineSurface {
         let (columns, rows) = (raster.columns, raster.rows);
         let width = columns + 2;
         let mut coefficients = vec![0.0; width * (rows + 2)];
-        let factors = factors(columns);
         coefficients[width..width * (rows + 1)]
             .par_chunks_mut(width)
-            .zip(raster.values.par_chunks(columns))
-            .for_each(|(row, values)| {
-                for (coefficient, value) in row[1..].iter_mut().zip(values) {
-                    *coefficient = value - datum;
+            .enumerate()
+            .for_each(|(row, coefficients)| {
+                for (column, coefficient) in coefficients[1..=columns].iter_mut().enumerate() {
+                    let value = raster.value_at(column, row) - datum;
+                    let along = bend((column, columns), |of| raster.value_at(of, row));
+                    let up = bend((row, rows), |of| raster.value_at(column, of));
+                    *coefficient = value - (along + up) / 8.0;
                 }
-                interpolate_row(row, &factors);
+                go_on_evenly(coefficients);
             });
-        interpolate_columns(&mut coefficients, width);
+        let at = |row: usize| row * width;
+        for n in 0..width {
+            coefficients[n] = 2.0 * coefficients[at(1) + n] - coefficients[at(2) + n];
+            coefficients[at(rows + 1) + n] =
+                2.0 * coefficients[at(rows) + n] - coefficients[at(rows - 1) + n];
+        }
         Self {
             cell: raster.cell_size,
             cells: [columns, rows],
@@ -170,6 +180,32 @@ impl SplineSurface {
             elevation += across.value[row] * value;
         }
         elevation
+    }
+
+    /// Second derivatives ∂²z/∂x², ∂²z/∂x∂y and ∂²z/∂y² in the cell of (x, y) [1/m]; 0 beyond the
+    /// edges.
+    pub fn curvature(&self, x: f64, y: f64) -> [f64; 3] {
+        let [along, across] = [self.weights(x, 0), self.weights(y, 1)];
+        if along.beyond != 0.0 || across.beyond != 0.0 {
+            return [0.0; 3];
+        }
+        let width = self.cells[0] + 2;
+        let bent = [1.0, -2.0, 1.0];
+        let sum = |of_columns: &[f64; 3], of_rows: &[f64; 3]| {
+            let row = |row: usize| {
+                let start = (across.first + row) * width + along.first;
+                let here = &self.coefficients[start..start + 3];
+                of_columns[0] * here[0] + of_columns[1] * here[1] + of_columns[2] * here[2]
+            };
+            of_rows[0] * row(0) + of_rows[1] * row(1) + of_rows[2] * row(2)
+        };
+        let square = self.cell * self.cell;
+        [
+            sum(&bent, &across.value),
+            sum(&along.slope, &across.slope),
+            sum(&along.value, &bent),
+        ]
+        .map(|of| of / square)
     }
 
     /// Upper bounds of elevation [m] and of the slope's size in a rectangle: those of the
@@ -283,52 +319,33 @@ impl SplineSurface {
     }
 }
 
-/// Factors of the elimination for a line of so many coefficients: c₋ + 6 c + c₊ = 8 × value.
-/// The first and the last coefficient are the values there, since beyond both ends the
-/// coefficients go on evenly.
-fn factors(count: usize) -> Vec<f64> {
-    let mut factors = vec![0.0; count + 1];
-    for n in 2..count {
-        factors[n] = 1.0 / (6.0 - factors[n - 1]);
+/// Second difference of the values at a place of a line of so many, limited by those beside: none
+/// where they differ in sign, or one is zero, as at a cliff or a break of slope. Summits and hollows
+/// that several cells show keep theirs.
+fn bend((place, count): (usize, usize), value: impl Fn(usize) -> f64) -> f64 {
+    let is_within = |place: usize| place > 0 && place + 1 < count;
+    if !is_within(place) {
+        return 0.0;
     }
-    factors
+    let difference = |place: usize| value(place - 1) - 2.0 * value(place) + value(place + 1);
+    let own = difference(place);
+    let beside = [place - 1, place + 1]
+        .into_iter()
+        .filter(|of| is_within(*of));
+    beside.map(difference).fold(own, |bend, other| {
+        if other * own > 0.0 {
+            bend.abs().min(LIMIT * other.abs()).copysign(own)
+        } else {
+            0.0
+        }
+    })
 }
 
-/// Turns the values of a row, from its second entry on, into coefficients.
-fn interpolate_row(row: &mut [f64], factors: &[f64]) {
+/// Sets the first and the last entry of a row by its slope there.
+fn go_on_evenly(row: &mut [f64]) {
     let count = row.len() - 2;
-    for n in 2..count {
-        row[n] = (8.0 * row[n] - row[n - 1]) * factors[n];
-    }
-    for n in (2..count).rev() {
-        row[n] -= factors[n] * row[n + 1];
-    }
     row[0] = 2.0 * row[1] - row[2];
     row[count + 1] = 2.0 * row[count] - row[count - 1];
-}
-
-/// Turns the values of all columns, from their second entries on, into coefficients.
-fn interpolate_columns(rows: &mut [f64], width: usize) {
-    let count = rows.len() / width - 2;
-    let factors = factors(count);
-    for n in 2..count {
-        let (before, here) = rows.split_at_mut(n * width);
-        let before = &before[(n - 1) * width..];
-        for (value, before) in here[..width].iter_mut().zip(before) {
-            *value = (8.0 * *value - *before) * factors[n];
-        }
-    }
-    for n in (2..count).rev() {
-        let (here, after) = rows.split_at_mut((n + 1) * width);
-        for (value, after) in here[n * width..].iter_mut().zip(after) {
-            *value -= factors[n] * *after;
-        }
-    }
-    for i in 0..width {
-        let at = |n: usize| n * width + i;
-        rows[at(0)] = 2.0 * rows[at(1)] - rows[at(2)];
-        rows[at(count + 1)] = 2.0 * rows[at(count)] - rows[at(count - 1)];
-    }
 }
 
 #[cfg(test)]

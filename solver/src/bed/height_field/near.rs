@@ -162,6 +162,21 @@ impl PlacedSolid<'_> {
         over.min(beside - radius)
     }
 
+    /// Least distance of its surface from the ground [m], negative inside, and how far it falls until
+    /// the feature that is there touches a plane [m].
+    fn gap_to(&self, ground: &HeightField) -> [f64; 2] {
+        let radius = self.shape.sphero_radius();
+        let mut near = NearGround::default();
+        near.look(self, ground, 2.0 * self.shape.bounding_radius());
+        let gaps = near.places(self, ground).map(|place| {
+            let gap = place.height - radius;
+            [gap, gap / place.normal.z.max(0.1)]
+        });
+        let apart = self.shape.bounding_radius();
+        gaps.min_by(|one, other| one[0].total_cmp(&other[0]))
+            .unwrap_or([apart; 2])
+    }
+
     /// Where it meets the ground by a feature.
     fn meet(&self, ground: &HeightField, feature: GroundFeature, spacing: f64) -> GroundPlace {
         match feature {
@@ -245,7 +260,7 @@ impl NodesUnder {
 /// Places along each axis at which the slope under a body is averaged.
 const UNDER: usize = 5;
 /// Rounds in which a body is lowered to the ground; a plane takes two.
-const ROUNDS: usize = 40;
+const ROUNDS: usize = 80;
 
 impl HeightField {
     /// Rotation that lays a horizontal body flat on the mean slope within a distance [m] of
@@ -288,29 +303,33 @@ impl HeightField {
         x: f64,
         y: f64,
     ) -> f64 {
-        let radius = shape.sphero_radius();
-        let mut elevation = self.surface().at(x, y).elevation + shape.bounding_radius();
+        let reach = shape.bounding_radius();
+        let (highest, _) = (self.surface()).bounds([x - reach, y - reach], [x + reach, y + reach]);
+        // The higher a body, the farther it is from the ground.
+        let mut low = self.surface().elevation(x, y) - reach;
+        let mut high = highest + reach;
+        let mut elevation = high;
         for _ in 0..ROUNDS {
             let solid = PlacedSolid {
                 shape,
                 position: Vec3::new(x, y, elevation),
                 orientation,
             };
-            let mut near = NearGround::default();
-            near.look(&solid, self, 2.0 * shape.bounding_radius());
-            let lowest = near
-                .places(&solid, self)
-                .map(|place| (place.height - radius) / place.normal.z.max(0.1))
-                .fold(f64::INFINITY, f64::min);
-            let gap = if lowest.is_finite() {
-                lowest
+            let [gap, fall] = solid.gap_to(self);
+            if gap < 0.0 {
+                low = low.max(elevation);
             } else {
-                shape.bounding_radius()
-            };
-            elevation -= gap;
-            if gap.abs() <= 1e-14 * (1.0 + elevation.abs()) {
+                high = high.min(elevation);
+            }
+            let next = elevation - fall;
+            if (next - elevation).abs() <= 1e-14 * (1.0 + elevation.abs()) {
                 break;
             }
+            elevation = if low < next && next < high {
+                next
+            } else {
+                0.5 * (low + high)
+            };
         }
         elevation
     }

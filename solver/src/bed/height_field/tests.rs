@@ -114,3 +114,71 @@ fn a_block_is_near_if_the_surface_comes_near_one_of_its_nodes() {
     assert!(near > 100, "{near}");
     assert!(!field.is_near_block([2, 2, 9], &lattice, margin));
 }
+
+// Nothing on the surface is nearer, also where it is bent more than it is far away.
+#[test]
+fn the_nearest_place_is_nearer_than_all_others() {
+    let field = ground(|x, y| 0.3 * x + 0.4 * (4.0 * x).sin() * (5.0 * y).cos());
+    for n in 0..60 {
+        let [u, v] = [n % 10, n / 10].map(|n| 0.37 * f64::from(n));
+        let (x, y) = (0.9 + u, 0.8 + 0.7 * v);
+        for height in [-0.3, 0.02, 0.1, 0.4] {
+            let place = Vec3::new(x, y, field.elevation(x, y) + height);
+            let found = field.nearest_plane(&place).height(&place);
+            let places = (0..101 * 101).map(|m| {
+                let [a, b] = [m % 101, m / 101].map(|m| 0.01 * f64::from(m) - 0.5);
+                (Vec3::new(x + a, y + b, field.elevation(x + a, y + b)) - place).norm()
+            });
+            let least = places.fold(f64::INFINITY, f64::min);
+            assert!(
+                found.abs() <= least + 1e-9,
+                "{x} {y} {height}: {found} {least}"
+            );
+            assert_eq!(found > 0.0, height > 0.0);
+        }
+    }
+}
+
+// The height is the gradient's potential: a contact makes no energy.
+#[test]
+fn the_height_changes_along_its_normal() {
+    let field = ground(|x, y| 0.3 * x + 0.2 * (4.0 * x).sin() * (5.0 * y).cos());
+    let step = 1e-6;
+    for n in 0..40 {
+        let [u, v] = [n % 8, n / 8].map(|n| 0.37 * f64::from(n));
+        let place = Vec3::new(
+            1.1 + u,
+            1.2 + 0.3 * v,
+            field.elevation(1.1 + u, 1.2 + 0.3 * v) + 0.06,
+        );
+        let normal = field.nearest_plane(&place).normal;
+        for axis in 0..3 {
+            let mut aside = Vec3::zeros();
+            aside[axis] = step;
+            let height = |at: Vec3| field.nearest_plane(&at).height(&at);
+            let slope = (height(place + aside) - height(place - aside)) / (2.0 * step);
+            assert!(
+                (slope - normal[axis]).abs() < 1e-5,
+                "{place} {axis}: {slope} {normal}"
+            );
+        }
+    }
+}
+
+// On flat ground with a pole a body stands on the pole, and beside it on the ground.
+#[test]
+fn a_body_is_lowered_to_what_it_touches_first() {
+    let field = ground(|x, y| {
+        if (x - 3.05).hypot(y - 2.05) < 0.01 {
+            3.0
+        } else {
+            0.0
+        }
+    });
+    let cube = crate::shape::SpheroPolyhedron::cube(0.5, 0.05).expect("a cube");
+    let lowest = |x: f64| field.lowest_centre(&cube, UnitQuaternion::identity(), x, 2.05);
+    assert!((lowest(1.5) - 0.25).abs() < 1e-9, "{}", lowest(1.5));
+    let on_top = lowest(3.05) - 0.25 - field.elevation(3.05, 2.05);
+    assert!(on_top.abs() < 0.02, "{on_top}");
+    assert!(lowest(2.9) > 0.3 && lowest(2.9) < 3.3, "{}", lowest(2.9));
+}

@@ -20,7 +20,11 @@ struct Tile {
     lids: Vec<Lid>,
 }
 
-/// A terrain on a lattice.
+/// A square of tiles, those in it that were found.
+type Square = Vec<OnceLock<Tile>>;
+
+/// A terrain on a lattice, in squares of tiles: memory grows with the root of the number of tiles
+/// where no flow comes.
 #[derive(Debug)]
 pub(super) struct Tiles {
     lattice: Lattice,
@@ -28,7 +32,11 @@ pub(super) struct Tiles {
     first: [i32; 2],
     /// Tiles along x and y.
     count: [usize; 2],
-    found: Vec<OnceLock<Tile>>,
+    /// Tiles along the side of a square.
+    side: usize,
+    /// Squares along x.
+    columns: usize,
+    squares: Vec<OnceLock<Square>>,
 }
 
 /// The terrain itself.
@@ -65,13 +73,15 @@ impl Tiles {
             let last = block(extent[axis], axis) + BEYOND;
             (last - first[axis]).unsigned_abs() as usize / BLOCKS + 1
         });
-        let mut found = Vec::new();
-        found.resize_with(count[0] * count[1], OnceLock::new);
+        let side = count[0].max(count[1]).isqrt().max(1);
+        let [columns, rows] = count.map(|tiles| tiles.div_ceil(side));
         Self {
             lattice: *lattice,
             first,
             count,
-            found,
+            side,
+            columns,
+            squares: unknown(columns * rows),
         }
     }
 
@@ -99,8 +109,10 @@ impl Tiles {
         let (i, j) = (within(0)?, within(1)?);
         let start = [i, j].map(|along| (along * BLOCKS) as i32);
         let first = [0, 1].map(|axis| self.first[axis] + start[axis]);
-        let tile = self.found[j * self.count[0] + i].get_or_init(|| self.find(first, terrain));
-        Some(tile)
+        let square = &self.squares[j / self.side * self.columns + i / self.side];
+        let tiles = square.get_or_init(|| unknown(self.side * self.side));
+        let tile = &tiles[j % self.side * self.side + i % self.side];
+        Some(tile.get_or_init(|| self.find(first, terrain)))
     }
 
     /// The tile that starts with this block.
@@ -119,4 +131,9 @@ impl Tiles {
             lids: lids.collect(),
         }
     }
+}
+
+/// So many places of which nothing is known.
+fn unknown<T>(count: usize) -> Vec<OnceLock<T>> {
+    std::iter::repeat_with(OnceLock::new).take(count).collect()
 }

@@ -43,17 +43,32 @@ fn a_plane_is_reproduced() {
     assert!(surface.bulge(6.0, 5.0) < 1e-11);
 }
 
+// Two cells from the edges: there the second differences are.
 #[test]
-fn the_values_at_the_centres_are_kept() {
-    let rough = |x: f64, y: f64| (3.0 * x).sin() * 2.0 + (x * y).cos();
-    let given = raster(9, 8, 1.0, rough);
-    let surface = SplineSurface::through(&given, 0.0);
-    for row in 0..8 {
-        for column in 0..9 {
-            let [x, y] = given.centre(column, row);
-            let off = surface.at(x, y).elevation - given.value_at(column, row);
-            assert!(off.abs() < 1e-12, "{column} {row}: {off}");
+fn a_surface_of_the_second_degree_is_reproduced() {
+    let bowl = |x: f64, y: f64| 3.0 + 0.2 * x - 0.5 * y + 0.06 * x * x - 0.1 * x * y + 0.03 * y * y;
+    let surface = SplineSurface::through(&raster(12, 11, 1.0, bowl), 0.0);
+    for n in 0..200 {
+        let [x, y] = [n % 20, n / 20].map(|n| 2.1 + 0.33 * f64::from(n));
+        let off = surface.at(x, y).elevation - bowl(x, y);
+        assert!(off.abs() < 1e-12, "{x} {y}: {off}");
+    }
+}
+
+// A cliff of 20 m has neither a dam above nor a ditch below.
+#[test]
+fn a_cliff_is_not_overshot() {
+    let cliff = |x: f64, _: f64| {
+        if x < 10.0 {
+            30.0 - 0.1 * x
+        } else {
+            10.0 - 0.1 * x
         }
+    };
+    let surface = SplineSurface::through(&raster(20, 6, 1.0, cliff), 0.0);
+    for n in 0..400 {
+        let [before, here] = [n, n + 1].map(|n| surface.at(0.05 * f64::from(n), 3.0).elevation);
+        assert!(here <= before + 1e-12, "{n}: {before} {here}");
     }
 }
 
@@ -70,6 +85,29 @@ fn a_smooth_surface_is_approached_with_the_third_order() {
     };
     let ratio = worst(0.5) / worst(0.25);
     assert!(ratio > 6.5, "{ratio}");
+}
+
+#[test]
+fn curvature_is_the_derivative_of_the_slope() {
+    let hilly = |x: f64, y: f64| (1.3 * x).sin() * 2.0 + (x * y).cos();
+    let surface = SplineSurface::through(&raster(12, 11, 1.0, hilly), 0.0);
+    let step = 1e-6;
+    for (x, y) in [(2.3, 3.1), (4.2, 5.4), (7.7, 8.1)] {
+        let slope = |x: f64, y: f64| surface.at(x, y).slope;
+        let along =
+            [0, 1].map(|of| (slope(x + step, y)[of] - slope(x - step, y)[of]) / (2.0 * step));
+        let across =
+            [0, 1].map(|of| (slope(x, y + step)[of] - slope(x, y - step)[of]) / (2.0 * step));
+        let [xx, xy, yy] = surface.curvature(x, y);
+        for (one, other) in [
+            (xx, along[0]),
+            (xy, along[1]),
+            (xy, across[0]),
+            (yy, across[1]),
+        ] {
+            assert!((one - other).abs() < 1e-6, "{x} {y}: {one} {other}");
+        }
+    }
 }
 
 #[test]
