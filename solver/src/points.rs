@@ -74,6 +74,34 @@ impl Point {
     }
 }
 
+/// Mass of a point and its motion, without its stress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointMotion {
+    /// Mass [kg].
+    pub mass: f64,
+    /// Position [m].
+    pub position: Vec3,
+    /// Velocity [m/s].
+    pub velocity: Vec3,
+}
+
+impl PointMotion {
+    /// Motion of a point.
+    pub fn of(point: &Point) -> Self {
+        let Point {
+            mass,
+            position,
+            velocity,
+            ..
+        } = *point;
+        Self {
+            mass,
+            position,
+            velocity,
+        }
+    }
+}
+
 /// One of some equal parts of the points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
@@ -85,6 +113,11 @@ impl Part {
     /// All of so many parts.
     pub fn all(of: usize) -> impl IndexedParallelIterator<Item = Self> {
         (0..of).into_par_iter().map(move |index| Self { index, of })
+    }
+
+    /// True of the first one.
+    pub fn is_first(&self) -> bool {
+        self.index == 0
     }
 
     /// Its range of a list with so many entries.

@@ -11,8 +11,9 @@ use std::ops::Range;
 /// Cells beyond the edges over which the surface goes on with the slope of the edge; farther out it
 /// is level in that direction.
 const MARGIN: f64 = 3.0;
-/// Largest second difference over that beside it.
-const LIMIT: f64 = 2.0;
+/// Farthest that a coefficient is beyond the values of its cell and the neighbours, over the side of a
+/// cell: as much as a break of slope of 58° needs.
+const BEYOND: f64 = 0.1;
 
 /// Elevation and slope of a surface at a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,7 +99,10 @@ impl SplineSurface {
                     let value = raster.value_at(column, row) - datum;
                     let along = bend((column, columns), |of| raster.value_at(of, row));
                     let up = bend((row, rows), |of| raster.value_at(column, of));
-                    *coefficient = value - (along + up) / 8.0;
+                    let [lowest, highest] = range_round(raster, [column, row]);
+                    let room = BEYOND * raster.cell_size;
+                    *coefficient = (value - (along + up) / 8.0)
+                        .clamp(lowest - datum - room, highest - datum + room);
                 }
                 go_on_evenly(coefficients);
             });
@@ -319,9 +323,8 @@ impl SplineSurface {
     }
 }
 
-/// Second difference of the values at a place of a line of so many, limited by those beside: none
-/// where they differ in sign, or one is zero, as at a cliff or a break of slope. Summits and hollows
-/// that several cells show keep theirs.
+/// Second difference of the values at a place of a line of so many; none where one beside it has the
+/// other sign, as at a cliff.
 fn bend((place, count): (usize, usize), value: impl Fn(usize) -> f64) -> f64 {
     let is_within = |place: usize| place > 0 && place + 1 < count;
     if !is_within(place) {
@@ -332,13 +335,21 @@ fn bend((place, count): (usize, usize), value: impl Fn(usize) -> f64) -> f64 {
     let beside = [place - 1, place + 1]
         .into_iter()
         .filter(|of| is_within(*of));
-    beside.map(difference).fold(own, |bend, other| {
-        if other * own > 0.0 {
-            bend.abs().min(LIMIT * other.abs()).copysign(own)
-        } else {
-            0.0
+    let turns = beside.map(difference).any(|other| other * own < 0.0);
+    if turns { 0.0 } else { own }
+}
+
+/// Lowest and highest value of a cell and the cells round it.
+fn range_round(raster: &Raster, [column, row]: [usize; 2]) -> [f64; 2] {
+    let near = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    for row in near(row, raster.rows) {
+        for column in near(column, raster.columns) {
+            let value = raster.value_at(column, row);
+            range = [range[0].min(value), range[1].max(value)];
         }
-    })
+    }
+    range
 }
 
 /// Sets the first and the last entry of a row by its slope there.

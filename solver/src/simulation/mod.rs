@@ -19,7 +19,7 @@ use crate::diagnostics::{Audit, FlowMoments};
 use crate::error::{RestoreError, SaveError, SetupError, StepError};
 use crate::math::Vec3;
 use crate::mpm::instructions::Instructions;
-use crate::points::{Part, Point};
+use crate::points::{Part, Point, PointMotion};
 use crate::rigid::Body;
 use crate::scenario::Scenario;
 use crate::stability::Pace;
@@ -278,18 +278,18 @@ impl Simulation {
         self.state.flow.visit(within, &mut visit);
     }
 
-    /// Folds the material points on all threads: each point is added to one of some sums, which are
-    /// joined. Neither must depend on the order.
-    pub fn fold_points<T: Send>(
+    /// Folds the motions of the material points on all threads: each is added to one of some sums,
+    /// which are joined. Neither must depend on the order.
+    pub fn fold_motions<T: Send>(
         &self,
         none: impl Fn() -> T + Sync,
-        add: impl Fn(&mut T, &Point) + Sync,
+        add: impl Fn(&mut T, &PointMotion) + Sync,
         join: impl Fn(T, T) -> T,
     ) -> T {
         let of_part = |part: Part| {
             let mut sum = none();
             let flow = &self.state.flow;
-            flow.visit_part(part, &mut |point| add(&mut sum, point));
+            flow.visit_motions(part, &mut |point| add(&mut sum, point));
             sum
         };
         let parts = Part::all(self.pool.current_num_threads());

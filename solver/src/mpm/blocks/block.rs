@@ -116,6 +116,11 @@ impl<R: Real> Block<R> {
         take::<R, 3>(&self.chunks[slot / R::LANES].position, slot % R::LANES)
     }
 
+    /// Velocity of one of its points [m/s].
+    pub fn velocity(&self, slot: usize) -> [R; 3] {
+        take::<R, 3>(&self.chunks[slot / R::LANES].velocity, slot % R::LANES)
+    }
+
     /// Mass of one of its points [kg].
     pub fn mass(&self, slot: usize) -> R {
         self.chunks[slot / R::LANES].mass[slot % R::LANES]

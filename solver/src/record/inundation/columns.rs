@@ -2,7 +2,7 @@
 
 use super::Inundation;
 use super::frame::{CELLS, Frame, TileIndex, Tiles, tile_of};
-use crate::points::Point;
+use crate::points::PointMotion;
 use crate::simulation::Simulation;
 use std::collections::BTreeMap;
 
@@ -36,7 +36,7 @@ impl Columns {
     /// The columns of a flow.
     pub(super) fn of(simulation: &Simulation, inundation: &Inundation) -> Self {
         let spread = Spread::of(inundation);
-        let sums = simulation.fold_points(
+        let sums = simulation.fold_motions(
             TileSums::default,
             |sums, point| spread.add(point, sums),
             TileSums::joined,
@@ -106,7 +106,7 @@ impl Spread {
     }
 
     /// Adds a point; what lies beyond the edges is left out.
-    fn add(&self, point: &Point, sums: &mut TileSums) {
+    fn add(&self, point: &PointMotion, sums: &mut TileSums) {
         let fractions = point.mass / self.fraction;
         let columns = self.shares(point.position.x, 0);
         for (row, of_row) in self.shares(point.position.y, 1) {

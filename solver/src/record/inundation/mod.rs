@@ -2,7 +2,7 @@
 //! of the height map, or of every square of its cells if they are finer than the computation's.
 //!
 //! A look sums mass and momentum of the points above each cell. The flow is looked at whenever it
-//! may have travelled a cell since, so that none is passed unseen, and only where it is: memory
+//! may have travelled half a cell since, so that none is passed unseen, and only where it is: memory
 //! and time follow the flow, not the map.
 
 mod columns;
@@ -15,8 +15,8 @@ use frame::{Frame, Tiles};
 pub use maps::{FlowMaps, MapQuantity};
 use serde::{Deserialize, Serialize};
 
-/// Travel of the fastest point between two looks, in cells of the maps: it is seen in each.
-const TRAVEL: f64 = 1.0;
+/// Travel of the fastest point between two looks, in cells of the maps.
+const TRAVEL: f64 = 0.5;
 /// Flow height from which on a cell counts as reached, in spacings of points: half a layer of them.
 /// A single point that flies ahead makes less.
 const REACHED: f64 = 0.5;

@@ -8,6 +8,7 @@ use crate::available_volume::exclude_volume;
 use crate::contact::point_body::{Around, ContactTime, CouplingGrid, FlowLoad, Loads};
 use crate::diagnostics::Totals;
 use crate::grid::resize_list;
+use crate::math::Vec3;
 use crate::mpm::blocks::{Block, Blocks};
 use crate::mpm::constitutive::Law;
 use crate::mpm::g2p::{EndTiles, Ending, gather_motion};
@@ -21,7 +22,7 @@ use crate::mpm::rows::Tile;
 use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
 use crate::mpm::stress_update::update_stress;
 use crate::mpm::totals;
-use crate::points::{Part, Point, Unloading};
+use crate::points::{Part, Point, PointMotion, Unloading};
 use crate::rigid::Body;
 use crate::simulation::setup::Setup;
 use crate::simulation::stages::{StageEnds, StepStage};
@@ -407,11 +408,15 @@ impl<R: Saved> Flow for BlockFlow<R> {
         }
     }
 
-    fn visit_part(&self, part: Part, visit: &mut dyn FnMut(&Point)) {
+    fn visit_motions(&self, part: Part, visit: &mut dyn FnMut(&PointMotion)) {
         let blocks = self.blocks.occupied();
         for block in &blocks[part.range(blocks.len())] {
             for slot in 0..block.count() {
-                visit(&self.packing.unpack(&block.key, &block.get(slot)));
+                visit(&PointMotion {
+                    mass: block.mass(slot).to_f64(),
+                    position: self.packing.position(&block.key, &block.position(slot)),
+                    velocity: Vec3::from(block.velocity(slot).map(R::to_f64)),
+                });
             }
         }
     }

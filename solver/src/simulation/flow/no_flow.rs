@@ -7,7 +7,7 @@ use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::Totals;
 use crate::mpm::instructions::Instructions;
 use crate::mpm::redistribution::Shifting;
-use crate::points::{Part, Point};
+use crate::points::{Part, Point, PointMotion};
 use crate::rigid::Body;
 use crate::simulation::setup::Setup;
 use crate::simulation::stages::StageEnds;
@@ -60,7 +60,7 @@ impl Flow for NoFlow {
 
     fn visit(&self, _: Option<&Around>, _: &mut dyn FnMut(&Point)) {}
 
-    fn visit_part(&self, _: Part, _: &mut dyn FnMut(&Point)) {}
+    fn visit_motions(&self, _: Part, _: &mut dyn FnMut(&PointMotion)) {}
 
     fn saved(&self) -> SavedFlow {
         SavedFlow::None

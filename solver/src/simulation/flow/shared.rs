@@ -9,7 +9,7 @@ use super::whole::{restore_whole, start_whole};
 use crate::contact::point_body::{Around, FlowLoad};
 use crate::diagnostics::Totals;
 use crate::mpm::instructions::Instructions;
-use crate::points::{Part, Point};
+use crate::points::{Part, Point, PointMotion};
 use crate::rigid::Body;
 use crate::scenario::Precision;
 use crate::simulation::setup::{Setup, Share, Shares, near_body};
@@ -214,10 +214,10 @@ impl Flow for SharedFlow {
         }
     }
 
-    fn visit_part(&self, part: Part, visit: &mut dyn FnMut(&Point)) {
-        for which in 0..self.images.count() {
-            let mut show = |point: &Point| visit(&self.images.of(which, point));
-            self.flow.visit_part(part, &mut show);
+    fn visit_motions(&self, part: Part, visit: &mut dyn FnMut(&PointMotion)) {
+        // Whoever divides the work does so on a terrain, where nothing is shared.
+        if part.is_first() {
+            self.visit(None, &mut |point| visit(&PointMotion::of(point)));
         }
     }
 

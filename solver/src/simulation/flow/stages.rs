@@ -7,7 +7,7 @@ use crate::diagnostics::Totals;
 use crate::mpm::instructions::Instructions;
 use crate::mpm::redistribution::{RedistributionRates, Shifting};
 use crate::mpm::strain_rate_smoothing::StrainRateSmoothing;
-use crate::points::{Part, Point};
+use crate::points::{Part, Point, PointMotion};
 use crate::rigid::Body;
 use crate::simulation::setup::{Setup, Share};
 use crate::simulation::stages::StageEnds;
@@ -81,8 +81,8 @@ pub(in crate::simulation) trait Flow: Debug + Send + Sync {
     /// Visits the points, those within a box if one is given, in any order.
     fn visit(&self, within: Option<&Around>, visit: &mut dyn FnMut(&Point));
 
-    /// Visits a part of the points in any order.
-    fn visit_part(&self, part: Part, visit: &mut dyn FnMut(&Point));
+    /// Visits the motions of a part of the points in any order.
+    fn visit_motions(&self, part: Part, visit: &mut dyn FnMut(&PointMotion));
 
     /// Visits the computed points in any order.
     fn visit_computed(&self, visit: &mut dyn FnMut(&Point)) {
