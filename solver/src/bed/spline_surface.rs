@@ -1,7 +1,6 @@
-//! A smooth surface through a raster of elevations: the biquadratic B-spline whose coefficients are
-//! the values at the centres of the cells less an eighth of their limited second differences
-//! (docs/method.md, equation 80). It is continuous with its slope. Surfaces of the second degree are
-//! reproduced exactly, and a cliff has neither a dam above nor a ditch below.
+//! A smooth surface through a raster of elevations: the biquadratic B-spline that interpolates the
+//! values at the centres of the cells, kept from swinging beyond them at cliffs (docs/method.md,
+//! equation 80). It is continuous with its slope, and planes are reproduced exactly.
 
 use crate::math::Vec3;
 use crate::raster::Raster;
@@ -91,27 +90,18 @@ impl SplineSurface {
         let (columns, rows) = (raster.columns, raster.rows);
         let width = columns + 2;
         let mut coefficients = vec![0.0; width * (rows + 2)];
+        let factors = factors(columns);
         coefficients[width..width * (rows + 1)]
             .par_chunks_mut(width)
-            .enumerate()
-            .for_each(|(row, coefficients)| {
-                for (column, coefficient) in coefficients[1..=columns].iter_mut().enumerate() {
-                    let value = raster.value_at(column, row) - datum;
-                    let along = bend((column, columns), |of| raster.value_at(of, row));
-                    let up = bend((row, rows), |of| raster.value_at(column, of));
-                    let [lowest, highest] = range_round(raster, [column, row]);
-                    let room = BEYOND * raster.cell_size;
-                    *coefficient = (value - (along + up) / 8.0)
-                        .clamp(lowest - datum - room, highest - datum + room);
+            .zip(raster.values.par_chunks(columns))
+            .for_each(|(row, values)| {
+                for (coefficient, value) in row[1..].iter_mut().zip(values) {
+                    *coefficient = value - datum;
                 }
-                go_on_evenly(coefficients);
+                interpolate_row(row, &factors);
             });
-        let at = |row: usize| row * width;
-        for n in 0..width {
-            coefficients[n] = 2.0 * coefficients[at(1) + n] - coefficients[at(2) + n];
-            coefficients[at(rows + 1) + n] =
-                2.0 * coefficients[at(rows) + n] - coefficients[at(rows - 1) + n];
-        }
+        interpolate_columns(&mut coefficients, width);
+        limit(&mut coefficients, raster, datum);
         Self {
             cell: raster.cell_size,
             cells: [columns, rows],
@@ -323,20 +313,22 @@ impl SplineSurface {
     }
 }
 
-/// Second difference of the values at a place of a line of so many; none where one beside it has the
-/// other sign, as at a cliff.
-fn bend((place, count): (usize, usize), value: impl Fn(usize) -> f64) -> f64 {
-    let is_within = |place: usize| place > 0 && place + 1 < count;
-    if !is_within(place) {
-        return 0.0;
-    }
-    let difference = |place: usize| value(place - 1) - 2.0 * value(place) + value(place + 1);
-    let own = difference(place);
-    let beside = [place - 1, place + 1]
-        .into_iter()
-        .filter(|of| is_within(*of));
-    let turns = beside.map(difference).any(|other| other * own < 0.0);
-    if turns { 0.0 } else { own }
+/// Limits each coefficient of a cell to the values there and of the neighbours, with some room; those
+/// beyond the edges go on evenly.
+fn limit(coefficients: &mut [f64], raster: &Raster, datum: f64) {
+    let width = raster.columns + 2;
+    let room = BEYOND * raster.cell_size;
+    let inner = &mut coefficients[width..width * (raster.rows + 1)];
+    let rows = inner.par_chunks_mut(width).enumerate();
+    rows.for_each(|(row, coefficients)| {
+        for column in 0..raster.columns {
+            let [lowest, highest] = range_round(raster, [column, row]);
+            let coefficient = &mut coefficients[column + 1];
+            *coefficient = coefficient.clamp(lowest - datum - room, highest - datum + room);
+        }
+        go_on_evenly(coefficients);
+    });
+    go_on_evenly_up(coefficients, width);
 }
 
 /// Lowest and highest value of a cell and the cells round it.
@@ -357,6 +349,59 @@ fn go_on_evenly(row: &mut [f64]) {
     let count = row.len() - 2;
     row[0] = 2.0 * row[1] - row[2];
     row[count + 1] = 2.0 * row[count] - row[count - 1];
+}
+
+/// Sets the first and the last row by the slope there.
+fn go_on_evenly_up(rows: &mut [f64], width: usize) {
+    let count = rows.len() / width - 2;
+    for i in 0..width {
+        let at = |n: usize| n * width + i;
+        rows[at(0)] = 2.0 * rows[at(1)] - rows[at(2)];
+        rows[at(count + 1)] = 2.0 * rows[at(count)] - rows[at(count - 1)];
+    }
+}
+
+/// Factors of the elimination for a line of so many coefficients: c₋ + 6 c + c₊ = 8 × value.
+/// The first and the last coefficient are the values there, since beyond both ends the
+/// coefficients go on evenly.
+fn factors(count: usize) -> Vec<f64> {
+    let mut factors = vec![0.0; count + 1];
+    for n in 2..count {
+        factors[n] = 1.0 / (6.0 - factors[n - 1]);
+    }
+    factors
+}
+
+/// Turns the values of a row, from its second entry on, into coefficients.
+fn interpolate_row(row: &mut [f64], factors: &[f64]) {
+    let count = row.len() - 2;
+    for n in 2..count {
+        row[n] = (8.0 * row[n] - row[n - 1]) * factors[n];
+    }
+    for n in (2..count).rev() {
+        row[n] -= factors[n] * row[n + 1];
+    }
+    go_on_evenly(row);
+}
+
+/// Turns the values of all columns, from their second entries on, into coefficients.
+fn interpolate_columns(rows: &mut [f64], width: usize) {
+    let count = rows.len() / width - 2;
+    let factors = factors(count);
+    for n in 2..count {
+        let (before, here) = rows.split_at_mut(n * width);
+        let before = &before[(n - 1) * width..];
+        for (value, before) in here[..width].iter_mut().zip(before) {
+            *value = (8.0 * *value - *before) * factors[n];
+        }
+    }
+    for n in (2..count).rev() {
+        let (here, after) = rows.split_at_mut((n + 1) * width);
+        for (value, after) in here[n * width..].iter_mut().zip(after) {
+            *value -= factors[n] * *after;
+        }
+    }
+    go_on_evenly_up(rows, width);
 }
 
 #[cfg(test)]
