@@ -1,6 +1,7 @@
 //! Cell size of a scenario: given, or chosen by its bodies and its release (docs/method.md,
 //! equation 30).
 
+use super::area_rows::{MOST_SQUARES, squares_of};
 use super::{Ground, Scenario};
 use crate::method::METHOD;
 
@@ -15,7 +16,8 @@ impl Scenario {
 }
 
 /// Four cells across the thinnest body, eight across the release, the finer of both; coarser if
-/// that needs more than 400,000 points.
+/// that needs more than 400,000 points, of a release on a terrain that is thinner than a point up
+/// to twice as many.
 fn automatic_cell_size(scenario: &Scenario) -> f64 {
     let thinnest = (0..scenario.bodies.len())
         .map(|body| scenario.shape_of(body).least_width())
@@ -33,6 +35,19 @@ fn automatic_cell_size(scenario: &Scenario) -> f64 {
     let cell = fine.max(affordable);
     match &scenario.ground {
         Ground::Channel(channel) => cell.min(channel.width_m),
-        Ground::Terrain(_) => cell,
+        Ground::Terrain(_) => not_too_fine_for_releases(scenario, cell, per_cell),
+    }
+}
+
+/// A cell size of which the releases on a terrain, however thin, have no more squares to look at
+/// than one run may.
+fn not_too_fine_for_releases(scenario: &Scenario, mut cell: f64, per_cell: f64) -> f64 {
+    let areas: Vec<_> = scenario.terrain_releases().collect();
+    loop {
+        let over = squares_of(&areas, cell / per_cell.cbrt()) / MOST_SQUARES as f64;
+        if over <= 1.0 {
+            return cell;
+        }
+        cell *= over.sqrt().max(1.01);
     }
 }

@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod agreement;
+mod area_rows;
 mod body;
 mod builder;
 mod cells;
@@ -20,6 +21,7 @@ mod on_terrain;
 mod parse;
 mod placement;
 mod places;
+mod polygon;
 mod position;
 mod range;
 mod reader;
@@ -43,6 +45,7 @@ mod tests;
 
 pub use crate::shape::RegularSolid;
 pub use accuracy::{Accuracy, Quantity};
+pub(crate) use area_rows::{MOST_SQUARES, Measure, Window, squares_of};
 pub use builder::{BodyBuilder, ScenarioBuilder};
 pub use ground::Ground;
 pub use maps::{MapUse, Maps, NamedMap};

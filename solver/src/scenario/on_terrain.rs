@@ -3,8 +3,8 @@
 use super::agreement::{Course, flow_is_stiff_enough, samples_are_bounded};
 use super::duration::duration_to;
 use super::fit::{Placed, bodies_are_apart};
+use super::polygon::{area, touching};
 use super::range::short;
-use super::released_area::{area, crossing};
 use super::report::Report;
 use super::rules::{CELL_SIZE, ELEVATION};
 use super::{Scenario, SlidingPoints, Source, Terrain, TerrainRelease};
@@ -111,9 +111,9 @@ fn release_fits(report: &Report, terrain: &Terrain, release: &TerrainRelease, po
         }
     }
     let pointer = format!("{pointer}/polygon_m");
-    if let Some([one, other]) = crossing(corners) {
-        let why = format!("has sides that cross: those from corners {one} and {other}");
-        report.refuse(&pointer, "a polygon whose sides do not cross", None, &why);
+    if let Some([one, other]) = touching(corners) {
+        let why = format!("has sides that cross or touch: those from corners {one} and {other}");
+        report.refuse(&pointer, "a polygon whose sides neither cross nor touch", None, &why);
     } else if area(corners) == 0.0 {
         let why = "has no area";
         report.refuse(&pointer, "a polygon with an area", None, why);

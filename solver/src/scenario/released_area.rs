@@ -1,5 +1,6 @@
 //! Thickness, volume and place of a release on a terrain.
 
+use super::polygon::{area, centroid, holds};
 use super::terrain::ReleasedArea;
 use crate::raster::Raster;
 
@@ -9,10 +10,53 @@ impl ReleasedArea<'_> {
         match self {
             Self::Polygon { corners, thickness } if holds(corners, x, y) => *thickness,
             Self::Polygon { .. } => 0.0,
-            Self::Thickness { map, origin } => positive(map.at_cell(origin[0] + x, origin[1] + y)),
+            Self::Thickness { ground, .. } | Self::Surface { ground, .. } => {
+                self.thickness_of([ground.west + x, ground.south + y])
+            }
+        }
+    }
+
+    /// Vertical thickness of a release by a map at a place in the map's coordinates [m]; none
+    /// beyond the height map, and of a polygon.
+    pub(super) fn thickness_of(&self, [east, north]: [f64; 2]) -> f64 {
+        match self {
+            Self::Polygon { .. } => 0.0,
+            Self::Thickness { ground, .. } if ground.at_cell(east, north).is_nan() => 0.0,
+            Self::Thickness { map, .. } => positive(map.at_cell(east, north)),
             Self::Surface { map, ground } => {
-                let (east, north) = (ground.west + x, ground.south + y);
                 above(map.at_cell(east, north), ground.at_cell(east, north))
+            }
+        }
+    }
+
+    /// Its map and the south-western corner of the height map; none of a polygon.
+    pub(super) fn map(&self) -> Option<(&Raster, [f64; 2])> {
+        match self {
+            Self::Polygon { .. } => None,
+            Self::Thickness { map, ground } | Self::Surface { map, ground } => {
+                Some((map, [ground.west, ground.south]))
+            }
+        }
+    }
+
+    /// Area with any thickness [m²].
+    pub(super) fn covered(&self) -> f64 {
+        match self {
+            Self::Polygon { corners, .. } => area(corners).abs(),
+            _ => {
+                let cells = self.cells().filter(|cell| cell.thickness > 0.0);
+                cells.map(|cell| cell.area).sum()
+            }
+        }
+    }
+
+    /// A place in the middle of the release [m], if it has a place.
+    pub(crate) fn middle(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Polygon { corners, .. } => centroid(corners),
+            _ => {
+                let [low, high] = self.bounds()?;
+                Some([0, 1].map(|axis| 0.5 * (low[axis] + high[axis])))
             }
         }
     }
@@ -57,19 +101,13 @@ impl ReleasedArea<'_> {
 
     /// Cells of a release by a map; none of a polygon.
     fn cells(&self) -> impl Iterator<Item = ReleasedCell> {
-        let (map, origin) = match self {
-            Self::Polygon { .. } => (None, [0.0; 2]),
-            Self::Thickness { map, origin } => (Some(*map), *origin),
-            Self::Surface { map, ground } => (Some(*map), [ground.west, ground.south]),
-        };
-        map.into_iter().flat_map(move |map: &Raster| {
+        self.map().into_iter().flat_map(move |(map, origin)| {
             let places = (0..map.rows).flat_map(|row| (0..map.columns).map(move |of| (of, row)));
             places.map(move |(column, row)| {
-                let [east, north] = map.centre(column, row);
-                let place = [east - origin[0], north - origin[1]];
+                let centre = map.centre(column, row);
                 ReleasedCell {
-                    place,
-                    thickness: self.thickness_at(place[0], place[1]),
+                    place: [0, 1].map(|axis| centre[axis] - origin[axis]),
+                    thickness: self.thickness_of(centre),
                     area: map.cell_size * map.cell_size,
                 }
             })
@@ -97,48 +135,6 @@ fn above(surface: f64, ground: f64) -> f64 {
     positive(surface - ground)
 }
 
-/// Area of a polygon [m²], positive if its corners go round anticlockwise.
-pub(super) fn area(corners: &[[f64; 2]]) -> f64 {
-    // From the first corner on: coordinates of maps are large.
-    let Some(&[x, y]) = corners.first() else {
-        return 0.0;
-    };
-    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
-    let twice = sides.map(|(a, b)| (a[0] - x) * (b[1] - y) - (b[0] - x) * (a[1] - y));
-    0.5 * twice.sum::<f64>()
-}
-
-/// True if a polygon holds a place: an odd number of its sides lies east of it.
-fn holds(corners: &[[f64; 2]], x: f64, y: f64) -> bool {
-    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
-    let crossed = sides.filter(|(a, b)| {
-        let spans = (a[1] > y) != (b[1] > y);
-        spans && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
-    });
-    crossed.count() % 2 == 1
-}
-
-/// Two sides of a polygon that cross, by the indices of their first corners.
-pub(super) fn crossing(corners: &[[f64; 2]]) -> Option<[usize; 2]> {
-    let count = corners.len();
-    let side = |n: usize| (corners[n], corners[(n + 1) % count]);
-    let pairs = (0..count).flat_map(|a| (a + 2..count).map(move |b| (a, b)));
-    pairs
-        .filter(|&(a, b)| !(a == 0 && b + 1 == count))
-        .find(|&(a, b)| cross(side(a), side(b)))
-        .map(|(a, b)| [a, b])
-}
-
-type Side = ([f64; 2], [f64; 2]);
-
-fn cross((a, b): Side, (c, d): Side) -> bool {
-    let left = |from: [f64; 2], to: [f64; 2], of: [f64; 2]| {
-        (to[0] - from[0]) * (of[1] - from[1]) - (to[1] - from[1]) * (of[0] - from[0])
-    };
-    let apart = |one: f64, other: f64| one * other < 0.0;
-    apart(left(a, b, c), left(a, b, d)) && apart(left(c, d, a), left(c, d, b))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -155,15 +151,6 @@ mod tests {
         assert_eq!(release.thickness_at(0.9, 2.0), 0.0);
         assert_eq!(release.volume(), 3.0);
         assert_eq!(release.bounds(), Some([[1.0, 1.0], [3.0, 4.0]]));
-        let clockwise: Vec<_> = SQUARE.into_iter().rev().collect();
-        assert_eq!(area(&clockwise), -6.0);
-    }
-
-    #[test]
-    fn crossing_sides_are_found() {
-        assert_eq!(crossing(&SQUARE), None);
-        let bow = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
-        assert_eq!(crossing(&bow), Some([0, 2]));
     }
 
     #[test]
@@ -186,5 +173,27 @@ mod tests {
         assert_eq!(release.thickest(), 1.5);
         assert_eq!(release.thickness_at(3.0, 1.0), 1.5);
         assert_eq!(release.bounds(), Some([[2.0, 0.0], [4.0, 2.0]]));
+    }
+
+    #[test]
+    fn a_thickness_beyond_the_height_map_is_left_out() {
+        let map = |west: f64, columns: usize| Raster {
+            columns,
+            rows: 1,
+            cell_size: 2.0,
+            west,
+            south: 20.0,
+            epsg: None,
+            values: vec![1.0; columns],
+        };
+        let (ground, thickness) = (map(10.0, 2), map(8.0, 4));
+        let release = ReleasedArea::Thickness {
+            map: &thickness,
+            ground: &ground,
+        };
+        assert_eq!([release.volume(), release.covered()], [8.0, 8.0]);
+        assert_eq!(release.thickness_at(-1.0, 1.0), 0.0);
+        assert_eq!(release.bounds(), Some([[0.0, 0.0], [4.0, 2.0]]));
+        assert_eq!(release.middle(), Some([2.0, 1.0]));
     }
 }

@@ -71,8 +71,8 @@ pub(crate) enum ReleasedArea<'a> {
     Thickness {
         /// The map, in the height map's coordinates.
         map: &'a Raster,
-        /// South-western corner of the height map.
-        origin: [f64; 2],
+        /// The height map.
+        ground: &'a Raster,
     },
     /// The difference of a surface and the height map.
     Surface {
@@ -146,7 +146,6 @@ impl Terrain {
     /// A release in local coordinates.
     pub(crate) fn area<'a>(&'a self, release: &'a TerrainRelease) -> ReleasedArea<'a> {
         let height = self.height();
-        let origin = [height.west, height.south];
         match (
             &release.polygon_m,
             &release.thickness_map,
@@ -161,7 +160,7 @@ impl Terrain {
             },
             (None, Some(name), _) => ReleasedArea::Thickness {
                 map: self.map(name),
-                origin,
+                ground: height,
             },
             (None, None, Some(name)) => ReleasedArea::Surface {
                 map: self.map(name),

@@ -8,11 +8,14 @@ use crate::error::SetupError;
 use crate::math::Vec3;
 use crate::points::Point;
 use crate::rigid::Body;
-use crate::scenario::{ReleasedArea, Scenario};
+use crate::scenario::{MOST_SQUARES, Measure, ReleasedArea, Scenario, Window, squares_of};
 
-/// Places along each axis at which the thickness of a column is looked up: at the edge of an area a
-/// column has its share.
-const LOOKED_UP: usize = 4;
+/// Squares that are looked at are limited like points.
+const _: () = assert!(MOST_SQUARES == MOST_POINTS);
+
+/// Thickness from which on a column is made of its own, over the distance of the columns: half of
+/// it but for rounding.
+const THINNEST: f64 = 0.5 * (1.0 - 1e-9);
 
 /// Releases of a scenario on a terrain, divided into points.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,26 +56,33 @@ impl TerrainColumns {
     pub(super) fn of(scenario: &Scenario, cell_size: f64) -> Result<Self, SetupError> {
         let per_cell = f64::from(scenario.numerics.points_per_cell);
         let spacing = cell_size / per_cell.cbrt();
-        let needed = scenario.released_volume_m3() / spacing.powi(3);
-        if needed > MOST_POINTS as f64 {
-            return Err(SetupError::TooManyPoints {
+        let areas: Vec<_> = scenario.terrain_releases().collect();
+        let is_bounded = |needed: f64| {
+            if needed <= MOST_POINTS as f64 {
+                return Ok(());
+            }
+            Err(SetupError::TooManyPoints {
                 points: needed as u64,
                 limit: MOST_POINTS,
                 cell_size_m: cell_size,
-            });
-        }
+            })
+        };
+        // Squares without a column cost time as well.
+        let points = scenario.released_volume_m3() / spacing.powi(3);
+        is_bounded(points.max(squares_of(&areas, spacing)))?;
         let mut divided = Self {
             releases: Vec::new(),
             spacing,
         };
-        for (area, time) in scenario.terrain_releases().zip(scenario.release_times()) {
+        for (area, time) in areas.iter().zip(scenario.release_times()) {
             let first = divided.points();
             divided.releases.push(DividedRelease {
                 time,
                 first,
-                columns: columns(&area, spacing),
+                columns: columns(area, spacing),
             });
         }
+        is_bounded(divided.points() as f64)?;
         Ok(divided)
     }
 
@@ -184,71 +194,300 @@ impl PointColumn {
 }
 
 /// Columns of a release, all of its volume being theirs.
-fn columns(area: &ReleasedArea, spacing: f64) -> Vec<PointColumn> {
-    let Some([low, high]) = area.bounds() else {
+fn columns(area: &ReleasedArea<'_>, spacing: f64) -> Vec<PointColumn> {
+    let Some(bounds) = area.bounds() else {
         return Vec::new();
     };
-    let first = low.map(|along| (along / spacing).floor() as i64);
-    let last = high.map(|along| (along / spacing).ceil() as i64);
-    // What is thinner than half a point is left to its neighbours, unless all of it is.
-    let thinnest = 0.5 * spacing.min(area.thickest());
-    let mut columns = Vec::new();
-    for j in first[1]..last[1] {
-        for i in first[0]..last[0] {
-            let thickness = mean_thickness(area, [i, j], spacing);
-            if thickness < thinnest || thickness == 0.0 {
-                continue;
-            }
-            let count = (thickness / spacing).round().max(1.0);
-            columns.push(PointColumn {
-                place: [i, j].map(|along| (along as f64 + 0.5) * spacing),
-                thickness,
-                count: count as u32,
-                volume: thickness * spacing * spacing / count,
-            });
-        }
+    let window = Window::around(bounds, spacing);
+    let mut gathering = Gathering::new(THINNEST * spacing);
+    area.each_row(&window, Measure::Thickness, |row, thickness| {
+        gathering.take_row([window.first[0], row], thickness);
+    });
+    let volume = area.volume();
+    let heaps = gathering.finish();
+    let found: f64 = heaps.made.iter().map(|heap| heap.thickness).sum();
+    if found > 0.0 {
+        let factor = volume / (found * spacing * spacing);
+        let of = |heap: &Heap| PointColumn::of(heap, spacing, factor);
+        return heaps.made.iter().map(of).collect();
     }
-    let found: f64 = columns
-        .iter()
-        .map(|column| column.volume * f64::from(column.count))
-        .sum();
-    let factor = area.volume() / found;
-    columns
-        .iter_mut()
-        .for_each(|column| column.volume *= factor);
-    columns
+    let thickest = heaps.thickest.map(|heap| heap.middle(spacing));
+    let place = thickest.or_else(|| area.middle());
+    let single = place.filter(|_| volume > 0.0).map(|place| PointColumn {
+        // The square around it may reach beyond the map.
+        place: [0, 1].map(|axis| place[axis].clamp(bounds[0][axis], bounds[1][axis])),
+        thickness: volume / (spacing * spacing),
+        count: 1,
+        volume,
+    });
+    single.into_iter().collect()
 }
 
-/// Thickness of a release averaged over a column's cell [m].
-fn mean_thickness(area: &ReleasedArea, cell: [i64; 2], spacing: f64) -> f64 {
-    let places = (0..LOOKED_UP * LOOKED_UP).map(|n| {
-        let inside = [n % LOOKED_UP, n / LOOKED_UP].map(|n| (n as f64 + 0.5) / LOOKED_UP as f64);
-        [0, 1].map(|axis| (cell[axis] as f64 + inside[axis]) * spacing)
-    });
-    let thickness = places.map(|[x, y]| area.thickness_at(x, y));
-    thickness.sum::<f64>() / (LOOKED_UP * LOOKED_UP) as f64
+/// Thickness in a square of the lattice.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Heap {
+    /// Its column and row.
+    square: [i64; 2],
+    /// Thickness [m].
+    thickness: f64,
+}
+
+/// Heaps of a release. What is too thin for a column is handed on to the next square of its row, up
+/// to the first that makes a column with it; what is left at the end of a run of squares goes to the
+/// last column of the run, or on if it has none.
+#[derive(Debug, Clone, PartialEq)]
+struct Gathering {
+    made: Vec<Heap>,
+    /// Thickness from which on a heap is made [m].
+    thinnest: f64,
+    /// Thickness handed on [m].
+    carried: f64,
+    /// True if the run of squares has a heap.
+    run_has_heap: bool,
+    /// Thickest square, if there is one with a thickness.
+    thickest: Option<Heap>,
+}
+
+impl Gathering {
+    fn new(thinnest: f64) -> Self {
+        Self {
+            made: Vec::new(),
+            thinnest,
+            carried: 0.0,
+            run_has_heap: false,
+            thickest: None,
+        }
+    }
+
+    /// Takes the squares of a row from here on.
+    fn take_row(&mut self, [first, row]: [i64; 2], thickness: &[f64]) {
+        for (column, &thickness) in thickness.iter().enumerate() {
+            if thickness > 0.0 {
+                self.take(Heap {
+                    square: [first + column as i64, row],
+                    thickness,
+                });
+            } else {
+                self.end_run();
+            }
+        }
+        self.end_run();
+    }
+
+    fn take(&mut self, heap: Heap) {
+        let is_thicker = |thickest: Heap| heap.thickness > thickest.thickness;
+        if self.thickest.is_none_or(is_thicker) {
+            self.thickest = Some(heap);
+        }
+        self.carried += heap.thickness;
+        if self.carried >= self.thinnest {
+            self.made.push(Heap {
+                thickness: self.carried,
+                ..heap
+            });
+            (self.carried, self.run_has_heap) = (0.0, true);
+        }
+    }
+
+    fn end_run(&mut self) {
+        if self.run_has_heap {
+            self.give_to_last();
+        }
+        self.run_has_heap = false;
+    }
+
+    fn give_to_last(&mut self) {
+        if let Some(last) = self.made.last_mut() {
+            last.thickness += self.carried;
+            self.carried = 0.0;
+        }
+    }
+
+    /// The gathering with what is left given to the last heap.
+    fn finish(mut self) -> Self {
+        self.give_to_last();
+        self
+    }
+}
+
+impl Heap {
+    /// Middle of its square [m].
+    fn middle(&self, spacing: f64) -> [f64; 2] {
+        self.square.map(|along| (along as f64 + 0.5) * spacing)
+    }
+}
+
+impl PointColumn {
+    /// Points of a heap, their volume by this factor.
+    fn of(heap: &Heap, spacing: f64, factor: f64) -> Self {
+        let count = (heap.thickness / spacing).round().max(1.0);
+        Self {
+            place: heap.middle(spacing),
+            thickness: heap.thickness,
+            count: count as u32,
+            volume: heap.thickness * spacing * spacing / count * factor,
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::Raster;
+    use crate::scenario::Maps;
+    use serde_json::json;
+    use std::sync::Arc;
+
+    fn volume(columns: &[PointColumn]) -> f64 {
+        let volume = |column: &PointColumn| column.volume * f64::from(column.count);
+        columns.iter().map(volume).sum()
+    }
+
+    fn polygon(corners: &[[f64; 2]], thickness: f64) -> ReleasedArea<'static> {
+        ReleasedArea::Polygon {
+            corners: corners.to_vec(),
+            thickness,
+        }
+    }
+
+    fn rectangle([west, south]: [f64; 2], [east, north]: [f64; 2]) -> [[f64; 2]; 4] {
+        [[west, south], [east, south], [east, north], [west, north]]
+    }
+
+    fn map(columns: usize, cell_size: f64, values: Vec<f64>) -> Raster {
+        Raster {
+            columns,
+            rows: values.len() / columns,
+            cell_size,
+            west: 500.0,
+            south: 700.0,
+            epsg: None,
+            values,
+        }
+    }
 
     #[test]
     fn all_of_a_release_is_in_its_columns() {
-        let area = ReleasedArea::Polygon {
-            corners: vec![[0.3, 0.2], [7.1, 0.9], [6.0, 5.3], [1.0, 4.0]],
-            thickness: 1.3,
-        };
+        let area = polygon(&[[0.3, 0.2], [7.1, 0.9], [6.0, 5.3], [1.0, 4.0]], 1.3);
         for spacing in [0.5, 0.9, 3.1] {
             let columns = columns(&area, spacing);
-            let sum: f64 = columns
-                .iter()
-                .map(|column| column.volume * f64::from(column.count))
-                .sum();
+            let sum = volume(&columns);
             assert!(
                 (sum / area.volume() - 1.0).abs() < 1e-12,
                 "{spacing}: {sum}"
             );
+            // Squares are covered exactly: nothing is scaled but by rounding.
+            let thickness: f64 = columns.iter().map(|column| column.thickness).sum();
+            let sum = thickness * spacing * spacing;
+            assert!((sum / area.volume() - 1.0).abs() < 1e-9, "{spacing}: {sum}");
         }
+    }
+
+    #[test]
+    fn a_thin_release_does_not_heap_up_at_its_peak() {
+        let mut values = vec![0.2; 1600];
+        values[820] = 2.0;
+        let (ground, thickness) = (map(40, 1.0, vec![0.0; 1600]), map(40, 1.0, values));
+        let area = ReleasedArea::Thickness {
+            map: &thickness,
+            ground: &ground,
+        };
+        let columns = columns(&area, 1.0);
+        assert!((volume(&columns) / area.volume() - 1.0).abs() < 1e-12);
+        let highest = columns.iter().map(|column| column.thickness);
+        let highest = highest.fold(0.0, f64::max);
+        assert!((2.0..2.6).contains(&highest), "{highest}");
+        // Half of the volume is where half of it lies.
+        let south = columns.iter().filter(|column| column.place[1] < 20.0);
+        let south: f64 = south.map(|column| column.thickness).sum();
+        assert!((south - 160.0).abs() < 1e-9, "{south}");
+        assert!(columns.len() as f64 <= 2.0 * area.volume());
+    }
+
+    #[test]
+    fn thin_squares_are_handed_on_along_their_row() {
+        let row = [0.2, 0.2, 0.2, 0.7, 0.1, 0.0, 0.3, 0.0, 0.4, 0.2];
+        let mut gathering = Gathering::new(0.5);
+        gathering.take_row([10, 3], &row);
+        let heaps = gathering.finish().made;
+        let made: Vec<_> = heaps
+            .iter()
+            .map(|heap| (heap.square[0], (heap.thickness * 10.0).round()))
+            .collect();
+        assert_eq!(made, [(12, 6.0), (13, 8.0), (18, 9.0)]);
+    }
+
+    #[test]
+    fn a_release_smaller_than_a_point_is_one_point() {
+        let square = rectangle([10.0, 10.0], [14.0, 14.0]);
+        let sliver = [[10.0, 10.3], [14.0, 10.3], [14.0, 10.3001]];
+        let nearly_nothing = rectangle([3.0, 3.0], [3.1, 3.0 + 1e-12]);
+        for (corners, spacing) in [
+            (square.as_slice(), 7.5),
+            (&sliver, 0.25),
+            (&nearly_nothing, 1.0),
+        ] {
+            let area = polygon(corners, 1.0);
+            let columns = columns(&area, spacing);
+            assert_eq!([columns.len() as u32, columns[0].count], [1, 1]);
+            assert_eq!(columns[0].volume, area.volume());
+            let [low, high] = area.bounds().unwrap();
+            for axis in 0..2 {
+                let range = low[axis]..=high[axis];
+                assert!(range.contains(&columns[0].place[axis]), "{columns:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_fine_spot_of_a_map_is_not_missed() {
+        let mut values = vec![0.0; 10_000];
+        values[3_456] = 3.0;
+        let (ground, thickness) = (map(10, 1.0, vec![0.0; 100]), map(100, 0.1, values));
+        let area = ReleasedArea::Thickness {
+            map: &thickness,
+            ground: &ground,
+        };
+        let columns = columns(&area, 1.0);
+        assert_eq!(columns.len(), 1);
+        assert!((volume(&columns) - 0.03).abs() < 1e-12);
+        assert!((columns[0].place[0] - 5.6).abs() < 0.11, "{columns:?}");
+    }
+
+    #[test]
+    fn many_corners_cost_little() {
+        let corners: Vec<_> = (0..1000)
+            .map(|n| std::f64::consts::TAU * f64::from(n) / 1000.0)
+            .map(|angle| [30.0 + 28.0 * angle.cos(), 30.0 + 28.0 * angle.sin()])
+            .collect();
+        let area = polygon(&corners, 0.05);
+        let columns = columns(&area, 0.05);
+        assert!((volume(&columns) / area.volume() - 1.0).abs() < 1e-9);
+        assert!(columns.len() > 900_000, "{}", columns.len());
+    }
+
+    #[test]
+    fn squares_that_are_looked_at_are_limited() {
+        let maps = {
+            let mut maps = Maps::default();
+            maps.insert(&"a".repeat(64), Arc::new(map(60, 1.0, vec![9.0; 3600])));
+            maps
+        };
+        let document = json!({
+            "terrain": {"height_map": "a".repeat(64), "coordinates": "local"},
+            "flow": {"releases": [{
+                "polygon_m": rectangle([1.0, 1.0], [59.0, 59.0]), "thickness_m": 1e-6
+            }]},
+            "bodies": [],
+        });
+        let scenario = Scenario::from_value_with(&document, &maps).unwrap();
+        let found = TerrainColumns::of(&scenario, 0.01);
+        let Err(SetupError::TooManyPoints { points, .. }) = found else {
+            panic!("it is divided");
+        };
+        assert!(points > 130_000_000, "{points}");
+        let coarse = TerrainColumns::of(&scenario, 0.5).unwrap();
+        let most = 2.0 * scenario.released_volume_m3() / coarse.point_volume() + 1.0;
+        assert!((1.0..=most).contains(&(coarse.points() as f64)));
     }
 }
