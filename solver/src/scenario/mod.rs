@@ -27,6 +27,7 @@ mod range;
 mod reader;
 mod reduction;
 mod released_area;
+mod releases_fit;
 mod report;
 mod rules;
 #[cfg(feature = "schema")]

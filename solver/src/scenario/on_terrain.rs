@@ -3,11 +3,11 @@
 use super::agreement::{Course, flow_is_stiff_enough, samples_are_bounded};
 use super::duration::duration_to;
 use super::fit::{Placed, bodies_are_apart};
-use super::polygon::{area, touching};
 use super::range::short;
+use super::releases_fit::{extent_in_words, is_on_the_map, releases_fit, releases_happen};
 use super::report::Report;
 use super::rules::{CELL_SIZE, ELEVATION};
-use super::{Scenario, SlidingPoints, Source, Terrain, TerrainRelease};
+use super::{Scenario, SlidingPoints, Terrain};
 use crate::bed::HeightField;
 
 /// Least number of cells along the shorter side of a map.
@@ -20,13 +20,18 @@ pub(super) fn finish(report: &Report, scenario: &mut Scenario, duration_is_given
         return;
     }
     check(report, scenario);
+    if duration_is_given {
+        releases_happen(report, scenario);
+    }
     if !report.is_empty() {
         return;
     }
     let course = course_of(scenario);
     if !duration_is_given {
-        let rests_at = course.map(|course| course.rests_at);
-        scenario.duration_s = duration_to(rests_at, scenario.bodies.iter());
+        // Points that slide are not found in every narrow release.
+        let latest = scenario.release_times().fold(0.0, f64::max);
+        let rests_at = course.map(|course| course.rests_at.max(latest));
+        scenario.duration_s = duration_to(rests_at, scenario.bodies.iter()).max(latest);
     }
     let (duration, interval) = (scenario.duration_s, scenario.sample_interval_s);
     samples_are_bounded(report, duration, interval, scenario.bodies.len());
@@ -52,13 +57,7 @@ fn check(report: &Report, scenario: &Scenario) {
     let Some(terrain) = scenario.terrain() else {
         return;
     };
-    let releases = match scenario.flow.as_ref().map(|flow| &flow.source) {
-        Some(Source::Terrain { releases }) => releases.as_slice(),
-        _ => &[],
-    };
-    for (index, release) in releases.iter().enumerate() {
-        release_fits(report, terrain, release, &format!("/flow/releases/{index}"));
-    }
+    releases_fit(report, scenario, terrain);
     if !report.is_empty() {
         return;
     }
@@ -81,58 +80,6 @@ fn check(report: &Report, scenario: &Scenario) {
         return;
     }
     bodies_fit(report, scenario, terrain, &terrain.ground(cell_size));
-}
-
-/// The corners of a release lie on the map and make an area.
-fn release_fits(report: &Report, terrain: &Terrain, release: &TerrainRelease, pointer: &str) {
-    let Some(corners) = &release.polygon_m else {
-        let thickest = terrain.area(release).thickest();
-        if thickest <= 0.0 {
-            let key = match release.thickness_map {
-                Some(_) => "thickness_map",
-                None => "surface_map",
-            };
-            let why = "gives no thickness anywhere: nothing would be released";
-            let allowed = "a map with a thickness above 0 on the height map";
-            report.refuse(&format!("{pointer}/{key}"), allowed, None, why);
-        }
-        return;
-    };
-    let extent = terrain.extent();
-    for (index, corner) in corners.iter().enumerate() {
-        if !is_on_the_map(terrain.to_local(*corner), extent) {
-            let why = format!(
-                "is [{}, {}], which is not on the height map",
-                short(corner[0]),
-                short(corner[1])
-            );
-            let pointer = format!("{pointer}/polygon_m/{index}");
-            report.refuse(&pointer, &extent_in_words(terrain), Some("m"), &why);
-        }
-    }
-    let pointer = format!("{pointer}/polygon_m");
-    if let Some([one, other]) = touching(corners) {
-        let why = format!("has sides that cross or touch: those from corners {one} and {other}");
-        report.refuse(&pointer, "a polygon whose sides neither cross nor touch", None, &why);
-    } else if area(corners) == 0.0 {
-        let why = "has no area";
-        report.refuse(&pointer, "a polygon with an area", None, why);
-    }
-}
-
-fn is_on_the_map(place: [f64; 2], extent: [f64; 2]) -> bool {
-    (0..2).all(|axis| place[axis] >= 0.0 && place[axis] <= extent[axis])
-}
-
-/// Places on the map, in the terrain's coordinates.
-fn extent_in_words(terrain: &Terrain) -> String {
-    let corner = terrain.to_local([0.0; 2]).map(|offset| 0.0 - offset);
-    let extent = terrain.extent();
-    let range = |axis: usize| {
-        let (low, high) = (corner[axis], corner[axis] + extent[axis]);
-        format!("{} to {}", short(low), short(high))
-    };
-    format!("easting {}, northing {}", range(0), range(1))
 }
 
 /// Bodies lie on the map, above the ground and apart.
