@@ -384,6 +384,22 @@ mod tests {
     }
 
     #[test]
+    fn a_release_of_whole_squares_is_divided_exactly() {
+        let columns = columns(&polygon(&rectangle([25.0, 26.0], [35.0, 34.0]), 2.0), 0.5);
+        assert_eq!(columns.len(), 320);
+        for (n, column) in columns.iter().enumerate() {
+            let place = [25.25 + 0.5 * (n % 20) as f64, 26.25 + 0.5 * (n / 20) as f64];
+            let expected = PointColumn {
+                place,
+                thickness: 2.0,
+                count: 4,
+                volume: 0.125,
+            };
+            assert_eq!(*column, expected);
+        }
+    }
+
+    #[test]
     fn a_thin_release_does_not_heap_up_at_its_peak() {
         let mut values = vec![0.2; 1600];
         values[820] = 2.0;
