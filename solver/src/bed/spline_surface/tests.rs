@@ -66,7 +66,6 @@ fn a_cliff_is_hardly_overshot() {
     let [lowest, highest] = places.fold([f64::INFINITY, 0.0_f64], |[low, high], here| {
         [low.min(here), high.max(here)]
     });
-    println!("{lowest} {highest}");
     assert!(lowest > 9.89 && highest < 30.11, "{lowest} {highest}");
 }
 
