@@ -84,34 +84,43 @@ impl Column<'_> {
 #[derive(Clone, Copy)]
 struct Spread {
     frame: Frame,
+    /// Cells in a metre.
+    per_metre: f64,
     /// Side of the square [cells].
     side: f64,
-    /// Mass of a fraction [kg].
-    fraction: f64,
+    /// One over it.
+    per_side: f64,
+    /// Fractions of mass in a kilogram.
+    per_mass: f64,
 }
 
 impl Spread {
     fn of(inundation: &Inundation) -> Self {
         let Inundation { frame, side, .. } = *inundation;
+        let side = side / frame.cell_size;
         Self {
             frame,
-            side: side / frame.cell_size,
-            fraction: inundation.density * inundation.spacing.powi(3) / FRACTIONS,
+            per_metre: 1.0 / frame.cell_size,
+            side,
+            per_side: 1.0 / side,
+            per_mass: FRACTIONS / (inundation.density * inundation.spacing.powi(3)),
         }
     }
 
     /// Flow height of a fraction above a cell [m], at a density [kg/m³].
     fn height_of_fraction(&self, density: f64) -> f64 {
-        self.fraction / density / self.frame.cell_size.powi(2)
+        1.0 / (self.per_mass * density * self.frame.cell_size.powi(2))
     }
 
     /// Adds a point; what lies beyond the edges is left out.
     fn add(&self, point: &PointMotion, sums: &mut TileSums) {
-        let fractions = point.mass / self.fraction;
+        let fractions = point.mass * self.per_mass;
         let columns = self.shares(point.position.x, 0);
-        for (row, of_row) in self.shares(point.position.y, 1) {
-            for (column, of_column) in columns.clone() {
-                let mass = fractions * of_row * of_column;
+        let rows = self.shares(point.position.y, 1);
+        for (row, of_row) in rows.cells() {
+            let of_row = of_row * fractions;
+            for (column, of_column) in columns.cells() {
+                let mass = of_row * of_column;
                 let cell = sums.at([column, row]);
                 cell.mass += mass as i64;
                 for axis in 0..3 {
@@ -121,17 +130,46 @@ impl Spread {
         }
     }
 
-    /// The cells along an axis that the square round a place [m] touches, and its share in each.
-    fn shares(&self, middle: f64, axis: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
-        let from = middle / self.frame.cell_size - 0.5 * self.side;
+    /// Shares of the square round a place [m] along an axis.
+    #[inline]
+    fn shares(&self, middle: f64, axis: usize) -> Shares {
+        let from = middle * self.per_metre - 0.5 * self.side;
         let to = (from + self.side).min(self.frame.count[axis] as f64);
         let from = from.max(0.0);
-        (from as usize..)
-            .take_while(move |cell| (*cell as f64) < to)
-            .map(move |cell| {
-                let covered = to.min((cell + 1) as f64) - from.max(cell as f64);
-                (cell, covered / self.side)
-            })
+        let mut shares = Shares {
+            first: from as usize,
+            count: 0,
+            of_cells: [0.0; MOST_CELLS],
+        };
+        for share in &mut shares.of_cells {
+            let cell = (shares.first + shares.count) as f64;
+            if cell >= to {
+                break;
+            }
+            *share = (to.min(cell + 1.0) - from.max(cell)) * self.per_side;
+            shares.count += 1;
+        }
+        shares
+    }
+}
+
+/// Most cells along an axis that a square touches: it is less than two cells wide.
+const MOST_CELLS: usize = 3;
+
+/// Shares of a square in the cells that it touches along an axis.
+#[derive(Debug, Clone, Copy)]
+struct Shares {
+    first: usize,
+    count: usize,
+    of_cells: [f64; MOST_CELLS],
+}
+
+impl Shares {
+    /// The cells and the share of each.
+    #[inline]
+    fn cells(&self) -> impl Iterator<Item = (usize, f64)> {
+        let shares = self.of_cells.iter().take(self.count);
+        (self.first..).zip(shares.copied())
     }
 }
 
