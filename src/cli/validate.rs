@@ -63,7 +63,7 @@ fn terrain(terrain: &Terrain) -> String {
         None => "no reference system given".to_owned(),
     };
     format!(
-        "{} × {} cells of {} m ({system}), {} to {} m high; friction {} at the base",
+        "{} × {} cells of {} m ({system}), {:.2} to {:.2} m high; friction {} at the base",
         height.columns,
         height.rows,
         height.cell_size,
