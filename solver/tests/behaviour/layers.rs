@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Layers, lowest first. The scenario is a description that depends on shapes only; the
 /// simulation reads it.
-const LAYERS: [&[&str]; 10] = [
+const LAYERS: [&[&str]; 11] = [
     &["cancellation", "math", "error", "method", "raster"],
     &["stability"],
     &[
@@ -19,8 +19,9 @@ const LAYERS: [&[&str]; 10] = [
         "contact::law",
         "contact::wall_touch",
     ],
+    &["grid"],
     &["bed"],
-    &["grid", "scenario"],
+    &["scenario"],
     &["points", "rigid", "walls"],
     &[
         "available_volume",
