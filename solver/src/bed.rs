@@ -1,7 +1,7 @@
 //! The bed: the ground under flow and bodies. All that places, holds, guards or draws something
 //! asks it for heights and normals, and knows neither inclination nor slope break.
 
-use crate::grid::BLOCK;
+use crate::grid::{BLOCK, first_node};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::method::METHOD;
@@ -118,7 +118,7 @@ fn rounding(x: &Vec3) -> f64 {
 
 /// The first and the last node of a block [m].
 fn nodes_of(block: [i32; 3], lattice: &Lattice) -> (Vec3, Vec3) {
-    let first = block.map(|along| along * BLOCK as i32);
+    let first = first_node(block);
     let last = first.map(|along| along + BLOCK as i32 - 1);
     (lattice.position(first), lattice.position(last))
 }

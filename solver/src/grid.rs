@@ -51,10 +51,16 @@ pub fn resize_list<T: Clone>(list: &mut Vec<T>, count: usize, value: T) {
     list.resize(count, value);
 }
 
+/// Index (i, j, k) of the first node of a block.
+#[inline]
+pub fn first_node(key: BlockKey) -> [i32; 3] {
+    key.map(|along| along * BLOCK as i32)
+}
+
 /// Node index (i, j, k) of node `local` of a block.
 #[inline]
 pub fn index_of(key: BlockKey, local: usize) -> [i32; 3] {
-    let first = key.map(|along| along * BLOCK as i32);
+    let first = first_node(key);
     let along = [
         local / (BLOCK * BLOCK),
         local / BLOCK % BLOCK,

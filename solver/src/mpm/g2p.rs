@@ -12,7 +12,7 @@ use super::rows::{MomentSums, Moments, Quads, Tile, gather_mean, store_transpose
 use super::stencil::Stencils;
 use super::stress_update::velocity_gradient;
 use super::totals::EndSums;
-use crate::grid::BLOCK;
+use crate::grid::first_node;
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use fearless_simd::prelude::*;
@@ -170,7 +170,7 @@ pub fn gather_motion<S: Simd, R: Real>(
         }
         sums.add(chunk);
     }
-    let origin = lattice.position(key.map(|along| along * BLOCK as i32));
+    let origin = lattice.position(first_node(key));
     block.note_end(sums.end(), spread.total(&origin));
 }
 

@@ -3,7 +3,7 @@
 use super::blocks::settle;
 use super::chunk::Packed;
 use super::lanes::Real;
-use crate::grid::{BLOCK, BlockKey, block_of};
+use crate::grid::{BLOCK, BlockKey, block_of, first_node};
 use crate::kernel::Lattice;
 use crate::material::Material;
 use crate::math::{Mat3, Sym3, Vec3};
@@ -65,7 +65,7 @@ impl Packing {
 
     /// A position in a block, in space [m].
     pub fn position<R: Real>(&self, key: &BlockKey, in_block: &[R; 3]) -> Vec3 {
-        let first = self.lattice.position(key.map(|k| k * BLOCK as i32));
+        let first = self.lattice.position(first_node(*key));
         first + double(in_block).component_mul(&self.lattice.spacing)
     }
 }

@@ -5,7 +5,7 @@ use super::boundary::{Boundary, ConstraintSets, Member};
 use super::constraint::ConstrainedVelocity;
 use super::nodes::NodeAccess;
 use super::vertical_walls::Meets;
-use crate::grid::{BLOCK, BLOCK_NODES};
+use crate::grid::{BLOCK, BLOCK_NODES, first_node};
 use crate::kernel::{Lattice, REACH};
 use rayon::prelude::*;
 
@@ -48,7 +48,7 @@ impl Walls {
 
     /// True if walls may act on a node of a block.
     fn may_act_in(&self, lattice: &Lattice, block: [i32; 3]) -> bool {
-        let first = block.map(|along| along * BLOCK as i32);
+        let first = first_node(block);
         let last = first.map(|along| along + BLOCK as i32 - 1);
         let vertical_walls = (self.vertical_walls.as_ref())
             .is_some_and(|vertical_walls| vertical_walls.may_act_between(first, last));

@@ -3,7 +3,7 @@
 
 use super::columns::Column;
 use super::{Lid, SplineSurface, TerrainFriction};
-use crate::grid::{BLOCK, POSITIONS_IN_STEP};
+use crate::grid::{BLOCK, POSITIONS_IN_STEP, first_node};
 use crate::kernel::Lattice;
 use std::sync::OnceLock;
 
@@ -54,7 +54,7 @@ impl Terrain<'_> {
 
     /// Lid over a block's points and nodes.
     pub(super) fn lid(&self, block: [i32; 2], lattice: &Lattice) -> Lid {
-        let corner = lattice.position([block[0], block[1], 0].map(|along| along * BLOCK as i32));
+        let corner = lattice.position(first_node([block[0], block[1], 0]));
         let place = |cells: f64| [0, 1].map(|axis| corner[axis] + cells * lattice.spacing[axis]);
         self.surface
             .lid(place(POSITIONS_IN_STEP.start), place(POSITIONS_IN_STEP.end))

@@ -1,6 +1,6 @@
 //! Boxes in which points are searched for.
 
-use crate::grid::{BLOCK, BlockKey};
+use crate::grid::{BlockKey, first_node};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::rigid::Body;
@@ -61,8 +61,8 @@ impl Around {
 
     /// True if it meets the box of a block of points.
     pub fn meets(&self, lattice: &Lattice, block: &BlockKey) -> bool {
-        let first = lattice.position(block.map(|k| k * BLOCK as i32));
-        let last = lattice.position(block.map(|k| (k + 1) * BLOCK as i32));
+        let first = lattice.position(first_node(*block));
+        let last = lattice.position(first_node(block.map(|k| k + 1)));
         (0..3).all(|axis| {
             // A point's lowest node is up to one and a half cells below it.
             let h = lattice.spacing[axis];

@@ -2,7 +2,7 @@
 //! 42c).
 
 use crate::bed::{HeightField, Lid, Plane};
-use crate::grid::{BLOCK, BlockKey, POSITIONS_IN_STEP};
+use crate::grid::{BLOCK, BlockKey, POSITIONS_IN_STEP, first_node};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::method::METHOD;
@@ -165,7 +165,7 @@ impl<'a> TerrainZone<'a> {
     /// Zones in a block; `None` if none of its points may lie in one.
     pub fn in_block<R: Real>(&self, key: &BlockKey) -> Option<BlockZone<'a, R>> {
         let lattice = Lattice {
-            origin: self.lattice.position(key.map(|along| along * BLOCK as i32)),
+            origin: self.lattice.position(first_node(*key)),
             ..*self.lattice
         };
         let lid = self.ground.lid_over([key[0], key[1]], self.lattice);

@@ -4,7 +4,7 @@ use super::access::Place;
 use crate::contact::point_body::{
     Candidate, PenetratingPoint, PenetrationCorrection, penetration_correction,
 };
-use crate::grid::{BLOCK, BlockKey};
+use crate::grid::{BLOCK, BlockKey, first_node};
 use crate::mpm::blocks::Blocks;
 use crate::mpm::lanes::Real;
 use crate::mpm::packing::Packing;
@@ -74,7 +74,7 @@ pub(super) fn take_outflow<R: Real>(
     let mut gone = Vec::new();
     let lattice = &packing.lattice;
     let near_end = |key: &BlockKey| {
-        let corner = |beyond: i32| lattice.position(key.map(|k| (k + beyond) * BLOCK as i32));
+        let corner = |beyond: i32| lattice.position(first_node(key.map(|k| k + beyond)));
         // Corners of the block, with the half cell by which its points may lie beyond it.
         let last = corner(1) + lattice.spacing;
         outlet.is_beyond(&last) || outlet.is_beyond(&(corner(0) - lattice.spacing))

@@ -2,7 +2,7 @@
 
 use crate::bed::{Bed, HeightField};
 use crate::diagnostics::Totals;
-use crate::grid::{BLOCK, BlockKey};
+use crate::grid::{BLOCK, BlockKey, first_node};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::mpm::blocks::Block;
@@ -78,6 +78,6 @@ fn lowest(plane: &Plane, lattice: &Lattice, key: &BlockKey) -> f64 {
 
 /// Corners of the box of the points of this block [m].
 fn corners(lattice: &Lattice, key: &BlockKey) -> (Vec3, Vec3) {
-    let low = lattice.position(key.map(|k| k * BLOCK as i32)) + lattice.spacing * 0.5;
+    let low = lattice.position(first_node(*key)) + lattice.spacing * 0.5;
     (low, low + lattice.spacing * BLOCK as f64)
 }
