@@ -4,11 +4,11 @@ use super::polygon::{each_row_covered, squares_along};
 use super::terrain::ReleasedArea;
 use std::ops::Range;
 
-/// Largest number of squares that releases may have to be looked at in: the points of one run.
-pub(crate) const MOST_SQUARES: u64 = 20_000_000;
+/// Largest number of points of one run, and of squares that its releases may have to be looked at in.
+pub(crate) const MOST_POINTS: u64 = 20_000_000;
 
 /// Share of a square, or of a smaller cell of a map, that is rounding.
-const NOTHING: f64 = 1e-9;
+pub(super) const NOTHING: f64 = 1e-9;
 
 /// Squares of a lattice from the south-western corner of the height map on.
 #[derive(Debug, Clone, Copy, PartialEq)]

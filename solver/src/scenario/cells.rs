@@ -1,7 +1,7 @@
 //! Cell size of a scenario: given, or chosen by its bodies and its release (docs/method.md,
 //! equation 30).
 
-use super::area_rows::{MOST_SQUARES, squares_of};
+use super::area_rows::{MOST_POINTS, squares_of};
 use super::{Ground, Scenario};
 use crate::method::METHOD;
 
@@ -44,7 +44,7 @@ fn automatic_cell_size(scenario: &Scenario) -> f64 {
 fn not_too_fine_for_releases(scenario: &Scenario, mut cell: f64, per_cell: f64) -> f64 {
     let areas: Vec<_> = scenario.terrain_releases().collect();
     loop {
-        let over = squares_of(&areas, cell / per_cell.cbrt()) / MOST_SQUARES as f64;
+        let over = squares_of(&areas, cell / per_cell.cbrt()) / MOST_POINTS as f64;
         if over <= 1.0 {
             return cell;
         }

@@ -46,7 +46,7 @@ mod tests;
 
 pub use crate::shape::RegularSolid;
 pub use accuracy::{Accuracy, Quantity};
-pub(crate) use area_rows::{MOST_SQUARES, Measure, Window, squares_of};
+pub(crate) use area_rows::{MOST_POINTS, Measure, Window, squares_of};
 pub use builder::{BodyBuilder, ScenarioBuilder};
 pub use ground::Ground;
 pub use maps::{MapUse, Maps, NamedMap};

@@ -1,13 +1,11 @@
 //! Polygons: their area, the places that they hold, sides that touch, and the shares of squares
 //! that they cover.
 
-use super::area_rows::Window;
+use super::area_rows::{NOTHING, Window};
 
 /// Distance below which sides touch, over the extent of their polygon: rounding of the coordinates
 /// of maps.
 const TOUCHING: f64 = 1e-9;
-/// Share of a square that is rounding.
-const NOTHING: f64 = 1e-9;
 
 /// A straight line from one place to another.
 type Side = [[f64; 2]; 2];

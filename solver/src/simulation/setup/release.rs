@@ -12,12 +12,9 @@ use crate::math::{Mat3, Sym3, Vec3};
 use crate::mpm::constitutive::at_rest;
 use crate::points::Point;
 use crate::rigid::Body;
-use crate::scenario::{ReleaseBox, Scenario};
+use crate::scenario::{MOST_POINTS, ReleaseBox, Scenario};
 use crate::shape::Feature;
 use crate::walls::Plane;
-
-/// Largest number of points of one run.
-pub(super) const MOST_POINTS: u64 = 20_000_000;
 
 /// Counts and distances of the release's points.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,17 +1,14 @@
 //! Releases on a terrain as points: columns of them on a square lattice, from the ground up to the
 //! thickness there.
 
-use super::release::{MOST_POINTS, Start};
+use super::release::Start;
 use super::{Setup, resting_point};
 use crate::bed::Bed;
 use crate::error::SetupError;
 use crate::math::Vec3;
 use crate::points::Point;
 use crate::rigid::Body;
-use crate::scenario::{MOST_SQUARES, Measure, ReleasedArea, Scenario, Window, squares_of};
-
-/// Squares that are looked at are limited like points.
-const _: () = assert!(MOST_SQUARES == MOST_POINTS);
+use crate::scenario::{MOST_POINTS, Measure, ReleasedArea, Scenario, Window, squares_of};
 
 /// Thickness from which on a column is made of its own, over the distance of the columns: half of
 /// it but for rounding.
