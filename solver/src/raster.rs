@@ -21,6 +21,30 @@ pub struct Raster {
 }
 
 impl Raster {
+    /// A raster from (0, 0) on, with so many columns and rows, of a value at every place (x, y) [m].
+    pub fn sampled(
+        [columns, rows]: [usize; 2],
+        cell_size: f64,
+        value: impl Fn(f64, f64) -> f64,
+    ) -> Self {
+        let mut raster = Self {
+            columns,
+            rows,
+            cell_size,
+            west: 0.0,
+            south: 0.0,
+            epsg: None,
+            values: Vec::with_capacity(columns * rows),
+        };
+        for row in 0..rows {
+            for column in 0..columns {
+                let [x, y] = raster.centre(column, row);
+                raster.values.push(value(x, y));
+            }
+        }
+        raster
+    }
+
     /// Place of a cell among the values; rows count from the south.
     pub fn index(&self, column: usize, row: usize) -> usize {
         debug_assert!(column < self.columns && row < self.rows);
@@ -141,21 +165,7 @@ mod tests {
     #[test]
     fn an_averaged_plane_is_the_plane() {
         let plane = |x: f64, y: f64| 5.0 + 0.4 * x - 0.3 * y;
-        let mut raster = Raster {
-            columns: 11,
-            rows: 8,
-            cell_size: 2.0,
-            west: 100.0,
-            south: -10.0,
-            epsg: None,
-            values: Vec::new(),
-        };
-        for row in 0..8 {
-            for column in 0..11 {
-                let [x, y] = raster.centre(column, row);
-                raster.values.push(plane(x, y));
-            }
-        }
+        let raster = Raster::sampled([11, 8], 2.0, plane);
         let averaged = raster.averaged(3);
         assert_eq!([averaged.columns, averaged.rows], [4, 3]);
         assert!(averaged.east() >= raster.east() && averaged.north() >= raster.north());

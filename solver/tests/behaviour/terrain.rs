@@ -18,23 +18,8 @@ pub(crate) fn name() -> String {
 
 /// A raster of these numbers of cells, of a height at every place from its middle.
 pub(crate) fn raster(cells: [usize; 2], cell: f64, of: impl Fn(f64, f64) -> f64) -> Raster {
-    let mut raster = Raster {
-        columns: cells[0],
-        rows: cells[1],
-        cell_size: cell,
-        west: 0.0,
-        south: 0.0,
-        epsg: None,
-        values: Vec::new(),
-    };
     let middle = cells.map(|count| 0.5 * count as f64 * cell);
-    for row in 0..cells[1] {
-        for column in 0..cells[0] {
-            let [x, y] = raster.centre(column, row);
-            raster.values.push(of(x - middle[0], y - middle[1]));
-        }
-    }
-    raster
+    Raster::sampled(cells, cell, |x, y| of(x - middle[0], y - middle[1]))
 }
 
 /// A scenario on this height map, in local coordinates.

@@ -152,25 +152,11 @@ fn on_map(cells: f64) -> Result<Scenario, CaseError> {
 const MAP: &str = "0000000000000000000000000000000000000000000000000000000000000022";
 
 fn map() -> Raster {
-    let length = LENGTHS[0] + LENGTHS[1];
-    let count = (length / MAP_CELL).round() as usize;
+    let count = ((LENGTHS[0] + LENGTHS[1]) / MAP_CELL).round() as usize;
     let tan = INCLINATION_DEG.to_radians().tan();
-    let mut raster = Raster {
-        columns: count,
-        rows: count,
-        cell_size: MAP_CELL,
-        west: 0.0,
-        south: 0.0,
-        epsg: None,
-        values: Vec::with_capacity(count * count),
-    };
-    for row in 0..count {
-        for column in 0..count {
-            let [x, _] = raster.centre(column, row);
-            raster.values.push(100.0 + (LENGTHS[0] - x).max(0.0) * tan);
-        }
-    }
-    raster
+    Raster::sampled([count; 2], MAP_CELL, |x, _| {
+        100.0 + (LENGTHS[0] - x).max(0.0) * tan
+    })
 }
 
 /// Mean speed of the flow's middle strip at the first time, displacement and peak speed of the cube,

@@ -9,21 +9,7 @@ fn lattice() -> Lattice {
 }
 
 fn ground(of: impl Fn(f64, f64) -> f64) -> HeightField {
-    let mut raster = Raster {
-        columns: 60,
-        rows: 40,
-        cell_size: 0.1,
-        west: 0.0,
-        south: 0.0,
-        epsg: None,
-        values: Vec::new(),
-    };
-    for row in 0..40 {
-        for column in 0..60 {
-            let [x, y] = raster.centre(column, row);
-            raster.values.push(of(x, y));
-        }
-    }
+    let raster = Raster::sampled([60, 40], 0.1, of);
     let surface = Arc::new(SplineSurface::through(&raster, 0.0));
     HeightField::new(surface, TerrainFriction::Constant(0.4)).under(&lattice())
 }

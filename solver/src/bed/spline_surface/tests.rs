@@ -2,22 +2,7 @@ use super::*;
 use crate::raster::Raster;
 
 fn raster(columns: usize, rows: usize, cell: f64, of: impl Fn(f64, f64) -> f64) -> Raster {
-    let mut raster = Raster {
-        columns,
-        rows,
-        cell_size: cell,
-        west: 0.0,
-        south: 0.0,
-        epsg: None,
-        values: Vec::new(),
-    };
-    for row in 0..rows {
-        for column in 0..columns {
-            let [x, y] = raster.centre(column, row);
-            raster.values.push(of(x, y));
-        }
-    }
-    raster
+    Raster::sampled([columns, rows], cell, of)
 }
 
 // Also beyond the edges, as far as the slope there goes on.

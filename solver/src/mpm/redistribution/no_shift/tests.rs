@@ -89,23 +89,9 @@ fn no_point_deep_behind_a_wall_goes_deeper() {
 }
 
 fn hilly() -> HeightField {
-    let mut raster = Raster {
-        columns: 50,
-        rows: 40,
-        cell_size: 0.013,
-        west: 0.0,
-        south: 0.0,
-        epsg: None,
-        values: Vec::new(),
-    };
-    for row in 0..raster.rows {
-        for column in 0..raster.columns {
-            let [x, y] = raster.centre(column, row);
-            raster
-                .values
-                .push(0.5 * x - 0.2 * y + 0.02 * (20.0 * x).sin() * (15.0 * y).cos());
-        }
-    }
+    let raster = Raster::sampled([50, 40], 0.013, |x, y| {
+        0.5 * x - 0.2 * y + 0.02 * (20.0 * x).sin() * (15.0 * y).cos()
+    });
     let surface = SplineSurface::through(&raster, 0.0);
     HeightField::new(Arc::new(surface), TerrainFriction::Constant(0.4))
 }
