@@ -76,6 +76,19 @@ async fn a_scenario_with_a_map_that_is_not_there_is_refused_by_its_field() {
     app.stop().await;
 }
 
+// Heights are no coefficients of friction, though the file is there.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_map_with_two_uses_has_to_suit_both() {
+    let app = TestApp::start().await;
+    let map = upload(&app).await;
+    let mut scene = scene(&map, 1.0);
+    scene["terrain"]["base_friction_map"] = map.into();
+    let refused = app.post("application/json", scene.to_string()).await;
+    refused.assert_problem(StatusCode::UNPROCESSABLE_ENTITY, "invalid-scenario");
+    assert_eq!(refused.wrong_fields(), ["/terrain/base_friction_map"]);
+    app.stop().await;
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn a_job_on_a_terrain_goes_on_after_a_restart() {
     let app = TestApp::start().await;
