@@ -64,7 +64,7 @@ pub struct Body {
     pub freedom: Freedom,
     /// Its contacts with walls, as last found; kept to avoid allocations.
     pub wall_touches: Vec<WallTouch>,
-    /// What of it is near a terrain, as last found; kept since it holds for a while.
+    /// Features near a terrain, as last found; kept since they hold for a while.
     pub near_ground: NearGround,
     /// Its core vertices in world axes, as last turned; kept to turn them once per sub-step.
     pub turned_core: TurnedCore,

@@ -81,7 +81,7 @@ impl FrontMeasure {
         Self::Around { circles, reach }
     }
 
-    /// How far a place is [m].
+    /// Distance of a place [m].
     pub(super) fn of_place(&self, place: &Vec3) -> f64 {
         match self {
             Self::Downstream { .. } => place.x,
@@ -94,7 +94,7 @@ impl FrontMeasure {
         }
     }
 
-    /// How far the release reaches [m]; `None` without one.
+    /// Reach of the release [m]; `None` without one.
     pub(super) fn toe(&self) -> Option<f64> {
         match self {
             Self::Downstream { toe, .. } => *toe,

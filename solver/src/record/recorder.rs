@@ -37,7 +37,7 @@ pub struct Recorder {
     sampling: Sampling,
     snapshots: Snapshots,
     front: FrontMeasure,
-    /// Of a flow on a terrain.
+    /// Reach of the flow on a terrain.
     inundation: Option<Inundation>,
     /// Speed below which points creep [m/s].
     creep_speed: f64,

@@ -12,7 +12,7 @@ pub(super) struct Seen<'a> {
     pub(super) free: Vec<bool>,
     /// The flow, with its released mass [kg]; `None` without one.
     pub(super) flow: Option<(&'a FlowOutcome, f64)>,
-    /// Where flow leaves.
+    /// Open ends, where flow leaves.
     pub(super) outlet: Outlet,
     /// Simulated time at the end of the run [s].
     pub(super) ended_s: f64,

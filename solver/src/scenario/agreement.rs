@@ -87,7 +87,7 @@ pub(super) fn flow_is_stiff_enough(
     }
 }
 
-/// What presses a flow together: its thickness [m], and the speed that it may reach [m/s].
+/// Thickness [m] of a flow and the speed that it may reach [m/s], which press it together.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Course {
     pub(super) thickness: f64,

@@ -1,4 +1,4 @@
-//! What happens at the edges of a terrain, and what the outcome says of it.
+//! Edges of a terrain: what leaves it, and what the outcome says of that.
 
 use crate::terrain::{raster, run, scenario};
 use serde_json::{Value, json};

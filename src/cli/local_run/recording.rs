@@ -12,7 +12,7 @@ use scree_solver::record::{FlowMaps, FlowSnapshot, Record, Sample};
 #[derive(Debug)]
 pub(super) struct Recording<'a> {
     records: Vec<Record>,
-    /// Of the flow on a terrain, once the run is over.
+    /// Maps of the flow on a terrain, once the run is over.
     maps: Option<FlowMaps>,
     /// None for a run whose results go nowhere.
     saved: Option<(SavedRun, Schedule)>,

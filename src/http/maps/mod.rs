@@ -58,7 +58,7 @@ fn unknown_file(file: &str) -> Problem {
 
 /// List the maps of a job's flow
 ///
-/// Of a job on a terrain, once it has succeeded: largest flow height, largest speed, arrival time,
+/// Maps of a job on a terrain, once it has succeeded: largest flow height, largest speed, arrival time,
 /// and deposit, the flow height at the end.
 #[utoipa::path(
     get,

@@ -1,4 +1,4 @@
-//! What of a body is near the ground: core vertices against the surface, and nodes of the terrain
+//! Features of a body near the ground: core vertices against the surface, and nodes of the terrain
 //! against faces and edges (docs/method.md, equations 82 and 83).
 //!
 //! A plane face can touch ground between its vertices only where the ground bulges upwards. So
@@ -177,7 +177,7 @@ impl PlacedSolid<'_> {
             .unwrap_or([apart; 2])
     }
 
-    /// Where it meets the ground by a feature.
+    /// Place at which it meets the ground by a feature.
     fn meet(&self, ground: &HeightField, feature: GroundFeature, spacing: f64) -> GroundPlace {
         match feature {
             GroundFeature::Vertex(vertex) => {

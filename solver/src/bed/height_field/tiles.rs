@@ -1,5 +1,4 @@
-//! What the flow's grid sees of a terrain, tile by tile: only where the flow comes is it found, and
-//! then kept.
+//! Terrain under the flow's grid, tile by tile: found where the flow comes, and then kept.
 
 use super::columns::Column;
 use super::{Lid, SplineSurface, TerrainFriction};
