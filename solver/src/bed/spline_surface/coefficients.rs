@@ -7,13 +7,18 @@ use rayon::prelude::*;
 /// cell: as much as a break of slope of 58° needs.
 const BEYOND: f64 = 0.1;
 
+/// Change of slope between two pairs of cells beyond which it is a cliff, on which no coefficient
+/// beside it depends.
+const CLIFF: f64 = 2.0;
+/// Columns that are turned into coefficients beside each other.
+const BESIDE: usize = 64;
+
 /// Coefficients row by row, with one more at each end of each row and column [m]: those of the values
 /// less a datum [m], limited at cliffs.
 pub(super) fn coefficients(raster: &Raster, datum: f64) -> Vec<f64> {
     let (columns, rows) = (raster.columns, raster.rows);
     let width = columns + 2;
     let mut coefficients = vec![0.0; width * (rows + 2)];
-    let factors = factors(columns);
     coefficients[width..width * (rows + 1)]
         .par_chunks_mut(width)
         .zip(raster.values.par_chunks(columns))
@@ -21,9 +26,9 @@ pub(super) fn coefficients(raster: &Raster, datum: f64) -> Vec<f64> {
             for (coefficient, value) in row[1..].iter_mut().zip(values) {
                 *coefficient = value - datum;
             }
-            interpolate_row(row, &factors);
+            interpolate_row(row, values, raster.cell_size);
         });
-    interpolate_columns(&mut coefficients, width);
+    interpolate_columns(&mut coefficients, raster);
     limit(&mut coefficients, raster, datum);
     coefficients
 }
@@ -76,22 +81,32 @@ fn go_on_evenly_up(rows: &mut [f64], width: usize) {
     }
 }
 
-/// Factors of the elimination for a line of so many coefficients: c₋ + 6 c + c₊ = 8 × value.
-/// The first and the last coefficient are the values there, since beyond both ends the
-/// coefficients go on evenly.
-fn factors(count: usize) -> Vec<f64> {
-    let mut factors = vec![0.0; count + 1];
-    for n in 2..count {
-        factors[n] = 1.0 / (6.0 - factors[n - 1]);
-    }
-    factors
+/// True if a slope changes so much between these values [m] in a row that it is a cliff, on cells of
+/// this side [m].
+fn is_cliff([before, here, after]: [f64; 3], cell: f64) -> bool {
+    (before - 2.0 * here + after).abs() > CLIFF * cell
 }
 
-/// Turns the values of a row, from its second entry on, into coefficients.
-fn interpolate_row(row: &mut [f64], factors: &[f64]) {
-    let count = row.len() - 2;
+/// One step of the elimination for a line of coefficients: c₋ + 6 c + c₊ = 8 × value, but c = value at
+/// a `cliff`. Takes and gives the factor of the next coefficient, and the value.
+///
+/// The first and the last coefficient of a line are the values there, since beyond both ends the
+/// coefficients go on evenly.
+fn eliminate(cliff: bool, [factor_before, before]: [f64; 2], value: f64) -> [f64; 2] {
+    if cliff {
+        return [0.0, value];
+    }
+    let factor = 1.0 / (6.0 - factor_before);
+    [factor, (8.0 * value - before) * factor]
+}
+
+/// Turns a row of values into coefficients, from its second entry on.
+fn interpolate_row(row: &mut [f64], values: &[f64], cell: f64) {
+    let count = values.len();
+    let mut factors = vec![0.0; count + 1];
     for n in 2..count {
-        row[n] = (8.0 * row[n] - row[n - 1]) * factors[n];
+        let cliff = is_cliff([values[n - 2], values[n - 1], values[n]], cell);
+        [factors[n], row[n]] = eliminate(cliff, [factors[n - 1], row[n - 1]], row[n]);
     }
     for n in (2..count).rev() {
         row[n] -= factors[n] * row[n + 1];
@@ -99,22 +114,27 @@ fn interpolate_row(row: &mut [f64], factors: &[f64]) {
     go_on_evenly(row);
 }
 
-/// Turns the values of all columns, from their second entries on, into coefficients.
-fn interpolate_columns(rows: &mut [f64], width: usize) {
-    let count = rows.len() / width - 2;
-    let factors = factors(count);
-    for n in 2..count {
-        let (before, here) = rows.split_at_mut(n * width);
-        let before = &before[(n - 1) * width..];
-        for (value, before) in here[..width].iter_mut().zip(before) {
-            *value = (8.0 * *value - *before) * factors[n];
+/// Turns all columns of a raster into coefficients, of which the rows are already.
+fn interpolate_columns(rows: &mut [f64], raster: &Raster) {
+    let (width, count) = (raster.columns + 2, raster.rows);
+    let mut factors = vec![[0.0; BESIDE]; count + 1];
+    for start in (0..raster.columns).step_by(BESIDE) {
+        let columns = start..(start + BESIDE).min(raster.columns);
+        let at = |n: usize, column: usize| n * width + column + 1;
+        for n in 2..count {
+            for column in columns.clone() {
+                let values = [n - 2, n - 1, n].map(|row| raster.value_at(column, row));
+                let cliff = is_cliff(values, raster.cell_size);
+                let before = [factors[n - 1][column - start], rows[at(n - 1, column)]];
+                let here = &mut rows[at(n, column)];
+                [factors[n][column - start], *here] = eliminate(cliff, before, *here);
+            }
+        }
+        for n in (2..count).rev() {
+            for column in columns.clone() {
+                let after = rows[at(n + 1, column)];
+                rows[at(n, column)] -= factors[n][column - start] * after;
+            }
         }
     }
-    for n in (2..count).rev() {
-        let (here, after) = rows.split_at_mut((n + 1) * width);
-        for (value, after) in here[n * width..].iter_mut().zip(after) {
-            *value -= factors[n] * *after;
-        }
-    }
-    go_on_evenly_up(rows, width);
 }

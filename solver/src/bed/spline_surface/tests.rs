@@ -44,14 +44,38 @@ fn the_values_at_the_centres_are_kept() {
 
 // A spline through all values would have a dam of 1.9 m above a cliff of 20 m, and a ditch below.
 #[test]
-fn a_cliff_is_hardly_overshot() {
-    let cliff = |x: f64, _: f64| if x < 10.0 { 30.0 } else { 10.0 };
-    let surface = SplineSurface::through(&raster(20, 6, 1.0, cliff), 0.0);
-    let places = (0..400).map(|n| surface.at(0.05 * f64::from(n), 3.0).elevation);
-    let [lowest, highest] = places.fold([f64::INFINITY, 0.0_f64], |[low, high], here| {
-        [low.min(here), high.max(here)]
-    });
-    assert!(lowest > 9.89 && highest < 30.11, "{lowest} {highest}");
+fn a_cliff_leaves_the_ground_beside_it_as_it_is() {
+    let slope = |x: f64| 0.3 * x;
+    for along_x in [true, false] {
+        let cliff = |x: f64, y: f64| {
+            let u = if along_x { x } else { y };
+            slope(u) + if u < 10.0 { 30.0 } else { 10.0 }
+        };
+        let surface = SplineSurface::through(&raster(20, 20, 1.0, cliff), 0.0);
+        for n in 0..400 {
+            let u = 0.05 * f64::from(n);
+            let (x, y) = if along_x { (u, 7.3) } else { (7.3, u) };
+            let found = surface.at(x, y).elevation;
+            if (u - 10.0).abs() > 1.0 {
+                assert!((found - cliff(x, y)).abs() < 1e-12, "{u}: {found}");
+            } else {
+                assert!(found > 10.0 + slope(9.0) && found < 30.0 + slope(10.0));
+            }
+        }
+    }
+}
+
+// A break of the slope of 50° is none: its values are kept.
+#[test]
+fn a_break_of_slope_is_no_cliff() {
+    let foot = |x: f64, _: f64| (10.0 - x).max(0.0) * f64::to_radians(50.0).tan();
+    let given = raster(20, 6, 1.0, foot);
+    let surface = SplineSurface::through(&given, 0.0);
+    for column in 0..20 {
+        let [x, y] = given.centre(column, 3);
+        let off = surface.at(x, y).elevation - foot(x, y);
+        assert!(off.abs() < 1e-10, "{column}: {off}");
+    }
 }
 
 // The error of a smooth surface falls with the third power of the cell.
