@@ -8,6 +8,8 @@ use crate::method::METHOD;
 
 /// Points that slide from each release along each axis.
 const ACROSS: usize = 5;
+/// Directions in which a release collapses.
+const SIDES: [[f64; 2]; 4] = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
 /// Most steps of a point.
 const STEPS: usize = 20_000;
 /// Collapse time of a release that does not slide, over √(h/g).
@@ -30,24 +32,33 @@ impl SlidingPoints {
     pub(crate) fn of(scenario: &Scenario, ground: &HeightField) -> Option<Self> {
         let thickness = scenario.release_thickness_m().filter(|of| *of > 0.0)?;
         let gravity = scenario.gravity_m_s2;
+        let collapse = (gravity * thickness).sqrt();
         let mut course: Option<Self> = None;
         for (area, starts_at) in scenario.terrain_releases().zip(scenario.release_times()) {
-            for [x, y] in places(&area) {
-                let (fastest, takes) = slide(ground, gravity, [x, y]);
+            for place in places(&area) {
+                let (fastest, takes) = slide(ground, gravity, place, Vec3::zeros());
+                // Over the edge of a cliff beside it a release that would not slide collapses.
+                let pushed = SIDES.map(|[x, y]| {
+                    let (fastest, _) =
+                        slide(ground, gravity, place, Vec3::new(x, y, 0.0) * collapse);
+                    fastest
+                });
                 let known = course.unwrap_or(Self {
                     fastest: 0.0,
                     rests_at: 0.0,
                 });
                 course = Some(Self {
-                    fastest: known.fastest.max(fastest),
+                    fastest: pushed
+                        .into_iter()
+                        .fold(known.fastest.max(fastest.hypot(collapse)), f64::max),
                     rests_at: known.rests_at.max(starts_at + takes),
                 });
             }
         }
         let fall = (thickness / gravity).sqrt();
         course.map(|course| Self {
-            fastest: (course.fastest.powi(2) + gravity * thickness).sqrt(),
             rests_at: course.rests_at + COLLAPSES_FOR * fall + METHOD.early_stop.rest_time * fall,
+            ..course
         })
     }
 }
@@ -63,13 +74,13 @@ fn places<'a>(area: &'a ReleasedArea<'a>) -> impl Iterator<Item = [f64; 2]> + 'a
     })
 }
 
-/// Largest speed of a point that slides from here [m/s], and the time until it rests or leaves the
+/// Largest speed of a point that slides from here with this velocity [m/s], and the time until it rests or leaves the
 /// map [s].
-fn slide(ground: &HeightField, gravity: f64, [x, y]: [f64; 2]) -> (f64, f64) {
+fn slide(ground: &HeightField, gravity: f64, [x, y]: [f64; 2], mut velocity: Vec3) -> (f64, f64) {
     let step = STEP * ground.surface().cell_size();
     let extent = ground.surface().extent();
     let mut place = Vec3::new(x, y, 0.0);
-    let (mut velocity, mut time, mut fastest) = (Vec3::zeros(), 0.0, 0.0_f64);
+    let (mut time, mut fastest) = (0.0, 0.0_f64);
     for _ in 0..STEPS {
         let plane = ground.tangent(place.x, place.y);
         let into = velocity.dot(&plane.normal);
