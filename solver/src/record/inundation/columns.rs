@@ -1,7 +1,8 @@
 //! Columns of the flow above the cells at one instant.
 
 use super::Inundation;
-use super::frame::{CELLS, Frame, TileIndex, Tiles, tile_of};
+use super::frame::{CELLS, Frame, TileIndex, Tiles, row_of};
+use crate::math::Vec3;
 use crate::points::PointMotion;
 use crate::simulation::Simulation;
 use std::collections::BTreeMap;
@@ -23,6 +24,25 @@ struct Sums {
     mass: i64,
     /// Times [m/s].
     momentum: [i64; 3],
+}
+
+impl Sums {
+    /// Adds fractions with this velocity [m/s].
+    #[inline]
+    fn add(&mut self, mass: f64, velocity: &Vec3) {
+        self.mass += whole(mass);
+        for axis in 0..3 {
+            self.momentum[axis] += whole(mass * velocity[axis]);
+        }
+    }
+}
+
+/// The nearest whole number of one below 2^51. The sum with 3/2 × 2^52 has no room for binary places,
+/// and is converted without the tests for larger numbers: a look takes 36 conversions for a point.
+#[inline]
+fn whole(number: f64) -> i64 {
+    const ROUNDER: f64 = 1.5 * (1_u64 << 52) as f64;
+    (number + ROUNDER).to_bits().cast_signed() - ROUNDER.to_bits().cast_signed()
 }
 
 /// The column of a cell.
@@ -119,13 +139,16 @@ impl Spread {
         let rows = self.shares(point.position.y, 1);
         for (row, of_row) in rows.cells() {
             let of_row = of_row * fractions;
-            for (column, of_column) in columns.cells() {
-                let mass = of_row * of_column;
-                let cell = sums.at([column, row]);
-                cell.mass += mass as i64;
-                for axis in 0..3 {
-                    cell.momentum[axis] += (mass * point.velocity[axis]) as i64;
+            let mut column = columns.first;
+            let mut shares = &columns.of_cells[..columns.count];
+            while !shares.is_empty() {
+                let cells = sums.row_from([column, row]);
+                let (here, beyond) = shares.split_at(shares.len().min(cells.len()));
+                for (cell, of_column) in cells.iter_mut().zip(here) {
+                    cell.add(of_row * of_column, &point.velocity);
                 }
+                column += here.len();
+                shares = beyond;
             }
         }
     }
@@ -183,10 +206,10 @@ struct TileSums {
 }
 
 impl TileSums {
-    /// The sums of a cell, nothing at first.
-    fn at(&mut self, cell: [usize; 2]) -> &mut Sums {
-        let (tile, place) = tile_of(cell);
-        &mut self.tile(tile)[place]
+    /// The sums of a cell and those east of it in its tile, nothing at first.
+    fn row_from(&mut self, cell: [usize; 2]) -> &mut [Sums] {
+        let (tile, places) = row_of(cell);
+        &mut self.tile(tile)[places]
     }
 
     fn tile(&mut self, tile: TileIndex) -> &mut [Sums] {

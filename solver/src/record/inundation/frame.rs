@@ -3,6 +3,7 @@
 use crate::raster::Raster;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Cells along the side of a tile.
 const SIDE: usize = 16;
@@ -109,10 +110,11 @@ impl<T> Tiles<T> {
     }
 }
 
-/// Tile of a cell, and the cell's place in it.
-pub(super) fn tile_of(cell: [usize; 2]) -> (TileIndex, usize) {
+/// Tile of a cell, and the places in it of the cell and those east of it.
+pub(super) fn row_of(cell: [usize; 2]) -> (TileIndex, Range<usize>) {
     let tile = cell.map(|along| (along / SIDE) as u32);
-    (tile, cell[1] % SIDE * SIDE + cell[0] % SIDE)
+    let row = cell[1] % SIDE * SIDE;
+    (tile, row + cell[0] % SIDE..row + SIDE)
 }
 
 fn cell_of(tile: TileIndex, place: usize) -> [usize; 2] {

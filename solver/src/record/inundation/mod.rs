@@ -15,7 +15,8 @@ use frame::{Frame, Tiles};
 pub use maps::{FlowMaps, MapQuantity};
 use serde::{Deserialize, Serialize};
 
-/// Travel of the fastest point between two looks, in cells of the maps.
+/// Travel of the fastest point between two looks, over the side of a cell of the maps or, if that is
+/// larger, of the square over which it is spread.
 const TRAVEL: f64 = 0.5;
 /// Flow height from which on a cell counts as reached, in spacings of points: half a layer of them.
 /// A single point that flies ahead makes less.
@@ -92,7 +93,7 @@ impl Inundation {
             ..seen
         };
         // Another step like this one may be too much.
-        let far = self.since.travel + travel > TRAVEL * self.frame.cell_size;
+        let far = self.since.travel + travel > TRAVEL * self.frame.cell_size.max(self.side);
         if far || simulation.released_points() != seen.released {
             self.look(simulation);
         }
