@@ -59,6 +59,9 @@ pub struct Surface {
     pub friction: f64,
 }
 
+/// Surfaces that act on a node alone, at most: those of a corner.
+pub const MOST_SURFACES: usize = 3;
+
 /// Directions of the columns of nodes through a bed: along the axis closest to its normal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Way {
@@ -97,6 +100,9 @@ pub struct Intersection {
     pub gap: f64,
     /// Index of that node along the column.
     pub first: i32,
+    /// Nodes behind the first up to which this intersection acts: a deeper one has mass only from
+    /// beside a cliff.
+    pub deepest: i32,
 }
 
 impl Intersection {
@@ -107,7 +113,37 @@ impl Intersection {
         Self {
             gap: (first - cells).max(0.0),
             first: first as i32,
+            deepest: i32::MAX,
         }
+    }
+
+    /// The same for so many nodes behind the first at most.
+    fn up_to(self, deepest: i32) -> Self {
+        Self { deepest, ..self }
+    }
+}
+
+/// The bed as a node meets it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BedAtNode {
+    /// True if surfaces of the bed are on or above the node.
+    pub covers: bool,
+    /// Share of the node's kernel above it.
+    pub share_above: f64,
+    /// Intersection with the horizontal column of the node.
+    pub horizontal: Option<Intersection>,
+    /// Intersection with the vertical column of the node.
+    pub vertical: Option<Intersection>,
+}
+
+impl BedAtNode {
+    /// Intersections with the columns of a node, in the order in which they act.
+    pub fn intersections(&self) -> impl Iterator<Item = (Way, Intersection)> {
+        let all = [
+            (Way::Horizontal, self.horizontal),
+            (Way::Vertical, self.vertical),
+        ];
+        all.into_iter().filter_map(|(way, of)| Some((way, of?)))
     }
 }
 
@@ -153,11 +189,23 @@ pub trait Bed: Debug + Send + Sync {
     /// The bed at that intersection, averaged with the transfer's kernel.
     fn surface_in(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<Surface>;
 
-    /// Surfaces, for columns of each direction, that a node is on or below.
-    fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2];
+    /// Surfaces that a node is on or below and that act on it alone, in the order in which they act.
+    fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice)
+    -> [Option<Surface>; MOST_SURFACES];
 
     /// True if there are such surfaces.
     fn covers(&self, index: [i32; 3], lattice: &Lattice) -> bool;
+
+    /// The bed as a node meets it.
+    fn at_node(&self, index: [i32; 3], lattice: &Lattice) -> BedAtNode {
+        let [i, j, k] = index;
+        BedAtNode {
+            covers: self.covers(index, lattice),
+            share_above: self.share_above(index, lattice),
+            horizontal: self.intersection(Way::Horizontal, [j, k], lattice),
+            vertical: self.intersection(Way::Vertical, [i, j], lattice),
+        }
+    }
 
     /// Unit normal at (x, y).
     fn normal(&self, x: f64, y: f64) -> Vec3 {

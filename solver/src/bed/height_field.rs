@@ -4,13 +4,17 @@
 //! column are averaged with the transfer's kernel, so that the flow does not feel where the nodes
 //! lie on the map.
 
-use super::{Bed, Intersection, Lid, Plane, SplineSurface, Surface, Way, nodes_of};
-use crate::kernel::{Lattice, share_above};
+use super::{
+    Bed, BedAtNode, Facet, Intersection, Lid, MOST_SURFACES, Plane, SplineSurface, Surface, Way,
+    nodes_of,
+};
+use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::raster::Raster;
 use nalgebra::UnitQuaternion;
 use std::sync::Arc;
 
+mod cliffs;
 mod columns;
 mod near;
 mod nearest;
@@ -143,36 +147,48 @@ impl Bed for HeightField {
     }
 
     fn share_above(&self, index: [i32; 3], lattice: &Lattice) -> f64 {
-        let column = self.column([index[0], index[1]], lattice);
-        let normal = column.surface.normal;
-        // The kernel is as wide along a slant as along its axes.
-        let width = normal.component_mul(&lattice.spacing).norm();
-        let height = lattice.position(index).z - column.mean_elevation;
-        share_above(height * normal.z / width)
+        self.at_node(index, lattice).share_above
     }
 
     fn intersection(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<Intersection> {
-        if way == Way::Horizontal {
-            return None;
+        match way {
+            Way::Horizontal => None,
+            Way::Vertical => self.column(across, lattice).intersection(lattice),
         }
-        let elevation = self.column(across, lattice).elevation;
-        let cells = (elevation - lattice.origin.z) / lattice.spacing.z;
-        Some(Intersection::at(cells))
+    }
+
+    fn at_node(&self, index: [i32; 3], lattice: &Lattice) -> BedAtNode {
+        let column = self.column([index[0], index[1]], lattice);
+        let node = lattice.position(index);
+        BedAtNode {
+            covers: node.z - column.facet.elevation <= super::rounding(&node),
+            share_above: column.share_above(node.z, lattice),
+            horizontal: None,
+            vertical: column.intersection(lattice),
+        }
     }
 
     fn surface_in(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<Surface> {
         (way == Way::Vertical).then(|| self.column(across, lattice).surface)
     }
 
-    fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2] {
-        let over = || self.column([index[0], index[1]], lattice).surface;
-        [self.covers(index, lattice).then(over), None]
+    fn surfaces_over(
+        &self,
+        index: [i32; 3],
+        lattice: &Lattice,
+    ) -> [Option<Surface>; MOST_SURFACES] {
+        let column = self.column([index[0], index[1]], lattice);
+        let intersection = column.intersection(lattice);
+        let in_column = |at: Intersection| at.first - index[2] <= at.deepest;
+        match intersection {
+            _ if !self.covers(index, lattice) => [None; MOST_SURFACES],
+            Some(at) if in_column(at) => [Some(column.surface), None, None],
+            _ => self.surfaces_round(index, lattice),
+        }
     }
 
     fn covers(&self, index: [i32; 3], lattice: &Lattice) -> bool {
-        let column = self.column([index[0], index[1]], lattice);
-        let x = lattice.position(index);
-        x.z - column.elevation <= super::rounding(&x)
+        self.at_node(index, lattice).covers
     }
 
     fn is_near_block(&self, block: [i32; 3], lattice: &Lattice, margin: f64) -> bool {
@@ -184,7 +200,7 @@ impl Bed for HeightField {
 
     fn is_near_node(&self, index: [i32; 3], lattice: &Lattice, margin: f64) -> bool {
         let column = self.column([index[0], index[1]], lattice);
-        let height = lattice.position(index).z - column.elevation;
+        let height = lattice.position(index).z - column.facet.elevation;
         height * column.surface.normal.z <= margin
     }
 }

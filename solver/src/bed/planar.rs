@@ -6,7 +6,7 @@
 //! depends on the phase of the grid. The kernel's mean spreads the jump over the columns round the
 //! break such that its first moments are those of the break itself.
 
-use super::{Bed, Intersection, Plane, Surface, Way, rounding};
+use super::{Bed, Intersection, MOST_SURFACES, Plane, Surface, Way, rounding};
 use crate::kernel::{Lattice, share_above, share_above_both};
 use crate::math::Vec3;
 use nalgebra::UnitQuaternion;
@@ -171,20 +171,25 @@ impl Bed for PlanarBed {
         Some(self.surface_at(plane, way, across[0], lattice))
     }
 
-    fn surfaces_over(&self, index: [i32; 3], lattice: &Lattice) -> [Option<Surface>; 2] {
+    fn surfaces_over(
+        &self,
+        index: [i32; 3],
+        lattice: &Lattice,
+    ) -> [Option<Surface>; MOST_SURFACES] {
         let x = lattice.position(index);
         let rounding = rounding(&x);
         let on_or_below = |way: Way, plane: &Plane| {
             Way::through(&plane.normal) == way && plane.height(&x) <= rounding
         };
         // The floor acts before a steep incline, as it comes first.
-        [Way::Vertical, Way::Horizontal].map(|way| {
+        let [floor, incline] = [Way::Vertical, Way::Horizontal].map(|way| {
             let of_way = self.planes.iter().enumerate();
             let (plane, _) = of_way
                 .filter(|(_, plane)| on_or_below(way, plane))
                 .max_by(|one, other| other.1.height(&x).total_cmp(&one.1.height(&x)))?;
             Some(self.surface_at(plane, way, index[0], lattice))
-        })
+        });
+        [floor, incline, None]
     }
 
     fn covers(&self, index: [i32; 3], lattice: &Lattice) -> bool {

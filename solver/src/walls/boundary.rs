@@ -5,7 +5,7 @@ use super::columns::{BoundaryColumn, ColumnNode};
 use super::constraint::ConstrainedVelocity;
 use super::nodes::NodeAccess;
 use super::vertical_walls::Meets;
-use crate::bed::{Bed, Surface};
+use crate::bed::{Bed, BedAtNode, MOST_SURFACES, Surface};
 use crate::math::{Sym3, Vec3};
 use crate::method::METHOD;
 use std::ops::Range;
@@ -74,7 +74,7 @@ impl ConstraintSet {
 pub(super) struct ConstraintSets {
     pub(super) members: Vec<Member>,
     pub(super) sets: Vec<ConstraintSet>,
-    surfaces: Vec<[Option<Surface>; 2]>,
+    surfaces: Vec<[Option<Surface>; MOST_SURFACES]>,
     /// Other nodes whose kernel the bed cuts: their places, and the share of it in the
     /// channel.
     pub(super) cut: Vec<(u32, f64)>,
@@ -112,21 +112,20 @@ impl ConstraintSets {
         &mut self,
         start: usize,
         [back, side]: [Meets; 2],
-        below_bed: bool,
+        bed: &BedAtNode,
         mass: f64,
-        room: f64,
     ) {
         self.sets.push(ConstraintSet {
             members: start as u32..self.members.len() as u32,
             back,
             side,
-            bed: if below_bed {
+            bed: if bed.covers {
                 BedAction::Below
             } else {
                 BedAction::Elsewhere
             },
             mass,
-            room,
+            room: bed.share_above,
         });
     }
 
@@ -165,7 +164,7 @@ impl ConstraintSets {
     fn bytes(&self) -> usize {
         self.members.capacity() * size_of::<Member>()
             + self.sets.capacity() * size_of::<ConstraintSet>()
-            + self.surfaces.capacity() * size_of::<[Option<Surface>; 2]>()
+            + self.surfaces.capacity() * size_of::<[Option<Surface>; MOST_SURFACES]>()
             + self.cut.capacity() * size_of::<(u32, f64)>()
             + self.column_nodes.capacity() * size_of::<ColumnNode>()
     }

@@ -10,7 +10,7 @@ use super::Walls;
 use super::boundary::{Boundary, ConstraintSet, ConstraintSets};
 use super::constraint::{ConstrainedVelocity, constrain_to};
 use super::vertical_walls::Meets;
-use crate::bed::{Surface, Way};
+use crate::bed::{BedAtNode, Surface, Way};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use rayon::prelude::*;
@@ -141,32 +141,25 @@ impl BoundaryColumn {
 impl Walls {
     /// The columns that contain a node, in the channel at their ends or behind.
     pub(super) fn column_nodes_of(
-        &self,
         index: [i32; 3],
         set: u32,
-        lattice: &Lattice,
+        bed: &BedAtNode,
     ) -> impl Iterator<Item = ColumnNode> {
-        Way::BOTH.into_iter().filter_map(move |way| {
+        let is_below_floor = bed.vertical.is_some_and(|floor| index[2] < floor.first);
+        bed.intersections().filter_map(move |(way, intersection)| {
             let across = match way {
                 Way::Horizontal => [index[1], index[2]],
                 Way::Vertical => [index[0], index[1]],
             };
-            let first = self.bed.intersection(way, across, lattice)?.first;
-            let depth = first - index[way.axis()];
-            let here = way == Way::Vertical || !self.is_below_floor(index, lattice);
-            (depth >= -1 && here).then_some(ColumnNode {
+            let depth = intersection.first - index[way.axis()];
+            let here = way == Way::Vertical || !is_below_floor;
+            ((-1..=intersection.deepest).contains(&depth) && here).then_some(ColumnNode {
                 way,
                 across,
                 depth,
                 set,
             })
         })
-    }
-
-    fn is_below_floor(&self, index: [i32; 3], lattice: &Lattice) -> bool {
-        let across = [index[0], index[1]];
-        let floor = self.bed.intersection(Way::Vertical, across, lattice);
-        floor.is_some_and(|floor| index[2] < floor.first)
     }
 
     /// Makes columns of the column nodes.

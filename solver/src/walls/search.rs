@@ -100,29 +100,29 @@ impl Walls {
                 _ => {}
             });
         }
-        let below_bed = self.bed.covers(index, nodes.lattice());
+        let bed = self.bed.at_node(index, nodes.lattice());
         let alone = found.members.len() == start + 1;
         let set = found.sets.len() as u32;
         let known = found.column_nodes.len();
-        let column_nodes = self.column_nodes_of(index, set, nodes.lattice());
-        found.column_nodes.extend(column_nodes);
+        found
+            .column_nodes
+            .extend(Self::column_nodes_of(index, set, &bed));
         let of_column = found.column_nodes.len() > known;
-        let free = meets == [Meets::Not; 2] && !below_bed && !of_column;
+        let free = meets == [Meets::Not; 2] && !bed.covers && !of_column;
         let plain = alone && free;
         let empty = alone && nodes.mass(place) <= 0.0;
         if plain || empty {
             found.members.truncate(start);
             found.column_nodes.truncate(known);
         }
-        let room = self.bed.share_above(index, nodes.lattice());
-        if plain && room < 1.0 {
-            found.cut.push((place as u32, room));
+        if plain && bed.share_above < 1.0 {
+            found.cut.push((place as u32, bed.share_above));
         }
         if plain || empty {
             return;
         }
         let of_member = |member: &Member| nodes.mass(member.place as usize);
         let mass = found.members[start..].iter().map(of_member).sum();
-        found.push(start, meets, below_bed, mass, room);
+        found.push(start, meets, &bed, mass);
     }
 }

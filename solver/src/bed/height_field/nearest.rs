@@ -15,6 +15,9 @@ const SMALLEST_STEP: f64 = 1e-13;
 const STRAIGHT: f64 = 0.25;
 /// Distance of the other starts, over that of the place below.
 const BESIDE: f64 = 0.7;
+/// Distances of the other starts of a place behind the surface, over a cell of the map: beside a
+/// cliff its face is nearer than the ground straight above.
+const BESIDE_BEHIND: [f64; 3] = [1.0, 2.0, 4.0];
 
 impl HeightField {
     /// Plane that touches the surface where it is nearest to a place [m]; the height above it is the
@@ -24,12 +27,11 @@ impl HeightField {
         let up = upward(self.surface().at(foot.x, foot.y).slope);
         let arm = place - foot;
         // Rounding takes the direction of a short arm.
-        let along = arm.dot(&up);
-        let is_clear = along.abs() > 1e-6 * self.surface().cell_size();
-        let normal = if is_clear {
-            arm.normalize() * along.signum()
-        } else {
-            up
+        let is_clear = arm.dot(&up).abs() > 1e-6 * self.surface().cell_size();
+        let normal = match is_clear {
+            true if self.is_behind(place) => -arm.normalize(),
+            true => arm.normalize(),
+            false => up,
         };
         Plane {
             name: NAME,
@@ -46,18 +48,38 @@ impl HeightField {
         if distance <= STRAIGHT * self.surface().cell_size() {
             return below;
         }
-        let beside = BESIDE * (place.z - self.surface().elevation(place.x, place.y)).abs();
+        if self.is_behind(place) {
+            let cell = self.surface().cell_size();
+            let rings = BESIDE_BEHIND.into_iter().map(|cells| cells * cell);
+            return rings.fold(below, |nearest, far| {
+                if far < (place - nearest).norm() {
+                    self.nearest_from(place, nearest, far)
+                } else {
+                    nearest
+                }
+            });
+        }
+        let height = place.z - self.surface().elevation(place.x, place.y);
+        self.nearest_from(place, below, BESIDE * height)
+    }
+
+    /// The nearest of a known place of the surface and those to which ways lead from so far [m]
+    /// beside.
+    fn nearest_from(&self, place: &Vec3, known: Vec3, far: f64) -> Vec3 {
         let starts = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
         let others =
-            starts.map(|[x, y]| self.descend(place, [place.x + x * beside, place.y + y * beside]));
-        let nearer = |nearest: Vec3, other: &Vec3| {
+            starts.map(|[x, y]| self.descend(place, [place.x + x * far, place.y + y * far]));
+        others.into_iter().fold(known, |nearest, other| {
             if (place - other).norm() < (place - nearest).norm() {
-                *other
+                other
             } else {
                 nearest
             }
-        };
-        others.iter().fold(below, nearer)
+        })
+    }
+
+    fn is_behind(&self, place: &Vec3) -> bool {
+        place.z < self.surface().elevation(place.x, place.y)
     }
 
     /// Place of the surface from which every way leads farther from a place [m], by Newton's method

@@ -168,3 +168,62 @@ fn a_body_is_lowered_to_what_it_touches_first() {
     assert!(on_top.abs() < 0.02, "{on_top}");
     assert!(lowest(2.9) > 0.3 && lowest(2.9) < 3.3, "{}", lowest(2.9));
 }
+
+/// A cliff of 4 m at x = 3 that faces east, in map cells of 0.1 m.
+fn cliff() -> HeightField {
+    ground(|x, _| if x < 3.0 { 4.0 } else { 0.0 })
+}
+
+/// Index of the node nearest to a place.
+fn node_at(x: f64, y: f64, z: f64) -> [i32; 3] {
+    let lattice = lattice();
+    [0, 1, 2].map(|axis| {
+        ((Vec3::new(x, y, z) - lattice.origin)[axis] / lattice.spacing[axis]).round() as i32
+    })
+}
+
+fn surfaces(x: f64, z: f64) -> Vec<Vec3> {
+    let index = node_at(x, 2.0, z);
+    let surfaces = cliff().surfaces_over(index, &lattice());
+    let normals = surfaces.into_iter().flatten().map(|surface| surface.normal);
+    normals.collect()
+}
+
+// A node in the cliff has mass from in front of it only: the plateau above does not act.
+#[test]
+fn the_face_of_a_cliff_acts_on_the_nodes_behind_it() {
+    let [face] = surfaces(2.8, 2.0)[..] else {
+        panic!("one surface");
+    };
+    assert!(face.x > 0.99, "{face}");
+    let [plateau] = surfaces(2.0, 3.9)[..] else {
+        panic!("one surface");
+    };
+    assert!(plateau.z > 0.99, "{plateau}");
+    let intersection = |x| {
+        let [i, j, _] = node_at(x, 2.0, 0.0);
+        cliff().intersection(Way::Vertical, [i, j], &lattice())
+    };
+    assert_eq!(intersection(3.0), None, "no column in the face");
+    let beside = intersection(2.0).expect("a column");
+    assert!((2..5).contains(&beside.deepest), "{}", beside.deepest);
+}
+
+// At its foot a node is behind both, and neither lets anything through.
+#[test]
+fn ground_and_cliff_act_in_the_corner_between_them() {
+    let corner = surfaces(3.0, -0.1);
+    let upwards = corner.iter().any(|normal| normal.z > 0.99);
+    let eastwards = corner.iter().any(|normal| normal.x > 0.9);
+    assert!(upwards && eastwards, "{corner:?}");
+}
+
+// From under the plateau the way straight up is long, the face is near.
+#[test]
+fn the_face_of_a_cliff_is_nearest_to_a_place_behind_it() {
+    let place = Vec3::new(2.8, 2.0, 2.0);
+    let plane = cliff().nearest_plane(&place);
+    let depth = -plane.height(&place);
+    assert!((0.1..0.25).contains(&depth), "{depth}");
+    assert!(plane.normal.x > 0.99, "{}", plane.normal);
+}

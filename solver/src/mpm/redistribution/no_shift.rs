@@ -187,6 +187,8 @@ pub struct BlockZone<'a, R> {
     rise: [R; 3],
     /// The same of the block's corner [m].
     origin: R,
+    /// True if there may be a cliff.
+    is_at_cliff: bool,
 }
 
 impl<'a, R: Real> BlockZone<'a, R> {
@@ -204,6 +206,7 @@ impl<'a, R: Real> BlockZone<'a, R> {
             lattice,
             rise: [0, 1, 2].map(|axis| R::of(rise[axis])),
             origin: R::of(origin.z - over),
+            is_at_cliff: lid.steepest > METHOD.boundary.steep,
         }
     }
 
@@ -247,7 +250,13 @@ impl<'a, R: Real> BlockZone<'a, R> {
     fn of_point(&self, position: [R; 3]) -> NoShiftZone<R> {
         let cells = Vec3::from(position.map(Real::to_f64));
         let place = self.lattice.origin + cells.component_mul(&self.lattice.spacing);
-        NoShiftZone::of(&self.ground.touching(place.x, place.y), &self.lattice)
+        let mut plane = self.ground.touching(place.x, place.y);
+        let deep = METHOD.redistribution.deepest_penetration * self.lattice.spacing.max();
+        if self.is_at_cliff && plane.height(&place) < -deep * plane.normal.z {
+            // At its foot the ground is nearer than the face, which rises overhead.
+            plane = self.ground.nearest_plane(&place);
+        }
+        NoShiftZone::of(&plane, &self.lattice)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Bounds of a flow's points, and the fault of a point beyond them.
 
+use crate::bed::{Bed, HeightField};
 use crate::points::Point;
 use crate::walls::{Plane, RigidWalls};
 
@@ -57,13 +58,24 @@ impl OffendingPoint {
                 density: point.density(),
             });
         }
-        let behind = |plane: &&Plane| plane.height(&point.position) < -bounds.tolerance;
-        let walls = bounds.walls.planes_at(&point.position);
-        let mut walls = walls.iter();
-        walls.find(behind).map(|plane| Self::BehindWall {
+        let behind = |plane: &Plane| Self::behind(plane, point, bounds.tolerance);
+        let in_terrain = |ground: &HeightField| {
+            // Along the vertical nothing is less deep than along the normal.
+            let depth = ground.elevation(point.position.x, point.position.y) - point.position.z;
+            let is_suspect = depth > bounds.tolerance;
+            is_suspect.then(|| ground.nearest_plane(&point.position))
+        };
+        let of_terrain = || bounds.walls.terrain.and_then(in_terrain);
+        let of_planes = bounds.walls.planes.iter().find_map(behind);
+        of_planes.or_else(|| of_terrain().as_ref().and_then(behind))
+    }
+
+    fn behind(plane: &Plane, point: &Point, tolerance: f64) -> Option<Self> {
+        let depth_m = -plane.height(&point.position);
+        (depth_m > tolerance).then_some(Self::BehindWall {
             point: point.id,
             wall: plane.name,
-            depth_m: -plane.height(&point.position),
+            depth_m,
         })
     }
 }
