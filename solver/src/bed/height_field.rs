@@ -153,7 +153,7 @@ impl Bed for HeightField {
     fn intersection(&self, way: Way, across: [i32; 2], lattice: &Lattice) -> Option<Intersection> {
         match way {
             Way::Horizontal => None,
-            Way::Vertical => self.column(across, lattice).intersection(lattice),
+            Way::Vertical => self.column(across, lattice).intersection,
         }
     }
 
@@ -162,9 +162,9 @@ impl Bed for HeightField {
         let node = lattice.position(index);
         BedAtNode {
             covers: node.z - column.facet.elevation <= super::rounding(&node),
-            share_above: column.share_above(node.z, lattice),
+            share_above: column.share_above(node.z),
             horizontal: None,
-            vertical: column.intersection(lattice),
+            vertical: column.intersection,
         }
     }
 
@@ -178,9 +178,8 @@ impl Bed for HeightField {
         lattice: &Lattice,
     ) -> [Option<Surface>; MOST_SURFACES] {
         let column = self.column([index[0], index[1]], lattice);
-        let intersection = column.intersection(lattice);
         let in_column = |at: Intersection| at.first - index[2] <= at.deepest;
-        match intersection {
+        match column.intersection {
             _ if !self.covers(index, lattice) => [None; MOST_SURFACES],
             Some(at) if in_column(at) => [Some(column.surface), None, None],
             _ => self.surfaces_round(index, lattice),

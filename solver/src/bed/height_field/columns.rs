@@ -17,11 +17,15 @@ const GAUSS: [(f64, f64); 3] = [
 pub(super) struct Column {
     /// The terrain at the nodes.
     pub(super) facet: Facet,
-    /// The terrain averaged with the transfer's kernel.
-    pub(super) mean: Facet,
-    /// The bed at the intersection: slope and friction averaged in the same way, but without
+    /// Intersection with it; `None` at a cliff, where the bed does not act on nodes by columns.
+    pub(super) intersection: Option<Intersection>,
+    /// The bed at the intersection: slope and friction averaged with the transfer's kernel, without
     /// cliffs.
     pub(super) surface: Surface,
+    /// Elevation averaged in the same way, cliffs included [m].
+    mean_elevation: f64,
+    /// Widths of the kernel, across the mean slope, in a metre of height.
+    widths_per_height: f64,
 }
 
 /// Sums over the kernel.
@@ -67,44 +71,39 @@ impl Column {
             }
         }
         let facet = surface.at(node.x, node.y);
-        let over = if is_cliff(&facet) || gentle.share == 0.0 {
+        let at_cliff = is_cliff(&facet);
+        let over = if at_cliff || gentle.share == 0.0 {
             &all
         } else {
             &gentle
         };
+        let surface = Surface {
+            normal: upward(over.slope.map(|slope| slope / over.share)),
+            friction: over.friction / over.share,
+        };
+        let cells = (facet.elevation - lattice.origin.z) / lattice.spacing.z;
+        let mean_normal = upward(all.slope);
+        // The kernel is as wide along a slant as along its axes.
+        let width = mean_normal.component_mul(&lattice.spacing).norm();
         Self {
             facet,
-            mean: Facet {
-                elevation: all.elevation,
-                slope: all.slope,
-            },
-            surface: Surface {
-                normal: upward(over.slope.map(|slope| slope / over.share)),
-                friction: over.friction / over.share,
-            },
+            intersection: (!at_cliff).then(|| Intersection::at(cells).up_to(deepest(&surface))),
+            surface,
+            mean_elevation: all.elevation,
+            widths_per_height: mean_normal.z / width,
         }
     }
 
-    /// Intersection with the terrain; `None` at a cliff, where the bed does not act on nodes by
-    /// columns.
-    pub(super) fn intersection(&self, lattice: &Lattice) -> Option<Intersection> {
-        let cells = (self.facet.elevation - lattice.origin.z) / lattice.spacing.z;
-        (!is_cliff(&self.facet)).then(|| Intersection::at(cells).up_to(self.deepest()))
-    }
-
-    /// Nodes behind the first that kernels of points above a plane of this slope can reach.
-    fn deepest(&self) -> i32 {
-        let normal = self.surface.normal;
-        (REACH * (1.0 + (normal.x.abs() + normal.y.abs()) / normal.z)).ceil() as i32
-    }
-
     /// Share of the kernel of a node at this elevation [m] above the terrain.
-    pub(super) fn share_above(&self, elevation: f64, lattice: &Lattice) -> f64 {
-        let normal = upward(self.mean.slope);
-        // The kernel is as wide along a slant as along its axes.
-        let width = normal.component_mul(&lattice.spacing).norm();
-        share_above((elevation - self.mean.elevation) * normal.z / width)
+    pub(super) fn share_above(&self, elevation: f64) -> f64 {
+        share_above((elevation - self.mean_elevation) * self.widths_per_height)
     }
+}
+
+/// Nodes behind the first that kernels of points above a plane like this surface can reach.
+fn deepest(surface: &Surface) -> i32 {
+    let normal = surface.normal;
+    (REACH * (1.0 + (normal.x.abs() + normal.y.abs()) / normal.z)).ceil() as i32
 }
 
 /// True if the terrain is too steep here for vertical columns.

@@ -138,6 +138,7 @@ fn every_point_has_the_zone_of_the_ground_under_it() {
                 lattice: Lattice { origin: LATTICE.position(key.map(|k| 4 * k)), ..LATTICE },
                 rise: [0.0; 3],
                 origin: 0.0,
+                is_at_cliff: false,
             };
             let expected = after(simd, block.of_chunk(simd, &position), &position);
             assert_eq!(found, expected, "{key:?}");
