@@ -133,12 +133,13 @@ fn every_point_has_the_zone_of_the_ground_under_it() {
             };
             let position = [0, 1, 2].map(place);
             let found = after(simd, zones.and_then(|zones| zones.of_chunk(simd, &position)), &position);
+            let lid = ground.lid_over([key[0], key[1]], &LATTICE);
             let block = BlockZone::<f64> {
                 ground: &ground,
                 lattice: Lattice { origin: LATTICE.position(key.map(|k| 4 * k)), ..LATTICE },
                 rise: [0.0; 3],
                 origin: 0.0,
-                is_at_cliff: false,
+                is_at_cliff: lid.steepest > METHOD.boundary.steep,
             };
             let expected = after(simd, block.of_chunk(simd, &position), &position);
             assert_eq!(found, expected, "{key:?}");
