@@ -14,6 +14,9 @@ const SLOPE: f64 = 0.3;
 /// Side of the map [m].
 const SIDE: f64 = 40.0;
 
+/// Height of cliffs at a place [m].
+type Height<'a> = &'a dyn Fn(f64, f64) -> f64;
+
 /// A release of 6 m × 6 m about (−6, 0) on ground that falls to the east, with cliffs `of` a place;
 /// `cell` is the side of the map's cells [m].
 fn release_on(cell: f64, of: impl Fn(f64, f64) -> f64) -> Simulation {
@@ -66,7 +69,7 @@ fn no_point_gets_into_a_cliff() {
         let odd = ((x / 3.0).floor() + (y / 3.0).floor()).rem_euclid(3.0);
         step(6.0, odd == 0.0 && x > -2.0)
     };
-    let cliffs: [(&str, &dyn Fn(f64, f64) -> f64); 4] = [
+    let cliffs: [(&str, Height); 4] = [
         ("tower", &tower),
         ("pit", &pit),
         ("gully", &gully),

@@ -2,8 +2,8 @@
 //! of the height map, or of every square of its cells if they are finer than the computation's.
 //!
 //! A look sums mass and momentum of the points above each cell. The flow is looked at whenever it
-//! may have travelled half a cell since, so that none is passed unseen, and only where it is: memory
-//! and time follow the flow, not the map.
+//! may have travelled half a cell since, or half of the square over which a point is spread, so that
+//! none is passed unseen, and only where it is: memory and time follow the flow, not the map.
 
 mod columns;
 mod frame;
