@@ -72,9 +72,6 @@ pub enum Way {
 }
 
 impl Way {
-    /// Both directions, in the order in which they act.
-    pub const BOTH: [Self; 2] = [Self::Horizontal, Self::Vertical];
-
     /// Its axis.
     pub fn axis(self) -> usize {
         match self {

@@ -161,7 +161,7 @@ impl Bed for HeightField {
         let column = self.column([index[0], index[1]], lattice);
         let node = lattice.position(index);
         BedAtNode {
-            covers: node.z - column.facet.elevation <= super::rounding(&node),
+            covers: column.covers(&node),
             share_above: column.share_above(node.z),
             horizontal: None,
             vertical: column.intersection,
@@ -180,7 +180,7 @@ impl Bed for HeightField {
         let column = self.column([index[0], index[1]], lattice);
         let in_column = |at: Intersection| at.first - index[2] <= at.deepest;
         match column.intersection {
-            _ if !self.covers(index, lattice) => [None; MOST_SURFACES],
+            _ if !column.covers(&lattice.position(index)) => [None; MOST_SURFACES],
             Some(at) if in_column(at) => [Some(column.surface), None, None],
             _ => self.surfaces_round(index, lattice),
         }

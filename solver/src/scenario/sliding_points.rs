@@ -74,8 +74,8 @@ fn places<'a>(area: &'a ReleasedArea<'a>) -> impl Iterator<Item = [f64; 2]> + 'a
     })
 }
 
-/// Largest speed of a point that slides from here with this velocity [m/s], and the time until it rests or leaves the
-/// map [s].
+/// Largest speed of a point that slides from here with this velocity [m/s], and the time until it
+/// rests or leaves the map [s].
 fn slide(ground: &HeightField, gravity: f64, [x, y]: [f64; 2], mut velocity: Vec3) -> (f64, f64) {
     let step = STEP * ground.surface().cell_size();
     let extent = ground.surface().extent();

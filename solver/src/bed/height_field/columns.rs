@@ -1,8 +1,9 @@
 //! Columns of nodes over a terrain.
 
 use super::{Facet, SplineSurface, TerrainFriction, upward};
-use crate::bed::{Intersection, Surface};
+use crate::bed::{Intersection, Surface, rounding};
 use crate::kernel::{Lattice, REACH, share_above};
+use crate::math::Vec3;
 use crate::method::METHOD;
 
 /// Gauss points per node distance, and their weights: exact for the kernel.
@@ -92,6 +93,11 @@ impl Column {
             mean_elevation: all.elevation,
             widths_per_height: mean_normal.z / width,
         }
+    }
+
+    /// True if the terrain is on or above a node of the column, at this place [m].
+    pub(super) fn covers(&self, node: &Vec3) -> bool {
+        node.z - self.facet.elevation <= rounding(node)
     }
 
     /// Share of the kernel of a node at this elevation [m] above the terrain.
