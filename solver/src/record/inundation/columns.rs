@@ -18,21 +18,20 @@ pub(super) struct Columns {
     height: f64,
 }
 
-/// Sums over a column, in fractions.
+/// Sums over a column: mass, in fractions, and momentum along each axis, in fractions times [m/s].
 #[derive(Debug, Clone, Copy, Default)]
-struct Sums {
-    mass: i64,
-    /// Times [m/s].
-    momentum: [i64; 3],
-}
+struct Sums([i64; 4]);
 
 impl Sums {
-    /// Adds fractions with this velocity [m/s].
+    fn mass(&self) -> f64 {
+        self.0[0] as f64
+    }
+
+    /// Adds a share of a point's mass and momentum.
     #[inline]
-    fn add(&mut self, mass: f64, velocity: &Vec3) {
-        self.mass += whole(mass);
-        for axis in 0..3 {
-            self.momentum[axis] += whole(mass * velocity[axis]);
+    fn add(&mut self, share: f64, of_point: &[f64; 4]) {
+        for (sum, all) in self.0.iter_mut().zip(of_point) {
+            *sum += whole(share * all);
         }
     }
 }
@@ -81,20 +80,20 @@ impl Columns {
     /// Flow height above a cell [m].
     pub(super) fn height_m(&self, tile: TileIndex, place: usize) -> f64 {
         let sums = self.sums.get(tile, place);
-        sums.map_or(0.0, |sums| sums.mass as f64 * self.height)
+        sums.map_or(0.0, |sums| sums.mass() * self.height)
     }
 }
 
 impl Column<'_> {
     /// Flow height: volume at the density of the release, over the area of the cell [m].
     pub(super) fn height_m(&self) -> f64 {
-        self.sums.mass as f64 * self.fraction
+        self.sums.mass() * self.fraction
     }
 
     /// Magnitude of the mean velocity, by mass [m/s].
     pub(super) fn speed_m_s(&self) -> f64 {
-        let squares = self.sums.momentum.map(|axis| (axis as f64).powi(2));
-        squares.iter().sum::<f64>().sqrt() / (self.sums.mass as f64).max(1.0)
+        let [_, along @ ..] = self.sums.0.map(|sum| sum as f64);
+        Vec3::from(along).norm() / self.sums.mass().max(1.0)
     }
 }
 
@@ -134,18 +133,19 @@ impl Spread {
 
     /// Adds a point; what lies beyond the edges is left out.
     fn add(&self, point: &PointMotion, sums: &mut TileSums) {
-        let fractions = point.mass * self.per_mass;
+        let mass = point.mass * self.per_mass;
+        let [x, y, z] = (point.velocity * mass).into();
+        let of_point = [mass, x, y, z];
         let columns = self.shares(point.position.x, 0);
         let rows = self.shares(point.position.y, 1);
         for (row, of_row) in rows.cells() {
-            let of_row = of_row * fractions;
             let mut column = columns.first;
             let mut shares = &columns.of_cells[..columns.count];
             while !shares.is_empty() {
                 let cells = sums.row_from([column, row]);
                 let (here, beyond) = shares.split_at(shares.len().min(cells.len()));
                 for (cell, of_column) in cells.iter_mut().zip(here) {
-                    cell.add(of_row * of_column, &point.velocity);
+                    cell.add(of_row * of_column, &of_point);
                 }
                 column += here.len();
                 shares = beyond;
@@ -159,27 +159,22 @@ impl Spread {
         let from = middle * self.per_metre - 0.5 * self.side;
         let to = (from + self.side).min(self.frame.count[axis] as f64);
         let from = from.max(0.0);
-        let mut shares = Shares {
-            first: from as usize,
-            count: 0,
-            of_cells: [0.0; MOST_CELLS],
-        };
-        for share in &mut shares.of_cells {
-            let cell = (shares.first + shares.count) as f64;
-            if cell >= to {
-                break;
-            }
-            *share = (to.min(cell + 1.0) - from.max(cell)) * self.per_side;
-            shares.count += 1;
+        let first = from as u32;
+        // The square's end, from the end of its first cell on.
+        let past = to - f64::from(first) - 1.0;
+        let of_cells = [to - from - past.max(0.0), past.clamp(0.0, 1.0), past - 1.0];
+        Shares {
+            first: first as usize,
+            count: usize::from(to > from) + usize::from(past > 0.0) + usize::from(past > 1.0),
+            of_cells: of_cells.map(|cells| cells * self.per_side),
         }
-        shares
     }
 }
 
 /// Most cells along an axis that a square touches: it is less than two cells wide.
 const MOST_CELLS: usize = 3;
 
-/// Shares of a square in the cells that it touches along an axis.
+/// Shares of a square in the cells that it touches along an axis, the first `count` of these.
 #[derive(Debug, Clone, Copy)]
 struct Shares {
     first: usize,
@@ -232,9 +227,8 @@ impl TileSums {
     fn joined(mut self, other: Self) -> Self {
         for (tile, place) in other.places {
             for (sum, more) in self.tile(tile).iter_mut().zip(&other.tiles[place]) {
-                sum.mass += more.mass;
-                for axis in 0..3 {
-                    sum.momentum[axis] += more.momentum[axis];
+                for (sum, more) in sum.0.iter_mut().zip(more.0) {
+                    *sum += more;
                 }
             }
         }
