@@ -12,6 +12,7 @@ use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::raster::Raster;
 use nalgebra::UnitQuaternion;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 mod cliffs;
@@ -95,6 +96,14 @@ impl HeightField {
         }
     }
 
+    /// Height of a place [m] above the plane that touches the surface straight below it [m], and that
+    /// plane's unit normal.
+    pub fn over_touching(&self, place: &Vec3) -> (f64, Vec3) {
+        let facet = self.surface.at(place.x, place.y);
+        let normal = upward(facet.slope);
+        ((place.z - facet.elevation) * normal.z, normal)
+    }
+
     /// Plane above the places of a block's points within a step, and of its nodes.
     pub fn lid_over(&self, block: [i32; 2], lattice: &Lattice) -> Lid {
         let terrain = self.terrain();
@@ -102,10 +111,14 @@ impl HeightField {
         known.unwrap_or_else(|| terrain.lid(block, lattice))
     }
 
-    fn column(&self, across: [i32; 2], lattice: &Lattice) -> Column {
+    /// The column of nodes with these indices.
+    fn column(&self, across: [i32; 2], lattice: &Lattice) -> Cow<'_, Column> {
         let terrain = self.terrain();
         let known = (self.tiles.as_ref()).and_then(|tiles| tiles.column(across, &terrain));
-        known.unwrap_or_else(|| terrain.column(across, lattice))
+        known.map_or_else(
+            || Cow::Owned(terrain.column(across, lattice)),
+            Cow::Borrowed,
+        )
     }
 
     fn terrain(&self) -> Terrain<'_> {
@@ -118,7 +131,8 @@ impl HeightField {
 
 /// Unit normal of a surface with this slope.
 fn upward(slope: [f64; 2]) -> Vec3 {
-    Vec3::new(-slope[0], -slope[1], 1.0).normalize()
+    let up = Vec3::new(-slope[0], -slope[1], 1.0);
+    up * (1.0 / up.norm())
 }
 
 impl Bed for HeightField {

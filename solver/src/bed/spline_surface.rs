@@ -63,6 +63,8 @@ impl Lid {
 pub struct SplineSurface {
     /// Side of a cell [m].
     cell: f64,
+    /// Cells in a metre.
+    per_metre: f64,
     /// Cells along x and y.
     cells: [usize; 2],
     /// Coefficients row by row, with one more at each end of each row and column [m].
@@ -89,6 +91,7 @@ impl SplineSurface {
     pub fn through(raster: &Raster, datum: f64) -> Self {
         Self {
             cell: raster.cell_size,
+            per_metre: 1.0 / raster.cell_size,
             cells: [raster.columns, raster.rows],
             coefficients: coefficients(raster, datum),
         }
@@ -127,6 +130,10 @@ impl SplineSurface {
             twist += across.slope[row] * sum(&along.slope);
         }
         let beyond = [along.beyond, across.beyond];
+        if beyond == [0.0; 2] {
+            let slope = slope.map(|slope| slope * self.per_metre);
+            return Facet { elevation, slope };
+        }
         elevation += slope[0] * beyond[0] + slope[1] * beyond[1] + twist * beyond[0] * beyond[1];
         let along_the_edge = |axis: usize| {
             let of = [&along, &across][axis];
@@ -139,7 +146,7 @@ impl SplineSurface {
         let per_cell = [along_the_edge(0), along_the_edge(1)];
         Facet {
             elevation,
-            slope: per_cell.map(|slope| slope / self.cell),
+            slope: per_cell.map(|slope| slope * self.per_metre),
         }
     }
 
@@ -279,7 +286,7 @@ impl SplineSurface {
 
     fn weights(&self, at: f64, axis: usize) -> Weights {
         let last = self.cells[axis] as f64;
-        let cells = at / self.cell;
+        let cells = at * self.per_metre;
         let within = cells.clamp(0.0, last);
         let centre = (within as usize).min(self.cells[axis] - 1);
         let f = within - centre as f64 - 0.5;

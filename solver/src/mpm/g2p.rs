@@ -140,13 +140,13 @@ pub fn gather_motion<S: Simd, R: Real>(
         let mut redistributed = redistribute::<S, R>(simd, redistribution, &seen, &moved);
         let mut velocity = arriving;
         for no_shift_zone in no_shift_zones {
-            let here = no_shift_zone.in_block(simd, &key);
+            let here = no_shift_zone.of_chunk(simd, &key, &position);
             let shift = &mut redistributed.shift;
-            here.keep_off(simd, &position, &moved, shift, &mut velocity);
+            here.keep_off(simd, spacing, &moved, shift, &mut velocity);
         }
         if let Some(here) = on_terrain.and_then(|zones| zones.of_chunk(simd, &position)) {
             let shift = &mut redistributed.shift;
-            here.keep_off(simd, &position, &moved, shift, &mut velocity);
+            here.keep_off(simd, spacing, &moved, shift, &mut velocity);
         }
         let change = [0, 1, 2].map(|axis| velocity[axis] - arriving[axis]);
         spread.stop(simd, chunk, &position, &change, spacing);

@@ -31,8 +31,8 @@ pub(super) struct Tiles {
     first: [i32; 2],
     /// Tiles along x and y.
     count: [usize; 2],
-    /// Tiles along the side of a square.
-    side: usize,
+    /// Logarithm to base 2 of the number of tiles along the side of a square.
+    side: u32,
     /// Squares along x.
     columns: usize,
     squares: Vec<OnceLock<Square>>,
@@ -72,8 +72,8 @@ impl Tiles {
             let last = block(extent[axis], axis) + BEYOND;
             (last - first[axis]).unsigned_abs() as usize / BLOCKS + 1
         });
-        let side = count[0].max(count[1]).isqrt().max(1);
-        let [columns, rows] = count.map(|tiles| tiles.div_ceil(side));
+        let side = count[0].max(count[1]).isqrt().ilog2();
+        let [columns, rows] = count.map(|tiles| tiles.div_ceil(1 << side));
         Self {
             lattice: *lattice,
             first,
@@ -85,11 +85,11 @@ impl Tiles {
     }
 
     /// The column of nodes with these indices; `None` far beyond the edges.
-    pub(super) fn column(&self, across: [i32; 2], terrain: &Terrain) -> Option<Column> {
+    pub(super) fn column(&self, across: [i32; 2], terrain: &Terrain) -> Option<&Column> {
         let place = [0, 1].map(|axis| across[axis] - self.first[axis] * BLOCK as i32);
         let tile = self.tile(place.map(|along| along.div_euclid(COLUMNS as i32)), terrain)?;
         let [u, v] = place.map(|along| along.rem_euclid(COLUMNS as i32) as usize);
-        Some(tile.columns[v * COLUMNS + u])
+        Some(&tile.columns[v * COLUMNS + u])
     }
 
     /// Lid over a block; `None` far beyond the edges.
@@ -108,9 +108,10 @@ impl Tiles {
         let (i, j) = (within(0)?, within(1)?);
         let start = [i, j].map(|along| (along * BLOCKS) as i32);
         let first = [0, 1].map(|axis| self.first[axis] + start[axis]);
-        let square = &self.squares[j / self.side * self.columns + i / self.side];
-        let tiles = square.get_or_init(|| unknown(self.side * self.side));
-        let tile = &tiles[j % self.side * self.side + i % self.side];
+        let square = &self.squares[(j >> self.side) * self.columns + (i >> self.side)];
+        let tiles = square.get_or_init(|| unknown(1 << (2 * self.side)));
+        let [u, v] = [i, j].map(|along| along & ((1 << self.side) - 1));
+        let tile = &tiles[(v << self.side) + u];
         Some(tile.get_or_init(|| self.find(first, terrain)))
     }
 

@@ -6,7 +6,7 @@ use crate::grid::{BLOCK, BlockKey, POSITIONS_IN_STEP, first_node};
 use crate::kernel::Lattice;
 use crate::math::Vec3;
 use crate::method::METHOD;
-use crate::mpm::lanes::{MOST_LANES, Real, Splat, load};
+use crate::mpm::lanes::{Real, Splat, load, load_each};
 use fearless_simd::prelude::*;
 use std::ops::Range;
 
@@ -14,139 +14,101 @@ use std::ops::Range;
 /// moved farther behind it (equations 42b and 42c).
 #[derive(Debug, Clone, Copy)]
 pub struct NoShiftZone<R> {
+    /// Unit normal.
+    normal: [R; 3],
     /// Height of a place [m] over its position [cells].
     rise: [R; 3],
     /// Height of the origin of positions [m].
     origin: f64,
-    /// Normal over node distance [1/m].
-    out: [R; 3],
-    /// Unit normal.
-    normal: [R; 3],
-    /// Height below which no point is shifted towards the plane [m].
-    near: R,
-    /// Height below which no point is moved deeper [m].
-    deep: R,
+    /// Node distance across the plane [m].
+    width: R,
 }
 
 impl<R: Real> NoShiftZone<R> {
-    /// No zone: every place is above it.
-    const NONE: Self = Self {
-        rise: [R::ZERO; 3],
-        origin: 0.0,
-        out: [R::ZERO; 3],
-        normal: [R::ZERO; 3],
-        near: R::ZERO,
-        deep: R::ZERO,
-    };
-
     /// Zone at a plane, for positions from the lattice's origin.
     pub fn of(plane: &Plane, lattice: &Lattice) -> Self {
-        let spacing = &lattice.spacing;
-        let rise = plane.normal.component_mul(spacing);
+        let rise = plane.normal.component_mul(&lattice.spacing);
         Self {
+            normal: [0, 1, 2].map(|axis| R::of(plane.normal[axis])),
             rise: [0, 1, 2].map(|axis| R::of(rise[axis])),
             origin: plane.height(&lattice.origin),
-            out: [0, 1, 2].map(|axis| R::of(plane.normal[axis] / spacing[axis])),
-            normal: [0, 1, 2].map(|axis| R::of(plane.normal[axis])),
-            near: R::of(METHOD.redistribution.no_shift_height * rise.norm()),
-            deep: R::of(-METHOD.redistribution.deepest_penetration * rise.norm()),
+            width: R::of(rise.norm()),
         }
     }
 
-    /// Zone for the points of a chunk in a block.
+    /// Zone for the points of a chunk in a block, at these positions [cells].
     #[inline(always)]
-    pub fn in_block<S: Simd>(&self, simd: S, key: &BlockKey) -> ChunkZone<S, R> {
+    pub fn of_chunk<S: Simd>(
+        &self,
+        simd: S,
+        key: &BlockKey,
+        position: &[R::Vector<S>; 3],
+    ) -> ChunkZone<S, R> {
         let number = Splat::<S, R>::new(simd);
         let mut origin = self.origin;
         for axis in 0..3 {
             origin += self.rise[axis].to_f64() * f64::from(key[axis]) * BLOCK as f64;
         }
+        let mut height = number.of(origin);
+        for axis in 0..3 {
+            height = number.all(self.rise[axis]).mul_add(position[axis], height);
+        }
         ChunkZone {
-            rise: [0, 1, 2].map(|axis| number.all(self.rise[axis])),
-            origin: number.of(origin),
-            out: [0, 1, 2].map(|axis| number.all(self.out[axis])),
+            height,
             normal: [0, 1, 2].map(|axis| number.all(self.normal[axis])),
-            near: number.all(self.near),
-            deep: number.all(self.deep),
+            width: number.all(self.width),
         }
     }
 }
 
-/// Zones of the points of a chunk.
+/// Zones of the points of a chunk, each at a plane of its own.
 pub struct ChunkZone<S: Simd, R: Real> {
-    rise: [R::Vector<S>; 3],
-    origin: R::Vector<S>,
-    out: [R::Vector<S>; 3],
+    /// Heights above the planes [m].
+    height: R::Vector<S>,
+    /// Unit normals.
     normal: [R::Vector<S>; 3],
-    near: R::Vector<S>,
-    deep: R::Vector<S>,
+    /// Node distances across the planes [m].
+    width: R::Vector<S>,
 }
 
 impl<S: Simd, R: Real> ChunkZone<S, R> {
-    /// Each point's own.
-    #[inline(always)]
-    fn of_points(simd: S, zones: &[NoShiftZone<R>; MOST_LANES]) -> Self {
-        Self {
-            rise: [0, 1, 2].map(|axis| of_each(simd, zones, |zone| zone.rise[axis])),
-            origin: of_each(simd, zones, |zone| R::of(zone.origin)),
-            out: [0, 1, 2].map(|axis| of_each(simd, zones, |zone| zone.out[axis])),
-            normal: [0, 1, 2].map(|axis| of_each(simd, zones, |zone| zone.normal[axis])),
-            near: of_each(simd, zones, |zone| zone.near),
-            deep: of_each(simd, zones, |zone| zone.deep),
-        }
-    }
-
     /// Removes the part towards the plane from the shifts [cells] of points near it; of points
     /// deep behind it also cancels the part of their motion `moved` [cells] into it, and removes
-    /// the part of their velocities [m/s] into it.
+    /// the part of their velocities [m/s] into it. `spacing` is that of the nodes [m].
     #[inline(always)]
     pub fn keep_off(
         &self,
         simd: S,
-        position: &[R::Vector<S>; 3],
+        spacing: &Vec3,
         moved: &[R::Vector<S>; 3],
         shift: &mut [R::Vector<S>; 3],
         velocity: &mut [R::Vector<S>; 3],
     ) {
         let number = Splat::<S, R>::new(simd);
         let none = number.of(0.0);
-        let mut height = self.origin;
         let (mut along, mut went, mut goes) = (none, none, none);
         for axis in 0..3 {
-            let rise = self.rise[axis];
-            height = rise.mul_add(position[axis], height);
+            let normal = self.normal[axis];
+            let rise = normal * number.of(spacing[axis]);
             along = rise.mul_add(shift[axis], along);
             went = rise.mul_add(moved[axis], went);
-            let normal = self.normal[axis];
             goes = normal.mul_add(velocity[axis], goes);
         }
-        let near = height.simd_lt(self.near);
-        let deep = height.simd_lt(self.deep);
+        let [near, deep] = [
+            METHOD.redistribution.no_shift_height,
+            -METHOD.redistribution.deepest_penetration,
+        ]
+        .map(|cells| self.height.simd_lt(number.of(cells) * self.width));
         let into = near.select((none - along).max(none), none);
         let into = into + deep.select((none - went).max(none), none);
-        for axis in 0..3 {
-            shift[axis] = self.out[axis].mul_add(into, shift[axis]);
-        }
         let stop = deep.select((none - goes).max(none), none);
         for axis in 0..3 {
             let normal = self.normal[axis];
+            let out = normal * number.of(1.0 / spacing[axis]);
+            shift[axis] = out.mul_add(into, shift[axis]);
             velocity[axis] = normal.mul_add(stop, velocity[axis]);
         }
     }
-}
-
-/// A number of each zone, lane by lane.
-#[inline(always)]
-fn of_each<S: Simd, R: Real>(
-    simd: S,
-    zones: &[NoShiftZone<R>; MOST_LANES],
-    number: impl Fn(&NoShiftZone<R>) -> R,
-) -> R::Vector<S> {
-    let mut lanes = R::ZEROS;
-    for (lane, zone) in lanes.as_mut().iter_mut().zip(zones) {
-        *lane = number(zone);
-    }
-    load::<S, R>(simd, &lanes)
 }
 
 /// Zones on a terrain: that of each point at the plane that touches the terrain there.
@@ -239,24 +201,41 @@ impl<'a, R: Real> BlockZone<'a, R> {
             return None;
         }
         let at = position.map(|along| along.to_array());
-        let mut zones = [NoShiftZone::NONE; MOST_LANES];
+        let (mut height, mut normal) = (R::ZEROS, [R::ZEROS; 3]);
         for lane in (0..R::LANES).filter(|lane| may_be_in(*lane)) {
-            zones[lane] = self.of_point(at.each_ref().map(|along| along.as_ref()[lane]));
+            let (above, up) = self.over_ground(at.each_ref().map(|along| along[lane]));
+            height[lane] = R::of(above);
+            for axis in 0..3 {
+                normal[axis][lane] = R::of(up[axis]);
+            }
         }
-        Some(ChunkZone::of_points(simd, &zones))
+        // Of the others height and width are zero: they are not in their zones.
+        let normal = load_each::<S, R, 3>(simd, &normal);
+        let mut square = number.of(0.0);
+        for axis in 0..3 {
+            let rise = normal[axis] * number.of(self.lattice.spacing[axis]);
+            square = rise.mul_add(rise, square);
+        }
+        Some(ChunkZone {
+            height: load::<S, R>(simd, &height),
+            normal,
+            width: square.sqrt(),
+        })
     }
 
-    /// Zone of a point at this position [cells], for positions in the block.
-    fn of_point(&self, position: [R; 3]) -> NoShiftZone<R> {
+    /// Height of a point at this position [cells] in the block above the plane of its zone [m], and
+    /// that plane's normal.
+    fn over_ground(&self, position: [R; 3]) -> (f64, Vec3) {
         let cells = Vec3::from(position.map(Real::to_f64));
         let place = self.lattice.origin + cells.component_mul(&self.lattice.spacing);
-        let mut plane = self.ground.touching(place.x, place.y);
+        let (height, normal) = self.ground.over_touching(&place);
         let deep = METHOD.redistribution.deepest_penetration * self.lattice.spacing.max();
-        if self.is_at_cliff && plane.height(&place) < -deep * plane.normal.z {
+        if self.is_at_cliff && height < -deep * normal.z {
             // At its foot the ground is nearer than the face, which rises overhead.
-            plane = self.ground.nearest_plane(&place);
+            let nearest = self.ground.nearest_plane(&place);
+            return (nearest.height(&place), nearest.normal);
         }
-        NoShiftZone::of(&plane, &self.lattice)
+        (height, normal)
     }
 }
 

@@ -30,8 +30,8 @@ fn at_the_bed(bed: &[Plane], position: &Vec3, [moved, shift, velocity]: [Vec3; 3
         let (mut shift, mut velocity) = (cells(&shift), vectors(&velocity));
         for plane in bed {
             let zone = NoShiftZone::<f64>::of(plane, &LATTICE);
-            let zone = zone.in_block(simd, &[0; 3]);
-            zone.keep_off(simd, &position, &moved, &mut shift, &mut velocity);
+            let zone = zone.of_chunk(simd, &[0; 3], &position);
+            zone.keep_off(simd, &SPACING, &moved, &mut shift, &mut velocity);
         }
         (
             Vec3::new(shift[0][0], shift[1][0], shift[2][0]).component_mul(&SPACING),
@@ -97,17 +97,13 @@ fn hilly() -> HeightField {
 }
 
 /// Shifts and velocities of a chunk of points at these positions [cells], which move downwards.
-fn after<S: Simd>(
-    simd: S,
-    zone: Option<ChunkZone<S, f64>>,
-    position: &[<f64 as Real>::Vector<S>; 3],
-) -> Vec<f64> {
+fn after<S: Simd>(simd: S, zone: Option<ChunkZone<S, f64>>) -> Vec<f64> {
     let number = Splat::<S, f64>::new(simd);
     let mut shift = [number.of(0.01), number.of(-0.02), number.of(-0.1)];
     let mut velocity = [number.of(0.3), number.of(0.1), number.of(-1.0)];
     if let Some(zone) = zone {
         let moved = shift;
-        zone.keep_off(simd, position, &moved, &mut shift, &mut velocity);
+        zone.keep_off(simd, &SPACING, &moved, &mut shift, &mut velocity);
     }
     let all = shift.into_iter().chain(velocity);
     all.flat_map(|of| of.to_array()).collect()
@@ -132,7 +128,7 @@ fn every_point_has_the_zone_of_the_ground_under_it() {
                 load::<_, f64>(simd, &lanes)
             };
             let position = [0, 1, 2].map(place);
-            let found = after(simd, zones.and_then(|zones| zones.of_chunk(simd, &position)), &position);
+            let found = after(simd, zones.and_then(|zones| zones.of_chunk(simd, &position)));
             let lid = ground.lid_over([key[0], key[1]], &LATTICE);
             let block = BlockZone::<f64> {
                 ground: &ground,
@@ -141,9 +137,9 @@ fn every_point_has_the_zone_of_the_ground_under_it() {
                 origin: 0.0,
                 is_at_cliff: lid.steepest > METHOD.boundary.steep,
             };
-            let expected = after(simd, block.of_chunk(simd, &position), &position);
+            let expected = after(simd, block.of_chunk(simd, &position));
             assert_eq!(found, expected, "{key:?}");
-            kept_off += usize::from(expected != after(simd, None, &position));
+            kept_off += usize::from(expected != after(simd, None));
         });
     }
     assert!(kept_off > 100, "{kept_off}");
