@@ -10,14 +10,14 @@ const STEPS: usize = 40;
 const HALVINGS: usize = 12;
 /// Length of a step at which a descent ends, over a cell of the map.
 const SMALLEST_STEP: f64 = 1e-13;
-/// Distance up to which the place straight below leads to the nearest one, over a cell of the map:
+/// Height up to which the place straight below leads to the nearest one, over a cell of the map:
 /// farther away there may be a nearer one beside.
 const STRAIGHT: f64 = 0.25;
 /// Distance of the other starts, over that of the place below.
 const BESIDE: f64 = 0.7;
 /// Distances of the other starts of a place behind the surface, over a cell of the map: beside a
 /// cliff its face is nearer than the ground straight above.
-const BESIDE_BEHIND: [f64; 3] = [1.0, 2.0, 4.0];
+const BESIDE_BEHIND: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 
 impl HeightField {
     /// Plane that touches the surface where it is nearest to a place [m]; the height above it is the
@@ -44,23 +44,31 @@ impl HeightField {
     /// Place of the surface that is nearest to a place [m].
     fn nearest_place(&self, place: &Vec3) -> Vec3 {
         let below = self.descend(place, [place.x, place.y]);
-        let distance = (place - below).norm();
-        if distance <= STRAIGHT * self.surface().cell_size() {
-            return below;
-        }
         if self.is_behind(place) {
-            let cell = self.surface().cell_size();
-            let rings = BESIDE_BEHIND.into_iter().map(|cells| cells * cell);
-            return rings.fold(below, |nearest, far| {
-                if far < (place - nearest).norm() {
-                    self.nearest_from(place, nearest, far)
-                } else {
-                    nearest
-                }
-            });
+            return self.nearest_behind(place, below);
+        }
+        if (place - below).norm() <= STRAIGHT * self.surface().cell_size() {
+            return below;
         }
         let height = place.z - self.surface().elevation(place.x, place.y);
         self.nearest_from(place, below, BESIDE * height)
+    }
+
+    /// The nearest of a known place of the surface and those that are found from beside a place [m]
+    /// behind it.
+    fn nearest_behind(&self, place: &Vec3, known: Vec3) -> Vec3 {
+        let cell = self.surface().cell_size();
+        let rings = BESIDE_BEHIND.into_iter().map(|cells| cells * cell);
+        let nearest = rings.fold(known, |nearest, far| {
+            if far < (place - nearest).norm() {
+                self.nearest_from(place, nearest, far)
+            } else {
+                nearest
+            }
+        });
+        // Nothing farther aside is nearer; beside the edge of a plateau the face may be, though none of
+        // the starts was so near.
+        self.nearest_from(place, nearest, (place - nearest).norm())
     }
 
     /// The nearest of a known place of the surface and those to which ways lead from so far [m]
