@@ -32,6 +32,7 @@ mod shapes;
 mod sliding_block;
 mod symmetry;
 mod terrain;
+mod terrain_bodies;
 mod terrain_cliffs;
 mod terrain_edges;
 mod thin_flows;

@@ -125,27 +125,12 @@ impl NearGround {
     }
 
     /// The overlaps with the ground, each with its depth [m].
-    ///
-    /// A node counts by what it stands out from the deepest vertex: on level ground the vertices
-    /// carry the body alone.
     pub fn overlaps(&self, solid: &PlacedSolid, ground: &HeightField) -> Vec<(GroundPlace, f64)> {
-        let mut touching = Vec::new();
         let radius = solid.shape.sphero_radius();
-        let mut deepest = 0.0_f64;
-        for place in self.places(solid, ground) {
-            let overlap = radius - place.height;
-            match place.feature {
-                GroundFeature::Vertex(_) if overlap > 0.0 => {
-                    deepest = deepest.max(overlap);
-                    touching.push((place, overlap));
-                }
-                GroundFeature::Node(_) if overlap > deepest => {
-                    touching.push((place, overlap - deepest));
-                }
-                _ => {}
-            }
-        }
-        touching
+        let overlaps = self
+            .places(solid, ground)
+            .map(|place| (place, radius - place.height));
+        overlaps.filter(|(_, overlap)| *overlap > 0.0).collect()
     }
 }
 
@@ -236,7 +221,8 @@ impl NodesUnder {
         }
     }
 
-    /// Nodes where the ground bulges, as near the body as they can be within `reach` [m].
+    /// Nodes where the ground bulges, as near the body as they can be within `reach` [m]; none of a
+    /// ball, which has nothing but its vertex.
     fn bulging<'a>(
         &'a self,
         solid: &'a PlacedSolid,
@@ -248,7 +234,8 @@ impl NodesUnder {
         let level = 2.0 * LEVEL * solid.shape.sphero_radius() / (radius * radius);
         let nodes = (self.first[1]..=self.last[1])
             .flat_map(move |j| (self.first[0]..=self.last[0]).map(move |i| [i, j]));
-        let bulging = nodes.filter(move |index| {
+        let has_edges = solid.shape.core_vertices().len() > 1;
+        let bulging = nodes.filter(move |_| has_edges).filter(move |index| {
             let node = node_at(ground, *index, self.spacing);
             (node - solid.position).norm() < radius + reach
                 && ground.surface().bulge(node.x, node.y) > level
