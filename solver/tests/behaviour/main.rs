@@ -35,5 +35,6 @@ mod terrain;
 mod terrain_bodies;
 mod terrain_cliffs;
 mod terrain_edges;
+mod terrain_slopes;
 mod thin_flows;
 mod words;
