@@ -58,10 +58,13 @@ impl CellType {
     }
 }
 
-/// Refuses compressions that are not read, most of which lose something.
+/// Refuses compressions that are not read, most of which lose something, and a predictor without
+/// compression, which some programs undo and others ignore.
 pub(super) fn require_known_compression(tiff: &mut Tiff<'_>) -> Result<(), GeoTiffError> {
-    let code = tiff.find_tag_unsigned(Tag::Compression)?.unwrap_or(1);
+    let code = tiff.find_tag_unsigned(Tag::Compression)?.unwrap_or(NONE);
+    let predictor: u16 = tiff.find_tag_unsigned(Tag::Predictor)?.unwrap_or(NONE);
     match code {
+        NONE if predictor != NONE => Err(GeoTiffError::Predictor { code: predictor }),
         // None, LZW, DEFLATE by its two codes, PackBits and ZSTD.
         1 | 5 | 8 | 32946 | 32773 | 50000 => Ok(()),
         _ => Err(GeoTiffError::Compression {
@@ -70,6 +73,9 @@ pub(super) fn require_known_compression(tiff: &mut Tiff<'_>) -> Result<(), GeoTi
         }),
     }
 }
+
+/// Code of no compression, and of no predictor.
+const NONE: u16 = 1;
 
 /// Name of a `Compression`, with the space before it.
 fn compression(code: u16) -> &'static str {

@@ -69,6 +69,15 @@ pub enum GeoTiffError {
         /// Length of the file.
         bytes: usize,
     },
+    /// Differences instead of values, in a file without compression.
+    #[error(
+        "the TIFF has the predictor {code} but no compression; write it with compression, or with \
+         the predictor 1"
+    )]
+    Predictor {
+        /// Code of the predictor.
+        code: u16,
+    },
     /// Holes marked by another image.
     #[error("the TIFF marks holes by a mask; write them as a nodata value")]
     Mask,
@@ -160,6 +169,12 @@ pub enum GeoTiffError {
         code: u16,
         /// Name of the unit.
         name: &'static str,
+    },
+    /// Coordinates in a unit of this size.
+    #[error("the unit of the coordinates is {metres} m long; they must be in metres")]
+    LinearUnitSize {
+        /// Length of the unit [m].
+        metres: f64,
     },
     /// Coordinates in the unit of their coordinate system.
     #[error("a unit of EPSG:{epsg} is {metres} m long; coordinates must be in metres")]

@@ -1,6 +1,6 @@
 //! `GeoKeyDirectory`: what the coordinates mean (OGC 19-008r4, annex B).
 
-use super::{GeoTiffError, Tiff};
+use super::{GeoTiffError, Tiff, doubles};
 use crate::projection;
 use std::ops::RangeInclusive;
 use tiff::tags::Tag;
@@ -10,8 +10,12 @@ const RASTER_TYPE: u16 = 1025;
 const GEODETIC_CRS: u16 = 2048;
 const PROJECTED_CRS: u16 = 3072;
 const LINEAR_UNITS: u16 = 3076;
+const LINEAR_UNIT_SIZE: u16 = 3077;
 const VERTICAL_CRS: u16 = 4096;
 const VERTICAL_UNITS: u16 = 4099;
+
+/// Place of a key's value: the tag of double numbers.
+const DOUBLES: u16 = 34736;
 
 /// Model types that are no plane map.
 const GEOGRAPHIC: u16 = 2;
@@ -29,8 +33,12 @@ const IN_FEET: [u32; 15] = [
 pub(super) const EPSG: RangeInclusive<u16> = 1024..=32766;
 const UNDEFINED: u16 = 0;
 
-/// Keys with a short number as their value.
-pub(super) struct GeoKeys(Vec<[u16; 2]>);
+/// Keys with a short number as their value, and the size of the unit of length.
+pub(super) struct GeoKeys {
+    shorts: Vec<[u16; 2]>,
+    /// Length of the unit of the coordinates, if it is given [m].
+    unit_size: Option<f64>,
+}
 
 impl GeoKeys {
     pub(super) fn of(tiff: &mut Tiff<'_>) -> Result<Self, GeoTiffError> {
@@ -39,13 +47,24 @@ impl GeoKeys {
         // A version and the number of keys, then keys: id, place (0: here), count and value.
         let mut entries = directory.chunks_exact(4);
         let count = entries.next().map_or(0, |head| usize::from(head[3]));
-        let entries = entries.take(count).filter(|entry| entry[1] == 0);
-        Ok(Self(entries.map(|entry| [entry[0], entry[3]]).collect()))
+        let (mut shorts, mut size) = (Vec::new(), None);
+        for entry in entries.take(count) {
+            match (entry[0], entry[1]) {
+                (key, 0) => shorts.push([key, entry[3]]),
+                (LINEAR_UNIT_SIZE, DOUBLES) => size = Some(usize::from(entry[3])),
+                _ => {}
+            }
+        }
+        let numbers = doubles(tiff, Tag::GeoDoubleParamsTag)?.unwrap_or_default();
+        Ok(Self {
+            shorts,
+            unit_size: size.and_then(|place| numbers.get(place).copied()),
+        })
     }
 
     /// Value of a key, if it is given and defined.
     fn get(&self, key: u16) -> Option<u16> {
-        let entry = self.0.iter().find(|[id, _]| *id == key)?;
+        let entry = self.shorts.iter().find(|[id, _]| *id == key)?;
         (entry[1] != UNDEFINED).then_some(entry[1])
     }
 
@@ -77,6 +96,9 @@ impl GeoKeys {
         if let Some(code) = other(LINEAR_UNITS) {
             let name = unit(code);
             return Err(GeoTiffError::LinearUnit { code, name });
+        }
+        if let Some(metres) = self.unit_size.filter(|metres| *metres != 1.0) {
+            return Err(GeoTiffError::LinearUnitSize { metres });
         }
         if let Some(code) = other(VERTICAL_UNITS) {
             let name = unit(code);

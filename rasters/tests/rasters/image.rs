@@ -9,12 +9,15 @@ use tiff::tags::Tag;
 pub(crate) struct Image {
     pub(crate) values: Vec<f32>,
     pub(crate) doubles: Vec<(u16, Vec<f64>)>,
+    pub(crate) shorts: Vec<(u16, u16)>,
     pub(crate) keys: Vec<[u16; 4]>,
     pub(crate) texts: Vec<(u16, &'static str)>,
 }
 
 pub(crate) const SCALE: u16 = 33550;
 pub(crate) const TIE_POINT: u16 = 33922;
+pub(crate) const PREDICTOR: u16 = 317;
+pub(crate) const KEY_DOUBLES: u16 = 34736;
 pub(crate) const TRANSFORMATION: u16 = 34264;
 pub(crate) const NODATA: u16 = 42113;
 pub(crate) const METADATA: u16 = 42112;
@@ -28,6 +31,7 @@ impl Image {
                 (SCALE, vec![2.0, 2.0, 0.0]),
                 (TIE_POINT, vec![0.0, 0.0, 0.0, 500.0, 900.0, 0.0]),
             ],
+            shorts: Vec::new(),
             keys: vec![[1024, 0, 1, 1], [3072, 0, 1, 32632]],
             texts: Vec::new(),
         }
@@ -41,6 +45,9 @@ impl Image {
         let tags = image.encoder();
         for (tag, numbers) in &self.doubles {
             tags.write_tag(Tag::Unknown(*tag), &numbers[..]).unwrap();
+        }
+        for (tag, number) in &self.shorts {
+            tags.write_tag(Tag::Unknown(*tag), *number).unwrap();
         }
         for (tag, text) in &self.texts {
             tags.write_tag(Tag::Unknown(*tag), *text).unwrap();

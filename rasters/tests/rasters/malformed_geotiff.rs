@@ -1,6 +1,8 @@
 //! GeoTIFF files that are refused, each with its message.
 
-use super::image::{Image, METADATA, NODATA, SCALE, TIE_POINT, TRANSFORMATION};
+use super::image::{
+    Image, KEY_DOUBLES, METADATA, NODATA, PREDICTOR, SCALE, TIE_POINT, TRANSFORMATION,
+};
 use super::{file, refusal};
 use scree_rasters::{Purpose, read};
 
@@ -156,6 +158,33 @@ fn coordinates_have_their_messages() {
     assert_eq!(
         keyed(&[projected, [4096, 0, 1, 6360]]),
         "the heights are those of EPSG:6360, in feet; they must be in metres"
+    );
+}
+
+/// A unit of length that has a size instead of a code.
+#[test]
+fn sizes_of_units_have_their_messages() {
+    let sized = |metres| {
+        Image::with(|image| {
+            image.keys.push([3077, KEY_DOUBLES, 1, 0]);
+            image.doubles.push((KEY_DOUBLES, vec![metres]));
+        })
+    };
+    assert_eq!(
+        refusal(&sized(0.3048)),
+        "the unit of the coordinates is 0.3048 m long; they must be in metres"
+    );
+    let plain = read(&Image::plain().bytes(), Purpose::HeightMap).unwrap();
+    assert_eq!(read(&sized(1.0), Purpose::HeightMap).unwrap(), plain);
+}
+
+#[test]
+fn a_predictor_without_compression_has_its_message() {
+    let predicted = Image::with(|image| image.shorts.push((PREDICTOR, 3)));
+    assert_eq!(
+        refusal(&predicted),
+        "the TIFF has the predictor 3 but no compression; write it with compression, or with the \
+         predictor 1"
     );
 }
 
