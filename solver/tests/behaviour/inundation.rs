@@ -149,6 +149,27 @@ fn a_flow_arrives_in_order_and_leaves_no_gaps() {
     }
 }
 
+// What hasn't left lies in the maps, also the half of a point's square that reaches over an edge.
+#[test]
+fn a_deposit_at_the_edges_is_whole() {
+    let scene = block(24, 1.0, 0.7, &json!({"cell_size_m": 1.0}), 2.5);
+    let mass = |simulation: &Simulation| -> f64 {
+        let points = simulation.points().into_iter();
+        points.map(|point| point.mass).sum()
+    };
+    let released = mass(&Simulation::new(&scene, 1).expect("it can be set up"));
+    let (maps, simulation) = maps_of(&scene, 2, false);
+    let left = mass(&simulation) / released;
+    assert!((0.1..0.9).contains(&left), "{left} still there");
+    let heights = maps.deposit.values.iter();
+    let deposit: f64 = heights.filter(|height| height.is_finite()).sum();
+    assert!(
+        (deposit / (160.0 * left) - 1.0).abs() < 1e-5,
+        "{deposit} of {}",
+        160.0 * left
+    );
+}
+
 #[test]
 fn maps_are_the_same_with_any_threads_and_after_a_restart() {
     let scene = block(60, 1.0, 0.6, &json!({"cell_size_m": 1.0}), 1.5);

@@ -131,7 +131,7 @@ impl Spread {
         1.0 / (self.per_mass * density * self.frame.cell_size.powi(2))
     }
 
-    /// Adds a point; what lies beyond the edges is left out.
+    /// Adds a point; of a square that reaches beyond the edges the part within carries all.
     fn add(&self, point: &PointMotion, sums: &mut TileSums) {
         let mass = point.mass * self.per_mass;
         let [x, y, z] = (point.velocity * mass).into();
@@ -156,9 +156,15 @@ impl Spread {
     /// Shares of the square round a place [m] along an axis.
     #[inline]
     fn shares(&self, middle: f64, axis: usize) -> Shares {
-        let from = middle * self.per_metre - 0.5 * self.side;
-        let to = (from + self.side).min(self.frame.count[axis] as f64);
-        let from = from.max(0.0);
+        let west = middle * self.per_metre - 0.5 * self.side;
+        let east = west + self.side;
+        let (from, to) = (west.max(0.0), east.min(self.frame.count[axis] as f64));
+        let is_within = (from, to) == (west, east);
+        let of_cell = if is_within {
+            self.per_side
+        } else {
+            1.0 / (to - from)
+        };
         let first = from as u32;
         // The square's end, from the end of its first cell on.
         let past = to - f64::from(first) - 1.0;
@@ -166,7 +172,7 @@ impl Spread {
         Shares {
             first: first as usize,
             count: usize::from(to > from) + usize::from(past > 0.0) + usize::from(past > 1.0),
-            of_cells: of_cells.map(|cells| cells * self.per_side),
+            of_cells: of_cells.map(|cells| cells * of_cell),
         }
     }
 }
