@@ -66,7 +66,7 @@ pub(super) fn require_known_compression(tiff: &mut Tiff<'_>) -> Result<(), GeoTi
     match code {
         NONE if predictor != NONE => Err(GeoTiffError::Predictor { code: predictor }),
         // None, LZW, DEFLATE by its two codes, PackBits and ZSTD.
-        1 | 5 | 8 | 32946 | 32773 | 50000 => Ok(()),
+        NONE | 5 | 8 | 32946 | 32773 | 50000 => Ok(()),
         _ => Err(GeoTiffError::Compression {
             code,
             name: compression(code),

@@ -32,7 +32,7 @@ pub(super) struct Tiles {
     /// Tiles along x and y.
     count: [usize; 2],
     /// Logarithm to base 2 of the number of tiles along the side of a square.
-    side: u32,
+    log2_side: u32,
     /// Squares along x.
     columns: usize,
     squares: Vec<OnceLock<Square>>,
@@ -72,13 +72,13 @@ impl Tiles {
             let last = block(extent[axis], axis) + BEYOND;
             (last - first[axis]).unsigned_abs() as usize / BLOCKS + 1
         });
-        let side = count[0].max(count[1]).isqrt().ilog2();
-        let [columns, rows] = count.map(|tiles| tiles.div_ceil(1 << side));
+        let log2_side = count[0].max(count[1]).isqrt().ilog2();
+        let [columns, rows] = count.map(|tiles| tiles.div_ceil(1 << log2_side));
         Self {
             lattice: *lattice,
             first,
             count,
-            side,
+            log2_side,
             columns,
             squares: unknown(columns * rows),
         }
@@ -108,10 +108,10 @@ impl Tiles {
         let (i, j) = (within(0)?, within(1)?);
         let start = [i, j].map(|along| (along * BLOCKS) as i32);
         let first = [0, 1].map(|axis| self.first[axis] + start[axis]);
-        let square = &self.squares[(j >> self.side) * self.columns + (i >> self.side)];
-        let tiles = square.get_or_init(|| unknown(1 << (2 * self.side)));
-        let [u, v] = [i, j].map(|along| along & ((1 << self.side) - 1));
-        let tile = &tiles[(v << self.side) + u];
+        let square = &self.squares[(j >> self.log2_side) * self.columns + (i >> self.log2_side)];
+        let tiles = square.get_or_init(|| unknown(1 << (2 * self.log2_side)));
+        let [u, v] = [i, j].map(|along| along & ((1 << self.log2_side) - 1));
+        let tile = &tiles[(v << self.log2_side) + u];
         Some(tile.get_or_init(|| self.find(first, terrain)))
     }
 
