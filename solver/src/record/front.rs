@@ -113,11 +113,30 @@ impl FrontMeasure {
     /// Distance beyond which that share of the released mass lies [m]; that of the open end of
     /// a channel once that much has left, and unknown once that much has left a terrain.
     pub(super) fn front(&self, simulation: &Simulation) -> Option<f64> {
+        self.front_of(simulation, &self.places(simulation))
+    }
+
+    /// Distance of each point [m], and its mass with that of its images [kg].
+    pub(super) fn places(&self, simulation: &Simulation) -> Vec<(f64, f64)> {
         let mut places = Vec::with_capacity(simulation.computed_points());
         simulation.visit_computed_points(|point, mass| {
             places.push((self.of_place(&point.position), mass));
         });
-        self.front_of(simulation, &places)
+        places
+    }
+
+    /// The front by which a run's end is judged: where it is unknown, that of what has stayed on the
+    /// terrain.
+    pub(super) fn front_of_rest(
+        &self,
+        simulation: &Simulation,
+        places: &[(f64, f64)],
+    ) -> Option<f64> {
+        self.front_of(simulation, places).or_else(|| {
+            let audit = simulation.audit();
+            let stayed = audit.released_mass - audit.outflow_mass();
+            beyond(places, simulation.point_spacing_m(), self.share() * stayed)
+        })
     }
 
     /// The front if each point (with its images' mass, in kg) were this far [m].

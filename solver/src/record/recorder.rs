@@ -232,15 +232,16 @@ impl Recorder {
     }
 
     /// Energies that remain, the front, and how far it can still be moved by what is faster than
-    /// creep [m], if that moves bodies and front by little.
+    /// creep [m], if that moves bodies and front by little and no release is to come.
     fn bounded_energy(&self, simulation: &Simulation) -> Option<(Remaining, Option<f64>, f64)> {
-        if self.ending == Ending::Full {
+        if self.ending == Ending::Full || simulation.next_release_s().is_some() {
             return None;
         }
         let remaining = Remaining::of(simulation, &self.front, self.creep_speed);
         body_bound(simulation, &remaining, &self.front, |_, _| 0.0)?;
-        let front = self.front.front(simulation);
-        let farthest = self.front.front_of(simulation, &remaining.reaches);
+        let places = self.front.places(simulation);
+        let [front, farthest] =
+            [&places, &remaining.reaches].map(|of| self.front.front_of_rest(simulation, of));
         let ballistic = front.zip(farthest).map_or(0.0, |(now, then)| then - now);
         front_rests(simulation, ballistic).then_some((remaining, front, ballistic))
     }

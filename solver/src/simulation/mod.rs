@@ -427,6 +427,12 @@ impl Simulation {
         self.pool.current_num_threads()
     }
 
+    /// Time of the next release [s], if one is still to come.
+    pub fn next_release_s(&self) -> Option<f64> {
+        let later = self.given.later.as_ref();
+        later.and_then(|later| later.next_after(self.state.clock.time))
+    }
+
     /// Material points at the start.
     pub fn released_points(&self) -> u64 {
         self.state.clock.released_points

@@ -239,9 +239,8 @@ impl Simulation {
 
     /// Time at which the present stretch of the run ends [s]: at the next release, or with the run.
     fn stretch_end(&self) -> f64 {
-        let later = self.given.later.as_ref();
-        let next = later.and_then(|later| later.next_after(self.state.clock.time));
-        next.unwrap_or(f64::INFINITY)
+        self.next_release_s()
+            .unwrap_or(f64::INFINITY)
             .min(self.given.timing.duration)
     }
 

@@ -65,3 +65,45 @@ fn run_out_counts_from_the_nearest_release() {
     assert!((both / alone - 1.0).abs() < 0.02, "{both} {alone}");
     assert!((both_fronts - both - (front - alone)).abs() < 1e-12);
 }
+
+// What has left is no front any more; what has stayed still moves.
+#[test]
+fn a_flow_that_leaves_the_map_is_followed_to_its_end() {
+    let outflow = |ending: &str| {
+        let map = raster([40, 20], 0.1, |x, _| 5.0 - 0.5 * x);
+        let scene = json!({
+            "terrain": {"base_friction": 0.3},
+            "flow": {"releases": [{
+                "polygon_m": [[3.0, 0.6], [3.8, 0.6], [3.8, 1.4], [3.0, 1.4]], "thickness_m": 0.2
+            }]},
+            "bodies": [], "duration_s": 1.5,
+            "numerics": {"cell_size_m": 0.05, "ending": ending},
+        });
+        run(&scenario(map, scene)).0.flow.outflow_mass_kg
+    };
+    let (until_rest, whole) = (outflow("auto"), outflow("full"));
+    assert!(whole > 100.0, "{whole} kg");
+    assert!(
+        (until_rest / whole - 1.0).abs() < 0.01,
+        "{until_rest} {whole}"
+    );
+}
+
+// A flow at rest is no reason to end before another comes.
+#[test]
+fn a_run_goes_on_to_its_last_release() {
+    let map = raster([30, 20], 0.1, |_, _| 1.0);
+    let release = |west: f64, time: f64| {
+        json!({"polygon_m": [[west, 0.8], [west + 0.4, 0.8], [west + 0.4, 1.2], [west, 1.2]],
+               "thickness_m": 0.1, "time_s": time})
+    };
+    let scene = json!({
+        "terrain": {}, "flow": {"releases": [release(0.5, 0.0), release(2.0, 4.0)]},
+        "bodies": [], "duration_s": 4.5, "numerics": {"cell_size_m": 0.05},
+    });
+    let (outcome, simulation) = run(&scenario(map, scene));
+    assert!(simulation.time_s() > 4.0, "{:?}", outcome.ended_early);
+    let points = simulation.points();
+    let east = points.iter().filter(|point| point.position.x > 1.5).count();
+    assert_eq!(2 * east, points.len());
+}
