@@ -218,6 +218,32 @@ impl SplineSurface {
         (highest + slope * beyond * self.cell, slope)
     }
 
+    /// Visits the places of a rectangle between its corners [m], half a cell more on each side, where
+    /// neighbouring coefficients differ by more than this slope: the middles between them.
+    pub fn visit_steep(
+        &self,
+        [low, high]: [[f64; 2]; 2],
+        slope: f64,
+        mut visit: impl FnMut([f64; 2]),
+    ) {
+        let [x, y] = [0, 1].map(|axis| self.acting(low, high, axis));
+        let (width, most) = (self.cells[0] + 2, slope * self.cell);
+        let place = |i: f64, j: f64| [i - 0.5, j - 0.5].map(|along| along * self.cell);
+        for j in y.clone() {
+            for i in x.clone() {
+                let here = self.coefficients[j * width + i];
+                let (u, v) = (i as f64, j as f64);
+                let differs = |other: usize| (self.coefficients[other] - here).abs() > most;
+                if i + 1 < x.end && differs(j * width + i + 1) {
+                    visit(place(u + 0.5, v));
+                }
+                if j + 1 < y.end && differs((j + 1) * width + i) {
+                    visit(place(u, v + 0.5));
+                }
+            }
+        }
+    }
+
     /// A plane above the surface in a rectangle: on a plane that plane itself. Beyond the edges it
     /// is level.
     pub fn lid(&self, low: [f64; 2], high: [f64; 2]) -> Lid {

@@ -3,6 +3,7 @@
 use super::{HeightField, NAME, upward};
 use crate::bed::Plane;
 use crate::math::Vec3;
+use crate::method::METHOD;
 
 /// Steps of a descent at most; few are needed unless the ground is bent as much as the distance.
 const STEPS: usize = 40;
@@ -15,9 +16,11 @@ const SMALLEST_STEP: f64 = 1e-13;
 const STRAIGHT: f64 = 0.25;
 /// Distance of the other starts, over that of the place below.
 const BESIDE: f64 = 0.7;
-/// Distances of the other starts of a place behind the surface, over a cell of the map: beside a
-/// cliff its face is nearer than the ground straight above.
-const BESIDE_BEHIND: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
+/// Directions of a place in each of which the nearest steep ground is a start: a face may be nearer than
+/// the place straight below, and none of the other starts lead to it.
+const DIRECTIONS: usize = 8;
+/// Distance up to which steep ground is looked for, in cells of the map.
+const FARTHEST: f64 = 64.0;
 
 impl HeightField {
     /// Plane that touches the surface where it is nearest to a place [m]; the height above it is the
@@ -44,31 +47,37 @@ impl HeightField {
     /// Place of the surface that is nearest to a place [m].
     fn nearest_place(&self, place: &Vec3) -> Vec3 {
         let below = self.descend(place, [place.x, place.y]);
-        if self.is_behind(place) {
-            return self.nearest_behind(place, below);
-        }
-        if (place - below).norm() <= STRAIGHT * self.surface().cell_size() {
-            return below;
-        }
         let height = place.z - self.surface().elevation(place.x, place.y);
-        self.nearest_from(place, below, BESIDE * height)
+        let is_straight = (place - below).norm() <= STRAIGHT * self.surface().cell_size();
+        let nearest = if height > 0.0 && !is_straight {
+            self.nearest_from(place, below, BESIDE * height)
+        } else {
+            below
+        };
+        self.nearest_on_faces(place, nearest)
     }
 
-    /// The nearest of a known place of the surface and those that are found from beside a place [m]
-    /// behind it.
-    fn nearest_behind(&self, place: &Vec3, known: Vec3) -> Vec3 {
-        let cell = self.surface().cell_size();
-        let rings = BESIDE_BEHIND.into_iter().map(|cells| cells * cell);
-        let nearest = rings.fold(known, |nearest, far| {
-            if far < (place - nearest).norm() {
-                self.nearest_from(place, nearest, far)
-            } else {
-                nearest
+    /// The nearest of a known place of the surface and those to which ways lead from steep ground round
+    /// a place [m].
+    fn nearest_on_faces(&self, place: &Vec3, known: Vec3) -> Vec3 {
+        let far = (place - known).norm();
+        let far = far.min(FARTHEST * self.surface().cell_size());
+        let mut starts = [None; DIRECTIONS];
+        let steep = METHOD.boundary.steep;
+        let corners = [-far, far].map(|by| [place.x + by, place.y + by]);
+        self.surface().visit_steep(corners, steep, |[x, y]| {
+            let (east, north) = (x - place.x, y - place.y);
+            let away = east.hypot(north);
+            let turn = 0.5 + 0.5 * north.atan2(east) / std::f64::consts::PI;
+            let start = &mut starts[(turn * DIRECTIONS as f64) as usize % DIRECTIONS];
+            if start.is_none_or(|(nearest, _)| away < nearest) {
+                *start = Some((away, [x, y]));
             }
         });
-        // Nothing farther aside is nearer; beside the edge of a plateau the face may be, though none of
-        // the starts was so near.
-        self.nearest_from(place, nearest, (place - nearest).norm())
+        let others = starts.into_iter().flatten();
+        others.fold(known, |nearest, (_, start)| {
+            nearer_of(place, nearest, self.descend(place, start))
+        })
     }
 
     /// The nearest of a known place of the surface and those to which ways lead from so far [m]
@@ -77,13 +86,9 @@ impl HeightField {
         let starts = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
         let others =
             starts.map(|[x, y]| self.descend(place, [place.x + x * far, place.y + y * far]));
-        others.into_iter().fold(known, |nearest, other| {
-            if (place - other).norm() < (place - nearest).norm() {
-                other
-            } else {
-                nearest
-            }
-        })
+        others
+            .into_iter()
+            .fold(known, |nearest, other| nearer_of(place, nearest, other))
     }
 
     fn is_behind(&self, place: &Vec3) -> bool {
@@ -150,5 +155,14 @@ impl HeightField {
             (b * gradient[1] - c * gradient[0]) / size,
             (b * gradient[0] - a * gradient[1]) / size,
         ]
+    }
+}
+
+/// The nearer of two places, the first if they are as near.
+fn nearer_of(place: &Vec3, one: Vec3, other: Vec3) -> Vec3 {
+    if (place - other).norm() < (place - one).norm() {
+        other
+    } else {
+        one
     }
 }
