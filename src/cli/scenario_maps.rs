@@ -36,9 +36,25 @@ pub(super) fn absolute(mut scenario: Value, file: &Path) -> Value {
 
 /// Maps that a scenario names by paths.
 pub(super) fn files(scenario: &Value) -> Vec<NamedMap> {
-    let mut named = Scenario::maps_named(&scenario.to_string()).unwrap_or_default();
+    files_in(&scenario.to_string())
+}
+
+/// Maps that the text of a scenario names by paths.
+pub(super) fn files_in(text: &str) -> Vec<NamedMap> {
+    let mut named = Scenario::maps_named(text).unwrap_or_default();
     named.retain(|map| !is_hash(&map.name));
     named
+}
+
+/// The text of a scenario that names these maps by their paths, not by their hashes.
+pub(super) fn with_paths(text: String, maps: &[NamedMap]) -> String {
+    let document: Value = serde_json::from_str(&text).unwrap_or_default();
+    maps.iter().fold(text, |text, map| {
+        let hash = document.pointer(&map.pointer).map(Value::to_string);
+        hash.map_or(text.clone(), |hash| {
+            text.replace(&hash, &json!(map.name).to_string())
+        })
+    })
 }
 
 /// Gives a map of a scenario another name.

@@ -191,6 +191,24 @@ fn maps_of_submitted_scenarios_are_uploaded() {
     );
 }
 
+// Its scenario names the map where it is, so that it means the same from the folder of results.
+#[test]
+fn a_run_on_a_map_is_repeated_from_its_results() {
+    let folder = scene_on_a_map();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    for (scenario, out) in [
+        ("scenario.json", "once"),
+        ("once/scenario.json", "again"),
+        // Its own results are replaced by the same.
+        ("once/scenario.json", "once"),
+    ] {
+        let ran = ask(&[&"run", &path(scenario), &"--out", &path(out), &"--quiet"]);
+        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    }
+    let [once, again] = ["once", "again"].map(|name| outcome(&folder.path().join(name)));
+    assert_eq!(once, again);
+}
+
 #[test]
 fn a_study_on_a_map_is_the_same_here_and_there() {
     let folder = scene_on_a_map();

@@ -99,7 +99,7 @@ async fn send_and_fetch(
     // It is in a channel.
     let records = (&recorded.samples[..], &recorded.snapshots[..], None);
     delivery.pictures(scenario, records, &outcome)?;
-    delivery.scenario(scenario)?;
+    delivery.scenario(scenario, &[])?;
     delivery.outcome(&outcome)?;
     let written = delivery.finish()?;
     Ok(format!(

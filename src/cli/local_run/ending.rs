@@ -65,7 +65,7 @@ impl Job {
         recorded: &Recorded,
         delivery: &mut Delivery<'_>,
     ) -> Result<(), Failure> {
-        delivery.scenario(&self.scenario)?;
+        delivery.scenario(&self.scenario, &self.maps)?;
         for body in 0..self.scenario.bodies.len() {
             delivery.trajectory(body, &recorded.samples, &self.formats)?;
         }

@@ -5,15 +5,17 @@ use crate::cli::failure::{Failure, not_set_up};
 use crate::cli::results_folder::{
     Formats, Interrupted, Place, ResultsFolder, SavedRun, SavedState,
 };
-use crate::cli::{console, scenario_file};
+use crate::cli::{console, scenario_file, scenario_maps};
 use scree::runs::convergence_study::Runs;
 use scree_solver::record::Record;
-use scree_solver::scenario::Scenario;
+use scree_solver::scenario::{NamedMap, Scenario};
 use std::path::Path;
 
 /// A scenario, and the folder for its results.
 pub(super) struct Job {
     pub(super) scenario: Scenario,
+    /// Its maps, by the paths of their files.
+    pub(super) maps: Vec<NamedMap>,
     pub(super) folder: Option<ResultsFolder>,
     /// Formats of the trajectories in the folder.
     pub(super) formats: Formats,
@@ -76,6 +78,7 @@ impl Asked {
         }
         Ok(Self::compute(Job {
             scenario: scenario_file::parse(&text, "the interrupted run's scenario")?,
+            maps: scenario_maps::files_in(&text),
             folder: Some(folder),
             formats: asked.unwrap_or(formats),
             saved: Some(saved),
@@ -96,6 +99,7 @@ impl Job {
         let saved = folder.as_ref().map(save).transpose()?;
         Ok(Self {
             scenario,
+            maps: scenario_maps::files_in(&text),
             saved,
             folder,
             formats,

@@ -4,9 +4,10 @@
 use super::{Formats, OUTCOME, PICTURES, PLAN, ResultsFolder, SCENARIO, results_in};
 use crate::cli::failure::Failure;
 use crate::cli::files::{self, FileError};
+use crate::cli::scenario_maps;
 use scree::pictures::{self, MapsSeen};
 use scree_solver::record::{FlowMaps, FlowSnapshot, Outcome, Sample};
-use scree_solver::scenario::Scenario;
+use scree_solver::scenario::{NamedMap, Scenario};
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io;
@@ -58,12 +59,16 @@ impl<'a> Delivery<'a> {
         self.write(OUTCOME, pretty(outcome)?.as_bytes())
     }
 
-    /// Writes the scenario with its defaults.
+    /// Writes the scenario with its defaults; it names these maps by their paths.
     ///
     /// # Errors
     /// The file can't be written.
-    pub(in crate::cli) fn scenario(&mut self, scenario: &Scenario) -> Result<(), Failure> {
-        self.write(SCENARIO, scenario_text(scenario)?.as_bytes())
+    pub(in crate::cli) fn scenario(
+        &mut self,
+        scenario: &Scenario,
+        maps: &[NamedMap],
+    ) -> Result<(), Failure> {
+        self.write(SCENARIO, scenario_text(scenario, maps)?.as_bytes())
     }
 
     /// Writes the trajectory of a body in these formats.
@@ -184,8 +189,8 @@ impl ResultsFolder {
 }
 
 /// Text of the file of a scenario.
-pub(super) fn scenario_text(scenario: &Scenario) -> Result<String, Failure> {
-    pretty(scenario)
+pub(super) fn scenario_text(scenario: &Scenario, maps: &[NamedMap]) -> Result<String, Failure> {
+    Ok(scenario_maps::with_paths(pretty(scenario)?, maps))
 }
 
 fn pretty(document: &impl Serialize) -> Result<String, Failure> {

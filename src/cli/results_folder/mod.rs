@@ -10,11 +10,13 @@ pub(super) mod terrain;
 
 use super::failure::Failure;
 use super::files::{self, FileError};
+use super::scenario_maps;
 pub(super) use delivery::{Delivery, Place};
 pub(super) use formats::{Formats, file_name};
 pub(super) use saved::{Interrupted, SavedRun, SavedState};
 use scree_solver::record::Outcome;
 use scree_solver::scenario::Scenario;
+use serde_json::Value;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -90,10 +92,17 @@ impl ResultsFolder {
         let real = |path: &Path| path.canonicalize().ok();
         let is_result =
             real(file).is_some_and(|file| real(&self.path.join(SCENARIO)) == Some(file));
-        if is_result && text != delivery::scenario_text(scenario)? {
-            return Err(would_be_replaced(file));
+        if !is_result {
+            return Ok(());
         }
-        Ok(())
+        let maps = scenario_maps::files_in(text);
+        let result = delivery::scenario_text(scenario, &maps)?;
+        // A text with maps is not as it was in the file.
+        let document = |text: &str| serde_json::from_str::<Value>(text).ok();
+        if text == result || !maps.is_empty() && document(text) == document(&result) {
+            return Ok(());
+        }
+        Err(would_be_replaced(file))
     }
 
     /// Opens the folder of an interrupted run.
