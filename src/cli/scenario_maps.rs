@@ -46,15 +46,15 @@ pub(super) fn files_in(text: &str) -> Vec<NamedMap> {
     named
 }
 
-/// The text of a scenario that names these maps by their paths, not by their hashes.
+/// The text of a scenario that names these maps by their paths, not by their hashes. Its fields stay
+/// in their order, which a document would not keep.
 pub(super) fn with_paths(text: String, maps: &[NamedMap]) -> String {
     let document: Value = serde_json::from_str(&text).unwrap_or_default();
-    maps.iter().fold(text, |text, map| {
-        let hash = document.pointer(&map.pointer).map(Value::to_string);
-        hash.map_or(text.clone(), |hash| {
-            text.replace(&hash, &json!(map.name).to_string())
-        })
-    })
+    let renamed = maps.iter().filter_map(|map| {
+        let hash = document.pointer(&map.pointer)?;
+        Some((hash.to_string(), json!(map.name).to_string()))
+    });
+    renamed.fold(text, |text, (hash, path)| text.replace(&hash, &path))
 }
 
 /// Gives a map of a scenario another name.

@@ -84,18 +84,6 @@ impl HeightField {
         &self.surface
     }
 
-    /// Plane that touches the surface at (x, y), without friction.
-    pub fn touching(&self, x: f64, y: f64) -> Plane {
-        let facet = self.surface.at(x, y);
-        let normal = upward(facet.slope);
-        Plane {
-            name: NAME,
-            normal,
-            offset: normal.dot(&Vec3::new(x, y, facet.elevation)),
-            flow_friction: 0.0,
-        }
-    }
-
     /// Height of a place [m] above the plane that touches the surface straight below it [m], and that
     /// plane's unit normal.
     pub fn over_touching(&self, place: &Vec3) -> (f64, Vec3) {
@@ -141,9 +129,13 @@ impl Bed for HeightField {
     }
 
     fn tangent(&self, x: f64, y: f64) -> Plane {
+        let facet = self.surface.at(x, y);
+        let normal = upward(facet.slope);
         Plane {
+            name: NAME,
+            normal,
+            offset: normal.dot(&Vec3::new(x, y, facet.elevation)),
             flow_friction: self.friction.at(x, y),
-            ..self.touching(x, y)
         }
     }
 
